@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// How the library tells how far it is, and how it is asked to stop.
+
+#include <exception>
+
+namespace molsurf {
+
+/// Receives the progress of a run. The base class ignores it and never cancels.
+class Progress {
+public:
+    virtual ~Progress() = default;
+
+    /// Called from the thread that runs the pipeline.
+    /// @param[in] stage     name of the stage, for example "evolve"; a literal
+    /// @param[in] fraction  done part of this stage, in [0, 1]
+    virtual void update(const char* stage, double fraction)
+    {
+        static_cast<void>(stage);
+        static_cast<void>(fraction);
+    }
+
+    /// True once the caller wants the run to stop. Called from every thread.
+    virtual bool cancelled() const { return false; }
+};
+
+/// Thrown by a stage that found Progress::cancelled() true. Not an Error: nothing went wrong.
+class Cancelled : public std::exception {
+public:
+    const char* what() const noexcept override { return "cancelled"; }
+};
+
+} // namespace molsurf

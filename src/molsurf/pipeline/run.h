@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The stages in their order: balls in, surface out.
+
+#include "molsurf/core/progress.h"
+#include "molsurf/pipeline/options.h"
+#include "molsurf/selection/ball.h"
+#include "molsurf/surface/mesh.h"
+#include "molsurf/surface/report.h"
+
+#include <openvdb/openvdb.h>
+
+#include <vector>
+
+namespace molsurf {
+
+/// What a run leaves.
+struct Result {
+    openvdb::FloatGrid::Ptr surface;            ///< signed distance to the molecular surface [Å]
+    std::vector<openvdb::GridBase::Ptr> fields; ///< the grids that Options::fields asked for
+    Mesh mesh;
+    Report report; ///< program, command, input and the like are left to the caller
+};
+
+/// Builds the surface of a set of balls.
+///
+/// @param[in] balls    at least one, finite
+/// @param[in] options  checked by checkOptions()
+/// @throws Error(ErrorKind::Usage) for an option out of its range
+/// @throws Error(ErrorKind::Numeric) if there is no surface at this resolution
+/// @throws Cancelled if the progress object says so
+Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress);
+
+/// @throws Error(ErrorKind::Usage) for an option out of its range; names the option as the command
+///         line does
+void checkOptions(const Options& options);
+
+} // namespace molsurf

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// A molecule as it stands in its file: the atoms of all models, and the operators that build its
+/// biological assemblies.
+
+#include <openvdb/math/Vec3.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace molsurf {
+
+/// A residue's identity, and what decides whether its atoms are kept.
+struct Residue {
+    std::string name;       ///< "ALA", "HOH"
+    std::int32_t chain;     ///< index into Structure::chains
+    std::int32_t number;    ///< sequence number in the file
+    char insertionCode;     ///< ' ' if none
+    bool water;
+    bool hetero;            ///< ligand or ion: not water, and not part of a polymer chain
+};
+
+/// One atom.
+struct Atom {
+    openvdb::Vec3d position; ///< [Å]
+    std::string name;        ///< "CA"
+    std::int32_t residue;    ///< index into Structure::residues
+    std::uint8_t element;    ///< atomic number; 0 if unknown; hydrogen and deuterium are 1
+    char altloc;             ///< '\0' if the atom has no alternate location
+    float occupancy;         ///< in [0, 1]
+    float bFactor;           ///< [Å^2]
+    float radius;            ///< from .pqr and .xyzr [Å]; < 0 if the file gives none
+};
+
+/// A rigid motion  x -> rotation x + translation  [Å].
+struct Operator {
+    std::array<std::array<double, 3>, 3> rotation; ///< rows
+    openvdb::Vec3d translation;
+};
+
+/// Some chains and the operators that make their copies.
+struct AssemblyPart {
+    std::vector<std::string> chains; ///< names as in the file: label_asym_id in mmCIF
+    std::vector<Operator> operators; ///< products already multiplied out
+};
+
+/// A biological assembly.
+struct Assembly {
+    std::string name; ///< "1"
+    std::vector<AssemblyPart> parts;
+};
+
+/// Atoms [begin, end) of one model.
+struct Model {
+    int number; ///< as in the file
+    std::size_t begin, end;
+};
+
+/// A file's content.
+struct Structure {
+    std::string source; ///< file name, or "-" for standard input
+    std::string format; ///< "PDB", "mmCIF", "PQR", "xyzr"
+    std::vector<Model> models;
+    std::vector<Atom> atoms;
+    std::vector<Residue> residues;
+    std::vector<std::string> chains;
+    std::vector<Assembly> assemblies;
+    bool hasRadii = false; ///< true if every atom has the file's own radius
+};
+
+} // namespace molsurf

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What a run tells about itself and its result: the content of the .json report.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace molsurf {
+
+/// A closed inner wall of the surface.
+struct Cavity {
+    double area;   ///< [Å^2]
+    double volume; ///< [Å^3], positive
+};
+
+/// Area, volume and topology of a closed surface.
+struct SurfaceReport {
+    std::string kind = "variational";
+    double area = 0.0;        ///< of all walls [Å^2]
+    double volume = 0.0;      ///< enclosed, cavities left out [Å^3]
+    int eulerCharacteristic = 0;
+    int components = 0;       ///< closed pieces that are not cavity walls
+    std::vector<Cavity> cavities;
+    double outerArea = 0.0;   ///< without the cavity walls [Å^2]
+    double outerVolume = 0.0; ///< cavities counted in [Å^3]
+    std::size_t vertices = 0;
+    std::size_t triangles = 0;
+    bool closed = false;      ///< every edge has two triangles
+    bool manifold = false;    ///< the triangles about each vertex form one fan, consistently oriented
+    std::size_t degenerateTriangles = 0; ///< triangles without area
+    double maxResidual = 0.0; ///< largest |S| at a vertex [Å]
+    double gradientShare = 0.0; ///< share of vertices away from kinks with | |grad Phi| - 1 | < 0.03
+    double kinkShare = 0.0;     ///< share of vertices within two voxels of a kink of the distance
+};
+
+/// The history of the flow. Entry 0 of `energy` is the initial surface.
+struct EvolutionReport {
+    int steps = 0;
+    bool converged = false;
+    std::vector<double> energy;           ///< [Å^2]; steps + 1 values
+    std::vector<double> meanDisplacement; ///< area-weighted mean of |displacement| [Å] of each step
+    std::vector<double> maxSpeed;         ///< max |F| near the interface [1/Å] of each step
+    std::size_t creviceVoxels = 0; ///< interface voxels at gaps too narrow for the grid
+    double initialArea = 0.0;   ///< of the initial zero set, offset as the result is [Å^2]
+    double initialVolume = 0.0; ///< [Å^3]
+    int initialComponents = 0;  ///< closed outer pieces before the flow
+};
+
+/// Everything in the .json report.
+struct Report {
+    std::string program = "vdb_molsurf";
+    std::string version;
+    std::string command;
+    std::string input;
+    std::size_t atoms = 0; ///< balls used, after selection, expansion and drops
+    double voxel = 0.0;    ///< [Å]
+    SurfaceReport surface;
+    std::optional<EvolutionReport> evolution; ///< absent for surfaces that are not evolved
+    std::size_t activeVoxels = 0;             ///< of the grid `surface`
+    std::size_t gridBytes = 0;                ///< of the grid `surface` in memory
+    std::vector<std::pair<std::string, double>> seconds; ///< stage, wall seconds; "total" last
+    std::size_t peakMemoryBytes = 0;
+    int threads = 0;
+    std::vector<std::string> warnings;
+};
+
+} // namespace molsurf
