@@ -8,7 +8,7 @@
 #include "molsurf/pipeline/options.h"
 #include "molsurf/selection/ball.h"
 #include "molsurf/surface/mesh.h"
-#include "molsurf/surface/report.h"
+#include "molsurf/core/report.h"
 
 #include <openvdb/openvdb.h>
 

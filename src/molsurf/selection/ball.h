@@ -4,7 +4,7 @@
 /// @file
 /// The only thing the numerical stages know of a molecule.
 
-#include <openvdb/math/Vec3.h>
+#include <openvdb/Types.h>
 
 #include <cstdint>
 

@@ -4,7 +4,7 @@
 /// @file
 /// A triangle mesh with named attributes at its vertices.
 
-#include <openvdb/math/Vec3.h>
+#include <openvdb/Types.h>
 
 #include <array>
 #include <cstdint>

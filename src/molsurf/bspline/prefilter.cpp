@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/bspline/spline.h"
+
+#include "molsurf/core/parallel.h"
+#include "molsurf/core/simd.h"
+
+namespace molsurf {
+
+namespace {
+
+constexpr int window = 3 * leafDim; // a leaf and the two beside it, along an axis
+
+/// 64 lines through a leaf and its two neighbours along an axis.
+struct Lines {
+    alignas(64) float value[window][64];
+    alignas(64) float solve[window][64]; // 1 where a voxel and both beside it are active, else 0
+};
+
+/// Solves (solve/6, 1 - solve/3, solve/6) c = value on all lines by Thomas' algorithm; c replaces value.
+MOLSURF_KERNEL void solveLines(Lines& lines)
+{
+    alignas(64) float upper[window][64]; // of the eliminated rows
+    for (int k = 0; k < 64; ++k) upper[0][k] = 0.0f;
+    for (int i = 1; i < window; ++i) {
+        const float* __restrict s = lines.solve[i];
+        const float* __restrict before = upper[i - 1];
+        const float* __restrict last = lines.value[i - 1];
+        float* __restrict value = lines.value[i];
+        float* __restrict out = upper[i];
+        for (int k = 0; k < 64; ++k) {
+            const float off = s[k] * (1.0f / 6.0f);
+            const float pivot = 1.0f / (1.0f - 2.0f * off - off * before[k]);
+            out[k] = off * pivot;
+            value[k] = (value[k] - off * last[k]) * pivot;
+        }
+    }
+    for (int i = window - 2; i >= 0; --i) {
+        const float* __restrict u = upper[i];
+        const float* __restrict next = lines.value[i + 1];
+        float* __restrict value = lines.value[i];
+        for (int k = 0; k < 64; ++k) value[k] -= u[k] * next[k];
+    }
+}
+
+/// Index in a leaf of voxel i along an axis on line k.
+int voxelOf(int axis, int i, int k)
+{
+    switch (axis) {
+    case 0: return 64 * i + k;
+    case 1: return 64 * (k >> 3) + 8 * i + (k & 7);
+    default: return 8 * k + i;
+    }
+}
+
+void gatherLines(const LeafTable& table, const LeafField& field, std::size_t n, int axis, Lines& lines)
+{
+    const int step = axis == 0 ? 9 : axis == 1 ? 3 : 1;
+    alignas(64) std::uint8_t on[window][64];
+    for (int side = 0; side < 3; ++side) {
+        const std::int32_t m = table.neighbours(n)[centreNeighbour + (side - 1) * step];
+        for (int i = 0; i < leafDim; ++i) {
+            const int row = leafDim * side + i;
+            for (int k = 0; k < 64; ++k) {
+                const int v = voxelOf(axis, i, k);
+                lines.value[row][k] = m == noLeaf ? 0.0f : field.leaf(m)[v];
+                on[row][k] = m != noLeaf && table.active(m).on(v);
+            }
+        }
+    }
+    for (int k = 0; k < 64; ++k) lines.solve[0][k] = lines.solve[window - 1][k] = 0.0f;
+    for (int i = 1; i + 1 < window; ++i) {
+        for (int k = 0; k < 64; ++k) {
+            lines.solve[i][k] = float(on[i - 1][k] & on[i][k] & on[i + 1][k]);
+        }
+    }
+}
+
+} // namespace
+
+LeafField prefilter(const LeafTable& table, const LeafField& field, const Progress& progress)
+{
+    LeafField from(table.size()), to(table.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        // to <- from filtered along the axis
+        const LeafField& source = axis == 0 ? field : from;
+        parallelFor(table.size(), progress, [&](std::size_t n) {
+            Lines lines;
+            gatherLines(table, source, n, axis, lines);
+            solveLines(lines);
+            float* out = to.leaf(n);
+            for (int i = 0; i < leafDim; ++i) {
+                for (int k = 0; k < 64; ++k) out[voxelOf(axis, i, k)] = lines.value[leafDim + i][k];
+            }
+        });
+        std::swap(from, to);
+    }
+    return from;
+}
+
+} // namespace molsurf

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The sparse topology that all fields of a stage share: a list of 8^3 leaves, aligned and laid out
+/// like OpenVDB's leaf nodes, with a mask of active voxels and a table of neighbours each. A field on
+/// it is one array of 512 values a leaf. docs/adr/0002-leaf-table.md tells why.
+
+#include "molsurf/core/leaf_mask.h"
+#include "molsurf/core/progress.h"
+
+#include <openvdb/openvdb.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace molsurf {
+
+constexpr int leafDim = 8;                ///< voxels along the edge of a leaf
+constexpr int leafSize = 512;             ///< voxels of a leaf
+constexpr std::int32_t noLeaf = -1;       ///< in the table of neighbours: there is none
+constexpr int centreNeighbour = 13;       ///< index of the leaf itself among its 27 neighbours
+
+/// 512 values a leaf, uninitialised when made.
+template<typename T>
+class LeafArray {
+public:
+    LeafArray() = default;
+    explicit LeafArray(std::size_t leaves) : leaves_(leaves), data_(new T[leaves * leafSize]) {}
+
+    T* leaf(std::size_t n) { return data_.get() + n * leafSize; }
+    const T* leaf(std::size_t n) const { return data_.get() + n * leafSize; }
+    std::size_t leafCount() const { return leaves_; }
+    std::size_t bytes() const { return leaves_ * leafSize * sizeof(T); }
+
+private:
+    std::size_t leaves_ = 0;
+    std::unique_ptr<T[]> data_;
+};
+
+using LeafField = LeafArray<float>;
+
+/// Leaves in ascending order of their origins (x, then y, then z).
+class LeafTable {
+public:
+    /// @param[in] origins  coordinates of the first voxels, multiples of 8; any order, no duplicates
+    explicit LeafTable(std::vector<openvdb::Coord> origins = {});
+
+    std::size_t size() const { return origins_.size(); }
+    const openvdb::Coord& origin(std::size_t n) const { return origins_[n]; }
+    const std::vector<openvdb::Coord>& origins() const { return origins_; }
+
+    /// Index of the leaf at offset (dx, dy, dz) in {-1, 0, 1}^3 leaves from leaf n, or noLeaf; entry
+    /// 9 (dx + 1) + 3 (dy + 1) + dz + 1.
+    const std::array<std::int32_t, 27>& neighbours(std::size_t n) const { return neighbours_[n]; }
+
+    /// Index of the leaf that holds a voxel, or noLeaf.
+    std::int32_t find(const openvdb::Coord& voxel) const;
+
+    LeafMask& active(std::size_t n) { return active_[n]; }
+    const LeafMask& active(std::size_t n) const { return active_[n]; }
+    std::size_t activeCount() const;
+    std::size_t bytes() const;
+
+private:
+    std::vector<openvdb::Coord> origins_;
+    std::vector<LeafMask> active_;
+    std::vector<std::array<std::int32_t, 27>> neighbours_;
+};
+
+/// How a set of voxels is dilated: by cubes of (2 n + 1)^3 voxels, or by steps that go by turns to the
+/// 6 and to the 26 neighbours, so that n steps hold the Euclidean ball of radius n voxels.
+enum class Spread { Cube, Ball };
+
+/// Voxels within a number of steps of the active voxels of a table.
+/// @param[in] steps  at most 8
+/// @return a new table of every leaf that has such a voxel, with those voxels active
+LeafTable dilated(const LeafTable& table, int steps, Spread spread, const Progress& progress);
+
+/// One step: the voxels of leaf n that have a voxel of the masks among themselves and their 6 (full:
+/// 26) neighbours.
+/// @param[in] masks  one a leaf of the table
+LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks, std::size_t n,
+                     bool full);
+
+/// The table without the leaves that have no active voxel.
+LeafTable pruned(const LeafTable& table);
+
+/// Copies the leaves that both tables have; others get `fill`.
+LeafField transferred(const LeafTable& from, const LeafField& field, const LeafTable& to, float fill,
+                      const Progress& progress);
+
+/// A level set grid from a field. Active values are copied; inactive ones become plus or minus
+/// background, by the sign of the field in leaves, by flood fill elsewhere.
+///
+/// @param[in] halfWidth  background [Å]; values are clamped to it
+/// @param[in] voxel      voxel edge [Å]
+openvdb::FloatGrid::Ptr toLevelSet(const LeafTable& table, const LeafField& field, double halfWidth,
+                                   double voxel, const Progress& progress);
+
+} // namespace molsurf

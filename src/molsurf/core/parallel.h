@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Loops over leaves on all threads, with sums that have the same bits for any number of them.
+
+#include "molsurf/core/progress.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <cstddef>
+#include <vector>
+
+namespace molsurf {
+
+/// Calls f(i) for every i in [0, n) in parallel.
+///
+/// @throws Cancelled soon after the progress object wants the run to stop
+template<typename F>
+void parallelFor(std::size_t n, const Progress& progress, const F& f)
+{
+    std::atomic<bool> stop{false};
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 8), [&](const auto& range) {
+        if (stop.load(std::memory_order_relaxed) || progress.cancelled()) {
+            stop = true;
+            return;
+        }
+        for (std::size_t i = range.begin(); i != range.end(); ++i) f(i);
+    });
+    if (stop) throw Cancelled();
+}
+
+/// The sum of f(i) over [0, n): computed in parallel, added up in ascending order.
+/// @tparam T  a value with operator+= and a default that is zero
+template<typename T, typename F>
+T parallelSum(std::size_t n, const Progress& progress, const F& f)
+{
+    std::vector<T> slots(n);
+    parallelFor(n, progress, [&](std::size_t i) { slots[i] = f(i); });
+    T sum{};
+    for (const T& slot : slots) sum += slot;
+    return sum;
+}
+
+} // namespace molsurf

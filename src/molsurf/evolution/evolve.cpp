@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/evolution/evolve.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/core/parallel.h"
+#include "molsurf/evolution/speed.h"
+#include "molsurf/levelset/reinitialize.h"
+
+#include <cmath>
+#include <string>
+
+namespace molsurf {
+
+namespace {
+
+/// Iterations that keep the band a distance while the interface moves by at most 0.4 voxel: each
+/// carries the distance half a voxel.
+constexpr int reinitializations = 2;
+
+/// One step of the flow on all leaves.
+/// @param[out] next  phi after it
+StepSums step(const NarrowBand& band, double voxel, const Weights& weights, const StepSize& size,
+              LeafField& next, const Progress& progress)
+{
+    return parallelSum<StepSums>(band.table.size(), progress, [&](std::size_t n) {
+        LeafBlock<float, 1> phi, psi;
+        phi.gather(band.table, band.phi, n);
+        psi.gather(band.table, band.psi, n);
+        LeafCurvature shape;
+        curvature(phi, float(voxel), shape);
+        return flowStep(phi, psi, shape, band.table.active(n), float(voxel), weights, size,
+                        next.leaf(n));
+    });
+}
+
+/// The sign at each voxel of a new leaf: that of the nearest voxel of an old leaf.
+void fillFromNeighbours(const NarrowBand& old, const LeafTable& table, std::size_t n, float width,
+                        float* phi)
+{
+    const auto& near = table.neighbours(n);
+    std::array<std::int32_t, 27> known;
+    for (int k = 0; k < 27; ++k) {
+        known[k] = near[k] == noLeaf ? noLeaf : old.table.find(table.origin(near[k]));
+    }
+    for (int v = 0; v < leafSize; ++v) {
+        const int x = v >> 6, y = v >> 3 & 7, z = v & 7;
+        int nearest = 1000;
+        phi[v] = width;
+        for (int k = 0; k < 27; ++k) {
+            if (known[k] == noLeaf) continue;
+            const int dx = k / 9 - 1, dy = k / 3 % 3 - 1, dz = k % 3 - 1;
+            const int qx = dx == 0 ? x : dx < 0 ? -1 : 8, qy = dy == 0 ? y : dy < 0 ? -1 : 8;
+            const int qz = dz == 0 ? z : dz < 0 ? -1 : 8;
+            const int distance = (x - qx) * (x - qx) + (y - qy) * (y - qy) + (z - qz) * (z - qz);
+            if (distance >= nearest) continue;
+            nearest = distance;
+            const float value = old.phi.leaf(known[k])[64 * (qx & 7) + 8 * (qy & 7) + (qz & 7)];
+            phi[v] = std::copysign(width, value);
+        }
+    }
+}
+
+/// Makes the active voxels those within the band of the interface; adds and drops leaves as needed.
+void track(NarrowBand& band, const PsiSource& source, double voxel, double width,
+           const Progress& progress)
+{
+    // The voxels that are certainly within the band, and one step around them.
+    const float core = float(width - voxel);
+    std::vector<LeafMask> inside(band.table.size());
+    parallelFor(band.table.size(), progress, [&](std::size_t n) {
+        const float* phi = band.phi.leaf(n);
+        for (int v = 0; v < leafSize; ++v) inside[n].set(v, std::abs(phi[v]) < core);
+        inside[n] &= band.table.active(n);
+    });
+    bool complete = true;
+    std::vector<LeafMask> wanted(band.table.size());
+    for (std::size_t n = 0; n < band.table.size(); ++n) {
+        band.table.active(n) = inside[n];
+        if (!inside[n].any()) continue;
+        const auto& near = band.table.neighbours(n);
+        const auto& w = inside[n].words;
+        std::uint64_t all = 0;
+        for (const std::uint64_t word : w) all |= word;
+        complete = complete && !(w[0] && near[4] == noLeaf) && !(w[7] && near[22] == noLeaf) &&
+                   !((all & 0xff) && near[10] == noLeaf) && !((all >> 56) && near[16] == noLeaf) &&
+                   !((all & 0x0101010101010101ull) && near[12] == noLeaf) &&
+                   !((all & 0x8080808080808080ull) && near[14] == noLeaf);
+    }
+    if (complete) {
+        parallelFor(band.table.size(), progress, [&](std::size_t n) {
+            wanted[n] = dilatedMask(band.table, inside, n, false);
+        });
+        for (std::size_t n = 0; n < band.table.size(); ++n) band.table.active(n) = wanted[n];
+        return;
+    }
+    NarrowBand grown;
+    grown.table = dilated(band.table, 1, Spread::Ball, progress);
+    grown.phi = LeafField(grown.table.size());
+    grown.psi = LeafField(grown.table.size());
+    parallelFor(grown.table.size(), progress, [&](std::size_t n) {
+        const std::int32_t m = band.table.find(grown.table.origin(n));
+        if (m != noLeaf) {
+            std::copy_n(band.phi.leaf(m), leafSize, grown.phi.leaf(n));
+            std::copy_n(band.psi.leaf(m), leafSize, grown.psi.leaf(n));
+        } else {
+            fillFromNeighbours(band, grown.table, n, float(width), grown.phi.leaf(n));
+            source(grown.table.origin(n), grown.psi.leaf(n));
+        }
+    });
+    band = std::move(grown);
+}
+
+} // namespace
+
+EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
+                       const EvolveOptions& options, const Progress& progress)
+{
+    const bool preconditioned = options.flow == Flow::Preconditioned;
+    const bool gradient = options.regularizer == Regularizer::Gradient;
+    const int maxSteps = options.maxSteps > 0 ? options.maxSteps : preconditioned ? 50 : 2000;
+    const Weights weights{gradient ? float(options.lambda) : 0.0f,
+                          gradient ? 0.0f : float(options.lambda)};
+    const double width = bandWidthVox * voxel;
+
+    EvolutionReport report;
+    LeafField next(band.table.size());
+    double lastDisplacement = 0.0;
+    for (;;) {
+        StepSize size;
+        if (!preconditioned) {
+            // Explicit Euler for a stiffness P is stable up to 2/P; the longest step is limited anyway.
+            const StepSums before = step(band, voxel, weights, {true, 0.0f}, next, progress);
+            size = {false, 0.8f / before.maxSecond};
+        }
+        const StepSums sums = step(band, voxel, weights, size, next, progress);
+        if (!std::isfinite(sums.energy) || !std::isfinite(sums.displacement)) {
+            throw Error(ErrorKind::Numeric, "evolve: step " + std::to_string(report.steps) +
+                                                ": the energy is not a number");
+        }
+        if (sums.area == 0.0) {
+            throw Error(ErrorKind::Numeric,
+                        "evolve: step " + std::to_string(report.steps) +
+                            ": nothing is left of the surface [hint: a smaller --lambda]");
+        }
+        if (!report.energy.empty()) {
+            const double change = std::abs(sums.energy - report.energy.back()) / sums.energy;
+            report.converged = change < options.energyTolerance &&
+                               lastDisplacement < options.displacementTolerance * voxel;
+        }
+        report.energy.push_back(sums.energy);
+        report.creviceVoxels = sums.crevices;
+        if (report.converged || report.steps == maxSteps) break;
+
+        lastDisplacement = sums.displacement / sums.area;
+        report.meanDisplacement.push_back(lastDisplacement);
+        report.maxSpeed.push_back(sums.maxSpeed);
+        ++report.steps;
+        std::swap(band.phi, next);
+        reinitialize(band.table, band.phi, voxel, width, reinitializations, progress);
+        track(band, source, voxel, width, progress);
+        if (next.leafCount() != band.table.size()) next = LeafField(band.table.size());
+    }
+    return report;
+}
+
+} // namespace molsurf

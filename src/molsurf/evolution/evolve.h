@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The variational flow: a level set moves down the energy  E = integral over Gamma of w.
+
+#include "molsurf/core/leaf_table.h"
+#include "molsurf/core/progress.h"
+#include "molsurf/core/report.h"
+#include "molsurf/evolution/options.h"
+
+#include <functional>
+
+namespace molsurf {
+
+/// A level set in its narrow band, and the field psi that drives it.
+struct NarrowBand {
+    LeafTable table; ///< active voxels: the band
+    LeafField phi;   ///< signed distance [Å], < 0 inside
+    LeafField psi;
+};
+
+/// Width of the band on each side of the interface [voxel]: the flow acts up to 3 voxels away, and its
+/// stencils reach one further.
+constexpr int bandWidthVox = 4;
+
+/// Gives psi at the 512 voxels of the leaf with this first voxel. Called from several threads.
+using PsiSource = std::function<void(const openvdb::Coord& origin, float* psi)>;
+
+/// Evolves phi by  phi_t = |grad phi| (w kappa + n . grad w)  with speeds extended along normals from the
+/// interface (docs/math.md, section 4) until the energy changes by less than options.energyTolerance and
+/// the interface moves by less than options.displacementTolerance in a step, or for options.maxSteps
+/// steps. After each step the level set is made a distance again by reinitialize(). Leaves are added and
+/// dropped as the interface moves.
+///
+/// @param[in,out] band    as initialSurface() makes it
+/// @param[in]     source  psi for leaves that are added
+/// @param[in]     voxel   voxel edge h [Å]
+/// @throws Error(ErrorKind::Numeric) if a value is not finite, or if nothing is left of the surface
+EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
+                       const EvolveOptions& options, const Progress& progress);
+
+} // namespace molsurf

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// One step of the flow at the voxels of a leaf.
+
+#include "molsurf/evolution/metric.h"
+#include "molsurf/levelset/curvature.h"
+
+namespace molsurf {
+
+/// What a step adds up over the voxels of the interface.
+struct StepSums {
+    double energy = 0.0;       ///< integral of w over the interface [Å^2]
+    double area = 0.0;         ///< of the interface [Å^2]
+    double displacement = 0.0; ///< integral of |displacement| over the interface [Å^3]
+    float maxSpeed = 0.0f;     ///< largest |F| within a voxel of the interface [1/Å]
+    float maxSecond = 0.0f;    ///< largest stiffness P there [1/Å^2], without the cap of the movement
+    std::size_t crevices = 0;  ///< voxels there where two pieces of the interface meet within the stencil
+
+    StepSums& operator+=(const StepSums& other);
+};
+
+/// How far a step goes: the preconditioned flow divides the speed by the stiffness of each voxel, the
+/// plain one multiplies it by the same time step everywhere.
+struct StepSize {
+    bool preconditioned = true;
+    float time = 0.0f; ///< of the plain flow [Å^2]
+};
+
+/// New values of the 512 voxels of a leaf, and the sums before the step.
+///
+/// @param[in]  phi, psi   the leaf and its rim
+/// @param[in]  shape      curvature() of phi
+/// @param[in]  active     the band
+/// @param[in]  voxel      voxel edge h [Å]
+/// @param[out] next       phi after the step [Å]
+StepSums flowStep(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi,
+                  const LeafCurvature& shape, const LeafMask& active, float voxel,
+                  const Weights& weights, const StepSize& size, float* next);
+
+} // namespace molsurf

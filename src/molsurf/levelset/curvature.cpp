@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/curvature.h"
+
+#include "molsurf/core/simd.h"
+#include "molsurf/levelset/stencil.h"
+
+#include <cmath>
+
+namespace molsurf {
+
+namespace {
+
+constexpr float tiny = 1e-12f; // keeps divisions finite where the gradient vanishes
+
+MOLSURF_KERNEL void curvatureRows(const float* __restrict block, float inverse,
+                                  float* __restrict nx, float* __restrict ny, float* __restrict nz,
+                                  float* __restrict slope, float* __restrict mean,
+                                  float* __restrict gauss)
+{
+    constexpr int X = LeafBlock<float, 1>::strideX, Y = LeafBlock<float, 1>::strideY;
+    for (int row = 0; row < 64; ++row) {
+        const float* p = block + (row / 8 + 1) * X + (row % 8 + 1) * Y + 1;
+        for (int z = 0; z < 8; ++z) {
+            const Derivatives d = derivatives<1>(p + z, inverse);
+            const float norm2 = d.x * d.x + d.y * d.y + d.z * d.z + tiny;
+            const float norm = std::sqrt(norm2), scale = 1.0f / norm;
+            const float a = d.x * scale, b = d.y * scale, c = d.z * scale;
+            const float along = a * a * d.xx + b * b * d.yy + c * c * d.zz +
+                                2.0f * (a * b * d.xy + b * c * d.yz + a * c * d.xz);
+            const float adjugate = a * a * (d.yy * d.zz - d.yz * d.yz) +
+                                   b * b * (d.xx * d.zz - d.xz * d.xz) +
+                                   c * c * (d.xx * d.yy - d.xy * d.xy) +
+                                   2.0f * (a * b * (d.xz * d.yz - d.xy * d.zz) +
+                                           b * c * (d.xy * d.xz - d.yz * d.xx) +
+                                           a * c * (d.xy * d.yz - d.xz * d.yy));
+            const int v = 8 * row + z;
+            nx[v] = a;
+            ny[v] = b;
+            nz[v] = c;
+            slope[v] = norm;
+            mean[v] = (d.xx + d.yy + d.zz - along) * scale;
+            gauss[v] = adjugate * scale * scale;
+        }
+    }
+}
+
+} // namespace
+
+void curvature(const LeafBlock<float, 1>& phi, float voxel, LeafCurvature& out)
+{
+    curvatureRows(phi.values, 1.0f / voxel, out.normal[0], out.normal[1], out.normal[2], out.slope,
+                  out.mean, out.gauss);
+}
+
+} // namespace molsurf

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/redistance.h"
+
+#include "molsurf/bspline/spline.h"
+#include "molsurf/core/leaf_block.h"
+#include "molsurf/core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace molsurf {
+
+using openvdb::Coord;
+using openvdb::Mat3d;
+using openvdb::Vec3d;
+
+namespace {
+
+constexpr std::int32_t noSeed = -1;
+
+/// A closest point on the interface, in units of voxels.
+struct Seed {
+    Vec3d y;            // the point
+    openvdb::Vec3f n;   // unit normal there, outward
+    float A[6];         // shape operator: xx yy zz xy yz xz
+    float kappa, gauss; // trace and tangential determinant of A
+};
+
+/// Shape operator of the level set through a point: the Hessian over the gradient's length, projected to
+/// the tangent plane, with principal curvatures limited to one a voxel, which is all a grid can hold.
+Seed seedAt(const Vec3d& y, const Jet& jet)
+{
+    Seed seed;
+    seed.y = y;
+    const double norm = std::max(jet.gradient.length(), 1e-3);
+    const Vec3d n = jet.gradient / norm;
+    const Vec3d Hn = jet.hessian * n / norm;
+    const double nHn = n.dot(Hn);
+    Mat3d A;
+    double largest = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            A(i, j) = jet.hessian(i, j) / norm - n[i] * Hn[j] - Hn[i] * n[j] + nHn * n[i] * n[j];
+            largest += A(i, j) * A(i, j);
+        }
+    }
+    A *= std::min(1.0, 1.0 / std::sqrt(std::max(largest, 1e-12)));
+    const double kappa = A(0, 0) + A(1, 1) + A(2, 2);
+    double square = 0.0; // tr A^2 = kappa^2 - 2 K
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) square += A(i, j) * A(i, j);
+    }
+    seed.n = openvdb::Vec3f(n);
+    seed.kappa = float(kappa);
+    seed.gauss = float(0.5 * (kappa * kappa - square));
+    const double packed[6] = {A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(1, 2), A(0, 2)};
+    std::copy_n(packed, 6, seed.A);
+    return seed;
+}
+
+/// The farthest that a closest point may lie from its voxel, in voxels.
+constexpr double farthestFoot = 1.45;
+
+/// The closest point of a voxel next to the interface.
+/// @param[in] c      coefficients of phi/h
+/// @param[in] x      the voxel, relative to the leaf
+/// @param[in] start  phi/h there
+Seed closestPoint(const LeafBlock<float, 3>& c, const Coord& x)
+{
+    const auto jetAt = [&](const Vec3d& p) {
+        const Coord cell = Coord::floor(p);
+        return evaluateSpline(c.at(cell.x(), cell.y(), cell.z()), c.strideX, c.strideY,
+                              p - cell.asVec3d());
+    };
+    const Vec3d centre = x.asVec3d();
+    Vec3d y = centre;
+    Jet jet = jetAt(y);
+    for (int i = 0; i < 6; ++i) {
+        const Seed seed = seedAt(y, jet);
+        const Vec3d n(seed.n);
+        // Newton toward the zero set, and along it toward x: (I + s A) d = t on the tangent plane
+        const Vec3d toVoxel = centre - y;
+        const double s = n.dot(toVoxel);
+        const Vec3d t = toVoxel - s * n;
+        const Vec3d At(seed.A[0] * t.x() + seed.A[3] * t.y() + seed.A[5] * t.z(),
+                       seed.A[3] * t.x() + seed.A[1] * t.y() + seed.A[4] * t.z(),
+                       seed.A[5] * t.x() + seed.A[4] * t.y() + seed.A[2] * t.z());
+        const double determinant = std::max(1.0 + s * seed.kappa + s * s * seed.gauss, 0.2);
+        const Vec3d along = (t + s * (double(seed.kappa) * t - At)) / determinant;
+        const Vec3d move = along - jet.value / std::max(jet.gradient.length(), 0.2) * n;
+        const Vec3d next = y + move;
+        if ((next - centre).lengthSqr() > farthestFoot * farthestFoot) break;
+        y = next;
+        jet = jetAt(y);
+        if (move.lengthSqr() < 1e-8) break;
+    }
+    return seedAt(y, jet);
+}
+
+/// Distance of a voxel by the expansion about a closest point [voxel], positive on the side that `sign`
+/// says. It is kept to what is possible: the point is a point of the surface, and no point of the surface
+/// is farther than some 0.87 voxel from one of those known, so that with curvatures up to one a voxel the
+/// distance d and r = |x - y| satisfy  r^2 - (1 + r) 0.87^2 <= d^2 <= r^2.
+float distanceFrom(const Seed& seed, const Vec3d& x, float sign)
+{
+    const openvdb::Vec3f d(x - seed.y);
+    const float s = seed.n.dot(d);
+    const openvdb::Vec3f t = d - s * seed.n;
+    const float tAt = seed.A[0] * t.x() * t.x() + seed.A[1] * t.y() * t.y() +
+                      seed.A[2] * t.z() * t.z() +
+                      2.0f * (seed.A[3] * t.x() * t.y() + seed.A[4] * t.y() * t.z() +
+                              seed.A[5] * t.x() * t.z());
+    const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.2f);
+    const float distance = sign * (s + 0.5f * (tAt + s * seed.gauss * t.dot(t)) / determinant);
+    const float r2 = d.dot(d), r = std::sqrt(r2);
+    return std::min(std::max(distance, std::sqrt(std::max(r2 - 0.76f * (1.0f + r), 0.0f))), r);
+}
+
+/// Gradient of the same expansion.
+openvdb::Vec3f gradientFrom(const Seed& seed, const Vec3d& x)
+{
+    const openvdb::Vec3f d(x - seed.y);
+    const float s = seed.n.dot(d);
+    const openvdb::Vec3f t = d - s * seed.n;
+    const openvdb::Vec3f At(seed.A[0] * t.x() + seed.A[3] * t.y() + seed.A[5] * t.z(),
+                            seed.A[3] * t.x() + seed.A[1] * t.y() + seed.A[4] * t.z(),
+                            seed.A[5] * t.x() + seed.A[4] * t.y() + seed.A[2] * t.z());
+    const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.2f);
+    openvdb::Vec3f gradient = seed.n + (At + s * seed.gauss * t) / determinant;
+    gradient.normalize();
+    return gradient;
+}
+
+/// Whether two closest points give a voxel gradients that differ by more than 30 degrees.
+bool disagree(const Seed& a, const Seed& b, const Vec3d& x)
+{
+    constexpr float cosine = 0.866f;
+    return a.n.dot(b.n) < cosine && gradientFrom(a, x).dot(gradientFrom(b, x)) < cosine;
+}
+
+using SeedIndex = LeafArray<std::int32_t>;
+
+/// The voxels with a face neighbour of the other sign, among the active ones.
+std::vector<LeafMask> interfaceVoxels(const LeafTable& table, const std::vector<LeafMask>& inside,
+                                      const Progress& progress)
+{
+    std::vector<LeafMask> outside(table.size()), out(table.size());
+    for (std::size_t n = 0; n < table.size(); ++n) outside[n] = ~inside[n];
+    parallelFor(table.size(), progress, [&](std::size_t n) {
+        out[n] = ((inside[n] & dilatedMask(table, outside, n, false)) |
+                  (outside[n] & dilatedMask(table, inside, n, false))) &
+                 table.active(n);
+    });
+    return out;
+}
+
+/// The seeds of all interface voxels, leaf by leaf, and where those of each leaf begin.
+std::vector<Seed> findSeeds(const LeafTable& table, const LeafField& phi, double voxel,
+                            const std::vector<LeafMask>& interface, std::vector<std::size_t>& begins,
+                            const Progress& progress)
+{
+    const LeafField coefficients = prefilter(table, phi, progress);
+    begins.assign(table.size() + 1, 0);
+    for (std::size_t n = 0; n < table.size(); ++n) begins[n + 1] = begins[n] + interface[n].count();
+    std::vector<Seed> seeds(begins.back());
+    parallelFor(table.size(), progress, [&](std::size_t n) {
+        if (!interface[n].any()) return;
+        LeafBlock<float, 3> block;
+        block.gather(table, coefficients, n);
+        for (float& c : block.values) c *= float(1.0 / voxel);
+        std::size_t k = begins[n];
+        interface[n].forEach([&](int v) {
+            seeds[k] = closestPoint(block, Coord(v >> 6, v >> 3 & 7, v & 7));
+            seeds[k++].y += table.origin(n).asVec3d();
+        });
+    });
+    return seeds;
+}
+
+/// The voxels that may lie in the result: those within `steps` of the interface voxels on one side, not
+/// crossing to the other.
+/// @param[in] wrong  voxels of the other side, by leaf of `table`
+LeafTable reachable(const LeafTable& table, const std::vector<LeafMask>& interface,
+                    const std::vector<LeafMask>& wrong, int steps, const Progress& progress)
+{
+    LeafTable out = table;
+    for (std::size_t n = 0; n < table.size(); ++n) out.active(n) = interface[n];
+    while (steps > 0) {
+        const int now = std::min(steps, 4);
+        steps -= now;
+        out = dilated(out, now, Spread::Ball, progress);
+        std::size_t m = 0;
+        for (std::size_t n = 0; n < out.size(); ++n) {
+            while (m < table.size() && table.origin(m) < out.origin(n)) ++m;
+            if (m == table.size()) break;
+            if (table.origin(m) == out.origin(n)) out.active(n) &= ~wrong[m] | interface[m];
+        }
+    }
+    return out;
+}
+
+/// The leaves of both tables, with the voxels of both active.
+LeafTable merged(const LeafTable& a, const LeafTable& b)
+{
+    std::vector<Coord> origins;
+    std::set_union(a.origins().begin(), a.origins().end(), b.origins().begin(), b.origins().end(),
+                   std::back_inserter(origins));
+    LeafTable out(std::move(origins));
+    for (std::size_t n = 0, i = 0, j = 0; n < out.size(); ++n) {
+        if (i < a.size() && a.origin(i) == out.origin(n)) out.active(n) |= a.active(i++);
+        if (j < b.size() && b.origin(j) == out.origin(n)) out.active(n) |= b.active(j++);
+    }
+    return out;
+}
+
+/// The nearest of the seeds that a voxel and its 26 neighbours have; noSeed if they have none within
+/// `limit` voxels.
+std::int32_t nearestSeed(const LeafBlock<std::int32_t, 1>& index, const Coord& local, const Vec3d& x,
+                         const std::vector<Seed>& seeds, double limit)
+{
+    const std::int32_t* p = index.at(local.x(), local.y(), local.z());
+    std::int32_t best = noSeed;
+    double distance2 = limit * limit;
+    for (int dx = -index.strideX; dx <= index.strideX; dx += index.strideX) {
+        for (int dy = -index.strideY; dy <= index.strideY; dy += index.strideY) {
+            for (int dz = -1; dz <= 1; ++dz) {
+                const std::int32_t seed = p[dx + dy + dz];
+                if (seed == noSeed || seed == best) continue;
+                const double d2 = (x - seeds[seed].y).lengthSqr();
+                if (d2 < distance2) {
+                    distance2 = d2;
+                    best = seed;
+                }
+            }
+        }
+    }
+    return best;
+}
+
+/// The inner voxels of a leaf that the given level set lacks, and that no interface can cross: all or
+/// none, as most of its closest points say. (Where the given leaves have a sign it stands: voxels do not
+/// change sides.)
+LeafMask sideOf(const Coord& origin, const std::int32_t* index, const std::vector<Seed>& seeds)
+{
+    double side = 0.0;
+    for (int v = 0; v < leafSize; ++v) {
+        if (index[v] == noSeed) continue;
+        const Seed& seed = seeds[index[v]];
+        side += Vec3d(seed.n).dot(origin.offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() - seed.y);
+    }
+    return side < 0.0 ? ~LeafMask() : LeafMask();
+}
+
+} // namespace
+
+DistanceBand redistance(const LeafTable& table, const LeafField& phi, double voxel, double inside,
+                        double outside, const Progress& progress)
+{
+    std::vector<LeafMask> inner(table.size()), outer(table.size());
+    parallelFor(table.size(), progress, [&](std::size_t n) {
+        for (int v = 0; v < leafSize; ++v) inner[n].set(v, phi.leaf(n)[v] < 0.0f);
+        outer[n] = ~inner[n];
+    });
+    const std::vector<LeafMask> interface = interfaceVoxels(table, inner, progress);
+    std::vector<std::size_t> begins;
+    const std::vector<Seed> seeds = findSeeds(table, phi, voxel, interface, begins, progress);
+
+    const auto steps = [&](double width) { return int(std::ceil(width / voxel)) + 1; };
+    const LeafTable domain =
+        merged(reachable(table, interface, outer, steps(inside), progress),
+               reachable(table, interface, inner, steps(outside), progress));
+
+    SeedIndex index(domain.size()), next(domain.size());
+    std::vector<LeafMask> known(domain.size()), frontier(domain.size());
+    parallelFor(domain.size(), progress, [&](std::size_t n) {
+        std::fill_n(index.leaf(n), leafSize, noSeed);
+        const std::int32_t m = table.find(domain.origin(n));
+        if (m == noLeaf) return;
+        known[n] = interface[m];
+        std::int32_t k = std::int32_t(begins[m]);
+        interface[m].forEach([&](int v) { index.leaf(n)[v] = k++; });
+    });
+
+    // Layers go by turns to 6 and 26 neighbours, close to the order of the distance; a voxel that was
+    // reached a little too early is looked at again with the next layer.
+    const int layers = steps(std::max(inside, outside)) + 2;
+    const double limit = std::max(inside, outside) / voxel + 2.0;
+    std::vector<LeafMask> previous(domain.size());
+    for (int layer = 0; layer < layers; ++layer) {
+        parallelFor(domain.size(), progress, [&](std::size_t n) {
+            const LeafMask fresh = dilatedMask(domain, known, n, layer % 2 == 1) & ~known[n] &
+                                   domain.active(n);
+            frontier[n] = fresh | previous[n];
+            previous[n] = fresh;
+        });
+        // next <- index with the frontier's seeds; only the frontier is written back
+        parallelFor(domain.size(), progress, [&](std::size_t n) {
+            if (!frontier[n].any()) return;
+            LeafBlock<std::int32_t, 1> block;
+            block.gather(domain, index, n);
+            frontier[n].forEach([&](int v) {
+                const Coord local(v >> 6, v >> 3 & 7, v & 7);
+                next.leaf(n)[v] = nearestSeed(block, local, (domain.origin(n) + local).asVec3d(),
+                                              seeds, limit);
+            });
+        });
+        parallelFor(domain.size(), progress, [&](std::size_t n) {
+            if (!frontier[n].any()) return;
+            frontier[n].forEach([&](int v) { index.leaf(n)[v] = next.leaf(n)[v]; });
+            known[n] |= frontier[n];
+        });
+    }
+
+    DistanceBand band;
+    band.table = domain;
+    band.phi = LeafField(domain.size());
+    band.kinks.resize(domain.size());
+    band.seeds = seeds.size();
+    parallelFor(domain.size(), progress, [&](std::size_t n) {
+        const std::int32_t m = table.find(domain.origin(n));
+        const LeafMask negative =
+            m != noLeaf ? inner[m] : sideOf(domain.origin(n), index.leaf(n), seeds);
+        LeafBlock<std::int32_t, 1> block;
+        block.gather(domain, index, n);
+        LeafMask active;
+        for (int v = 0; v < leafSize; ++v) {
+            const float sign = negative.on(v) ? -1.0f : 1.0f;
+            const float width = float(negative.on(v) ? inside : outside);
+            band.phi.leaf(n)[v] = sign * width;
+            const Coord local(v >> 6, v >> 3 & 7, v & 7);
+            const std::int32_t* p = block.at(local.x(), local.y(), local.z());
+            if (*p == noSeed) continue;
+            // A last look at all neighbours: the layers' order may have missed the nearest.
+            const Vec3d x = (domain.origin(n) + local).asVec3d();
+            const Seed& seed = seeds[nearestSeed(block, local, x, seeds, limit)];
+            const float distance =
+                std::max(float(voxel) * distanceFrom(seed, x, sign), 1e-6f * float(voxel));
+            if (distance >= width) continue;
+            band.phi.leaf(n)[v] = sign * distance;
+            active.set(v);
+            for (const int step : {block.strideX, block.strideY, block.strideZ}) {
+                if (p[step] == noSeed || p[step] == *p) continue;
+                if (disagree(seeds[*p], seeds[p[step]], x)) band.kinks[n].set(v);
+            }
+        }
+        band.table.active(n) = active;
+    });
+    return band;
+}
+
+} // namespace molsurf

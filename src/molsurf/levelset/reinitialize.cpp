@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/reinitialize.h"
+
+#include "molsurf/core/leaf_block.h"
+#include "molsurf/core/parallel.h"
+#include "molsurf/core/simd.h"
+#include "molsurf/levelset/stencil.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace molsurf {
+
+namespace {
+
+using Block = LeafBlock<float, 2>;
+constexpr int X = Block::strideX, Y = Block::strideY;
+
+/// Time step in units of h: the scheme is stable up to 1/sqrt(3).
+constexpr float timeStep = 0.5f;
+
+inline __attribute__((always_inline)) float minmod(float a, float b)
+{
+    const float smaller = std::abs(a) < std::abs(b) ? a : b;
+    return a * b > 0.0f ? smaller : 0.0f;
+}
+
+/// The square of the upwind derivative along one axis, times h^2.
+/// @param[in] sign  +1 outside, -1 inside
+inline __attribute__((always_inline)) float upwind(const float* p, int stride, float sign)
+{
+    const float below = p[0] - p[-stride], above = p[stride] - p[0];
+    const float centre = above - below;
+    const float before = below - (p[-stride] - p[-2 * stride]);
+    const float after = (p[2 * stride] - p[stride]) - above;
+    const float minus = below + 0.5f * minmod(centre, before);
+    const float plus = above - 0.5f * minmod(centre, after);
+    const float a = std::max(sign * minus, 0.0f), b = std::max(-sign * plus, 0.0f);
+    return std::max(a * a, b * b);
+}
+
+/// One Euler step at all 512 voxels of a leaf.
+MOLSURF_KERNEL void eulerStep(const float* __restrict block, float voxel, float width,
+                              float* __restrict out)
+{
+    const float inverse2 = 1.0f / (voxel * voxel);
+    for (int row = 0; row < 64; ++row) {
+        const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
+        for (int z = 0; z < 8; ++z) {
+            const float value = p[z], sign = std::copysign(1.0f, value);
+            const float slope2 = inverse2 * (upwind(p + z, X, sign) + upwind(p + z, Y, sign) +
+                                             upwind(p + z, 1, sign));
+            const float next = sign * value - timeStep * voxel * (std::sqrt(slope2) - 1.0f);
+            out[8 * row + z] = sign * std::min(std::max(next, 1e-6f * voxel), width);
+        }
+    }
+}
+
+/// The voxels that have a face neighbour of the other sign.
+MOLSURF_KERNEL void findInterface(const float* __restrict block, std::uint8_t* __restrict near)
+{
+    for (int row = 0; row < 64; ++row) {
+        const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
+        for (int z = 0; z < 8; ++z) {
+            const float* q = p + z;
+            const bool in = q[0] < 0.0f;
+            near[8 * row + z] = (in != (q[X] < 0.0f)) | (in != (q[-X] < 0.0f)) |
+                                (in != (q[Y] < 0.0f)) | (in != (q[-Y] < 0.0f)) |
+                                (in != (q[1] < 0.0f)) | (in != (q[-1] < 0.0f));
+        }
+    }
+}
+
+/// Changes of an interface voxel below this many voxels are the stencil's own error rather than the
+/// field's. They are suppressed: made at every step they would add up to a drift of the interface.
+constexpr float stencilError = 0.02f;
+
+/// Signed distance of the zero of the second-order Taylor polynomial along the gradient; the value
+/// itself where the polynomial has no zero nearby (in crevices that the grid does not resolve).
+float taylorDistance(const float* p, float inverse)
+{
+    const Derivatives d = derivatives<2>(p, inverse);
+    const float norm2 = d.x * d.x + d.y * d.y + d.z * d.z;
+    if (norm2 < 0.25f) return p[0];
+    const float second = (d.x * d.x * d.xx + d.y * d.y * d.yy + d.z * d.z * d.zz +
+                          2.0f * (d.x * d.y * d.xy + d.y * d.z * d.yz + d.x * d.z * d.xz)) /
+                         norm2;
+    // |p| = a s - second s^2 / 2 for the step s toward the zero
+    const float discriminant = norm2 - 2.0f * second * p[0];
+    if (discriminant < 0.25f * norm2) return p[0];
+    const float change = 2.0f * p[0] / (std::sqrt(norm2) + std::sqrt(discriminant)) - p[0];
+    const float noise = stencilError / inverse;
+    return p[0] + change * change * change / (change * change + noise * noise);
+}
+
+} // namespace
+
+void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double width, int iterations,
+                  const Progress& progress)
+{
+    const float h = float(voxel), w = float(width);
+    std::vector<LeafMask> interface(table.size());
+    LeafField next(table.size());
+    for (int i = 0; i < iterations; ++i) {
+        // next <- phi after one step; interface voxels keep the value that step 0 has given them
+        parallelFor(table.size(), progress, [&](std::size_t n) {
+            Block block;
+            block.gather(table, phi, n);
+            alignas(64) float stepped[leafSize];
+            eulerStep(block.values, h, w, stepped);
+            const float* now = phi.leaf(n);
+            float* out = next.leaf(n);
+            LeafMask& fixed = interface[n];
+            if (i == 0) {
+                alignas(64) std::uint8_t near[leafSize];
+                findInterface(block.values, near);
+                for (int v = 0; v < leafSize; ++v) fixed.set(v, near[v]);
+                fixed &= table.active(n);
+            }
+            const LeafMask& active = table.active(n);
+            for (int v = 0; v < leafSize; ++v) {
+                out[v] = active.on(v) && !fixed.on(v) ? stepped[v]
+                                                      : std::min(std::max(now[v], -w), w);
+            }
+            if (i == 0) {
+                fixed.forEach([&](int v) {
+                    out[v] = taylorDistance(block.at(v >> 6, v >> 3 & 7, v & 7), 1.0f / h);
+                });
+            }
+        });
+        std::swap(phi, next);
+    }
+}
+
+} // namespace molsurf

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Central differences of second order on a row of a leaf block, for loops that vectorise.
+
+#include "molsurf/core/leaf_block.h"
+
+namespace molsurf {
+
+/// Gradient and Hessian at one voxel.
+struct Derivatives {
+    float x, y, z;
+    float xx, yy, zz, xy, yz, xz;
+};
+
+/// @param[in] p        the voxel in a LeafBlock<float, Halo>
+/// @param[in] inverse  1/h
+template<int Halo>
+inline __attribute__((always_inline)) Derivatives derivatives(const float* p, float inverse)
+{
+    constexpr int X = LeafBlock<float, Halo>::strideX;
+    constexpr int Y = LeafBlock<float, Halo>::strideY;
+    const float first = 0.5f * inverse, second = inverse * inverse, mixed = 0.25f * second;
+    Derivatives d;
+    d.x = first * (p[X] - p[-X]);
+    d.y = first * (p[Y] - p[-Y]);
+    d.z = first * (p[1] - p[-1]);
+    d.xx = second * ((p[X] - p[0]) - (p[0] - p[-X]));
+    d.yy = second * ((p[Y] - p[0]) - (p[0] - p[-Y]));
+    d.zz = second * ((p[1] - p[0]) - (p[0] - p[-1]));
+    d.xy = mixed * ((p[X + Y] - p[X - Y]) - (p[-X + Y] - p[-X - Y]));
+    d.yz = mixed * ((p[Y + 1] - p[Y - 1]) - (p[-Y + 1] - p[-Y - 1]));
+    d.xz = mixed * ((p[X + 1] - p[X - 1]) - (p[-X + 1] - p[-X - 1]));
+    return d;
+}
+
+} // namespace molsurf

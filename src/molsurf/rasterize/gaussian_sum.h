@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The smooth field of a molecule, psi(x) = ln sum_i exp(-C_i (|x - x_i|^2 - R_i^2)), with R_i = r_i
+/// plus the probe radius and C_i = ln 2 / (eps R_i). psi = 0 approximates the solvent-accessible
+/// surface from outside to within about eps; psi > 0 inside. The paper's g is 1 - e^psi: psi is kept
+/// instead since it is nearly quadratic, and g spans many decades (docs/math.md, section 2).
+
+#include "molsurf/core/leaf_table.h"
+#include "molsurf/core/progress.h"
+#include "molsurf/rasterize/ball_index.h"
+#include "molsurf/selection/ball.h"
+
+#include <vector>
+
+namespace molsurf {
+
+/// Parameters of psi.
+struct GaussianOptions {
+    double probe = 1.4;   ///< probe radius r_b [Å]
+    double epsilon = 0.5; ///< tolerance eps [Å]
+    double voxel = 0.5;   ///< voxel edge h [Å]
+    double reach = 3.0;   ///< how far outside the balls of radius R_i psi is wanted [Å]
+};
+
+/// psi of a set of balls, evaluated leaf by leaf. The balls must outlive it.
+class GaussianSum {
+public:
+    GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& options);
+
+    /// The voxels within `steps` voxels (see dilated()) of those next to psi = 0.
+    /// @return an empty table if psi is negative at all voxels
+    LeafTable band(int steps, const Progress& progress) const;
+
+    /// psi at all voxels of a leaf. Balls whose terms are below e^-12 of the sum throughout the leaf
+    /// are left out, and so are those farther than R_i + reach + 2 eps from it.
+    /// @param[in]  origin  first voxel of the leaf
+    /// @param[in]  reach   how far outside the balls of radius R_i psi is wanted [Å]
+    /// @param[out] psi     512 values; always finite
+    void evaluate(const openvdb::Coord& origin, double reach, float* psi) const;
+
+    /// psi at all voxels of all leaves, with the reach of the options.
+    LeafField evaluate(const LeafTable& table, const Progress& progress) const;
+
+private:
+    /// One ball in units of voxels, relative to a leaf.
+    struct Term {
+        float x, y, z;  // centre [voxel], from the leaf's first voxel
+        float decay;    // C h^2
+        float level;    // C R^2
+        float exponent; // largest exponent of the term in the leaf
+    };
+    void gatherTerms(const openvdb::Coord& origin, double reach, std::vector<Term>& terms) const;
+
+    const std::vector<Ball>& balls_;
+    GaussianOptions options_;
+    double largest_; // largest R_i [Å]
+    BallIndex index_;
+};
+
+} // namespace molsurf
