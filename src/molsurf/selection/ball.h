@@ -4,11 +4,12 @@
 /// @file
 /// The only thing the numerical stages know of a molecule.
 
-#include <openvdb/math/Vec3.h>
+#include <openvdb/Types.h>
 
 #include <cstdint>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// An atom, or a bead that stands for several, as a ball.
 struct Ball {
