@@ -4,10 +4,10 @@
 #include "molsurf/core/error.h"
 #include "molsurf/structure/text_fields.h"
 
+#define USE_STD_SNPRINTF // or gemmi asks for stb_sprintf, with a compiler warning
 #include <gemmi/select.hpp>
 
 #include <algorithm>
-#include <climits>
 #include <exception>
 
 namespace molsurf
@@ -49,10 +49,7 @@ bool matches(const Selection& selection, const Atom& atom)
                : bound.relation > 0 ? value > bound.value
                                     : value == bound.value;
     };
-    const bool hydrogen = atom.element == 1;
-    const bool element = selection.elements.empty() || selection.elements[atom.element] ||
-                         (hydrogen && selection.elements[static_cast<std::size_t>(gemmi::El::D)] &&
-                          atom.name.find('D') != std::string::npos);
+    const bool element = selection.elements.empty() || selection.elements[atom.element];
     return element && selection.atom_names.has(atom.name) &&
            (selection.altlocs.all ||
             selection.altlocs.has(std::string(atom.altloc ? 1 : 0, atom.altloc))) &&

@@ -169,8 +169,8 @@ RadiiSet readRadii(const std::string& name)
     std::error_code status;
     if (!std::filesystem::exists(name, status)) {
         throw Error(ErrorKind::Input,
-                    "radii " + inQuotes(name) +
-                        ": expected bondi, alvarez, gemmi or a file, got neither");
+                    "radii: expected bondi, alvarez, gemmi or a file that exists, got " +
+                        inQuotes(name));
     }
     return readFile(name);
 }

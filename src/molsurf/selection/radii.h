@@ -22,9 +22,7 @@ using ElementRadii = std::array<float, maxElement + 1>;
 constexpr float unknownRadius = 1.7f;
 
 /// What decides the radius of an atom.
-class RadiiSet
-{
-public:
+struct RadiiSet {
     std::string name; ///< of the set, or the path of the file
     ElementRadii elements{};
     std::map<std::pair<std::string, std::string>, float> atoms; ///< by residue ("*": any) and atom

@@ -67,6 +67,14 @@ bool isPdbRecord(string_view line)
     return std::find(records.begin(), records.end(), record) != records.end();
 }
 
+bool hasAtomRecord(string_view text)
+{
+    for (LineReader lines(text); lines.next();) {
+        if (isAtomRecord(lines.line())) return true;
+    }
+    return false;
+}
+
 /// Number of digits after the decimal point.
 std::size_t decimals(string_view number)
 {
@@ -95,12 +103,17 @@ bool looksLikePqr(string_view text)
     return certain;
 }
 
-bool endsWithFourNumbers(string_view line)
+/// True for "x y z r" and for "chain number atom x y z r". A file that is named .xyzr may have
+/// other leading columns; tables of numbers are too common to take them all for balls.
+bool looksLikeBall(string_view line)
 {
     const Fields fields = splitFields(line);
     double number = 0;
-    return fields.size() >= 4 && std::all_of(fields.end() - 4, fields.end(),
-                                             [&](string_view f) { return parseNumber(f, number); });
+    int residue = 0;
+    return (fields.size() == 4 || (fields.size() == 7 && parseInteger(fields[1], residue) &&
+                                   !parseNumber(fields[2], number))) &&
+           std::all_of(fields.end() - 4, fields.end(),
+                       [&](string_view f) { return parseNumber(f, number); });
 }
 
 } // namespace
@@ -121,16 +134,17 @@ StructureFormat detectFormat(const std::string& path, const std::string& text)
     }
     const string_view word = splitFields(first).empty() ? first : splitFields(first)[0];
     const std::string extension = lowerExtension(path);
-    if (startsWithNoCase(word, "data_") || startsWithNoCase(word, "global_")) {
+    if (startsWithNoCase(word, "data_") || startsWithNoCase(word, "global_") ||
+        startsWithNoCase(word, "loop_") || word.substr(0, 1) == "_") {
         return StructureFormat::Mmcif;
     }
     if (word.substr(0, 1) == "{") fail(path, "is JSON, which is not supported [use .cif or .pdb]");
-    if (isPdbRecord(first)) {
-        const bool free = extension == ".pqr" || (extension != ".pdb" && extension != ".ent");
-        if (extension == ".pqr" || (free && looksLikePqr(text))) return StructureFormat::Pqr;
-        return StructureFormat::Pdb;
+    if (isPdbRecord(first) || hasAtomRecord(text)) {
+        if (extension == ".pdb" || extension == ".ent") return StructureFormat::Pdb;
+        const bool pqr = extension == ".pqr" || looksLikePqr(text);
+        return pqr ? StructureFormat::Pqr : StructureFormat::Pdb;
     }
-    if (endsWithFourNumbers(first) && extension != ".pqr") return StructureFormat::Xyzr;
+    if (looksLikeBall(first)) return StructureFormat::Xyzr;
     if (extension == ".pdb" || extension == ".ent") return StructureFormat::Pdb;
     if (extension == ".cif" || extension == ".mmcif") return StructureFormat::Mmcif;
     if (extension == ".pqr") return StructureFormat::Pqr;

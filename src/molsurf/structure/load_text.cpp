@@ -23,10 +23,13 @@ namespace
     throw Error(ErrorKind::Input, displayName(path) + ": " + what);
 }
 
-std::string readAll(std::FILE* file, const std::string& path)
+/// Reads to the end of a file or a pipe.
+/// @param[in] expected  its size, as far as it is known [bytes]
+std::string readAll(std::FILE* file, const std::string& path, std::size_t expected)
 {
     constexpr std::size_t chunk = std::size_t{1} << 20;
     std::string bytes;
+    bytes.reserve(expected + chunk);
     std::size_t got = 0;
     do {
         const std::size_t size = bytes.size();
@@ -40,7 +43,7 @@ std::string readAll(std::FILE* file, const std::string& path)
 
 std::string readBytes(const std::string& path)
 {
-    if (path == "-") return readAll(stdin, path);
+    if (path == "-") return readAll(stdin, path, 0);
     std::error_code status;
     if (std::filesystem::is_directory(path, status)) {
         fail(path, "is a folder, expected a structure file");
@@ -48,7 +51,8 @@ std::string readBytes(const std::string& path)
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                                &std::fclose);
     if (!file) fail(path, std::string("cannot be opened: ") + std::strerror(errno));
-    return readAll(file.get(), path);
+    const std::uintmax_t size = std::filesystem::file_size(path, status);
+    return readAll(file.get(), path, status ? 0 : static_cast<std::size_t>(size));
 }
 
 bool isGzip(const std::string& bytes, std::size_t at)
@@ -57,7 +61,7 @@ bool isGzip(const std::string& bytes, std::size_t at)
 }
 
 /// Unpacks one gzip member that starts at `begin`, appends it to `text`, and returns its end.
-std::size_t unpackMember(const std::string& bytes, std::size_t begin, const std::string& path,
+std::size_t unpackMember(std::string& bytes, std::size_t begin, const std::string& path,
                          std::string& text)
 {
     constexpr std::size_t maxFeed = std::size_t{1} << 30; // zlib counts with 32 bits
@@ -70,7 +74,7 @@ std::size_t unpackMember(const std::string& bytes, std::size_t begin, const std:
     int state = Z_OK;
     while (state != Z_STREAM_END) {
         const std::size_t feed = std::min(bytes.size() - next, maxFeed);
-        stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data() + next));
+        stream.next_in = reinterpret_cast<Bytef*>(&bytes[next]);
         stream.avail_in = static_cast<uInt>(feed);
         stream.next_out = reinterpret_cast<Bytef*>(buffer);
         stream.avail_out = sizeof buffer;
@@ -90,7 +94,7 @@ std::size_t unpackMember(const std::string& bytes, std::size_t begin, const std:
     return next;
 }
 
-std::string unpack(const std::string& bytes, const std::string& path)
+std::string unpack(std::string bytes, const std::string& path)
 {
     std::string text;
     text.reserve(bytes.size() * 5);
@@ -104,7 +108,7 @@ std::string unpack(const std::string& bytes, const std::string& path)
 std::string loadText(const std::string& path)
 {
     std::string text = readBytes(path);
-    if (isGzip(text, 0)) text = unpack(text, path);
+    if (isGzip(text, 0)) text = unpack(std::move(text), path);
     if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail(path, "is empty");
     return text;

@@ -144,12 +144,13 @@ private:
     bool newResidue_ = true;
 };
 
-/// "52A" -> 52 and 'A'; false if it does not start with an integer.
+/// "52A" -> 52 and 'A'; false, and `id` as it was, if it does not start with an integer.
 bool parseResidueNumber(string_view field, Identity& id)
 {
     const bool code = field.size() > 1 && std::isalpha(static_cast<unsigned char>(field.back()));
+    if (!parseInteger(code ? field.substr(0, field.size() - 1) : field, id.number)) return false;
     id.insertionCode = code ? field.back() : ' ';
-    return parseInteger(code ? field.substr(0, field.size() - 1) : field, id.number);
+    return true;
 }
 
 /// Reads what stands left of the coordinates: serial atom residue [chain] number.
@@ -213,8 +214,9 @@ Structure readXyzr(const std::string& text, const std::string& path)
     Builder builder(out);
     constexpr std::array<const char*, 4> names{"x", "y", "z", "radius"};
     Identity id;
+    Fields fields;
     for (LineReader lines(text); lines.next();) {
-        const Fields fields = splitFields(lines.line());
+        splitFields(lines.line(), fields);
         if (fields.empty() || fields[0][0] == '#') continue;
         const Place place{path, lines};
         if (fields.size() < names.size()) {
@@ -224,7 +226,7 @@ Structure readXyzr(const std::string& text, const std::string& path)
         if (fields.size() == names.size() + 3 && parseResidueNumber(fields[1], id)) {
             id.chain = fields[0];
             id.atom = fields[2];
-        } else {
+        } else if (!id.chain.empty() || !id.atom.empty()) {
             id = Identity();
         }
         builder.add(id, {x, y, z}, radius);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/text_fields.h"
 
+#include <cctype>
 #include <charconv>
 #include <cstring>
 
@@ -45,6 +46,13 @@ bool LineReader::next()
 Fields splitFields(std::string_view line)
 {
     Fields fields;
+    splitFields(line, fields);
+    return fields;
+}
+
+void splitFields(std::string_view line, Fields& fields)
+{
+    fields.clear();
     std::size_t begin = 0;
     while (begin < line.size()) {
         while (begin < line.size() && isBlank(line[begin])) ++begin;
@@ -53,7 +61,6 @@ Fields splitFields(std::string_view line)
         if (end > begin) fields.push_back(line.substr(begin, end - begin));
         begin = end;
     }
-    return fields;
 }
 
 bool parseNumber(std::string_view field, double& value)
@@ -75,7 +82,9 @@ std::string_view trimmed(std::string_view text)
 
 bool isAtomRecord(std::string_view line)
 {
-    return line.substr(0, 4) == "ATOM" || line.substr(0, 6) == "HETATM";
+    if (line.substr(0, 6) == "HETATM") return true;
+    return line.substr(0, 4) == "ATOM" && line.size() > 4 &&
+           (isBlank(line[4]) || std::isdigit(static_cast<unsigned char>(line[4])));
 }
 
 std::string inQuotes(std::string_view text)

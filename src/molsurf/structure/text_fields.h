@@ -34,6 +34,9 @@ using Fields = std::vector<std::string_view>;
 /// Fields of a line that are separated by blanks or tabs.
 Fields splitFields(std::string_view line);
 
+/// The same into a list that keeps its memory from line to line.
+void splitFields(std::string_view line, Fields& fields);
+
 /// Reads a decimal number that fills the whole field; a leading '+' is allowed, and so are nan and
 /// inf. False, and `value` as it was, if the field holds anything else.
 bool parseNumber(std::string_view field, double& value);
@@ -44,7 +47,8 @@ bool parseInteger(std::string_view field, int& value);
 /// Without the blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// True for an ATOM or HETATM line of a PDB or PQR file.
+/// True for an ATOM or HETATM line of a PDB or PQR file; the serial number may be glued to the
+/// name.
 bool isAtomRecord(std::string_view line);
 
 /// A text for an error message: in quotes, one line, at most 60 characters.
