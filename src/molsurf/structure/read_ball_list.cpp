@@ -38,7 +38,7 @@ bool isDigitOrPoint(char c)
 }
 
 /// Splits numbers that a minus sign glues together: "-36.576-112.088" -> "-36.576" "-112.088".
-/// @param[in] begin  first field that may be such a number
+/// @param[in] begin  first field that may be such a number: the residue number
 Fields splitGlued(const Fields& fields, std::size_t begin)
 {
     Fields parts(fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(begin));
@@ -193,7 +193,7 @@ Structure readPqr(const std::string& text, const std::string& path)
         constexpr std::size_t leftColumns = 4; // serial, atom, residue, number
         constexpr std::size_t columns = leftColumns + names.size();
         if (fields.size() < columns) {
-            fields = splitGlued(fields, std::min(leftColumns, fields.size()));
+            fields = splitGlued(fields, std::min(leftColumns - 1, fields.size()));
         }
         if (fields.size() < columns) {
             fail(place, "expected 10 or 11 columns, the last ones x y z charge radius, got " +
