@@ -94,6 +94,18 @@ TEST(Assembly, CopyByCopyAndOnlyItsChains)
     EXPECT_EQ(selection.drops[0].count, 1u);
 }
 
+TEST(Assembly, TurnsThenShifts)
+{
+    Operator op{}; // (x, y, z) -> (10 - y, 20 + z, 30 - x), not its own inverse
+    op.rotation[0][1] = -1;
+    op.rotation[1][2] = 1;
+    op.rotation[2][0] = -1;
+    op.translation = openvdb::Vec3d(10, 20, 30);
+    Structure s = threeChains();
+    s.assemblies = {{"1", {{{"A"}, {op}}}, ""}};
+    EXPECT_EQ(selectBalls(s, assembly("1")).balls.at(0).center, openvdb::Vec3f(8, 23, 29));
+}
+
 TEST(Assembly, WithoutChainsMeansAll)
 {
     Structure s = threeChains();

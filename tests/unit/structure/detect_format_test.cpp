@@ -24,6 +24,8 @@ TEST(DetectFormat, ContentDecidesBeforeTheName)
 TEST(DetectFormat, TellsPqrFromPdb)
 {
     EXPECT_EQ(detectFormat("-", pqrAtom), StructureFormat::Pqr);
+    EXPECT_EQ(detectFormat("-", "ATOM 1 N NTE 544 -13.3 3.0 35.8 -0.10 1.80\n"),
+              StructureFormat::Pqr);
     EXPECT_EQ(detectFormat("-", pdbAtom), StructureFormat::Pdb);
     EXPECT_EQ(detectFormat("-", bareAtom), StructureFormat::Pdb);
     EXPECT_EQ(detectFormat("a.PQR.gz", bareAtom), StructureFormat::Pqr);
