@@ -3,13 +3,12 @@
 
 #include "molsurf/core/error.h"
 #include "molsurf/selection/choose_locations.h"
+#include "molsurf/selection/expand_assembly.h"
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/selection/radii.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -28,20 +27,6 @@ using Indices = std::vector<std::int32_t>;
 const Residue& residueOf(const Structure& structure, const Atom& atom)
 {
     return structure.residues[static_cast<std::size_t>(atom.residue)];
-}
-
-/// "1, 2, 3, ..." of at most `longest` names.
-template<typename Names>
-std::string joined(const Names& names, std::size_t longest = 20)
-{
-    std::string text;
-    std::size_t count = 0;
-    for (const auto& name : names) {
-        if (count > 0) text += ", ";
-        if (count++ == longest) return text + "...";
-        text += name;
-    }
-    return text;
 }
 
 /// The model that the option and the selection name.
@@ -123,8 +108,8 @@ void chooseAltloc(const Structure& structure, const std::string& altloc, Filter&
         out.warnings.push_back("alternate location " + altloc +
                                ": the selected atoms have no alternate locations");
     } else if (labels.count(altloc) == 0) {
-        failInput(structure,
-                  "alternate location " + inQuotes(altloc) + ": expected one of " + joined(labels));
+        failInput(structure, "alternate location " + inQuotes(altloc) + ": expected one of " +
+                                 joined({labels.begin(), labels.end()}));
     }
     filter.drop("alternate location", [&](std::int32_t i) {
         const char label = structure.atoms[static_cast<std::size_t>(i)].altloc;
@@ -194,76 +179,6 @@ std::vector<Ball> makeBalls(const Structure& structure, const SelectOptions& opt
     }
     filter.note("zero radius", radii.size() - balls.size());
     return balls;
-}
-
-const Assembly& findAssembly(const Structure& structure, const std::string& name)
-{
-    std::vector<std::string> names;
-    for (const Assembly& assembly : structure.assemblies) {
-        names.push_back(assembly.name);
-        if (assembly.name != name) continue;
-        if (assembly.problem.empty()) return assembly;
-        failInput(structure, "assembly " + inQuotes(name) + ": " + assembly.problem);
-    }
-    failInput(structure, "assembly " + inQuotes(name) + ": expected " +
-                             (names.empty() ? "none: the file describes no assembly"
-                                            : "one of " + joined(names)));
-}
-
-/// The balls whose chains a part of an assembly lists.
-std::vector<Ball> ballsOfPart(const Structure& structure, const AssemblyPart& part,
-                              const std::vector<Ball>& balls, std::vector<char>& used)
-{
-    const std::set<std::string> names(part.chains.begin(), part.chains.end());
-    std::vector<char> listed;
-    for (const std::string& asym : structure.asyms) {
-        listed.push_back(names.empty() || names.count(asym) != 0);
-    }
-    std::vector<Ball> chosen;
-    for (std::size_t i = 0; i < balls.size(); ++i) {
-        const Atom& atom = structure.atoms[static_cast<std::size_t>(balls[i].atom)];
-        if (!listed[static_cast<std::size_t>(residueOf(structure, atom).asym)]) continue;
-        chosen.push_back(balls[i]);
-        used[i] = 1;
-    }
-    return chosen;
-}
-
-void appendCopy(const Structure& structure, const Operator& op, const std::vector<Ball>& balls,
-                std::vector<Ball>& out)
-{
-    const auto& r = op.rotation;
-    for (const Ball& ball : balls) {
-        const auto& p = structure.atoms[static_cast<std::size_t>(ball.atom)].position;
-        const openvdb::Vec3d center(r[0][0] * p[0] + r[0][1] * p[1] + r[0][2] * p[2],
-                                    r[1][0] * p[0] + r[1][1] * p[1] + r[1][2] * p[2],
-                                    r[2][0] * p[0] + r[2][1] * p[1] + r[2][2] * p[2]);
-        out.push_back({openvdb::Vec3f(center + op.translation), ball.radius, ball.atom});
-    }
-}
-
-/// Puts the copies of `balls` into out.balls.
-void expand(const Structure& structure, const Assembly& assembly, const std::vector<Ball>& balls,
-            Filter& filter, BallSelection& out)
-{
-    std::vector<char> used(balls.size());
-    std::vector<std::vector<Ball>> parts;
-    std::size_t total = 0;
-    for (const AssemblyPart& part : assembly.parts) {
-        parts.push_back(ballsOfPart(structure, part, balls, used));
-        total += parts.back().size() * part.operators.size();
-    }
-    out.balls.reserve(total);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (parts[i].empty()) continue;
-        for (const Operator& op : assembly.parts[i].operators) {
-            out.copyBegin.push_back(out.balls.size());
-            appendCopy(structure, op, parts[i], out.balls);
-        }
-    }
-    out.copies = out.copyBegin.size();
-    filter.note("not in the assembly",
-                static_cast<std::size_t>(std::count(used.begin(), used.end(), char{0})));
 }
 
 /// Refuses a molecule that no grid can hold.
@@ -337,12 +252,15 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
     applyFilters(structure, options, match, filter, out);
     std::vector<Ball> balls = makeBalls(structure, options, filter, out);
     if (options.assembly == "none") {
-        out.copyBegin.push_back(0);
         out.balls = std::move(balls);
+        out.copyBegin = {0, out.balls.size()};
     } else {
-        expand(structure, findAssembly(structure, options.assembly), balls, filter, out);
+        ExpandedBalls expanded = expandAssembly(structure, options.assembly, balls);
+        filter.note("not in the assembly", expanded.unused);
+        out.balls = std::move(expanded.balls);
+        out.copyBegin = std::move(expanded.copyBegin);
+        out.copies = out.copyBegin.size() - 1;
     }
-    out.copyBegin.push_back(out.balls.size());
     if (out.balls.empty()) {
         failInput(structure, "nothing is left of " + std::to_string(model.end - model.begin) +
                                  " atoms: dropped " + describeDrops(out.drops));

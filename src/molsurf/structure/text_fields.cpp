@@ -97,6 +97,17 @@ std::string inQuotes(std::string_view text)
     return "\"" + shown + (trimmed(text).size() > longest ? "...\"" : "\"");
 }
 
+std::string joined(const std::vector<std::string>& names, std::size_t longest)
+{
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i > 0) text += ", ";
+        if (i == longest) return text + "...";
+        text += names[i];
+    }
+    return text;
+}
+
 std::string displayName(const std::string& path)
 {
     return path == "-" ? "standard input" : path;

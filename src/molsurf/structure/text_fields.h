@@ -54,6 +54,9 @@ bool isAtomRecord(std::string_view line);
 /// A text for an error message: in quotes, one line, at most 60 characters.
 std::string inQuotes(std::string_view text);
 
+/// "1, 2, 3, ...": at most `longest` names.
+std::string joined(const std::vector<std::string>& names, std::size_t longest = 20);
+
 /// The path for a message; "standard input" for "-".
 std::string displayName(const std::string& path);
 
