@@ -8,7 +8,8 @@
 
 #include <cstdint>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// An atom, or a bead that stands for several, as a ball.
 struct Ball {

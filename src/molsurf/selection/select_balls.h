@@ -7,47 +7,65 @@
 #include "molsurf/selection/ball.h"
 #include "molsurf/structure/structure.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// Which atoms are used, and how large they are.
 struct SelectOptions {
-    std::string select;              ///< gemmi selections joined by '|'; empty: all atoms
-    int model = 0;                   ///< number in the file; 0: the first model
-    std::string assembly = "none";   ///< name in the file, or "none": the coordinates as they stand
-    std::string altloc;              ///< "": the highest occupancy; "A": that label; "all"
-    bool hydrogens = true;           ///< keep the hydrogens of the file
-    bool hetero = true;              ///< keep ligands and ions
-    bool waters = false;             ///< keep waters
-    std::string radii = "bondi";     ///< name of a set, or the path of a radii file
+    std::string select;            ///< gemmi selections joined by '|', see matchAtoms(); empty: all
+    int model = 0;                 ///< number in the file; 0: that of the selection, or the first
+    std::string assembly = "none"; ///< name in the file, or "none": the coordinates as they stand
+    std::string altloc;            ///< "": the highest occupancy; "A": blank and that label; "all"
+    bool hydrogens = true;         ///< keep the hydrogens (and deuterium) of the file
+    bool hetero = true;            ///< keep ligands and ions
+    bool waters = false;           ///< keep waters
+    std::string radii = "bondi";   ///< name of a set, or the path of a radii file, see readRadii()
 };
 
 /// Atoms left out for one reason.
 struct Drop {
-    std::string reason; ///< "water", "hydrogen", "alternate location", "dummy", "zero radius", ...
+    std::string reason; ///< "not selected", "water", "ligand or ion", "hydrogen", "dummy",
+                        ///< "alternate location", "zero radius", "not in the assembly"
     std::size_t count;
 };
 
 /// The balls, and what was done to get them.
 struct BallSelection {
     std::vector<Ball> balls;
-    std::vector<Drop> drops;           ///< counted before the assembly is expanded
-    std::size_t copies = 1;            ///< assembly operators applied, 1 without an assembly
-    std::vector<std::string> warnings; ///< one line each: unknown elements, missing altloc, ...
+    std::vector<Drop> drops;            ///< counted in one model, before the assembly is expanded
+    std::size_t copies = 1;             ///< assembly operators applied, 1 without an assembly
+    std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
+    int model = 0;                      ///< number of the model that was used
+    std::vector<std::string> warnings;  ///< one line each: unknown elements, missing altloc, ...
 };
 
 /// Chooses atoms, gives them radii, and applies the operators of the assembly.
 ///
-/// The order of the balls is that of the file, copy by copy. Every ball's `atom` is the index of
-/// its atom in Structure::atoms.
+/// The order of the balls is that of the file, copy by copy: a copy is one operator applied to the
+/// chains that share it. Every ball's `atom` is the index of its atom in Structure::atoms.
 ///
-/// @throws Error(ErrorKind::Input) if nothing is selected, or if the model, the assembly or the
-///         radii file does not exist
-/// @throws Error(ErrorKind::Usage) if the selection cannot be parsed, or if radii are asked for a
-///         file that has its own
+/// Of alternate locations, by default, each atom of a residue keeps the one of highest occupancy.
+/// On a tie the label with the highest mean occupancy in that residue wins, then the first in the
+/// file, so a residue with equal alternatives keeps one conformer. Where the alternatives are
+/// different residues, one of them is kept, by the same rule.
+///
+/// Radii of .pqr and .xyzr come from the file; options.radii must then be "bondi", its default.
+///
+/// @throws Error(ErrorKind::Input) if nothing is selected or nothing is left, if the model, the
+///         alternate location, the assembly or the radii file does not exist, or if the molecule is
+///         larger than 1e6 Å
+/// @throws Error(ErrorKind::Usage) if the selection cannot be parsed or names another model than
+///         options.model, if options.altloc is no label, or if radii are asked for a file that has
+///         its own
 BallSelection selectBalls(const Structure& structure, const SelectOptions& options);
+
+/// One line that says what was read, used and dropped, by kind and count:
+/// "1a8o.cif.gz: mmCIF, 1 model, 644 atoms; used 1112 balls (2 copies); dropped 88 water".
+std::string describeSelection(const Structure& structure, const BallSelection& selection);
 
 /// The built-in radii sets, one paragraph each: name, source, and the radii by element [Å].
 std::string describeRadii();

@@ -8,14 +8,26 @@
 
 #include <string>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// Reads a structure.
 ///
-/// The format follows the extension; for standard input ("-") it is found from the content.
-/// Columns 73-80 of pre-1992 PDB files, which hold the entry name and a line number, are ignored.
+/// The format is found from the content; the extension decides only where the content leaves a
+/// choice (PDB or PQR). gzip is known by its first bytes, whatever the name.
 ///
-/// @throws Error(ErrorKind::Input) if the file does not exist, is a folder, is empty or is cut short,
+/// What is accepted beyond the format descriptions:
+/// - PDB: columns 73-80 of pre-1992 files, which hold the entry name and a line number, are
+///   ignored. Atoms after the first END are ignored with a warning. Hybrid-36 numbers are read.
+///   In standard residues an element that no such residue has (a CA in column 13) is corrected.
+/// - mmCIF: label_alt_id, occupancy, B_iso_or_equiv and auth_seq_id may be missing.
+/// - PQR: columns are separated by blanks, the chain column is optional, numbers may be glued by
+///   a minus sign. END and TER do not end the file, so files may be concatenated.
+/// - xyzr: the last four columns are x y z r. Three columns before them are chain, residue number
+///   and atom name; any other number of leading columns is ignored. '#' starts a comment line.
+///
+/// @throws Error(ErrorKind::Input) if the file does not exist, is a folder, is empty or is cut
+/// short,
 ///         is not a structure, has no model or no atom, or has a coordinate that is not finite or
 ///         lies beyond 1e6 Å
 Structure readStructure(const std::string& path);

@@ -8,20 +8,23 @@
 #include <openvdb/Types.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// A residue's identity, and what decides whether its atoms are kept.
 struct Residue {
-    std::string name;       ///< "ALA", "HOH"
-    std::int32_t chain;     ///< index into Structure::chains
-    std::int32_t number;    ///< sequence number in the file
-    char insertionCode;     ///< ' ' if none
-    bool water;
-    bool hetero;            ///< ligand or ion: not water, and not part of a polymer chain
+    std::string name;    ///< "ALA", "HOH"
+    std::int32_t chain;  ///< index into Structure::chains: the author's name
+    std::int32_t asym;   ///< index into Structure::asyms: the name that assemblies use
+    std::int32_t number; ///< sequence number in the file
+    char insertionCode;  ///< ' ' if none
+    bool water;          ///< by its name: HOH, WAT, DOD, TIP3, SOL, ...
+    bool hetero;         ///< ligand or ion: not water, and not part of a polymer chain
 };
 
 /// One atom.
@@ -44,7 +47,7 @@ struct Operator {
 
 /// Some chains and the operators that make their copies.
 struct AssemblyPart {
-    std::vector<std::string> chains; ///< names as in the file: label_asym_id in mmCIF
+    std::vector<std::string> chains; ///< as in Structure::asyms; empty: all
     std::vector<Operator> operators; ///< products already multiplied out
 };
 
@@ -52,6 +55,7 @@ struct AssemblyPart {
 struct Assembly {
     std::string name; ///< "1"
     std::vector<AssemblyPart> parts;
+    std::string problem; ///< why it cannot be built; empty if it can
 };
 
 /// Atoms [begin, end) of one model.
@@ -62,14 +66,16 @@ struct Model {
 
 /// A file's content.
 struct Structure {
-    std::string source; ///< file name, or "-" for standard input
+    std::string source; ///< file name without folder, or "-" for standard input
     std::string format; ///< "PDB", "mmCIF", "PQR", "xyzr"
     std::vector<Model> models;
     std::vector<Atom> atoms;
     std::vector<Residue> residues;
-    std::vector<std::string> chains;
+    std::vector<std::string> chains; ///< author's names (auth_asym_id in mmCIF)
+    std::vector<std::string> asyms;  ///< label_asym_id in mmCIF; elsewhere the same as chains
     std::vector<Assembly> assemblies;
-    bool hasRadii = false; ///< true if every atom has the file's own radius
+    bool hasRadii = false;             ///< true if every atom has the file's own radius
+    std::vector<std::string> warnings; ///< one line each: parts of the file that were ignored
 };
 
 } // namespace molsurf

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/selection/choose_locations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+namespace molsurf
+{
+namespace
+{
+
+using Indices = std::vector<std::int32_t>;
+
+const Atom& atomAt(const Structure& structure, std::int32_t index)
+{
+    return structure.atoms[static_cast<std::size_t>(index)];
+}
+
+const Residue& residueOf(const Structure& structure, const Atom& atom)
+{
+    return structure.residues[static_cast<std::size_t>(atom.residue)];
+}
+
+/// True for the alternatives of one residue, which may have different names.
+bool isSameSite(const Residue& a, const Residue& b)
+{
+    return a.chain == b.chain && a.number == b.number && a.insertionCode == b.insertionCode;
+}
+
+/// Mean occupancy of the atoms that share a label or a residue.
+struct Mean {
+    double sum = 0;
+    int count = 0;
+    std::size_t order = 0; ///< of first appearance
+};
+
+template<typename Key>
+void addTo(std::map<Key, Mean>& means, const Key& key, float occupancy)
+{
+    Mean& mean = means.emplace(key, Mean{0, 0, means.size()}).first->second;
+    mean.sum += occupancy;
+    ++mean.count;
+}
+
+/// In steps of the last decimal that files have, so that rounding does not decide.
+long roundedMean(const Mean& mean)
+{
+    constexpr double steps = 1e4;
+    return std::lround(steps * mean.sum / mean.count);
+}
+
+/// Keys by descending mean occupancy, then by order of appearance.
+template<typename Key>
+std::map<Key, std::size_t> ranked(const std::map<Key, Mean>& means)
+{
+    std::vector<std::pair<Key, Mean>> sorted(means.begin(), means.end());
+    std::sort(sorted.begin(), sorted.end(),
+              [](const auto& a, const auto& b) { return a.second.order < b.second.order; });
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+        return roundedMean(a.second) > roundedMean(b.second);
+    });
+    std::map<Key, std::size_t> ranks;
+    for (std::size_t i = 0; i < sorted.size(); ++i) ranks[sorted[i].first] = i;
+    return ranks;
+}
+
+/// Marks the atoms [begin, end) of one site that are kept.
+void chooseInResidue(const Structure& structure, const Indices& atoms, std::size_t begin,
+                     std::size_t end, std::vector<char>& keep)
+{
+    std::map<char, Mean> labels;
+    std::map<std::int32_t, Mean> residues;
+    for (std::size_t i = begin; i < end; ++i) {
+        const Atom& atom = atomAt(structure, atoms[i]);
+        if (atom.altloc == '\0') continue;
+        addTo(labels, atom.altloc, atom.occupancy);
+        addTo(residues, atom.residue, atom.occupancy);
+    }
+    const auto labelRank = ranked(labels);
+    const auto residueRank = ranked(residues);
+    std::map<std::string, std::size_t> best; // position in `atoms` by atom name
+    for (std::size_t i = begin; i < end; ++i) {
+        const Atom& atom = atomAt(structure, atoms[i]);
+        keep[i] = atom.altloc == '\0';
+        if (keep[i] || residueRank.at(atom.residue) != 0) continue;
+        const auto found = best.emplace(atom.name, i);
+        if (found.second) continue;
+        const Atom& rival = atomAt(structure, atoms[found.first->second]);
+        const bool better = atom.occupancy != rival.occupancy
+                                ? atom.occupancy > rival.occupancy
+                                : labelRank.at(atom.altloc) < labelRank.at(rival.altloc);
+        if (better) found.first->second = i;
+    }
+    for (const auto& chosen : best) keep[chosen.second] = 1;
+}
+
+} // namespace
+
+std::size_t keepHighestOccupancy(const Structure& structure, Indices& atoms)
+{
+    std::vector<char> keep(atoms.size(), 1);
+    for (std::size_t begin = 0; begin < atoms.size();) {
+        const Residue& first = residueOf(structure, atomAt(structure, atoms[begin]));
+        std::size_t end = begin;
+        bool alternatives = false;
+        for (; end < atoms.size(); ++end) {
+            const Atom& atom = atomAt(structure, atoms[end]);
+            if (!isSameSite(first, residueOf(structure, atom))) break;
+            alternatives = alternatives || atom.altloc != '\0';
+        }
+        if (alternatives) chooseInResidue(structure, atoms, begin, end, keep);
+        begin = end;
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < atoms.size(); ++i) {
+        if (keep[i]) atoms[kept++] = atoms[i];
+    }
+    const std::size_t dropped = atoms.size() - kept;
+    atoms.resize(kept);
+    return dropped;
+}
+
+} // namespace molsurf

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/selection/expand_assembly.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/structure/text_fields.h"
+
+#include <algorithm>
+#include <set>
+
+namespace molsurf
+{
+namespace
+{
+
+[[noreturn]] void fail(const Structure& structure, const std::string& name, const std::string& what)
+{
+    throw Error(ErrorKind::Input,
+                displayName(structure.source) + ": assembly " + inQuotes(name) + ": " + what);
+}
+
+const Assembly& findAssembly(const Structure& structure, const std::string& name)
+{
+    std::vector<std::string> names;
+    for (const Assembly& assembly : structure.assemblies) {
+        names.push_back(assembly.name);
+        if (assembly.name != name) continue;
+        if (assembly.problem.empty()) return assembly;
+        fail(structure, name, assembly.problem);
+    }
+    fail(structure, name,
+         "expected " +
+             (names.empty() ? "none: the file describes no assembly" : "one of " + joined(names)));
+}
+
+/// The balls whose chains a part of an assembly lists.
+std::vector<Ball> ballsOfPart(const Structure& structure, const AssemblyPart& part,
+                              const std::vector<Ball>& balls, std::vector<char>& used)
+{
+    const std::set<std::string> names(part.chains.begin(), part.chains.end());
+    std::vector<char> listed;
+    for (const std::string& asym : structure.asyms) {
+        listed.push_back(names.empty() || names.count(asym) != 0);
+    }
+    std::vector<Ball> chosen;
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        const Atom& atom = structure.atoms[static_cast<std::size_t>(balls[i].atom)];
+        const Residue& residue = structure.residues[static_cast<std::size_t>(atom.residue)];
+        if (!listed[static_cast<std::size_t>(residue.asym)]) continue;
+        chosen.push_back(balls[i]);
+        used[i] = 1;
+    }
+    return chosen;
+}
+
+void appendCopy(const Structure& structure, const Operator& op, const std::vector<Ball>& balls,
+                std::vector<Ball>& out)
+{
+    const auto& r = op.rotation;
+    for (const Ball& ball : balls) {
+        const auto& p = structure.atoms[static_cast<std::size_t>(ball.atom)].position;
+        const openvdb::Vec3d center(r[0][0] * p[0] + r[0][1] * p[1] + r[0][2] * p[2],
+                                    r[1][0] * p[0] + r[1][1] * p[1] + r[1][2] * p[2],
+                                    r[2][0] * p[0] + r[2][1] * p[1] + r[2][2] * p[2]);
+        out.push_back({openvdb::Vec3f(center + op.translation), ball.radius, ball.atom});
+    }
+}
+
+} // namespace
+
+ExpandedBalls expandAssembly(const Structure& structure, const std::string& name,
+                             const std::vector<Ball>& balls)
+{
+    const Assembly& assembly = findAssembly(structure, name);
+    ExpandedBalls out;
+    std::vector<char> used(balls.size());
+    std::vector<std::vector<Ball>> parts;
+    std::size_t total = 0;
+    for (const AssemblyPart& part : assembly.parts) {
+        parts.push_back(ballsOfPart(structure, part, balls, used));
+        total += parts.back().size() * part.operators.size();
+    }
+    out.balls.reserve(total);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (parts[i].empty()) continue;
+        for (const Operator& op : assembly.parts[i].operators) {
+            out.copyBegin.push_back(out.balls.size());
+            appendCopy(structure, op, parts[i], out.balls);
+        }
+    }
+    out.copyBegin.push_back(out.balls.size());
+    out.unused = static_cast<std::size_t>(std::count(used.begin(), used.end(), char{0}));
+    return out;
+}
+
+} // namespace molsurf

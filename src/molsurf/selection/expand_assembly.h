@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The copies that make a biological assembly.
+
+#include "molsurf/selection/ball.h"
+#include "molsurf/structure/structure.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// The balls of an assembly, copy by copy.
+struct ExpandedBalls {
+    std::vector<Ball> balls;
+    std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
+    std::size_t unused = 0;             ///< balls that no part of the assembly lists
+};
+
+/// Applies the operators of an assembly to the balls whose chains it lists.
+///
+/// Centres are computed in double precision from the atoms' positions. A part of the assembly none
+/// of whose chains has a ball makes no copy.
+///
+/// @param[in] balls  in the coordinates of the file
+/// @throws Error(ErrorKind::Input) if the file describes no such assembly, or if it cannot be built
+ExpandedBalls expandAssembly(const Structure& structure, const std::string& name,
+                             const std::vector<Ball>& balls);
+
+} // namespace molsurf

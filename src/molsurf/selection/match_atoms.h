@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Selections of atoms by an expression.
+
+#include "molsurf/structure/structure.h"
+
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// What an expression selects.
+struct AtomMatch {
+    std::vector<char> atoms;           ///< 1 if selected, by index in Structure::atoms
+    std::vector<int> models;           ///< model number of each alternative; 0: any
+    std::vector<std::string> warnings; ///< alternatives that match nothing, while others do
+};
+
+/// Evaluates gemmi's (MMDB's) selection syntax, alternatives joined by '|':
+/// "/1/A/53-132/CA[C]:A", "A,B", "(ALA,GLY)", "A;b<5", "*;polymer", "*;!solvent". Chains are named
+/// as in Structure::chains. [H] selects deuterium too, [D] nothing. "polymer" is what is neither
+/// water nor hetero, "solvent" is water. All models are searched.
+///
+/// @throws Error(ErrorKind::Usage) if the expression does not parse
+/// @throws Error(ErrorKind::Input) if it matches no atom
+AtomMatch matchAtoms(const Structure& structure, const std::string& expression);
+
+} // namespace molsurf

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/selection/radii.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/selection/select_balls.h"
+#include "molsurf/structure/load_text.h"
+#include "molsurf/structure/text_fields.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+
+namespace molsurf
+{
+namespace
+{
+
+using std::string_view;
+
+/// Radii as text: "H 1.20 C 1.70".
+struct Table {
+    string_view text;
+};
+
+// A. Bondi, van der Waals volumes and radii, J. Phys. Chem. 68 (1964) 441, doi 10.1021/j100785a001.
+constexpr Table bondi{"H 1.20 He 1.40 Li 1.82 C 1.70 N 1.55 O 1.52 F 1.47 Ne 1.54 Na 2.27 Mg 1.73 "
+                      "Si 2.10 P 1.80 S 1.80 Cl 1.75 Ar 1.88 K 2.75 Ni 1.63 Cu 1.40 Zn 1.39 "
+                      "Ga 1.87 As 1.85 Se 1.90 Br 1.85 Kr 2.02 Pd 1.63 Ag 1.72 Cd 1.58 In 1.93 "
+                      "Sn 2.17 Te 2.06 I 1.98 Xe 2.16 Pt 1.75 Au 1.66 Hg 1.55 Tl 1.96 Pb 2.02 "
+                      "U 1.86"};
+
+// M. Mantina et al., Consistent van der Waals radii for the whole main group, J. Phys. Chem. A 113
+// (2009) 5806, doi 10.1021/jp8111556, table 12: only the elements that Bondi lacks.
+constexpr Table mantina{"Be 1.53 B 1.92 Al 1.84 Ca 2.31 Ge 2.11 Rb 3.03 Sr 2.49 Sb 2.06 Cs 3.43 "
+                        "Ba 2.68 Bi 2.07 Po 1.97 At 2.02 Rn 2.20 Fr 3.48 Ra 2.83"};
+
+// S. Alvarez, A cartography of the van der Waals territories, Dalton Trans. 42 (2013) 8617,
+// doi 10.1039/c3dt50599e.
+constexpr Table alvarez{
+    "H 1.20 He 1.43 Li 2.12 Be 1.98 B 1.91 C 1.77 N 1.66 O 1.50 F 1.46 Ne 1.58 Na 2.50 Mg 2.51 "
+    "Al 2.25 Si 2.19 P 1.90 S 1.89 Cl 1.82 Ar 1.83 K 2.73 Ca 2.62 Sc 2.58 Ti 2.46 V 2.42 Cr 2.45 "
+    "Mn 2.45 Fe 2.44 Co 2.40 Ni 2.40 Cu 2.38 Zn 2.39 Ga 2.32 Ge 2.29 As 1.88 Se 1.82 Br 1.86 "
+    "Kr 2.25 Rb 3.21 Sr 2.84 Y 2.75 Zr 2.52 Nb 2.56 Mo 2.45 Tc 2.44 Ru 2.46 Rh 2.44 Pd 2.15 "
+    "Ag 2.53 Cd 2.49 In 2.43 Sn 2.42 Sb 2.47 Te 1.99 I 2.04 Xe 2.06 Cs 3.48 Ba 3.03 La 2.98 "
+    "Ce 2.88 Pr 2.92 Nd 2.95 Sm 2.90 Eu 2.87 Gd 2.83 Tb 2.79 Dy 2.87 Ho 2.81 Er 2.83 Tm 2.79 "
+    "Yb 2.80 Lu 2.74 Hf 2.63 Ta 2.53 W 2.57 Re 2.49 Os 2.48 Ir 2.41 Pt 2.29 Au 2.32 Hg 2.45 "
+    "Tl 2.47 Pb 2.60 Bi 2.54 Ac 2.80 Th 2.93 Pa 2.88 U 2.71 Np 2.82 Pu 2.81 Am 2.83 Cm 3.05 "
+    "Bk 3.40 Cf 3.05 Es 2.70"};
+
+/// Sets the radii of a table where there are none yet.
+void fill(ElementRadii& radii, const Table& table)
+{
+    const Fields fields = splitFields(table.text);
+    for (std::size_t i = 0; i + 1 < fields.size(); i += 2) {
+        double radius = 0;
+        parseNumber(fields[i + 1], radius);
+        float& entry = radii[elementNumber(std::string(fields[i]))];
+        if (entry == 0) entry = static_cast<float>(radius);
+    }
+}
+
+RadiiSet bondiSet()
+{
+    RadiiSet set;
+    set.name = "bondi";
+    fill(set.elements, bondi);
+    fill(set.elements, mantina);
+    fill(set.elements, alvarez);
+    return set;
+}
+
+RadiiSet alvarezSet()
+{
+    RadiiSet set;
+    set.name = "alvarez";
+    fill(set.elements, alvarez);
+    return set;
+}
+
+RadiiSet gemmiSet()
+{
+    constexpr std::uint8_t lastMeasured = 103; // gemmi has 1.00 for all heavier elements
+    RadiiSet set;
+    set.name = "gemmi";
+    for (std::uint8_t z = 1; z <= lastMeasured; ++z) set.elements[z] = gemmiRadius(z);
+    return set;
+}
+
+void addRule(RadiiSet& set, const Fields& fields, const std::string& place)
+{
+    auto fail = [&](const std::string& what) { throw Error(ErrorKind::Input, place + what); };
+    constexpr double largest = 100; // [Å], a coarse bead
+    if (fields.size() != 2 && fields.size() != 3) {
+        fail("expected ELEMENT RADIUS or RESIDUE ATOM RADIUS, got " +
+             std::to_string(fields.size()) + " columns");
+    }
+    double radius = 0;
+    if (!parseNumber(fields.back(), radius) || !(radius >= 0 && radius <= largest)) {
+        fail("radius: expected 0 to 100 Å, got " + inQuotes(fields.back()));
+    }
+    const auto value = static_cast<float>(radius);
+    if (fields.size() == 3) {
+        set.atoms[{std::string(fields[0]), std::string(fields[1])}] = value;
+        return;
+    }
+    // A radius of 0 is a rule too; find() tells it from "none" by the sign.
+    const float stored = value > 0 ? value : -1.0f;
+    const std::uint8_t element = elementNumber(std::string(fields[0]));
+    if (fields[0] == "*") {
+        set.otherwise = stored;
+    } else if (element == 0) {
+        fail("element: expected a symbol such as C or ZN, or *, got " + inQuotes(fields[0]));
+    } else {
+        set.elements[element] = stored;
+    }
+}
+
+RadiiSet readFile(const std::string& path)
+{
+    const std::string text = loadText(path);
+    RadiiSet set;
+    set.name = path;
+    for (LineReader lines(text); lines.next();) {
+        const Fields fields = splitFields(lines.line().substr(0, lines.line().find('#')));
+        if (fields.empty()) continue;
+        addRule(set, fields, path + ": line " + std::to_string(lines.number()) + ": ");
+    }
+    return set;
+}
+
+std::string describe(const RadiiSet& set, const char* source)
+{
+    std::string text = set.name + ": " + source;
+    constexpr int perLine = 10;
+    int column = 0;
+    for (std::size_t z = 1; z < set.elements.size(); ++z) {
+        if (set.elements[z] == 0) continue;
+        char entry[16];
+        std::snprintf(entry, sizeof entry, "%2s %.2f", elementSymbol(static_cast<std::uint8_t>(z)),
+                      static_cast<double>(set.elements[z]));
+        text += (column++ % perLine == 0 ? "\n  " : "  ");
+        text += entry;
+    }
+    return text + "\n";
+}
+
+} // namespace
+
+float RadiiSet::find(const std::string& residue, const std::string& atom,
+                     std::uint8_t element) const
+{
+    constexpr float none = -1.0f;
+    if (!atoms.empty()) {
+        for (const std::string& name : {residue, std::string("*")}) {
+            const auto found = atoms.find({name, atom});
+            if (found != atoms.end()) return found->second;
+        }
+    }
+    const float radius = element != 0 && elements[element] != 0 ? elements[element] : otherwise;
+    if (radius == 0) return none;
+    return radius < 0 ? 0 : radius;
+}
+
+RadiiSet readRadii(const std::string& name)
+{
+    if (name == "bondi") return bondiSet();
+    if (name == "alvarez") return alvarezSet();
+    if (name == "gemmi") return gemmiSet();
+    std::error_code status;
+    if (!std::filesystem::exists(name, status)) {
+        throw Error(ErrorKind::Input,
+                    "radii: expected bondi, alvarez, gemmi or a file that exists, got " +
+                        inQuotes(name));
+    }
+    return readFile(name);
+}
+
+std::string describeRadii()
+{
+    return describe(
+               bondiSet(),
+               "A. Bondi, J. Phys. Chem. 68 (1964) 441; what it lacks from\n"
+               "  M. Mantina et al., J. Phys. Chem. A 113 (2009) 5806, then from alvarez [Å]") +
+           "\n" + describe(alvarezSet(), "S. Alvarez, Dalton Trans. 42 (2013) 8617 [Å]") + "\n" +
+           describe(gemmiSet(), "the table of gemmi: Bondi and Mantina, the others from cctbx;\n"
+                                "  metals are much smaller than in the other sets [Å]");
+}
+
+} // namespace molsurf

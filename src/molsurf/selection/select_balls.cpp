@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/selection/select_balls.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/selection/choose_locations.h"
+#include "molsurf/selection/expand_assembly.h"
+#include "molsurf/selection/match_atoms.h"
+#include "molsurf/selection/radii.h"
+#include "molsurf/structure/text_fields.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace molsurf
+{
+namespace
+{
+
+using Indices = std::vector<std::int32_t>;
+
+[[noreturn]] void failInput(const Structure& structure, const std::string& what)
+{
+    throw Error(ErrorKind::Input, displayName(structure.source) + ": " + what);
+}
+
+const Residue& residueOf(const Structure& structure, const Atom& atom)
+{
+    return structure.residues[static_cast<std::size_t>(atom.residue)];
+}
+
+/// The model that the option and the selection name.
+const Model& chooseModel(const Structure& structure, const SelectOptions& options,
+                         const std::vector<int>& selected)
+{
+    int number = options.model;
+    for (const int named : selected) {
+        if (named != 0 && number != 0 && named != number) {
+            throw Error(ErrorKind::Usage, "selection " + inQuotes(options.select) +
+                                              " names model " + std::to_string(named) +
+                                              ", expected " + std::to_string(number) +
+                                              " [one run uses one model]");
+        }
+        if (named != 0) number = named;
+    }
+    if (number == 0) return structure.models.front();
+    std::vector<std::string> numbers;
+    for (const Model& model : structure.models) {
+        if (model.number == number) return model;
+        numbers.push_back(std::to_string(model.number));
+    }
+    failInput(structure,
+              "model " + std::to_string(number) + ": expected one of " + joined(numbers));
+}
+
+/// Narrows a list of atoms step by step, and keeps the count of what each step takes out.
+class Filter
+{
+public:
+    Filter(const Model& model, BallSelection& out) : out_(out)
+    {
+        for (std::size_t i = model.begin; i < model.end; ++i) {
+            atoms_.push_back(static_cast<std::int32_t>(i));
+        }
+    }
+
+    /// Takes out the atoms for which `isDropped(index)` is true.
+    template<typename Predicate>
+    void drop(const char* reason, Predicate isDropped)
+    {
+        const auto end = std::remove_if(atoms_.begin(), atoms_.end(), isDropped);
+        note(reason, static_cast<std::size_t>(atoms_.end() - end));
+        atoms_.erase(end, atoms_.end());
+    }
+
+    void dropLowerOccupancies(const Structure& structure)
+    {
+        note("alternate location", keepHighestOccupancy(structure, atoms_));
+    }
+
+    void note(const char* reason, std::size_t count)
+    {
+        if (count > 0) out_.drops.push_back({reason, count});
+    }
+
+    const Indices& atoms() const { return atoms_; }
+
+private:
+    BallSelection& out_;
+    Indices atoms_;
+};
+
+void chooseAltloc(const Structure& structure, const std::string& altloc, Filter& filter,
+                  BallSelection& out)
+{
+    if (altloc == "all") return;
+    if (altloc.empty()) return filter.dropLowerOccupancies(structure);
+    if (altloc.size() != 1) {
+        throw Error(ErrorKind::Usage,
+                    "alternate location: expected one character or all, got " + inQuotes(altloc));
+    }
+    std::set<std::string> labels;
+    for (const std::int32_t i : filter.atoms()) {
+        const char label = structure.atoms[static_cast<std::size_t>(i)].altloc;
+        if (label != '\0') labels.emplace(1, label);
+    }
+    if (labels.empty()) {
+        out.warnings.push_back("alternate location " + altloc +
+                               ": the selected atoms have no alternate locations");
+    } else if (labels.count(altloc) == 0) {
+        failInput(structure, "alternate location " + inQuotes(altloc) + ": expected one of " +
+                                 joined({labels.begin(), labels.end()}));
+    }
+    filter.drop("alternate location", [&](std::int32_t i) {
+        const char label = structure.atoms[static_cast<std::size_t>(i)].altloc;
+        return label != '\0' && label != altloc[0];
+    });
+}
+
+/// "Zn (2 atoms), unknown element of atom UNK (1 atom)"
+std::string describeCounts(const std::map<std::string, std::size_t>& counts)
+{
+    std::vector<std::string> parts;
+    for (const auto& [name, count] : counts) {
+        parts.push_back(name + " (" + std::to_string(count) + (count == 1 ? " atom)" : " atoms)"));
+    }
+    return joined(parts);
+}
+
+/// The radius of every chosen atom [Å].
+std::vector<float> findRadii(const Structure& structure, const SelectOptions& options,
+                             const Indices& atoms, std::vector<std::string>& warnings)
+{
+    std::vector<float> radii;
+    radii.reserve(atoms.size());
+    if (structure.hasRadii) {
+        for (const std::int32_t i : atoms) {
+            radii.push_back(structure.atoms[static_cast<std::size_t>(i)].radius);
+        }
+        return radii;
+    }
+    const RadiiSet set = readRadii(options.radii), fallback = readRadii("bondi");
+    std::map<std::string, std::size_t> uncovered, unknown;
+    for (const std::int32_t i : atoms) {
+        const Atom& atom = structure.atoms[static_cast<std::size_t>(i)];
+        const std::string& residue = residueOf(structure, atom).name;
+        float radius = set.find(residue, atom.name, atom.element);
+        if (radius < 0) {
+            radius = fallback.find(residue, atom.name, atom.element);
+            auto& counts = radius < 0 ? unknown : uncovered;
+            ++counts[atom.element != 0 ? elementSymbol(atom.element)
+                                       : "unknown element of atom " + inQuotes(atom.name)];
+        }
+        radii.push_back(radius < 0 ? unknownRadius : radius);
+    }
+    if (!uncovered.empty()) {
+        warnings.push_back("radii " + set.name + " lacks " + describeCounts(uncovered) +
+                           ": bondi was used for them");
+    }
+    if (!unknown.empty()) {
+        warnings.push_back("no radius is known for " + describeCounts(unknown) +
+                           ": 1.70 Å was used");
+    }
+    return radii;
+}
+
+/// The balls in the coordinates of the file.
+std::vector<Ball> makeBalls(const Structure& structure, const SelectOptions& options,
+                            Filter& filter, BallSelection& out)
+{
+    const std::vector<float> radii = findRadii(structure, options, filter.atoms(), out.warnings);
+    std::vector<Ball> balls;
+    balls.reserve(radii.size());
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        const std::int32_t atom = filter.atoms()[i];
+        if (radii[i] <= 0) continue;
+        const auto& position = structure.atoms[static_cast<std::size_t>(atom)].position;
+        balls.push_back({openvdb::Vec3f(position), radii[i], atom});
+    }
+    filter.note("zero radius", radii.size() - balls.size());
+    return balls;
+}
+
+/// Refuses a molecule that no grid can hold.
+void checkExtent(const Structure& structure, const std::vector<Ball>& balls)
+{
+    constexpr double largest = 1e6; // [Å]
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [low, high] =
+            std::minmax_element(balls.begin(), balls.end(), [axis](const Ball& a, const Ball& b) {
+                return a.center[axis] < b.center[axis];
+            });
+        const double extent =
+            static_cast<double>(high->center[axis]) - static_cast<double>(low->center[axis]);
+        if (extent <= largest) continue; // false for NaN
+        failInput(structure, std::string("the molecule's extent in ") + "xyz"[axis] +
+                                 ": expected at most 1e6 Å, got " + std::to_string(extent) +
+                                 " Å [an atom or an assembly operator is wrong]");
+    }
+}
+
+std::string describeDrops(const std::vector<Drop>& drops)
+{
+    std::vector<std::string> parts;
+    for (const Drop& drop : drops) parts.push_back(std::to_string(drop.count) + " " + drop.reason);
+    return joined(parts);
+}
+
+void applyFilters(const Structure& structure, const SelectOptions& options, const AtomMatch& match,
+                  Filter& filter, BallSelection& out)
+{
+    auto atomAt = [&](std::int32_t i) -> const Atom& {
+        return structure.atoms[static_cast<std::size_t>(i)];
+    };
+    auto residueAt = [&](std::int32_t i) -> const Residue& {
+        return residueOf(structure, atomAt(i));
+    };
+    if (!options.select.empty()) {
+        filter.drop("not selected",
+                    [&](std::int32_t i) { return !match.atoms[static_cast<std::size_t>(i)]; });
+    }
+    filter.drop("dummy", [&](std::int32_t i) {
+        return atomAt(i).name == "DUM" || residueAt(i).name == "DUM";
+    });
+    if (!options.waters) filter.drop("water", [&](std::int32_t i) { return residueAt(i).water; });
+    if (!options.hetero) {
+        filter.drop("ligand or ion", [&](std::int32_t i) { return residueAt(i).hetero; });
+    }
+    if (!options.hydrogens) {
+        filter.drop("hydrogen", [&](std::int32_t i) { return atomAt(i).element == 1; });
+    }
+    chooseAltloc(structure, options.altloc, filter, out);
+}
+
+} // namespace
+
+BallSelection selectBalls(const Structure& structure, const SelectOptions& options)
+{
+    if (structure.hasRadii && options.radii != "bondi") {
+        throw Error(ErrorKind::Usage, "radii " + inQuotes(options.radii) +
+                                          ": expected none, since " +
+                                          displayName(structure.source) + " has its own");
+    }
+    const AtomMatch match =
+        options.select.empty() ? AtomMatch() : matchAtoms(structure, options.select);
+    const Model& model = chooseModel(structure, options, match.models);
+    BallSelection out;
+    out.model = model.number;
+    out.warnings = structure.warnings;
+    out.warnings.insert(out.warnings.end(), match.warnings.begin(), match.warnings.end());
+    Filter filter(model, out);
+    applyFilters(structure, options, match, filter, out);
+    std::vector<Ball> balls = makeBalls(structure, options, filter, out);
+    if (options.assembly == "none") {
+        out.balls = std::move(balls);
+        out.copyBegin = {0, out.balls.size()};
+    } else {
+        ExpandedBalls expanded = expandAssembly(structure, options.assembly, balls);
+        filter.note("not in the assembly", expanded.unused);
+        out.balls = std::move(expanded.balls);
+        out.copyBegin = std::move(expanded.copyBegin);
+        out.copies = out.copyBegin.size() - 1;
+    }
+    if (out.balls.empty()) {
+        failInput(structure, "nothing is left of " + std::to_string(model.end - model.begin) +
+                                 " atoms: dropped " + describeDrops(out.drops));
+    }
+    checkExtent(structure, out.balls);
+    return out;
+}
+
+std::string describeSelection(const Structure& structure, const BallSelection& selection)
+{
+    auto counted = [](std::size_t n, const std::string& what) {
+        return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+    };
+    std::size_t atoms = structure.atoms.size();
+    for (const Model& model : structure.models) {
+        if (model.number == selection.model) {
+            atoms = model.end - model.begin;
+            break;
+        }
+    }
+    std::string text = displayName(structure.source) + ": " + structure.format + ", " +
+                       counted(structure.models.size(), "model") + ", " + counted(atoms, "atom");
+    if (structure.models.size() > 1) text += " in model " + std::to_string(selection.model);
+    text += "; used " + counted(selection.balls.size(), "ball");
+    if (selection.copies > 1) text += " (" + std::to_string(selection.copies) + " copies)";
+    if (!selection.drops.empty()) text += "; dropped " + describeDrops(selection.drops);
+    return text;
+}
+
+} // namespace molsurf

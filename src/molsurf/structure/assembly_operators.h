@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The operators of biological assemblies, as mmCIF and PDB files write them.
+
+#include "molsurf/structure/structure.h"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace molsurf
+{
+
+/// The motion that applies `second` first:  x -> first(second(x)).
+Operator multiplied(const Operator& first, const Operator& second);
+
+/// Operator names that an mmCIF oper_expression stands for, one list a factor.
+///
+/// "1,2,5-9" is one factor, "(X0)(1-60)" are two. A factor that stands further right acts first.
+///
+/// @throws Error(ErrorKind::Input) if the expression does not parse or a factor is empty
+std::vector<std::vector<std::string>> parseOperatorExpression(const std::string& expression);
+
+/// All products of an mmCIF oper_expression, the last factor varying fastest.
+///
+/// @param[in] operators  _pdbx_struct_oper_list by id
+/// @throws Error(ErrorKind::Input) if the expression does not parse, names an operator that is not
+///         in the list, or has more than a million products
+std::vector<Operator> expandOperators(const std::string& expression,
+                                      const std::map<std::string, Operator>& operators);
+
+/// Reads the assemblies of REMARK 350 of a PDB file. A biomolecule may have several blocks of
+/// chains and operators; without a list of chains its operators apply to all. "NULL" is the blank
+/// chain name.
+///
+/// @param[in] remarks  lines that start with "REMARK 350"
+std::vector<Assembly> parseRemark350(const std::vector<std::string_view>& remarks);
+
+} // namespace molsurf

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/structure/detect_format.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/structure/text_fields.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <string_view>
+
+namespace molsurf
+{
+namespace
+{
+
+using std::string_view;
+
+[[noreturn]] void fail(const std::string& path, const std::string& what)
+{
+    throw Error(ErrorKind::Input, displayName(path) + ": " + what);
+}
+
+std::string lowerExtension(const std::string& path)
+{
+    std::filesystem::path name(path);
+    auto lower = [](std::string text) {
+        for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        return text;
+    };
+    std::string extension = lower(name.extension().string());
+    if (extension == ".gz") extension = lower(name.stem().extension().string());
+    return extension;
+}
+
+void refuseBinary(const std::string& path, const std::string& text)
+{
+    const string_view head = string_view(text).substr(0, 4096);
+    if (head.find('\0') == string_view::npos && head.substr(0, 1) != "\x83") return;
+    if (head.substr(0, 4) == " BDV") {
+        fail(path, "is an OpenVDB file, expected a structure (PDB, mmCIF, PQR or xyzr)");
+    }
+    if (head.find("encoder") != string_view::npos || head.find("dataBlocks") != string_view::npos) {
+        fail(path, "is BinaryCIF, which is not supported [use the .cif.gz of the same entry]");
+    }
+    fail(path, "is a binary file, expected a structure (PDB, mmCIF, PQR or xyzr)");
+}
+
+bool startsWithNoCase(string_view text, string_view lowerPrefix)
+{
+    return text.size() >= lowerPrefix.size() &&
+           std::equal(lowerPrefix.begin(), lowerPrefix.end(), text.begin(), [](char a, char b) {
+               return a == std::tolower(static_cast<unsigned char>(b));
+           });
+}
+
+bool isPdbRecord(string_view line)
+{
+    static constexpr std::array<string_view, 30> records{
+        "ATOM  ", "HETATM", "HEADER", "OBSLTE", "TITLE ", "SPLIT ", "CAVEAT", "COMPND",
+        "SOURCE", "KEYWDS", "EXPDTA", "AUTHOR", "REVDAT", "JRNL  ", "REMARK", "DBREF ",
+        "SEQRES", "HET   ", "HETNAM", "CRYST1", "ORIGX1", "SCALE1", "MTRIX1", "MODEL ",
+        "ENDMDL", "USER  ", "MDLTYP", "NUMMDL", "COMPND", "END   "};
+    std::string record(line.substr(0, 6));
+    record.resize(6, ' ');
+    return std::find(records.begin(), records.end(), record) != records.end();
+}
+
+bool hasAtomRecord(string_view text)
+{
+    for (LineReader lines(text); lines.next();) {
+        if (isAtomRecord(lines.line())) return true;
+    }
+    return false;
+}
+
+/// Number of digits after the decimal point.
+std::size_t decimals(string_view number)
+{
+    const std::size_t point = number.find('.');
+    return point == string_view::npos ? 0 : number.size() - point - 1;
+}
+
+/// True if the last two columns of the atoms can only be charge and radius. In a PDB file without
+/// elements they are occupancy and B factor: two decimals, never negative occupancy.
+bool looksLikePqr(string_view text)
+{
+    constexpr int enough = 200;
+    bool certain = false;
+    int atoms = 0;
+    for (LineReader lines(text); lines.next() && atoms < enough;) {
+        if (!isAtomRecord(lines.line())) continue;
+        ++atoms;
+        const Fields fields = splitFields(lines.line());
+        double charge = 0, radius = 0;
+        if (fields.size() < 8 || !parseNumber(fields[fields.size() - 2], charge) ||
+            !parseNumber(fields.back(), radius)) {
+            return false;
+        }
+        certain = certain || charge < 0 || decimals(fields[fields.size() - 2]) > 2;
+    }
+    return certain;
+}
+
+/// True for "x y z r" and for "chain number atom x y z r". A file that is named .xyzr may have
+/// other leading columns; tables of numbers are too common to take them all for balls.
+bool looksLikeBall(string_view line)
+{
+    const Fields fields = splitFields(line);
+    double number = 0;
+    int residue = 0;
+    return (fields.size() == 4 || (fields.size() == 7 && parseInteger(fields[1], residue) &&
+                                   !parseNumber(fields[2], number))) &&
+           std::all_of(fields.end() - 4, fields.end(),
+                       [&](string_view f) { return parseNumber(f, number); });
+}
+
+} // namespace
+
+const char* formatName(StructureFormat format)
+{
+    static constexpr std::array<const char*, 4> names{"PDB", "mmCIF", "PQR", "xyzr"};
+    return names[static_cast<std::size_t>(format)];
+}
+
+StructureFormat detectFormat(const std::string& path, const std::string& text)
+{
+    refuseBinary(path, text);
+    string_view first; // line that is neither blank nor a comment
+    for (LineReader lines(text); first.empty() && lines.next();) {
+        const Fields fields = splitFields(lines.line());
+        if (!fields.empty() && fields[0][0] != '#') first = lines.line();
+    }
+    const string_view word = splitFields(first).empty() ? first : splitFields(first)[0];
+    const std::string extension = lowerExtension(path);
+    if (startsWithNoCase(word, "data_") || startsWithNoCase(word, "global_") ||
+        startsWithNoCase(word, "loop_") || word.substr(0, 1) == "_") {
+        return StructureFormat::Mmcif;
+    }
+    if (word.substr(0, 1) == "{") fail(path, "is JSON, which is not supported [use .cif or .pdb]");
+    if (isPdbRecord(first) || hasAtomRecord(text)) {
+        if (extension == ".pdb" || extension == ".ent") return StructureFormat::Pdb;
+        const bool pqr = extension == ".pqr" || looksLikePqr(text);
+        return pqr ? StructureFormat::Pqr : StructureFormat::Pdb;
+    }
+    if (looksLikeBall(first)) return StructureFormat::Xyzr;
+    if (extension == ".pdb" || extension == ".ent") return StructureFormat::Pdb;
+    if (extension == ".cif" || extension == ".mmcif") return StructureFormat::Mmcif;
+    if (extension == ".pqr") return StructureFormat::Pqr;
+    if (extension == ".xyzr") return StructureFormat::Xyzr;
+    fail(path, "is no structure: expected PDB, mmCIF, PQR or xyzr, got " + inQuotes(first));
+}
+
+} // namespace molsurf

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Chemical elements by number and symbol.
+
+#include <cstdint>
+#include <string>
+
+namespace molsurf
+{
+
+/// Number of the heaviest element known here.
+constexpr int maxElement = 118;
+
+/// Symbol of an element, "Mg"; "X" for 0, the unknown element.
+/// @param[in] number  atomic number, in [0, maxElement]
+const char* elementSymbol(std::uint8_t number);
+
+/// Atomic number of a symbol in any case, "MG" or "Mg"; deuterium "D" is 1; 0 if there is no such
+/// element.
+std::uint8_t elementNumber(const std::string& symbol);
+
+/// Atomic number that an atom name suggests where the file names no element (PQR, xyzr): the first
+/// letter, or the whole name if it is also the residue's ("ZN" of ZN is zinc, "CA" of ALA carbon).
+std::uint8_t guessElement(const std::string& atomName, const std::string& residueName);
+
+/// Van der Waals radius in gemmi's table [Å].
+/// @param[in] number  atomic number, in [1, maxElement]
+float gemmiRadius(std::uint8_t number);
+
+} // namespace molsurf

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// A whole file, or standard input, as text.
+
+#include <string>
+
+namespace molsurf
+{
+
+/// Reads a file, or standard input for "-", and unpacks it if it starts with the gzip magic bytes.
+/// Members of a concatenated gzip file are joined. A leading UTF-8 byte order mark is removed.
+///
+/// @throws Error(ErrorKind::Input) if the file does not exist, is a folder, cannot be read, is
+///         empty, or if its gzip data are damaged or cut short
+std::string loadText(const std::string& path);
+
+} // namespace molsurf

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/structure/read_ball_list.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/structure/element.h"
+#include "molsurf/structure/name_table.h"
+#include "molsurf/structure/residue_kind.h"
+#include "molsurf/structure/text_fields.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+
+namespace molsurf
+{
+namespace
+{
+
+using std::string_view;
+
+/// Where a message points.
+struct Place {
+    const std::string& path;
+    const LineReader& lines;
+};
+
+[[noreturn]] void fail(const Place& place, const std::string& what)
+{
+    throw Error(ErrorKind::Input, displayName(place.path) + ": line " +
+                                      std::to_string(place.lines.number()) + ": " + what);
+}
+
+bool isDigitOrPoint(char c)
+{
+    return c == '.' || std::isdigit(static_cast<unsigned char>(c));
+}
+
+/// Splits numbers that a minus sign glues together: "-36.576-112.088" -> "-36.576" "-112.088".
+/// @param[in] begin  first field that may be such a number: the residue number
+Fields splitGlued(const Fields& fields, std::size_t begin)
+{
+    Fields parts(fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(begin));
+    for (std::size_t i = begin; i < fields.size(); ++i) {
+        string_view rest = fields[i];
+        std::size_t cut = 1;
+        while (cut < rest.size()) {
+            if (rest[cut] == '-' && isDigitOrPoint(rest[cut - 1])) {
+                parts.push_back(rest.substr(0, cut));
+                rest.remove_prefix(cut);
+                cut = 0;
+            }
+            ++cut;
+        }
+        parts.push_back(rest);
+    }
+    return parts;
+}
+
+/// The last `n` fields as numbers.
+template<std::size_t n>
+std::array<double, n> lastNumbers(const Fields& fields, const std::array<const char*, n>& names,
+                                  const Place& place)
+{
+    std::array<double, n> numbers{};
+    for (std::size_t i = 0; i < n; ++i) {
+        const string_view field = fields[fields.size() - n + i];
+        if (!parseNumber(field, numbers[i])) {
+            fail(place, std::string(names[i]) + ": expected a number, got " + inQuotes(field) +
+                            " in the line " + inQuotes(place.lines.line()));
+        }
+    }
+    constexpr double largest = 1e6; // [Å]
+    const double radius = numbers[n - 1];
+    if (!(radius >= 0 && radius <= largest)) {
+        fail(place, "radius: expected 0 to 1e6 Å, got " + std::string(fields.back()));
+    }
+    return numbers;
+}
+
+/// Who an atom is, as far as the file says.
+struct Identity {
+    std::string chain, residue, atom;
+    int number = 0;
+    char insertionCode = ' ';
+    bool hetero = false;
+};
+
+/// Appends atoms to a structure, and residues when their identity changes.
+class Builder
+{
+public:
+    explicit Builder(Structure& out) : out_(out) { out_.hasRadii = true; }
+
+    void startModel(int number)
+    {
+        const std::size_t here = out_.atoms.size();
+        if (!out_.models.empty()) {
+            Model& last = out_.models.back();
+            last.end = here;
+            if (last.begin == here) out_.models.pop_back();
+        }
+        out_.models.push_back({number, here, here});
+        newResidue_ = true;
+    }
+
+    void add(const Identity& id, const openvdb::Vec3d& position, double radius)
+    {
+        if (out_.models.empty()) startModel(1);
+        if (newResidue_ || !isSameResidue(id)) addResidue(id);
+        out_.atoms.push_back({position, id.atom, residue_, guessElement(id.atom, id.residue), '\0',
+                              1.0f, 0.0f, static_cast<float>(radius)});
+    }
+
+    void finish()
+    {
+        if (!out_.models.empty()) out_.models.back().end = out_.atoms.size();
+        out_.asyms = out_.chains;
+    }
+
+private:
+    bool isSameResidue(const Identity& id) const
+    {
+        const Residue& last = out_.residues.back();
+        return last.number == id.number && last.name == id.residue &&
+               last.insertionCode == id.insertionCode &&
+               out_.chains[static_cast<std::size_t>(last.chain)] == id.chain;
+    }
+
+    void addResidue(const Identity& id)
+    {
+        const std::int32_t chain = chains_.index(id.chain, out_.chains);
+        const bool water = isWaterName(id.residue);
+        residue_ = static_cast<std::int32_t>(out_.residues.size());
+        out_.residues.push_back(
+            {id.residue, chain, chain, id.number, id.insertionCode, water, id.hetero && !water});
+        newResidue_ = false;
+    }
+
+    Structure& out_;
+    NameTable chains_;
+    std::int32_t residue_ = 0;
+    bool newResidue_ = true;
+};
+
+/// "52A" -> 52 and 'A'; false, and `id` as it was, if it does not start with an integer.
+bool parseResidueNumber(string_view field, Identity& id)
+{
+    const bool code = field.size() > 1 && std::isalpha(static_cast<unsigned char>(field.back()));
+    if (!parseInteger(code ? field.substr(0, field.size() - 1) : field, id.number)) return false;
+    id.insertionCode = code ? field.back() : ' ';
+    return true;
+}
+
+/// Reads what stands left of the coordinates: serial atom residue [chain] number.
+Identity pqrIdentity(const Fields& fields, std::size_t size, bool hetero)
+{
+    Identity id;
+    id.hetero = hetero;
+    if (size > 1) id.atom = fields[1];
+    if (size > 2) id.residue = fields[2];
+    if (size > 4) id.chain = fields[3];
+    if (size < 4) return id;
+    const string_view last = fields[size - 1];
+    if (!parseResidueNumber(last, id) && size == 4 && last.size() > 1) { // chain glued: "A1234"
+        id.chain = last[0];
+        parseResidueNumber(last.substr(1), id);
+    }
+    return id;
+}
+
+} // namespace
+
+Structure readPqr(const std::string& text, const std::string& path)
+{
+    Structure out;
+    Builder builder(out);
+    constexpr std::array<const char*, 5> names{"x", "y", "z", "charge", "radius"};
+    int model = 0;
+    for (LineReader lines(text); lines.next();) {
+        const string_view line = lines.line();
+        if (line.substr(0, 5) == "MODEL") {
+            const Fields fields = splitFields(line);
+            ++model;
+            if (fields.size() > 1) parseInteger(fields[1], model);
+            builder.startModel(model);
+        }
+        if (!isAtomRecord(line)) continue;
+        const Place place{path, lines};
+        const bool hetero = line[0] == 'H';
+        Fields fields = splitFields(line.substr(hetero ? 6 : 4));
+        constexpr std::size_t leftColumns = 4; // serial, atom, residue, number
+        constexpr std::size_t columns = leftColumns + names.size();
+        if (fields.size() < columns) {
+            fields = splitGlued(fields, std::min(leftColumns - 1, fields.size()));
+        }
+        if (fields.size() < columns) {
+            fail(place, "expected 10 or 11 columns, the last ones x y z charge radius, got " +
+                            inQuotes(line));
+        }
+        const auto [x, y, z, charge, radius] = lastNumbers(fields, names, place);
+        static_cast<void>(charge);
+        builder.add(pqrIdentity(fields, fields.size() - names.size(), hetero), {x, y, z}, radius);
+    }
+    builder.finish();
+    return out;
+}
+
+Structure readXyzr(const std::string& text, const std::string& path)
+{
+    Structure out;
+    out.atoms.reserve(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1);
+    Builder builder(out);
+    constexpr std::array<const char*, 4> names{"x", "y", "z", "radius"};
+    Identity id;
+    Fields fields;
+    for (LineReader lines(text); lines.next();) {
+        splitFields(lines.line(), fields);
+        if (fields.empty() || fields[0][0] == '#') continue;
+        const Place place{path, lines};
+        if (fields.size() < names.size()) {
+            fail(place, "expected x y z radius, got " + inQuotes(lines.line()));
+        }
+        const auto [x, y, z, radius] = lastNumbers(fields, names, place);
+        if (fields.size() == names.size() + 3 && parseResidueNumber(fields[1], id)) {
+            id.chain = fields[0];
+            id.atom = fields[2];
+        } else if (!id.chain.empty() || !id.atom.empty()) {
+            id = Identity();
+        }
+        builder.add(id, {x, y, z}, radius);
+    }
+    builder.finish();
+    return out;
+}
+
+} // namespace molsurf

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/structure/read_macromolecule.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/structure/assembly_operators.h"
+#include "molsurf/structure/element.h"
+#include "molsurf/structure/name_table.h"
+#include "molsurf/structure/pdb_text.h"
+#include "molsurf/structure/residue_kind.h"
+#include "molsurf/structure/text_fields.h"
+
+#include <gemmi/cif.hpp>
+#include <gemmi/mmcif.hpp>
+#include <gemmi/pdb.hpp>
+#include <gemmi/polyheur.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <exception>
+#include <map>
+
+namespace molsurf
+{
+namespace
+{
+
+[[noreturn]] void fail(const std::string& path, const std::string& what)
+{
+    throw Error(ErrorKind::Input, displayName(path) + ": " + what);
+}
+
+/// gemmi's message in one line, without the path that it may start with.
+std::string oneLine(const std::exception& error, const std::string& path)
+{
+    std::string text = error.what();
+    if (text.compare(0, path.size() + 1, path + ":") == 0) text.erase(0, path.size() + 1);
+    for (char& c : text) {
+        if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    }
+    return text.substr(
+        text.find_first_not_of(' ') == std::string::npos ? 0 : text.find_first_not_of(' '));
+}
+
+bool isStandard(const gemmi::Residue& residue)
+{
+    const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(residue.name);
+    return (info.is_amino_acid() || info.is_nucleic_acid()) && info.is_standard();
+}
+
+/// True if two residues are bonded as neighbours in a protein or a nucleic acid.
+bool areBonded(const gemmi::Residue& first, const gemmi::Residue& second)
+{
+    return gemmi::are_connected(first, second, gemmi::PolymerType::PeptideL) ||
+           gemmi::are_connected(first, second, gemmi::PolymerType::Rna);
+}
+
+/// True if a residue belongs to a polymer. Where the file names no entities, gemmi guesses, and we
+/// add what its guess leaves out: caps, and residues that follow a modified one or a stray TER.
+bool isInPolymer(const gemmi::Chain& chain, std::size_t index, bool entitiesKnown)
+{
+    const gemmi::Residue& residue = chain.residues[index];
+    if (residue.entity_type == gemmi::EntityType::Polymer) return true;
+    if (entitiesKnown) return false;
+    if (residue.het_flag != 'H' && isStandard(residue)) return true;
+    const bool toPrevious = index > 0 && areBonded(chain.residues[index - 1], residue);
+    return toPrevious ||
+           (index + 1 < chain.residues.size() && areBonded(residue, chain.residues[index + 1]));
+}
+
+/// Atomic number; corrects names such as CA that stand one column too far left in a file without
+/// elements, where they read as calcium.
+std::uint8_t elementOf(const gemmi::Atom& atom, bool standardResidue)
+{
+    const int number = atom.element.atomic_number();
+    const bool usual = number == 1 || number == 6 || number == 7 || number == 8 || number == 15 ||
+                       number == 16 || number == 34;
+    if (usual || !standardResidue) return static_cast<std::uint8_t>(number);
+    for (const char c : atom.name) {
+        if (std::isalpha(static_cast<unsigned char>(c))) {
+            return elementNumber(std::string(1, c));
+        }
+    }
+    return static_cast<std::uint8_t>(number);
+}
+
+/// Copies gemmi's tree into our tables.
+class Converter
+{
+public:
+    Converter(Structure& out, bool pdb, bool entitiesKnown)
+        : out_(out), pdb_(pdb), entitiesKnown_(entitiesKnown)
+    {
+    }
+
+    void add(const gemmi::Model& model, int number)
+    {
+        const std::size_t begin = out_.atoms.size();
+        for (const gemmi::Chain& chain : model.chains) {
+            for (std::size_t i = 0; i < chain.residues.size(); ++i) add(chain, i);
+        }
+        if (out_.atoms.size() > begin) out_.models.push_back({number, begin, out_.atoms.size()});
+    }
+
+private:
+    void add(const gemmi::Chain& chain, std::size_t index)
+    {
+        const gemmi::Residue& from = chain.residues[index];
+        Residue residue{};
+        residue.name = from.name;
+        residue.chain = chains_.index(chain.name, out_.chains);
+        residue.asym = asyms_.index(pdb_ ? chain.name : from.subchain, out_.asyms);
+        residue.number = from.seqid.num ? *from.seqid.num : 0;
+        residue.insertionCode = from.seqid.icode;
+        residue.water = isWaterName(from.name) || from.entity_type == gemmi::EntityType::Water;
+        residue.hetero = !residue.water && !isInPolymer(chain, index, entitiesKnown_);
+        const auto residueIndex = static_cast<std::int32_t>(out_.residues.size());
+        out_.residues.push_back(std::move(residue));
+        const bool standard = isStandard(from);
+        for (const gemmi::Atom& atom : from.atoms) {
+            out_.atoms.push_back({openvdb::Vec3d(atom.pos.x, atom.pos.y, atom.pos.z), atom.name,
+                                  residueIndex, elementOf(atom, standard), atom.altloc, atom.occ,
+                                  atom.b_iso, -1.0f});
+        }
+    }
+
+    Structure& out_;
+    bool pdb_, entitiesKnown_;
+    NameTable chains_, asyms_;
+};
+
+std::size_t countAtoms(const gemmi::Structure& structure)
+{
+    std::size_t atoms = 0;
+    for (const gemmi::Model& model : structure.models) {
+        for (const gemmi::Chain& chain : model.chains) {
+            for (const gemmi::Residue& residue : chain.residues) atoms += residue.atoms.size();
+        }
+    }
+    return atoms;
+}
+
+using gemmi::cif::Block;
+
+/// First data block that has atoms.
+Block& blockWithAtoms(gemmi::cif::Document& document, const std::string& path, Structure& out)
+{
+    Block* chosen = nullptr;
+    std::size_t further = 0;
+    for (Block& block : document.blocks) {
+        if (!block.has_tag("_atom_site.Cartn_x")) continue;
+        if (chosen)
+            ++further;
+        else
+            chosen = &block;
+    }
+    if (further > 0) {
+        out.warnings.push_back(std::to_string(further) +
+                               " further data blocks with atoms were ignored");
+    }
+    if (chosen) return *chosen;
+    std::string hint;
+    for (const Block& block : document.blocks) {
+        if (block.has_tag("_chem_comp_atom.atom_id")) hint = " [it describes a chemical component]";
+        if (block.has_tag("_atom_site_label")) hint = " [it is a small-molecule CIF]";
+    }
+    fail(path, "no atoms: expected _atom_site.Cartn_x and others of mmCIF, got none" + hint);
+}
+
+/// Adds the columns without which gemmi's reader finds no atoms, if they can be made up.
+void completeAtomSite(Block& block, const std::string& path)
+{
+    gemmi::cif::Item* const item = block.find_loop("_atom_site.Cartn_x").item();
+    auto has = [&](const std::string& tag) { return block.has_tag("_atom_site." + tag); };
+    struct Default {
+        const char* tag;
+        const char* value;
+    };
+    constexpr std::array<Default, 3> defaults{
+        {{"label_alt_id", "."}, {"occupancy", "1"}, {"B_iso_or_equiv", "0"}}};
+    std::vector<Default> missing;
+    for (const Default& column : defaults) {
+        if (!has(column.tag)) missing.push_back(column);
+    }
+    const bool copySequence = !has("auth_seq_id") && has("label_seq_id");
+    for (const char* tag : {"id", "type_symbol", "label_asym_id", "Cartn_y", "Cartn_z"}) {
+        if (!has(tag)) fail(path, std::string("_atom_site has no column ") + tag);
+    }
+    if (!copySequence && !has("auth_seq_id")) fail(path, "_atom_site has no column auth_seq_id");
+    if (!item || (missing.empty() && !copySequence)) return;
+    gemmi::cif::Loop& loop = item->loop;
+    const int sequence = loop.find_tag("_atom_site.label_seq_id");
+    const std::size_t rows = loop.length(), width = loop.width();
+    std::vector<std::string> values;
+    values.reserve(loop.values.size() + rows * (missing.size() + 1));
+    for (std::size_t row = 0; row < rows; ++row) {
+        const auto begin = loop.values.begin() + static_cast<std::ptrdiff_t>(row * width);
+        values.insert(values.end(), begin, begin + static_cast<std::ptrdiff_t>(width));
+        for (const Default& column : missing) values.emplace_back(column.value);
+        if (copySequence) values.push_back(begin[sequence]);
+    }
+    for (const Default& column : missing)
+        loop.tags.push_back(std::string("_atom_site.") + column.tag);
+    if (copySequence) loop.tags.push_back("_atom_site.auth_seq_id");
+    loop.values = std::move(values);
+}
+
+std::map<std::string, Operator> readOperators(Block& block)
+{
+    std::map<std::string, Operator> operators;
+    auto table = block.find("_pdbx_struct_oper_list.",
+                            {"id", "matrix[1][1]", "matrix[1][2]", "matrix[1][3]", "matrix[2][1]",
+                             "matrix[2][2]", "matrix[2][3]", "matrix[3][1]", "matrix[3][2]",
+                             "matrix[3][3]", "vector[1]", "vector[2]", "vector[3]"});
+    for (auto row : table) {
+        Operator op{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) {
+                op.rotation[i][j] = gemmi::cif::as_number(row[1 + 3 * i + j]);
+            }
+            op.translation[static_cast<int>(i)] = gemmi::cif::as_number(row[10 + i]);
+        }
+        operators[row.str(0)] = op;
+    }
+    return operators;
+}
+
+std::vector<std::string> splitList(const std::string& list)
+{
+    std::vector<std::string> names;
+    std::size_t begin = 0;
+    while (begin <= list.size()) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        const std::string_view name = trimmed(std::string_view(list).substr(begin, end - begin));
+        if (!name.empty() && name != "\n") names.emplace_back(name);
+        begin = end + 1;
+    }
+    return names;
+}
+
+/// Chains that share an operator expression become one part, so that a copy is whole.
+std::vector<Assembly> readAssemblies(Block& block)
+{
+    const std::map<std::string, Operator> operators = readOperators(block);
+    std::vector<Assembly> assemblies;
+    std::map<std::pair<std::size_t, std::string>, std::size_t> partOf;
+    auto table = block.find("_pdbx_struct_assembly_gen.",
+                            {"assembly_id", "oper_expression", "asym_id_list"});
+    for (auto row : table) {
+        const std::string name = row.str(0), expression = row.str(1);
+        std::string chains = row.str(2);
+        chains.erase(std::remove_if(chains.begin(), chains.end(),
+                                    [](unsigned char c) { return std::isspace(c) != 0; }),
+                     chains.end());
+        auto found = std::find_if(assemblies.begin(), assemblies.end(),
+                                  [&](const Assembly& a) { return a.name == name; });
+        if (found == assemblies.end()) found = assemblies.insert(found, {name, {}, {}});
+        const auto index = static_cast<std::size_t>(found - assemblies.begin());
+        const auto known = partOf.emplace(std::pair(index, expression), found->parts.size());
+        try {
+            if (known.second) found->parts.push_back({{}, expandOperators(expression, operators)});
+            auto& list = found->parts[known.first->second].chains;
+            for (std::string& chain : splitList(chains)) list.push_back(std::move(chain));
+        } catch (const Error& error) {
+            partOf.erase(known.first);
+            found->problem = error.what();
+        }
+    }
+    return assemblies;
+}
+
+/// Takes out what the atoms do not need: faster, and nothing in it can fail.
+void keepOnlyAtoms(Block& block)
+{
+    constexpr std::array<const char*, 3> needed{"_atom_site.", "_entity.", "_struct_asym."};
+    auto isNeeded = [&](const gemmi::cif::Item& item) {
+        const std::string* tag = nullptr;
+        if (item.type == gemmi::cif::ItemType::Pair) tag = &item.pair[0];
+        if (item.type == gemmi::cif::ItemType::Loop) tag = &item.loop.tags.at(0);
+        return tag && std::any_of(needed.begin(), needed.end(), [&](const char* category) {
+                   return gemmi::istarts_with(*tag, gemmi::to_lower(category));
+               });
+    };
+    auto& items = block.items;
+    items.erase(std::remove_if(items.begin(), items.end(), std::not_fn(isNeeded)), items.end());
+}
+
+} // namespace
+
+Structure readPdb(std::string text, const std::string& path)
+{
+    if (text.back() != '\n') text += '\n';
+    PdbRecords records = preparePdb(text, path);
+    gemmi::Structure parsed;
+    try {
+        parsed = gemmi::read_pdb_from_memory(text.data(), text.size(), path);
+        gemmi::add_entity_types(parsed, false);
+    } catch (const std::exception& error) {
+        fail(path, oneLine(error, path));
+    }
+    std::string().swap(text);
+    Structure out;
+    out.atoms.reserve(countAtoms(parsed));
+    Converter converter(out, true, false);
+    std::size_t withAtoms = 0;
+    for (const gemmi::Model& model : parsed.models) {
+        if (model.chains.empty()) continue;
+        converter.add(model, records.models.at(withAtoms++));
+    }
+    out.assemblies = std::move(records.assemblies);
+    out.warnings = std::move(records.warnings);
+    return out;
+}
+
+Structure readMmcif(std::string text, const std::string& path)
+{
+    Structure out;
+    gemmi::Structure parsed;
+    bool entitiesKnown = false;
+    try {
+        gemmi::cif::Document document =
+            gemmi::cif::read_memory(text.data(), text.size(), path.c_str());
+        std::string().swap(text);
+        Block& block = blockWithAtoms(document, path, out);
+        completeAtomSite(block, path);
+        out.assemblies = readAssemblies(block);
+        entitiesKnown = block.has_tag("_entity.type");
+        keepOnlyAtoms(block);
+        parsed = gemmi::make_structure_from_block(block);
+        if (!entitiesKnown) gemmi::add_entity_types(parsed, true);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        fail(path, oneLine(error, path));
+    }
+    out.atoms.reserve(countAtoms(parsed));
+    Converter converter(out, false, entitiesKnown);
+    int number = 0;
+    for (const gemmi::Model& model : parsed.models) {
+        ++number;
+        parseInteger(model.name, number);
+        converter.add(model, number);
+    }
+    return out;
+}
+
+} // namespace molsurf

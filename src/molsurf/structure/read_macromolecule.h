@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// PDB and mmCIF by way of gemmi.
+
+#include "molsurf/structure/structure.h"
+
+#include <string>
+
+namespace molsurf
+{
+
+/// Reads the text of a PDB file; see readStructure() for what is accepted.
+/// @param[in] text  consumed, to save memory
+/// @throws Error(ErrorKind::Input) if it cannot be read; a text without atoms gives none
+Structure readPdb(std::string text, const std::string& path);
+
+/// Reads the text of an mmCIF file: the first data block that has atoms.
+/// @param[in] text  consumed, to save memory
+/// @throws Error(ErrorKind::Input) if it cannot be read, or if no data block has atoms
+Structure readMmcif(std::string text, const std::string& path);
+
+} // namespace molsurf

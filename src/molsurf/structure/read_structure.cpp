@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/structure/read_structure.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/structure/detect_format.h"
+#include "molsurf/structure/load_text.h"
+#include "molsurf/structure/read_ball_list.h"
+#include "molsurf/structure/read_macromolecule.h"
+#include "molsurf/structure/text_fields.h"
+
+#include <cmath>
+#include <filesystem>
+
+namespace molsurf
+{
+namespace
+{
+
+constexpr double largestCoordinate = 1e6; // [Å]
+
+std::string describeAtom(const Structure& structure, const Atom& atom, std::size_t index)
+{
+    const Residue& residue = structure.residues[static_cast<std::size_t>(atom.residue)];
+    std::string text = "atom " + std::to_string(index + 1);
+    if (!atom.name.empty()) text += " (" + atom.name;
+    if (!atom.name.empty() && !residue.name.empty()) {
+        text += " of " + residue.name + " " + std::to_string(residue.number);
+    }
+    return atom.name.empty() ? text : text + ")";
+}
+
+void checkCoordinates(const Structure& structure, const std::string& path)
+{
+    for (std::size_t i = 0; i < structure.atoms.size(); ++i) {
+        const openvdb::Vec3d& x = structure.atoms[i].position;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (std::abs(x[axis]) <= largestCoordinate) continue; // false for NaN
+            throw Error(ErrorKind::Input,
+                        displayName(path) + ": " + describeAtom(structure, structure.atoms[i], i) +
+                            ": " + "xyz"[axis] + ": expected -1e6 to 1e6 Å, got " +
+                            std::to_string(x[axis]));
+        }
+    }
+}
+
+Structure parse(StructureFormat format, std::string text, const std::string& path)
+{
+    switch (format) {
+    case StructureFormat::Pdb:
+        return readPdb(std::move(text), path);
+    case StructureFormat::Mmcif:
+        return readMmcif(std::move(text), path);
+    case StructureFormat::Pqr:
+        return readPqr(text, path);
+    case StructureFormat::Xyzr:
+        break;
+    }
+    return readXyzr(text, path);
+}
+
+} // namespace
+
+Structure readStructure(const std::string& path)
+{
+    std::string text = loadText(path);
+    const StructureFormat format = detectFormat(path, text);
+    Structure structure = parse(format, std::move(text), path);
+    structure.source = path == "-" ? path : std::filesystem::path(path).filename().string();
+    structure.format = formatName(format);
+    if (structure.atoms.empty()) {
+        const bool records = format == StructureFormat::Pdb || format == StructureFormat::Pqr;
+        throw Error(ErrorKind::Input,
+                    displayName(path) + ": no atoms: read as " + structure.format + ", expected " +
+                        (records ? "ATOM or HETATM records" : "coordinates") + ", got none");
+    }
+    checkCoordinates(structure, path);
+    return structure;
+}
+
+} // namespace molsurf

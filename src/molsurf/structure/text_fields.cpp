@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/structure/text_fields.h"
+
+#include <cctype>
+#include <charconv>
+#include <cstring>
+
+namespace molsurf
+{
+namespace
+{
+
+bool isBlank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+template<typename Number>
+bool parse(std::string_view field, Number& value)
+{
+    if (!field.empty() && field.front() == '+') field.remove_prefix(1);
+    Number number{};
+    const char* const end = field.data() + field.size();
+    const auto result = std::from_chars(field.data(), end, number);
+    if (result.ec != std::errc() || result.ptr != end) return false;
+    value = number;
+    return true;
+}
+
+} // namespace
+
+bool LineReader::next()
+{
+    if (rest_.empty()) return false;
+    const void* const newline = std::memchr(rest_.data(), '\n', rest_.size());
+    const std::size_t length =
+        newline ? static_cast<std::size_t>(static_cast<const char*>(newline) - rest_.data())
+                : rest_.size();
+    line_ = rest_.substr(0, length);
+    rest_.remove_prefix(newline ? length + 1 : length);
+    if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
+    ++number_;
+    return true;
+}
+
+Fields splitFields(std::string_view line)
+{
+    Fields fields;
+    splitFields(line, fields);
+    return fields;
+}
+
+void splitFields(std::string_view line, Fields& fields)
+{
+    fields.clear();
+    std::size_t begin = 0;
+    while (begin < line.size()) {
+        while (begin < line.size() && isBlank(line[begin])) ++begin;
+        std::size_t end = begin;
+        while (end < line.size() && !isBlank(line[end])) ++end;
+        if (end > begin) fields.push_back(line.substr(begin, end - begin));
+        begin = end;
+    }
+}
+
+bool parseNumber(std::string_view field, double& value)
+{
+    return parse(field, value);
+}
+
+bool parseInteger(std::string_view field, int& value)
+{
+    return parse(field, value);
+}
+
+std::string_view trimmed(std::string_view text)
+{
+    while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+bool isAtomRecord(std::string_view line)
+{
+    if (line.substr(0, 6) == "HETATM") return true;
+    return line.substr(0, 4) == "ATOM" && line.size() > 4 &&
+           (isBlank(line[4]) || std::isdigit(static_cast<unsigned char>(line[4])));
+}
+
+std::string inQuotes(std::string_view text)
+{
+    constexpr std::size_t longest = 60;
+    std::string shown;
+    for (const char c : trimmed(text).substr(0, longest)) {
+        shown += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+    }
+    return "\"" + shown + (trimmed(text).size() > longest ? "...\"" : "\"");
+}
+
+std::string joined(const std::vector<std::string>& names, std::size_t longest)
+{
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i > 0) text += ", ";
+        if (i == longest) return text + "...";
+        text += names[i];
+    }
+    return text;
+}
+
+std::string displayName(const std::string& path)
+{
+    return path == "-" ? "standard input" : path;
+}
+
+} // namespace molsurf

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Lines, blank-separated fields and numbers of a text that is in memory.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace molsurf
+{
+
+/// Steps through the lines of a text. Lines end with LF or CRLF, which are not part of line().
+class LineReader
+{
+public:
+    explicit LineReader(std::string_view text) : rest_(text) {}
+
+    /// Goes to the next line; false after the last one.
+    bool next();
+
+    std::string_view line() const { return line_; }
+    std::size_t number() const { return number_; } ///< 1 for the first line
+
+private:
+    std::string_view rest_, line_;
+    std::size_t number_ = 0;
+};
+
+using Fields = std::vector<std::string_view>;
+
+/// Fields of a line that are separated by blanks or tabs.
+Fields splitFields(std::string_view line);
+
+/// The same into a list that keeps its memory from line to line.
+void splitFields(std::string_view line, Fields& fields);
+
+/// Reads a decimal number that fills the whole field; a leading '+' is allowed, and so are nan and
+/// inf. False, and `value` as it was, if the field holds anything else.
+bool parseNumber(std::string_view field, double& value);
+
+/// The same for an integer.
+bool parseInteger(std::string_view field, int& value);
+
+/// Without the blanks and tabs at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// True for an ATOM or HETATM line of a PDB or PQR file; the serial number may be glued to the
+/// name.
+bool isAtomRecord(std::string_view line);
+
+/// A text for an error message: in quotes, one line, at most 60 characters.
+std::string inQuotes(std::string_view text);
+
+/// "1, 2, 3, ...": at most `longest` names.
+std::string joined(const std::vector<std::string>& names, std::size_t longest = 20);
+
+/// The path for a message; "standard input" for "-".
+std::string displayName(const std::string& path);
+
+} // namespace molsurf

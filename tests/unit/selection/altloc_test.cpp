@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/selection/select_balls.h"
+
+#include "molsurf/structure/read_structure.h"
+#include "unit/structure/temp_file.h"
+
+#include <cstdio>
+
+namespace molsurf::test
+{
+namespace
+{
+
+/// One line of a PDB file.
+std::string atom(const char* name, char altloc, const char* residue, int number, double occupancy)
+{
+    char line[96];
+    std::snprintf(
+        line, sizeof line,
+        "ATOM      1  %-3s%c%3s A%4d       1.000   2.000   3.000%6.2f  0.00           C\n", name,
+        altloc, residue, number, occupancy);
+    return line;
+}
+
+/// The chosen atoms as "name altloc" of each.
+std::string chosen(const std::string& text, const std::string& altloc = "")
+{
+    const TempFile file("a.pdb", text);
+    const Structure s = readStructure(file.path());
+    SelectOptions options;
+    options.altloc = altloc;
+    std::string names;
+    for (const Ball& ball : selectBalls(s, options).balls) {
+        const Atom& a = s.atoms[static_cast<std::size_t>(ball.atom)];
+        names += (names.empty() ? "" : " ") + a.name;
+        if (a.altloc) names += std::string(":") + a.altloc;
+    }
+    return names;
+}
+
+TEST(Altloc, KeepsTheHighestOccupancyOfEachAtom)
+{
+    EXPECT_EQ(chosen(atom("N", ' ', "SER", 1, 1) + atom("CA", 'A', "SER", 1, 0.3) +
+                     atom("CA", 'B', "SER", 1, 0.7) + atom("CB", 'A', "SER", 1, 0.6) +
+                     atom("CB", 'B', "SER", 1, 0.4)),
+              "N CA:B CB:A");
+}
+
+TEST(Altloc, ATieKeepsOneConformer)
+{
+    EXPECT_EQ(chosen(atom("CA", 'A', "SER", 1, 0.5) + atom("CA", 'B', "SER", 1, 0.5) +
+                     atom("CB", 'B', "SER", 1, 0.5) + atom("CB", 'A', "SER", 1, 0.5)),
+              "CA:A CB:A");
+    EXPECT_EQ(chosen(atom("CA", 'A', "SER", 1, 0.5) + atom("CA", 'B', "SER", 1, 0.5) +
+                     atom("CB", 'A', "SER", 1, 0.4) + atom("CB", 'B', "SER", 1, 0.6)),
+              "CA:B CB:B");
+}
+
+TEST(Altloc, AnAtomWithOneLocationStays)
+{
+    EXPECT_EQ(chosen(atom("CA", 'B', "SER", 1, 0.2) + atom("CB", 'A', "SER", 1, 0.5)), "CA:B CB:A");
+}
+
+TEST(Altloc, OfDifferentResiduesOneStays)
+{
+    const std::string text = atom("N", 'A', "SER", 22, 0.2) + atom("N", 'B', "SER", 22, 0.2) +
+                             atom("OG", 'A', "SER", 22, 0.2) + atom("OG", 'B', "SER", 22, 0.2) +
+                             atom("N", 'C', "PRO", 22, 0.6) + atom("CG", 'C', "PRO", 22, 0.6);
+    EXPECT_EQ(chosen(text), "N:C CG:C");
+    EXPECT_EQ(chosen(text, "A"), "N:A OG:A");
+    EXPECT_EQ(chosen(text, "all"), "N:A N:B OG:A OG:B N:C CG:C");
+}
+
+TEST(Altloc, ALabelKeepsTheBlankOnesToo)
+{
+    const std::string text = atom("N", ' ', "SER", 1, 1) + atom("CA", 'A', "SER", 1, 0.7) +
+                             atom("CA", 'B', "SER", 1, 0.3);
+    EXPECT_EQ(chosen(text, "B"), "N CA:B");
+    EXPECT_HAS(errorOf(ErrorKind::Input, [&] { chosen(text, "C"); }),
+               "alternate location \"C\": expected one of A, B");
+    EXPECT_HAS(errorOf(ErrorKind::Usage, [&] { chosen(text, "AB"); }), "expected one character");
+}
+
+TEST(Altloc, WarnsIfThereAreNone)
+{
+    SelectOptions options;
+    options.altloc = "A";
+    const BallSelection selection = selectBalls(readStructure(dataFile("1crn.pdb")), options);
+    EXPECT_EQ(selection.balls.size(), 327u);
+    ASSERT_EQ(selection.warnings.size(), 1u);
+    EXPECT_HAS(selection.warnings[0], "have no alternate locations");
+}
+
+} // namespace
+} // namespace molsurf::test

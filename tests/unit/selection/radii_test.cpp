@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/selection/radii.h"
+
+#include "molsurf/selection/select_balls.h"
+#include "molsurf/structure/read_structure.h"
+#include "unit/structure/temp_file.h"
+
+namespace molsurf::test
+{
+namespace
+{
+
+constexpr std::uint8_t hydrogen = 1, carbon = 6, nitrogen = 7, iron = 26, zinc = 30,
+                       promethium = 61;
+
+TEST(Radii, BuiltInSets)
+{
+    const RadiiSet bondi = readRadii("bondi"), alvarez = readRadii("alvarez"),
+                   gemmi = readRadii("gemmi");
+    EXPECT_EQ(bondi.find("ALA", "CA", carbon), 1.70f);
+    EXPECT_EQ(bondi.find("ALA", "H", hydrogen), 1.20f);
+    EXPECT_EQ(bondi.find("ZN", "ZN", zinc), 1.39f);
+    EXPECT_EQ(bondi.find("CA", "CA", 20), 2.31f);    // Mantina
+    EXPECT_EQ(bondi.find("HEM", "FE", iron), 2.44f); // Alvarez
+    EXPECT_EQ(alvarez.find("ALA", "CA", carbon), 1.77f);
+    EXPECT_EQ(gemmi.find("HEM", "FE", iron), 1.26f);
+    EXPECT_LT(bondi.find("PM", "PM", promethium), 0);
+    EXPECT_LT(bondi.find("XXX", "X", 0), 0);
+}
+
+TEST(Radii, AreListedWithTheirSource)
+{
+    const std::string text = describeRadii();
+    for (const char* part : {"bondi: A. Bondi", "441", "alvarez: S. Alvarez", "8617",
+                             "gemmi:", " C 1.70", " C 1.77", "Fe 1.26"}) {
+        EXPECT_HAS(text, part);
+    }
+}
+
+TEST(Radii, RulesOfAFileByPrecedence)
+{
+    const TempFile file("my.radii", "# rules\n"
+                                    "C        1.70   # an element\n"
+                                    "zn       0\n"
+                                    "*    CA  1.88\n"
+                                    "\n"
+                                    "GLY  CA  1.91\n"
+                                    "N        1.0\n"
+                                    "N        1.5\n"
+                                    "*        1.8\n");
+    const RadiiSet set = readRadii(file.path());
+    EXPECT_EQ(set.find("ALA", "CB", carbon), 1.70f);
+    EXPECT_EQ(set.find("ALA", "CA", carbon), 1.88f);
+    EXPECT_EQ(set.find("GLY", "CA", carbon), 1.91f);
+    EXPECT_EQ(set.find("GLY", "N", nitrogen), 1.5f);
+    EXPECT_EQ(set.find("ZN", "ZN", zinc), 0);
+    EXPECT_EQ(set.find("HEM", "FE", iron), 1.8f);
+    EXPECT_EQ(set.find("XXX", "Q", 0), 1.8f);
+}
+
+TEST(Radii, NamesFileAndLineOfAnError)
+{
+    auto message = [](const std::string& text) {
+        const TempFile file("my.radii", "# rules\n" + text + "\n");
+        const std::string what = errorOf(ErrorKind::Input, [&] { readRadii(file.path()); });
+        EXPECT_HAS(what, file.path() + ": line 2: ");
+        return what;
+    };
+    EXPECT_HAS(message("C"), "expected ELEMENT RADIUS or RESIDUE ATOM RADIUS, got 1 columns");
+    EXPECT_HAS(message("ALA CA 1.7 x"), "got 4 columns");
+    EXPECT_HAS(message("Zz 1.7"), "element: expected a symbol");
+    EXPECT_HAS(message("C -1.7"), "radius: expected 0 to 100 Å, got \"-1.7\"");
+    EXPECT_HAS(message("C nan"), "radius: expected");
+    EXPECT_HAS(message("C wide"), "radius: expected");
+    EXPECT_HAS(errorOf(ErrorKind::Input, [] { readRadii("bondy"); }),
+               "expected bondi, alvarez, gemmi or a file that exists, got \"bondy\"");
+}
+
+const std::string atoms =
+    "ATOM      1  CA  GLY A   1       1.000   2.000   3.000  1.00  0.00           C\n"
+    "HETATM    2 PM    PM A   2       5.000   2.000   3.000  1.00  0.00          PM\n"
+    "HETATM    3 Q1   UNL A   3       9.000   2.000   3.000  1.00  0.00           X\n";
+
+TEST(Radii, UnknownElementsTakeThatOfCarbonWithOneWarning)
+{
+    const TempFile file("a.pdb", atoms);
+    const BallSelection selection = selectBalls(readStructure(file.path()), {});
+    ASSERT_EQ(selection.balls.size(), 3u);
+    EXPECT_EQ(selection.balls[1].radius, 1.7f);
+    EXPECT_EQ(selection.balls[2].radius, 1.7f);
+    ASSERT_EQ(selection.warnings.size(), 1u);
+    EXPECT_HAS(selection.warnings[0], "Pm (1 atom), unknown element of atom \"Q1\" (1 atom)");
+}
+
+TEST(Radii, WhatAFileLacksComesFromBondi)
+{
+    const TempFile file("a.pdb", atoms), radii("my.radii", "PM 2.0\n* Q1 3.0\n");
+    SelectOptions options;
+    options.radii = radii.path();
+    const BallSelection selection = selectBalls(readStructure(file.path()), options);
+    EXPECT_EQ(selection.balls[0].radius, 1.7f);
+    EXPECT_EQ(selection.balls[1].radius, 2.0f);
+    EXPECT_EQ(selection.balls[2].radius, 3.0f);
+    ASSERT_EQ(selection.warnings.size(), 1u);
+    EXPECT_HAS(selection.warnings[0], "lacks C (1 atom): bondi was used");
+}
+
+TEST(Radii, AZeroInAFileLeavesTheAtomOut)
+{
+    const TempFile file("a.pdb", atoms), radii("my.radii", "* 1.9\nC 0\n");
+    SelectOptions options;
+    options.radii = radii.path();
+    const BallSelection selection = selectBalls(readStructure(file.path()), options);
+    EXPECT_EQ(selection.balls.size(), 2u);
+    ASSERT_EQ(selection.drops.size(), 1u);
+    EXPECT_EQ(selection.drops[0].reason, "zero radius");
+}
+
+} // namespace
+} // namespace molsurf::test

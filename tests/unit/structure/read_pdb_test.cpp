@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/structure/read_structure.h"
+#include "unit/structure/temp_file.h"
+
+#include <algorithm>
+
+namespace molsurf::test
+{
+namespace
+{
+
+Structure readText(const std::string& text, const std::string& name = "a.pdb")
+{
+    return readStructure(TempFile(name, text).path());
+}
+
+std::string inputError(const std::string& text, const std::string& name = "a.pdb")
+{
+    return errorOf(ErrorKind::Input, [&] { readText(text, name); });
+}
+
+std::size_t countResidues(const Structure& s, bool Residue::*flag)
+{
+    return static_cast<std::size_t>(std::count_if(s.residues.begin(), s.residues.end(),
+                                                  [&](const Residue& r) { return r.*flag; }));
+}
+
+std::size_t countElement(const Structure& s, int element)
+{
+    return static_cast<std::size_t>(std::count_if(
+        s.atoms.begin(), s.atoms.end(), [&](const Atom& a) { return a.element == element; }));
+}
+
+TEST(ReadPdb, ReadsAtomsAndResidues)
+{
+    const Structure s = readStructure(dataFile("1crn.pdb"));
+    EXPECT_EQ(s.source, "1crn.pdb");
+    EXPECT_EQ(s.format, "PDB");
+    ASSERT_EQ(s.atoms.size(), 327u);
+    EXPECT_EQ(s.residues.size(), 46u);
+    EXPECT_EQ(s.chains, (std::vector<std::string>{"A"}));
+    EXPECT_FALSE(s.hasRadii);
+    EXPECT_EQ(s.atoms[1].name, "CA");
+    EXPECT_EQ(s.atoms[1].element, 6);
+    EXPECT_EQ(s.atoms[1].position, openvdb::Vec3d(16.967, 12.784, 4.338));
+    EXPECT_FLOAT_EQ(s.atoms[1].bFactor, 10.80f);
+    EXPECT_EQ(countElement(s, 16), 6u); // three disulphide bridges
+    EXPECT_EQ(s.residues[45].name, "ASN");
+    EXPECT_EQ(s.residues[45].number, 46);
+}
+
+TEST(ReadPdb, TellsWatersAndLigands)
+{
+    const Structure s = readStructure(dataFile("1ubq.pdb"));
+    EXPECT_EQ(s.atoms.size(), 660u);
+    EXPECT_EQ(countResidues(s, &Residue::water), 58u);
+    EXPECT_EQ(countResidues(s, &Residue::hetero), 0u);
+}
+
+TEST(ReadPdb, SelenomethionineIsNoLigand)
+{
+    const Structure s = readStructure(dataFile("1a8o.pdb.gz"));
+    EXPECT_EQ(s.atoms.size(), 644u);
+    EXPECT_EQ(countResidues(s, &Residue::water), 88u);
+    EXPECT_EQ(countResidues(s, &Residue::hetero), 0u);
+    EXPECT_EQ(countElement(s, 34), 4u);
+}
+
+TEST(ReadPdb, ReadsLineNumbersOf1990)
+{
+    const Structure s = readStructure(dataFile("4at1.ent.gz"));
+    EXPECT_EQ(s.atoms.size(), 7170u);
+    EXPECT_EQ(s.chains.size(), 4u);
+    EXPECT_EQ(countResidues(s, &Residue::hetero), 4u); // 2 ATP and 2 zinc
+    EXPECT_EQ(countElement(s, 30), 2u);
+    EXPECT_EQ(countElement(s, 0), 0u);
+}
+
+TEST(ReadPdb, ReadsModels)
+{
+    const Structure s = readStructure(dataFile("1d3z.pdb.gz"));
+    ASSERT_EQ(s.models.size(), 10u);
+    for (int i = 0; i < 10; ++i) {
+        const Model& model = s.models[static_cast<std::size_t>(i)];
+        EXPECT_EQ(model.number, i + 1);
+        EXPECT_EQ(model.end - model.begin, 1231u);
+    }
+}
+
+const std::string atom =
+    "ATOM      1  CA  GLY A   1       1.000   2.000   3.000  1.00  0.00           C  \n";
+
+TEST(ReadPdb, KeepsModelNumbersOfTheFile)
+{
+    const Structure s = readText("MODEL        7\n" + atom + "ENDMDL\nMODEL    12345\n" + atom +
+                                 "ENDMDL\nMODEL\nENDMDL\n" + atom + "ENDMDL\n" + atom);
+    ASSERT_EQ(s.models.size(), 4u);
+    EXPECT_EQ(s.models[0].number, 7);
+    EXPECT_EQ(s.models[1].number, 12345);
+    EXPECT_EQ(s.models[2].number, 12346);
+    EXPECT_EQ(s.models[3].number, 12347);
+}
+
+TEST(ReadPdb, RefusesModelsWithoutAtoms)
+{
+    EXPECT_HAS(inputError("MODEL        1\nENDMDL\n"), "no atoms: read as PDB");
+    EXPECT_HAS(inputError("Dear Sir,\n"), "no atoms");
+    EXPECT_HAS(inputError("HEADER    HEADER ONLY\n"), "no atoms");
+}
+
+TEST(ReadPdb, RefusesBadCoordinatesAndSaysWhere)
+{
+    auto withX = [](const std::string& x) {
+        return "REMARK\n" + atom.substr(0, 30) + x + atom.substr(38);
+    };
+    EXPECT_HAS(inputError(withX("     nan")), "atom 1 (CA of GLY 1): x: expected -1e6 to 1e6");
+    EXPECT_HAS(inputError(withX("     inf")), "expected -1e6 to 1e6");
+    EXPECT_HAS(inputError(withX(" 1000001")), "got 1000001");
+    EXPECT_EQ(readText(withX(" 1000000")).atoms[0].position[0], 1e6);
+    EXPECT_HAS(inputError(withX("********")),
+               "line 2: x: expected a number in columns 31-38, got \"********\"");
+    EXPECT_HAS(inputError(withX("        ")), "got \"\"");
+    EXPECT_HAS(inputError(atom.substr(0, 40)), "line 1: y: expected a number in columns 39-46");
+}
+
+TEST(ReadPdb, ReadsShortLinesAndGuessesElements)
+{
+    const Structure s =
+        readText("ATOM      1  O       X   1       0.417   8.303  11.737  0.00  0.00\n"
+                 "ATOM      2  H       X   1       1.320   8.480  12.003\n"
+                 "ATOM      3 HG11 VAL X   2       1.320   8.480  12.003  1.00  0.00\n"
+                 "ATOM      4 CA   VAL X   2       1.320   8.480  12.003  1.00  0.00\n"
+                 "HETATM    5 CA    CA X   3       1.320   8.480  12.003  1.00  0.00");
+    ASSERT_EQ(s.atoms.size(), 5u);
+    const std::vector<int> elements{8, 1, 1, 6, 20};
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(s.atoms[i].element, elements[i]) << i;
+}
+
+TEST(ReadPdb, ReadsOddChargeColumns)
+{
+    const std::string head = atom.substr(0, 72);
+    const Structure s = readText(head + "4AT1  83\n" + head + "4AT1   8\n" + head + "4AT11234\n" +
+                                 head + "1ABCA 12\n" + head + "     C1+\n" + head + "     C+1\n" +
+                                 head + "SEGA C1 \n" + head + "           A\n");
+    ASSERT_EQ(s.atoms.size(), 8u);
+    for (const Atom& a : s.atoms) EXPECT_EQ(a.element, 6);
+}
+
+TEST(ReadPdb, ReadsHybrid36Numbers)
+{
+    const Structure s = readText(
+        "HETATM99999  O   HOH WZZZZ       1.000   2.000   3.000  1.00  0.00           O  \n"
+        "HETATMA0000  O   HOH WA000       4.000   2.000   3.000  1.00  0.00           O  \n"
+        "HETATMA0001  O   HOH WA001       7.000   2.000   3.000  1.00  0.00           O  \n");
+    ASSERT_EQ(s.residues.size(), 3u);
+    EXPECT_EQ(s.residues[1].number, 10000);
+    EXPECT_EQ(s.residues[2].number, 10001);
+}
+
+TEST(ReadPdb, KeepsInsertionCodes)
+{
+    const Structure s = readText(
+        "ATOM      1 A    XXX X   1a      1.000   2.000   3.000  1.00  0.00           A\n"
+        "ATOM      2 B    XXX X   2c      1.000   2.000   3.000  1.00  0.00           B\n"
+        "ATOM      4 D    XXX X   4       1.000   2.000   3.000  1.00  0.00           D\n");
+    ASSERT_EQ(s.residues.size(), 3u);
+    EXPECT_EQ(s.residues[0].insertionCode, 'a');
+    EXPECT_EQ(s.residues[1].number, 2);
+    EXPECT_EQ(s.residues[2].insertionCode, ' ');
+    EXPECT_EQ(s.atoms[2].element, 1); // deuterium is hydrogen
+}
+
+TEST(ReadPdb, TellsCapsAndIonsFromTheChain)
+{
+    const Structure s = readText(
+        "HETATM    1  C   ACE A   0       0.000   0.000   0.000  1.00  0.00           C  \n"
+        "ATOM      2  N   GLY A   1       1.330   0.000   0.000  1.00  0.00           N  \n"
+        "ATOM      3  CA  GLY A   1       2.000   1.300   0.000  1.00  0.00           C  \n"
+        "ATOM      4  C   GLY A   1       3.400   1.300   0.000  1.00  0.00           C  \n"
+        "HETATM    5  N   XYZ A   2       4.000   2.500   0.000  1.00  0.00           N  \n"
+        "HETATM    6 ZN    ZN A 101       9.000   9.000   9.000  1.00  0.00          ZN  \n"
+        "HETATM    7  O   HOH A 201       9.000   9.000   0.000  1.00  0.00           O  \n");
+    ASSERT_EQ(s.residues.size(), 5u);
+    const std::vector<bool> hetero{false, false, false, true, false};
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(s.residues[i].hetero, hetero[i]) << i;
+    EXPECT_TRUE(s.residues[4].water);
+}
+
+TEST(ReadPdb, AStrayTerMakesNoLigands)
+{
+    const std::string second = "ATOM      2  CA  ALA A   2       9.000   2.000   3.000  1.00  0.00"
+                               "           C  \n";
+    const Structure s = readText(atom + "TER\n" + second);
+    EXPECT_EQ(countResidues(s, &Residue::hetero), 0u);
+}
+
+TEST(ReadPdb, WarnsOfAtomsAfterEnd)
+{
+    EXPECT_TRUE(readText(atom + "END\n\n").warnings.empty());
+    const Structure s = readText(atom + "END\n" + atom);
+    EXPECT_EQ(s.atoms.size(), 1u);
+    ASSERT_EQ(s.warnings.size(), 1u);
+    EXPECT_HAS(s.warnings[0], "after END in line 3");
+}
+
+TEST(ReadPdb, ReadsAssembly)
+{
+    const Structure s = readStructure(dataFile("1a8o.pdb.gz"));
+    ASSERT_EQ(s.assemblies.size(), 1u);
+    ASSERT_EQ(s.assemblies[0].parts.size(), 1u);
+    EXPECT_EQ(s.assemblies[0].parts[0].operators.size(), 2u);
+    EXPECT_EQ(s.asyms, s.chains);
+}
+
+} // namespace
+} // namespace molsurf::test
