@@ -38,17 +38,17 @@ struct SurfaceReport {
     double kinkShare = 0.0;     ///< share of vertices within two voxels of a kink of the distance
 };
 
-/// The history of the flow. Entry 0 of `energy` is the initial surface.
+/// The history of the flow. The interface is the evolving level set's, near the solvent-accessible
+/// surface; entry 0 of the first three is the initial one.
 struct EvolutionReport {
     int steps = 0;
     bool converged = false;
-    std::vector<double> energy;           ///< [Å^2]; steps + 1 values
+    std::vector<double> energy;           ///< integral of w over the interface [Å^2]
+    std::vector<double> area;             ///< of the interface [Å^2]
+    std::vector<double> volume;           ///< inside the interface [Å^3]
     std::vector<double> meanDisplacement; ///< area-weighted mean of |displacement| [Å] of each step
     std::vector<double> maxSpeed;         ///< max |F| near the interface [1/Å] of each step
-    std::size_t creviceVoxels = 0; ///< interface voxels at gaps too narrow for the grid
-    double initialArea = 0.0;   ///< of the initial zero set, offset as the result is [Å^2]
-    double initialVolume = 0.0; ///< [Å^3]
-    int initialComponents = 0;  ///< closed outer pieces before the flow
+    std::size_t creviceVoxels = 0; ///< voxels at gaps of the final interface too narrow for the grid
 };
 
 /// Everything in the .json report.

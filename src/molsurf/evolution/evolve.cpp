@@ -20,15 +20,18 @@ constexpr int reinitializations = 2;
 /// One step of the flow on all leaves.
 /// @param[out] next  phi after it
 StepSums step(const NarrowBand& band, double voxel, const Weights& weights, const StepSize& size,
-              LeafField& next, const Progress& progress)
+              LeafField& next, Progress& progress)
 {
+    // Positions are taken from the first leaf: volumes then do not cancel far from the origin.
+    const openvdb::Coord first = band.table.size() ? band.table.origin(0) : openvdb::Coord();
     return parallelSum<StepSums>(band.table.size(), progress, [&](std::size_t n) {
         LeafBlock<float, 1> phi, psi;
         phi.gather(band.table, band.phi, n);
         psi.gather(band.table, band.psi, n);
         LeafCurvature shape;
         curvature(phi, float(voxel), shape);
-        return flowStep(phi, psi, shape, band.table.active(n), float(voxel), weights, size,
+        return flowStep(phi, psi, shape, band.table.active(n),
+                        (band.table.origin(n) - first).asVec3d() * voxel, float(voxel), weights, size,
                         next.leaf(n));
     });
 }
@@ -62,7 +65,7 @@ void fillFromNeighbours(const NarrowBand& old, const LeafTable& table, std::size
 
 /// Makes the active voxels those within the band of the interface; adds and drops leaves as needed.
 void track(NarrowBand& band, const PsiSource& source, double voxel, double width,
-           const Progress& progress)
+           Progress& progress)
 {
     // The voxels that are certainly within the band, and one step around them.
     const float core = float(width - voxel);
@@ -113,11 +116,11 @@ void track(NarrowBand& band, const PsiSource& source, double voxel, double width
 } // namespace
 
 EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
-                       const EvolveOptions& options, const Progress& progress)
+                       const EvolveOptions& options, Progress& progress)
 {
     const bool preconditioned = options.flow == Flow::Preconditioned;
     const bool gradient = options.regularizer == Regularizer::Gradient;
-    const int maxSteps = options.maxSteps > 0 ? options.maxSteps : preconditioned ? 50 : 2000;
+    const int maxSteps = options.maxSteps >= 0 ? options.maxSteps : preconditioned ? 50 : 2000;
     const Weights weights{gradient ? float(options.lambda) : 0.0f,
                           gradient ? 0.0f : float(options.lambda)};
     const double width = bandWidthVox * voxel;
@@ -148,6 +151,8 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
                                lastDisplacement < options.displacementTolerance * voxel;
         }
         report.energy.push_back(sums.energy);
+        report.area.push_back(sums.area);
+        report.volume.push_back(sums.volume);
         report.creviceVoxels = sums.crevices;
         if (report.converged || report.steps == maxSteps) break;
 
@@ -155,6 +160,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
         report.meanDisplacement.push_back(lastDisplacement);
         report.maxSpeed.push_back(sums.maxSpeed);
         ++report.steps;
+        progress.update("evolve", double(report.steps) / maxSteps);
         std::swap(band.phi, next);
         reinitialize(band.table, band.phi, voxel, width, reinitializations, progress);
         track(band, source, voxel, width, progress);

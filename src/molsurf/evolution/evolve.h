@@ -38,6 +38,6 @@ using PsiSource = std::function<void(const openvdb::Coord& origin, float* psi)>;
 /// @param[in]     voxel   voxel edge h [Å]
 /// @throws Error(ErrorKind::Numeric) if a value is not finite, or if nothing is left of the surface
 EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
-                       const EvolveOptions& options, const Progress& progress);
+                       const EvolveOptions& options, Progress& progress);
 
 } // namespace molsurf

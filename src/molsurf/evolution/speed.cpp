@@ -88,6 +88,7 @@ StepSums& StepSums::operator+=(const StepSums& other)
 {
     energy += other.energy;
     area += other.area;
+    volume += other.volume;
     displacement += other.displacement;
     maxSpeed = std::max(maxSpeed, other.maxSpeed);
     maxSecond = std::max(maxSecond, other.maxSecond);
@@ -96,8 +97,9 @@ StepSums& StepSums::operator+=(const StepSums& other)
 }
 
 StepSums flowStep(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi,
-                  const LeafCurvature& shape, const LeafMask& active, float voxel,
-                  const Weights& weights, const StepSize& size, float* next)
+                  const LeafCurvature& shape, const LeafMask& active,
+                  const openvdb::Vec3d& corner, float voxel, const Weights& weights,
+                  const StepSize& size, float* next)
 {
     LeafStep step;
     stepRows(phi.values, psi.values, shape, voxel, weights, size, step, next);
@@ -113,6 +115,9 @@ StepSums flowStep(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi
         if (std::abs(value) >= 1.5f * voxel) continue;
         sums.energy += h3 * step.weight[v] * step.w[v];
         sums.area += h3 * step.weight[v];
+        const openvdb::Vec3d x = corner + double(voxel) * openvdb::Vec3d(v >> 6, v >> 3 & 7, v & 7);
+        const openvdb::Vec3d n(shape.normal[0][v], shape.normal[1][v], shape.normal[2][v]);
+        sums.volume += h3 * step.weight[v] * (x - double(value) * n).dot(n) / 3.0;
         sums.displacement += h3 * step.weight[v] * std::abs(step.displacement[v]);
         if (std::abs(value) >= voxel) continue;
         sums.maxSpeed = std::max(sums.maxSpeed, std::abs(step.speed[v]));

@@ -13,6 +13,7 @@ namespace molsurf {
 struct StepSums {
     double energy = 0.0;       ///< integral of w over the interface [Å^2]
     double area = 0.0;         ///< of the interface [Å^2]
+    double volume = 0.0;       ///< integral of x.n/3 over the interface [Å^3]
     double displacement = 0.0; ///< integral of |displacement| over the interface [Å^3]
     float maxSpeed = 0.0f;     ///< largest |F| within a voxel of the interface [1/Å]
     float maxSecond = 0.0f;    ///< largest stiffness P there [1/Å^2], without the cap of the movement
@@ -33,10 +34,12 @@ struct StepSize {
 /// @param[in]  phi, psi   the leaf and its rim
 /// @param[in]  shape      curvature() of phi
 /// @param[in]  active     the band
+/// @param[in]  corner     position of the leaf's first voxel [Å]
 /// @param[in]  voxel      voxel edge h [Å]
 /// @param[out] next       phi after the step [Å]
 StepSums flowStep(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi,
-                  const LeafCurvature& shape, const LeafMask& active, float voxel,
-                  const Weights& weights, const StepSize& size, float* next);
+                  const LeafCurvature& shape, const LeafMask& active,
+                  const openvdb::Vec3d& corner, float voxel, const Weights& weights,
+                  const StepSize& size, float* next);
 
 } // namespace molsurf

@@ -133,10 +133,10 @@ openvdb::Vec3f gradientFrom(const Seed& seed, const Vec3d& x)
     return gradient;
 }
 
-/// Whether two closest points give a voxel gradients that differ by more than 30 degrees.
+/// Whether two closest points give a voxel gradients that differ by more than 20 degrees.
 bool disagree(const Seed& a, const Seed& b, const Vec3d& x)
 {
-    constexpr float cosine = 0.866f;
+    constexpr float cosine = 0.94f;
     return a.n.dot(b.n) < cosine && gradientFrom(a, x).dot(gradientFrom(b, x)) < cosine;
 }
 

@@ -13,7 +13,7 @@ namespace molsurf {
 struct DistanceBand {
     LeafTable table;     ///< active: -inside < phi < outside
     LeafField phi;       ///< [Å]; at inactive voxels -inside or outside
-    std::vector<LeafMask> kinks; ///< active voxels beside which the gradient turns by more than 30 degrees
+    std::vector<LeafMask> kinks; ///< active voxels beside which the gradient turns by more than 20 degrees
     std::size_t seeds = 0; ///< interface voxels whose closest points carry the distance
 };
 

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/pipeline/run.h"
+
+#include "molsurf/bspline/spline.h"
+#include "molsurf/core/error.h"
+#include "molsurf/core/parallel.h"
+#include "molsurf/evolution/evolve.h"
+#include "molsurf/levelset/initial_surface.h"
+#include "molsurf/levelset/redistance.h"
+#include "molsurf/levelset/reinitialize.h"
+#include "molsurf/rasterize/gaussian_sum.h"
+#include "molsurf/rasterize/nearest_ball.h"
+#include "molsurf/surface/extract.h"
+#include "molsurf/surface/measure.h"
+
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+namespace molsurf {
+
+namespace {
+
+/// Half width of the grid `surface` [voxel].
+constexpr double surfaceWidthVox = 3.0;
+
+/// How far from S = 0 the spline needs samples [voxel]: the corners of the 4^3 coefficients about a point
+/// are up to 2 sqrt(3) away.
+constexpr double splineWidthVox = 4.0;
+
+/// Wall seconds of the stages, in their order.
+class Stopwatch {
+public:
+    explicit Stopwatch(Report& report) : report_(report) {}
+    void stop(const char* stage)
+    {
+        const auto now = Clock::now();
+        report_.seconds.emplace_back(stage, std::chrono::duration<double>(now - start_).count());
+        start_ = now;
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Report& report_;
+    Clock::time_point start_ = Clock::now();
+};
+
+void check(bool good, const std::string& option, const std::string& expected, double got)
+{
+    if (good) return;
+    std::ostringstream message;
+    message << option << ": expected " << expected << ", got " << got;
+    throw Error(ErrorKind::Usage, message.str());
+}
+
+/// The initial level set and the flow.
+NarrowBand evolveSurface(const std::vector<Ball>& balls, const Options& options, Progress& progress,
+                         Report& report, Stopwatch& watch)
+{
+    const double h = options.voxel;
+    // Stencils reach a voxel beyond the band, along diagonals.
+    GaussianOptions gaussian{options.probe, options.epsilon, h, (bandWidthVox + 1.5) * h};
+    progress.update("density", 0.0);
+    const GaussianSum field(balls, gaussian);
+    NarrowBand band;
+    band.table = field.band(bandWidthVox, progress);
+    if (band.table.size() == 0) {
+        throw Error(ErrorKind::Numeric, "density: no voxel lies inside the surface [hint: a smaller "
+                                        "--voxel]");
+    }
+    progress.update("density", 0.6);
+    band.psi = field.evaluate(band.table, progress);
+    watch.stop("density");
+
+    progress.update("initial", 0.0);
+    band.phi = initialSurface(band.table, band.psi, h, bandWidthVox * h, progress);
+    watch.stop("initial");
+
+    progress.update("evolve", 0.0);
+    const auto source = [&](const openvdb::Coord& origin, float* psi) {
+        field.evaluate(origin, gaussian.reach, psi);
+    };
+    report.evolution = evolve(band, source, h, options.evolution, progress);
+    watch.stop("evolve");
+    return band;
+}
+
+/// S = Phi + r_b on the band that the spline needs, from the evolved level set.
+DistanceBand offsetInward(NarrowBand&& band, const Options& options, Progress& progress)
+{
+    const double h = options.voxel, width = splineWidthVox * h;
+    band.psi = LeafField();
+    DistanceBand out = redistance(band.table, band.phi, h, options.probe + width,
+                                  std::max(width - options.probe, h), progress);
+    parallelFor(out.table.size(), progress, [&](std::size_t n) {
+        for (int v = 0; v < leafSize; ++v) out.phi.leaf(n)[v] += float(options.probe);
+    });
+    return out;
+}
+
+/// The level set grid: S made a distance on both sides.
+openvdb::FloatGrid::Ptr surfaceGrid(const DistanceBand& S, double voxel, Progress& progress)
+{
+    const double width = surfaceWidthVox * voxel;
+    LeafTable table = S.table;
+    LeafField phi(table.size());
+    parallelFor(table.size(), progress, [&](std::size_t n) {
+        LeafMask near;
+        for (int v = 0; v < leafSize; ++v) {
+            phi.leaf(n)[v] = S.phi.leaf(n)[v];
+            near.set(v, std::abs(phi.leaf(n)[v]) < width);
+        }
+        table.active(n) &= near;
+    });
+    // Half a voxel an iteration, from the interface to the rim.
+    reinitialize(table, phi, voxel, width, int(2 * surfaceWidthVox), progress);
+    auto grid = toLevelSet(table, phi, width, voxel, progress);
+    grid->setName("surface");
+    return grid;
+}
+
+/// Shares of the vertices near kinks, and of the others with a unit gradient.
+void checkGradient(const Mesh& mesh, const Spline& spline, const DistanceBand& S, double voxel,
+                   Progress& progress, SurfaceReport& report)
+{
+    constexpr int kinkVox = 2;
+    constexpr double gradientTolerance = 0.03;
+    LeafTable kinks = S.table;
+    for (std::size_t n = 0; n < kinks.size(); ++n) kinks.active(n) = S.kinks[n];
+    kinks = dilated(kinks, kinkVox, Spread::Ball, progress);
+
+    struct Counts {
+        std::size_t kink = 0, unit = 0;
+        Counts& operator+=(const Counts& o)
+        {
+            kink += o.kink;
+            unit += o.unit;
+            return *this;
+        }
+    };
+    constexpr std::size_t chunk = 512;
+    const std::size_t vertices = mesh.positions.size();
+    const Counts counts =
+        parallelSum<Counts>((vertices + chunk - 1) / chunk, progress, [&](std::size_t c) {
+            SplineSampler sampler(spline);
+            Counts sum;
+            for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v) {
+                const openvdb::Vec3d x(mesh.positions[v]);
+                const openvdb::Coord near = openvdb::Coord::round(x / voxel);
+                const std::int32_t n = kinks.find(near);
+                const bool kink =
+                    n != noLeaf &&
+                    kinks.active(n).on(int(openvdb::FloatTree::LeafNodeType::coordToOffset(near)));
+                const double slope = sampler.at(x).gradient.length();
+                sum += {std::size_t(kink),
+                        std::size_t(!kink && std::abs(slope - 1.0) < gradientTolerance)};
+            }
+            return sum;
+        });
+    report.kinkShare = vertices ? double(counts.kink) / vertices : 0.0;
+    report.gradientShare =
+        vertices > counts.kink ? double(counts.unit) / (vertices - counts.kink) : 1.0;
+}
+
+} // namespace
+
+void checkOptions(const Options& options)
+{
+    const auto finite = [](double x) { return std::isfinite(x); };
+    check(options.voxel >= minVoxel && options.voxel <= maxVoxel, "--voxel", "0.05 to 10 Å",
+          options.voxel);
+    check(finite(options.probe) && options.probe >= 0.0 && options.probe <= 100.0, "--probe",
+          "0 to 100 Å", options.probe);
+    check(options.epsilon >= 0.01 && options.epsilon <= 100.0, "--epsilon", "0.01 to 100 Å",
+          options.epsilon);
+    check(options.evolution.lambda >= 0.0 && options.evolution.lambda <= 1e6, "--lambda",
+          "0 to 1e6", options.evolution.lambda);
+    check(options.evolution.energyTolerance > 0.0 && finite(options.evolution.energyTolerance),
+          "--tolerance", "a positive number", options.evolution.energyTolerance);
+    check(options.splineLevel >= 0 && options.splineLevel <= 2, "--spline-level", "0, 1 or 2",
+          options.splineLevel);
+}
+
+Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress)
+{
+    checkOptions(options);
+    if (balls.empty()) throw Error(ErrorKind::Input, "no atoms");
+
+    Result result;
+    Report& report = result.report;
+    report.atoms = balls.size();
+    report.voxel = options.voxel;
+    Stopwatch watch(report);
+
+    NarrowBand band = evolveSurface(balls, options, progress, report, watch);
+
+    progress.update("redistance", 0.0);
+    DistanceBand S = offsetInward(std::move(band), options, progress);
+    result.surface = surfaceGrid(S, options.voxel, progress);
+    watch.stop("redistance");
+    if (result.surface->activeVoxelCount() == 0) {
+        throw Error(ErrorKind::Numeric, "redistance: nothing lies a probe radius inside the evolved "
+                                        "surface [hint: a smaller --lambda or --probe]");
+    }
+
+    progress.update("spline", 0.0);
+    Spline spline;
+    spline.voxel = options.voxel;
+    spline.table = S.table;
+    spline.coefficients = prefilter(S.table, S.phi, progress);
+    S.phi = LeafField();
+    watch.stop("spline");
+
+    progress.update("mesh", 0.0);
+    ExtractStats stats;
+    result.mesh = extractMesh(*result.surface, spline, progress, stats);
+    if (result.mesh.triangles.empty()) {
+        throw Error(ErrorKind::Numeric, "mesh: the surface vanishes at this voxel size [hint: a "
+                                        "smaller --voxel or --lambda]");
+    }
+    progress.update("mesh", 0.7);
+    const std::string kind = report.surface.kind;
+    report.surface = measure(result.mesh, progress);
+    report.surface.kind = kind;
+    report.surface.maxResidual = stats.maxResidual;
+    checkGradient(result.mesh, spline, S, options.voxel, progress, report.surface);
+    // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
+    std::vector<std::int32_t> nearest = nearestBalls(
+        balls, result.mesh.positions, options.probe + 4.0 * options.epsilon + 2.0 * options.voxel,
+        progress);
+    for (std::int32_t& i : nearest) i = i < 0 ? -1 : balls[i].atom;
+    result.mesh.labels.push_back({"atom_id", std::move(nearest)});
+    watch.stop("mesh");
+
+    report.activeVoxels = result.surface->activeVoxelCount();
+    report.gridBytes = result.surface->memUsage();
+    return result;
+}
+
+} // namespace molsurf

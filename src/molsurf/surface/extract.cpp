@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/extract.h"
+
+#include "molsurf/core/parallel.h"
+#include "molsurf/surface/topology.h"
+
+#include <openvdb/tools/VolumeToMesh.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace molsurf {
+
+using openvdb::Coord;
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+namespace {
+
+constexpr double tolerance = 1e-6;  // |S| at a vertex, in voxels
+constexpr int newtonSteps = 8, bisections = 30;
+constexpr std::size_t chunk = 512;  // vertices that share a sampler
+
+/// Moves a point along the gradient onto S = 0, by at most a voxel.
+bool newton(SplineSampler& sampler, double voxel, Vec3d& x, Jet& jet)
+{
+    const Vec3d start = x;
+    for (int i = 0; i < newtonSteps; ++i) {
+        jet = sampler.at(x);
+        if (std::abs(jet.value) <= tolerance * voxel) return true;
+        const double slope = jet.gradient.length();
+        if (slope < 0.05) return false;
+        const double step = std::clamp(jet.value / slope, -0.5 * voxel, 0.5 * voxel);
+        x -= step / slope * jet.gradient;
+        if ((x - start).lengthSqr() > voxel * voxel) return false;
+    }
+    return false;
+}
+
+/// Finds S = 0 between the corners of the cell of a point: the line from the corner nearest to the point
+/// to the nearest one of the other sign.
+void bisect(SplineSampler& sampler, double voxel, Vec3d& x, Jet& jet)
+{
+    const Coord cell = Coord::floor(x / voxel);
+    Vec3d ends[2] = {x, x};
+    double distance[2] = {1e30, 1e30};
+    for (int k = 0; k < 8; ++k) {
+        const Vec3d corner = cell.offsetBy(k >> 2, k >> 1 & 1, k & 1).asVec3d() * voxel;
+        const int side = sampler.at(corner).value < 0.0 ? 0 : 1;
+        const double d = (corner - x).lengthSqr();
+        if (d < distance[side]) {
+            distance[side] = d;
+            ends[side] = corner;
+        }
+    }
+    if (distance[0] < 1e30 && distance[1] < 1e30) {
+        for (int i = 0; i < bisections; ++i) {
+            x = 0.5 * (ends[0] + ends[1]);
+            ends[sampler.at(x).value < 0.0 ? 0 : 1] = x;
+        }
+    }
+    jet = sampler.at(x);
+}
+
+struct Vertices {
+    Mesh& mesh;
+    std::vector<float>& mean;
+    std::vector<float>& gauss;
+
+    void set(std::size_t v, const Vec3d& x, const Jet& jet)
+    {
+        mesh.positions[v] = Vec3f(x);
+        const double slope = jet.gradient.length();
+        mesh.normals[v] = slope > 0.0 ? Vec3f(jet.gradient / slope) : Vec3f(0.0f, 0.0f, 1.0f);
+        mean[v] = slope > 0.0 ? float(meanCurvature(jet)) : 0.0f;
+        gauss[v] = slope > 0.0 ? float(gaussianCurvature(jet)) : 0.0f;
+    }
+};
+
+/// Cross product of two edges: the normal of a triangle, twice its area long.
+Vec3d normalOf(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c)
+{
+    const Vec3d p(mesh.positions[a]);
+    return (Vec3d(mesh.positions[b]) - p).cross(Vec3d(mesh.positions[c]) - p);
+}
+
+/// How well a triangle agrees with the normals at its corners: the cosine of the worst angle; 0 for a
+/// triangle without area.
+double agreement(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c)
+{
+    const Vec3d n = normalOf(mesh, a, b, c);
+    const double length = n.length();
+    if (length == 0.0) return 0.0;
+    return std::min({n.dot(Vec3d(mesh.normals[a])), n.dot(Vec3d(mesh.normals[b])),
+                     n.dot(Vec3d(mesh.normals[c]))}) /
+           length;
+}
+
+/// Splits the quad a b c d into two triangles: along the shorter diagonal, unless the other one agrees
+/// clearly better with the normals.
+void splitQuad(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
+               std::array<std::uint32_t, 3>* out)
+{
+    const auto length2 = [&](std::uint32_t i, std::uint32_t j) {
+        return (mesh.positions[i] - mesh.positions[j]).lengthSqr();
+    };
+    const double ac = std::min(agreement(mesh, a, b, c), agreement(mesh, a, c, d));
+    const double bd = std::min(agreement(mesh, b, c, d), agreement(mesh, b, d, a));
+    const bool shorter = length2(a, c) <= length2(b, d);
+    const bool useAC = std::abs(ac - bd) > 0.2 ? ac > bd : shorter;
+    if (useAC) {
+        out[0] = {a, b, c};
+        out[1] = {a, c, d};
+    } else {
+        out[0] = {b, c, d};
+        out[1] = {b, d, a};
+    }
+}
+
+/// Twice the area over the square of the longest edge: sqrt(3)/2 at best, near 0 for a needle or a cap.
+double quality(const Mesh& mesh, const std::array<std::uint32_t, 3>& t)
+{
+    double longest2 = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        longest2 = std::max(
+            longest2, double((mesh.positions[t[k]] - mesh.positions[t[(k + 1) % 3]]).lengthSqr()));
+    }
+    return longest2 == 0.0 ? 0.0 : normalOf(mesh, t[0], t[1], t[2]).length() / longest2;
+}
+
+constexpr double leastQuality = 0.05, leastAgreement = 0.0;
+
+bool isBad(const Mesh& mesh, const std::array<std::uint32_t, 3>& t)
+{
+    return quality(mesh, t) < leastQuality || agreement(mesh, t[0], t[1], t[2]) < leastAgreement;
+}
+
+/// Slides the vertices of bad triangles along the surface to the centroid of their neighbours.
+std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel)
+{
+    constexpr int rounds = 8;
+    Mesh& mesh = vertices.mesh;
+    std::vector<std::uint32_t> bad;
+    for (const auto& t : mesh.triangles) {
+        if (isBad(mesh, t)) bad.insert(bad.end(), t.begin(), t.end());
+    }
+    if (bad.empty()) return 0;
+    const VertexTriangles around = vertexTriangles(mesh);
+    std::size_t moved = 0;
+    for (int round = 0; round < rounds && !bad.empty(); ++round) {
+        std::sort(bad.begin(), bad.end());
+        bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+        std::vector<std::uint32_t> still;
+        for (const std::uint32_t v : bad) {
+            const auto begin = around.triangles.begin() + around.begins[v];
+            const auto end = around.triangles.begin() + around.begins[v + 1];
+            const auto worst = [&] {
+                double least = 1.0;
+                for (auto i = begin; i != end; ++i) {
+                    const auto& t = mesh.triangles[*i];
+                    least = std::min({least, quality(mesh, t),
+                                      agreement(mesh, t[0], t[1], t[2]) + leastQuality});
+                }
+                return least;
+            };
+            const double before = worst();
+            if (before >= leastQuality) continue;
+            Vec3d centroid(0.0);
+            for (auto i = begin; i != end; ++i) {
+                for (const std::uint32_t w : mesh.triangles[*i]) {
+                    if (w != v) centroid += Vec3d(mesh.positions[w]);
+                }
+            }
+            centroid /= 2.0 * double(end - begin); // each neighbour lies on two triangles
+            const Vec3f oldPosition = mesh.positions[v], oldNormal = mesh.normals[v];
+            const float oldMean = vertices.mean[v], oldGauss = vertices.gauss[v];
+            Vec3d x = centroid;
+            Jet jet;
+            if (!newton(sampler, voxel, x, jet)) continue;
+            vertices.set(v, x, jet);
+            if (worst() <= before) {
+                mesh.positions[v] = oldPosition;
+                mesh.normals[v] = oldNormal;
+                vertices.mean[v] = oldMean;
+                vertices.gauss[v] = oldGauss;
+                continue;
+            }
+            ++moved;
+            for (auto i = begin; i != end; ++i) {
+                const auto& t = mesh.triangles[*i];
+                if (isBad(mesh, t)) still.insert(still.end(), t.begin(), t.end());
+            }
+        }
+        bad = std::move(still);
+    }
+    return moved;
+}
+
+} // namespace
+
+Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const Progress& progress,
+                 ExtractStats& stats)
+{
+    std::vector<openvdb::Vec3s> points;
+    std::vector<openvdb::Vec3I> triangles;
+    std::vector<openvdb::Vec4I> quads;
+    openvdb::tools::volumeToMesh(surface, points, triangles, quads, 0.0, 0.0);
+    if (progress.cancelled()) throw Cancelled();
+
+    Mesh mesh;
+    mesh.positions = std::move(points);
+    mesh.normals.resize(mesh.positions.size());
+    std::vector<float> mean(mesh.positions.size()), gauss(mesh.positions.size());
+    Vertices vertices{mesh, mean, gauss};
+
+    const std::size_t chunks = (mesh.positions.size() + chunk - 1) / chunk;
+    std::vector<std::size_t> bisected(chunks, 0);
+    std::vector<double> residual(chunks, 0.0);
+    parallelFor(chunks, progress, [&](std::size_t c) {
+        SplineSampler sampler(spline);
+        const std::size_t end = std::min(mesh.positions.size(), (c + 1) * chunk);
+        for (std::size_t v = c * chunk; v < end; ++v) {
+            const Vec3d start(mesh.positions[v]);
+            Vec3d x = start;
+            Jet jet;
+            if (!newton(sampler, surface.voxelSize()[0], x, jet)) {
+                x = start;
+                bisect(sampler, surface.voxelSize()[0], x, jet);
+                ++bisected[c];
+            }
+            vertices.set(v, x, jet);
+            residual[c] = std::max(residual[c], std::abs(jet.value));
+        }
+    });
+    for (std::size_t c = 0; c < chunks; ++c) {
+        stats.bisected += bisected[c];
+        stats.maxResidual = std::max(stats.maxResidual, residual[c]);
+    }
+
+    // OpenVDB's polygons run clockwise seen from outside.
+    mesh.triangles.resize(triangles.size() + 2 * quads.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        mesh.triangles[i] = {triangles[i][2], triangles[i][1], triangles[i][0]};
+    }
+    parallelFor((quads.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
+        for (std::size_t i = c * chunk; i < std::min(quads.size(), (c + 1) * chunk); ++i) {
+            const auto& q = quads[i];
+            splitQuad(mesh, q[3], q[2], q[1], q[0], &mesh.triangles[triangles.size() + 2 * i]);
+        }
+    });
+
+    SplineSampler sampler(spline);
+    stats.relaxed = relax(vertices, sampler, surface.voxelSize()[0]);
+    mesh.scalars.push_back({"mean_curvature", std::move(mean)});
+    mesh.scalars.push_back({"gaussian_curvature", std::move(gauss)});
+    if (!checkTopology(mesh, vertexTriangles(mesh), progress).manifold) splitNonManifold(mesh);
+    return mesh;
+}
+
+} // namespace molsurf

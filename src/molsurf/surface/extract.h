@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The triangle mesh of a surface given by its spline.
+
+#include "molsurf/bspline/spline.h"
+#include "molsurf/core/progress.h"
+#include "molsurf/surface/mesh.h"
+
+#include <openvdb/openvdb.h>
+
+namespace molsurf {
+
+/// What extractMesh() had to do beyond the plain way.
+struct ExtractStats {
+    std::size_t bisected = 0; ///< vertices that Newton's method did not bring to the surface
+    std::size_t relaxed = 0;  ///< vertices moved along the surface, out of folds and slivers
+    double maxResidual = 0.0; ///< largest |S| at a vertex [Å]
+};
+
+/// Meshes {S = 0}.
+///
+/// OpenVDB's dual mesher gives the connectivity from the signs of the level set at the voxels; each
+/// vertex is then moved along the gradient onto S = 0 by Newton's method, or, where the gradient
+/// fails, by bisection between two corners of its cell that lie on opposite sides. Quads are split so that
+/// the two triangles agree best with the normals of the spline. Vertices with folded or needle-like
+/// triangles slide along the surface to the centroid of their neighbours.
+///
+/// @param[in] surface  level set whose signs are those of the spline at the voxels
+/// @param[in] spline   S
+/// @return a closed mesh, oriented outward, with normals and the scalars mean_curvature and
+///         gaussian_curvature; empty if the level set has no zero
+Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const Progress& progress,
+                 ExtractStats& stats);
+
+} // namespace molsurf
