@@ -75,10 +75,11 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     number("volume", report.surface.volume);
 
     const Options& options = call.options;
-    text("option.select", options.atoms.select);
-    count("option.model", options.atoms.model);
+    text("option.select", options.atoms.select.empty() ? "all" : options.atoms.select);
+    text("option.model", options.atoms.model ? std::to_string(options.atoms.model) : "first");
     text("option.assembly", options.atoms.assembly);
-    text("option.altloc", options.atoms.altloc);
+    text("option.altloc",
+         options.atoms.altloc.empty() ? "highest occupancy" : options.atoms.altloc);
     yesNo("option.no-hydrogens", !options.atoms.hydrogens);
     yesNo("option.no-hetero", !options.atoms.hetero);
     yesNo("option.waters", options.atoms.waters);
@@ -94,7 +95,8 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     number("option.lambda", options.evolution.lambda);
     text("option.regularizer", nameOf(options.evolution.regularizer));
     text("option.flow", nameOf(options.evolution.flow));
-    count("option.max-steps", options.evolution.maxSteps);
+    const int steps = options.evolution.maxSteps;
+    text("option.max-steps", steps ? std::to_string(steps) : "default of the flow");
     number("option.tolerance", options.evolution.energyTolerance);
     count("option.spline-level", options.splineLevel);
     return map;

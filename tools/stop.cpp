@@ -64,7 +64,7 @@ void handleSignals(const std::vector<std::string>& temporaries)
     names = new std::vector<std::string>(temporaries);
     for (int signal : {SIGINT, SIGTERM, SIGHUP}) handle(signal, onStop);
     handle(SIGALRM, onAlarm);
-    handle(SIGPIPE, SIG_IGN);
+    for (int signal : {SIGPIPE, SIGXFSZ}) handle(signal, SIG_IGN);
 }
 
 bool stopRequested()
