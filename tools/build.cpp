@@ -17,7 +17,6 @@
 
 #include <sys/resource.h>
 #include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -173,7 +172,8 @@ void completeReport(const Call& call, std::size_t atoms, double readSeconds,
     report.input = call.input;
     report.atoms = atoms;
     report.voxel = call.options.voxel;
-    report.threads = tbb::this_task_arena::max_concurrency();
+    report.threads =
+        int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
     report.warnings.insert(report.warnings.begin(), warnings.begin(), warnings.end());
     auto& seconds = report.seconds;
     seconds.erase(std::remove_if(seconds.begin(), seconds.end(),

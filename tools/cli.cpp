@@ -85,7 +85,7 @@ const std::vector<Group>& groups()
          {{"surface", "KIND", "variational", "variational"},
           {"voxel", "H", "edge of a voxel [Å], 0.05 to 10", shortest(preset.voxel)},
           {"fill-cavities", nullptr, "drop the inner walls", ""},
-          {"fields", "LIST", "grids of the .vdb, by commas, or all:\n" + join(knownFields, ", "),
+          {"fields", "LIST", "grids of the .vdb, by commas, or all of\n" + join(knownFields, ","),
            "surface"}}},
         {"Resolution",
          {{"epsilon", "E", "tolerance of the Gaussian sum [Å]; larger is smoother",
@@ -247,7 +247,8 @@ std::vector<Output> outputsOf(const Values& values)
         if (path == "-" && word.empty())
             misuse("-o -: expected --format too [hint: --format ply, for example]");
         std::error_code ignored;
-        const std::string real = std::filesystem::weakly_canonical(path, ignored).string();
+        const std::string real =
+            std::filesystem::weakly_canonical(std::filesystem::absolute(path), ignored).string();
         if (!seen.insert(path == "-" ? path : real).second)
             misuse("-o " + path + " is given twice");
         outputs.push_back({path, path == "-" ? formats.at(word) : formatOf(path)});

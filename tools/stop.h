@@ -17,7 +17,8 @@ namespace molsurf::tool
 constexpr int interruptedStatus = 130;
 
 /// Handles SIGINT, SIGTERM and SIGHUP as told above, and ignores SIGPIPE and SIGXFSZ, so that a
-/// closed pipe and a file that may not grow are errors of writing. To be called once, before other threads are there.
+/// closed pipe and a file that may not grow are errors of writing. To be called once, before other
+/// threads are there.
 /// @param[in] temporaries  the files to remove
 void handleSignals(const std::vector<std::string>& temporaries);
 
