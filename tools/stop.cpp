@@ -27,9 +27,9 @@ static_assert(std::atomic<bool>::is_always_lock_free, "used in signal handlers")
     for (const std::string& name : *names) unlink(name.c_str());
     const char clear[] = "\r\033[K";
     const char text[] = "vdb_molsurf: interrupted\n";
-    ssize_t ignored = isatty(STDERR_FILENO) ? write(STDERR_FILENO, clear, sizeof clear - 1) : 0;
-    ignored = write(STDERR_FILENO, text, sizeof text - 1);
-    static_cast<void>(ignored);
+    bool told = !isatty(STDERR_FILENO) || write(STDERR_FILENO, clear, sizeof clear - 1) > 0;
+    told = told && write(STDERR_FILENO, text, sizeof text - 1) > 0;
+    static_cast<void>(told); // there is nobody left to tell
     _exit(interruptedStatus);
 }
 

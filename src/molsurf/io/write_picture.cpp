@@ -138,21 +138,20 @@ Picture drawSurface(const openvdb::FloatGrid& surface, int width)
     const double shape = std::clamp(view.height / view.width, 0.05, 1.0);
     picture.height = std::max(1, int(std::lround(width * shape)));
 
-    Film film(std::size_t(subpixels * picture.width), std::size_t(subpixels * picture.height),
-              Film::RGBA(1.0f));
+    const auto columns = std::size_t(picture.width), rows = std::size_t(picture.height);
+    Film film(subpixels * columns, subpixels * rows, Film::RGBA(1.0f));
     const Vec3d eye = view.center + view.depth * view.toEye;
     openvdb::tools::OrthographicCamera camera(film, Vec3d(0.0), eye, border * view.width, 1e-3,
                                               2.0 * view.depth);
     camera.lookAt(view.center, view.up);
     openvdb::tools::rayTrace(surface, Shader(surface, view), camera);
 
-    picture.rgb.reserve(3 * std::size_t(picture.width) * std::size_t(picture.height));
-    for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x) {
+    picture.rgb.reserve(3 * columns * rows);
+    for (std::size_t y = 0; y < rows; ++y) {
+        for (std::size_t x = 0; x < columns; ++x) {
             Film::RGBA sum(0.0f);
-            for (int s = 0; s < subpixels * subpixels; ++s)
-                sum += film.pixel(std::size_t(subpixels * x + s % subpixels),
-                                  std::size_t(subpixels * y + s / subpixels));
+            for (std::size_t s = 0; s < subpixels * subpixels; ++s)
+                sum += film.pixel(subpixels * x + s % subpixels, subpixels * y + s / subpixels);
             for (float channel : {sum.r, sum.g, sum.b})
                 picture.rgb.push_back(encode(double(channel) / (subpixels * subpixels)));
         }
