@@ -22,7 +22,7 @@ namespace
 using openvdb::Vec3d;
 using openvdb::tools::Film;
 
-constexpr int subpixels = 2;         // a pixel is the mean of 2 x 2 rays
+constexpr std::size_t subpixels = 2; // a pixel is the mean of 2 x 2 rays
 constexpr double border = 1.06;      // width of the picture over that of the molecule
 constexpr double reach = 2.5;        // how far a point looks for a wall in front of it [voxel]
 const Vec3d matte(0.42, 0.60, 0.80); // linear red, green, blue
