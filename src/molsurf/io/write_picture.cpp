@@ -25,7 +25,7 @@ using openvdb::tools::Film;
 constexpr std::size_t subpixels = 2; // a pixel is the mean of 2 x 2 rays
 constexpr double border = 1.06;      // width of the picture over that of the molecule
 constexpr double reach = 2.5;        // how far a point looks for a wall in front of it [voxel]
-const Vec3d matte(0.42, 0.60, 0.80); // linear red, green, blue
+const Vec3d matte(0.30, 0.52, 0.78); // linear red, green, blue
 
 // Where the camera stands: `toEye` and `right` are unit vectors along axes of the grid.
 struct View {
@@ -58,21 +58,21 @@ public:
         : voxels_(surface.getConstAccessor()), transform_(&surface.transform()), view_(view),
           reach_(reach * surface.voxelSize()[0]),
           key_((view.toEye - 0.5 * view.right + 0.9 * view.up).unit()),
-          fill_((view.toEye + 0.9 * view.right - 0.3 * view.up).unit())
+          fill_((view.toEye + 0.9 * view.right - 0.3 * view.up).unit()),
+          half_((key_ + view.toEye).unit())
     {
     }
 
-    Film::RGBA operator()(const Vec3d& at, const Vec3d& normal, const Vec3d&) const override
+    // The normal that OpenVDB offers jumps from voxel to voxel and would show them.
+    Film::RGBA operator()(const Vec3d& at, const Vec3d&, const Vec3d&) const override
     {
+        const Vec3d normal = normalAt(at);
         const double key = std::max(0.0, normal.dot(key_)), fill = std::max(0.0, normal.dot(fill_));
-        const double ahead = openvdb::tools::BoxSampler::sample(
-            voxels_, transform_->worldToIndex(at + reach_ * normal));
-        const double open = std::clamp(ahead / reach_, 0.0, 1.0);
-        const double light = (0.10 + 0.85 * key + 0.30 * fill) * (0.35 + 0.65 * open);
-        const double gloss =
-            0.12 * std::pow(std::max(0.0, normal.dot((key_ + view_.toEye).unit())), 40);
+        const double open = std::clamp(distanceAt(at + reach_ * normal) / reach_, 0.0, 1.0);
+        const double light = (0.06 + 0.90 * key + 0.30 * fill) * (0.20 + 0.80 * open);
+        const double gloss = 0.10 * std::pow(std::max(0.0, normal.dot(half_)), 40);
         const double behind = 0.5 - (at - view_.center).dot(view_.toEye) / view_.depth;
-        const double haze = 0.30 * std::clamp(behind, 0.0, 1.0);
+        const double haze = 0.25 * std::clamp(behind, 0.0, 1.0);
         const Vec3d color = (1.0 - haze) * (light * matte + Vec3d(gloss)) + Vec3d(haze);
         return Film::RGBA(color[0], color[1], color[2]);
     }
@@ -81,11 +81,30 @@ public:
     BaseShader* copy() const override { return new Shader(*this); }
 
 private:
+    double distanceAt(const Vec3d& at) const
+    {
+        return openvdb::tools::BoxSampler::sample(voxels_, transform_->worldToIndex(at));
+    }
+
+    // Differences over two voxels, which vary continuously.
+    Vec3d normalAt(const Vec3d& at) const
+    {
+        const double step = reach_ / reach;
+        Vec3d gradient;
+        for (int i = 0; i < 3; ++i) {
+            Vec3d shift(0.0);
+            shift[i] = step;
+            gradient[i] = distanceAt(at + shift) - distanceAt(at - shift);
+        }
+        gradient.normalize();
+        return gradient;
+    }
+
     openvdb::FloatGrid::ConstAccessor voxels_;
     const openvdb::math::Transform* transform_;
     View view_;
     double reach_;
-    Vec3d key_, fill_;
+    Vec3d key_, fill_, half_; // toward the lamps; between the first lamp and the eye
 };
 
 std::uint8_t encode(double linear)
