@@ -62,7 +62,7 @@ int main(int argc, char** argv)
         say("interrupted");
         return interruptedStatus;
     } catch (const std::bad_alloc&) {
-        say("error: not enough memory [hint: a larger --voxel, or fewer atoms by --select]");
+        say(noMemoryText);
     } catch (const std::exception& e) {
         say(std::string("error: internal: ") + e.what());
     }

@@ -6,6 +6,9 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstring>
+#include <exception>
+#include <new>
 
 namespace molsurf::tool
 {
@@ -22,15 +25,39 @@ std::vector<std::string>* names = nullptr; // never freed: a handler may run unt
 
 static_assert(std::atomic<bool>::is_always_lock_free, "used in signal handlers");
 
-[[noreturn]] void endNow()
+// Only what a signal handler may do.
+[[noreturn]] void leave(const char* text, int status)
 {
     for (const std::string& name : *names) unlink(name.c_str());
-    const char clear[] = "\r\033[K";
-    const char text[] = "vdb_molsurf: interrupted\n";
-    bool told = !isatty(STDERR_FILENO) || write(STDERR_FILENO, clear, sizeof clear - 1) > 0;
-    told = told && write(STDERR_FILENO, text, sizeof text - 1) > 0;
-    static_cast<void>(told); // there is nobody left to tell
-    _exit(interruptedStatus);
+    const auto print = [](const char* words) {
+        const ssize_t printed = write(STDERR_FILENO, words, std::strlen(words));
+        static_cast<void>(printed); // there is nobody left to tell
+    };
+    if (isatty(STDERR_FILENO)) print("\r\033[K");
+    print("vdb_molsurf: ");
+    print(text);
+    print("\n");
+    _exit(status);
+}
+
+[[noreturn]] void endNow()
+{
+    leave("interrupted", interruptedStatus);
+}
+
+[[noreturn]] void onTerminate()
+{
+    try {
+        if (const std::exception_ptr present = std::current_exception())
+            std::rethrow_exception(present);
+    } catch (const std::bad_alloc&) {
+        leave(noMemoryText, 1);
+    } catch (const std::exception& e) {
+        const std::string text = std::string("error: internal: ") + e.what();
+        leave(text.c_str(), 1);
+    } catch (...) {
+    }
+    leave("error: internal", 1);
 }
 
 void onStop(int)
@@ -64,6 +91,7 @@ void handleSignals(const std::vector<std::string>& temporaries)
     names = new std::vector<std::string>(temporaries);
     for (int signal : {SIGINT, SIGTERM, SIGHUP}) handle(signal, onStop);
     handle(SIGALRM, onAlarm);
+    std::set_terminate(onTerminate);
     for (int signal : {SIGPIPE, SIGXFSZ}) handle(signal, SIG_IGN);
 }
 

@@ -16,8 +16,14 @@ namespace molsurf::tool
 /// Exit status of an interrupted run.
 constexpr int interruptedStatus = 130;
 
+/// What to say when memory runs out.
+constexpr const char* noMemoryText =
+    "error: not enough memory [hint: a larger --voxel, or fewer atoms by --select]";
+
 /// Handles SIGINT, SIGTERM and SIGHUP as told above, and ignores SIGPIPE and SIGXFSZ, so that a
-/// closed pipe and a file that may not grow are errors of writing. To be called once, before other
+/// closed pipe and a file that may not grow are errors of writing. An exception that nobody can
+/// catch (OpenVDB and TBB let std::bad_alloc out of destructors) ends the process with status 1,
+/// after a line that says so, and without leaving temporary files. To be called once, before other
 /// threads are there.
 /// @param[in] temporaries  the files to remove
 void handleSignals(const std::vector<std::string>& temporaries);

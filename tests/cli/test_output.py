@@ -89,6 +89,18 @@ class FullDisk(ToolTest):
             subprocess.run(["umount", str(self.folder)], check=True)
 
 
+class Memory(ToolTest):
+    def test_too_little(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (600 << 20, 600 << 20))
+
+        if self.run_tool("--version", preexec_fn=limit).returncode != 0:
+            self.skipTest("the tool needs more for itself")
+        self.check(1, CRAMBIN, "-o", "a.vdb", "-o", "a.ply", "--voxel", "0.05",
+                   says=["not enough memory", "--voxel"], preexec_fn=limit)
+        self.assertEqual(self.names(), [])
+
+
 class StandardOutput(ToolTest):
     def test_every_format(self):
         starts = {"ply": b"ply\n", "obj": b"v ", "stl": b"binary STL", "json": b"{\n",
