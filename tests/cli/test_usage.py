@@ -177,6 +177,32 @@ class Talk(ToolTest):
     def test_large_voxels_are_warned_of(self):
         self.check(0, CRAMBIN, "-o", "a.ply", "--voxel", "1.1", says=["warning", "--voxel 1.1"])
 
+    def on_terminal(self, *words):
+        """What a terminal gets as standard error."""
+        ours, theirs = os.openpty()
+        self.check(0, CRAMBIN, "-o", "a.ply", "--force", *FAST, *words,
+                   capture_output=False, stderr=theirs)
+        os.close(theirs)
+        text = b""
+        try:
+            while part := os.read(ours, 4096):
+                text += part
+        except OSError:  # how Linux says that the other end is closed
+            pass
+        os.close(ours)
+        return text.decode()
+
+    def test_bar_on_a_terminal_is_erased(self):
+        text = self.on_terminal()
+        self.assertIn("[...", text)
+        self.assertIn(" 0 %  write", text)
+        for line in text.split("\n"):  # what is still there after the last erasure
+            self.assertNotIn("%", line.split("\x1b[K")[-1])
+
+    def test_no_bar_if_not_wanted(self):
+        self.assertNotIn("%", self.on_terminal("--no-progress"))
+        self.assertEqual(self.on_terminal("-q"), "")
+
     def test_no_bar_without_a_terminal(self):
         self.assertNotIn(b"\r", self.check(0, CRAMBIN, "-o", "a.ply", *FAST).stderr)
 
