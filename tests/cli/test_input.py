@@ -74,6 +74,11 @@ class BadInput(ToolTest):
         self.check(1, "info", "none.vdb", says=["none.vdb", "No such file"])
         self.check(1, "info", "text.vdb", says="text.vdb")
         self.check(1, "info", ".", says="folder")
+        self.check(0, CRAMBIN, "-o", "good.vdb", *FAST)
+        good = (self.folder / "good.vdb").read_bytes()
+        for share in (0.01, 0.1, 0.5, 0.99):
+            self.write("cut.vdb", good[: int(share * len(good))])
+            self.check(1, "info", "cut.vdb", says="cut.vdb")
 
 
 class GoodInput(ToolTest):

@@ -3,7 +3,7 @@
 
 #include "molsurf/core/error.h"
 
-#include <openvdb/io/File.h>
+#include <openvdb/io/Stream.h>
 
 #include <cerrno>
 #include <cstring>
@@ -28,18 +28,21 @@ VdbFile readVdb(const std::string& path)
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) refuse(path, "it is a folder");
     errno = 0;
-    if (!std::ifstream(path)) refuse(path, std::strerror(errno));
+    std::ifstream stream(path, std::ios_base::binary);
+    if (!stream) refuse(path, std::strerror(errno));
     try {
-        openvdb::io::File file(path);
-        file.open(false); // load now: a file that is cut short must show here
+        // Not io::File: beyond the end of a file that is cut short it goes on with whatever its
+        // variables held before. A stream that throws there stops it.
+        stream.exceptions(std::ios_base::badbit | std::ios_base::failbit | std::ios_base::eofbit);
+        openvdb::io::Stream reader(stream, false);
         VdbFile content;
-        content.grids = *file.getGrids();
-        content.metadata = *file.getMetadata();
+        content.grids = *reader.getGrids();
+        content.metadata = *reader.getMetadata();
         return content;
     } catch (const openvdb::Exception& e) {
         refuse(path, std::string("not a .vdb file, or damaged (") + e.what() + ")");
-    } catch (const std::ios_base::failure&) {
-        refuse(path, "not a .vdb file, or damaged");
+    } catch (const std::exception&) {
+        refuse(path, "not a .vdb file, or damaged or cut short");
     }
 }
 

@@ -13,7 +13,7 @@ namespace molsurf
 
 /// A .vdb file in memory.
 struct VdbFile {
-    openvdb::GridPtrVec grids; ///< sorted by name, trees loaded
+    openvdb::GridPtrVec grids; ///< in the order of the file, trees loaded
     openvdb::MetaMap metadata; ///< of the file as a whole
 };
 
