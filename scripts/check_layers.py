@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MPL-2.0
+"""Holds the #include lines against the table of docs/architecture.md.
+
+Prints one line for each that breaks it, and exits with 1 if there is one.
+"""
+
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+
+# Which stages a stage may include, besides itself and core.
+STAGES = {
+    "core": set(),
+    "structure": set(),
+    "selection": {"structure"},
+    "rasterize": {"selection"},
+    "levelset": set(),
+    "bspline": set(),
+    "evolution": {"levelset", "bspline"},
+    "surface": {"levelset", "bspline"},
+    "io": {"surface"},
+    "pipeline": None,  # all
+    "tools": None,
+}
+
+# Where a library may be included: what is not named here may be included anywhere.
+LIBRARIES = {
+    "gemmi/": ["src/molsurf/structure/", "src/molsurf/selection/"],
+    "nlohmann/": ["src/molsurf/io/"],
+    "png.h": ["src/molsurf/io/"],
+    "openssl/": ["tools/sha256.cpp"],
+    "boost/program_options": ["tools/cli.cpp"],
+}
+
+INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def stage_of(path):
+    parts = path.relative_to(ROOT).parts
+    return "tools" if parts[0] == "tools" else parts[2]
+
+
+def complaint(path, quote, name):
+    """Why `path` may not include `name`, or None."""
+    stage, place = stage_of(path), path.relative_to(ROOT).as_posix()
+    for library, places in LIBRARIES.items():
+        if name.startswith(library) and not any(place.startswith(start) for start in places):
+            return f"{library.rstrip('/')} is for {' and '.join(places)}"
+    if not name.startswith("molsurf/"):
+        if quote == '"' and stage != "tools":
+            return "write the path from src/, \"molsurf/<stage>/...\""
+        return None
+    if not (ROOT / "src" / name).is_file():
+        return "there is no such file"
+    other, allowed = name.split("/")[1], STAGES[stage]
+    if other in ("core", stage) or allowed is None or other in allowed:
+        return None
+    return f"{stage} may not include {other}"
+
+
+def main():
+    faults = edges = 0
+    sources = [path for folder in ("src", "tools") for path in (ROOT / folder).rglob("*")
+               if path.suffix in (".h", ".cpp")]
+    for path in sorted(sources):
+        if stage_of(path) not in STAGES:
+            sys.exit(f"{path.relative_to(ROOT)}: a stage that the table does not know")
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            edges += 1
+            why = complaint(path, *match.groups())
+            if why:
+                faults += 1
+                print(f"{path.relative_to(ROOT)}:{number}: {match.group(2)}: {why}")
+    print(f"layers: {edges} includes in {len(sources)} files, {faults} against the table")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Output files that appear whole or not at all.
+
+#include <fstream>
+#include <string>
+
+namespace molsurf
+{
+
+/// The name under which the output @a path is written until it is complete: a hidden file in the
+/// same folder whose name ends in the process number and ".part". A symbolic link is followed.
+/// Empty for standard output ("-").
+std::string temporaryName(const std::string& path);
+
+/// Finds out before any work is done whether OutputFile could be made and committed.
+///
+/// @param[in] path       file name, or "-" for standard output, which always passes
+/// @param[in] overwrite  true if an existing file may be replaced
+/// @throws Error(ErrorKind::Output) if the folder does not exist or cannot be written to, if the
+///         path is a folder or another thing that is no file, or if the file exists and may not be
+///         replaced
+void checkWritable(const std::string& path, bool overwrite);
+
+/// A file that is written under temporaryName() and gets its own name by commit(). Without a commit
+/// the destructor removes it, and what was there before stays as it was.
+///
+/// Standard output ("-") is written directly, and commit() only flushes it.
+class OutputFile
+{
+public:
+    /// Opens the temporary file.
+    /// @throws Error(ErrorKind::Output) as checkWritable(), or if the file cannot be opened
+    OutputFile(const std::string& path, bool overwrite);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    const std::string& path() const { return path_; }
+
+    /// True if the output can be written out of order, that is, if it is not standard output.
+    bool seekable() const { return !temporary_.empty(); }
+
+    /// Where the content goes. A write that fails throws std::ios_base::failure; finish() and
+    /// write() turn it into an Error.
+    std::ostream& stream();
+
+    /// Appends @a size bytes.
+    /// @throws Error(ErrorKind::Output) if they cannot be written
+    void write(const void* bytes, std::size_t size);
+
+    /// Flushes and closes. No-op if it was done before.
+    /// @throws Error(ErrorKind::Output) if that fails, for example because the disk is full
+    void finish();
+
+    /// finish(), then puts the file in its place.
+    /// @throws Error(ErrorKind::Output) if that fails, or if without @a overwrite somebody else has
+    ///         made a file of that name meanwhile
+    void commit();
+
+    /// Throws the Error for a write that failed with the present errno.
+    [[noreturn]] void fail(const char* step) const;
+
+private:
+    std::string path_, target_, temporary_;
+    bool overwrite_;
+    bool finished_ = false;
+    std::ofstream file_;
+};
+
+} // namespace molsurf

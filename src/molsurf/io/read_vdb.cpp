@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/read_vdb.h"
+
+#include "molsurf/core/error.h"
+
+#include <openvdb/io/Stream.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace molsurf
+{
+
+namespace
+{
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why)
+{
+    throw Error(ErrorKind::Input, "cannot read " + path + ": " + why);
+}
+
+} // namespace
+
+VdbFile readVdb(const std::string& path)
+{
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) refuse(path, "it is a folder");
+    errno = 0;
+    std::ifstream stream(path, std::ios_base::binary);
+    if (!stream) refuse(path, std::strerror(errno));
+    try {
+        // Not io::File: beyond the end of a file that is cut short it goes on with whatever its
+        // variables held before. A stream that throws there stops it.
+        stream.exceptions(std::ios_base::badbit | std::ios_base::failbit | std::ios_base::eofbit);
+        openvdb::io::Stream reader(stream, false);
+        VdbFile content;
+        content.grids = *reader.getGrids();
+        content.metadata = *reader.getMetadata();
+        return content;
+    } catch (const openvdb::Exception& e) {
+        refuse(path, std::string("not a .vdb file, or damaged (") + e.what() + ")");
+    } catch (const std::exception&) {
+        refuse(path, "not a .vdb file, or damaged or cut short");
+    }
+}
+
+} // namespace molsurf

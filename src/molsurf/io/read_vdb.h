@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What a .vdb file holds.
+
+#include <openvdb/openvdb.h>
+
+#include <string>
+
+namespace molsurf
+{
+
+/// A .vdb file in memory.
+struct VdbFile {
+    openvdb::GridPtrVec grids; ///< in the order of the file, trees loaded
+    openvdb::MetaMap metadata; ///< of the file as a whole
+};
+
+/// Reads all of a .vdb file. openvdb::initialize() must have been called.
+///
+/// @throws Error(ErrorKind::Input) if the file does not exist, is no .vdb file or is cut short
+VdbFile readVdb(const std::string& path);
+
+} // namespace molsurf

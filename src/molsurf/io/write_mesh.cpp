@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/write_mesh.h"
+
+#include "molsurf/core/error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace molsurf
+{
+
+namespace
+{
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "PLY and STL are written as they lie");
+static_assert(sizeof(openvdb::Vec3f) == 3 * sizeof(float), "a position is three floats");
+
+// Collects small pieces and hands them on in large ones.
+class Buffer
+{
+public:
+    explicit Buffer(OutputFile& file) : file_(file), bytes_(capacity) {}
+
+    // A place for `size` bytes, which is at most a few hundred.
+    char* take(std::size_t size)
+    {
+        if (used_ + size > capacity) flush();
+        char* place = bytes_.data() + used_;
+        used_ += size;
+        return place;
+    }
+
+    // Gives back what the last take() asked too much.
+    void untake(std::size_t size) { used_ -= size; }
+
+    void flush()
+    {
+        file_.write(bytes_.data(), used_);
+        used_ = 0;
+    }
+
+private:
+    static constexpr std::size_t capacity = std::size_t(1) << 20;
+    OutputFile& file_;
+    std::vector<char> bytes_;
+    std::size_t used_ = 0;
+};
+
+template<typename T>
+char* put(char* to, const T& value)
+{
+    std::memcpy(to, &value, sizeof(T));
+    return to + sizeof(T);
+}
+
+std::string plyHeader(const Mesh& mesh)
+{
+    std::string header = "ply\nformat binary_little_endian 1.0\n";
+    header += "element vertex " + std::to_string(mesh.positions.size()) + "\n";
+    for (const char* name : {"x", "y", "z", "nx", "ny", "nz"})
+        header += std::string("property float ") + name + "\n";
+    for (const auto& scalar : mesh.scalars) header += "property float " + scalar.name + "\n";
+    for (const auto& label : mesh.labels) header += "property int " + label.name + "\n";
+    header += "element face " + std::to_string(mesh.triangles.size()) + "\n";
+    header += "property list uchar int vertex_indices\nend_header\n";
+    return header;
+}
+
+// Appends the letters of a line: "v 1.5 2 3\n", "f 1//1 2//2 3//3\n".
+class Line
+{
+public:
+    explicit Line(Buffer& buffer) : buffer_(buffer), begin_(buffer.take(longest)), end_(begin_) {}
+    ~Line() { buffer_.untake(std::size_t(begin_ + longest - end_)); }
+    Line(const Line&) = delete;
+    Line& operator=(const Line&) = delete;
+
+    Line& operator<<(const char* text)
+    {
+        while (*text) *end_++ = *text++;
+        return *this;
+    }
+
+    template<typename T>
+    Line& number(T value)
+    {
+        end_ = std::to_chars(end_, begin_ + longest, value).ptr;
+        return *this;
+    }
+
+private:
+    static constexpr std::ptrdiff_t longest =
+        128; // three floats of at most 15 letters; six indices
+    Buffer& buffer_;
+    char* begin_;
+    char* end_;
+};
+
+void putVectors(Buffer& buffer, const char* key, const std::vector<openvdb::Vec3f>& vectors)
+{
+    for (const openvdb::Vec3f& v : vectors) {
+        Line line(buffer);
+        line << key;
+        for (int i = 0; i < 3; ++i) (line << " ").number(v[i]);
+        line << "\n";
+    }
+}
+
+} // namespace
+
+void writePly(const Mesh& mesh, OutputFile& file)
+{
+    const std::string header = plyHeader(mesh);
+    file.write(header.data(), header.size());
+
+    Buffer buffer(file);
+    const std::size_t vertexSize =
+        2 * sizeof(openvdb::Vec3f) + 4 * (mesh.scalars.size() + mesh.labels.size());
+    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+        char* to = buffer.take(vertexSize);
+        to = put(to, mesh.positions[n]);
+        to = put(to, mesh.normals[n]);
+        for (const auto& scalar : mesh.scalars) to = put(to, scalar.values[n]);
+        for (const auto& label : mesh.labels) to = put(to, label.values[n]);
+    }
+    for (const auto& triangle : mesh.triangles) {
+        char* to = buffer.take(1 + sizeof triangle);
+        *to = 3;
+        put(to + 1, triangle);
+    }
+    buffer.flush();
+    file.finish();
+}
+
+void writeObj(const Mesh& mesh, OutputFile& file)
+{
+    Buffer buffer(file);
+    putVectors(buffer, "v", mesh.positions);
+    putVectors(buffer, "vn", mesh.normals);
+    for (const auto& triangle : mesh.triangles) {
+        Line line(buffer);
+        line << "f";
+        for (std::uint32_t corner : triangle) {
+            (line << " ").number(corner + 1ull); // counted from 1
+            (line << "//").number(corner + 1ull);
+        }
+        line << "\n";
+    }
+    buffer.flush();
+    file.finish();
+}
+
+void writeStl(const Mesh& mesh, OutputFile& file)
+{
+    if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max())
+        throw Error(ErrorKind::Output, "cannot write " + file.path() + ": .stl holds at most " +
+                                           "4294967295 triangles [hint: write .ply]");
+
+    // Not "solid": that is how readers know the text form.
+    char header[80] = "binary STL, lengths in Angstrom";
+    file.write(header, sizeof header);
+    const auto count = std::uint32_t(mesh.triangles.size());
+    file.write(&count, sizeof count);
+
+    Buffer buffer(file);
+    for (const auto& triangle : mesh.triangles) {
+        const openvdb::Vec3f& a = mesh.positions[triangle[0]];
+        const openvdb::Vec3f& b = mesh.positions[triangle[1]];
+        const openvdb::Vec3f& c = mesh.positions[triangle[2]];
+        openvdb::Vec3d normal = openvdb::Vec3d(b - a).cross(openvdb::Vec3d(c - a));
+        const double length = normal.length();
+        normal = length > 0.0 ? normal / length : openvdb::Vec3d(0.0);
+        char* to = buffer.take(50);
+        to = put(to, openvdb::Vec3f(normal));
+        to = put(to, a);
+        to = put(to, b);
+        to = put(to, c);
+        put(to, std::uint16_t(0));
+    }
+    buffer.flush();
+    file.finish();
+}
+
+} // namespace molsurf

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Mesh files. They hold the mesh and nothing else: no time, path or command line, so that the same
+/// mesh gives the same bytes.
+
+#include "molsurf/io/output_file.h"
+#include "molsurf/surface/mesh.h"
+
+namespace molsurf
+{
+
+/// Writes binary little-endian PLY.
+///
+/// Vertices come first: float x y z [Å], float nx ny nz (unit, outward), then each of Mesh::scalars
+/// as float and of Mesh::labels as int under its own name. A face is `list uchar int
+/// vertex_indices` of three indices and nothing else.
+///
+/// @throws Error(ErrorKind::Output) if the file cannot be written
+void writePly(const Mesh& mesh, OutputFile& file);
+
+/// Writes Wavefront OBJ: positions [Å], normals, faces. Numbers have the fewest digits that give
+/// the same float back. The format has no place for attributes.
+///
+/// @throws Error(ErrorKind::Output) if the file cannot be written
+void writeObj(const Mesh& mesh, OutputFile& file);
+
+/// Writes binary STL: triangles [Å] with facet normals (zero for a triangle without area). The
+/// format has no place for attributes, and no shared vertices.
+///
+/// @throws Error(ErrorKind::Output) if the file cannot be written, or if there are more triangles
+///         than the format can count
+void writeStl(const Mesh& mesh, OutputFile& file);
+
+} // namespace molsurf

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/write_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace molsurf
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+Json surfaceJson(const SurfaceReport& surface)
+{
+    Json cavities = Json::array();
+    for (const Cavity& cavity : surface.cavities)
+        cavities.push_back(Json{{"area", cavity.area}, {"volume", cavity.volume}});
+    return {{"kind", surface.kind},
+            {"area", surface.area},
+            {"volume", surface.volume},
+            {"euler_characteristic", surface.eulerCharacteristic},
+            {"components", surface.components},
+            {"cavities", surface.cavities.size()},
+            {"outer_area", surface.outerArea},
+            {"outer_volume", surface.outerVolume},
+            {"cavity_list", std::move(cavities)},
+            {"vertices", surface.vertices},
+            {"triangles", surface.triangles},
+            {"closed", surface.closed},
+            {"manifold", surface.manifold},
+            {"degenerate_triangles", surface.degenerateTriangles},
+            {"max_residual", surface.maxResidual},
+            {"gradient_share", surface.gradientShare},
+            {"kink_share", surface.kinkShare}};
+}
+
+Json evolutionJson(const EvolutionReport& evolution)
+{
+    return {{"steps", evolution.steps},
+            {"converged", evolution.converged},
+            {"energy", evolution.energy},
+            {"mean_displacement", evolution.meanDisplacement},
+            {"max_speed", evolution.maxSpeed},
+            {"crevice_voxels", evolution.creviceVoxels},
+            {"initial_area", evolution.initialArea},
+            {"initial_volume", evolution.initialVolume},
+            {"initial_components", evolution.initialComponents}};
+}
+
+} // namespace
+
+std::string reportText(const Report& report)
+{
+    Json seconds = Json::object();
+    for (const auto& [stage, time] : report.seconds) seconds[stage] = time;
+
+    const Json json = {
+        {"program", report.program},
+        {"version", report.version},
+        {"command", report.command},
+        {"input", report.input},
+        {"atoms", report.atoms},
+        {"voxel", report.voxel},
+        {"surface", surfaceJson(report.surface)},
+        {"evolution", report.evolution ? evolutionJson(*report.evolution) : Json()},
+        {"grid", {{"active_voxels", report.activeVoxels}, {"bytes", report.gridBytes}}},
+        {"seconds", std::move(seconds)},
+        {"peak_memory_bytes", report.peakMemoryBytes},
+        {"threads", report.threads},
+        {"groups", Json::array()},
+        {"warnings", report.warnings},
+    };
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void writeReport(const Report& report, OutputFile& file)
+{
+    const std::string text = reportText(report);
+    file.write(text.data(), text.size());
+    file.finish();
+}
+
+} // namespace molsurf

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/write_vdb.h"
+
+#include "molsurf/core/error.h"
+
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/Compression.h>
+
+#include <cerrno>
+#include <ios>
+
+namespace molsurf
+{
+
+namespace
+{
+
+// io::File ignores a disk that fills up while it writes. The same archive on a stream of our own,
+// which throws, does not.
+class StreamArchive : public openvdb::io::Archive
+{
+public:
+    StreamArchive()
+    {
+        setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
+    }
+
+    void writeTo(std::ostream& stream, bool seekable, const openvdb::GridCPtrVec& grids,
+                 const openvdb::MetaMap& metadata) const
+    {
+        Archive::write(stream, grids, seekable, metadata);
+    }
+};
+
+} // namespace
+
+void writeVdb(const openvdb::GridCPtrVec& grids, const openvdb::MetaMap& metadata, OutputFile& file)
+{
+    try {
+        errno = 0;
+        StreamArchive().writeTo(file.stream(), file.seekable(), grids, metadata);
+    } catch (const std::ios_base::failure&) {
+        file.fail("cannot write");
+    } catch (const openvdb::Exception& e) {
+        throw Error(ErrorKind::Output, "cannot write " + file.path() + ": " + e.what());
+    }
+    file.finish();
+}
+
+} // namespace molsurf

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Files appear whole or not at all, and nothing is replaced unasked."""
+
+import os
+import resource
+import subprocess
+import unittest
+
+from tool import CRAMBIN, FAST, ToolTest, read_ply
+
+ALL = ["-o", "a.vdb", "-o", "a.ply", "-o", "a.obj", "-o", "a.stl", "-o", "a.json", "-o", "a.png"]
+
+
+class Files(ToolTest):
+    def test_all_kinds_at_once(self):
+        self.check(0, CRAMBIN, *ALL, *FAST)
+        self.assertEqual(self.names(), ["a.json", "a.obj", "a.ply", "a.png", "a.stl", "a.vdb"])
+        self.assertEqual((self.folder / "a.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+    def test_large_letters(self):
+        self.check(0, CRAMBIN, "-o", "A.PLY", *FAST)
+        self.assertEqual(self.names(), ["A.PLY"])
+
+    def test_no_such_folder(self):
+        self.check(1, CRAMBIN, "-o", "none/a.vdb", says=["none", "No such file"])
+        self.assertEqual(self.names(), [])
+
+    def test_outputs_are_checked_before_the_input_is_read(self):
+        self.check(1, "none.pdb", "-o", "none/a.vdb", says="none/a.vdb")
+
+    def test_folder_of_that_name(self):
+        (self.folder / "a.vdb").mkdir()
+        self.check(1, CRAMBIN, "-o", "a.vdb", "--force", says="folder")
+
+    def test_existing_file_stays(self):
+        (self.folder / "a.ply").write_text("old")
+        self.check(1, CRAMBIN, "-o", "a.vdb", "-o", "a.ply", says=["a.ply", "--force"])
+        self.assertEqual((self.folder / "a.ply").read_text(), "old")
+        self.assertEqual(self.names(), ["a.ply"])
+
+    def test_force_replaces(self):
+        (self.folder / "a.ply").write_text("old")
+        self.check(0, CRAMBIN, "-o", "a.ply", "--force", *FAST)
+        self.assertEqual((self.folder / "a.ply").read_bytes()[:4], b"ply\n")
+
+    def test_failing_run_leaves_the_old_file_even_with_force(self):
+        (self.folder / "a.ply").write_text("old")
+        self.check(1, "none.pdb", "-o", "a.ply", "--force")
+        self.assertEqual((self.folder / "a.ply").read_text(), "old")
+        self.assertEqual(self.names(), ["a.ply"])
+
+    def test_folder_that_cannot_be_written(self):
+        self.folder.chmod(0o555)
+        nobody = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+        try:
+            self.run_tool("--version", **nobody)
+        except (PermissionError, subprocess.SubprocessError):
+            self.skipTest("the tool cannot be run by another user")
+        try:
+            self.check(1, CRAMBIN, "-o", "a.vdb", says="Permission denied", **nobody)
+        finally:
+            self.folder.chmod(0o755)
+        self.assertEqual(self.names(), [])
+
+
+class FullDisk(ToolTest):
+    # The larger of the files is the one that does not fit; the others must not appear either.
+    def fill(self, names, words, **options):
+        outputs = [word for name in names for word in ("-o", name)]
+        self.check(1, CRAMBIN, *outputs, *FAST, says=words, **options)
+        self.assertEqual(self.names(), [])
+
+    def test_file_that_may_not_grow(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
+
+        for name in ("a.vdb", "a.ply", "a.obj", "a.stl", "a.png"):
+            with self.subTest(name):
+                self.fill(["a.json", name], [name, "File too large"], preexec_fn=limit)
+
+    def test_small_file_system(self):
+        mount = ["mount", "-t", "tmpfs", "-o", "size=40k", "tmpfs", str(self.folder)]
+        if os.geteuid() != 0 or subprocess.run(mount, capture_output=True).returncode != 0:
+            self.skipTest("cannot mount a small file system")
+        try:
+            for name in ("a.vdb", "a.ply"):
+                self.fill(["a.json", name], [name, "No space left"], cwd=self.folder)
+        finally:
+            subprocess.run(["umount", str(self.folder)], check=True)
+
+
+class Memory(ToolTest):
+    def test_too_little(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (600 << 20, 600 << 20))
+
+        if self.run_tool("--version", preexec_fn=limit).returncode != 0:
+            self.skipTest("the tool needs more for itself")
+        self.check(1, CRAMBIN, "-o", "a.vdb", "-o", "a.ply", "--voxel", "0.05",
+                   says=["not enough memory", "--voxel"], preexec_fn=limit)
+        self.assertEqual(self.names(), [])
+
+
+class StandardOutput(ToolTest):
+    def test_every_format(self):
+        starts = {"ply": b"ply\n", "obj": b"v ", "stl": b"binary STL", "json": b"{\n",
+                  "png": b"\x89PNG", "vdb": b" BDV"}
+        for form, start in starts.items():
+            done = self.check(0, CRAMBIN, "-o", "-", "--format", form, *FAST)
+            self.assertEqual(done.stdout[: len(start)], start, form)
+        self.assertEqual(self.names(), [])
+
+    def test_ply_is_that_of_the_file(self):
+        done = self.check(0, CRAMBIN, "-o", "-", "--format", "ply", "-o", "a.ply", *FAST)
+        self.assertEqual(done.stdout, (self.folder / "a.ply").read_bytes())
+        self.assertGreater(len(read_ply(done.stdout)[2]), 1000)
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
+    def test_full(self):
+        for form in ("ply", "obj", "stl", "json", "png", "vdb"):
+            with open("/dev/full", "wb") as full:
+                self.check(1, CRAMBIN, "-o", "-", "--format", form, "-o", "a.ply", "-q", *FAST,
+                           says=["standard output", "No space left"],
+                           capture_output=False, stdout=full, stderr=subprocess.PIPE)
+            self.assertEqual(self.names(), [], form)
+
+    def test_closed_pipe(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        self.check(1, CRAMBIN, "-o", "-", "--format", "ply", "-o", "a.ply", "-q", *FAST,
+                   says="Broken pipe", capture_output=False, stdout=writer, stderr=subprocess.PIPE)
+        os.close(writer)
+        self.assertEqual(self.names(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: MPL-2.0
+"""The content of the files, read by other programs."""
+
+import collections
+import hashlib
+import json
+import shlex
+import subprocess
+import unittest
+
+from tool import CRAMBIN, FAST, TOOL, ToolTest, read_ply
+
+try:
+    import numpy
+    import pyopenvdb
+except ImportError:
+    pyopenvdb = None
+
+needs_openvdb = unittest.skipUnless(pyopenvdb, "no python3-openvdb")
+
+
+class Report(ToolTest):
+    def report(self, *words):
+        self.check(0, CRAMBIN, "-o", "a.json", "--force", *words)
+        return json.loads((self.folder / "a.json").read_text())
+
+    def test_keys(self):
+        report = self.report(*FAST)
+        self.assertLessEqual(
+            {"program", "version", "command", "input", "atoms", "voxel", "surface", "evolution",
+             "grid", "seconds", "peak_memory_bytes", "threads", "groups"}, set(report))
+        self.assertLessEqual(
+            {"kind", "area", "volume", "euler_characteristic", "components", "cavities",
+             "outer_area", "outer_volume", "cavity_list", "vertices", "triangles", "closed",
+             "manifold"}, set(report["surface"]))
+        self.assertLessEqual(
+            {"steps", "converged", "energy", "mean_displacement", "max_speed"},
+            set(report["evolution"]))
+        self.assertEqual(set(report["grid"]), {"active_voxels", "bytes"})
+        self.assertLessEqual(
+            {"read", "density", "initial", "evolve", "redistance", "spline", "mesh", "write",
+             "total"}, set(report["seconds"]))
+
+    def test_values(self):
+        report = self.report("-j", "1", *FAST)
+        self.assertEqual(report["program"], "vdb_molsurf")
+        self.assertEqual(report["input"], str(CRAMBIN))
+        self.assertEqual(report["atoms"], 327)
+        self.assertEqual(report["voxel"], 1.0)
+        self.assertEqual(report["threads"], 1)
+        self.assertEqual(report["surface"]["kind"], "variational")
+        self.assertTrue(report["surface"]["closed"])
+        self.assertTrue(report["surface"]["manifold"])
+        self.assertGreater(report["surface"]["area"], 1000)
+        self.assertGreater(report["surface"]["volume"], 2000)
+        self.assertEqual(list(report["seconds"])[-1], "total")
+        self.assertGreater(report["peak_memory_bytes"], 1e6)
+        self.assertEqual(report["groups"], [])
+
+    def test_command_can_be_pasted(self):
+        report = self.report("--select", "*", *FAST)
+        words = shlex.split(report["command"])
+        self.assertEqual(words[0], TOOL)
+        self.assertEqual(words[words.index("--select") + 1], "*")
+
+    def test_warnings_are_kept(self):
+        report = self.report("--voxel", "1.5")
+        self.assertTrue(any("--voxel" in warning for warning in report["warnings"]))
+
+
+class NotConverged(ToolTest):
+    def test_status_3_and_files(self):
+        done = self.check(3, CRAMBIN, "-o", "a.json", "-o", "a.ply", "-q", "--max-steps", "1",
+                          says="not converged")
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+        self.assertEqual(self.names(), ["a.json", "a.ply"])
+        report = json.loads((self.folder / "a.json").read_text())
+        self.assertFalse(report["evolution"]["converged"])
+
+
+class Ply(ToolTest):
+    def test_mesh_is_closed_and_the_report_counts_it(self):
+        self.check(0, CRAMBIN, "-o", "a.ply", "-o", "a.json")
+        names, vertices, triangles = read_ply((self.folder / "a.ply").read_bytes())
+        surface = json.loads((self.folder / "a.json").read_text())["surface"]
+        self.assertEqual(names[:6], ["x", "y", "z", "nx", "ny", "nz"])
+        self.assertEqual(len(vertices), surface["vertices"])
+        self.assertEqual(len(triangles), surface["triangles"])
+        edges = collections.Counter()
+        for a, b, c in triangles:
+            edges.update([(a, b), (b, c), (c, a)])
+        self.assertTrue(all(n == 1 and edges[b, a] == 1 for (a, b), n in edges.items()))
+        euler = len(vertices) - len(edges) // 2 + len(triangles)
+        self.assertEqual(euler, surface["euler_characteristic"])
+
+    def test_triangles_turn_outward(self):
+        self.check(0, CRAMBIN, "-o", "a.ply")
+        _, vertices, triangles = read_ply((self.folder / "a.ply").read_bytes())
+        volume = 0.0
+        for triangle in triangles:
+            (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (vertices[n][:3] for n in triangle)
+            volume += ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+        self.assertGreater(volume, 0)
+
+
+class Vdb(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.path = str(self.folder / "a.vdb")
+
+    def build(self, *words):
+        self.check(0, CRAMBIN, "-o", "a.vdb", "--force", *words)
+
+    def test_vdb_print_reads_it(self):
+        self.build(*FAST)
+        done = subprocess.run(["vdb_print", "-l", self.path], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Name: surface", done.stdout)
+        self.assertIn("class: level set", done.stdout)
+
+    def test_info_reads_it(self):
+        self.build(*FAST)
+        text = self.check(0, "info", "a.vdb").stdout.decode()
+        self.assertIn("  grid surface\n", text)
+        for line in (r"class +level set", r"voxel size +1 Å", r"area +[\d.]+ Å\^2",
+                     r"volume +[\d.]+ Å\^3", r"active voxels +\d+", r"option.voxel +1"):
+            self.assertRegex(text, rf"\n    {line}\n")
+
+    @needs_openvdb
+    def test_surface(self):
+        self.build()
+        grid = pyopenvdb.read(self.path, "surface")
+        self.assertEqual(grid.gridClass, "level set")
+        self.assertEqual(grid.valueTypeName, "float")
+        self.assertEqual(tuple(grid.transform.voxelSize()), (0.5, 0.5, 0.5))
+        self.assertGreaterEqual(grid.background, 1.0)
+        self.assertTrue(grid.creator.startswith("vdb_molsurf "))
+        voxels = grid.getConstAccessor()
+        inside = deep = atoms = 0
+        for line in CRAMBIN.read_text().splitlines():
+            if line.startswith("ATOM"):
+                atom = [float(line[i : i + 8]) for i in (30, 38, 46)]
+                ijk = tuple(int(x) for x in grid.transform.worldToIndexCellCentered(atom))
+                value, active = voxels.probeValue(ijk)
+                inside += value < 0
+                deep += not active and value == -grid.background
+                atoms += 1
+        self.assertGreater(inside, 0.95 * atoms)
+        self.assertGreater(deep, 0)
+        self.assertEqual(voxels.probeValue((10000, 0, 0)), (grid.background, False))
+
+    @needs_openvdb
+    def test_metadata(self):
+        self.build("--epsilon", "0.6", *FAST)
+        metadata = pyopenvdb.readMetadata(self.path)
+        self.assertEqual(metadata["program"], "vdb_molsurf")
+        self.assertEqual(metadata["input"], str(CRAMBIN))
+        self.assertEqual(metadata["input_sha256"],
+                         hashlib.sha256(CRAMBIN.read_bytes()).hexdigest())
+        self.assertEqual(metadata["option.epsilon"], 0.6)
+        self.assertEqual(metadata["option.voxel"], 1.0)
+        self.assertIn("--epsilon 0.6", metadata["command"])
+        self.assertGreater(metadata["area"], 0)
+        self.assertGreater(metadata["volume"], 0)
+
+    @needs_openvdb
+    def test_fields(self):
+        self.build("--fields", "all", *FAST)
+        names = sorted(grid.name for grid in pyopenvdb.readAllGridMetadata(self.path))
+        self.assertEqual(names, ["atom_id", "gaussian_curvature", "mean_curvature", "sas", "spline",
+                                 "surface"])
+        self.build("--fields", "sas", *FAST)
+        names = sorted(grid.name for grid in pyopenvdb.readAllGridMetadata(self.path))
+        self.assertEqual(names, ["sas", "surface"])
+
+
+class Threads(ToolTest):
+    def setUp(self):
+        super().setUp()
+        for threads in ("1", "2"):
+            self.check(0, CRAMBIN, "-j", threads, "-o", threads + ".ply", "-o", threads + ".vdb")
+
+    def test_same_mesh(self):
+        self.assertEqual((self.folder / "1.ply").read_bytes(), (self.folder / "2.ply").read_bytes())
+
+    @needs_openvdb
+    def test_same_grid(self):
+        arrays = []
+        for threads in ("1", "2"):
+            grid = pyopenvdb.read(str(self.folder / (threads + ".vdb")), "surface")
+            low, high = grid.evalActiveVoxelBoundingBox()
+            array = numpy.zeros([b - a + 1 for a, b in zip(low, high)], dtype=numpy.float32)
+            grid.copyToArray(array, ijk=low)
+            arrays.append((low, grid.activeVoxelCount(), array))
+        self.assertEqual(arrays[0][:2], arrays[1][:2])
+        self.assertEqual(arrays[0][2].tobytes(), arrays[1][2].tobytes())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Wrong calls have status 2, say why in one line, and leave nothing behind."""
+
+import os
+import unittest
+
+from tool import CRAMBIN, FAST, ROOT, ToolTest
+
+
+class WrongCalls(ToolTest):
+    def refuse(self, *words, says=()):
+        self.check(2, *words, says=says)
+        self.assertEqual(self.names(), [])
+
+    def test_no_input(self):
+        self.refuse("-o", "a.vdb", says="INPUT")
+
+    def test_nothing_at_all(self):
+        self.refuse(says="INPUT")
+
+    def test_two_inputs(self):
+        self.refuse(CRAMBIN, "b.pdb", "-o", "a.vdb", says="b.pdb")
+
+    def test_no_output(self):
+        self.refuse(CRAMBIN, says="-o FILE")
+
+    def test_unknown_option(self):
+        self.refuse(CRAMBIN, "-o", "a.vdb", "--voxle", "1", says="--voxle")
+
+    def test_options_are_not_guessed(self):
+        self.refuse(CRAMBIN, "-o", "a.vdb", "--vox", "1", says="--vox")
+
+    def test_option_without_value(self):
+        self.refuse(CRAMBIN, "-o", "a.vdb", "--voxel", says="--voxel")
+
+    def test_option_twice(self):
+        self.refuse(CRAMBIN, "-o", "a.vdb", "--voxel", "1", "--voxel", "2", says="--voxel")
+
+    def test_output_without_extension(self):
+        self.refuse(CRAMBIN, "-o", "a", says=["-o a", ".vdb"])
+
+    def test_unknown_extension(self):
+        self.refuse(CRAMBIN, "-o", "a.xyz", says=["a.xyz", ".vdb"])
+
+    def test_same_output_twice(self):
+        self.refuse(CRAMBIN, "-o", "a.ply", "-o", "./a.ply", says="twice")
+
+    def test_format_without_standard_output(self):
+        self.refuse(CRAMBIN, "-o", "a.ply", "--format", "ply", says="-o -")
+
+    def test_standard_output_without_format(self):
+        self.refuse(CRAMBIN, "-o", "-", says="--format")
+
+    def test_two_standard_outputs(self):
+        self.refuse(CRAMBIN, "-o", "-", "-o", "-", "--format", "ply", says="twice")
+
+    def test_unknown_format(self):
+        self.refuse(CRAMBIN, "-o", "-", "--format", "glb", says="glb")
+
+    def test_surfaces_of_later_versions(self):
+        for kind in ("ses", "sas", "vdw", "gaussian"):
+            self.refuse(CRAMBIN, "-o", "a.vdb", "--surface", kind, says=[kind, "not available"])
+        self.refuse(CRAMBIN, "-o", "a.vdb", "--surface", "round", says="round")
+
+    def test_unknown_field(self):
+        self.refuse(CRAMBIN, "-o", "a.vdb", "--fields", "sas,color", says="color")
+
+    def test_unknown_words(self):
+        for option in ("--regularizer", "--flow"):
+            self.refuse(CRAMBIN, "-o", "a.vdb", option, "none", says=[option, "none"])
+
+    def test_quiet_and_verbose(self):
+        self.refuse(CRAMBIN, "-o", "a.vdb", "-q", "-v", says="quiet")
+
+    def test_voxel_out_of_range(self):
+        for value in ("0", "-1", "1e-9", "0.049", "10.1", "1e30"):
+            self.refuse(CRAMBIN, "-o", "a.vdb", "--voxel", value, says="--voxel")
+
+    def test_numbers_out_of_range(self):
+        for option, value in (
+            ("--epsilon", "0"),
+            ("--epsilon", "-1"),
+            ("--probe", "-0.1"),
+            ("--lambda", "-1"),
+            ("--tolerance", "-1"),
+            ("--spline-level", "3"),
+            ("--spline-level", "-1"),
+            ("--max-steps", "0"),
+            ("--threads", "0"),
+            ("--model", "-1"),
+        ):
+            self.refuse(CRAMBIN, "-o", "a.vdb", option, value, says=option)
+
+    def test_words_that_are_no_numbers(self):
+        for option in ("--voxel", "--epsilon", "--probe", "--lambda", "--tolerance"):
+            for value in ("nan", "inf", "-inf", "1e999", "1e-999", "0.5A", "0,5", "0x1", " 1", ""):
+                self.refuse(CRAMBIN, "-o", "a.vdb", option, value, says=option)
+        for option in ("--max-steps", "--threads", "--model", "--spline-level"):
+            for value in ("1.5", "1e1", "99999999999999999999", "one", ""):
+                self.refuse(CRAMBIN, "-o", "a.vdb", option, value, says=option)
+
+    def test_info_without_file(self):
+        self.refuse("info", says="FILE.vdb")
+        self.refuse("info", "--what", says="--what")
+
+
+class Information(ToolTest):
+    def test_help_is_the_one_in_docs(self):
+        done = self.check(0, "--help")
+        self.assertEqual(done.stdout.decode(), (ROOT / "docs" / "cli-help.txt").read_text())
+        self.assertEqual(done.stderr, b"")
+
+    def test_help_tells_the_exit_status(self):
+        self.assertIn(b"3 not converged", self.check(0, "--help").stdout)
+
+    def test_help_fits_a_terminal(self):
+        for line in self.check(0, "--help").stdout.decode().splitlines():
+            self.assertLessEqual(len(line), 100)
+
+    def test_info_help(self):
+        self.assertIn(b"info FILE.vdb", self.check(0, "info", "--help").stdout)
+
+    def test_version(self):
+        self.assertRegex(self.check(0, "--version").stdout, rb"^vdb_molsurf \d+\.\d+\.\d+\n$")
+
+    def test_radii(self):
+        self.assertIn(b"bondi", self.check(0, "--list-radii").stdout)
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
+    def test_help_that_cannot_be_printed(self):
+        with open("/dev/full", "wb") as full:
+            self.check(1, "--help", capture_output=False, stdout=full, stderr=-1)
+
+
+class Config(ToolTest):
+    def write(self, text):
+        (self.folder / "c.txt").write_text(text)
+
+    def test_options_come_from_the_file_and_the_command_line_wins(self):
+        self.write("voxel = 0.9\n# a comment\nwaters = true\nlambda = 0.02\n")
+        self.check(0, CRAMBIN, "-o", "a.vdb", "--config", "c.txt", "--lambda", "0.03")
+        text = self.check(0, "info", "a.vdb").stdout.decode()
+        self.assertRegex(text, r"option.voxel +0.9\n")
+        self.assertRegex(text, r"option.waters +true\n")
+        self.assertRegex(text, r"option.lambda +0.03\n")
+
+    def test_unknown_name(self):
+        self.write("voxle = 1\n")
+        self.check(2, CRAMBIN, "-o", "a.vdb", "--config", "c.txt", says=["c.txt", "voxle"])
+
+    def test_bad_value(self):
+        self.write("voxel = nan\n")
+        self.check(2, CRAMBIN, "-o", "a.vdb", "--config", "c.txt", says="--voxel")
+
+    def test_no_such_file(self):
+        self.check(1, CRAMBIN, "-o", "a.vdb", "--config", "c.txt", says=["c.txt", "No such file"])
+
+    def test_folder(self):
+        self.check(1, CRAMBIN, "-o", "a.vdb", "--config", ".", says="directory")
+
+
+class Talk(ToolTest):
+    def test_default_is_two_lines(self):
+        lines = self.check(0, CRAMBIN, "-o", "a.ply", *FAST).stderr.decode().splitlines()
+        self.assertEqual(len(lines), 2, lines)
+        self.assertIn("327 atoms", lines[0])
+        self.assertRegex(lines[1], r"area [\d.]+ Å\^2, volume [\d.]+ Å\^3, .* s$")
+
+    def test_quiet(self):
+        self.assertEqual(self.check(0, CRAMBIN, "-o", "a.ply", "-q", *FAST).stderr, b"")
+
+    def test_verbose_has_the_stages(self):
+        done = self.check(0, CRAMBIN, "-o", "a.ply", "-v", *FAST)
+        for stage in ("read", "mesh", "write", "total"):
+            self.assertRegex(done.stderr.decode(), rf"vdb_molsurf: {stage} +[\d.]+ s\n")
+
+    def test_large_voxels_are_warned_of(self):
+        self.check(0, CRAMBIN, "-o", "a.ply", "--voxel", "1.1", says=["warning", "--voxel 1.1"])
+
+    def on_terminal(self, *words):
+        """What a terminal gets as standard error."""
+        ours, theirs = os.openpty()
+        self.check(0, CRAMBIN, "-o", "a.ply", "--force", *FAST, *words,
+                   capture_output=False, stderr=theirs)
+        os.close(theirs)
+        text = b""
+        try:
+            while part := os.read(ours, 4096):
+                text += part
+        except OSError:  # how Linux says that the other end is closed
+            pass
+        os.close(ours)
+        return text.decode()
+
+    def test_bar_on_a_terminal_is_erased(self):
+        text = self.on_terminal()
+        self.assertIn("[...", text)
+        self.assertIn(" 0 %  write", text)
+        for line in text.split("\n"):  # what is still there after the last erasure
+            self.assertNotIn("%", line.split("\x1b[K")[-1])
+
+    def test_no_bar_if_not_wanted(self):
+        self.assertNotIn("%", self.on_terminal("--no-progress"))
+        self.assertEqual(self.on_terminal("-q"), "")
+
+    def test_no_bar_without_a_terminal(self):
+        self.assertNotIn(b"\r", self.check(0, CRAMBIN, "-o", "a.ply", *FAST).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

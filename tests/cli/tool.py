@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: MPL-2.0
+"""What all command-line tests share: running vdb_molsurf in a folder of its own."""
+
+import os
+import pathlib
+import struct
+import subprocess
+import tempfile
+import unittest
+
+TOOL = os.environ["VDB_MOLSURF"]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DATA = ROOT / "tests" / "data"
+CRAMBIN = DATA / "1crn.pdb"
+FAST = ["--voxel", "1"]  # coarse, for tests that look at anything but the surface
+
+
+class ToolTest(unittest.TestCase):
+    """Every test has an empty current folder, self.folder."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def run_tool(self, *words, **options):
+        options = {"cwd": self.folder, "capture_output": True, "timeout": 300, **options}
+        return subprocess.run([TOOL, *map(str, words)], **options)
+
+    def check(self, status, *words, says=(), **options):
+        """Runs the tool; expects the status, and all of `says` on standard error.
+
+        A failing run ends with its one line of error, and a wrong call says nothing else.
+        """
+        done = self.run_tool(*words, **options)
+        error = (done.stderr or b"").decode()
+        self.assertEqual(done.returncode, status, error)
+        if status in (1, 2):
+            lines = error.splitlines()
+            self.assertEqual(error.count("vdb_molsurf: error: "), 1, error)
+            self.assertTrue(lines[-1].startswith("vdb_molsurf: error: "), error)
+            self.assertTrue(status == 1 or len(lines) == 1, error)
+        for word in [says] if isinstance(says, str) else says:
+            self.assertIn(str(word), error)
+        return done
+
+    def names(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+
+def read_ply(data):
+    """(properties of a vertex, vertices as tuples, triangles) of a binary PLY."""
+    header, body = data.split(b"end_header\n", 1)
+    lines = header.decode("ascii").splitlines()
+    assert lines[:2] == ["ply", "format binary_little_endian 1.0"], lines
+    letters = {"float": "f", "int": "i"}
+    names, form, counts, element = [], "<", {}, None
+    for line in lines[2:]:
+        words = line.split()
+        if words[0] == "element":
+            element = words[1]
+            counts[element] = int(words[2])
+        elif element == "vertex":
+            assert words[0] == "property", line
+            form += letters[words[1]]
+            names.append(words[2])
+        else:
+            assert line == "property list uchar int vertex_indices", line
+    assert list(counts) == ["vertex", "face"], counts
+    end = counts["vertex"] * struct.calcsize(form)
+    assert len(body) == end + 13 * counts["face"], "length of the file"
+    vertices = list(struct.iter_unpack(form, body[:end]))
+    triangles = []
+    for three, a, b, c in struct.iter_unpack("<Biii", body[end:]):
+        assert three == 3
+        triangles.append((a, b, c))
+    return names, vertices, triangles

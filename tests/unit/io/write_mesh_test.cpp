@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/write_mesh.h"
+
+#include "folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <sstream>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3f;
+
+// A tetrahedron in general position, with one attribute of each kind.
+Mesh tetrahedron()
+{
+    Mesh mesh;
+    mesh.positions = {
+        {0.1f, 0.2f, 0.3f}, {1.7f, 0.1f, -0.4f}, {0.3f, 2.1f, 1e-7f}, {0.4f, 0.6f, 3.3f}};
+    for (const Vec3f& x : mesh.positions)
+        mesh.normals.push_back((x - Vec3f(0.6f, 0.7f, 0.8f)).unit());
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    mesh.scalars = {{"mean_curvature", {0.1f, -0.2f, 0.3f, 1e30f}}};
+    mesh.labels = {{"atom_id", {3, -1, 2000000000, 0}}};
+    return mesh;
+}
+
+template<typename T>
+T take(const char*& from)
+{
+    T value;
+    std::memcpy(&value, from, sizeof(T));
+    from += sizeof(T);
+    return value;
+}
+
+TEST(WritePly, HoldsTheMeshAndNothingElse)
+{
+    const Mesh mesh = tetrahedron();
+    const std::string bytes = test::written([&](OutputFile& file) { writePly(mesh, file); });
+    const std::string header = "ply\n"
+                               "format binary_little_endian 1.0\n"
+                               "element vertex 4\n"
+                               "property float x\n"
+                               "property float y\n"
+                               "property float z\n"
+                               "property float nx\n"
+                               "property float ny\n"
+                               "property float nz\n"
+                               "property float mean_curvature\n"
+                               "property int atom_id\n"
+                               "element face 4\n"
+                               "property list uchar int vertex_indices\n"
+                               "end_header\n";
+    ASSERT_EQ(bytes.size(), header.size() + 4 * 32 + 4 * 13);
+    EXPECT_EQ(bytes.substr(0, header.size()), header);
+    const char* at = bytes.data() + header.size();
+    for (std::size_t n = 0; n < 4; ++n) {
+        EXPECT_EQ(take<Vec3f>(at), mesh.positions[n]);
+        EXPECT_EQ(take<Vec3f>(at), mesh.normals[n]);
+        EXPECT_EQ(take<float>(at), mesh.scalars[0].values[n]);
+        EXPECT_EQ(take<std::int32_t>(at), mesh.labels[0].values[n]);
+    }
+    for (const auto& triangle : mesh.triangles) {
+        EXPECT_EQ(take<unsigned char>(at), 3);
+        for (std::uint32_t corner : triangle) EXPECT_EQ(take<std::uint32_t>(at), corner);
+    }
+}
+
+// More than one buffer full: nothing is lost or doubled where one ends.
+TEST(WritePly, LargeMeshKeepsItsOrder)
+{
+    Mesh mesh;
+    const std::uint32_t count = 200001;
+    for (std::uint32_t n = 0; n < count; ++n) {
+        mesh.positions.emplace_back(float(n), 0.5f, -float(n));
+        mesh.normals.emplace_back(0.0f, 0.0f, 1.0f);
+        mesh.triangles.push_back({n, (n + 1) % count, (n + 2) % count});
+    }
+    const std::string bytes = test::written([&](OutputFile& file) { writePly(mesh, file); });
+    const char* at = bytes.data() + bytes.find("end_header\n") + 11;
+    ASSERT_EQ(std::size_t(bytes.data() + bytes.size() - at), std::size_t(count) * (24 + 13));
+    bool same = true;
+    for (std::uint32_t n = 0; n < count; ++n, at += 12)
+        same = same && take<Vec3f>(at) == mesh.positions[n];
+    for (std::uint32_t n = 0; n < count; ++n) {
+        same = same && take<unsigned char>(at) == 3;
+        same = same && take<std::array<std::uint32_t, 3>>(at) == mesh.triangles[n];
+    }
+    EXPECT_TRUE(same);
+}
+
+TEST(WritePly, EmptyMesh)
+{
+    const std::string bytes = test::written([](OutputFile& file) { writePly(Mesh(), file); });
+    EXPECT_NE(bytes.find("element vertex 0\n"), std::string::npos);
+    EXPECT_NE(bytes.find("element face 0\n"), std::string::npos);
+}
+
+TEST(WriteObj, GivesTheSameFloatsBack)
+{
+    const Mesh mesh = tetrahedron();
+    std::istringstream text(test::written([&](OutputFile& file) { writeObj(mesh, file); }));
+    std::vector<Vec3f> positions, normals;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::string key; text >> key;) {
+        if (key == "f") {
+            std::array<std::uint32_t, 3> triangle;
+            for (std::uint32_t& corner : triangle) {
+                std::uint32_t normal;
+                char slash;
+                text >> corner >> slash >> slash >> normal;
+                EXPECT_EQ(corner, normal);
+                --corner;
+            }
+            triangles.push_back(triangle);
+        } else {
+            Vec3f x;
+            text >> x[0] >> x[1] >> x[2];
+            (key == "v" ? positions : normals).push_back(x);
+        }
+    }
+    EXPECT_EQ(positions, mesh.positions);
+    EXPECT_EQ(normals, mesh.normals);
+    EXPECT_EQ(triangles, mesh.triangles);
+}
+
+TEST(WriteStl, FacetNormalsPointOutward)
+{
+    Mesh mesh = tetrahedron();
+    mesh.triangles.push_back({1, 1, 2}); // without area
+    const std::string bytes = test::written([&](OutputFile& file) { writeStl(mesh, file); });
+    ASSERT_EQ(bytes.size(), 84 + 5 * 50u);
+    EXPECT_EQ(bytes.find("solid"), std::string::npos);
+    const char* at = bytes.data() + 80;
+    EXPECT_EQ(take<std::uint32_t>(at), 5u);
+    const Vec3f inside(0.6f, 0.7f, 0.8f);
+    for (const auto& triangle : mesh.triangles) {
+        const Vec3f normal = take<Vec3f>(at);
+        for (std::uint32_t corner : triangle) EXPECT_EQ(take<Vec3f>(at), mesh.positions[corner]);
+        EXPECT_EQ(take<std::uint16_t>(at), 0);
+        if (triangle[0] == triangle[1]) {
+            EXPECT_EQ(normal, Vec3f(0.0f));
+        } else {
+            EXPECT_NEAR(normal.length(), 1.0f, 1e-6f);
+            EXPECT_GT(normal.dot(mesh.positions[triangle[0]] - inside), 0.0f);
+        }
+    }
+}
+
+} // namespace
+} // namespace molsurf

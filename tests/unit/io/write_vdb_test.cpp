@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/write_vdb.h"
+
+#include "folder.h"
+#include "molsurf/core/error.h"
+#include "molsurf/io/read_vdb.h"
+
+#include <openvdb/io/Stream.h>
+#include <openvdb/tools/LevelSetSphere.h>
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace molsurf
+{
+namespace
+{
+
+openvdb::FloatGrid::Ptr sphere()
+{
+    openvdb::initialize();
+    auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(
+        5.0f, openvdb::Vec3f(0.3f, 1.2f, -0.7f), 0.4f);
+    grid->setName("surface");
+    return grid;
+}
+
+// Same values, same active voxels.
+void expectSame(const openvdb::FloatGrid& a, const openvdb::FloatGrid& b)
+{
+    EXPECT_EQ(a.background(), b.background());
+    EXPECT_TRUE(a.tree().hasSameTopology(b.tree()));
+    EXPECT_EQ(a.transform(), b.transform());
+    for (auto voxel = a.cbeginValueOn(); voxel; ++voxel)
+        ASSERT_EQ(*voxel, b.tree().getValue(voxel.getCoord()));
+}
+
+TEST(WriteVdb, ReadsBackAsItWas)
+{
+    const test::Folder folder;
+    const auto grid = sphere();
+    openvdb::MetaMap metadata;
+    metadata.insertMeta("program", openvdb::StringMetadata("test"));
+    metadata.insertMeta("area", openvdb::DoubleMetadata(1.0 / 3.0));
+    OutputFile file(folder / "a.vdb", false);
+    writeVdb({grid}, metadata, file);
+    file.commit();
+
+    const VdbFile back = readVdb(folder / "a.vdb");
+    ASSERT_EQ(back.grids.size(), 1u);
+    const auto read = openvdb::gridPtrCast<openvdb::FloatGrid>(back.grids[0]);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->getName(), "surface");
+    EXPECT_EQ(read->getGridClass(), openvdb::GRID_LEVEL_SET);
+    expectSame(*grid, *read);
+    EXPECT_EQ(read->tree().getValue(openvdb::Coord(0, 3, -2)), -read->background()); // deep inside
+    EXPECT_EQ(back.metadata.metaValue<std::string>("program"), "test");
+    EXPECT_EQ(back.metadata.metaValue<double>("area"), 1.0 / 3.0);
+    EXPECT_EQ(read->metaValue<std::string>("file_compression"), "blosc + active values");
+}
+
+TEST(WriteVdb, ErrorIfTheDiskIsFull)
+{
+    OutputFile file("-", false);
+    std::ofstream full("/dev/full");
+    if (!full) GTEST_SKIP() << "no /dev/full";
+    std::streambuf* before = file.stream().rdbuf(full.rdbuf());
+    try {
+        writeVdb({sphere()}, openvdb::MetaMap(), file);
+        ADD_FAILURE() << "expected an Error";
+    } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::Output);
+        EXPECT_NE(std::string(e.what()).find("No space left"), std::string::npos) << e.what();
+    }
+    file.stream().exceptions(std::ios_base::goodbit);
+    file.stream().rdbuf(before);
+    file.stream().clear();
+}
+
+TEST(ReadVdb, RefusesWhatIsNoVdbFile)
+{
+    const test::Folder folder;
+    std::ofstream(folder / "text.vdb") << "hello";
+    std::ofstream(folder / "empty.vdb");
+    {
+        OutputFile file(folder / "good.vdb", false);
+        writeVdb({sphere()}, openvdb::MetaMap(), file);
+        file.commit();
+    }
+    const std::string good = test::contentOf(folder / "good.vdb");
+    std::ofstream(folder / "cut.vdb") << good.substr(0, good.size() / 2);
+    for (const char* name : {"none.vdb", ".", "text.vdb", "empty.vdb", "cut.vdb"}) {
+        try {
+            readVdb(folder / name);
+            ADD_FAILURE() << name << ": expected an Error";
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::Input);
+            EXPECT_NE(std::string(e.what()).find(folder / name), std::string::npos) << e.what();
+        }
+    }
+}
+
+} // namespace
+} // namespace molsurf

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "verbs.h"
+
+#include "sha256.h"
+#include "stop.h"
+#include "terminal.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/io/output_file.h"
+#include "molsurf/io/write_mesh.h"
+#include "molsurf/io/write_picture.h"
+#include "molsurf/io/write_report.h"
+#include "molsurf/io/write_vdb.h"
+#include "molsurf/pipeline/run.h"
+#include "molsurf/selection/select_balls.h"
+#include "molsurf/structure/read_structure.h"
+
+#include <sys/resource.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+namespace molsurf::tool
+{
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void stopIfAsked()
+{
+    if (stopRequested()) throw Cancelled();
+}
+
+std::size_t peakMemory()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return std::size_t(usage.ru_maxrss) * 1024;
+}
+
+// Everything that is needed to make the file again.
+openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
+{
+    openvdb::MetaMap map;
+    const auto text = [&](const char* name, const std::string& value) {
+        map.insertMeta(name, openvdb::StringMetadata(value));
+    };
+    const auto number = [&](const char* name, double value) {
+        map.insertMeta(name, openvdb::DoubleMetadata(value));
+    };
+    const auto count = [&](const char* name, std::int64_t value) {
+        map.insertMeta(name, openvdb::Int64Metadata(value));
+    };
+    const auto yesNo = [&](const char* name, bool value) {
+        map.insertMeta(name, openvdb::BoolMetadata(value));
+    };
+    text("program", report.program);
+    text("version", report.version);
+    text("command", report.command);
+    text("input", report.input);
+    if (call.input != "-") text("input_sha256", sha256OfFile(call.input));
+    count("atoms", std::int64_t(report.atoms));
+    number("area", report.surface.area);
+    number("volume", report.surface.volume);
+
+    const Options& options = call.options;
+    text("option.select", options.atoms.select.empty() ? "all" : options.atoms.select);
+    text("option.model", options.atoms.model ? std::to_string(options.atoms.model) : "first");
+    text("option.assembly", options.atoms.assembly);
+    text("option.altloc",
+         options.atoms.altloc.empty() ? "highest occupancy" : options.atoms.altloc);
+    yesNo("option.no-hydrogens", !options.atoms.hydrogens);
+    yesNo("option.no-hetero", !options.atoms.hetero);
+    yesNo("option.waters", options.atoms.waters);
+    text("option.radii", options.atoms.radii);
+    number("option.probe", options.probe);
+    text("option.surface", report.surface.kind);
+    number("option.voxel", options.voxel);
+    yesNo("option.fill-cavities", options.fillCavities);
+    std::string fields = "surface";
+    for (const std::string& field : options.fields) fields += "," + field;
+    text("option.fields", fields);
+    number("option.epsilon", options.epsilon);
+    number("option.lambda", options.evolution.lambda);
+    text("option.regularizer", nameOf(options.evolution.regularizer));
+    text("option.flow", nameOf(options.evolution.flow));
+    const int steps = options.evolution.maxSteps;
+    text("option.max-steps", steps ? std::to_string(steps) : "default of the flow");
+    number("option.tolerance", options.evolution.energyTolerance);
+    count("option.spline-level", options.splineLevel);
+    return map;
+}
+
+void writeOne(const Call& call, const Result& result, Format format, OutputFile& file)
+{
+    switch (format) {
+    case Format::Vdb: {
+        openvdb::GridCPtrVec grids = {result.surface};
+        grids.insert(grids.end(), result.fields.begin(), result.fields.end());
+        writeVdb(grids, vdbMetadata(call, result.report), file);
+        break;
+    }
+    case Format::Ply:
+        writePly(result.mesh, file);
+        break;
+    case Format::Obj:
+        writeObj(result.mesh, file);
+        break;
+    case Format::Stl:
+        writeStl(result.mesh, file);
+        break;
+    case Format::Png:
+        writePng(drawSurface(*result.surface), file);
+        break;
+    case Format::Json:
+        writeReport(result.report, file);
+        break;
+    }
+}
+
+// Writes all files, and only when every one is complete puts them in their place. The report comes
+// last, because it tells how long the others took; standard output, which cannot be taken back,
+// only precedes the reports.
+void writeAll(const Call& call, Result& result, Terminal& terminal, Clock::time_point programStart)
+{
+    std::vector<Output> outputs = call.outputs;
+    std::stable_sort(outputs.begin(), outputs.end(), [](const Output& a, const Output& b) {
+        const auto turn = [](const Output& o) {
+            return 2 * (o.format == Format::Json) + (o.path == "-");
+        };
+        return turn(a) < turn(b);
+    });
+
+    const Clock::time_point start = Clock::now();
+    auto& seconds = result.report.seconds;
+    std::vector<std::unique_ptr<OutputFile>> files;
+    bool timed = false;
+    const auto timeIt = [&] {
+        if (timed) return;
+        seconds.emplace_back("write", secondsSince(start));
+        seconds.emplace_back("total", secondsSince(programStart));
+        result.report.peakMemoryBytes = peakMemory();
+        timed = true;
+    };
+    for (const Output& output : outputs) {
+        if (output.format == Format::Json) timeIt();
+        terminal.update("write", double(files.size()) / double(outputs.size()));
+        files.push_back(std::make_unique<OutputFile>(output.path, call.force));
+        writeOne(call, result, output.format, *files.back());
+        stopIfAsked();
+    }
+    timeIt();
+    ignoreSignals();
+    for (const auto& file : files) file->commit();
+}
+
+void completeReport(const Call& call, std::size_t atoms, double readSeconds,
+                    const std::vector<std::string>& warnings, Report& report)
+{
+    report.version = MOLSURF_VERSION;
+    report.command = call.command;
+    report.input = call.input;
+    report.atoms = atoms;
+    report.voxel = call.options.voxel;
+    report.threads =
+        int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    report.warnings.insert(report.warnings.begin(), warnings.begin(), warnings.end());
+    auto& seconds = report.seconds;
+    seconds.erase(std::remove_if(seconds.begin(), seconds.end(),
+                                 [](const auto& stage) {
+                                     return stage.first == "read" || stage.first == "write" ||
+                                            stage.first == "total";
+                                 }),
+                  seconds.end());
+    seconds.insert(seconds.begin(), {"read", readSeconds});
+}
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many)
+{
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string summary(const Report& report)
+{
+    char text[128];
+    const SurfaceReport& surface = report.surface;
+    std::snprintf(text, sizeof text, "area %.1f Å^2, volume %.1f Å^3, ", surface.area,
+                  surface.volume);
+    std::string line = text;
+    line += counted(std::size_t(surface.components), "component", "components") + ", ";
+    line += counted(surface.cavities.size(), "cavity", "cavities") + ", ";
+    line += counted(surface.triangles, "triangle", "triangles");
+    std::snprintf(text, sizeof text, ", %.2f s", report.seconds.back().second);
+    return line + text;
+}
+
+void sayTimes(const Report& report)
+{
+    for (const auto& [stage, time] : report.seconds) {
+        char text[64];
+        std::snprintf(text, sizeof text, "%-10s %9.3f s", stage.c_str(), time);
+        say(text);
+    }
+    char text[96];
+    std::snprintf(text, sizeof text, "%d threads, %.1f MB at most, %zu active voxels",
+                  report.threads, double(report.peakMemoryBytes) / 1e6, report.activeVoxels);
+    say(text);
+}
+
+} // namespace
+
+int build(const Call& call, Clock::time_point start)
+{
+    checkOptions(call.options);
+    std::vector<std::string> temporaries;
+    for (const Output& output : call.outputs) {
+        checkWritable(output.path, call.force);
+        if (output.path != "-") temporaries.push_back(temporaryName(output.path));
+    }
+    handleSignals(temporaries);
+    openvdb::initialize();
+    std::optional<tbb::global_control> limit;
+    if (call.threads)
+        limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(call.threads));
+
+    Terminal terminal(call.progress);
+    std::vector<std::string> warnings = call.warnings;
+    const Clock::time_point readStart = Clock::now();
+    terminal.update("read", 0.0);
+    BallSelection selection;
+    std::string description;
+    {
+        const Structure structure = readStructure(call.input);
+        stopIfAsked();
+        selection = selectBalls(structure, call.options.atoms);
+        description = describeSelection(structure, selection);
+    }
+    const double readSeconds = secondsSince(readStart);
+    warnings.insert(warnings.end(), selection.warnings.begin(), selection.warnings.end());
+    terminal.erase();
+    if (!call.quiet) {
+        say(description);
+        for (const std::string& warning : warnings) say("warning: " + warning);
+    }
+
+    stopIfAsked();
+    Result result = run(selection.balls, call.options, terminal);
+    terminal.erase();
+    if (!call.quiet)
+        for (const std::string& warning : result.report.warnings) say("warning: " + warning);
+    completeReport(call, selection.balls.size(), readSeconds, warnings, result.report);
+    const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
+    result.surface->setCreator(creator);
+    for (const auto& field : result.fields) field->setCreator(creator);
+
+    writeAll(call, result, terminal, start);
+    terminal.erase();
+    if (call.verbose) sayTimes(result.report);
+    if (!call.quiet) say(summary(result.report));
+    const auto& evolution = result.report.evolution;
+    if (evolution && !evolution->converged) {
+        say("not converged after " + counted(std::size_t(evolution->steps), "step", "steps") +
+            "; the files are written [hint: --max-steps or --tolerance]");
+        return notConvergedStatus;
+    }
+    return 0;
+}
+
+} // namespace molsurf::tool

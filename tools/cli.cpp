@@ -1,0 +1,486 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "cli.h"
+
+#include "molsurf/core/error.h"
+
+#include <boost/program_options.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+namespace molsurf::tool
+{
+
+namespace po = boost::program_options;
+
+namespace
+{
+
+// One option: how it is parsed and what --help says of it.
+struct Entry {
+    const char* name;   // "output,o": long name, and short name if there is one
+    const char* value;  // what follows the option; nullptr for a switch
+    std::string text;   // '\n' starts a new line
+    std::string preset; // the default as --help shows it; empty for none
+    bool repeats = false;
+};
+
+struct Group {
+    const char* title;
+    std::vector<Entry> entries;
+};
+
+const std::vector<std::string> knownFields = {
+    "surface", "sas", "spline", "mean_curvature", "gaussian_curvature", "atom_id"};
+
+const std::map<std::string, Format> formats = {{"vdb", Format::Vdb},   {"ply", Format::Ply},
+                                               {"obj", Format::Obj},   {"stl", Format::Stl},
+                                               {"json", Format::Json}, {"png", Format::Png}};
+
+std::string join(const std::vector<std::string>& words, const char* between)
+{
+    std::string all;
+    for (const std::string& word : words) all += (all.empty() ? "" : between) + word;
+    return all;
+}
+
+std::string shortest(double number)
+{
+    char digits[32];
+    return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
+const std::vector<Group>& groups()
+{
+    static const Options preset;
+    static const std::vector<Group> all = {
+        {"Output",
+         {{"output,o", "FILE",
+           "file to write; repeats; the extension says what:\n"
+           ".vdb level set and fields, .ply .obj .stl mesh,\n"
+           ".json report, .png picture; - is standard output",
+           "", true},
+          {"format", "WORD", "what -o - writes: vdb, ply, obj, stl, json or png", ""},
+          {"force", nullptr, "replace existing files", ""}}},
+        {"Atoms",
+         {{"select", "EXPR", "gemmi selections joined by |, e.g. \"/1/A/53-132|*;polymer\"", "all"},
+          {"model", "N", "number of the model in the file", "the first"},
+          {"assembly", "ID", "biological assembly to build; none: as in the file",
+           preset.atoms.assembly},
+          {"altloc", "A", "alternate location to take, or all", "highest occupancy"},
+          {"no-hydrogens", nullptr, "drop hydrogens", ""},
+          {"no-hetero", nullptr, "drop ligands and ions", ""},
+          {"waters", nullptr, "keep waters", ""},
+          {"radii", "SET", "van der Waals radii: a name of --list-radii, or a file",
+           preset.atoms.radii},
+          {"probe", "R", "probe radius [Å]", shortest(preset.probe)}}},
+        {"Surface",
+         {{"surface", "KIND", "variational", "variational"},
+          {"voxel", "H", "edge of a voxel [Å], 0.05 to 10", shortest(preset.voxel)},
+          {"fill-cavities", nullptr, "drop the inner walls", ""},
+          {"fields", "LIST", "grids of the .vdb, by commas, or all of\n" + join(knownFields, ","),
+           "surface"}}},
+        {"Resolution",
+         {{"epsilon", "E", "tolerance of the Gaussian sum [Å]; larger is smoother",
+           shortest(preset.epsilon)}}},
+        {"Evolution",
+         {{"lambda", "L", "weight of the regulariser [Å^2 for gradient, 1 for area]",
+           shortest(preset.evolution.lambda)},
+          {"regularizer", "KIND", "gradient or area", nameOf(preset.evolution.regularizer)},
+          {"flow", "KIND", "preconditioned or plain", nameOf(preset.evolution.flow)},
+          {"max-steps", "N", "steps at most", "50; plain: 2000"},
+          {"tolerance", "T", "converged when the energy changes by less, relative",
+           shortest(preset.evolution.energyTolerance)},
+          {"spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2",
+           std::to_string(preset.splineLevel)}}},
+        {"Run",
+         {{"threads,j", "N", "threads at most", "all"},
+          {"quiet,q", nullptr, "print errors only", ""},
+          {"verbose,v", nullptr, "print the time of every stage", ""},
+          {"no-progress", nullptr, "no progress bar", ""},
+          {"config", "FILE", "options as lines \"name = value\"; the command line wins", ""}}},
+        {"Information",
+         {{"list-radii", nullptr, "print the radii sets and stop", ""},
+          {"version", nullptr, "print the version and stop", ""},
+          {"help", nullptr, "print this text and stop", ""}}}};
+    return all;
+}
+
+[[noreturn]] void misuse(const std::string& message)
+{
+    throw Error(ErrorKind::Usage, message);
+}
+
+std::string longName(const Entry& entry)
+{
+    const std::string name = entry.name;
+    return name.substr(0, name.find(','));
+}
+
+po::options_description describeOptions()
+{
+    po::options_description all;
+    for (const Group& group : groups()) {
+        for (const Entry& entry : group.entries) {
+            if (!entry.value)
+                all.add_options()(entry.name, po::bool_switch());
+            else if (entry.repeats)
+                all.add_options()(entry.name, po::value<std::vector<std::string>>());
+            else
+                all.add_options()(entry.name, po::value<std::string>());
+        }
+    }
+    all.add_options()("input", po::value<std::vector<std::string>>());
+    return all;
+}
+
+// The values of the options, by name. Numbers are read strictly: all of the word, and finite.
+class Values
+{
+public:
+    explicit Values(const po::variables_map& map) : map_(map) {}
+
+    bool on(const char* name) const { return map_[name].as<bool>(); }
+
+    // Leaves `value` alone if the option was not given.
+    void get(const char* name, std::string& value) const
+    {
+        if (!map_.count(name)) return;
+        value = map_[name].as<std::string>();
+        if (value.empty()) misuse("--" + std::string(name) + ": expected a value, got none");
+    }
+
+    void get(const char* name, double& value) const
+    {
+        if (map_.count(name)) value = number<double>(name, "a number");
+    }
+
+    void get(const char* name, int& value, int least, int most) const
+    {
+        if (!map_.count(name)) return;
+        const std::string range =
+            "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+        value = number<int>(name, range);
+        if (value < least || value > most) wrong(name, range);
+    }
+
+    // One of a few words.
+    template<typename Enum>
+    void get(const char* name, Enum& value, std::initializer_list<Enum> choices) const
+    {
+        if (!map_.count(name)) return;
+        const std::string word = map_[name].as<std::string>();
+        std::vector<std::string> words;
+        for (Enum choice : choices) {
+            if (word == nameOf(choice)) {
+                value = choice;
+                return;
+            }
+            words.push_back(nameOf(choice));
+        }
+        wrong(name, join(words, " or "));
+    }
+
+    std::vector<std::string> list(const char* name) const
+    {
+        if (!map_.count(name)) return {};
+        return map_[name].as<std::vector<std::string>>();
+    }
+
+    [[noreturn]] void wrong(const char* name, const std::string& expected) const
+    {
+        misuse("--" + std::string(name) + ": expected " + expected + ", got '" +
+               map_[name].as<std::string>() + "'");
+    }
+
+private:
+    template<typename T>
+    T number(const char* name, const std::string& expected) const
+    {
+        const std::string& word = map_[name].as<std::string>();
+        T value{};
+        const char* end = word.data() + word.size();
+        const auto [stop, failure] = std::from_chars(word.data(), end, value);
+        if (failure != std::errc() || stop != end || !std::isfinite(double(value)))
+            wrong(name, expected);
+        return value;
+    }
+
+    const po::variables_map& map_;
+};
+
+Format formatOf(const std::string& path)
+{
+    std::string extension = std::filesystem::path(path).extension().string();
+    if (!extension.empty()) extension.erase(0, 1);
+    for (char& letter : extension)
+        if (letter >= 'A' && letter <= 'Z') letter = char(letter - 'A' + 'a');
+    const auto found = formats.find(extension);
+    if (found == formats.end())
+        misuse("-o " + path +
+               ": expected a name that ends in .vdb, .ply, .obj, .stl, .json or .png");
+    return found->second;
+}
+
+std::vector<Output> outputsOf(const Values& values)
+{
+    const std::vector<std::string> paths = values.list("output");
+    if (paths.empty()) misuse("nothing to write [hint: -o FILE, for example -o surface.vdb]");
+
+    std::string word;
+    values.get("format", word);
+    if (!word.empty() && !formats.count(word))
+        values.wrong("format", "vdb, ply, obj, stl, json or png");
+    if (!word.empty() && std::count(paths.begin(), paths.end(), "-") == 0)
+        misuse("--format is for -o - only; the extension of a file says what it is");
+
+    std::vector<Output> outputs;
+    std::set<std::string> seen;
+    for (const std::string& path : paths) {
+        if (path == "-" && word.empty())
+            misuse("-o -: expected --format too [hint: --format ply, for example]");
+        std::error_code ignored;
+        const std::string real =
+            std::filesystem::weakly_canonical(std::filesystem::absolute(path), ignored).string();
+        if (!seen.insert(path == "-" ? path : real).second)
+            misuse("-o " + path + " is given twice");
+        outputs.push_back({path, path == "-" ? formats.at(word) : formatOf(path)});
+    }
+    return outputs;
+}
+
+// `surface` is always written.
+std::vector<std::string> fieldsOf(const Values& values)
+{
+    std::string list = "surface";
+    values.get("fields", list);
+    std::set<std::string> wanted;
+    for (std::size_t begin = 0; begin <= list.size();) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        const std::string word = list.substr(begin, end - begin);
+        if (word == "all")
+            wanted.insert(knownFields.begin(), knownFields.end());
+        else if (std::count(knownFields.begin(), knownFields.end(), word))
+            wanted.insert(word);
+        else
+            misuse("--fields: unknown field '" + word + "' [hint: all, or some of " +
+                   join(knownFields, ",") + "]");
+        begin = end + 1;
+    }
+    std::vector<std::string> fields;
+    for (const std::string& field : knownFields)
+        if (field != "surface" && wanted.count(field)) fields.push_back(field);
+    return fields;
+}
+
+void checkSurface(const Values& values)
+{
+    std::string kind = "variational";
+    values.get("surface", kind);
+    for (const char* later : {"ses", "sas", "vdw", "gaussian"})
+        if (kind == later)
+            misuse("--surface " + kind + ": not available in this version; expected variational");
+    if (kind != "variational") values.wrong("surface", "variational");
+}
+
+void fillBuild(const Values& values, Call& call)
+{
+    const std::vector<std::string> inputs = values.list("input");
+    if (inputs.empty()) misuse("no INPUT [hint: vdb_molsurf molecule.pdb -o surface.vdb]");
+    if (inputs.size() > 1)
+        misuse("expected one INPUT, got '" + inputs[0] + "' and '" + inputs[1] + "'");
+    call.input = inputs[0];
+    if (call.input.empty()) misuse("expected the name of a file as INPUT, got an empty word");
+    call.outputs = outputsOf(values);
+    call.force = values.on("force");
+    call.quiet = values.on("quiet");
+    call.verbose = values.on("verbose");
+    call.progress = !values.on("no-progress") && !call.quiet;
+    if (call.quiet && call.verbose) misuse("--quiet and --verbose together");
+    values.get("threads", call.threads, 1, 4096);
+
+    Options& options = call.options;
+    values.get("select", options.atoms.select);
+    values.get("model", options.atoms.model, 1, 1000000000);
+    values.get("assembly", options.atoms.assembly);
+    values.get("altloc", options.atoms.altloc);
+    options.atoms.hydrogens = !values.on("no-hydrogens");
+    options.atoms.hetero = !values.on("no-hetero");
+    options.atoms.waters = values.on("waters");
+    values.get("radii", options.atoms.radii);
+    values.get("probe", options.probe);
+    checkSurface(values);
+    values.get("voxel", options.voxel);
+    options.fillCavities = values.on("fill-cavities");
+    options.fields = fieldsOf(values);
+    values.get("epsilon", options.epsilon);
+    EvolveOptions& evolution = options.evolution;
+    values.get("lambda", evolution.lambda);
+    values.get("regularizer", evolution.regularizer, {Regularizer::Gradient, Regularizer::Area});
+    values.get("flow", evolution.flow, {Flow::Preconditioned, Flow::Plain});
+    values.get("max-steps", evolution.maxSteps, 1, 1000000);
+    values.get("tolerance", evolution.energyTolerance);
+    values.get("spline-level", options.splineLevel, 0, 2);
+
+    if (options.voxel > coarseVoxel)
+        call.warnings.push_back("--voxel " + shortest(options.voxel) +
+                                ": voxels this large cannot show the atoms");
+}
+
+void readConfig(const std::string& path, const po::options_description& all, po::variables_map& map)
+{
+    std::error_code ignored;
+    errno = std::filesystem::is_directory(path, ignored) ? EISDIR : 0;
+    std::ifstream file(path);
+    if (errno == EISDIR || !file)
+        throw Error(ErrorKind::Input, "cannot read " + path + ": " + std::strerror(errno));
+    try {
+        po::store(po::parse_config_file(file, all), map);
+    } catch (const po::error& e) {
+        misuse("--config " + path + ": " + e.what());
+    }
+}
+
+Call parseBuild(int argc, const char* const* argv)
+{
+    const po::options_description all = describeOptions();
+    po::positional_options_description positional;
+    positional.add("input", -1);
+    // Without guessing: --vox must not come to mean something else when an option is added.
+    const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+
+    po::variables_map map;
+    po::store(
+        po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(),
+        map);
+    const Values values(map);
+    Call call;
+    if (values.on("help"))
+        call.verb = Verb::Help;
+    else if (values.on("version"))
+        call.verb = Verb::Version;
+    else if (values.on("list-radii"))
+        call.verb = Verb::ListRadii;
+    if (call.verb != Verb::Build) return call;
+
+    std::string config;
+    values.get("config", config);
+    if (!config.empty()) readConfig(config, all, map);
+    fillBuild(values, call);
+    return call;
+}
+
+Call parseInfo(int argc, const char* const* argv)
+{
+    Call call;
+    call.verb = Verb::Info;
+    bool onlyFiles = false;
+    for (int i = 2; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (!onlyFiles && word == "--help") {
+            call.verb = Verb::InfoHelp;
+            return call;
+        }
+        if (!onlyFiles && word == "--")
+            onlyFiles = true;
+        else if (!onlyFiles && word.size() > 1 && word[0] == '-')
+            misuse("info: unknown option '" + word + "'");
+        else
+            call.files.push_back(word);
+    }
+    if (call.files.empty()) misuse("info: expected FILE.vdb");
+    return call;
+}
+
+std::string quoted(const std::string& word)
+{
+    const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,@%+-";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+    std::string all = "'";
+    for (char letter : word) all += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    return all + "'";
+}
+
+std::string helpLine(const Entry& entry)
+{
+    const std::string name = entry.name;
+    const std::size_t comma = name.find(',');
+    std::string line =
+        comma == std::string::npos ? "      --" : "  -" + name.substr(comma + 1) + ", --";
+    line += longName(entry);
+    if (entry.value) line += std::string(" ") + entry.value;
+
+    const std::size_t column = 26;
+    std::string text = entry.text;
+    if (!entry.preset.empty()) text += " [" + entry.preset + "]";
+    line.resize(std::max(line.size() + 1, column), ' ');
+    for (char letter : text) {
+        line += letter;
+        if (letter == '\n') line.append(column, ' ');
+    }
+    return line + "\n";
+}
+
+} // namespace
+
+const char* nameOf(Regularizer regularizer)
+{
+    return regularizer == Regularizer::Gradient ? "gradient" : "area";
+}
+
+const char* nameOf(Flow flow)
+{
+    return flow == Flow::Preconditioned ? "preconditioned" : "plain";
+}
+
+Call parseCall(int argc, const char* const* argv)
+{
+    std::string command;
+    for (int i = 0; i < argc; ++i) command += (i ? " " : "") + quoted(argv[i]);
+    try {
+        Call call = argc > 1 && std::strcmp(argv[1], "info") == 0 ? parseInfo(argc, argv)
+                                                                  : parseBuild(argc, argv);
+        call.command = command;
+        return call;
+    } catch (const po::unknown_option& e) {
+        misuse("unknown option '" + e.get_option_name() + "' [hint: vdb_molsurf --help]");
+    } catch (const po::error& e) {
+        misuse(std::string(e.what()) + " [hint: vdb_molsurf --help]");
+    }
+}
+
+std::string helpText()
+{
+    std::string text =
+        "vdb_molsurf INPUT -o FILE [-o FILE ...] [options]\n"
+        "vdb_molsurf info FILE.vdb ...\n"
+        "\n"
+        "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .pqr .xyzr,\n"
+        "each also .gz, or - for standard input). Lengths are in Å. Defaults are in brackets.\n";
+    for (const Group& group : groups()) {
+        text += std::string("\n") + group.title + "\n";
+        for (const Entry& entry : group.entries) text += helpLine(entry);
+    }
+    text += "\n"
+            "Exit status: 0 done, 1 failed, 2 wrong usage, 3 not converged (files are written),\n"
+            "130 interrupted.\n";
+    return text;
+}
+
+std::string infoHelpText()
+{
+    return "vdb_molsurf info FILE.vdb ...\n"
+           "\n"
+           "Prints what .vdb files hold: metadata, grids with type, class, voxel size, "
+           "background,\n"
+           "active voxels, memory and bounding box, and the area and volume of level sets.\n";
+}
+
+} // namespace molsurf::tool

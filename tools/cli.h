@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The command line: what the user typed, as values. The only place that knows an option's name and
+/// its help text.
+
+#include "molsurf/pipeline/options.h"
+
+#include <string>
+#include <vector>
+
+namespace molsurf::tool
+{
+
+/// Kinds of output files.
+enum class Format { Vdb, Ply, Obj, Stl, Json, Png };
+
+/// One -o.
+struct Output {
+    std::string path; ///< "-" is standard output
+    Format format;
+};
+
+/// What the tool is asked to do.
+enum class Verb { Build, Info, Help, InfoHelp, ListRadii, Version };
+
+/// A parsed command line.
+struct Call {
+    Verb verb = Verb::Build;
+    std::string command;            ///< the command line as typed, quoted for a shell
+    std::string input;              ///< Build: a file, or "-"
+    std::vector<Output> outputs;    ///< Build: at least one
+    std::vector<std::string> files; ///< Info: at least one
+    Options options;                ///< Build
+    int threads = 0;                ///< 0: as many as there are
+    bool force = false;
+    bool quiet = false;
+    bool verbose = false;
+    bool progress = true;
+    std::vector<std::string> warnings; ///< one line each
+};
+
+/// @throws Error(ErrorKind::Usage) if the call is wrong
+/// @throws Error(ErrorKind::Input) if the file of --config cannot be read
+Call parseCall(int argc, const char* const* argv);
+
+/// The text of --help.
+std::string helpText();
+
+/// The text of `info --help`.
+std::string infoHelpText();
+
+/// The words the options use for these values.
+const char* nameOf(Regularizer regularizer);
+const char* nameOf(Flow flow);
+
+} // namespace molsurf::tool

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "cli.h"
+#include "stop.h"
+#include "terminal.h"
+#include "verbs.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/core/progress.h"
+#include "molsurf/selection/select_balls.h"
+
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+#include <new>
+
+using namespace molsurf;
+using namespace molsurf::tool;
+
+namespace
+{
+
+int perform(const Call& call, std::chrono::steady_clock::time_point start)
+{
+    switch (call.verb) {
+    case Verb::Help:
+        std::cout << helpText();
+        return 0;
+    case Verb::InfoHelp:
+        std::cout << infoHelpText();
+        return 0;
+    case Verb::Version:
+        std::cout << "vdb_molsurf " MOLSURF_VERSION "\n";
+        return 0;
+    case Verb::ListRadii:
+        std::cout << describeRadii();
+        return 0;
+    case Verb::Info:
+        return info(call);
+    case Verb::Build:
+        return build(call, start);
+    }
+    return 1;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    const auto start = std::chrono::steady_clock::now();
+    std::ios_base::sync_with_stdio(false);
+    try {
+        const int status = perform(parseCall(argc, argv), start);
+        errno = 0;
+        if (!std::cout.flush())
+            throw Error(ErrorKind::Output,
+                        std::string("cannot write standard output: ") + std::strerror(errno));
+        return status;
+    } catch (const Error& e) {
+        say(std::string("error: ") + e.what());
+        return e.kind() == ErrorKind::Usage ? 2 : 1;
+    } catch (const Cancelled&) {
+        say("interrupted");
+        return interruptedStatus;
+    } catch (const std::bad_alloc&) {
+        say(noMemoryText);
+    } catch (const std::exception& e) {
+        say(std::string("error: internal: ") + e.what());
+    }
+    return 1;
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <string>
+
+namespace molsurf::tool
+{
+
+/// The SHA-256 of a file as it lies on the disk, in 64 lower-case hexadecimal digits, as sha256sum
+/// prints it.
+/// @throws Error(ErrorKind::Input) if the file cannot be read
+std::string sha256OfFile(const std::string& path);
+
+} // namespace molsurf::tool

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Ctrl-C and its relatives: the run stops within a second and leaves no temporary file.
+///
+/// The first signal asks the run to stop. If it has not done so after 0.7 s (some passes of OpenVDB
+/// cannot be interrupted), or on a second signal, the process removes its temporary files and ends.
+
+#include <string>
+#include <vector>
+
+namespace molsurf::tool
+{
+
+/// Exit status of an interrupted run.
+constexpr int interruptedStatus = 130;
+
+/// What to say when memory runs out.
+constexpr const char* noMemoryText =
+    "error: not enough memory [hint: a larger --voxel, or fewer atoms by --select]";
+
+/// Handles SIGINT, SIGTERM and SIGHUP as told above, and ignores SIGPIPE and SIGXFSZ, so that a
+/// closed pipe and a file that may not grow are errors of writing. An exception that nobody can
+/// catch (OpenVDB and TBB let std::bad_alloc out of destructors) ends the process with status 1,
+/// after a line that says so, and without leaving temporary files. To be called once, before other
+/// threads are there.
+/// @param[in] temporaries  the files to remove
+void handleSignals(const std::vector<std::string>& temporaries);
+
+/// True once a signal has come.
+bool stopRequested();
+
+/// From here on signals have no effect: the files are being put in their place.
+void ignoreSignals();
+
+} // namespace molsurf::tool

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "terminal.h"
+
+#include "stop.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace molsurf::tool
+{
+
+namespace
+{
+
+constexpr std::chrono::milliseconds betweenDraws(100);
+
+// "3 s", "2:05 min", "1:02 h"
+std::string duration(double seconds)
+{
+    const long s = std::lround(std::min(seconds, 3.6e6));
+    char text[32];
+    if (s < 60)
+        std::snprintf(text, sizeof text, "%ld s", s);
+    else if (s < 3600)
+        std::snprintf(text, sizeof text, "%ld:%02ld min", s / 60, s % 60);
+    else
+        std::snprintf(text, sizeof text, "%ld:%02ld h", s / 3600, s / 60 % 60);
+    return text;
+}
+
+} // namespace
+
+void say(const std::string& text)
+{
+    std::string line = "vdb_molsurf: " + text;
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+Terminal::Terminal(bool bar) : bar_(bar && isatty(STDERR_FILENO)) {}
+
+Terminal::~Terminal()
+{
+    erase();
+}
+
+void Terminal::update(const char* stage, double fraction)
+{
+    if (!bar_) return;
+    const Clock::time_point now = Clock::now();
+    if (stage_ != stage) {
+        stage_ = stage;
+        stageStart_ = now;
+    } else if (now - lastDrawn_ < betweenDraws) {
+        return;
+    }
+    lastDrawn_ = now;
+
+    constexpr int width = 24;
+    const double done = std::clamp(fraction, 0.0, 1.0);
+    const int full = int(done * width);
+    std::string line = "\r\033[K[" + std::string(std::size_t(full), '#') +
+                       std::string(std::size_t(width - full), '.') + "]";
+    char text[64];
+    std::snprintf(text, sizeof text, " %3.0f %%  %s", 100.0 * done, stage);
+    line += text;
+    const double spent = std::chrono::duration<double>(now - stageStart_).count();
+    if (done > 0.02 && done < 1.0 && spent > 0.5)
+        line += ", " + duration(spent * (1.0 - done) / done) + " left";
+    std::fputs(line.c_str(), stderr);
+    std::fflush(stderr);
+    drawn_ = true;
+}
+
+bool Terminal::cancelled() const
+{
+    return stopRequested();
+}
+
+void Terminal::erase()
+{
+    if (!drawn_) return;
+    std::fputs("\r\033[K", stderr);
+    std::fflush(stderr);
+    drawn_ = false;
+    stage_.clear();
+}
+
+} // namespace molsurf::tool

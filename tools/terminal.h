@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What people see on standard error while a run goes on.
+
+#include "molsurf/core/progress.h"
+
+#include <chrono>
+#include <string>
+
+namespace molsurf::tool
+{
+
+/// Prints "vdb_molsurf: ..." as one line on standard error, whatever the text holds.
+void say(const std::string& text);
+
+/// A progress bar on standard error, if that is a terminal: stage, per cent, time left in the
+/// stage. It is drawn at most ten times a second. Also tells the run to stop after a signal.
+class Terminal : public Progress
+{
+public:
+    /// @param[in] bar  false for no bar, terminal or not
+    explicit Terminal(bool bar);
+    ~Terminal() override;
+
+    void update(const char* stage, double fraction) override;
+    bool cancelled() const override;
+
+    /// Takes the bar away, so that a line can be printed.
+    void erase();
+
+private:
+    using Clock = std::chrono::steady_clock;
+    bool bar_;
+    bool drawn_ = false;
+    std::string stage_;
+    Clock::time_point stageStart_, lastDrawn_;
+};
+
+} // namespace molsurf::tool

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The verbs of the tool, one file each. They return the exit status.
+
+#include "cli.h"
+
+#include <chrono>
+
+namespace molsurf::tool
+{
+
+/// Exit status of a run that did not converge; the files are written all the same.
+constexpr int notConvergedStatus = 3;
+
+/// Builds a surface and writes the outputs: build.cpp.
+/// @param[in] start  when the program began, for the total time
+int build(const Call& call, std::chrono::steady_clock::time_point start);
+
+/// Prints what .vdb files hold: info.cpp.
+int info(const Call& call);
+
+} // namespace molsurf::tool
