@@ -95,7 +95,7 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     text("option.regularizer", nameOf(options.evolution.regularizer));
     text("option.flow", nameOf(options.evolution.flow));
     const int steps = options.evolution.maxSteps;
-    text("option.max-steps", steps ? std::to_string(steps) : "default of the flow");
+    text("option.max-steps", steps >= 0 ? std::to_string(steps) : "default of the flow");
     number("option.tolerance", options.evolution.energyTolerance);
     count("option.spline-level", options.splineLevel);
     return map;

@@ -325,7 +325,7 @@ void fillBuild(const Values& values, Call& call)
     values.get("lambda", evolution.lambda);
     values.get("regularizer", evolution.regularizer, {Regularizer::Gradient, Regularizer::Area});
     values.get("flow", evolution.flow, {Flow::Preconditioned, Flow::Plain});
-    values.get("max-steps", evolution.maxSteps, 1, 1000000);
+    values.get("max-steps", evolution.maxSteps, 0, 1000000);
     values.get("tolerance", evolution.energyTolerance);
     values.get("spline-level", options.splineLevel, 0, 2);
 

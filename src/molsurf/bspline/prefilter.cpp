@@ -4,9 +4,11 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"
 
-namespace molsurf {
+namespace molsurf
+{
 
-namespace {
+namespace
+{
 
 constexpr int window = 3 * leafDim; // a leaf and the two beside it, along an axis
 
@@ -16,7 +18,8 @@ struct Lines {
     alignas(64) float solve[window][64]; // 1 where a voxel and both beside it are active, else 0
 };
 
-/// Solves (solve/6, 1 - solve/3, solve/6) c = value on all lines by Thomas' algorithm; c replaces value.
+/// Solves (solve/6, 1 - solve/3, solve/6) c = value on all lines by Thomas' algorithm; c replaces
+/// value.
 MOLSURF_KERNEL void solveLines(Lines& lines)
 {
     alignas(64) float upper[window][64]; // of the eliminated rows
@@ -46,13 +49,17 @@ MOLSURF_KERNEL void solveLines(Lines& lines)
 int voxelOf(int axis, int i, int k)
 {
     switch (axis) {
-    case 0: return 64 * i + k;
-    case 1: return 64 * (k >> 3) + 8 * i + (k & 7);
-    default: return 8 * k + i;
+    case 0:
+        return 64 * i + k;
+    case 1:
+        return 64 * (k >> 3) + 8 * i + (k & 7);
+    default:
+        return 8 * k + i;
     }
 }
 
-void gatherLines(const LeafTable& table, const LeafField& field, std::size_t n, int axis, Lines& lines)
+void gatherLines(const LeafTable& table, const LeafField& field, std::size_t n, int axis,
+                 Lines& lines)
 {
     const int step = axis == 0 ? 9 : axis == 1 ? 3 : 1;
     alignas(64) std::uint8_t on[window][64];

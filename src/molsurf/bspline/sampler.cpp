@@ -3,13 +3,15 @@
 
 #include <cmath>
 
-namespace molsurf {
+namespace molsurf
+{
 
 using openvdb::Coord;
 using openvdb::Mat3d;
 using openvdb::Vec3d;
 
-namespace {
+namespace
+{
 
 /// The four cubic B-splines that overlap a cell, at t, and their derivatives.
 struct Weights {
@@ -95,7 +97,8 @@ Jet SplineSampler::at(const Vec3d& x)
     Coord cell;
     Vec3d t;
     locate(x, cell, t);
-    Jet jet = evaluateSpline(block_.at(cell.x(), cell.y(), cell.z()), block_.strideX, block_.strideY, t);
+    Jet jet =
+        evaluateSpline(block_.at(cell.x(), cell.y(), cell.z()), block_.strideX, block_.strideY, t);
     jet.gradient /= spline_.voxel;
     jet.hessian *= 1.0 / (spline_.voxel * spline_.voxel);
     return jet;

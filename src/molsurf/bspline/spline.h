@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// A C2 function on a sparse band: the uniform tensor-product cubic B-spline that interpolates a field
-/// at its voxels. Lengths in Å, symbols in docs/math.md, section 5.
+/// A C2 function on a sparse band: the uniform tensor-product cubic B-spline that interpolates a
+/// field at its voxels. Lengths in Å, symbols in docs/math.md, section 5.
 
 #include "molsurf/core/leaf_block.h"
 #include "molsurf/core/leaf_table.h"
@@ -11,22 +11,24 @@
 
 #include <openvdb/openvdb.h>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// Coefficients of a spline: S(x) = sum_k c_k B(x/h - k), B the product of three cubic B-splines.
 struct Spline {
-    LeafTable table;          ///< active voxels: where c interpolates
-    LeafField coefficients;   ///< c [Å]
-    double voxel = 0.0;       ///< spacing h of the coefficients [Å]
+    LeafTable table;        ///< active voxels: where c interpolates
+    LeafField coefficients; ///< c [Å]
+    double voxel = 0.0;     ///< spacing h of the coefficients [Å]
 };
 
 /// Solves for the coefficients that interpolate a field on its active voxels.
 ///
-/// Along each axis in turn (1/6, 4/6, 1/6) c = s is solved on every run of active voxels, with c = s at
-/// both ends of a run (the natural end condition of Unser, Splines: a perfect fit for signal and image
-/// processing, IEEE Signal Processing Magazine 16(6):22-38, 1999). The influence of a value decays by a
-/// factor of 2 + sqrt(3) a voxel, so each leaf solves alone, with the 8 voxels on either side: the cut
-/// costs 3e-5 of the difference c - s. Interpolation is exact where no end of a run is near; fourth order.
+/// Along each axis in turn (1/6, 4/6, 1/6) c = s is solved on every run of active voxels, with c =
+/// s at both ends of a run (the natural end condition of Unser, Splines: a perfect fit for signal
+/// and image processing, IEEE Signal Processing Magazine 16(6):22-38, 1999). The influence of a
+/// value decays by a factor of 2 + sqrt(3) a voxel, so each leaf solves alone, with the 8 voxels on
+/// either side: the cut costs 3e-5 of the difference c - s. Interpolation is exact where no end of
+/// a run is near; fourth order.
 ///
 /// @param[in] field  on the table [Å]
 LeafField prefilter(const LeafTable& table, const LeafField& field, const Progress& progress);
@@ -38,9 +40,10 @@ struct Jet {
     openvdb::Mat3d hessian;  ///< [1/Å], symmetric
 };
 
-/// Evaluates a spline. Cheap to make; keeps the coefficients of the last leaf at hand, so make one a
-/// thread and ask leaf by leaf. The spline must outlive it.
-class SplineSampler {
+/// Evaluates a spline. Cheap to make; keeps the coefficients of the last leaf at hand, so make one
+/// a thread and ask leaf by leaf. The spline must outlive it.
+class SplineSampler
+{
 public:
     explicit SplineSampler(const Spline& spline) : spline_(spline) {}
 
@@ -59,15 +62,16 @@ private:
     LeafBlock<float, 2> block_;
 };
 
-/// Value, gradient and Hessian, in units of voxels, of the spline with the 4^3 coefficients about a cell.
+/// Value, gradient and Hessian, in units of voxels, of the spline with the 4^3 coefficients about a
+/// cell.
 ///
 /// @param[in] c         coefficient at the cell's lowest corner
 /// @param[in] strideX,strideY  of the array that holds it; z is contiguous
 /// @param[in] t         place in the cell, in [0, 1]^3
 Jet evaluateSpline(const float* c, int strideX, int strideY, const openvdb::Vec3d& t);
 
-/// Mean curvature (k1 + k2)/2 [1/Å] of the level set through a point; > 0 where the molecule is convex:
-/// 1/R on a ball. Formulas as in levelset/curvature.h.
+/// Mean curvature (k1 + k2)/2 [1/Å] of the level set through a point; > 0 where the molecule is
+/// convex: 1/R on a ball. Formulas as in levelset/curvature.h.
 /// @pre |gradient| > 0
 double meanCurvature(const Jet& jet);
 

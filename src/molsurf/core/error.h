@@ -7,7 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// What went wrong, as far as a caller can act on it.
 enum class ErrorKind {
@@ -19,7 +20,8 @@ enum class ErrorKind {
 
 /// Thrown at the entry points of the stages, never inside a kernel. The message names the step or
 /// the file, what was expected and what was found, in one line without a final full stop.
-class Error : public std::runtime_error {
+class Error : public std::runtime_error
+{
 public:
     Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
 

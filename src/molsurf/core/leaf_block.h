@@ -9,7 +9,8 @@
 
 #include <algorithm>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// The values of a leaf and of the voxels up to Halo steps from it, in (8 + 2 Halo)^3 order with z
 /// fastest. Where a neighbour is missing the nearest value of the leaf itself stands.

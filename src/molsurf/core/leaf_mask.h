@@ -8,7 +8,8 @@
 #include <array>
 #include <cstdint>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// A set of voxels of one leaf.
 struct LeafMask {

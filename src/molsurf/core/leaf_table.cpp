@@ -9,7 +9,8 @@
 
 #include <algorithm>
 
-namespace molsurf {
+namespace molsurf
+{
 
 using openvdb::Coord;
 
@@ -50,7 +51,8 @@ std::size_t LeafTable::bytes() const
     return size() * (sizeof(Coord) + sizeof(LeafMask) + sizeof(neighbours_[0]));
 }
 
-namespace {
+namespace
+{
 
 constexpr std::uint64_t rowEnd = 0x8080808080808080ull; // z = 7 of all rows
 constexpr std::uint64_t rowBegin = 0x0101010101010101ull;
@@ -77,8 +79,8 @@ std::uint64_t spreadFull(const Planes& p)
     std::uint64_t alongZ[3];
     for (int i = 0; i < 3; ++i) {
         const std::uint64_t c = p.at[i][1];
-        alongZ[i] = c | (c & ~rowEnd) << 1 | (c & ~rowBegin) >> 1 |
-                    (p.at[i][0] & rowEnd) >> 7 | (p.at[i][2] & rowBegin) << 7;
+        alongZ[i] = c | (c & ~rowEnd) << 1 | (c & ~rowBegin) >> 1 | (p.at[i][0] & rowEnd) >> 7 |
+                    (p.at[i][2] & rowBegin) << 7;
     }
     return alongZ[1] | alongZ[1] << 8 | alongZ[1] >> 8 | alongZ[0] >> 56 | alongZ[2] << 56;
 }
@@ -114,9 +116,8 @@ LeafTable dilated(const LeafTable& table, int steps, Spread spread, const Progre
     for (std::size_t n = 0; n < table.size(); ++n) {
         if (!table.active(n).any()) continue;
         for (int k = 0; k < 27; ++k) {
-            origins.push_back(table.origin(n).offsetBy(leafDim * (k / 9 - 1),
-                                                       leafDim * (k / 3 % 3 - 1),
-                                                       leafDim * (k % 3 - 1)));
+            origins.push_back(table.origin(n).offsetBy(
+                leafDim * (k / 9 - 1), leafDim * (k / 3 % 3 - 1), leafDim * (k % 3 - 1)));
         }
     }
     tbb::parallel_sort(origins.begin(), origins.end());
@@ -153,8 +154,8 @@ LeafTable pruned(const LeafTable& table)
     return out;
 }
 
-LeafField transferred(const LeafTable& from, const LeafField& field, const LeafTable& to, float fill,
-                      const Progress& progress)
+LeafField transferred(const LeafTable& from, const LeafField& field, const LeafTable& to,
+                      float fill, const Progress& progress)
 {
     LeafField out(to.size());
     parallelFor(to.size(), progress, [&](std::size_t n) {

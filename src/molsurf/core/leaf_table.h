@@ -3,8 +3,8 @@
 
 /// @file
 /// The sparse topology that all fields of a stage share: a list of 8^3 leaves, aligned and laid out
-/// like OpenVDB's leaf nodes, with a mask of active voxels and a table of neighbours each. A field on
-/// it is one array of 512 values a leaf. docs/adr/0002-leaf-table.md tells why.
+/// like OpenVDB's leaf nodes, with a mask of active voxels and a table of neighbours each. A field
+/// on it is one array of 512 values a leaf. docs/adr/0002-leaf-table.md tells why.
 
 #include "molsurf/core/leaf_mask.h"
 #include "molsurf/core/progress.h"
@@ -16,16 +16,18 @@
 #include <memory>
 #include <vector>
 
-namespace molsurf {
+namespace molsurf
+{
 
-constexpr int leafDim = 8;                ///< voxels along the edge of a leaf
-constexpr int leafSize = 512;             ///< voxels of a leaf
-constexpr std::int32_t noLeaf = -1;       ///< in the table of neighbours: there is none
-constexpr int centreNeighbour = 13;       ///< index of the leaf itself among its 27 neighbours
+constexpr int leafDim = 8;          ///< voxels along the edge of a leaf
+constexpr int leafSize = 512;       ///< voxels of a leaf
+constexpr std::int32_t noLeaf = -1; ///< in the table of neighbours: there is none
+constexpr int centreNeighbour = 13; ///< index of the leaf itself among its 27 neighbours
 
 /// 512 values a leaf, uninitialised when made.
 template<typename T>
-class LeafArray {
+class LeafArray
+{
 public:
     LeafArray() = default;
     explicit LeafArray(std::size_t leaves) : leaves_(leaves), data_(new T[leaves * leafSize]) {}
@@ -43,17 +45,19 @@ private:
 using LeafField = LeafArray<float>;
 
 /// Leaves in ascending order of their origins (x, then y, then z).
-class LeafTable {
+class LeafTable
+{
 public:
-    /// @param[in] origins  coordinates of the first voxels, multiples of 8; any order, no duplicates
+    /// @param[in] origins  coordinates of the first voxels, multiples of 8; any order, no
+    /// duplicates
     explicit LeafTable(std::vector<openvdb::Coord> origins = {});
 
     std::size_t size() const { return origins_.size(); }
     const openvdb::Coord& origin(std::size_t n) const { return origins_[n]; }
     const std::vector<openvdb::Coord>& origins() const { return origins_; }
 
-    /// Index of the leaf at offset (dx, dy, dz) in {-1, 0, 1}^3 leaves from leaf n, or noLeaf; entry
-    /// 9 (dx + 1) + 3 (dy + 1) + dz + 1.
+    /// Index of the leaf at offset (dx, dy, dz) in {-1, 0, 1}^3 leaves from leaf n, or noLeaf;
+    /// entry 9 (dx + 1) + 3 (dy + 1) + dz + 1.
     const std::array<std::int32_t, 27>& neighbours(std::size_t n) const { return neighbours_[n]; }
 
     /// Index of the leaf that holds a voxel, or noLeaf.
@@ -70,8 +74,8 @@ private:
     std::vector<std::array<std::int32_t, 27>> neighbours_;
 };
 
-/// How a set of voxels is dilated: by cubes of (2 n + 1)^3 voxels, or by steps that go by turns to the
-/// 6 and to the 26 neighbours, so that n steps hold the Euclidean ball of radius n voxels.
+/// How a set of voxels is dilated: by cubes of (2 n + 1)^3 voxels, or by steps that go by turns to
+/// the 6 and to the 26 neighbours, so that n steps hold the Euclidean ball of radius n voxels.
 enum class Spread { Cube, Ball };
 
 /// Voxels within a number of steps of the active voxels of a table.
@@ -79,8 +83,8 @@ enum class Spread { Cube, Ball };
 /// @return a new table of every leaf that has such a voxel, with those voxels active
 LeafTable dilated(const LeafTable& table, int steps, Spread spread, const Progress& progress);
 
-/// One step: the voxels of leaf n that have a voxel of the masks among themselves and their 6 (full:
-/// 26) neighbours.
+/// One step: the voxels of leaf n that have a voxel of the masks among themselves and their 6
+/// (full: 26) neighbours.
 /// @param[in] masks  one a leaf of the table
 LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks, std::size_t n,
                      bool full);
@@ -89,8 +93,8 @@ LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks,
 LeafTable pruned(const LeafTable& table);
 
 /// Copies the leaves that both tables have; others get `fill`.
-LeafField transferred(const LeafTable& from, const LeafField& field, const LeafTable& to, float fill,
-                      const Progress& progress);
+LeafField transferred(const LeafTable& from, const LeafField& field, const LeafTable& to,
+                      float fill, const Progress& progress);
 
 /// A level set grid from a field. Active values are copied; inactive ones become plus or minus
 /// background, by the sign of the field in leaves, by flood fill elsewhere.

@@ -13,7 +13,8 @@
 #include <cstddef>
 #include <vector>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// Calls f(i) for every i in [0, n) in parallel.
 ///

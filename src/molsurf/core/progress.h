@@ -6,10 +6,12 @@
 
 #include <exception>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// Receives the progress of a run. The base class ignores it and never cancels.
-class Progress {
+class Progress
+{
 public:
     virtual ~Progress() = default;
 
@@ -27,7 +29,8 @@ public:
 };
 
 /// Thrown by a stage that found Progress::cancelled() true. Not an Error: nothing went wrong.
-class Cancelled : public std::exception {
+class Cancelled : public std::exception
+{
 public:
     const char* what() const noexcept override { return "cancelled"; }
 };

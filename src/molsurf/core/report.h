@@ -10,7 +10,8 @@
 #include <utility>
 #include <vector>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// A closed inner wall of the surface.
 struct Cavity {
@@ -21,21 +22,22 @@ struct Cavity {
 /// Area, volume and topology of a closed surface.
 struct SurfaceReport {
     std::string kind = "variational";
-    double area = 0.0;        ///< of all walls [Å^2]
-    double volume = 0.0;      ///< enclosed, cavities left out [Å^3]
+    double area = 0.0;   ///< of all walls [Å^2]
+    double volume = 0.0; ///< enclosed, cavities left out [Å^3]
     int eulerCharacteristic = 0;
-    int components = 0;       ///< closed pieces that are not cavity walls
+    int components = 0; ///< closed pieces that are not cavity walls
     std::vector<Cavity> cavities;
     double outerArea = 0.0;   ///< without the cavity walls [Å^2]
     double outerVolume = 0.0; ///< cavities counted in [Å^3]
     std::size_t vertices = 0;
     std::size_t triangles = 0;
-    bool closed = false;      ///< every edge has two triangles
-    bool manifold = false;    ///< the triangles about each vertex form one fan, consistently oriented
+    bool closed = false;   ///< every edge has two triangles
+    bool manifold = false; ///< the triangles about each vertex form one fan, consistently oriented
     std::size_t degenerateTriangles = 0; ///< triangles without area
-    double maxResidual = 0.0; ///< largest |S| at a vertex [Å]
-    double gradientShare = 0.0; ///< share of vertices away from kinks with | |grad Phi| - 1 | < 0.03
-    double kinkShare = 0.0;     ///< share of vertices within two voxels of a kink of the distance
+    double maxResidual = 0.0;            ///< largest |S| at a vertex [Å]
+    double gradientShare =
+        0.0;                ///< share of vertices away from kinks with | |grad Phi| - 1 | < 0.03
+    double kinkShare = 0.0; ///< share of vertices within two voxels of a kink of the distance
 };
 
 /// The history of the flow. The interface is the evolving level set's, near the solvent-accessible
@@ -48,7 +50,8 @@ struct EvolutionReport {
     std::vector<double> volume;           ///< inside the interface [Å^3]
     std::vector<double> meanDisplacement; ///< area-weighted mean of |displacement| [Å] of each step
     std::vector<double> maxSpeed;         ///< max |F| near the interface [1/Å] of each step
-    std::size_t creviceVoxels = 0; ///< voxels at gaps of the final interface too narrow for the grid
+    std::size_t creviceVoxels =
+        0; ///< voxels at gaps of the final interface too narrow for the grid
 };
 
 /// Everything in the .json report.

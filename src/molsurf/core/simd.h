@@ -9,20 +9,21 @@
 #include <cstring>
 
 /// Put before a hot function with plain loops: the compiler makes one version of it for each
-/// instruction set, and the loader picks the widest that the machine has. A macro, since an attribute
-/// cannot be had otherwise; off under sanitizers, whose run time is not ready when the loader picks.
+/// instruction set, and the loader picks the widest that the machine has. A macro, since an
+/// attribute cannot be had otherwise; off under sanitizers, whose run time is not ready when the
+/// loader picks.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define MOLSURF_KERNEL \
-    __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#define MOLSURF_KERNEL __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else
 #define MOLSURF_KERNEL
 #endif
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// e^x in float, relative error below 3e-7, for |x| <= 87; x is clamped to that range. Without
-/// branches or calls, so that loops over it vectorise. Cody-Waite reduction by ln 2, then the Taylor
-/// polynomial of degree 6 on [-ln 2/2, ln 2/2].
+/// branches or calls, so that loops over it vectorise. Cody-Waite reduction by ln 2, then the
+/// Taylor polynomial of degree 6 on [-ln 2/2, ln 2/2].
 inline __attribute__((always_inline)) float fastExp(float x)
 {
     x = std::min(std::max(x, -87.0f), 87.0f);

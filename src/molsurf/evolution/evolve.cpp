@@ -9,9 +9,11 @@
 #include <cmath>
 #include <string>
 
-namespace molsurf {
+namespace molsurf
+{
 
-namespace {
+namespace
+{
 
 /// Iterations that keep the band a distance while the interface moves by at most 0.4 voxel: each
 /// carries the distance half a voxel.
@@ -31,8 +33,8 @@ StepSums step(const NarrowBand& band, double voxel, const Weights& weights, cons
         LeafCurvature shape;
         curvature(phi, float(voxel), shape);
         return flowStep(phi, psi, shape, band.table.active(n),
-                        (band.table.origin(n) - first).asVec3d() * voxel, float(voxel), weights, size,
-                        next.leaf(n));
+                        (band.table.origin(n) - first).asVec3d() * voxel, float(voxel), weights,
+                        size, next.leaf(n));
     });
 }
 
@@ -90,9 +92,8 @@ void track(NarrowBand& band, const PsiSource& source, double voxel, double width
                    !((all & 0x8080808080808080ull) && near[14] == noLeaf);
     }
     if (complete) {
-        parallelFor(band.table.size(), progress, [&](std::size_t n) {
-            wanted[n] = dilatedMask(band.table, inside, n, false);
-        });
+        parallelFor(band.table.size(), progress,
+                    [&](std::size_t n) { wanted[n] = dilatedMask(band.table, inside, n, false); });
         for (std::size_t n = 0; n < band.table.size(); ++n) band.table.active(n) = wanted[n];
         return;
     }
@@ -131,7 +132,8 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
     for (;;) {
         StepSize size;
         if (!preconditioned) {
-            // Explicit Euler for a stiffness P is stable up to 2/P; the longest step is limited anyway.
+            // Explicit Euler for a stiffness P is stable up to 2/P; the longest step is limited
+            // anyway.
             const StepSums before = step(band, voxel, weights, {true, 0.0f}, next, progress);
             size = {false, 0.8f / before.maxSecond};
         }

@@ -11,7 +11,8 @@
 
 #include <functional>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// A level set in its narrow band, and the field psi that drives it.
 struct NarrowBand {
@@ -20,18 +21,18 @@ struct NarrowBand {
     LeafField psi;
 };
 
-/// Width of the band on each side of the interface [voxel]: the flow acts up to 3 voxels away, and its
-/// stencils reach one further.
+/// Width of the band on each side of the interface [voxel]: the flow acts up to 3 voxels away, and
+/// its stencils reach one further.
 constexpr int bandWidthVox = 4;
 
 /// Gives psi at the 512 voxels of the leaf with this first voxel. Called from several threads.
 using PsiSource = std::function<void(const openvdb::Coord& origin, float* psi)>;
 
-/// Evolves phi by  phi_t = |grad phi| (w kappa + n . grad w)  with speeds extended along normals from the
-/// interface (docs/math.md, section 4) until the energy changes by less than options.energyTolerance and
-/// the interface moves by less than options.displacementTolerance in a step, or for options.maxSteps
-/// steps. After each step the level set is made a distance again by reinitialize(). Leaves are added and
-/// dropped as the interface moves.
+/// Evolves phi by  phi_t = |grad phi| (w kappa + n . grad w)  with speeds extended along normals
+/// from the interface (docs/math.md, section 4) until the energy changes by less than
+/// options.energyTolerance and the interface moves by less than options.displacementTolerance in a
+/// step, or for options.maxSteps steps. After each step the level set is made a distance again by
+/// reinitialize(). Leaves are added and dropped as the interface moves.
 ///
 /// @param[in,out] band    as initialSurface() makes it
 /// @param[in]     source  psi for leaves that are added

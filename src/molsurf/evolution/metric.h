@@ -2,15 +2,16 @@
 #pragma once
 
 /// @file
-/// The metric w of the energy  E = integral over Gamma of w  and what the flow needs of it, from the
-/// field psi at one voxel. With g = 1 - e^psi:  w = g^2 + lambda h,  h = |grad g|^2 or 1. Everything is
-/// taken at the foot point x - phi n of the voxel, by the second-order Taylor expansion of psi
-/// (docs/math.md, section 4).
+/// The metric w of the energy  E = integral over Gamma of w  and what the flow needs of it, from
+/// the field psi at one voxel. With g = 1 - e^psi:  w = g^2 + lambda h,  h = |grad g|^2 or 1.
+/// Everything is taken at the foot point x - phi n of the voxel, by the second-order Taylor
+/// expansion of psi (docs/math.md, section 4).
 
 #include "molsurf/core/simd.h"
 #include "molsurf/levelset/stencil.h"
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// lambda, split by regulariser so that one formula serves both.
 struct Weights {
@@ -22,7 +23,8 @@ struct Weights {
 struct Metric {
     float w;      ///< no unit
     float normal; ///< n . grad w [1/Å]
-    float second; ///< positive approximation of the second derivative of w across the valley [1/Å^2]
+    float
+        second; ///< positive approximation of the second derivative of w across the valley [1/Å^2]
 };
 
 /// @param[in] psi      value at the voxel
@@ -45,7 +47,7 @@ inline __attribute__((always_inline)) Metric metricAtFoot(float psi, const Deriv
     const float g = 1.0f - e;
     const float slope = x * a + y * b + z * c; // n . grad psi
     const float slope2 = x * x + y * y + z * z;
-    const float gradG2 = e * e * slope2; // |grad g|^2
+    const float gradG2 = e * e * slope2;           // |grad g|^2
     const float curved = x * hx + y * hy + z * hz; // grad psi . Hess psi n
 
     Metric m;

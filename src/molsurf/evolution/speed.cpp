@@ -4,28 +4,30 @@
 #include <algorithm>
 #include <cmath>
 
-namespace molsurf {
+namespace molsurf
+{
 
-namespace {
+namespace
+{
 
 // Where the speed acts, in voxels: fully up to `inner`, not at all beyond `outer`.
 constexpr float inner = 1.5f, outer = 3.0f;
 
-// Fraction of a Newton step, and the longest step in voxels: an interface that moves less than half a
-// voxel cannot jump over a voxel.
+// Fraction of a Newton step, and the longest step in voxels: an interface that moves less than half
+// a voxel cannot jump over a voxel.
 constexpr float relaxation = 0.8f, longestStep = 0.4f;
 
-// The part of the stiffness that keeps explicit diffusion stable, and the one that keeps it positive
-// where the metric is flat [1/Å^2].
+// The part of the stiffness that keeps explicit diffusion stable, and the one that keeps it
+// positive where the metric is flat [1/Å^2].
 constexpr float diffusion = 1.0f / 0.12f, leastStiffness = 0.02f;
 
 /// cos(pi t) for |t| <= 1, error below 2e-5: 1 - 2 sin^2(pi t/2) by Taylor.
 inline __attribute__((always_inline)) float cosPi(float t)
 {
     const float x = 1.57079633f * t, x2 = x * x;
-    const float s = x * (1.0f + x2 * (-1.0f / 6.0f +
-                                      x2 * (1.0f / 120.0f + x2 * (-1.0f / 5040.0f +
-                                                                  x2 * (1.0f / 362880.0f)))));
+    const float s =
+        x * (1.0f + x2 * (-1.0f / 6.0f +
+                          x2 * (1.0f / 120.0f + x2 * (-1.0f / 5040.0f + x2 * (1.0f / 362880.0f)))));
     return 1.0f - 2.0f * s * s;
 }
 
@@ -53,8 +55,8 @@ MOLSURF_KERNEL void stepRows(const float* __restrict phiBlock, const float* __re
             const Metric m = metricAtFoot(psiBlock[first + z], d, shape.normal[0][v],
                                           shape.normal[1][v], shape.normal[2][v], phi, weights);
 
-            // Principal curvatures k at the voxel are k/(1 - k phi) at the foot. The denominator is kept
-            // positive where the level set is not resolved.
+            // Principal curvatures k at the voxel are k/(1 - k phi) at the foot. The denominator is
+            // kept positive where the level set is not resolved.
             const float k = std::min(std::max(shape.mean[v], -2.0f * inverse), 2.0f * inverse);
             const float K = std::min(std::max(shape.gauss[v], -inverse * inverse), 0.25f * k * k);
             const float denominator = std::max(1.0f - k * phi + K * phi * phi, 0.2f);
@@ -97,9 +99,8 @@ StepSums& StepSums::operator+=(const StepSums& other)
 }
 
 StepSums flowStep(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi,
-                  const LeafCurvature& shape, const LeafMask& active,
-                  const openvdb::Vec3d& corner, float voxel, const Weights& weights,
-                  const StepSize& size, float* next)
+                  const LeafCurvature& shape, const LeafMask& active, const openvdb::Vec3d& corner,
+                  float voxel, const Weights& weights, const StepSize& size, float* next)
 {
     LeafStep step;
     stepRows(phi.values, psi.values, shape, voxel, weights, size, step, next);

@@ -7,7 +7,8 @@
 #include "molsurf/evolution/metric.h"
 #include "molsurf/levelset/curvature.h"
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// What a step adds up over the voxels of the interface.
 struct StepSums {
@@ -16,14 +17,15 @@ struct StepSums {
     double volume = 0.0;       ///< integral of x.n/3 over the interface [Å^3]
     double displacement = 0.0; ///< integral of |displacement| over the interface [Å^3]
     float maxSpeed = 0.0f;     ///< largest |F| within a voxel of the interface [1/Å]
-    float maxSecond = 0.0f;    ///< largest stiffness P there [1/Å^2], without the cap of the movement
-    std::size_t crevices = 0;  ///< voxels there where two pieces of the interface meet within the stencil
+    float maxSecond = 0.0f; ///< largest stiffness P there [1/Å^2], without the cap of the movement
+    std::size_t crevices =
+        0; ///< voxels there where two pieces of the interface meet within the stencil
 
     StepSums& operator+=(const StepSums& other);
 };
 
-/// How far a step goes: the preconditioned flow divides the speed by the stiffness of each voxel, the
-/// plain one multiplies it by the same time step everywhere.
+/// How far a step goes: the preconditioned flow divides the speed by the stiffness of each voxel,
+/// the plain one multiplies it by the same time step everywhere.
 struct StepSize {
     bool preconditioned = true;
     float time = 0.0f; ///< of the plain flow [Å^2]
@@ -38,8 +40,7 @@ struct StepSize {
 /// @param[in]  voxel      voxel edge h [Å]
 /// @param[out] next       phi after the step [Å]
 StepSums flowStep(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi,
-                  const LeafCurvature& shape, const LeafMask& active,
-                  const openvdb::Vec3d& corner, float voxel, const Weights& weights,
-                  const StepSize& size, float* next);
+                  const LeafCurvature& shape, const LeafMask& active, const openvdb::Vec3d& corner,
+                  float voxel, const Weights& weights, const StepSize& size, float* next);
 
 } // namespace molsurf

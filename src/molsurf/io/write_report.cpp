@@ -37,15 +37,10 @@ Json surfaceJson(const SurfaceReport& surface)
 
 Json evolutionJson(const EvolutionReport& evolution)
 {
-    return {{"steps", evolution.steps},
-            {"converged", evolution.converged},
-            {"energy", evolution.energy},
-            {"mean_displacement", evolution.meanDisplacement},
-            {"max_speed", evolution.maxSpeed},
-            {"crevice_voxels", evolution.creviceVoxels},
-            {"initial_area", evolution.initialArea},
-            {"initial_volume", evolution.initialVolume},
-            {"initial_components", evolution.initialComponents}};
+    return {{"steps", evolution.steps},        {"converged", evolution.converged},
+            {"energy", evolution.energy},      {"mean_displacement", evolution.meanDisplacement},
+            {"max_speed", evolution.maxSpeed}, {"crevice_voxels", evolution.creviceVoxels},
+            {"area", evolution.area},          {"volume", evolution.volume}};
 }
 
 } // namespace

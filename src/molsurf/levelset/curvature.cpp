@@ -6,9 +6,11 @@
 
 #include <cmath>
 
-namespace molsurf {
+namespace molsurf
+{
 
-namespace {
+namespace
+{
 
 constexpr float tiny = 1e-12f; // keeps divisions finite where the gradient vanishes
 
@@ -27,12 +29,11 @@ MOLSURF_KERNEL void curvatureRows(const float* __restrict block, float inverse,
             const float a = d.x * scale, b = d.y * scale, c = d.z * scale;
             const float along = a * a * d.xx + b * b * d.yy + c * c * d.zz +
                                 2.0f * (a * b * d.xy + b * c * d.yz + a * c * d.xz);
-            const float adjugate = a * a * (d.yy * d.zz - d.yz * d.yz) +
-                                   b * b * (d.xx * d.zz - d.xz * d.xz) +
-                                   c * c * (d.xx * d.yy - d.xy * d.xy) +
-                                   2.0f * (a * b * (d.xz * d.yz - d.xy * d.zz) +
-                                           b * c * (d.xy * d.xz - d.yz * d.xx) +
-                                           a * c * (d.xy * d.yz - d.xz * d.yy));
+            const float adjugate =
+                a * a * (d.yy * d.zz - d.yz * d.yz) + b * b * (d.xx * d.zz - d.xz * d.xz) +
+                c * c * (d.xx * d.yy - d.xy * d.xy) +
+                2.0f * (a * b * (d.xz * d.yz - d.xy * d.zz) + b * c * (d.xy * d.xz - d.yz * d.xx) +
+                        a * c * (d.xy * d.yz - d.xz * d.yy));
             const int v = 8 * row + z;
             nx[v] = a;
             ny[v] = b;

@@ -10,19 +10,22 @@
 #include <algorithm>
 #include <cmath>
 
-namespace molsurf {
+namespace molsurf
+{
 
-namespace {
+namespace
+{
 
-/// phi = distance of the zero of psi + a s + q s^2/2 = 0 along psi's gradient, from its slope a and its
-/// second derivative q; -psi/a where that has no zero.
+/// phi = distance of the zero of psi + a s + q s^2/2 = 0 along psi's gradient, from its slope a and
+/// its second derivative q; -psi/a where that has no zero.
 MOLSURF_KERNEL void firstGuess(const float* __restrict block, float voxel, float width,
                                float* __restrict phi)
 {
     using Block = LeafBlock<float, 1>;
     const float inverse = 1.0f / voxel;
     for (int row = 0; row < 64; ++row) {
-        const float* p = block + (row / 8 + 1) * Block::strideX + (row % 8 + 1) * Block::strideY + 1;
+        const float* p =
+            block + (row / 8 + 1) * Block::strideX + (row % 8 + 1) * Block::strideY + 1;
         for (int z = 0; z < 8; ++z) {
             const Derivatives d = derivatives<1>(p + z, inverse);
             const float norm2 = d.x * d.x + d.y * d.y + d.z * d.z + 1e-12f;

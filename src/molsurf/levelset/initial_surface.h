@@ -7,12 +7,13 @@
 #include "molsurf/core/leaf_table.h"
 #include "molsurf/core/progress.h"
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// A signed distance to the zero set of a field.
 ///
-/// Near it the distance of the zero of psi's second-order Taylor polynomial along its gradient; from
-/// there outward by reinitialize().
+/// Near it the distance of the zero of psi's second-order Taylor polynomial along its gradient;
+/// from there outward by reinitialize().
 ///
 /// @param[in] table  active voxels: the band
 /// @param[in] psi    > 0 inside; smooth near its zero set

@@ -10,13 +10,15 @@
 #include <limits>
 #include <numeric>
 
-namespace molsurf {
+namespace molsurf
+{
 
 using openvdb::Coord;
 using openvdb::Mat3d;
 using openvdb::Vec3d;
 
-namespace {
+namespace
+{
 
 constexpr std::int32_t noSeed = -1;
 
@@ -28,8 +30,9 @@ struct Seed {
     float kappa, gauss; // trace and tangential determinant of A
 };
 
-/// Shape operator of the level set through a point: the Hessian over the gradient's length, projected to
-/// the tangent plane, with principal curvatures limited to one a voxel, which is all a grid can hold.
+/// Shape operator of the level set through a point: the Hessian over the gradient's length,
+/// projected to the tangent plane, with principal curvatures limited to one a voxel, which is all a
+/// grid can hold.
 Seed seedAt(const Vec3d& y, const Jet& jet)
 {
     Seed seed;
@@ -99,19 +102,18 @@ Seed closestPoint(const LeafBlock<float, 3>& c, const Coord& x)
     return seedAt(y, jet);
 }
 
-/// Distance of a voxel by the expansion about a closest point [voxel], positive on the side that `sign`
-/// says. It is kept to what is possible: the point is a point of the surface, and no point of the surface
-/// is farther than some 0.87 voxel from one of those known, so that with curvatures up to one a voxel the
-/// distance d and r = |x - y| satisfy  r^2 - (1 + r) 0.87^2 <= d^2 <= r^2.
+/// Distance of a voxel by the expansion about a closest point [voxel], positive on the side that
+/// `sign` says. It is kept to what is possible: the point is a point of the surface, and no point
+/// of the surface is farther than some 0.87 voxel from one of those known, so that with curvatures
+/// up to one a voxel the distance d and r = |x - y| satisfy  r^2 - (1 + r) 0.87^2 <= d^2 <= r^2.
 float distanceFrom(const Seed& seed, const Vec3d& x, float sign)
 {
     const openvdb::Vec3f d(x - seed.y);
     const float s = seed.n.dot(d);
     const openvdb::Vec3f t = d - s * seed.n;
-    const float tAt = seed.A[0] * t.x() * t.x() + seed.A[1] * t.y() * t.y() +
-                      seed.A[2] * t.z() * t.z() +
-                      2.0f * (seed.A[3] * t.x() * t.y() + seed.A[4] * t.y() * t.z() +
-                              seed.A[5] * t.x() * t.z());
+    const float tAt =
+        seed.A[0] * t.x() * t.x() + seed.A[1] * t.y() * t.y() + seed.A[2] * t.z() * t.z() +
+        2.0f * (seed.A[3] * t.x() * t.y() + seed.A[4] * t.y() * t.z() + seed.A[5] * t.x() * t.z());
     const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.2f);
     const float distance = sign * (s + 0.5f * (tAt + s * seed.gauss * t.dot(t)) / determinant);
     const float r2 = d.dot(d), r = std::sqrt(r2);
@@ -158,8 +160,8 @@ std::vector<LeafMask> interfaceVoxels(const LeafTable& table, const std::vector<
 
 /// The seeds of all interface voxels, leaf by leaf, and where those of each leaf begin.
 std::vector<Seed> findSeeds(const LeafTable& table, const LeafField& phi, double voxel,
-                            const std::vector<LeafMask>& interface, std::vector<std::size_t>& begins,
-                            const Progress& progress)
+                            const std::vector<LeafMask>& interface,
+                            std::vector<std::size_t>& begins, const Progress& progress)
 {
     const LeafField coefficients = prefilter(table, phi, progress);
     begins.assign(table.size() + 1, 0);
@@ -179,8 +181,8 @@ std::vector<Seed> findSeeds(const LeafTable& table, const LeafField& phi, double
     return seeds;
 }
 
-/// The voxels that may lie in the result: those within `steps` of the interface voxels on one side, not
-/// crossing to the other.
+/// The voxels that may lie in the result: those within `steps` of the interface voxels on one side,
+/// not crossing to the other.
 /// @param[in] wrong  voxels of the other side, by leaf of `table`
 LeafTable reachable(const LeafTable& table, const std::vector<LeafMask>& interface,
                     const std::vector<LeafMask>& wrong, int steps, const Progress& progress)
@@ -215,10 +217,10 @@ LeafTable merged(const LeafTable& a, const LeafTable& b)
     return out;
 }
 
-/// The nearest of the seeds that a voxel and its 26 neighbours have; noSeed if they have none within
-/// `limit` voxels.
-std::int32_t nearestSeed(const LeafBlock<std::int32_t, 1>& index, const Coord& local, const Vec3d& x,
-                         const std::vector<Seed>& seeds, double limit)
+/// The nearest of the seeds that a voxel and its 26 neighbours have; noSeed if they have none
+/// within `limit` voxels.
+std::int32_t nearestSeed(const LeafBlock<std::int32_t, 1>& index, const Coord& local,
+                         const Vec3d& x, const std::vector<Seed>& seeds, double limit)
 {
     const std::int32_t* p = index.at(local.x(), local.y(), local.z());
     std::int32_t best = noSeed;
@@ -239,9 +241,9 @@ std::int32_t nearestSeed(const LeafBlock<std::int32_t, 1>& index, const Coord& l
     return best;
 }
 
-/// The inner voxels of a leaf that the given level set lacks, and that no interface can cross: all or
-/// none, as most of its closest points say. (Where the given leaves have a sign it stands: voxels do not
-/// change sides.)
+/// The inner voxels of a leaf that the given level set lacks, and that no interface can cross: all
+/// or none, as most of its closest points say. (Where the given leaves have a sign it stands:
+/// voxels do not change sides.)
 LeafMask sideOf(const Coord& origin, const std::int32_t* index, const std::vector<Seed>& seeds)
 {
     double side = 0.0;
@@ -268,9 +270,8 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     const std::vector<Seed> seeds = findSeeds(table, phi, voxel, interface, begins, progress);
 
     const auto steps = [&](double width) { return int(std::ceil(width / voxel)) + 1; };
-    const LeafTable domain =
-        merged(reachable(table, interface, outer, steps(inside), progress),
-               reachable(table, interface, inner, steps(outside), progress));
+    const LeafTable domain = merged(reachable(table, interface, outer, steps(inside), progress),
+                                    reachable(table, interface, inner, steps(outside), progress));
 
     SeedIndex index(domain.size()), next(domain.size());
     std::vector<LeafMask> known(domain.size()), frontier(domain.size());
@@ -283,15 +284,15 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
         interface[m].forEach([&](int v) { index.leaf(n)[v] = k++; });
     });
 
-    // Layers go by turns to 6 and 26 neighbours, close to the order of the distance; a voxel that was
-    // reached a little too early is looked at again with the next layer.
+    // Layers go by turns to 6 and 26 neighbours, close to the order of the distance; a voxel that
+    // was reached a little too early is looked at again with the next layer.
     const int layers = steps(std::max(inside, outside)) + 2;
     const double limit = std::max(inside, outside) / voxel + 2.0;
     std::vector<LeafMask> previous(domain.size());
     for (int layer = 0; layer < layers; ++layer) {
         parallelFor(domain.size(), progress, [&](std::size_t n) {
-            const LeafMask fresh = dilatedMask(domain, known, n, layer % 2 == 1) & ~known[n] &
-                                   domain.active(n);
+            const LeafMask fresh =
+                dilatedMask(domain, known, n, layer % 2 == 1) & ~known[n] & domain.active(n);
             frontier[n] = fresh | previous[n];
             previous[n] = fresh;
         });
@@ -302,8 +303,8 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
             block.gather(domain, index, n);
             frontier[n].forEach([&](int v) {
                 const Coord local(v >> 6, v >> 3 & 7, v & 7);
-                next.leaf(n)[v] = nearestSeed(block, local, (domain.origin(n) + local).asVec3d(),
-                                              seeds, limit);
+                next.leaf(n)[v] =
+                    nearestSeed(block, local, (domain.origin(n) + local).asVec3d(), seeds, limit);
             });
         });
         parallelFor(domain.size(), progress, [&](std::size_t n) {

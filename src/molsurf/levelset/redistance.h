@@ -7,28 +7,33 @@
 #include "molsurf/core/leaf_table.h"
 #include "molsurf/core/progress.h"
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// A signed distance in a band that need not be symmetric.
 struct DistanceBand {
-    LeafTable table;     ///< active: -inside < phi < outside
-    LeafField phi;       ///< [Å]; at inactive voxels -inside or outside
-    std::vector<LeafMask> kinks; ///< active voxels beside which the gradient turns by more than 20 degrees
+    LeafTable table; ///< active: -inside < phi < outside
+    LeafField phi;   ///< [Å]; at inactive voxels -inside or outside
+    std::vector<LeafMask>
+        kinks; ///< active voxels beside which the gradient turns by more than 20 degrees
     std::size_t seeds = 0; ///< interface voxels whose closest points carry the distance
 };
 
 /// Computes the signed distance to the zero set of the cubic B-spline through phi.
 ///
-/// 1. For every voxel next to the interface the closest point y on the spline's zero set is found by
+/// 1. For every voxel next to the interface the closest point y on the spline's zero set is found
+/// by
 ///    Newton's method (Chopp, Some improvements of the fast marching method, SIAM J. Sci. Comput.
 ///    23(1):230-244, 2001), with the normal n and the shape operator A there.
-/// 2. Closest points are handed from voxel to voxel, layer by layer, each keeping the nearest of its
-///    neighbours' (a feature transform; Danielsson, Euclidean distance mapping, Computer Graphics and
-///    Image Processing 14:227-248, 1980).
-/// 3. The distance of a voxel x follows from the second-order expansion of the distance function about
+/// 2. Closest points are handed from voxel to voxel, layer by layer, each keeping the nearest of
+/// its
+///    neighbours' (a feature transform; Danielsson, Euclidean distance mapping, Computer Graphics
+///    and Image Processing 14:227-248, 1980).
+/// 3. The distance of a voxel x follows from the second-order expansion of the distance function
+/// about
 ///    the normal through y: with s = n.(x - y) and t = x - y - s n,
-///    phi = s + (t.A t + s K t.t) / (2 (1 + s kappa + s^2 K)),  kappa = tr A, K = det A on the tangent
-///    plane. The error is of third order in |t|, which is about half a voxel.
+///    phi = s + (t.A t + s K t.t) / (2 (1 + s kappa + s^2 K)),  kappa = tr A, K = det A on the
+///    tangent plane. The error is of third order in |t|, which is about half a voxel.
 ///
 /// @param[in] table    active voxels: a band of at least three voxels on each side of the interface
 /// @param[in] phi      near its zero set a smooth signed distance [Å]

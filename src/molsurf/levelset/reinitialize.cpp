@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <cmath>
 
-namespace molsurf {
+namespace molsurf
+{
 
-namespace {
+namespace
+{
 
 using Block = LeafBlock<float, 2>;
 constexpr int X = Block::strideX, Y = Block::strideY;
@@ -95,8 +97,8 @@ float taylorDistance(const float* p, float inverse)
 
 } // namespace
 
-void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double width, int iterations,
-                  const Progress& progress)
+void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double width,
+                  int iterations, const Progress& progress)
 {
     const float h = float(voxel), w = float(width);
     std::vector<LeafMask> interface(table.size());
@@ -119,8 +121,8 @@ void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double w
             }
             const LeafMask& active = table.active(n);
             for (int v = 0; v < leafSize; ++v) {
-                out[v] = active.on(v) && !fixed.on(v) ? stepped[v]
-                                                      : std::min(std::max(now[v], -w), w);
+                out[v] =
+                    active.on(v) && !fixed.on(v) ? stepped[v] : std::min(std::max(now[v], -w), w);
             }
             if (i == 0) {
                 fixed.forEach([&](int v) {

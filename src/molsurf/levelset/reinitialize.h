@@ -2,30 +2,32 @@
 #pragma once
 
 /// @file
-/// Keeps a level set a signed distance while its interface moves: Hamilton-Jacobi iterations by leaf
-/// block.
+/// Keeps a level set a signed distance while its interface moves: Hamilton-Jacobi iterations by
+/// leaf block.
 
 #include "molsurf/core/leaf_table.h"
 #include "molsurf/core/progress.h"
 
-namespace molsurf {
+namespace molsurf
+{
 
-/// Iterates phi_t + sign(phi) (|grad phi| - 1) = 0 on the active voxels, by explicit Euler steps of half
-/// a voxel with second-order ENO differences and Godunov's flux (Sussman, Smereka and Osher, A level set
-/// approach for computing solutions to incompressible two-phase flow, J. Comput. Phys. 114:146-159, 1994;
-/// Osher and Fedkiw, Level Set Methods and Dynamic Implicit Surfaces, chapters 6 and 7).
+/// Iterates phi_t + sign(phi) (|grad phi| - 1) = 0 on the active voxels, by explicit Euler steps of
+/// half a voxel with second-order ENO differences and Godunov's flux (Sussman, Smereka and Osher, A
+/// level set approach for computing solutions to incompressible two-phase flow, J. Comput. Phys.
+/// 114:146-159, 1994; Osher and Fedkiw, Level Set Methods and Dynamic Implicit Surfaces, chapters 6
+/// and 7).
 ///
-/// Voxels with a face neighbour of the other sign are not iterated but set, from the field as it was
-/// given, to the distance of the zero of its second-order Taylor polynomial along the gradient. That
-/// scales both ends of an edge alike, so the interface stays in place (a moved interface is what plagues
-/// the plain iteration: Russo and Smereka, A remark on computing distance functions, J. Comput. Phys.
-/// 163:51-67, 2000). One iteration carries the distance half a voxel outward.
+/// Voxels with a face neighbour of the other sign are not iterated but set, from the field as it
+/// was given, to the distance of the zero of its second-order Taylor polynomial along the gradient.
+/// That scales both ends of an edge alike, so the interface stays in place (a moved interface is
+/// what plagues the plain iteration: Russo and Smereka, A remark on computing distance functions,
+/// J. Comput. Phys. 163:51-67, 2000). One iteration carries the distance half a voxel outward.
 ///
 /// @param[in,out] phi         level set [Å]; afterwards within [-width, width]
 /// @param[in]     voxel       voxel edge h [Å]
 /// @param[in]     width       half width of the band [Å]
 /// @param[in]     iterations  number of Euler steps
-void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double width, int iterations,
-                  const Progress& progress);
+void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double width,
+                  int iterations, const Progress& progress);
 
 } // namespace molsurf

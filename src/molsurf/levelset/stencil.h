@@ -6,7 +6,8 @@
 
 #include "molsurf/core/leaf_block.h"
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// Gradient and Hessian at one voxel.
 struct Derivatives {

@@ -10,18 +10,20 @@
 #include <string>
 #include <vector>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// What surface is wanted, and how fine.
 struct Options {
     SelectOptions atoms;
-    double probe = 1.4;           ///< probe radius r_b [Å], >= 0
-    double voxel = 0.5;           ///< edge h of a voxel [Å], in [0.05, 10]
-    double epsilon = 0.5;         ///< tolerance eps of the Gaussian sum [Å], > 0
-    EvolveOptions evolution;      ///< lambda, regulariser, flow, stopping rule
-    int splineLevel = 0;          ///< the spline lives on voxels of edge 2^level h; 0, 1 or 2
-    bool fillCavities = false;    ///< drop the inner walls
-    std::vector<std::string> fields; ///< further grids to keep: "sas", "spline", "mean_curvature", ...
+    double probe = 1.4;        ///< probe radius r_b [Å], >= 0
+    double voxel = 0.5;        ///< edge h of a voxel [Å], in [0.05, 10]
+    double epsilon = 0.5;      ///< tolerance eps of the Gaussian sum [Å], > 0
+    EvolveOptions evolution;   ///< lambda, regulariser, flow, stopping rule
+    int splineLevel = 0;       ///< the spline lives on voxels of edge 2^level h; 0, 1 or 2
+    bool fillCavities = false; ///< drop the inner walls
+    std::vector<std::string>
+        fields; ///< further grids to keep: "sas", "spline", "mean_curvature", ...
 };
 
 /// The smallest and largest voxel edge that is taken, and the one above which a surface of atoms is

@@ -17,19 +17,22 @@
 #include <cmath>
 #include <sstream>
 
-namespace molsurf {
+namespace molsurf
+{
 
-namespace {
+namespace
+{
 
 /// Half width of the grid `surface` [voxel].
 constexpr double surfaceWidthVox = 3.0;
 
-/// How far from S = 0 the spline needs samples [voxel]: the corners of the 4^3 coefficients about a point
-/// are up to 2 sqrt(3) away.
+/// How far from S = 0 the spline needs samples [voxel]: the corners of the 4^3 coefficients about a
+/// point are up to 2 sqrt(3) away.
 constexpr double splineWidthVox = 4.0;
 
 /// Wall seconds of the stages, in their order.
-class Stopwatch {
+class Stopwatch
+{
 public:
     explicit Stopwatch(Report& report) : report_(report) {}
     void stop(const char* stage)
@@ -65,8 +68,9 @@ NarrowBand evolveSurface(const std::vector<Ball>& balls, const Options& options,
     NarrowBand band;
     band.table = field.band(bandWidthVox, progress);
     if (band.table.size() == 0) {
-        throw Error(ErrorKind::Numeric, "density: no voxel lies inside the surface [hint: a smaller "
-                                        "--voxel]");
+        throw Error(ErrorKind::Numeric,
+                    "density: no voxel lies inside the surface [hint: a smaller "
+                    "--voxel]");
     }
     progress.update("density", 0.6);
     band.psi = field.evaluate(band.table, progress);
@@ -199,8 +203,9 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
     result.surface = surfaceGrid(S, options.voxel, progress);
     watch.stop("redistance");
     if (result.surface->activeVoxelCount() == 0) {
-        throw Error(ErrorKind::Numeric, "redistance: nothing lies a probe radius inside the evolved "
-                                        "surface [hint: a smaller --lambda or --probe]");
+        throw Error(ErrorKind::Numeric,
+                    "redistance: nothing lies a probe radius inside the evolved "
+                    "surface [hint: a smaller --lambda or --probe]");
     }
 
     progress.update("spline", 0.0);
@@ -225,9 +230,9 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
     report.surface.maxResidual = stats.maxResidual;
     checkGradient(result.mesh, spline, S, options.voxel, progress, report.surface);
     // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
-    std::vector<std::int32_t> nearest = nearestBalls(
-        balls, result.mesh.positions, options.probe + 4.0 * options.epsilon + 2.0 * options.voxel,
-        progress);
+    std::vector<std::int32_t> nearest =
+        nearestBalls(balls, result.mesh.positions,
+                     options.probe + 4.0 * options.epsilon + 2.0 * options.voxel, progress);
     for (std::int32_t& i : nearest) i = i < 0 ? -1 : balls[i].atom;
     result.mesh.labels.push_back({"atom_id", std::move(nearest)});
     watch.stop("mesh");

@@ -5,16 +5,17 @@
 /// The stages in their order: balls in, surface out.
 
 #include "molsurf/core/progress.h"
+#include "molsurf/core/report.h"
 #include "molsurf/pipeline/options.h"
 #include "molsurf/selection/ball.h"
 #include "molsurf/surface/mesh.h"
-#include "molsurf/core/report.h"
 
 #include <openvdb/openvdb.h>
 
 #include <vector>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// What a run leaves.
 struct Result {

@@ -3,7 +3,8 @@
 
 #include <tbb/parallel_sort.h>
 
-namespace molsurf {
+namespace molsurf
+{
 
 using openvdb::Coord;
 

@@ -13,18 +13,20 @@
 #include <cstdint>
 #include <vector>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// Balls by the cubic cell of their centres. Immutable once made; safe to read from all threads.
-class BallIndex {
+class BallIndex
+{
 public:
     /// @param[in] balls  every coordinate within 1e6 Å
     /// @param[in] cell   edge of a cell [Å], at least 1
     BallIndex(const std::vector<Ball>& balls, double cell);
 
-    /// Calls f(ball, i), i the ball's index in the vector, for the balls whose centres may lie within
-    /// `reach` of the box [low, high] [Å]: all that do, and some that do not. In an order that
-    /// depends on the balls alone.
+    /// Calls f(ball, i), i the ball's index in the vector, for the balls whose centres may lie
+    /// within `reach` of the box [low, high] [Å]: all that do, and some that do not. In an order
+    /// that depends on the balls alone.
     template<typename F>
     void forEachNear(const openvdb::Vec3d& low, const openvdb::Vec3d& high, double reach,
                      const F& f) const
@@ -38,7 +40,8 @@ public:
                 const int last = std::min(to.z() - c.z, c.cells - 1);
                 if (first > last) continue;
                 const std::int32_t end = begins_[c.cell + last + 1];
-                for (std::int32_t i = begins_[c.cell + first]; i < end; ++i) f(balls_[i], order_[i]);
+                for (std::int32_t i = begins_[c.cell + first]; i < end; ++i)
+                    f(balls_[i], order_[i]);
             }
         }
     }
@@ -50,7 +53,10 @@ private:
         int z;             // of the first cell
         int cells;         // 0 where the table has no column
     };
-    openvdb::Coord cellOf(const openvdb::Vec3d& x) const { return openvdb::Coord::floor(x / cell_); }
+    openvdb::Coord cellOf(const openvdb::Vec3d& x) const
+    {
+        return openvdb::Coord::floor(x / cell_);
+    }
     static std::uint64_t columnKey(int x, int y)
     {
         return std::uint64_t(std::uint32_t(x)) << 32 | std::uint32_t(y);
@@ -61,7 +67,8 @@ private:
         // Fibonacci hashing (Knuth, The Art of Computer Programming 3, 6.4), all bits folded down.
         const std::uint64_t hash = key * 0x9e3779b97f4a7c15ull;
         std::size_t i = (hash ^ hash >> 32) & (columns_.size() - 1);
-        while (columns_[i].cells != 0 && columns_[i].key != key) i = (i + 1) & (columns_.size() - 1);
+        while (columns_[i].cells != 0 && columns_[i].key != key)
+            i = (i + 1) & (columns_.size() - 1);
         return i;
     }
 

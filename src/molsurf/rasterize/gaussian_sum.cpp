@@ -9,18 +9,20 @@
 #include <algorithm>
 #include <cmath>
 
-namespace molsurf {
+namespace molsurf
+{
 
 using openvdb::Coord;
 using openvdb::Vec3d;
 
-namespace {
+namespace
+{
 
 /// A term that stays e^-12 = 6e-6 of the largest one moves psi = 0 by less than 1e-5 eps.
 constexpr float negligible = 12.0f;
 
-/// The lowest psi that matters: at a distance of D outside, psi = -2 ln 2 D/eps - ...; the band of a
-/// surface ends long before.
+/// The lowest psi that matters: at a distance of D outside, psi = -2 ln 2 D/eps - ...; the band of
+/// a surface ends long before.
 constexpr float lowestPsi = -60.0f;
 
 /// A sum below this may have lost terms to underflow.
@@ -43,7 +45,8 @@ MOLSURF_KERNEL void accumulate(const float (*ex)[8], const float (*ey)[8], const
 }
 
 /// out[k] = exp(-decay ((k - centre)^2 - nearest^2)) for k = 0..7.
-MOLSURF_KERNEL void exponentials(float decay, float centre, float nearest2, float factor, float* out)
+MOLSURF_KERNEL void exponentials(float decay, float centre, float nearest2, float factor,
+                                 float* out)
 {
     for (int k = 0; k < 8; ++k) {
         const float d = float(k) - centre;
@@ -62,7 +65,8 @@ std::vector<Coord> leavesWithin(std::vector<Coord> places, int reach, const Prog
     blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
     LeafTable coarse(std::move(blocks));
     for (const Coord& place : places) {
-        coarse.active(coarse.find(place)).set(openvdb::FloatTree::LeafNodeType::coordToOffset(place));
+        coarse.active(coarse.find(place))
+            .set(openvdb::FloatTree::LeafNodeType::coordToOffset(place));
     }
     for (; reach > 0; reach -= leafDim) {
         coarse = dilated(coarse, std::min(reach, leafDim), Spread::Cube, progress);
@@ -77,7 +81,10 @@ std::vector<Coord> leavesWithin(std::vector<Coord> places, int reach, const Prog
     return origins;
 }
 
-float distanceToLeaf(float centre) { return std::max({0.0f, -centre, centre - 7.0f}); }
+float distanceToLeaf(float centre)
+{
+    return std::max({0.0f, -centre, centre - 7.0f});
+}
 
 } // namespace
 
@@ -179,9 +186,9 @@ LeafField GaussianSum::evaluate(const LeafTable& table, const Progress& progress
 
 LeafTable GaussianSum::band(int steps, const Progress& progress) const
 {
-    // Leaves that may hold a voxel with psi >= 0: those near a ball. In a table whose voxels stand for
-    // leaves, they are the leaves of the centres, dilated. Where k terms meet, psi = 0 lies at most
-    // eps/2 log2(k) outside the balls; k = 64 is more than any packing of atoms has.
+    // Leaves that may hold a voxel with psi >= 0: those near a ball. In a table whose voxels stand
+    // for leaves, they are the leaves of the centres, dilated. Where k terms meet, psi = 0 lies at
+    // most eps/2 log2(k) outside the balls; k = 64 is more than any packing of atoms has.
     const double edge = leafDim * options_.voxel;
     std::vector<Coord> centres(balls_.size());
     for (std::size_t i = 0; i < balls_.size(); ++i) {

@@ -2,10 +2,11 @@
 #pragma once
 
 /// @file
-/// The smooth field of a molecule, psi(x) = ln sum_i exp(-C_i (|x - x_i|^2 - R_i^2)), with R_i = r_i
-/// plus the probe radius and C_i = ln 2 / (eps R_i). psi = 0 approximates the solvent-accessible
-/// surface from outside to within about eps; psi > 0 inside. The paper's g is 1 - e^psi: psi is kept
-/// instead since it is nearly quadratic, and g spans many decades (docs/math.md, section 2).
+/// The smooth field of a molecule, psi(x) = ln sum_i exp(-C_i (|x - x_i|^2 - R_i^2)), with R_i =
+/// r_i plus the probe radius and C_i = ln 2 / (eps R_i). psi = 0 approximates the
+/// solvent-accessible surface from outside to within about eps; psi > 0 inside. The paper's g is 1
+/// - e^psi: psi is kept instead since it is nearly quadratic, and g spans many decades
+/// (docs/math.md, section 2).
 
 #include "molsurf/core/leaf_table.h"
 #include "molsurf/core/progress.h"
@@ -14,7 +15,8 @@
 
 #include <vector>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// Parameters of psi.
 struct GaussianOptions {
@@ -25,7 +27,8 @@ struct GaussianOptions {
 };
 
 /// psi of a set of balls, evaluated leaf by leaf. The balls must outlive it.
-class GaussianSum {
+class GaussianSum
+{
 public:
     GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& options);
 
@@ -33,8 +36,8 @@ public:
     /// @return an empty table if psi is negative at all voxels
     LeafTable band(int steps, const Progress& progress) const;
 
-    /// psi at all voxels of a leaf. Balls whose terms are below e^-12 of the sum throughout the leaf
-    /// are left out, and so are those farther than R_i + reach + 2 eps from it.
+    /// psi at all voxels of a leaf. Balls whose terms are below e^-12 of the sum throughout the
+    /// leaf are left out, and so are those farther than R_i + reach + 2 eps from it.
     /// @param[in]  origin  first voxel of the leaf
     /// @param[in]  reach   how far outside the balls of radius R_i psi is wanted [Å]
     /// @param[out] psi     512 values; always finite

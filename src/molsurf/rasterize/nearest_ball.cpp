@@ -7,20 +7,23 @@
 #include <algorithm>
 #include <limits>
 
-namespace molsurf {
+namespace molsurf
+{
 
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 
-std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls, const std::vector<Vec3f>& points,
-                                       double reach, const Progress& progress)
+std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
+                                       const std::vector<Vec3f>& points, double reach,
+                                       const Progress& progress)
 {
     float largest = 0.0f;
     for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
     const double cell = std::max(2.0, 0.5 * (largest + reach));
     const BallIndex index(balls, cell);
 
-    // Points are taken by runs that stay in a box about as large as a cell, and share its candidates.
+    // Points are taken by runs that stay in a box about as large as a cell, and share its
+    // candidates.
     constexpr std::size_t chunk = 256;
     std::vector<std::int32_t> out(points.size(), -1);
     parallelFor((points.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {

@@ -11,10 +11,11 @@
 
 #include <vector>
 
-namespace molsurf {
+namespace molsurf
+{
 
-/// For each point the index of the ball whose surface is nearest: the smallest |x - x_i| - r_i; of equals
-/// the first.
+/// For each point the index of the ball whose surface is nearest: the smallest |x - x_i| - r_i; of
+/// equals the first.
 /// @param[in] points  [Å]; fast if consecutive points are near each other
 /// @param[in] reach   no point is farther than this from the surface of its ball [Å]
 /// @return -1 for points that are

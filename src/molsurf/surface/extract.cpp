@@ -9,17 +9,19 @@
 #include <algorithm>
 #include <cmath>
 
-namespace molsurf {
+namespace molsurf
+{
 
 using openvdb::Coord;
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 
-namespace {
+namespace
+{
 
-constexpr double tolerance = 1e-6;  // |S| at a vertex, in voxels
+constexpr double tolerance = 1e-6; // |S| at a vertex, in voxels
 constexpr int newtonSteps = 8, bisections = 30;
-constexpr std::size_t chunk = 512;  // vertices that share a sampler
+constexpr std::size_t chunk = 512; // vertices that share a sampler
 
 /// Moves a point along the gradient onto S = 0, by at most a voxel.
 bool newton(SplineSampler& sampler, double voxel, Vec3d& x, Jet& jet)
@@ -37,8 +39,8 @@ bool newton(SplineSampler& sampler, double voxel, Vec3d& x, Jet& jet)
     return false;
 }
 
-/// Finds S = 0 between the corners of the cell of a point: the line from the corner nearest to the point
-/// to the nearest one of the other sign.
+/// Finds S = 0 between the corners of the cell of a point: the line from the corner nearest to the
+/// point to the nearest one of the other sign.
 void bisect(SplineSampler& sampler, double voxel, Vec3d& x, Jet& jet)
 {
     const Coord cell = Coord::floor(x / voxel);
@@ -84,8 +86,8 @@ Vec3d normalOf(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t
     return (Vec3d(mesh.positions[b]) - p).cross(Vec3d(mesh.positions[c]) - p);
 }
 
-/// How well a triangle agrees with the normals at its corners: the cosine of the worst angle; 0 for a
-/// triangle without area.
+/// How well a triangle agrees with the normals at its corners: the cosine of the worst angle; 0 for
+/// a triangle without area.
 double agreement(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c)
 {
     const Vec3d n = normalOf(mesh, a, b, c);
@@ -96,8 +98,8 @@ double agreement(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32
            length;
 }
 
-/// Splits the quad a b c d into two triangles: along the shorter diagonal, unless the other one agrees
-/// clearly better with the normals.
+/// Splits the quad a b c d into two triangles: along the shorter diagonal, unless the other one
+/// agrees clearly better with the normals.
 void splitQuad(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
                std::array<std::uint32_t, 3>* out)
 {
@@ -117,7 +119,8 @@ void splitQuad(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t
     }
 }
 
-/// Twice the area over the square of the longest edge: sqrt(3)/2 at best, near 0 for a needle or a cap.
+/// Twice the area over the square of the longest edge: sqrt(3)/2 at best, near 0 for a needle or a
+/// cap.
 double quality(const Mesh& mesh, const std::array<std::uint32_t, 3>& t)
 {
     double longest2 = 0.0;

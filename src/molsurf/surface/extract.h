@@ -10,7 +10,8 @@
 
 #include <openvdb/openvdb.h>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// What extractMesh() had to do beyond the plain way.
 struct ExtractStats {
@@ -23,9 +24,9 @@ struct ExtractStats {
 ///
 /// OpenVDB's dual mesher gives the connectivity from the signs of the level set at the voxels; each
 /// vertex is then moved along the gradient onto S = 0 by Newton's method, or, where the gradient
-/// fails, by bisection between two corners of its cell that lie on opposite sides. Quads are split so that
-/// the two triangles agree best with the normals of the spline. Vertices with folded or needle-like
-/// triangles slide along the surface to the centroid of their neighbours.
+/// fails, by bisection between two corners of its cell that lie on opposite sides. Quads are split
+/// so that the two triangles agree best with the normals of the spline. Vertices with folded or
+/// needle-like triangles slide along the surface to the centroid of their neighbours.
 ///
 /// @param[in] surface  level set whose signs are those of the spline at the voxels
 /// @param[in] spline   S

@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <map>
 
-namespace molsurf {
+namespace molsurf
+{
 
 using openvdb::Vec3d;
 
-namespace {
+namespace
+{
 
 struct Sums {
     double area = 0.0, volume = 0.0;
@@ -82,9 +84,9 @@ SurfaceReport measure(const Mesh& mesh, const Progress& progress)
     const Topology topology = checkTopology(mesh, vertexTriangles(mesh), progress);
     report.closed = topology.closed;
     report.manifold = topology.manifold && topology.oriented;
-    report.eulerCharacteristic = int(std::int64_t(mesh.positions.size()) -
-                                     std::int64_t(mesh.triangles.size() * 3 / 2) +
-                                     std::int64_t(mesh.triangles.size()));
+    report.eulerCharacteristic =
+        int(std::int64_t(mesh.positions.size()) - std::int64_t(mesh.triangles.size() * 3 / 2) +
+            std::int64_t(mesh.triangles.size()));
     std::size_t count = 0;
     const std::vector<std::uint32_t> pieces = connectedPieces(mesh, count);
 

@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// One value a vertex, under the name that mesh files use for it.
 template<typename T>
@@ -22,11 +23,11 @@ struct Attribute {
 
 /// Triangles, counter-clockwise seen from outside the molecule.
 struct Mesh {
-    std::vector<openvdb::Vec3f> positions;              ///< [Å]
-    std::vector<openvdb::Vec3f> normals;                ///< unit, outward; as many as positions
+    std::vector<openvdb::Vec3f> positions;               ///< [Å]
+    std::vector<openvdb::Vec3f> normals;                 ///< unit, outward; as many as positions
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< indices into positions
-    std::vector<Attribute<float>> scalars;              ///< curvatures [1/Å], [1/Å^2], distances [Å]
-    std::vector<Attribute<std::int32_t>> labels;        ///< atom, chain and group of a vertex
+    std::vector<Attribute<float>> scalars;       ///< curvatures [1/Å], [1/Å^2], distances [Å]
+    std::vector<Attribute<std::int32_t>> labels; ///< atom, chain and group of a vertex
 };
 
 } // namespace molsurf

@@ -8,7 +8,8 @@
 #include <numeric>
 #include <utility>
 
-namespace molsurf {
+namespace molsurf
+{
 
 VertexTriangles vertexTriangles(const Mesh& mesh)
 {
@@ -26,7 +27,8 @@ VertexTriangles vertexTriangles(const Mesh& mesh)
     return out;
 }
 
-namespace {
+namespace
+{
 
 /// The corner of a triangle that is vertex v.
 int cornerOf(const std::array<std::uint32_t, 3>& t, std::uint32_t v)
@@ -65,8 +67,8 @@ Topology checkVertex(const Mesh& mesh, const VertexTriangles& around, std::uint3
     std::size_t steps = 0;
     std::uint32_t at = wedges[0].first;
     do {
-        const auto* wedge = std::find_if(wedges, wedges + n,
-                                         [at](const auto& w) { return w.first == at; });
+        const auto* wedge =
+            std::find_if(wedges, wedges + n, [at](const auto& w) { return w.first == at; });
         at = wedge->second;
         ++steps;
     } while (at != wedges[0].first && steps < n);
@@ -92,8 +94,8 @@ Topology checkTopology(const Mesh& mesh, const VertexTriangles& around, const Pr
 {
     constexpr std::size_t chunk = 1024;
     const std::size_t vertices = mesh.positions.size();
-    const Verdict all = parallelSum<Verdict>(
-        (vertices + chunk - 1) / chunk, progress, [&](std::size_t c) {
+    const Verdict all =
+        parallelSum<Verdict>((vertices + chunk - 1) / chunk, progress, [&](std::size_t c) {
             Verdict sum;
             for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v) {
                 const Topology t = checkVertex(mesh, around, std::uint32_t(v));
@@ -133,7 +135,8 @@ std::vector<std::uint32_t> connectedPieces(const Mesh& mesh, std::size_t& count)
 std::size_t splitNonManifold(Mesh& mesh)
 {
     // Half edges (a, b) of triangles, by undirected edge; those of one edge are paired in order.
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<std::vector<std::uint32_t>, 2>> edges;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<std::vector<std::uint32_t>, 2>>
+        edges;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         for (int k = 0; k < 3; ++k) {
             const std::uint32_t a = mesh.triangles[i][k], b = mesh.triangles[i][(k + 1) % 3];

@@ -10,7 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-namespace molsurf {
+namespace molsurf
+{
 
 /// Which triangles meet at each vertex: those of vertex v are
 /// triangles[begins[v]], ..., triangles[begins[v + 1] - 1], in ascending order.
@@ -35,8 +36,9 @@ Topology checkTopology(const Mesh& mesh, const VertexTriangles& around, const Pr
 /// @param[out] count  number of pieces
 std::vector<std::uint32_t> connectedPieces(const Mesh& mesh, std::size_t& count);
 
-/// Gives every fan of triangles about a vertex a vertex of its own, after pairing the triangles at edges
-/// that more than two share. Makes any closed, oriented mesh 2-manifold without moving a point.
+/// Gives every fan of triangles about a vertex a vertex of its own, after pairing the triangles at
+/// edges that more than two share. Makes any closed, oriented mesh 2-manifold without moving a
+/// point.
 /// @return number of vertices added
 std::size_t splitNonManifold(Mesh& mesh);
 
