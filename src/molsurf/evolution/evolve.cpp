@@ -59,7 +59,7 @@ StepSums step(const NarrowBand& band, double voxel, const Spline* coarse, const 
         phi.gather(band.table, band.phi, n);
         psi.gather(band.table, band.psi, n);
         LeafCurvature shape;
-        curvature(phi, float(voxel), shape);
+        curvature(phi, band.table.active(n), float(voxel), shape);
         if (coarse) {
             curvatureFromSpline(*coarse, band.table.origin(n), voxel, band.table.active(n),
                                 band.phi.leaf(n), shape);
