@@ -5,6 +5,7 @@
 /// The Euler number of the inside voxels of a level set, counted on its signs.
 
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/VolumeToMesh.h>
 
 #include <array>
 #include <cstdint>
@@ -81,6 +82,97 @@ inline DigitalEuler digitalEuler(const openvdb::FloatGrid& grid)
     sum.eighteen /= 8;
     sum.twentySix /= 8;
     return sum;
+}
+
+/// The Euler number of the surface that OpenVDB's mesher makes of a grid's signs, twice that of the
+/// set of inside voxels with the mesher's own rule for what is connected: voxels that share a face
+/// or an edge (18), except where the square of an edge is the one ambiguous face of both cells that
+/// share it; there the mesher inverts both cells, and the two voxels are apart
+/// (correctCellSigns() and sAmbiguousFace in openvdb/tools/VolumeToMesh.h; the remedy of Nielson
+/// and Hamann, The asymptotic decider, 1991, in the form of Wenger, Isosurfaces, 2013, for dual
+/// cells).
+inline std::int64_t mesherEuler(const openvdb::FloatGrid& grid)
+{
+    // The mesher's corners 0..7 of a cell, and its faces 1..6 by the axis and side.
+    using openvdb::Coord;
+    static const Coord corner[8] = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1},
+                                    {0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}};
+    static const Coord toward[7] = {{0, 0, 0},  {0, 0, -1}, {1, 0, 0}, {0, 0, 1},
+                                    {-1, 0, 0}, {0, -1, 0}, {0, 1, 0}};
+    static const int opposite[7] = {0, 3, 4, 1, 2, 6, 5};
+    const auto& ambiguousFace = openvdb::tools::volume_to_mesh_internal::sAmbiguousFace;
+    auto read = grid.getConstAccessor();
+    const auto inside = [&](const Coord& c) { return read.getValue(c) < 0.0f; };
+    const auto signs = [&](const Coord& cell) {
+        int s = 0;
+        for (int k = 0; k < 8; ++k) s |= int(inside(cell + corner[k])) << k;
+        return s;
+    };
+    const auto cutFace = [&](const Coord& cell, int s) {
+        const int face = ambiguousFace[s];
+        return face != 0 && ambiguousFace[signs(cell + toward[face])] == opposite[face] ? face : 0;
+    };
+    // Pieces of cells - pieces of squares + faces of voxels - voxels, counted where signs differ;
+    // a voxel that is inside with all its neighbours adds nothing, as below.
+    std::int64_t eighths = 0;
+    for (auto it = grid.cbeginValueOn(); it; ++it) {
+        const Coord cell = it.getCoord();
+        const int s = signs(cell);
+        if (s == 0 || s == 255) continue;
+        const int cut = cutFace(cell, s);
+        const auto on = [s](int k) { return s >> k & 1; };
+        const auto distance = [](int k, int m) {
+            const Coord d = corner[k] - corner[m];
+            return std::abs(d.x()) + std::abs(d.y()) + std::abs(d.z());
+        };
+        // Does the square that two corners span lie in the face that is cut?
+        const auto apart = [&](int k, int m) {
+            if (cut == 0) return false;
+            for (int i = 0; i < 3; ++i) {
+                if (toward[cut][i] != 0) {
+                    const int side = toward[cut][i] > 0;
+                    return corner[k][i] == side && corner[m][i] == side;
+                }
+            }
+            return false;
+        };
+        int pieces = 0;
+        for (int left = s; left != 0; ++pieces) {
+            int piece = left & -left;
+            for (int grown = 0; grown != piece;) {
+                grown = piece;
+                for (int k = 0; k < 8; ++k) {
+                    for (int m = 0; m < 8 && (grown >> k & 1); ++m) {
+                        if (!on(m)) continue;
+                        const int d = distance(k, m);
+                        if (d == 1 || (d == 2 && !apart(k, m))) piece |= 1 << m;
+                    }
+                }
+            }
+            left &= ~piece;
+        }
+        int squares = 0, pairs = 0, voxels = 0;
+        for (int face = 1; face <= 6; ++face) {
+            int count = 0, diagonal = 0;
+            for (int k = 0; k < 8; ++k) {
+                for (int i = 0; i < 3; ++i) {
+                    if (toward[face][i] == 0 || corner[k][i] != (toward[face][i] > 0)) continue;
+                    count += on(k);
+                    for (int m = 0; m < k; ++m) {
+                        diagonal +=
+                            corner[m][i] == corner[k][i] && distance(k, m) == 2 && on(k) && on(m);
+                    }
+                }
+            }
+            squares += count == 2 && diagonal == 1 && face == cut ? 2 : count > 0;
+        }
+        for (int k = 0; k < 8; ++k) {
+            voxels += on(k);
+            for (int m = 0; m < k; ++m) pairs += distance(k, m) == 1 && (on(k) || on(m));
+        }
+        eighths += 8 * pieces - 4 * squares + 2 * pairs - voxels;
+    }
+    return 2 * (eighths / 8);
 }
 
 } // namespace molsurf::test

@@ -126,7 +126,7 @@ TEST(SplineSampler, IsTwiceContinuouslyDifferentiableAcrossCellsAndLeaves)
 TEST(SplineSampler, DerivativesAgreeWithFiniteDifferences)
 {
     const Spline spline = randomSpline();
-    const double h = spline.voxel, step = 0.02 * h;
+    const double h = spline.voxel, step = 0.01 * h;
     SplineSampler sampler(spline);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> place(2.1, 21.9);
