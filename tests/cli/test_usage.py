@@ -85,7 +85,7 @@ class WrongCalls(ToolTest):
             ("--tolerance", "-1"),
             ("--spline-level", "3"),
             ("--spline-level", "-1"),
-            ("--max-steps", "0"),
+            ("--max-steps", "-1"),
             ("--threads", "0"),
             ("--model", "-1"),
         ):

@@ -35,29 +35,41 @@ struct LeafBlock {
     void gather(const LeafTable& table, const LeafArray<T>& field, std::size_t n)
     {
         const auto& near = table.neighbours(n);
-        for (int x = -Halo; x < leafDim + Halo; ++x) {
-            const int dx = x < 0 ? 0 : x < leafDim ? 1 : 2;
-            for (int y = -Halo; y < leafDim + Halo; ++y) {
-                const int dy = y < 0 ? 0 : y < leafDim ? 1 : 2;
-                const int row = 64 * (x & 7) + 8 * (y & 7);
-                const int inside =
-                    64 * std::clamp(x, 0, leafDim - 1) + 8 * std::clamp(y, 0, leafDim - 1);
-                const auto source = [&](int dz) {
-                    const std::int32_t m = near[9 * dx + 3 * dy + dz];
-                    return m == noLeaf ? nullptr : field.leaf(m) + row;
-                };
-                const T* own = field.leaf(n) + inside;
-                const T *below = source(0), *centre = source(1), *above = source(2);
-                if (!centre) centre = own;
-                T* out = at(x, y, -Halo);
-                for (int z = 0; z < Halo; ++z) {
-                    out[z] = below ? below[leafDim - Halo + z] : centre[0];
-                    out[Halo + leafDim + z] = above ? above[z] : centre[leafDim - 1];
+        const T* own = field.leaf(n);
+        for (int side = 0; side < 9; ++side) {
+            const int dx = side / 3 - 1, dy = side % 3 - 1;
+            const T* column[3]; // the leaves below, beside and above
+            for (int k = 0; k < 3; ++k) {
+                const std::int32_t m = near[3 * side + k];
+                column[k] = m == noLeaf ? nullptr : field.leaf(m);
+            }
+            const int x0 = begin(dx), x1 = x0 + width(dx), y0 = begin(dy), y1 = y0 + width(dy);
+            for (int x = x0; x < x1; ++x) {
+                for (int y = y0; y < y1; ++y) {
+                    const int row = 64 * (x & 7) + 8 * (y & 7);
+                    const T* centre = column[1] ? column[1] + row
+                                                : own + 64 * std::clamp(x, 0, leafDim - 1) +
+                                                      8 * std::clamp(y, 0, leafDim - 1);
+                    T* out = at(x, y, 0);
+                    std::copy_n(centre, leafDim, out);
+                    if (column[0]) {
+                        std::copy_n(column[0] + row + leafDim - Halo, Halo, out - Halo);
+                    } else {
+                        std::fill_n(out - Halo, Halo, centre[0]);
+                    }
+                    if (column[2]) {
+                        std::copy_n(column[2] + row, Halo, out + leafDim);
+                    } else {
+                        std::fill_n(out + leafDim, Halo, centre[leafDim - 1]);
+                    }
                 }
-                for (int z = 0; z < leafDim; ++z) out[Halo + z] = centre[z];
             }
         }
     }
+
+private:
+    static constexpr int begin(int side) { return side < 0 ? -Halo : side * leafDim; }
+    static constexpr int width(int side) { return side == 0 ? leafDim : Halo; }
 };
 
 } // namespace molsurf

@@ -19,8 +19,8 @@ struct LeafMask {
     void set(int voxel) { words[voxel >> 6] |= std::uint64_t(1) << (voxel & 63); }
     void set(int voxel, bool on) { words[voxel >> 6] |= std::uint64_t(on) << (voxel & 63); }
 
-    /// The 8 bits of the row (x, y), bit z.
-    std::uint8_t row(int x, int y) const { return std::uint8_t(words[x] >> (8 * y)); }
+    /// The 8 bits of row 8 x + y, bit z.
+    std::uint8_t row(int i) const { return std::uint8_t(words[i >> 3] >> (8 * (i & 7))); }
 
     bool any() const
     {

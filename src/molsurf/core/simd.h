@@ -4,7 +4,6 @@
 /// @file
 /// Instruction sets for the hot loops, and the exponential that they can vectorise.
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -21,12 +20,27 @@
 namespace molsurf
 {
 
+/// The smaller and the larger of two numbers, by value: std::min and std::max hand out references,
+/// which keeps loops over arrays from vectorising.
+inline __attribute__((always_inline)) float smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+inline __attribute__((always_inline)) float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+inline __attribute__((always_inline)) float clamped(float x, float low, float high)
+{
+    return smaller(larger(x, low), high);
+}
+
 /// e^x in float, relative error below 3e-7, for |x| <= 87; x is clamped to that range. Without
 /// branches or calls, so that loops over it vectorise. Cody-Waite reduction by ln 2, then the
 /// Taylor polynomial of degree 6 on [-ln 2/2, ln 2/2].
 inline __attribute__((always_inline)) float fastExp(float x)
 {
-    x = std::min(std::max(x, -87.0f), 87.0f);
+    x = clamped(x, -87.0f, 87.0f);
     const float shifter = 12582912.0f; // 1.5 * 2^23: adding it rounds to an integer
     const float k = (x * 1.44269504f + shifter) - shifter;
     const float r = (x - k * 0.693359375f) + k * 2.12194440e-4f;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/evolution/evolve.h"
 
+#include "molsurf/bspline/fit.h"
 #include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/evolution/speed.h"
+#include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 
 #include <cmath>
@@ -19,10 +21,36 @@ namespace
 /// carries the distance half a voxel.
 constexpr int reinitializations = 2;
 
+/// Where the flow acts [voxel]: curvature is wanted there.
+constexpr double flowWidthVox = 3.0;
+
+/// Takes the curvatures of a leaf from a spline.
+void curvatureFromSpline(const Spline& spline, const openvdb::Coord& origin, double voxel,
+                         const LeafMask& active, const float* phi, LeafCurvature& shape)
+{
+    SplineSampler sampler(spline);
+    active.forEach([&](int v) {
+        if (std::abs(phi[v]) >= flowWidthVox * voxel) return;
+        const Jet jet = sampler.at(origin.offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() * voxel);
+        if (jet.gradient.lengthSqr() < 1e-6) return;
+        shape.mean[v] = float(2.0 * meanCurvature(jet));
+        shape.gauss[v] = float(gaussianCurvature(jet));
+    });
+}
+
+/// The spline of phi on voxels of edge 2^level h, on a band wide enough for it.
+Spline coarseSpline(const NarrowBand& band, double voxel, int level, const Progress& progress)
+{
+    const double width = (flowWidthVox + 3.5 * (1 << level)) * voxel;
+    const DistanceBand wide = redistance(band.table, band.phi, voxel, width, width, progress);
+    return fitSpline(wide.table, wide.phi, voxel, level, progress);
+}
+
 /// One step of the flow on all leaves.
-/// @param[out] next  phi after it
-StepSums step(const NarrowBand& band, double voxel, const Weights& weights, const StepSize& size,
-              LeafField& next, Progress& progress)
+/// @param[in]  coarse  the spline that gives the curvature, or null for differences
+/// @param[out] next    phi after it
+StepSums step(const NarrowBand& band, double voxel, const Spline* coarse, const Weights& weights,
+              const StepSize& size, LeafField& next, const Progress& progress)
 {
     // Positions are taken from the first leaf: volumes then do not cancel far from the origin.
     const openvdb::Coord first = band.table.size() ? band.table.origin(0) : openvdb::Coord();
@@ -31,7 +59,11 @@ StepSums step(const NarrowBand& band, double voxel, const Weights& weights, cons
         phi.gather(band.table, band.phi, n);
         psi.gather(band.table, band.psi, n);
         LeafCurvature shape;
-        curvature(phi, float(voxel), shape);
+        curvature(phi, band.table.active(n), float(voxel), shape);
+        if (coarse) {
+            curvatureFromSpline(*coarse, band.table.origin(n), voxel, band.table.active(n),
+                                band.phi.leaf(n), shape);
+        }
         return flowStep(phi, psi, shape, band.table.active(n),
                         (band.table.origin(n) - first).asVec3d() * voxel, float(voxel), weights,
                         size, next.leaf(n));
@@ -130,14 +162,20 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
     LeafField next(band.table.size());
     double lastDisplacement = 0.0;
     for (;;) {
+        Spline coarse;
+        if (options.splineLevel > 0) {
+            coarse = coarseSpline(band, voxel, options.splineLevel, progress);
+        }
+        const Spline* spline = options.splineLevel > 0 ? &coarse : nullptr;
         StepSize size;
         if (!preconditioned) {
             // Explicit Euler for a stiffness P is stable up to 2/P; the longest step is limited
             // anyway.
-            const StepSums before = step(band, voxel, weights, {true, 0.0f}, next, progress);
+            const StepSums before =
+                step(band, voxel, spline, weights, {true, 0.0f}, next, progress);
             size = {false, 0.8f / before.maxSecond};
         }
-        const StepSums sums = step(band, voxel, weights, size, next, progress);
+        const StepSums sums = step(band, voxel, spline, weights, size, next, progress);
         if (!std::isfinite(sums.energy) || !std::isfinite(sums.displacement)) {
             throw Error(ErrorKind::Numeric, "evolve: step " + std::to_string(report.steps) +
                                                 ": the energy is not a number");

@@ -43,7 +43,7 @@ inline __attribute__((always_inline)) Metric metricAtFoot(float psi, const Deriv
     const float foot = psi - phi * (d.x * a + d.y * b + d.z * c) + 0.5f * phi * phi * hnn;
     const float x = d.x - phi * hx, y = d.y - phi * hy, z = d.z - phi * hz;
 
-    const float e = fastExp(std::min(foot, 20.0f)); // e^psi; beyond 20 the step's cap rules anyway
+    const float e = fastExp(smaller(foot, 20.0f)); // e^psi; beyond 20 the step's cap rules anyway
     const float g = 1.0f - e;
     const float slope = x * a + y * b + z * c; // n . grad psi
     const float slope2 = x * x + y * y + z * z;

@@ -20,8 +20,10 @@ struct EvolveOptions {
     double lambda = 0.01; ///< weight of the regulariser; [Å^2] for Gradient, no unit for Area; >= 0
     Regularizer regularizer = Regularizer::Gradient;
     Flow flow = Flow::Preconditioned;
-    int maxSteps = -1;             ///< < 0: 50 for the preconditioned flow, 2000 for the plain one
-    double energyTolerance = 1e-4; ///< relative change of the energy in a step
+    int maxSteps = -1; ///< < 0: 50 for the preconditioned flow, 2000 for the plain one
+    int splineLevel =
+        0; ///< curvature by the spline on voxels of edge 2^level h; 0: on h, by differences
+    double energyTolerance = 1e-4;       ///< relative change of the energy in a step
     double displacementTolerance = 0.01; ///< area-weighted mean displacement in a step [voxel]
 };
 

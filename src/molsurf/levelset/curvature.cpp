@@ -14,13 +14,14 @@ namespace
 
 constexpr float tiny = 1e-12f; // keeps divisions finite where the gradient vanishes
 
-MOLSURF_KERNEL void curvatureRows(const float* __restrict block, float inverse,
-                                  float* __restrict nx, float* __restrict ny, float* __restrict nz,
-                                  float* __restrict slope, float* __restrict mean,
-                                  float* __restrict gauss)
+MOLSURF_KERNEL void curvatureRows(const float* __restrict block, const LeafMask& active,
+                                  float inverse, float* __restrict nx, float* __restrict ny,
+                                  float* __restrict nz, float* __restrict slope,
+                                  float* __restrict mean, float* __restrict gauss)
 {
     constexpr int X = LeafBlock<float, 1>::strideX, Y = LeafBlock<float, 1>::strideY;
     for (int row = 0; row < 64; ++row) {
+        if (active.row(row) == 0) continue;
         const float* p = block + (row / 8 + 1) * X + (row % 8 + 1) * Y + 1;
         for (int z = 0; z < 8; ++z) {
             const Derivatives d = derivatives<1>(p + z, inverse);
@@ -47,10 +48,11 @@ MOLSURF_KERNEL void curvatureRows(const float* __restrict block, float inverse,
 
 } // namespace
 
-void curvature(const LeafBlock<float, 1>& phi, float voxel, LeafCurvature& out)
+void curvature(const LeafBlock<float, 1>& phi, const LeafMask& active, float voxel,
+               LeafCurvature& out)
 {
-    curvatureRows(phi.values, 1.0f / voxel, out.normal[0], out.normal[1], out.normal[2], out.slope,
-                  out.mean, out.gauss);
+    curvatureRows(phi.values, active, 1.0f / voxel, out.normal[0], out.normal[1], out.normal[2],
+                  out.slope, out.mean, out.gauss);
 }
 
 } // namespace molsurf

@@ -18,7 +18,7 @@ struct LeafCurvature {
     alignas(64) float gauss[leafSize]; ///< K = k1 k2 [1/Å^2]
 };
 
-/// Fills in all members at all voxels of a leaf.
+/// Fills in all members in the rows of a leaf (8 voxels along z) that have an active voxel.
 ///
 /// With H the Hessian and n the normal: kappa = (tr H - n.H n)/|grad phi|,
 /// K = n.adj(H) n/|grad phi|^2 (Goldman, Curvature formulas for implicit curves and surfaces,
@@ -27,6 +27,7 @@ struct LeafCurvature {
 ///
 /// @param[in] phi    [Å]
 /// @param[in] voxel  voxel edge h [Å]
-void curvature(const LeafBlock<float, 1>& phi, float voxel, LeafCurvature& out);
+void curvature(const LeafBlock<float, 1>& phi, const LeafMask& active, float voxel,
+               LeafCurvature& out);
 
 } // namespace molsurf

@@ -33,9 +33,9 @@ MOLSURF_KERNEL void firstGuess(const float* __restrict block, float voxel, float
                                   2.0f * (d.x * d.y * d.xy + d.y * d.z * d.yz + d.x * d.z * d.xz)) /
                                  norm2;
             const float discriminant = norm2 - 2.0f * second * p[z];
-            const float root = std::sqrt(std::max(discriminant, 0.25f * norm2));
+            const float root = std::sqrt(larger(discriminant, 0.25f * norm2));
             const float distance = -2.0f * p[z] / (std::sqrt(norm2) + root);
-            phi[8 * row + z] = std::min(std::max(distance, -width), width);
+            phi[8 * row + z] = clamped(distance, -width, width);
         }
     }
 }
@@ -51,8 +51,9 @@ LeafField initialSurface(const LeafTable& table, const LeafField& psi, double vo
         block.gather(table, psi, n);
         firstGuess(block.values, float(voxel), float(width), phi.leaf(n));
     });
-    // Half a voxel an iteration, from the interface to the rim of the band.
-    const int iterations = int(std::ceil(2.0 * width / voxel));
+    // Half a voxel an iteration, from the interface to where the flow acts; its own iterations do
+    // the rim.
+    const int iterations = int(std::ceil(2.0 * width / voxel)) - 2;
     reinitialize(table, phi, voxel, width, iterations, progress);
     return phi;
 }

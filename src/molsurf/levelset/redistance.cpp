@@ -4,6 +4,9 @@
 #include "molsurf/bspline/spline.h"
 #include "molsurf/core/leaf_block.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/simd.h"
+
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +23,8 @@ using openvdb::Vec3d;
 namespace
 {
 
-constexpr std::int32_t noSeed = -1;
+/// Index of the seed that stands for none.
+constexpr std::int32_t noSeed = 0;
 
 /// A closest point on the interface, in units of voxels.
 struct Seed {
@@ -164,7 +168,7 @@ std::vector<Seed> findSeeds(const LeafTable& table, const LeafField& phi, double
                             std::vector<std::size_t>& begins, const Progress& progress)
 {
     const LeafField coefficients = prefilter(table, phi, progress);
-    begins.assign(table.size() + 1, 0);
+    begins.assign(table.size() + 1, noSeed + 1);
     for (std::size_t n = 0; n < table.size(); ++n) begins[n + 1] = begins[n] + interface[n].count();
     std::vector<Seed> seeds(begins.back());
     parallelFor(table.size(), progress, [&](std::size_t n) {
@@ -217,28 +221,82 @@ LeafTable merged(const LeafTable& a, const LeafTable& b)
     return out;
 }
 
-/// The nearest of the seeds that a voxel and its 26 neighbours have; noSeed if they have none
-/// within `limit` voxels.
-std::int32_t nearestSeed(const LeafBlock<std::int32_t, 1>& index, const Coord& local,
-                         const Vec3d& x, const std::vector<Seed>& seeds, double limit)
+/// The closest points alone, relative to a voxel amid them, by coordinate: what the search for the
+/// nearest reads.
+struct Points {
+    Coord centre;
+    std::vector<float> x, y, z;
+
+    explicit Points(const std::vector<Seed>& seeds) : x(seeds.size()), y(x.size()), z(x.size())
+    {
+        centre = Coord::floor(seeds[seeds.size() / 2].y);
+        tbb::parallel_for(std::size_t(0), seeds.size(), [&](std::size_t i) {
+            const Vec3d relative = seeds[i].y - centre.asVec3d();
+            x[i] = float(relative.x());
+            y[i] = float(relative.y());
+            z[i] = float(relative.z());
+        });
+        x[noSeed] = y[noSeed] = z[noSeed] = 1e15f; // farther than any
+    }
+};
+
+using SeedBlock = LeafBlock<std::int32_t, 1>;
+
+/// The nearest of the seeds that a voxel and its 26 neighbours have.
+/// @param[in] p  the voxel in its block
+std::int32_t nearestSeed(const std::int32_t* p, const Coord& voxel, const Points& points)
 {
-    const std::int32_t* p = index.at(local.x(), local.y(), local.z());
-    std::int32_t best = noSeed;
-    double distance2 = limit * limit;
-    for (int dx = -index.strideX; dx <= index.strideX; dx += index.strideX) {
-        for (int dy = -index.strideY; dy <= index.strideY; dy += index.strideY) {
+    const openvdb::Vec3f x((voxel - points.centre).asVec3s());
+    std::int32_t best = noSeed, last = noSeed;
+    float least = 1e30f;
+    for (int dx = -SeedBlock::strideX; dx <= SeedBlock::strideX; dx += SeedBlock::strideX) {
+        for (int dy = -SeedBlock::strideY; dy <= SeedBlock::strideY; dy += SeedBlock::strideY) {
             for (int dz = -1; dz <= 1; ++dz) {
                 const std::int32_t seed = p[dx + dy + dz];
-                if (seed == noSeed || seed == best) continue;
-                const double d2 = (x - seeds[seed].y).lengthSqr();
-                if (d2 < distance2) {
-                    distance2 = d2;
+                if (seed == last) continue;
+                last = seed;
+                const openvdb::Vec3f y(points.x[seed], points.y[seed], points.z[seed]);
+                const float d2 = (x - y).lengthSqr();
+                if (d2 < least) {
+                    least = d2;
                     best = seed;
                 }
             }
         }
     }
     return best;
+}
+
+/// The nearest of the seeds that each voxel of a leaf and its 26 neighbours have.
+/// @param[in] x,y,z         coordinates of the seeds
+/// @param[in] x0,y0,z0      the leaf's first voxel in the same frame
+MOLSURF_KERNEL void nearestOfAll(const std::int32_t* __restrict block, const float* __restrict x,
+                                 const float* __restrict y, const float* __restrict z, float x0,
+                                 float y0, float z0, std::int32_t* __restrict out)
+{
+    constexpr int X = SeedBlock::strideX, Y = SeedBlock::strideY;
+    for (int row = 0; row < 64; ++row) {
+        const std::int32_t* p = block + (row / 8 + 1) * X + (row % 8 + 1) * Y + 1;
+        const float px = x0 + float(row / 8), py = y0 + float(row % 8);
+        std::int32_t best[8];
+        float least[8];
+        for (int k = 0; k < 8; ++k) {
+            best[k] = noSeed;
+            least[k] = 1e30f;
+        }
+        for (int side = 0; side < 27; ++side) {
+            const std::int32_t* q = p + (side / 9 - 1) * X + (side / 3 % 3 - 1) * Y + side % 3 - 1;
+            for (int k = 0; k < 8; ++k) {
+                const std::int32_t seed = q[k];
+                const float dx = x[seed] - px, dy = y[seed] - py;
+                const float dz = z[seed] - (z0 + float(k));
+                const float d2 = dx * dx + dy * dy + dz * dz;
+                best[k] = d2 < least[k] ? seed : best[k];
+                least[k] = d2 < least[k] ? d2 : least[k];
+            }
+        }
+        for (int k = 0; k < 8; ++k) out[8 * row + k] = best[k];
+    }
 }
 
 /// The inner voxels of a leaf that the given level set lacks, and that no interface can cross: all
@@ -274,7 +332,7 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
                                     reachable(table, interface, inner, steps(outside), progress));
 
     SeedIndex index(domain.size()), next(domain.size());
-    std::vector<LeafMask> known(domain.size()), frontier(domain.size());
+    std::vector<LeafMask> known(domain.size());
     parallelFor(domain.size(), progress, [&](std::size_t n) {
         std::fill_n(index.leaf(n), leafSize, noSeed);
         const std::int32_t m = table.find(domain.origin(n));
@@ -284,34 +342,49 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
         interface[m].forEach([&](int v) { index.leaf(n)[v] = k++; });
     });
 
-    // Layers go by turns to 6 and 26 neighbours, close to the order of the distance; a voxel that
-    // was reached a little too early is looked at again with the next layer.
-    const int layers = steps(std::max(inside, outside)) + 2;
-    const double limit = std::max(inside, outside) / voxel + 2.0;
-    std::vector<LeafMask> previous(domain.size());
-    for (int layer = 0; layer < layers; ++layer) {
+    // Layers go by turns to 6 and 26 neighbours, close to the order of the distance. Then all
+    // voxels look at their neighbours again, and those whose neighbours have changed once more,
+    // until none changes.
+    const int layers = 2 * steps(std::max(inside, outside)); // more than it takes
+    const Points points(seeds);
+    std::vector<LeafMask> work(domain.size()), changed(domain.size());
+    constexpr int corrections = 8;
+    for (int layer = 0; layer < layers + corrections; ++layer) {
+        const bool correct = layer >= layers;
         parallelFor(domain.size(), progress, [&](std::size_t n) {
-            const LeafMask fresh =
-                dilatedMask(domain, known, n, layer % 2 == 1) & ~known[n] & domain.active(n);
-            frontier[n] = fresh | previous[n];
-            previous[n] = fresh;
+            const bool full = layer % 2 == 1 || correct;
+            work[n] = domain.active(n);
+            if (layer != layers) work[n] &= dilatedMask(domain, correct ? changed : known, n, full);
+            if (!correct) work[n] &= ~known[n];
         });
-        // next <- index with the frontier's seeds; only the frontier is written back
+        // next <- the nearest seeds of the voxels in work; only changes are written back
         parallelFor(domain.size(), progress, [&](std::size_t n) {
-            if (!frontier[n].any()) return;
+            changed[n] = LeafMask();
+            if (!work[n].any()) return;
             LeafBlock<std::int32_t, 1> block;
             block.gather(domain, index, n);
-            frontier[n].forEach([&](int v) {
+            std::int32_t* out = next.leaf(n);
+            if (layer == layers) {
+                const openvdb::Vec3f corner((domain.origin(n) - points.centre).asVec3s());
+                nearestOfAll(block.values, points.x.data(), points.y.data(), points.z.data(),
+                             corner.x(), corner.y(), corner.z(), out);
+            }
+            work[n].forEach([&](int v) {
                 const Coord local(v >> 6, v >> 3 & 7, v & 7);
-                next.leaf(n)[v] =
-                    nearestSeed(block, local, (domain.origin(n) + local).asVec3d(), seeds, limit);
+                const std::int32_t* p = block.at(local.x(), local.y(), local.z());
+                if (layer != layers) out[v] = nearestSeed(p, domain.origin(n) + local, points);
+                changed[n].set(v, out[v] != *p);
             });
         });
         parallelFor(domain.size(), progress, [&](std::size_t n) {
-            if (!frontier[n].any()) return;
-            frontier[n].forEach([&](int v) { index.leaf(n)[v] = next.leaf(n)[v]; });
-            known[n] |= frontier[n];
+            changed[n].forEach([&](int v) { index.leaf(n)[v] = next.leaf(n)[v]; });
+            known[n] |= work[n];
         });
+        bool any = false;
+        for (const LeafMask& mask : changed) any = any || mask.any();
+        if (any) continue;
+        if (correct) break;
+        layer = layers - 1; // every voxel is reached
     }
 
     DistanceBand band;
@@ -333,9 +406,8 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
             const Coord local(v >> 6, v >> 3 & 7, v & 7);
             const std::int32_t* p = block.at(local.x(), local.y(), local.z());
             if (*p == noSeed) continue;
-            // A last look at all neighbours: the layers' order may have missed the nearest.
             const Vec3d x = (domain.origin(n) + local).asVec3d();
-            const Seed& seed = seeds[nearestSeed(block, local, x, seeds, limit)];
+            const Seed& seed = seeds[*p];
             const float distance =
                 std::max(float(voxel) * distanceFrom(seed, x, sign), 1e-6f * float(voxel));
             if (distance >= width) continue;

@@ -37,38 +37,54 @@ inline __attribute__((always_inline)) float upwind(const float* p, int stride, f
     const float after = (p[2 * stride] - p[stride]) - above;
     const float minus = below + 0.5f * minmod(centre, before);
     const float plus = above - 0.5f * minmod(centre, after);
-    const float a = std::max(sign * minus, 0.0f), b = std::max(-sign * plus, 0.0f);
-    return std::max(a * a, b * b);
+    const float a = larger(sign * minus, 0.0f), b = larger(-sign * plus, 0.0f);
+    return larger(a * a, b * b);
 }
 
-/// One Euler step at all 512 voxels of a leaf.
-MOLSURF_KERNEL void eulerStep(const float* __restrict block, float voxel, float width,
-                              float* __restrict out)
+/// One Euler step in the rows of a leaf that have an active voxel.
+MOLSURF_KERNEL void eulerStep(const float* __restrict block, const LeafMask& active, float voxel,
+                              float width, float* __restrict out)
 {
     const float inverse2 = 1.0f / (voxel * voxel);
     for (int row = 0; row < 64; ++row) {
+        if (active.row(row) == 0) continue;
         const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
         for (int z = 0; z < 8; ++z) {
             const float value = p[z], sign = std::copysign(1.0f, value);
             const float slope2 = inverse2 * (upwind(p + z, X, sign) + upwind(p + z, Y, sign) +
                                              upwind(p + z, 1, sign));
             const float next = sign * value - timeStep * voxel * (std::sqrt(slope2) - 1.0f);
-            out[8 * row + z] = sign * std::min(std::max(next, 1e-6f * voxel), width);
+            out[8 * row + z] = sign * clamped(next, 1e-6f * voxel, width);
         }
     }
 }
 
-/// The voxels that have a face neighbour of the other sign.
-MOLSURF_KERNEL void findInterface(const float* __restrict block, std::uint8_t* __restrict near)
+/// The least of a voxel's face neighbours, times the sign of the voxel: negative next to the
+/// interface.
+MOLSURF_KERNEL void leastNeighbour(const float* __restrict block, float* __restrict out)
 {
     for (int row = 0; row < 64; ++row) {
         const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
         for (int z = 0; z < 8; ++z) {
             const float* q = p + z;
-            const bool in = q[0] < 0.0f;
-            near[8 * row + z] = (in != (q[X] < 0.0f)) | (in != (q[-X] < 0.0f)) |
-                                (in != (q[Y] < 0.0f)) | (in != (q[-Y] < 0.0f)) |
-                                (in != (q[1] < 0.0f)) | (in != (q[-1] < 0.0f));
+            const float x = smaller(q[X], q[-X]), y = smaller(q[Y], q[-Y]),
+                        w = smaller(q[1], q[-1]);
+            const float u = larger(q[X], q[-X]), v = larger(q[Y], q[-Y]), t = larger(q[1], q[-1]);
+            const float low = smaller(smaller(x, y), w), high = larger(larger(u, v), t);
+            out[8 * row + z] = q[0] < 0.0f ? -high : low;
+        }
+    }
+}
+
+/// out = on where the mask is on, else the field limited to the band.
+MOLSURF_KERNEL void blend(const LeafMask& mask, const float* __restrict on,
+                          const float* __restrict off, float width, float* __restrict out)
+{
+    for (int row = 0; row < 64; ++row) {
+        const int bits = mask.row(row);
+        for (int z = 0; z < 8; ++z) {
+            const int v = 8 * row + z;
+            out[v] = bits >> z & 1 ? on[v] : clamped(off[v], -width, width);
         }
     }
 }
@@ -108,22 +124,17 @@ void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double w
         parallelFor(table.size(), progress, [&](std::size_t n) {
             Block block;
             block.gather(table, phi, n);
-            alignas(64) float stepped[leafSize];
-            eulerStep(block.values, h, w, stepped);
-            const float* now = phi.leaf(n);
-            float* out = next.leaf(n);
+            alignas(64) float stepped[leafSize]; // rows without an active voxel stay unset
+            eulerStep(block.values, table.active(n), h, w, stepped);
             LeafMask& fixed = interface[n];
             if (i == 0) {
-                alignas(64) std::uint8_t near[leafSize];
-                findInterface(block.values, near);
-                for (int v = 0; v < leafSize; ++v) fixed.set(v, near[v]);
+                alignas(64) float least[leafSize];
+                leastNeighbour(block.values, least);
+                for (int v = 0; v < leafSize; ++v) fixed.set(v, least[v] < 0.0f);
                 fixed &= table.active(n);
             }
-            const LeafMask& active = table.active(n);
-            for (int v = 0; v < leafSize; ++v) {
-                out[v] =
-                    active.on(v) && !fixed.on(v) ? stepped[v] : std::min(std::max(now[v], -w), w);
-            }
+            float* out = next.leaf(n);
+            blend(table.active(n) & ~fixed, stepped, phi.leaf(n), w, out);
             if (i == 0) {
                 fixed.forEach([&](int v) {
                     out[v] = taylorDistance(block.at(v >> 6, v >> 3 & 7, v & 7), 1.0f / h);

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pipeline/run.h"
 
-#include "molsurf/bspline/spline.h"
+#include "molsurf/bspline/fit.h"
 #include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/evolution/evolve.h"
+#include "molsurf/levelset/cavities.h"
 #include "molsurf/levelset/initial_surface.h"
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
+#include "molsurf/pipeline/fields.h"
 #include "molsurf/rasterize/gaussian_sum.h"
 #include "molsurf/rasterize/nearest_ball.h"
 #include "molsurf/surface/extract.h"
 #include "molsurf/surface/measure.h"
+#include "molsurf/surface/topology.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <sstream>
@@ -30,7 +34,7 @@ constexpr double surfaceWidthVox = 3.0;
 /// point are up to 2 sqrt(3) away.
 constexpr double splineWidthVox = 4.0;
 
-/// Wall seconds of the stages, in their order.
+/// Wall seconds of the stages, in their order; a stage may come more than once.
 class Stopwatch
 {
 public:
@@ -38,8 +42,14 @@ public:
     void stop(const char* stage)
     {
         const auto now = Clock::now();
-        report_.seconds.emplace_back(stage, std::chrono::duration<double>(now - start_).count());
+        const double seconds = std::chrono::duration<double>(now - start_).count();
         start_ = now;
+        for (auto& [name, sum] : report_.seconds) {
+            if (name != stage) continue;
+            sum += seconds;
+            return;
+        }
+        report_.seconds.emplace_back(stage, seconds);
     }
 
 private:
@@ -84,22 +94,91 @@ NarrowBand evolveSurface(const std::vector<Ball>& balls, const Options& options,
     const auto source = [&](const openvdb::Coord& origin, float* psi) {
         field.evaluate(origin, gaussian.reach, psi);
     };
-    report.evolution = evolve(band, source, h, options.evolution, progress);
+    EvolveOptions evolution = options.evolution;
+    evolution.splineLevel = options.splineLevel;
+    report.evolution = evolve(band, source, h, evolution, progress);
     watch.stop("evolve");
     return band;
 }
 
-/// S = Phi + r_b on the band that the spline needs, from the evolved level set.
-DistanceBand offsetInward(NarrowBand&& band, const Options& options, Progress& progress)
+/// S = Phi + r_b on a band that holds the coefficients of every point of the surface.
+DistanceBand offsetInward(const NarrowBand& band, const Options& options, Progress& progress)
 {
-    const double h = options.voxel, width = splineWidthVox * h;
-    band.psi = LeafField();
-    DistanceBand out = redistance(band.table, band.phi, h, options.probe + width,
-                                  std::max(width - options.probe, h), progress);
-    parallelFor(out.table.size(), progress, [&](std::size_t n) {
-        for (int v = 0; v < leafSize; ++v) out.phi.leaf(n)[v] += float(options.probe);
+    const double h = options.voxel, width = splineWidthVox * h * (1 << options.splineLevel);
+    DistanceBand S = redistance(band.table, band.phi, h, options.probe + width,
+                                std::max(width - options.probe, h), progress);
+    parallelFor(S.table.size(), progress, [&](std::size_t n) {
+        for (int v = 0; v < leafSize; ++v) S.phi.leaf(n)[v] += float(options.probe);
     });
-    return out;
+    return S;
+}
+
+/// Replaces S near its zero set by the values of a coarser spline, so that signs and values agree
+/// with it.
+void resample(DistanceBand& S, const Spline& spline, double voxel, Progress& progress)
+{
+    const float width = float(splineWidthVox * voxel);
+    parallelFor(S.table.size(), progress, [&](std::size_t n) {
+        SplineSampler sampler(spline);
+        LeafMask near;
+        S.table.active(n).forEach([&](int v) {
+            float& value = S.phi.leaf(n)[v];
+            if (std::abs(value) >= width) return;
+            const openvdb::Coord ijk = S.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+            value = float(sampler.at(ijk.asVec3d() * voxel).value);
+            near.set(v);
+        });
+        S.table.active(n) = near;
+    });
+}
+
+/// Closes the cavities of a surface in the level set that it was offset from.
+/// @param[in]     mesh  of S = 0
+/// @param[in]     S     offset of the level set
+/// @param[in,out] band  afterwards inside throughout the cavities
+/// @return false if there are none
+bool fillCavities(const Mesh& mesh, const DistanceBand& S, double voxel, NarrowBand& band,
+                  Progress& progress)
+{
+    std::size_t count = 0;
+    const std::vector<std::uint32_t> pieces = connectedPieces(mesh, count);
+    const std::vector<double> volumes = pieceVolumes(mesh, pieces, count);
+
+    // Outer voxels of S about the walls, then all that hang together with them.
+    std::vector<LeafMask> positive(S.table.size()), seeds(S.table.size());
+    for (std::size_t n = 0; n < S.table.size(); ++n) {
+        for (int v = 0; v < leafSize; ++v) positive[n].set(v, S.phi.leaf(n)[v] > 0.0f);
+    }
+    bool any = false;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (volumes[pieces[i]] >= 0.0) continue;
+        any = true;
+        const openvdb::Coord cell =
+            openvdb::Coord::floor(openvdb::Vec3d(mesh.positions[i]) / voxel);
+        for (int k = 0; k < 8; ++k) {
+            const openvdb::Coord corner = cell.offsetBy(k >> 2, k >> 1 & 1, k & 1);
+            const std::int32_t n = S.table.find(corner);
+            if (n != noLeaf)
+                seeds[n].set(int(openvdb::FloatTree::LeafNodeType::coordToOffset(corner)));
+        }
+    }
+    if (!any) return false;
+    const std::vector<LeafMask> cavities = connectedTo(S.table, positive, seeds);
+
+    // The same regions of the evolved level set, which they hold, are turned inside.
+    std::vector<LeafMask> outside(band.table.size()), within(band.table.size());
+    for (std::size_t n = 0; n < band.table.size(); ++n) {
+        for (int v = 0; v < leafSize; ++v) outside[n].set(v, band.phi.leaf(n)[v] > 0.0f);
+        const std::int32_t m = S.table.find(band.table.origin(n));
+        if (m != noLeaf) within[n] = cavities[m];
+    }
+    const std::vector<LeafMask> filled = connectedTo(band.table, outside, within);
+    const double width = bandWidthVox * voxel;
+    for (std::size_t n = 0; n < band.table.size(); ++n) {
+        filled[n].forEach([&](int v) { band.phi.leaf(n)[v] = float(-width); });
+    }
+    reinitialize(band.table, band.phi, voxel, width, 2 * bandWidthVox, progress);
+    return true;
 }
 
 /// The level set grid: S made a distance on both sides.
@@ -181,6 +260,12 @@ void checkOptions(const Options& options)
           "0 to 1e6", options.evolution.lambda);
     check(options.evolution.energyTolerance > 0.0 && finite(options.evolution.energyTolerance),
           "--tolerance", "a positive number", options.evolution.energyTolerance);
+    for (const std::string& field : options.fields) {
+        const auto& names = fieldNames();
+        if (std::find(names.begin(), names.end(), field) == names.end()) {
+            throw Error(ErrorKind::Usage, "--fields: there is no field '" + field + "'");
+        }
+    }
     check(options.splineLevel >= 0 && options.splineLevel <= 2, "--spline-level", "0, 1 or 2",
           options.splineLevel);
 }
@@ -197,32 +282,44 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
     Stopwatch watch(report);
 
     NarrowBand band = evolveSurface(balls, options, progress, report, watch);
+    band.psi = LeafField();
+    const auto wanted = [&](const char* field) {
+        return std::find(options.fields.begin(), options.fields.end(), field) !=
+               options.fields.end();
+    };
 
-    progress.update("redistance", 0.0);
-    DistanceBand S = offsetInward(std::move(band), options, progress);
-    result.surface = surfaceGrid(S, options.voxel, progress);
-    watch.stop("redistance");
-    if (result.surface->activeVoxelCount() == 0) {
-        throw Error(ErrorKind::Numeric,
-                    "redistance: nothing lies a probe radius inside the evolved "
-                    "surface [hint: a smaller --lambda or --probe]");
-    }
-
-    progress.update("spline", 0.0);
+    DistanceBand S;
     Spline spline;
-    spline.voxel = options.voxel;
-    spline.table = S.table;
-    spline.coefficients = prefilter(S.table, S.phi, progress);
-    S.phi = LeafField();
-    watch.stop("spline");
-
-    progress.update("mesh", 0.0);
     ExtractStats stats;
-    result.mesh = extractMesh(*result.surface, spline, progress, stats);
-    if (result.mesh.triangles.empty()) {
-        throw Error(ErrorKind::Numeric, "mesh: the surface vanishes at this voxel size [hint: a "
-                                        "smaller --voxel or --lambda]");
+    for (bool filled = false;; filled = true) {
+        progress.update("redistance", 0.0);
+        S = offsetInward(band, options, progress);
+        if (!options.fillCavities && !wanted("sas")) band = NarrowBand();
+        watch.stop("redistance");
+
+        progress.update("spline", 0.0);
+        spline = fitSpline(S.table, S.phi, options.voxel, options.splineLevel, progress);
+        if (options.splineLevel > 0) resample(S, spline, options.voxel, progress);
+        watch.stop("spline");
+
+        progress.update("redistance", 0.6);
+        result.surface = surfaceGrid(S, options.voxel, progress);
+        watch.stop("redistance");
+
+        progress.update("mesh", 0.0);
+        stats = ExtractStats();
+        result.mesh = extractMesh(*result.surface, spline, progress, stats);
+        if (result.mesh.triangles.empty()) {
+            throw Error(ErrorKind::Numeric,
+                        "mesh: nothing of the molecule is left at this resolution [hint: a smaller "
+                        "--voxel, --lambda or --epsilon]");
+        }
+        if (filled || !options.fillCavities ||
+            !fillCavities(result.mesh, S, options.voxel, band, progress)) {
+            break;
+        }
     }
+
     progress.update("mesh", 0.7);
     const std::string kind = report.surface.kind;
     report.surface = measure(result.mesh, progress);
@@ -230,12 +327,29 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
     report.surface.maxResidual = stats.maxResidual;
     checkGradient(result.mesh, spline, S, options.voxel, progress, report.surface);
     // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
+    const double labelReach = 2.0 * options.probe + 4.0 * options.epsilon + 4.0 * options.voxel;
     std::vector<std::int32_t> nearest =
-        nearestBalls(balls, result.mesh.positions,
-                     options.probe + 4.0 * options.epsilon + 2.0 * options.voxel, progress);
+        nearestBalls(balls, result.mesh.positions, labelReach, progress);
     for (std::int32_t& i : nearest) i = i < 0 ? -1 : balls[i].atom;
     result.mesh.labels.push_back({"atom_id", std::move(nearest)});
     watch.stop("mesh");
+
+    if (wanted("sas")) {
+        const double width = surfaceWidthVox * options.voxel;
+        auto sas = toLevelSet(band.table, band.phi, width, options.voxel, progress);
+        sas->setName("sas");
+        result.fields.push_back(sas);
+    }
+    if (wanted("spline")) result.fields.push_back(splineGrid(spline));
+    if (wanted("mean_curvature")) {
+        result.fields.push_back(curvatureGrid(*result.surface, spline, false, progress));
+    }
+    if (wanted("gaussian_curvature")) {
+        result.fields.push_back(curvatureGrid(*result.surface, spline, true, progress));
+    }
+    if (wanted("atom_id")) {
+        result.fields.push_back(atomGrid(*result.surface, balls, labelReach, progress));
+    }
 
     report.activeVoxels = result.surface->activeVoxelCount();
     report.gridBytes = result.surface->memUsage();

@@ -132,6 +132,21 @@ std::vector<std::uint32_t> connectedPieces(const Mesh& mesh, std::size_t& count)
     return piece;
 }
 
+std::vector<double> pieceVolumes(const Mesh& mesh, const std::vector<std::uint32_t>& pieces,
+                                 std::size_t count)
+{
+    std::vector<double> volumes(count, 0.0);
+    if (mesh.positions.empty()) return volumes;
+    const openvdb::Vec3d origin(mesh.positions[0]);
+    for (const auto& t : mesh.triangles) {
+        const openvdb::Vec3d a = openvdb::Vec3d(mesh.positions[t[0]]) - origin;
+        const openvdb::Vec3d b = openvdb::Vec3d(mesh.positions[t[1]]) - origin;
+        const openvdb::Vec3d c = openvdb::Vec3d(mesh.positions[t[2]]) - origin;
+        volumes[pieces[t[0]]] += a.dot(b.cross(c)) / 6.0;
+    }
+    return volumes;
+}
+
 std::size_t splitNonManifold(Mesh& mesh)
 {
     // Half edges (a, b) of triangles, by undirected edge; those of one edge are paired in order.

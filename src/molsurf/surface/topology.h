@@ -36,6 +36,10 @@ Topology checkTopology(const Mesh& mesh, const VertexTriangles& around, const Pr
 /// @param[out] count  number of pieces
 std::vector<std::uint32_t> connectedPieces(const Mesh& mesh, std::size_t& count);
 
+/// The volume inside the triangles of each piece [Å^3]; < 0 for the wall of a cavity.
+std::vector<double> pieceVolumes(const Mesh& mesh, const std::vector<std::uint32_t>& pieces,
+                                 std::size_t count);
+
 /// Gives every fan of triangles about a vertex a vertex of its own, after pairing the triangles at
 /// edges that more than two share. Makes any closed, oriented mesh 2-manifold without moving a
 /// point.

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Regions of a level set that hang together.
+
+#include "molsurf/core/leaf_table.h"
+
+#include <vector>
+
+namespace molsurf
+{
+
+/// The voxels that can be reached from seeds by steps to face neighbours within a set of voxels.
+///
+/// @param[in] allowed  the set, one mask a leaf of the table
+/// @param[in] seeds    one mask a leaf; those outside the set count for nothing
+/// @return one mask a leaf
+std::vector<LeafMask> connectedTo(const LeafTable& table, const std::vector<LeafMask>& allowed,
+                                  const std::vector<LeafMask>& seeds);
+
+} // namespace molsurf
