@@ -4,6 +4,8 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"
 
+#include <algorithm>
+
 namespace molsurf
 {
 
@@ -58,28 +60,58 @@ int voxelOf(int axis, int i, int k)
     }
 }
 
+/// Bit k: whether voxel i along an axis on line k is on.
+std::uint64_t lineBits(const LeafMask& mask, int axis, int i)
+{
+    if (axis == 0) return mask.words[i];
+    std::uint64_t bits = 0;
+    for (int x = 0; x < 8; ++x) {
+        const std::uint64_t word = mask.words[x];
+        // For z, bit i of each byte is folded into one byte (y).
+        const std::uint64_t byte =
+            axis == 1 ? word >> (8 * i) & 0xff
+                      : (word >> i & 0x0101010101010101ull) * 0x0102040810204080ull >> 56;
+        bits |= byte << (8 * x);
+    }
+    return bits;
+}
+
+MOLSURF_KERNEL void expand(std::uint64_t bits, float* __restrict out)
+{
+    for (int byte = 0; byte < 8; ++byte) {
+        const int b = int(bits >> (8 * byte) & 0xff);
+        for (int k = 0; k < 8; ++k) out[8 * byte + k] = float(b >> k & 1);
+    }
+}
+
 void gatherLines(const LeafTable& table, const LeafField& field, std::size_t n, int axis,
                  Lines& lines)
 {
     const int step = axis == 0 ? 9 : axis == 1 ? 3 : 1;
-    alignas(64) std::uint8_t on[window][64];
+    std::uint64_t on[window] = {};
     for (int side = 0; side < 3; ++side) {
         const std::int32_t m = table.neighbours(n)[centreNeighbour + (side - 1) * step];
         for (int i = 0; i < leafDim; ++i) {
-            const int row = leafDim * side + i;
-            for (int k = 0; k < 64; ++k) {
-                const int v = voxelOf(axis, i, k);
-                lines.value[row][k] = m == noLeaf ? 0.0f : field.leaf(m)[v];
-                on[row][k] = m != noLeaf && table.active(m).on(v);
+            float* row = lines.value[leafDim * side + i];
+            if (m == noLeaf) {
+                std::fill_n(row, 64, 0.0f);
+                continue;
+            }
+            on[leafDim * side + i] = lineBits(table.active(m), axis, i);
+            const float* leaf = field.leaf(m);
+            if (axis < 2) {
+                for (int x = 0; x < 8; ++x) {
+                    std::copy_n(leaf + (axis == 0 ? 64 * i + 8 * x : 64 * x + 8 * i), 8,
+                                row + 8 * x);
+                }
+            } else {
+                for (int k = 0; k < 64; ++k) row[k] = leaf[8 * k + i];
             }
         }
     }
-    for (int k = 0; k < 64; ++k) lines.solve[0][k] = lines.solve[window - 1][k] = 0.0f;
-    for (int i = 1; i + 1 < window; ++i) {
-        for (int k = 0; k < 64; ++k) {
-            lines.solve[i][k] = float(on[i - 1][k] & on[i][k] & on[i + 1][k]);
-        }
-    }
+    std::fill_n(lines.solve[0], 64, 0.0f);
+    std::fill_n(lines.solve[window - 1], 64, 0.0f);
+    for (int i = 1; i + 1 < window; ++i) expand(on[i - 1] & on[i] & on[i + 1], lines.solve[i]);
 }
 
 } // namespace

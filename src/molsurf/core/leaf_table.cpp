@@ -17,7 +17,9 @@ using openvdb::Coord;
 LeafTable::LeafTable(std::vector<Coord> origins)
     : origins_(std::move(origins)), active_(origins_.size()), neighbours_(origins_.size())
 {
-    tbb::parallel_sort(origins_.begin(), origins_.end());
+    if (!std::is_sorted(origins_.begin(), origins_.end())) {
+        tbb::parallel_sort(origins_.begin(), origins_.end());
+    }
     // The origins, all shifted alike, stay in ascending order: one merge finds the neighbours at an
     // offset.
     tbb::parallel_for(0, 27, [&](int k) {
@@ -111,17 +113,21 @@ LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks,
 
 LeafTable dilated(const LeafTable& table, int steps, Spread spread, const Progress& progress)
 {
-    std::vector<Coord> origins;
-    origins.reserve(table.size() * 2);
+    std::vector<Coord> added;
     for (std::size_t n = 0; n < table.size(); ++n) {
         if (!table.active(n).any()) continue;
         for (int k = 0; k < 27; ++k) {
-            origins.push_back(table.origin(n).offsetBy(
+            if (table.neighbours(n)[k] != noLeaf) continue;
+            added.push_back(table.origin(n).offsetBy(
                 leafDim * (k / 9 - 1), leafDim * (k / 3 % 3 - 1), leafDim * (k % 3 - 1)));
         }
     }
-    tbb::parallel_sort(origins.begin(), origins.end());
-    origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
+    tbb::parallel_sort(added.begin(), added.end());
+    added.erase(std::unique(added.begin(), added.end()), added.end());
+    std::vector<Coord> origins;
+    origins.reserve(table.size() + added.size());
+    std::merge(table.origins().begin(), table.origins().end(), added.begin(), added.end(),
+               std::back_inserter(origins));
     LeafTable out(std::move(origins));
 
     std::vector<LeafMask> now(out.size()), next(out.size());
@@ -144,6 +150,8 @@ LeafTable pruned(const LeafTable& table)
 {
     std::vector<Coord> origins;
     std::vector<LeafMask> masks;
+    origins.reserve(table.size());
+    masks.reserve(table.size());
     for (std::size_t n = 0; n < table.size(); ++n) {
         if (!table.active(n).any()) continue;
         origins.push_back(table.origin(n));
@@ -151,21 +159,6 @@ LeafTable pruned(const LeafTable& table)
     }
     LeafTable out(std::move(origins)); // already in ascending order
     for (std::size_t n = 0; n < out.size(); ++n) out.active(n) = masks[n];
-    return out;
-}
-
-LeafField transferred(const LeafTable& from, const LeafField& field, const LeafTable& to,
-                      float fill, const Progress& progress)
-{
-    LeafField out(to.size());
-    parallelFor(to.size(), progress, [&](std::size_t n) {
-        const std::int32_t m = from.find(to.origin(n));
-        if (m == noLeaf) {
-            std::fill_n(out.leaf(n), leafSize, fill);
-        } else {
-            std::copy_n(field.leaf(m), leafSize, out.leaf(n));
-        }
-    });
     return out;
 }
 

@@ -92,10 +92,6 @@ LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks,
 /// The table without the leaves that have no active voxel.
 LeafTable pruned(const LeafTable& table);
 
-/// Copies the leaves that both tables have; others get `fill`.
-LeafField transferred(const LeafTable& from, const LeafField& field, const LeafTable& to,
-                      float fill, const Progress& progress);
-
 /// A level set grid from a field. Active values are copied; inactive ones become plus or minus
 /// background, by the sign of the field in leaves, by flood fill elsewhere.
 ///

@@ -202,7 +202,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
         ++report.steps;
         progress.update("evolve", double(report.steps) / maxSteps);
         std::swap(band.phi, next);
-        reinitialize(band.table, band.phi, voxel, width, reinitializations, progress);
+        reinitialize(band.table, band.phi, voxel, width, reinitializations, next, progress);
         track(band, source, voxel, width, progress);
         if (next.leafCount() != band.table.size()) next = LeafField(band.table.size());
     }

@@ -54,7 +54,8 @@ LeafField initialSurface(const LeafTable& table, const LeafField& psi, double vo
     // Half a voxel an iteration, from the interface to where the flow acts; its own iterations do
     // the rim.
     const int iterations = int(std::ceil(2.0 * width / voxel)) - 2;
-    reinitialize(table, phi, voxel, width, iterations, progress);
+    LeafField scratch;
+    reinitialize(table, phi, voxel, width, iterations, scratch, progress);
     return phi;
 }
 

@@ -101,7 +101,7 @@ Seed closestPoint(const LeafBlock<float, 3>& c, const Coord& x)
         if ((next - centre).lengthSqr() > farthestFoot * farthestFoot) break;
         y = next;
         jet = jetAt(y);
-        if (move.lengthSqr() < 1e-8) break;
+        if (move.lengthSqr() < 1e-5) break; // the next would be its square
     }
     return seedAt(y, jet);
 }
@@ -267,15 +267,18 @@ std::int32_t nearestSeed(const std::int32_t* p, const Coord& voxel, const Points
     return best;
 }
 
-/// The nearest of the seeds that each voxel of a leaf and its 26 neighbours have.
+/// The nearest of the seeds that a voxel and its 26 neighbours have, in the rows of a leaf that
+/// hold a voxel of the mask.
 /// @param[in] x,y,z         coordinates of the seeds
 /// @param[in] x0,y0,z0      the leaf's first voxel in the same frame
-MOLSURF_KERNEL void nearestOfAll(const std::int32_t* __restrict block, const float* __restrict x,
-                                 const float* __restrict y, const float* __restrict z, float x0,
-                                 float y0, float z0, std::int32_t* __restrict out)
+MOLSURF_KERNEL void nearestOfAll(const std::int32_t* __restrict block, const LeafMask& mask,
+                                 const float* __restrict x, const float* __restrict y,
+                                 const float* __restrict z, float x0, float y0, float z0,
+                                 std::int32_t* __restrict out)
 {
     constexpr int X = SeedBlock::strideX, Y = SeedBlock::strideY;
     for (int row = 0; row < 64; ++row) {
+        if (mask.row(row) == 0) continue;
         const std::int32_t* p = block + (row / 8 + 1) * X + (row % 8 + 1) * Y + 1;
         const float px = x0 + float(row / 8), py = y0 + float(row % 8);
         std::int32_t best[8];
@@ -366,8 +369,8 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
             std::int32_t* out = next.leaf(n);
             if (layer == layers) {
                 const openvdb::Vec3f corner((domain.origin(n) - points.centre).asVec3s());
-                nearestOfAll(block.values, points.x.data(), points.y.data(), points.z.data(),
-                             corner.x(), corner.y(), corner.z(), out);
+                nearestOfAll(block.values, work[n], points.x.data(), points.y.data(),
+                             points.z.data(), corner.x(), corner.y(), corner.z(), out);
             }
             work[n].forEach([&](int v) {
                 const Coord local(v >> 6, v >> 3 & 7, v & 7);

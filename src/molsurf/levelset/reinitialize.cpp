@@ -82,6 +82,14 @@ MOLSURF_KERNEL void blend(const LeafMask& mask, const float* __restrict on,
 {
     for (int row = 0; row < 64; ++row) {
         const int bits = mask.row(row);
+        if (bits == 0xff) {
+            for (int z = 0; z < 8; ++z) out[8 * row + z] = on[8 * row + z];
+            continue;
+        }
+        if (bits == 0) {
+            for (int z = 0; z < 8; ++z) out[8 * row + z] = clamped(off[8 * row + z], -width, width);
+            continue;
+        }
         for (int z = 0; z < 8; ++z) {
             const int v = 8 * row + z;
             out[v] = bits >> z & 1 ? on[v] : clamped(off[v], -width, width);
@@ -114,13 +122,13 @@ float taylorDistance(const float* p, float inverse)
 } // namespace
 
 void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double width,
-                  int iterations, const Progress& progress)
+                  int iterations, LeafField& scratch, const Progress& progress)
 {
     const float h = float(voxel), w = float(width);
     std::vector<LeafMask> interface(table.size());
-    LeafField next(table.size());
+    if (scratch.leafCount() != table.size()) scratch = LeafField(table.size());
     for (int i = 0; i < iterations; ++i) {
-        // next <- phi after one step; interface voxels keep the value that step 0 has given them
+        // scratch <- phi after one step; interface voxels keep the value that step 0 has given them
         parallelFor(table.size(), progress, [&](std::size_t n) {
             Block block;
             block.gather(table, phi, n);
@@ -133,7 +141,7 @@ void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double w
                 for (int v = 0; v < leafSize; ++v) fixed.set(v, least[v] < 0.0f);
                 fixed &= table.active(n);
             }
-            float* out = next.leaf(n);
+            float* out = scratch.leaf(n);
             blend(table.active(n) & ~fixed, stepped, phi.leaf(n), w, out);
             if (i == 0) {
                 fixed.forEach([&](int v) {
@@ -141,7 +149,7 @@ void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double w
                 });
             }
         });
-        std::swap(phi, next);
+        std::swap(phi, scratch);
     }
 }
 

@@ -27,7 +27,8 @@ namespace molsurf
 /// @param[in]     voxel       voxel edge h [Å]
 /// @param[in]     width       half width of the band [Å]
 /// @param[in]     iterations  number of Euler steps
+/// @param         scratch     storage; made to fit the table if it does not
 void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double width,
-                  int iterations, const Progress& progress);
+                  int iterations, LeafField& scratch, const Progress& progress);
 
 } // namespace molsurf

@@ -177,7 +177,8 @@ bool fillCavities(const Mesh& mesh, const DistanceBand& S, double voxel, NarrowB
     for (std::size_t n = 0; n < band.table.size(); ++n) {
         filled[n].forEach([&](int v) { band.phi.leaf(n)[v] = float(-width); });
     }
-    reinitialize(band.table, band.phi, voxel, width, 2 * bandWidthVox, progress);
+    LeafField scratch;
+    reinitialize(band.table, band.phi, voxel, width, 2 * bandWidthVox, scratch, progress);
     return true;
 }
 
@@ -196,7 +197,8 @@ openvdb::FloatGrid::Ptr surfaceGrid(const DistanceBand& S, double voxel, Progres
         table.active(n) &= near;
     });
     // Half a voxel an iteration, from the interface to the rim.
-    reinitialize(table, phi, voxel, width, int(2 * surfaceWidthVox), progress);
+    LeafField scratch;
+    reinitialize(table, phi, voxel, width, int(2 * surfaceWidthVox), scratch, progress);
     auto grid = toLevelSet(table, phi, width, voxel, progress);
     grid->setName("surface");
     return grid;
@@ -323,6 +325,9 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
     progress.update("mesh", 0.7);
     const std::string kind = report.surface.kind;
     report.surface = measure(result.mesh, progress);
+    if (!report.surface.manifold && splitNonManifold(result.mesh) > 0) {
+        report.surface = measure(result.mesh, progress);
+    }
     report.surface.kind = kind;
     report.surface.maxResidual = stats.maxResidual;
     checkGradient(result.mesh, spline, S, options.voxel, progress, report.surface);

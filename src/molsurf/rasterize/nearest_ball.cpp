@@ -5,7 +5,7 @@
 #include "molsurf/rasterize/ball_index.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 namespace molsurf
 {
@@ -13,52 +13,70 @@ namespace molsurf
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 
+namespace
+{
+
+struct Candidate {
+    Vec3f center;
+    float radius;
+    std::int32_t i;
+};
+
+std::int32_t nearest(const Vec3f& point, const std::vector<Candidate>& candidates, float within)
+{
+    std::int32_t found = -1;
+    float best = within;
+    for (const Candidate& b : candidates) {
+        const float limit = best + b.radius, d2 = (point - b.center).lengthSqr();
+        if (limit < 0.0f || d2 > limit * limit) continue;
+        const float gap = std::sqrt(d2) - b.radius;
+        if (gap < best || (gap == best && (found < 0 || b.i < found))) {
+            best = gap;
+            found = b.i;
+        }
+    }
+    return found;
+}
+
+} // namespace
+
 std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
                                        const std::vector<Vec3f>& points, double reach,
                                        const Progress& progress)
 {
     float largest = 0.0f;
     for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
-    const double cell = std::max(2.0, 0.5 * (largest + reach));
-    const BallIndex index(balls, cell);
+    const BallIndex index(balls, 2.0);
 
-    // Points are taken by runs that stay in a box about as large as a cell, and share its
-    // candidates.
+    // Points are taken by runs that stay in a small box and share its candidates. Most lie close to
+    // their ball; the few that do not are looked at again, farther.
     constexpr std::size_t chunk = 256;
+    constexpr float runSize = 2.0f; // [Å]
+    const double close = std::min(reach, 0.5);
     std::vector<std::int32_t> out(points.size(), -1);
     parallelFor((points.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
-        struct Candidate {
-            Vec3f center;
-            float radius;
-            std::int32_t i;
-        };
-        std::vector<Candidate> near;
+        std::vector<Candidate> candidates;
         const std::size_t end = std::min(points.size(), (c + 1) * chunk);
         for (std::size_t begin = c * chunk, stop; begin < end; begin = stop) {
             Vec3f low = points[begin], high = points[begin];
             for (stop = begin + 1; stop < end; ++stop) {
                 const Vec3f l = openvdb::math::minComponent(low, points[stop]);
                 const Vec3f h = openvdb::math::maxComponent(high, points[stop]);
-                if ((h - l).lengthSqr() > float(cell * cell)) break;
+                if ((h - l).lengthSqr() > runSize * runSize) break;
                 low = l;
                 high = h;
             }
-            near.clear();
-            index.forEachNear(Vec3d(low), Vec3d(high), largest + reach,
-                              [&](const Ball& ball, std::int32_t i) {
-                                  near.push_back({ball.center, ball.radius, i});
-                              });
-            for (std::size_t p = begin; p < stop; ++p) {
-                float best = float(reach);
-                for (const Candidate& b : near) {
-                    const float limit = best + b.radius;
-                    const float d2 = (points[p] - b.center).lengthSqr();
-                    if (limit < 0.0f || d2 > limit * limit) continue;
-                    const float gap = std::sqrt(d2) - b.radius;
-                    if (gap < best || (gap == best && (out[p] < 0 || b.i < out[p]))) {
-                        best = gap;
-                        out[p] = b.i;
-                    }
+            for (const double within : {close, reach}) {
+                bool missing = false;
+                for (std::size_t p = begin; p < stop; ++p) missing = missing || out[p] < 0;
+                if (!missing) break;
+                candidates.clear();
+                index.forEachNear(Vec3d(low), Vec3d(high), largest + within,
+                                  [&](const Ball& ball, std::int32_t i) {
+                                      candidates.push_back({ball.center, ball.radius, i});
+                                  });
+                for (std::size_t p = begin; p < stop; ++p) {
+                    if (out[p] < 0) out[p] = nearest(points[p], candidates, float(within));
                 }
             }
         }

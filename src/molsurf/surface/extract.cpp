@@ -256,7 +256,6 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
     stats.relaxed = relax(vertices, sampler, surface.voxelSize()[0]);
     mesh.scalars.push_back({"mean_curvature", std::move(mean)});
     mesh.scalars.push_back({"gaussian_curvature", std::move(gauss)});
-    if (!checkTopology(mesh, vertexTriangles(mesh), progress).manifold) splitNonManifold(mesh);
     return mesh;
 }
 

@@ -30,7 +30,8 @@ struct ExtractStats {
 ///
 /// @param[in] surface  level set whose signs are those of the spline at the voxels
 /// @param[in] spline   S
-/// @return a closed mesh, oriented outward, with normals and the scalars mean_curvature and
+/// @return a closed mesh, oriented outward, 2-manifold unless the mesher failed, with normals and
+/// the scalars mean_curvature and
 ///         gaussian_curvature; empty if the level set has no zero
 Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const Progress& progress,
                  ExtractStats& stats);
