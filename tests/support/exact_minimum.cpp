@@ -149,12 +149,12 @@ PolarCurve minimalCurve(const std::vector<AxisBall>& balls, const Energy& energy
                 largest = std::max(largest, std::abs(move[i]));
             }
             const double after = total(next);
-            if (largest < 1e-7) {
+            if (largest < 1e-7 && damping < 1e-2) {
                 curve.rho = next;
-                curve.stationary = damping < 1e-2;
+                curve.stationary = true;
                 return curve;
             }
-            if (after <= now * (1.0 + 1e-13)) {
+            if (after <= now * (1.0 + 1e-12)) {
                 curve.rho = next;
                 now = after;
                 damping = std::max(0.2 * damping, 1e-9);

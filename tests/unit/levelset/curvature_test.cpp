@@ -39,7 +39,7 @@ Errors errorsOf(const test::Function& f, const test::Shape& shape, double h, con
         const std::int32_t m = wide.find(table.origin(n));
         if (m != last) {
             block.gather(wide, field, m);
-            curvature(block, float(h), out);
+            curvature(block, table.active(n), float(h), out);
             last = m;
         }
         const Exact e = exact(x);
@@ -115,7 +115,7 @@ TEST(Curvature, IsFiniteWhereTheGradientVanishes)
     LeafBlock<float, 1> block;
     std::fill_n(block.values, block.dim * block.dim * block.dim, 1.0f);
     LeafCurvature out;
-    curvature(block, 0.5f, out);
+    curvature(block, ~LeafMask(), 0.5f, out);
     for (int v = 0; v < leafSize; ++v) {
         ASSERT_TRUE(std::isfinite(out.mean[v]));
         ASSERT_TRUE(std::isfinite(out.gauss[v]));
