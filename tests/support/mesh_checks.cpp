@@ -45,10 +45,11 @@ MeshVerdict judge(const Mesh& mesh, bool intersections)
         PMP::self_intersections(surface, std::back_inserter(pairs));
         verdict.selfIntersections = pairs.size();
     }
-    // does_bound_a_volume() is for meshes that do not cut themselves.
-    verdict.outward = verdict.selfIntersections == 0 && verdict.degenerate == 0
-                          ? PMP::does_bound_a_volume(surface)
-                          : verdict.volume > 0.0;
+    // does_bound_a_volume() asks for coherent normals, in or out, of a mesh that does not cut
+    // itself.
+    verdict.outward = verdict.volume > 0.0;
+    if (verdict.selfIntersections == 0 && verdict.degenerate == 0)
+        verdict.outward = verdict.outward && PMP::does_bound_a_volume(surface);
     return verdict;
 }
 

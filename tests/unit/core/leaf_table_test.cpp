@@ -146,24 +146,5 @@ TEST(Pruned, DropsOnlyTheEmptyLeaves)
     for (std::size_t n = 0; n < out.size(); ++n) EXPECT_TRUE(out.active(n).any());
 }
 
-TEST(Transferred, CopiesSharedLeavesAndFillsTheOthers)
-{
-    const LeafTable from = randomTable(21, 60, 1), to = randomTable(22, 60, 1);
-    LeafField field(from.size());
-    for (std::size_t n = 0; n < from.size(); ++n) {
-        for (int v = 0; v < leafSize; ++v) field.leaf(n)[v] = float(1000 * n + v);
-    }
-    const LeafField out = transferred(from, field, to, -3.5f, Progress());
-    int shared = 0;
-    for (std::size_t n = 0; n < to.size(); ++n) {
-        const std::int32_t m = from.find(to.origin(n));
-        shared += m != noLeaf;
-        for (int v = 0; v < leafSize; ++v)
-            ASSERT_EQ(out.leaf(n)[v], m == noLeaf ? -3.5f : field.leaf(m)[v]);
-    }
-    EXPECT_GT(shared, 0);
-    EXPECT_LT(shared, int(to.size()));
-}
-
 } // namespace
 } // namespace molsurf

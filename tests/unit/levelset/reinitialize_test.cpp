@@ -21,6 +21,12 @@ double wobble(const Vec3d& x)
     return 1.02 + 0.2 * std::sin(0.9 * x.x() + 0.4) * std::cos(0.7 * x.y() - 0.3 * x.z());
 }
 
+void iterate(const LeafTable& table, LeafField& phi, double voxel, double width, int iterations)
+{
+    LeafField scratch(table.size());
+    reinitialize(table, phi, voxel, width, iterations, scratch, Progress());
+}
+
 struct Field {
     LeafTable table;
     LeafField phi;
@@ -79,7 +85,7 @@ TEST_P(Reinitialize, ReachesTheDistanceAtSecondOrder)
     std::vector<double> error;
     for (const double voxel : h) {
         Field run = perturbed(shape(), voxel);
-        reinitialize(run.table, run.phi, voxel, 4.0 * voxel, 12, Progress());
+        iterate(run.table, run.phi, voxel, 4.0 * voxel, 12);
         error.push_back(errorOf(run, shape().distance, voxel, 3.0));
     }
     // Changes below 0.02 voxel are damped on purpose, which leaves up to that much: the second
@@ -94,17 +100,15 @@ TEST_P(Reinitialize, KeepsTheInterfaceInPlace)
 {
     const double voxel = 0.25;
     Field run = perturbed(shape(), voxel);
-    reinitialize(run.table, run.phi, voxel, 4.0 * voxel, 2, Progress());
+    iterate(run.table, run.phi, voxel, 4.0 * voxel, 2);
     const auto [mean1, largest1] = offsets(run, shape(), voxel);
     EXPECT_LT(std::abs(mean1), 2e-4);
     EXPECT_LT(largest1, 4e-3);
-    for (int i = 1; i < 10; ++i)
-        reinitialize(run.table, run.phi, voxel, 4.0 * voxel, 2, Progress());
+    for (int i = 1; i < 10; ++i) iterate(run.table, run.phi, voxel, 4.0 * voxel, 2);
     const auto [mean10, largest10] = offsets(run, shape(), voxel);
     EXPECT_LT(std::abs(mean10 - mean1), 2e-4);
     EXPECT_LT(largest10, 4e-3);
-    for (int i = 10; i < 100; ++i)
-        reinitialize(run.table, run.phi, voxel, 4.0 * voxel, 2, Progress());
+    for (int i = 10; i < 100; ++i) iterate(run.table, run.phi, voxel, 4.0 * voxel, 2);
     const auto [mean100, largest100] = offsets(run, shape(), voxel);
     EXPECT_LT(std::abs(mean100 - mean1), 2e-4);
     EXPECT_LT(largest100, 4e-3);
@@ -118,8 +122,7 @@ TEST_P(Reinitialize, LeavesADistanceAlone)
     run.table = test::bandTable(shape().distance, shape().centre, shape().extent, voxel, 1.0);
     run.phi = test::filled(run.table, voxel, shape().distance);
     const auto [mean0, largest0] = offsets(run, shape(), voxel);
-    for (int i = 0; i < 100; ++i)
-        reinitialize(run.table, run.phi, voxel, 4.0 * voxel, 2, Progress());
+    for (int i = 0; i < 100; ++i) iterate(run.table, run.phi, voxel, 4.0 * voxel, 2);
     const auto [mean, largest] = offsets(run, shape(), voxel);
     EXPECT_LT(std::abs(mean - mean0), 1e-4); // a hundred calls
     EXPECT_LT(largest, largest0 + 5e-4);
@@ -144,7 +147,7 @@ TEST(ReinitializeTwoBalls, IsOfSecondOrderAwayFromTheCrease)
         run.table = test::bandTable(distance, middle, 4.2, voxel, 4.0 * voxel);
         run.phi =
             test::filled(run.table, voxel, [&](const Vec3d& x) { return distance(x) * wobble(x); });
-        reinitialize(run.table, run.phi, voxel, 4.0 * voxel, 12, Progress());
+        iterate(run.table, run.phi, voxel, 4.0 * voxel, 12);
         double worst = 0.0, worstCrease = 0.0;
         test::forEachActive(run.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
             const double d = distance(x);
@@ -169,7 +172,7 @@ TEST(ReinitializeBand, StaysWithinItsWidthAndKeepsSigns)
     const LeafTable table = test::bandTable(ball.distance, ball.centre, ball.extent, voxel, width);
     const LeafField before = test::filled(table, voxel, ball.smooth);
     LeafField phi = test::filled(table, voxel, ball.smooth);
-    reinitialize(table, phi, voxel, width, 6, Progress());
+    iterate(table, phi, voxel, width, 6);
     test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d&) {
         ASSERT_LE(std::abs(phi.leaf(n)[v]), float(width));
         ASSERT_EQ(phi.leaf(n)[v] < 0.0f, before.leaf(n)[v] < 0.0f);
