@@ -8,6 +8,7 @@
 #include "molsurf/core/leaf_table.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace molsurf
 {
@@ -43,24 +44,23 @@ struct LeafBlock {
                 const std::int32_t m = near[3 * side + k];
                 column[k] = m == noLeaf ? nullptr : field.leaf(m);
             }
-            const int x0 = begin(dx), x1 = x0 + width(dx), y0 = begin(dy), y1 = y0 + width(dy);
-            for (int x = x0; x < x1; ++x) {
-                for (int y = y0; y < y1; ++y) {
+            for (int x = begin(dx); x < begin(dx) + width(dx); ++x) {
+                for (int y = begin(dy); y < begin(dy) + width(dy); ++y) {
                     const int row = 64 * (x & 7) + 8 * (y & 7);
                     const T* centre = column[1] ? column[1] + row
                                                 : own + 64 * std::clamp(x, 0, leafDim - 1) +
                                                       8 * std::clamp(y, 0, leafDim - 1);
                     T* out = at(x, y, 0);
-                    std::copy_n(centre, leafDim, out);
+                    std::memcpy(out, centre, leafDim * sizeof(T));
                     if (column[0]) {
-                        std::copy_n(column[0] + row + leafDim - Halo, Halo, out - Halo);
+                        std::memcpy(out - Halo, column[0] + row + leafDim - Halo, Halo * sizeof(T));
                     } else {
-                        std::fill_n(out - Halo, Halo, centre[0]);
+                        for (int z = 0; z < Halo; ++z) out[z - Halo] = out[0];
                     }
                     if (column[2]) {
-                        std::copy_n(column[2] + row, Halo, out + leafDim);
+                        std::memcpy(out + leafDim, column[2] + row, Halo * sizeof(T));
                     } else {
-                        std::fill_n(out + leafDim, Halo, centre[leafDim - 1]);
+                        for (int z = 0; z < Halo; ++z) out[leafDim + z] = out[leafDim - 1];
                     }
                 }
             }

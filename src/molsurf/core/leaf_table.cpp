@@ -2,17 +2,41 @@
 #include "molsurf/core/leaf_table.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/simd.h"
 
 #include <openvdb/tools/SignedFloodFill.h>
 
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace molsurf
 {
 
 using openvdb::Coord;
+
+MOLSURF_KERNEL LeafMask lessThan(const float* values, float limit)
+{
+    LeafMask mask;
+    for (int row = 0; row < 64; ++row) {
+        int bits = 0;
+        for (int z = 0; z < 8; ++z) bits |= int(values[8 * row + z] < limit) << z;
+        mask.words[row >> 3] |= std::uint64_t(bits) << (8 * (row & 7));
+    }
+    return mask;
+}
+
+MOLSURF_KERNEL LeafMask within(const float* values, float limit)
+{
+    LeafMask mask;
+    for (int row = 0; row < 64; ++row) {
+        int bits = 0;
+        for (int z = 0; z < 8; ++z) bits |= int(std::abs(values[8 * row + z]) < limit) << z;
+        mask.words[row >> 3] |= std::uint64_t(bits) << (8 * (row & 7));
+    }
+    return mask;
+}
 
 LeafTable::LeafTable(std::vector<Coord> origins)
     : origins_(std::move(origins)), active_(origins_.size()), neighbours_(origins_.size())

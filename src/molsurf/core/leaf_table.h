@@ -44,6 +44,12 @@ private:
 
 using LeafField = LeafArray<float>;
 
+/// The voxels of a leaf whose values are below a limit.
+LeafMask lessThan(const float* values, float limit);
+
+/// The voxels of a leaf whose values lie between -limit and limit.
+LeafMask within(const float* values, float limit);
+
 /// Leaves in ascending order of their origins (x, then y, then z).
 class LeafTable
 {

@@ -106,8 +106,7 @@ void track(NarrowBand& band, const PsiSource& source, double voxel, double width
     std::vector<LeafMask> inside(band.table.size());
     parallelFor(band.table.size(), progress, [&](std::size_t n) {
         const float* phi = band.phi.leaf(n);
-        for (int v = 0; v < leafSize; ++v) inside[n].set(v, std::abs(phi[v]) < core);
-        inside[n] &= band.table.active(n);
+        inside[n] = within(phi, core) & band.table.active(n);
     });
     bool complete = true;
     std::vector<LeafMask> wanted(band.table.size());

@@ -323,7 +323,7 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
 {
     std::vector<LeafMask> inner(table.size()), outer(table.size());
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        for (int v = 0; v < leafSize; ++v) inner[n].set(v, phi.leaf(n)[v] < 0.0f);
+        inner[n] = lessThan(phi.leaf(n), 0.0f);
         outer[n] = ~inner[n];
     });
     const std::vector<LeafMask> interface = interfaceVoxels(table, inner, progress);

@@ -138,8 +138,7 @@ void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double w
             if (i == 0) {
                 alignas(64) float least[leafSize];
                 leastNeighbour(block.values, least);
-                for (int v = 0; v < leafSize; ++v) fixed.set(v, least[v] < 0.0f);
-                fixed &= table.active(n);
+                fixed = lessThan(least, 0.0f) & table.active(n);
             }
             float* out = scratch.leaf(n);
             blend(table.active(n) & ~fixed, stepped, phi.leaf(n), w, out);

@@ -147,7 +147,7 @@ bool fillCavities(const Mesh& mesh, const DistanceBand& S, double voxel, NarrowB
     // Outer voxels of S about the walls, then all that hang together with them.
     std::vector<LeafMask> positive(S.table.size()), seeds(S.table.size());
     for (std::size_t n = 0; n < S.table.size(); ++n) {
-        for (int v = 0; v < leafSize; ++v) positive[n].set(v, S.phi.leaf(n)[v] > 0.0f);
+        positive[n] = ~lessThan(S.phi.leaf(n), 0.0f);
     }
     bool any = false;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -166,13 +166,13 @@ bool fillCavities(const Mesh& mesh, const DistanceBand& S, double voxel, NarrowB
     const std::vector<LeafMask> cavities = connectedTo(S.table, positive, seeds);
 
     // The same regions of the evolved level set, which they hold, are turned inside.
-    std::vector<LeafMask> outside(band.table.size()), within(band.table.size());
+    std::vector<LeafMask> outside(band.table.size()), start(band.table.size());
     for (std::size_t n = 0; n < band.table.size(); ++n) {
-        for (int v = 0; v < leafSize; ++v) outside[n].set(v, band.phi.leaf(n)[v] > 0.0f);
+        outside[n] = ~lessThan(band.phi.leaf(n), 0.0f);
         const std::int32_t m = S.table.find(band.table.origin(n));
-        if (m != noLeaf) within[n] = cavities[m];
+        if (m != noLeaf) start[n] = cavities[m];
     }
-    const std::vector<LeafMask> filled = connectedTo(band.table, outside, within);
+    const std::vector<LeafMask> filled = connectedTo(band.table, outside, start);
     const double width = bandWidthVox * voxel;
     for (std::size_t n = 0; n < band.table.size(); ++n) {
         filled[n].forEach([&](int v) { band.phi.leaf(n)[v] = float(-width); });
@@ -189,12 +189,8 @@ openvdb::FloatGrid::Ptr surfaceGrid(const DistanceBand& S, double voxel, Progres
     LeafTable table = S.table;
     LeafField phi(table.size());
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        LeafMask near;
-        for (int v = 0; v < leafSize; ++v) {
-            phi.leaf(n)[v] = S.phi.leaf(n)[v];
-            near.set(v, std::abs(phi.leaf(n)[v]) < width);
-        }
-        table.active(n) &= near;
+        std::copy_n(S.phi.leaf(n), leafSize, phi.leaf(n));
+        table.active(n) &= within(phi.leaf(n), float(width));
     });
     // Half a voxel an iteration, from the interface to the rim.
     LeafField scratch;

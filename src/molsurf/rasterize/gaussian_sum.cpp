@@ -201,7 +201,7 @@ LeafTable GaussianSum::band(int steps, const Progress& progress) const
     parallelFor(table.size(), progress, [&](std::size_t n) {
         alignas(64) float psi[leafSize];
         evaluate(table.origin(n), 2.0 * options_.epsilon, psi);
-        for (int v = 0; v < leafSize; ++v) inside[n].set(v, psi[v] >= 0.0f);
+        inside[n] = ~lessThan(psi, 0.0f);
     });
     // The inner voxels that have an outer one among their 26 neighbours.
     std::vector<LeafMask> outside(table.size());
