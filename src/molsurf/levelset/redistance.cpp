@@ -118,7 +118,7 @@ float distanceFrom(const Seed& seed, const Vec3d& x, float sign)
     const float tAt =
         seed.A[0] * t.x() * t.x() + seed.A[1] * t.y() * t.y() + seed.A[2] * t.z() * t.z() +
         2.0f * (seed.A[3] * t.x() * t.y() + seed.A[4] * t.y() * t.z() + seed.A[5] * t.x() * t.z());
-    const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.2f);
+    const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.02f);
     const float distance = sign * (s + 0.5f * (tAt + s * seed.gauss * t.dot(t)) / determinant);
     const float r2 = d.dot(d), r = std::sqrt(r2);
     return std::min(std::max(distance, std::sqrt(std::max(r2 - 0.76f * (1.0f + r), 0.0f))), r);
@@ -133,7 +133,7 @@ openvdb::Vec3f gradientFrom(const Seed& seed, const Vec3d& x)
     const openvdb::Vec3f At(seed.A[0] * t.x() + seed.A[3] * t.y() + seed.A[5] * t.z(),
                             seed.A[3] * t.x() + seed.A[1] * t.y() + seed.A[4] * t.z(),
                             seed.A[5] * t.x() + seed.A[4] * t.y() + seed.A[2] * t.z());
-    const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.2f);
+    const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.02f);
     openvdb::Vec3f gradient = seed.n + (At + s * seed.gauss * t) / determinant;
     gradient.normalize();
     return gradient;
