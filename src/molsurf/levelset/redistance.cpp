@@ -351,7 +351,7 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     const int layers = 2 * steps(std::max(inside, outside)); // more than it takes
     const Points points(seeds);
     std::vector<LeafMask> work(domain.size()), changed(domain.size());
-    constexpr int corrections = 8;
+    const int corrections = layers; // more than it takes too
     for (int layer = 0; layer < layers + corrections; ++layer) {
         const bool correct = layer >= layers;
         parallelFor(domain.size(), progress, [&](std::size_t n) {
