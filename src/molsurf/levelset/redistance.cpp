@@ -329,6 +329,7 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     const std::vector<LeafMask> interface = interfaceVoxels(table, inner, progress);
     std::vector<std::size_t> begins;
     const std::vector<Seed> seeds = findSeeds(table, phi, voxel, interface, begins, progress);
+    if (seeds.empty()) return DistanceBand();
 
     const auto steps = [&](double width) { return int(std::ceil(width / voxel)) + 1; };
     const LeafTable domain = merged(reachable(table, interface, outer, steps(inside), progress),
