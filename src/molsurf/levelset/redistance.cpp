@@ -126,7 +126,7 @@ float distanceFrom(const Seed& seed, const Vec3d& x, float sign)
     const float tAt =
         seed.A[0] * t.x() * t.x() + seed.A[1] * t.y() * t.y() + seed.A[2] * t.z() * t.z() +
         2.0f * (seed.A[3] * t.x() * t.y() + seed.A[4] * t.y() * t.z() + seed.A[5] * t.x() * t.z());
-    const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.2f);
+    const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.02f);
     const float distance = sign * (s + 0.5f * (tAt + s * seed.gauss * t.dot(t)) / determinant);
     const float r2 = d.dot(d), r = std::sqrt(r2);
     return std::min(std::max(distance, std::sqrt(std::max(r2 - 0.76f * (1.0f + r), 0.0f))), r);
@@ -193,7 +193,7 @@ openvdb::Vec3f gradientFrom(const Seed& seed, const Vec3d& x)
     const openvdb::Vec3f At(seed.A[0] * t.x() + seed.A[3] * t.y() + seed.A[5] * t.z(),
                             seed.A[3] * t.x() + seed.A[1] * t.y() + seed.A[4] * t.z(),
                             seed.A[5] * t.x() + seed.A[4] * t.y() + seed.A[2] * t.z());
-    const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.2f);
+    const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.02f);
     openvdb::Vec3f gradient = seed.n + (At + s * seed.gauss * t) / determinant;
     gradient.normalize();
     return gradient;
@@ -362,6 +362,15 @@ MOLSURF_KERNEL void nearestOfAll(const std::int32_t* __restrict block, const Lea
     }
 }
 
+/// Whether a leaf or one beside it has a voxel in its mask.
+bool anyAround(const LeafTable& table, const std::vector<LeafMask>& masks, std::size_t n)
+{
+    for (const std::int32_t m : table.neighbours(n)) {
+        if (m != noLeaf && masks[m].any()) return true;
+    }
+    return false;
+}
+
 /// The inner voxels of a leaf that the given level set lacks, and that no interface can cross: all
 /// or none, as most of its closest points say. (Where the given leaves have a sign it stands:
 /// voxels do not change sides.)
@@ -391,6 +400,7 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     const LeafField coefficients = prefilter(table, phi, progress);
     const std::vector<Seed> seeds =
         findSeeds(table, coefficients, voxel, interface, begins, progress);
+    if (begins.back() == noSeed + 1) return DistanceBand();
 
     const auto steps = [&](double width) { return int(std::ceil(width / voxel)) + 1; };
     const LeafTable domain = merged(reachable(table, interface, outer, steps(inside), progress),
@@ -413,11 +423,15 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     const int layers = 2 * steps(std::max(inside, outside)); // more than it takes
     const Points points(seeds);
     std::vector<LeafMask> work(domain.size()), changed(domain.size());
-    constexpr int corrections = 8;
+    const int corrections = layers; // more than it takes too
     for (int layer = 0; layer < layers + corrections; ++layer) {
         const bool correct = layer >= layers;
         parallelFor(domain.size(), progress, [&](std::size_t n) {
             const bool full = layer % 2 == 1 || correct;
+            if (layer > layers && !anyAround(domain, changed, n)) {
+                work[n] = LeafMask();
+                return;
+            }
             work[n] = domain.active(n);
             if (layer != layers) work[n] &= dilatedMask(domain, correct ? changed : known, n, full);
             if (!correct) work[n] &= ~known[n];

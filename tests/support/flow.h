@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The stages up to the evolved level set, as the pipeline joins them.
+
+#include "molsurf/bspline/spline.h"
+#include "molsurf/evolution/evolve.h"
+#include "molsurf/levelset/initial_surface.h"
+#include "molsurf/rasterize/gaussian_sum.h"
+
+#include <vector>
+
+namespace molsurf::test
+{
+
+struct Evolved {
+    NarrowBand band;
+    EvolutionReport report;
+    Spline spline; ///< of phi
+};
+
+inline Evolved evolveBalls(const std::vector<Ball>& balls, double epsilon, double voxel,
+                           const EvolveOptions& options)
+{
+    GaussianOptions gaussian;
+    gaussian.epsilon = epsilon;
+    gaussian.voxel = voxel;
+    gaussian.reach = (bandWidthVox + 1.5) * voxel;
+    const GaussianSum field(balls, gaussian);
+    Progress progress;
+    Evolved out;
+    out.band.table = field.band(bandWidthVox, progress);
+    out.band.psi = field.evaluate(out.band.table, progress);
+    out.band.phi =
+        initialSurface(out.band.table, out.band.psi, voxel, bandWidthVox * voxel, progress);
+    const auto source = [&](const openvdb::Coord& origin, float* psi) {
+        field.evaluate(origin, gaussian.reach, psi);
+    };
+    out.report = evolve(out.band, source, voxel, options, progress);
+    out.spline.voxel = voxel;
+    out.spline.table = out.band.table;
+    out.spline.coefficients = prefilter(out.band.table, out.band.phi, progress);
+    return out;
+}
+
+} // namespace molsurf::test

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Whole runs, and the spline that they leave.
+
+#include "molsurf/bspline/spline.h"
+#include "molsurf/core/error.h"
+#include "molsurf/pipeline/run.h"
+#include "support/molecules.h"
+
+#include <utility>
+#include <vector>
+
+namespace molsurf::test
+{
+
+inline Result runOn(const std::vector<Ball>& balls, const Options& options = {})
+{
+    Progress progress;
+    return run(balls, options, progress);
+}
+
+/// S as the field "spline" holds it.
+inline Spline splineFrom(const openvdb::FloatGrid& grid)
+{
+    std::vector<openvdb::Coord> origins;
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) origins.push_back(leaf->origin());
+    Spline spline;
+    spline.voxel = grid.voxelSize()[0];
+    spline.table = LeafTable(origins);
+    spline.coefficients = LeafField(origins.size());
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+        const std::int32_t n = spline.table.find(leaf->origin());
+        for (int v = 0; v < leafSize; ++v) {
+            spline.coefficients.leaf(n)[v] = leaf->getValue(openvdb::Index(v));
+            spline.table.active(n).set(v, leaf->isValueOn(openvdb::Index(v)));
+        }
+    }
+    return spline;
+}
+
+inline Spline splineFrom(const Result& result)
+{
+    for (const auto& field : result.fields) {
+        if (field->getName() == "spline")
+            return splineFrom(dynamic_cast<const openvdb::FloatGrid&>(*field));
+    }
+    return Spline();
+}
+
+/// Largest rise of the energy in a step, relative.
+inline double largestRise(const EvolutionReport& report)
+{
+    double rise = 0.0;
+    for (std::size_t i = 1; i < report.energy.size(); ++i)
+        rise = std::max(rise, report.energy[i] / report.energy[i - 1] - 1.0);
+    return rise;
+}
+
+} // namespace molsurf::test

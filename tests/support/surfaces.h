@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Level set grids and meshes of closed-form functions.
+
+#include "molsurf/surface/extract.h"
+#include "support/fields.h"
+
+namespace molsurf::test
+{
+
+/// The mesh of f = 0, made as the pipeline makes it, from exact samples in a band of six voxels.
+/// @param[in] f  about a distance near its zero set
+inline Mesh meshOf(const Function& f, const openvdb::Vec3d& centre, double extent, double voxel,
+                   ExtractStats& stats)
+{
+    const Spline spline = splineOf(f, f, centre, extent, voxel, 6.0 * voxel);
+    const LeafTable band = bandTable(f, centre, extent, voxel, 3.0 * voxel);
+    const auto grid = toLevelSet(band, filled(band, voxel, f), 3.0 * voxel, voxel, Progress());
+    return extractMesh(*grid, spline, Progress(), stats);
+}
+
+inline Mesh meshOf(const Shape& shape, double voxel)
+{
+    ExtractStats stats;
+    return meshOf(shape.distance, shape.centre, shape.extent, voxel, stats);
+}
+
+} // namespace molsurf::test

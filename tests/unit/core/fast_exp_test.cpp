@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/core/simd.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace molsurf
+{
+namespace
+{
+
+TEST(FastExp, IsWithinThreeUlpOverItsRange)
+{
+    double worst = 0.0;
+    for (int i = 0; i <= 1740000; ++i) {
+        const float x = -87.0f + 1e-4f * float(i);
+        worst = std::max(worst, std::abs(double(fastExp(x)) / std::exp(double(x)) - 1.0));
+    }
+    EXPECT_LT(worst, 3e-7);
+    EXPECT_EQ(fastExp(0.0f), 1.0f);
+}
+
+TEST(FastExp, ClampsBeyondItsRange)
+{
+    EXPECT_EQ(fastExp(-1e30f), fastExp(-87.0f));
+    EXPECT_EQ(fastExp(1e30f), fastExp(87.0f));
+    EXPECT_TRUE(std::isfinite(fastExp(87.0f)));
+    EXPECT_GT(fastExp(-87.0f), 0.0f);
+}
+
+} // namespace
+} // namespace molsurf

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "support/convergence.h"
+#include "support/fields.h"
+
+#include <gtest/gtest.h>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Coord;
+using openvdb::Vec3d;
+
+// Larger than a leaf of the tree's upper levels, so that whole tiles lie inside.
+TEST(ToLevelSet, KeepsValuesInTheBandAndSignsEverywhere)
+{
+    const double voxel = 0.5, width = 1.5;
+    const test::Shape ball = test::sphere(34.0);
+    const LeafTable table = test::bandTable(ball.distance, ball.centre, ball.extent, voxel, width);
+    const LeafField phi = test::filled(table, voxel, ball.distance);
+    const auto grid = toLevelSet(table, phi, width, voxel, Progress());
+
+    EXPECT_EQ(grid->getGridClass(), openvdb::GRID_LEVEL_SET);
+    EXPECT_EQ(grid->background(), float(width));
+    EXPECT_DOUBLE_EQ(grid->voxelSize()[0], voxel);
+    EXPECT_EQ(grid->activeVoxelCount(), table.activeCount());
+    const auto read = grid->getConstAccessor();
+    test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+        const Coord c = Coord::round(x / voxel);
+        ASSERT_TRUE(read.isValueOn(c));
+        ASSERT_EQ(read.getValue(c), phi.leaf(n)[v]);
+    });
+    int inside = 0;
+    for (int x = -76; x <= 76; x += 3) {
+        for (int y = -76; y <= 76; y += 3) {
+            for (int z = -76; z <= 76; z += 3) {
+                const Coord c(x, y, z);
+                const double d = ball.distance(c.asVec3d() * voxel);
+                const double expected = std::min(std::max(d, -width), width);
+                ASSERT_NEAR(read.getValue(c), expected, 1e-5) << c;
+                inside += d < -width;
+            }
+        }
+    }
+    EXPECT_GT(inside, 1000);
+    EXPECT_EQ(read.getValue(Coord::round(ball.centre / voxel)), -float(width));
+}
+
+} // namespace
+} // namespace molsurf

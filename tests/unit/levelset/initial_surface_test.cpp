@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/initial_surface.h"
+
+#include "support/convergence.h"
+#include "support/fields.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3d;
+
+// One atom: psi = -C (r^2 - R^2), whose zero set is a sphere.
+TEST(InitialSurface, OfOneAtomIsTheDistanceToItsSphere)
+{
+    const test::Shape ball = test::sphere(3.1);
+    const double C = M_LN2 / (0.5 * 3.1);
+    const std::vector<double> h = {0.5, 0.25, 0.125};
+    std::vector<double> everywhere, near;
+    for (const double voxel : h) {
+        const double width = 4.0 * voxel;
+        const LeafTable table =
+            test::bandTable(ball.distance, ball.centre, ball.extent, voxel, width);
+        const LeafField psi = test::filled(table, voxel, [&](const Vec3d& x) {
+            return -C * ((x - ball.centre).lengthSqr() - 3.1 * 3.1);
+        });
+        const LeafField phi = initialSurface(table, psi, voxel, width, Progress());
+        double worst = 0.0, worstNear = 0.0;
+        test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+            const double d = ball.distance(x);
+            const double error = std::abs(phi.leaf(n)[v] - d);
+            if (std::abs(d) < 3.0 * voxel) worst = std::max(worst, error);
+            if (std::abs(d) < voxel) worstNear = std::max(worstNear, error);
+        });
+        everywhere.push_back(worst);
+        near.push_back(worstNear);
+    }
+    EXPECT_GT(test::observedOrder(h, everywhere), 1.8) << test::table(h, everywhere);
+    EXPECT_LT(everywhere.back(), 2e-3) << test::table(h, everywhere);
+    EXPECT_GT(test::observedOrder(h, near), 1.8) << test::table(h, near);
+    EXPECT_LT(near.back(), 1e-3) << test::table(h, near);
+}
+
+// Where psi is flat the first guess means nothing, but the result stays within the band and keeps
+// its signs: psi has its maximum and vanishing gradient at the centre.
+TEST(InitialSurface, IsFiniteAtTheCentreOfAnAtomAndKeepsSigns)
+{
+    const double voxel = 1.0, width = 4.0;
+    const test::Shape ball = test::sphere(1.7);
+    const LeafTable table = test::bandTable(ball.distance, ball.centre, ball.extent, voxel, width);
+    const LeafField psi = test::filled(
+        table, voxel, [&](const Vec3d& x) { return 1.7 * 1.7 - (x - ball.centre).lengthSqr(); });
+    const LeafField phi = initialSurface(table, psi, voxel, width, Progress());
+    test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d&) {
+        ASSERT_TRUE(std::isfinite(phi.leaf(n)[v]));
+        ASSERT_LE(std::abs(phi.leaf(n)[v]), width);
+        ASSERT_EQ(phi.leaf(n)[v]<0.0f, psi.leaf(n)[v]> 0.0f);
+    });
+}
+
+} // namespace
+} // namespace molsurf

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/redistance.h"
+
+#include "support/convergence.h"
+#include "support/fields.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Coord;
+using openvdb::Vec3d;
+
+/// The distance of a shape in a band of four voxels, redistanced.
+DistanceBand redistanced(const test::Function& distance, const Vec3d& centre, double extent,
+                         double voxel, double inside, double outside)
+{
+    const LeafTable table = test::bandTable(distance, centre, extent, voxel, 4.0 * voxel);
+    const LeafField phi = test::filled(table, voxel, distance);
+    return redistance(table, phi, voxel, inside, outside, Progress());
+}
+
+/// Largest error at the active voxels for which `counts` holds; checks that the active voxels are
+/// those within the band, and that signs are right.
+template<typename F>
+double errorOf(const DistanceBand& band, const test::Function& distance, double voxel,
+               double inside, double outside, const F& counts)
+{
+    double worst = 0.0;
+    std::size_t wrong = 0;
+    test::forEachActive(band.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+        const double d = distance(x), value = band.phi.leaf(n)[v];
+        wrong += (value < 0.0) != (d < 0.0) && std::abs(d) > 1e-5;
+        EXPECT_GT(value, -inside);
+        EXPECT_LT(value, outside);
+        if (counts(x)) worst = std::max(worst, std::abs(value - d));
+    });
+    EXPECT_EQ(wrong, 0u) << "voxels changed sides";
+    return worst;
+}
+
+/// The active voxels are those with -inside < d < outside, up to the error.
+void expectComplete(const DistanceBand& band, const test::Function& distance, const Vec3d& centre,
+                    double extent, double voxel, double inside, double outside, double error)
+{
+    const LeafTable wanted =
+        test::bandTable(distance, centre, extent, voxel, -inside + error, outside - error);
+    std::size_t missing = 0;
+    test::forEachActive(wanted, voxel, [&](std::size_t, int, const Vec3d& x) {
+        const Coord c = Coord::round(x / voxel);
+        const std::int32_t n = band.table.find(c);
+        missing += n == noLeaf || !band.table.active(n).on(
+                                      int(openvdb::FloatTree::LeafNodeType::coordToOffset(c)));
+    });
+    EXPECT_EQ(missing, 0u);
+}
+
+const auto everywhere = [](const Vec3d&) { return true; };
+
+void expectOrder(const test::Shape& shape, double inside, double outside, double order,
+                 double bound)
+{
+    const std::vector<double> h = {0.6, 0.4, 0.25};
+    std::vector<double> error;
+    for (const double voxel : h) {
+        const DistanceBand band =
+            redistanced(shape.distance, shape.centre, shape.extent, voxel, inside, outside);
+        error.push_back(errorOf(band, shape.distance, voxel, inside, outside, everywhere));
+        expectComplete(band, shape.distance, shape.centre, shape.extent, voxel, inside, outside,
+                       error.back());
+    }
+    EXPECT_GT(test::observedOrder(h, error), order) << test::table(h, error);
+    EXPECT_LT(error.back(), bound) << test::table(h, error);
+}
+
+TEST(Redistance, OfASphere)
+{
+    expectOrder(test::sphere(7.0), 3.4, 0.5, 1.8, 2e-4);
+}
+
+TEST(Redistance, OfATorus)
+{
+    expectOrder(test::torus(6.0, 3.4), 1.8, 0.6, 1.8, 1e-3);
+}
+
+TEST(Redistance, OfAnEllipsoid)
+{
+    expectOrder(test::ellipsoid(Vec3d(6.0, 5.2, 4.6)), 1.7, 0.6, 1.8, 1e-3);
+}
+
+// One atom with its probe: the depth that a run asks for comes near the centre of curvature.
+// Measured where the expansion's determinant was kept above 0.2: 1.2e-2 at h 0.5 and 6.8e-3 at h
+// 0.25, from a depth of 0.55 R on; kept above 0.02: 3.9e-4 and 8.8e-5.
+TEST(Redistance, DISABLED_DeepInASphere)
+{
+    expectOrder(test::sphere(5.0), 3.4, 0.5, 1.8, 2e-4);
+}
+
+// Many voxels deep. Measured where voxels are looked at again one layer later only: 0.059 at h
+// 0.125, 0.097 at h 0.1, half a voxel to a voxel, from 16 voxels on; three layers later: 2.5e-5
+// and 1.2e-4.
+TEST(Redistance, DISABLED_ManyVoxelsDeep)
+{
+    const test::Shape ball = test::sphere(5.0);
+    for (const double voxel : {0.125, 0.1}) {
+        const DistanceBand band =
+            redistanced(ball.distance, ball.centre, ball.extent, voxel, 2.7, 0.5);
+        EXPECT_LT(errorOf(band, ball.distance, voxel, 2.7, 0.5, everywhere), 1e-3) << voxel;
+    }
+}
+
+// From inside, the nearest surface point of a voxel behind the crease of two balls lies on the
+// circle that they share. The spline rounds that crease within a voxel, so there the error is of
+// first order; elsewhere of second.
+TEST(Redistance, OfTwoBallsBehindTheirCrease)
+{
+    const Vec3d a(0.137, -0.291, 0.443), axis = Vec3d(0.6, -0.5, 0.7).unit(), b = a + 5.0 * axis;
+    const double R = 4.6, S = 4.2, inside = 2.2, outside = 0.5;
+    const auto distance = [=](const Vec3d& x) { return test::distanceToTwoBalls(x, a, R, b, S); };
+    const Vec3d middle = 0.5 * (a + b);
+    const double along = (25.0 + R * R - S * S) / 10.0, rho = std::sqrt(R * R - along * along);
+    const auto behind = [=](const Vec3d& x) { // nearest to the circle
+        const double s = (x - a).dot(axis), t = (x - a - s * axis).length();
+        const double toCircle = std::hypot(s - along, t - rho);
+        return std::abs(-distance(x) - toCircle) < 1e-9;
+    };
+    const std::vector<double> h = {0.5, 0.25, 0.125};
+    std::vector<double> smooth, crease;
+    for (const double voxel : h) {
+        const DistanceBand band = redistanced(distance, middle, 7.2, voxel, inside, outside);
+        smooth.push_back(errorOf(band, distance, voxel, inside, outside, [&](const Vec3d& x) {
+            // The rounded crease shows where the nearest point is within some voxels of it.
+            const bool onA = (x - a).length() - R < (x - b).length() - S;
+            const Vec3d y = onA ? a + R * (x - a).unit() : b + S * (x - b).unit();
+            const double s = (y - a).dot(axis) - along, t = (y - a).cross(axis).length() - rho;
+            return !behind(x) && std::hypot(s, t) > 4.0 * voxel;
+        }));
+        crease.push_back(errorOf(band, distance, voxel, inside, outside, behind));
+    }
+    EXPECT_GT(test::observedOrder(h, crease), 0.8) << test::table(h, crease);
+    for (std::size_t i = 0; i < h.size(); ++i)
+        EXPECT_LT(crease[i], 0.6 * h[i]) << test::table(h, crease);
+    EXPECT_GT(test::observedOrder(h, smooth), 1.5) << test::table(h, smooth);
+    EXPECT_LT(smooth.back(), 0.01) << test::table(h, smooth);
+}
+
+std::size_t kinksWhere(const DistanceBand& band, double voxel,
+                       const std::function<bool(const Vec3d&)>& where, std::size_t& total)
+{
+    std::size_t count = 0;
+    total = 0;
+    for (std::size_t n = 0; n < band.table.size(); ++n) {
+        band.kinks[n].forEach([&](int v) {
+            EXPECT_TRUE(band.table.active(n).on(v));
+            const Coord c = band.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+            count += where(c.asVec3d() * voxel);
+            ++total;
+        });
+    }
+    return count;
+}
+
+// A flat ellipsoid: in its middle the two sheets are equally far. Kinks are marked there, beside
+// the plane of symmetry, and nowhere near the surface.
+TEST(Redistance, MarksTheKinkWhereTwoSheetsMeet)
+{
+    const double voxel = 0.25;
+    const test::Pose pose;
+    const test::Shape slab = test::ellipsoid(Vec3d(7.0, 7.0, 2.0), pose);
+    const DistanceBand band = redistanced(slab.distance, slab.centre, slab.extent, voxel, 3.0, 0.5);
+    // Every voxel of the disc whose upper or lower neighbour lies on the other side of the plane.
+    std::size_t beside = 0, marked = 0;
+    test::forEachActive(band.table, voxel, [&](std::size_t n, int v, const Vec3d& world) {
+        const Vec3d x = pose.toLocal(world);
+        if (std::hypot(x.x(), x.y()) > 4.0) return;
+        bool crosses = false;
+        for (int i = 0; i < 3; ++i) {
+            Vec3d next = world;
+            next[i] += voxel;
+            crosses |= (pose.toLocal(next).z() < 0.0) != (x.z() < 0.0);
+        }
+        beside += crosses;
+        marked += crosses && band.kinks[n].on(v);
+    });
+    ASSERT_GT(beside, 500u);
+    EXPECT_GT(double(marked), 0.98 * double(beside)) << marked << " of " << beside;
+    std::size_t total = 0;
+    const std::size_t far = kinksWhere(
+        band, voxel,
+        [&](const Vec3d& world) { return std::abs(pose.toLocal(world).z()) > 2.0 * voxel; }, total);
+    EXPECT_EQ(far, 0u) << "of " << total;
+}
+
+TEST(Redistance, MarksNoKinkInASphereAboveItsCentre)
+{
+    for (const double voxel : {0.5, 0.25}) {
+        const test::Shape ball = test::sphere(5.0);
+        const DistanceBand band =
+            redistanced(ball.distance, ball.centre, ball.extent, voxel, 3.4, 0.5);
+        std::size_t total = 0;
+        kinksWhere(band, voxel, everywhere, total);
+        EXPECT_EQ(total, 0u);
+    }
+}
+
+TEST(Redistance, OfNothingIsNothing)
+{
+    const DistanceBand band = redistance(LeafTable(), LeafField(0), 0.5, 3.0, 1.0, Progress());
+    EXPECT_EQ(band.table.size(), 0u);
+    EXPECT_EQ(band.seeds, 0u);
+}
+
+} // namespace
+} // namespace molsurf

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "support/digital_euler.h"
+#include "support/exact_minimum.h"
+#include "support/mesh_checks.h"
+#include "support/runs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3f;
+
+const Vec3f corner(0.137f, -0.291f, 0.443f);
+
+void expectGood(const std::vector<Ball>& balls, int components, const char* what)
+{
+    const Result result = test::runOn(balls);
+    const SurfaceReport& surface = result.report.surface;
+    EXPECT_TRUE(surface.closed && surface.manifold) << what;
+    EXPECT_EQ(surface.components, components) << what;
+    EXPECT_LT(surface.maxResidual, 1e-3) << what;
+    const test::MeshVerdict verdict = test::judge(result.mesh);
+    EXPECT_TRUE(verdict.good()) << what << ": " << verdict;
+    EXPECT_EQ(verdict.euler, surface.eulerCharacteristic) << what;
+    EXPECT_EQ(verdict.euler, test::mesherEuler(*result.surface)) << what;
+}
+
+TEST(SmallMolecules, HaveClosedManifoldSurfaces)
+{
+    const auto at = [](float x, float y, float z, float r = 1.7f) {
+        return Ball{corner + Vec3f(x, y, z), r, 0};
+    };
+    expectGood({at(0, 0, 0)}, 1, "one atom");
+    expectGood({at(0, 0, 0, 1.2f)}, 1, "one hydrogen");
+    expectGood({at(0, 0, 0), at(1.5f, 0.1f, 0)}, 1, "two atoms");
+    expectGood({at(0, 0, 0), at(1.2f, 0.7f, 0, 1.52f), at(-1.1f, 0.6f, 0.2f, 1.2f)}, 1,
+               "three atoms");
+    expectGood({at(0, 0, 0), at(0, 0, 0), at(0, 0, 0)}, 1, "one place three times");
+    expectGood({at(0, 0, 0), at(1.4f, 0, 0), at(2.1f, 1.2f, 0), at(1.4f, 2.4f, 0), at(0, 2.4f, 0),
+                at(-0.7f, 1.2f, 0)},
+               1, "six in a plane");
+    expectGood({at(0, 0, 0), at(30.0f, 1.0f, 2.0f)}, 2, "two far apart");
+    expectGood({at(5000.0f, -4000.0f, 3000.0f)}, 1, "one far away");
+}
+
+TEST(SmallMolecules, OneAtomIsABallOfItsExactRadius)
+{
+    const double radius = test::minimalRadius(3.1, {}) - 1.4;
+    for (const double voxel : {0.5, 0.25}) {
+        Options options;
+        options.voxel = voxel;
+        options.evolution.energyTolerance = 1e-7;
+        options.evolution.displacementTolerance = 1e-4;
+        const SurfaceReport s = test::runOn({{corner, 1.7f, 0}}, options).report.surface;
+        const double bound = voxel == 0.5 ? 0.01 : 0.003; // Å, of the radius
+        EXPECT_NEAR(std::sqrt(s.area / (4.0 * M_PI)), radius, bound);
+        EXPECT_NEAR(std::cbrt(s.volume * 3.0 / (4.0 * M_PI)), radius, bound);
+    }
+}
+
+TEST(SmallMolecules, LabelsNameTheNearestAtom)
+{
+    const std::vector<Ball> balls = {{corner, 1.7f, 17}, {corner + Vec3f(3.0f, 0, 0), 1.7f, 4}};
+    const Mesh mesh = test::runOn(balls).mesh;
+    ASSERT_EQ(mesh.labels.size(), 1u);
+    EXPECT_EQ(mesh.labels[0].name, "atom_id");
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const float x = mesh.positions[v].x() - corner.x();
+        if (std::abs(x - 1.5f) < 0.01f) continue;
+        EXPECT_EQ(mesh.labels[0].values[v], x < 1.5f ? 17 : 4);
+    }
+}
+
+// A voxel larger than the molecule: an error that says so, or a surface, but no crash.
+TEST(SmallMolecules, AreAnErrorWhereTheVoxelIsFarTooLarge)
+{
+    int errors = 0;
+    for (const double voxel : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 10.0}) {
+        for (const float shift : {0.0f, 0.3f, 0.5f}) {
+            Options options;
+            options.voxel = voxel;
+            try {
+                const Result result =
+                    test::runOn({{corner + Vec3f(shift * float(voxel)), 1.7f, 0}}, options);
+                EXPECT_TRUE(result.report.surface.closed && result.report.surface.manifold)
+                    << voxel << ' ' << shift;
+            } catch (const Error& e) {
+                EXPECT_EQ(e.kind(), ErrorKind::Numeric) << voxel << ' ' << shift;
+                ++errors;
+            }
+        }
+    }
+    EXPECT_GT(errors, 3);
+    Options options;
+    options.voxel = 10.0;
+    try {
+        test::runOn({{Vec3f(5.0f), 1.7f, 0}}, options);
+        FAIL() << "expected an Error";
+    } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::Numeric);
+        EXPECT_NE(std::string(e.what()).find("--voxel"), std::string::npos) << e.what();
+    }
+}
+
+} // namespace
+} // namespace molsurf
