@@ -17,7 +17,6 @@ namespace molsurf
 {
 
 using openvdb::Coord;
-using openvdb::Mat3d;
 using openvdb::Vec3d;
 
 namespace
@@ -43,29 +42,30 @@ Seed seedAt(const Vec3d& y, const Jet& jet)
     Seed seed;
     seed.y = y;
     seed.leaf = noLeaf;
-    const double norm = std::max(jet.gradient.length(), 1e-3);
-    const Vec3d n = jet.gradient / norm;
-    const Vec3d Hn = jet.hessian * n / norm;
-    const double nHn = n.dot(Hn);
-    Mat3d A;
-    double largest = 0.0;
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            A(i, j) = jet.hessian(i, j) / norm - n[i] * Hn[j] - Hn[i] * n[j] + nHn * n[i] * n[j];
-            largest += A(i, j) * A(i, j);
-        }
+    const double norm = std::max(jet.gradient.length(), 1e-3), scale = 1.0 / norm;
+    const Vec3d n = jet.gradient * scale;
+    const double* H = jet.hessian.asPointer();
+    const Vec3d Hn = Vec3d(H[0] * n.x() + H[1] * n.y() + H[2] * n.z(),
+                           H[3] * n.x() + H[4] * n.y() + H[5] * n.z(),
+                           H[6] * n.x() + H[7] * n.y() + H[8] * n.z()) *
+                     scale;
+    const Vec3d m = Hn - 0.5 * n.dot(Hn) * n; // A = H/norm - n m^T - m n^T
+    double A[6] = {
+        H[0] * scale - 2.0 * n.x() * m.x(),           H[4] * scale - 2.0 * n.y() * m.y(),
+        H[8] * scale - 2.0 * n.z() * m.z(),           H[1] * scale - n.x() * m.y() - n.y() * m.x(),
+        H[5] * scale - n.y() * m.z() - n.z() * m.y(), H[2] * scale - n.x() * m.z() - n.z() * m.x()};
+    double square = A[0] * A[0] + A[1] * A[1] + A[2] * A[2] + // tr A^2 = kappa^2 - 2 K
+                    2.0 * (A[3] * A[3] + A[4] * A[4] + A[5] * A[5]);
+    if (square > 1.0) {
+        const double limit = 1.0 / std::sqrt(square);
+        for (double& a : A) a *= limit;
+        square = 1.0;
     }
-    A *= std::min(1.0, 1.0 / std::sqrt(std::max(largest, 1e-12)));
-    const double kappa = A(0, 0) + A(1, 1) + A(2, 2);
-    double square = 0.0; // tr A^2 = kappa^2 - 2 K
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) square += A(i, j) * A(i, j);
-    }
+    const double kappa = A[0] + A[1] + A[2];
     seed.n = openvdb::Vec3f(n);
     seed.kappa = float(kappa);
     seed.gauss = float(0.5 * (kappa * kappa - square));
-    const double packed[6] = {A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(1, 2), A(0, 2)};
-    std::copy_n(packed, 6, seed.A);
+    std::copy_n(A, 6, seed.A);
     return seed;
 }
 
@@ -136,16 +136,22 @@ float distanceFrom(const Seed& seed, const Vec3d& x, float sign)
 Jet jetBeside(const LeafTable& table, const LeafField& coefficients, double voxel,
               std::int32_t leaf, const Vec3d& y)
 {
-    const Coord cell = Coord::floor(y), local = cell - table.origin(leaf);
-    float c[4][4][4];
+    const Coord cell = Coord::floor(y), first = cell - table.origin(leaf) - Coord(1);
+    const auto& near = table.neighbours(leaf);
+    const int z0 = first.z() & 7,
+              inFirst = std::min(4, leafDim - z0); // coefficients before a border
+    float c[4][4][4] = {};
     for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < 4; ++j) {
-            for (int k = 0; k < 4; ++k) {
-                const int x = local.x() + i - 1, w = local.y() + j - 1, z = local.z() + k - 1;
-                const std::int32_t m =
-                    table.neighbours(leaf)[9 * ((x >> 3) + 1) + 3 * ((w >> 3) + 1) + (z >> 3) + 1];
-                c[i][j][k] =
-                    m == noLeaf ? 0.0f : coefficients.leaf(m)[64 * (x & 7) + 8 * (w & 7) + (z & 7)];
+            const int x = first.x() + i, w = first.y() + j;
+            const int side = 9 * ((x >> 3) + 1) + 3 * ((w >> 3) + 1) + (first.z() >> 3) + 1;
+            const int row = 64 * (x & 7) + 8 * (w & 7);
+            if (near[side] != noLeaf) {
+                std::copy_n(coefficients.leaf(near[side]) + row + z0, inFirst, c[i][j]);
+            }
+            if (inFirst < 4 && near[side + 1] != noLeaf) {
+                std::copy_n(coefficients.leaf(near[side + 1]) + row, 4 - inFirst,
+                            c[i][j] + inFirst);
             }
         }
     }
@@ -162,7 +168,7 @@ Jet jetBeside(const LeafTable& table, const LeafField& coefficients, double voxe
 Seed polished(const Seed& seed, const Vec3d& x, const LeafTable& table,
               const LeafField& coefficients, double voxel)
 {
-    constexpr double closeEnough = 1e-4, farthest = 2.0; // [voxel^2], [voxel]
+    constexpr double closeEnough = 0.0025, farthest = 2.0; // [voxel^2], [voxel]
     const auto aside = [&](const Seed& at) {
         const Vec3d d = x - at.y, n(at.n);
         return (d - n.dot(d) * n).lengthSqr();
@@ -178,10 +184,11 @@ Seed polished(const Seed& seed, const Vec3d& x, const LeafTable& table,
     const Jet jet = jetBeside(table, coefficients, voxel, seed.leaf, y);
     const double slope = jet.gradient.length();
     if (slope < 0.5) return seed;
-    y -= jet.value / slope * (jet.gradient / slope);
+    y -= jet.value / (slope * slope) * jet.gradient;
     Seed moved = seedAt(y, jet);
     moved.leaf = seed.leaf;
-    return aside(moved) < before ? moved : seed;
+    const bool nearer = (x - moved.y).lengthSqr() < (x - seed.y).lengthSqr();
+    return nearer && aside(moved) < before ? moved : seed;
 }
 
 /// Gradient of the same expansion.
@@ -303,8 +310,10 @@ struct Points {
 using SeedBlock = LeafBlock<std::int32_t, 1>;
 
 /// The nearest of the seeds that a voxel and its 26 neighbours have.
-/// @param[in] p  the voxel in its block
-std::int32_t nearestSeed(const std::int32_t* p, const Coord& voxel, const Points& points)
+/// @param[in]  p          the voxel in its block
+/// @param[out] distance2  to it, squared
+std::int32_t nearestSeed(const std::int32_t* p, const Coord& voxel, const Points& points,
+                         float& distance2)
 {
     const openvdb::Vec3f x((voxel - points.centre).asVec3s());
     std::int32_t best = noSeed, last = noSeed;
@@ -324,6 +333,7 @@ std::int32_t nearestSeed(const std::int32_t* p, const Coord& voxel, const Points
             }
         }
     }
+    distance2 = least;
     return best;
 }
 
@@ -371,6 +381,66 @@ bool anyAround(const LeafTable& table, const std::vector<LeafMask>& masks, std::
     return false;
 }
 
+/// Hands the seeds of the interface voxels on to the voxels about them, up to a distance, until
+/// every voxel has the nearest of its own and its 26 neighbours' seeds.
+///
+/// First in the order of the distance, as in fast marching: layer by layer those beside the voxels
+/// that are done, as far as they are nearer than the layer. Then all look at all neighbours, and
+/// those about changes again, until none changes.
+///
+/// @param[in]     farthest  distance to go to [voxel]
+/// @param[in]     known     the interface voxels
+/// @param[in,out] index     their seeds, noSeed elsewhere
+void propagate(const LeafTable& domain, const std::vector<Seed>& seeds, double farthest,
+               std::vector<LeafMask> known, SeedIndex& index, const Progress& progress)
+{
+    constexpr double layerWidth = 0.75;
+    const int layers = int(std::ceil((farthest + 1.0) / layerWidth));
+    const Points points(seeds);
+    SeedIndex next(domain.size());
+    std::vector<LeafMask> work(domain.size()), changed(domain.size());
+    for (int layer = 0;; ++layer) {
+        const bool march = layer < layers, all = layer == layers;
+        const float nearer2 = march ? float(std::pow(layerWidth * (layer + 1) + 0.5, 2)) : 1e30f;
+        parallelFor(domain.size(), progress, [&](std::size_t n) {
+            work[n] = LeafMask();
+            if (all) {
+                work[n] = known[n];
+            } else if (anyAround(domain, march ? known : changed, n)) {
+                work[n] = dilatedMask(domain, march ? known : changed, n, true);
+                work[n] &= march ? domain.active(n) & ~known[n] : known[n];
+            }
+        });
+        // next <- the nearest seeds of the voxels in work; only changes are written back
+        parallelFor(domain.size(), progress, [&](std::size_t n) {
+            changed[n] = LeafMask();
+            if (!work[n].any()) return;
+            SeedBlock block;
+            block.gather(domain, index, n);
+            std::int32_t* out = next.leaf(n);
+            if (all) {
+                const openvdb::Vec3f corner((domain.origin(n) - points.centre).asVec3s());
+                nearestOfAll(block.values, work[n], points.x.data(), points.y.data(),
+                             points.z.data(), corner.x(), corner.y(), corner.z(), out);
+            }
+            work[n].forEach([&](int v) {
+                const Coord local(v >> 6, v >> 3 & 7, v & 7);
+                const std::int32_t* p = block.at(local.x(), local.y(), local.z());
+                float distance2 = 0.0f;
+                if (!all) out[v] = nearestSeed(p, domain.origin(n) + local, points, distance2);
+                changed[n].set(v, out[v] != *p && distance2 < nearer2);
+            });
+        });
+        parallelFor(domain.size(), progress, [&](std::size_t n) {
+            changed[n].forEach([&](int v) { index.leaf(n)[v] = next.leaf(n)[v]; });
+            known[n] |= changed[n];
+        });
+        bool any = march || all;
+        for (std::size_t n = 0; n < domain.size() && !any; ++n) any = changed[n].any();
+        if (!any) return;
+    }
+}
+
 /// The inner voxels of a leaf that the given level set lacks, and that no interface can cross: all
 /// or none, as most of its closest points say. (Where the given leaves have a sign it stands:
 /// voxels do not change sides.)
@@ -402,11 +472,11 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
         findSeeds(table, coefficients, voxel, interface, begins, progress);
     if (begins.back() == noSeed + 1) return DistanceBand();
 
-    const auto steps = [&](double width) { return int(std::ceil(width / voxel)) + 1; };
+    const auto steps = [&](double width) { return int(std::ceil(width / voxel)); };
     const LeafTable domain = merged(reachable(table, interface, outer, steps(inside), progress),
                                     reachable(table, interface, inner, steps(outside), progress));
 
-    SeedIndex index(domain.size()), next(domain.size());
+    SeedIndex index(domain.size());
     std::vector<LeafMask> known(domain.size());
     parallelFor(domain.size(), progress, [&](std::size_t n) {
         std::fill_n(index.leaf(n), leafSize, noSeed);
@@ -417,54 +487,7 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
         interface[m].forEach([&](int v) { index.leaf(n)[v] = k++; });
     });
 
-    // Layers go by turns to 6 and 26 neighbours, close to the order of the distance. Then all
-    // voxels look at their neighbours again, and those whose neighbours have changed once more,
-    // until none changes.
-    const int layers = 2 * steps(std::max(inside, outside)); // more than it takes
-    const Points points(seeds);
-    std::vector<LeafMask> work(domain.size()), changed(domain.size());
-    const int corrections = layers; // more than it takes too
-    for (int layer = 0; layer < layers + corrections; ++layer) {
-        const bool correct = layer >= layers;
-        parallelFor(domain.size(), progress, [&](std::size_t n) {
-            const bool full = layer % 2 == 1 || correct;
-            if (layer > layers && !anyAround(domain, changed, n)) {
-                work[n] = LeafMask();
-                return;
-            }
-            work[n] = domain.active(n);
-            if (layer != layers) work[n] &= dilatedMask(domain, correct ? changed : known, n, full);
-            if (!correct) work[n] &= ~known[n];
-        });
-        // next <- the nearest seeds of the voxels in work; only changes are written back
-        parallelFor(domain.size(), progress, [&](std::size_t n) {
-            changed[n] = LeafMask();
-            if (!work[n].any()) return;
-            LeafBlock<std::int32_t, 1> block;
-            block.gather(domain, index, n);
-            std::int32_t* out = next.leaf(n);
-            if (layer == layers) {
-                const openvdb::Vec3f corner((domain.origin(n) - points.centre).asVec3s());
-                nearestOfAll(block.values, work[n], points.x.data(), points.y.data(),
-                             points.z.data(), corner.x(), corner.y(), corner.z(), out);
-            }
-            work[n].forEach([&](int v) {
-                const Coord local(v >> 6, v >> 3 & 7, v & 7);
-                const std::int32_t* p = block.at(local.x(), local.y(), local.z());
-                if (layer != layers) out[v] = nearestSeed(p, domain.origin(n) + local, points);
-                changed[n].set(v, out[v] != *p);
-            });
-        });
-        parallelFor(domain.size(), progress, [&](std::size_t n) {
-            changed[n].forEach([&](int v) { index.leaf(n)[v] = next.leaf(n)[v]; });
-            known[n] |= work[n];
-        });
-        bool any = false;
-        for (const LeafMask& mask : changed) any = any || mask.any();
-        if (any) continue;
-        if (correct) break;
-        layer = layers - 1; // every voxel is reached
-    }
+    propagate(domain, seeds, std::max(inside, outside) / voxel, known, index, progress);
 
     DistanceBand band;
     band.table = domain;
