@@ -96,7 +96,9 @@ const std::vector<Group>& groups()
           {"regularizer", "KIND", "gradient or area", nameOf(preset.evolution.regularizer)},
           {"flow", "KIND", "preconditioned or plain", nameOf(preset.evolution.flow)},
           {"max-steps", "N", "steps at most", "50; plain: 2000"},
-          {"tolerance", "T", "converged when the energy changes by less, relative",
+          {"tolerance", "T",
+           "converged when the energy changes by less, relative\n"
+           "(and the mean displacement is below 100 T voxels)",
            shortest(preset.evolution.energyTolerance)},
           {"spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2",
            std::to_string(preset.splineLevel)}}},
@@ -326,12 +328,17 @@ void fillBuild(const Values& values, Call& call)
     values.get("regularizer", evolution.regularizer, {Regularizer::Gradient, Regularizer::Area});
     values.get("flow", evolution.flow, {Flow::Preconditioned, Flow::Plain});
     values.get("max-steps", evolution.maxSteps, 0, 1000000);
+    const EvolveOptions preset;
     values.get("tolerance", evolution.energyTolerance);
+    evolution.displacementTolerance *= evolution.energyTolerance / preset.energyTolerance;
     values.get("spline-level", options.splineLevel, 0, 2);
 
     if (options.voxel > coarseVoxel)
         call.warnings.push_back("--voxel " + shortest(options.voxel) +
                                 ": voxels this large cannot show the atoms");
+    if (options.epsilon < 0.5 * options.voxel)
+        call.warnings.push_back("--epsilon " + shortest(options.epsilon) +
+                                ": a tolerance below half a voxel is not resolved");
 }
 
 void readConfig(const std::string& path, const po::options_description& all, po::variables_map& map)

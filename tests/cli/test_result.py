@@ -165,10 +165,14 @@ class Vdb(ToolTest):
 
     @needs_openvdb
     def test_fields(self):
+        # By name: pyopenvdb lacks int32 grids, and reading all would refuse atom_id.
         self.build("--fields", "all", *FAST)
-        names = sorted(grid.name for grid in pyopenvdb.readAllGridMetadata(self.path))
-        self.assertEqual(names, ["atom_id", "gaussian_curvature", "mean_curvature", "sas", "spline",
-                                 "surface"])
+        voxels = pyopenvdb.read(self.path, "surface").activeVoxelCount()
+        for name in ("mean_curvature", "gaussian_curvature"):
+            self.assertEqual(pyopenvdb.read(self.path, name).activeVoxelCount(), voxels, name)
+        for name in ("sas", "spline"):
+            self.assertGreater(pyopenvdb.read(self.path, name).activeVoxelCount(), voxels, name)
+        self.assertIn(b"grid atom_id", self.check(0, "info", self.path).stdout)
         self.build("--fields", "sas", *FAST)
         names = sorted(grid.name for grid in pyopenvdb.readAllGridMetadata(self.path))
         self.assertEqual(names, ["sas", "surface"])

@@ -35,8 +35,9 @@ struct SurfaceReport {
     bool manifold = false; ///< the triangles about each vertex form one fan, consistently oriented
     std::size_t degenerateTriangles = 0; ///< triangles without area
     double maxResidual = 0.0;            ///< largest |S| at a vertex [Å]
-    double gradientShare =
-        0.0;                ///< share of vertices away from kinks with | |grad Phi| - 1 | < 0.03
+    /// Share of the vertices away from kinks with | |grad Phi| - 1 | < 0.03; not a number if every
+    /// vertex is near one.
+    double gradientShare = 0.0;
     double kinkShare = 0.0; ///< share of vertices within two voxels of a kink of the distance
 };
 
@@ -50,8 +51,11 @@ struct EvolutionReport {
     std::vector<double> volume;           ///< inside the interface [Å^3]
     std::vector<double> meanDisplacement; ///< area-weighted mean of |displacement| [Å] of each step
     std::vector<double> maxSpeed;         ///< max |F| near the interface [1/Å] of each step
-    std::size_t creviceVoxels =
-        0; ///< voxels at gaps of the final interface too narrow for the grid
+    /// Estimate of the mean displacement to the state of rest, by the rate at which the steps
+    /// shrink [Å]; infinite if they do not.
+    double remainingWay = 0.0;
+    /// Voxels at gaps of the final interface that are too narrow for the grid.
+    std::size_t creviceVoxels = 0;
 };
 
 /// Everything in the .json report.

@@ -9,6 +9,7 @@
 #include "molsurf/levelset/reinitialize.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace molsurf
@@ -145,6 +146,17 @@ void track(NarrowBand& band, const PsiSource& source, double voxel, double width
     band = std::move(grown);
 }
 
+/// How far the interface has yet to go if the displacements of the last two steps go on to shrink
+/// by the same factor: the sum of a geometric series [Å].
+double remainingWay(const std::vector<double>& displacement)
+{
+    const std::size_t n = displacement.size();
+    if (n < 2) return n == 1 ? displacement[0] : 0.0;
+    const double last = displacement[n - 1], ratio = last / displacement[n - 2];
+    if (last == 0.0) return 0.0;
+    return ratio < 1.0 ? last * ratio / (1.0 - ratio) : std::numeric_limits<double>::infinity();
+}
+
 } // namespace
 
 EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
@@ -193,6 +205,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
         report.area.push_back(sums.area);
         report.volume.push_back(sums.volume);
         report.creviceVoxels = sums.crevices;
+        report.remainingWay = remainingWay(report.meanDisplacement);
         if (report.converged || report.steps == maxSteps) break;
 
         lastDisplacement = sums.displacement / sums.area;

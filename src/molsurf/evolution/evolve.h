@@ -29,10 +29,13 @@ constexpr int bandWidthVox = 4;
 using PsiSource = std::function<void(const openvdb::Coord& origin, float* psi)>;
 
 /// Evolves phi by  phi_t = |grad phi| (w kappa + n . grad w)  with speeds extended along normals
-/// from the interface (docs/math.md, section 4) until the energy changes by less than
-/// options.energyTolerance and the interface moves by less than options.displacementTolerance in a
-/// step, or for options.maxSteps steps. After each step the level set is made a distance again by
-/// reinitialize(). Leaves are added and dropped as the interface moves.
+/// from the interface (docs/math.md, section 4). After each step the level set is made a distance
+/// again by reinitialize(); leaves are added and dropped as the interface moves.
+///
+/// Stops when in a step the energy changes by less than options.energyTolerance and the mean
+/// displacement is below options.displacementTolerance; or after options.maxSteps. Where steps are
+/// small because the voxels are (the bound of explicit diffusion), that can be far from rest:
+/// EvolutionReport::remainingWay tells how far.
 ///
 /// @param[in,out] band    as initialSurface() makes it
 /// @param[in]     source  psi for leaves that are added

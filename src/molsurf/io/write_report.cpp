@@ -37,10 +37,15 @@ Json surfaceJson(const SurfaceReport& surface)
 
 Json evolutionJson(const EvolutionReport& evolution)
 {
-    return {{"steps", evolution.steps},        {"converged", evolution.converged},
-            {"energy", evolution.energy},      {"mean_displacement", evolution.meanDisplacement},
-            {"max_speed", evolution.maxSpeed}, {"crevice_voxels", evolution.creviceVoxels},
-            {"area", evolution.area},          {"volume", evolution.volume}};
+    return {{"steps", evolution.steps},
+            {"converged", evolution.converged},
+            {"energy", evolution.energy},
+            {"mean_displacement", evolution.meanDisplacement},
+            {"max_speed", evolution.maxSpeed},
+            {"remaining_way", evolution.remainingWay},
+            {"crevice_voxels", evolution.creviceVoxels},
+            {"area", evolution.area},
+            {"volume", evolution.volume}};
 }
 
 } // namespace

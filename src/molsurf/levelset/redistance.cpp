@@ -29,6 +29,7 @@ constexpr std::int32_t noSeed = 0;
 /// A closest point on the interface, in units of voxels.
 struct Seed {
     Vec3d y;            // the point
+    std::int32_t leaf;  // of the voxel that it is closest to
     openvdb::Vec3f n;   // unit normal there, outward
     float A[6];         // shape operator: xx yy zz xy yz xz
     float kappa, gauss; // trace and tangential determinant of A
@@ -41,6 +42,7 @@ Seed seedAt(const Vec3d& y, const Jet& jet)
 {
     Seed seed;
     seed.y = y;
+    seed.leaf = noLeaf;
     const double norm = std::max(jet.gradient.length(), 1e-3);
     const Vec3d n = jet.gradient / norm;
     const Vec3d Hn = jet.hessian * n / norm;
@@ -67,6 +69,20 @@ Seed seedAt(const Vec3d& y, const Jet& jet)
     return seed;
 }
 
+/// The step along the surface, to second order, that brings a point of it closest to a voxel: d
+/// solves (I + s A) d = t on the tangent plane.
+Vec3d stepAlong(const Seed& seed, const Vec3d& voxel)
+{
+    const Vec3d n(seed.n), toVoxel = voxel - seed.y;
+    const double s = n.dot(toVoxel);
+    const Vec3d t = toVoxel - s * n;
+    const Vec3d At(seed.A[0] * t.x() + seed.A[3] * t.y() + seed.A[5] * t.z(),
+                   seed.A[3] * t.x() + seed.A[1] * t.y() + seed.A[4] * t.z(),
+                   seed.A[5] * t.x() + seed.A[4] * t.y() + seed.A[2] * t.z());
+    const double determinant = std::max(1.0 + s * seed.kappa + s * s * seed.gauss, 0.2);
+    return (t + s * (double(seed.kappa) * t - At)) / determinant;
+}
+
 /// The farthest that a closest point may lie from its voxel, in voxels.
 constexpr double farthestFoot = 1.45;
 
@@ -86,17 +102,9 @@ Seed closestPoint(const LeafBlock<float, 3>& c, const Coord& x)
     Jet jet = jetAt(y);
     for (int i = 0; i < 6; ++i) {
         const Seed seed = seedAt(y, jet);
-        const Vec3d n(seed.n);
-        // Newton toward the zero set, and along it toward x: (I + s A) d = t on the tangent plane
-        const Vec3d toVoxel = centre - y;
-        const double s = n.dot(toVoxel);
-        const Vec3d t = toVoxel - s * n;
-        const Vec3d At(seed.A[0] * t.x() + seed.A[3] * t.y() + seed.A[5] * t.z(),
-                       seed.A[3] * t.x() + seed.A[1] * t.y() + seed.A[4] * t.z(),
-                       seed.A[5] * t.x() + seed.A[4] * t.y() + seed.A[2] * t.z());
-        const double determinant = std::max(1.0 + s * seed.kappa + s * s * seed.gauss, 0.2);
-        const Vec3d along = (t + s * (double(seed.kappa) * t - At)) / determinant;
-        const Vec3d move = along - jet.value / std::max(jet.gradient.length(), 0.2) * n;
+        // Newton toward the zero set, and along it toward x
+        const Vec3d move = stepAlong(seed, centre) -
+                           jet.value / std::max(jet.gradient.length(), 0.2) * Vec3d(seed.n);
         const Vec3d next = y + move;
         if ((next - centre).lengthSqr() > farthestFoot * farthestFoot) break;
         y = next;
@@ -122,6 +130,58 @@ float distanceFrom(const Seed& seed, const Vec3d& x, float sign)
     const float distance = sign * (s + 0.5f * (tAt + s * seed.gauss * t.dot(t)) / determinant);
     const float r2 = d.dot(d), r = std::sqrt(r2);
     return std::min(std::max(distance, std::sqrt(std::max(r2 - 0.76f * (1.0f + r), 0.0f))), r);
+}
+
+/// The spline of phi/h at a point [voxel] in or beside a leaf.
+Jet jetBeside(const LeafTable& table, const LeafField& coefficients, double voxel,
+              std::int32_t leaf, const Vec3d& y)
+{
+    const Coord cell = Coord::floor(y), local = cell - table.origin(leaf);
+    float c[4][4][4];
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            for (int k = 0; k < 4; ++k) {
+                const int x = local.x() + i - 1, w = local.y() + j - 1, z = local.z() + k - 1;
+                const std::int32_t m =
+                    table.neighbours(leaf)[9 * ((x >> 3) + 1) + 3 * ((w >> 3) + 1) + (z >> 3) + 1];
+                c[i][j][k] =
+                    m == noLeaf ? 0.0f : coefficients.leaf(m)[64 * (x & 7) + 8 * (w & 7) + (z & 7)];
+            }
+        }
+    }
+    Jet jet = evaluateSpline(&c[1][1][1], 16, 4, y - cell.asVec3d());
+    jet.value /= voxel;
+    jet.gradient /= voxel;
+    jet.hessian *= 1.0 / voxel;
+    return jet;
+}
+
+/// A closest point moved along the surface until it is the closest to a voxel: one Newton step on
+/// the spline, which leaves an error of fourth order in the distance moved. The point as it is
+/// where that does not bring it closer to the normal through the voxel.
+Seed polished(const Seed& seed, const Vec3d& x, const LeafTable& table,
+              const LeafField& coefficients, double voxel)
+{
+    constexpr double closeEnough = 1e-4, farthest = 2.0; // [voxel^2], [voxel]
+    const auto aside = [&](const Seed& at) {
+        const Vec3d d = x - at.y, n(at.n);
+        return (d - n.dot(d) * n).lengthSqr();
+    };
+    const double before = aside(seed);
+    if (before < closeEnough) return seed;
+    const Vec3d d = stepAlong(seed, x);
+    if (d.lengthSqr() > farthest * farthest) return seed;
+    const double bend =
+        seed.A[0] * d.x() * d.x() + seed.A[1] * d.y() * d.y() + seed.A[2] * d.z() * d.z() +
+        2.0 * (seed.A[3] * d.x() * d.y() + seed.A[4] * d.y() * d.z() + seed.A[5] * d.x() * d.z());
+    Vec3d y = seed.y + d - 0.5 * bend * Vec3d(seed.n);
+    const Jet jet = jetBeside(table, coefficients, voxel, seed.leaf, y);
+    const double slope = jet.gradient.length();
+    if (slope < 0.5) return seed;
+    y -= jet.value / slope * (jet.gradient / slope);
+    Seed moved = seedAt(y, jet);
+    moved.leaf = seed.leaf;
+    return aside(moved) < before ? moved : seed;
 }
 
 /// Gradient of the same expansion.
@@ -163,11 +223,10 @@ std::vector<LeafMask> interfaceVoxels(const LeafTable& table, const std::vector<
 }
 
 /// The seeds of all interface voxels, leaf by leaf, and where those of each leaf begin.
-std::vector<Seed> findSeeds(const LeafTable& table, const LeafField& phi, double voxel,
+std::vector<Seed> findSeeds(const LeafTable& table, const LeafField& coefficients, double voxel,
                             const std::vector<LeafMask>& interface,
                             std::vector<std::size_t>& begins, const Progress& progress)
 {
-    const LeafField coefficients = prefilter(table, phi, progress);
     begins.assign(table.size() + 1, noSeed + 1);
     for (std::size_t n = 0; n < table.size(); ++n) begins[n + 1] = begins[n] + interface[n].count();
     std::vector<Seed> seeds(begins.back());
@@ -179,6 +238,7 @@ std::vector<Seed> findSeeds(const LeafTable& table, const LeafField& phi, double
         std::size_t k = begins[n];
         interface[n].forEach([&](int v) {
             seeds[k] = closestPoint(block, Coord(v >> 6, v >> 3 & 7, v & 7));
+            seeds[k].leaf = std::int32_t(n);
             seeds[k++].y += table.origin(n).asVec3d();
         });
     });
@@ -328,7 +388,9 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     });
     const std::vector<LeafMask> interface = interfaceVoxels(table, inner, progress);
     std::vector<std::size_t> begins;
-    const std::vector<Seed> seeds = findSeeds(table, phi, voxel, interface, begins, progress);
+    const LeafField coefficients = prefilter(table, phi, progress);
+    const std::vector<Seed> seeds =
+        findSeeds(table, coefficients, voxel, interface, begins, progress);
 
     const auto steps = [&](double width) { return int(std::ceil(width / voxel)) + 1; };
     const LeafTable domain = merged(reachable(table, interface, outer, steps(inside), progress),
@@ -410,7 +472,7 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
             const std::int32_t* p = block.at(local.x(), local.y(), local.z());
             if (*p == noSeed) continue;
             const Vec3d x = (domain.origin(n) + local).asVec3d();
-            const Seed& seed = seeds[*p];
+            const Seed seed = polished(seeds[*p], x, table, coefficients, voxel);
             const float distance =
                 std::max(float(voxel) * distanceFrom(seed, x, sign), 1e-6f * float(voxel));
             if (distance >= width) continue;

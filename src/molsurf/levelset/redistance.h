@@ -29,11 +29,11 @@ struct DistanceBand {
 /// its
 ///    neighbours' (a feature transform; Danielsson, Euclidean distance mapping, Computer Graphics
 ///    and Image Processing 14:227-248, 1980).
-/// 3. The distance of a voxel x follows from the second-order expansion of the distance function
-/// about
-///    the normal through y: with s = n.(x - y) and t = x - y - s n,
-///    phi = s + (t.A t + s K t.t) / (2 (1 + s kappa + s^2 K)),  kappa = tr A, K = det A on the
-///    tangent plane. The error is of third order in |t|, which is about half a voxel.
+/// 3. For each voxel x its point is moved along the spline by one more Newton step, and the
+/// distance follows
+///    from the second-order expansion of the distance function about the normal through y: with
+///    s = n.(x - y) and t = x - y - s n,  phi = s + (t.A t + s K t.t) / (2 (1 + s kappa + s^2 K)),
+///    kappa = tr A, K = det A on the tangent plane.
 ///
 /// @param[in] table    active voxels: a band of at least three voxels on each side of the interface
 /// @param[in] phi      near its zero set a smooth signed distance [Å]

@@ -71,7 +71,7 @@ MOLSURF_KERNEL void leastNeighbour(const float* __restrict block, float* __restr
                         w = smaller(q[1], q[-1]);
             const float u = larger(q[X], q[-X]), v = larger(q[Y], q[-Y]), t = larger(q[1], q[-1]);
             const float low = smaller(smaller(x, y), w), high = larger(larger(u, v), t);
-            out[8 * row + z] = q[0] < 0.0f ? -high : low;
+            out[8 * row + z] = q[0] < 0.0f ? -high - 1e-30f : low; // 0 counts as outside
         }
     }
 }

@@ -98,6 +98,12 @@ NarrowBand evolveSurface(const std::vector<Ball>& balls, const Options& options,
     evolution.splineLevel = options.splineLevel;
     report.evolution = evolve(band, source, h, evolution, progress);
     watch.stop("evolve");
+    constexpr double noticeable = 0.1; // [voxel]
+    if (report.evolution->converged && report.evolution->remainingWay > noticeable * h) {
+        report.warnings.push_back(
+            "evolve: the steps are small, but the interface still creeps [hint: a "
+            "smaller --tolerance and more --max-steps]");
+    }
     return band;
 }
 
@@ -239,8 +245,7 @@ void checkGradient(const Mesh& mesh, const Spline& spline, const DistanceBand& S
             return sum;
         });
     report.kinkShare = vertices ? double(counts.kink) / vertices : 0.0;
-    report.gradientShare =
-        vertices > counts.kink ? double(counts.unit) / (vertices - counts.kink) : 1.0;
+    report.gradientShare = double(counts.unit) / double(vertices - counts.kink); // may be 0/0
 }
 
 } // namespace
@@ -252,7 +257,7 @@ void checkOptions(const Options& options)
           options.voxel);
     check(finite(options.probe) && options.probe >= 0.0 && options.probe <= 100.0, "--probe",
           "0 to 100 Å", options.probe);
-    check(options.epsilon >= 0.01 && options.epsilon <= 100.0, "--epsilon", "0.01 to 100 Å",
+    check(options.epsilon >= 0.01 && options.epsilon <= 10.0, "--epsilon", "0.01 to 10 Å",
           options.epsilon);
     check(options.evolution.lambda >= 0.0 && options.evolution.lambda <= 1e6, "--lambda",
           "0 to 1e6", options.evolution.lambda);

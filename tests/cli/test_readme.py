@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MPL-2.0
+"""The commands and the C++ of README.md work as they stand."""
+
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import unittest
+
+from tool import ROOT, TOOL, ToolTest
+
+README = (ROOT / "README.md").read_text()
+
+
+def blocks(language):
+    """The fenced blocks of a language."""
+    return re.findall(rf"^```{language}\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+
+
+def promised(block):
+    """The files that a block writes."""
+    words = shlex.split(block, comments=True)
+    files = [after for word, after in zip(words, words[1:]) if word in ("-o", ">")]
+    return [name for name in files if name != "-"]
+
+
+class Readme(ToolTest):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "tests").symlink_to(ROOT / "tests")
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin" / "vdb_molsurf").symlink_to(pathlib.Path(TOOL).resolve())
+
+    def test_commands(self):
+        """In the order of the page and in one folder, since later ones use files of earlier ones."""
+        commands = blocks("sh")
+        self.assertGreaterEqual(len(commands), 3)
+        path = f"{self.folder / 'bin'}:{os.environ['PATH']}"
+        for block in commands:
+            with self.subTest(block):
+                self.assertIn("vdb_molsurf ", block)
+                done = subprocess.run(["bash", "-e", "-o", "pipefail", "-c", block],
+                                      cwd=self.folder, env={**os.environ, "PATH": path},
+                                      capture_output=True, text=True, timeout=300)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertTrue(promised(block) or done.stdout, "neither a file nor an answer")
+                for name in promised(block):
+                    self.assertGreater((self.folder / name).stat().st_size, 0, name)
+
+    def test_options_are_in_the_help(self):
+        """Every option that the page names is one that --help names."""
+        text = self.check(0, "--help").stdout.decode()
+        known = set(re.findall(r"--[a-z][a-z-]*", text))
+        spans = re.findall(r"`(?:vdb_molsurf[^`]*|--[^`]*)`", README)
+        named = {option for span in spans for option in re.findall(r"--[a-z][a-z-]*", span)}
+        self.assertGreater(len(named), 10)
+        self.assertEqual(named - known, set())
+
+    def test_cpp_is_compiled_elsewhere(self):
+        """The lines of the example are lines of the project that the package test compiles."""
+        compiled = {line.strip() for line in
+                    (ROOT / "tests" / "package" / "consumer.cpp").read_text().splitlines()}
+        examples = blocks("cpp")
+        self.assertEqual(len(examples), 1)
+        for line in examples[0].splitlines():
+            self.assertIn(line.strip(), compiled)
+
+    def test_links(self):
+        for target in re.findall(r"\]\(([^)#]+)\)", README):
+            self.assertTrue((ROOT / target).exists(), target)
+
+
+if __name__ == "__main__":
+    unittest.main()
