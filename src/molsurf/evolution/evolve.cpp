@@ -23,7 +23,7 @@ namespace
 constexpr int reinitializations = 2;
 
 /// Where the flow acts [voxel]: curvature is wanted there.
-constexpr double flowWidthVox = 3.0;
+constexpr double flowWidthVox = 2.25;
 
 /// Takes the curvatures of a leaf from a spline.
 void curvatureFromSpline(const Spline& spline, const openvdb::Coord& origin, double voxel,

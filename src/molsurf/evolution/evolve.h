@@ -21,9 +21,9 @@ struct NarrowBand {
     LeafField psi;
 };
 
-/// Width of the band on each side of the interface [voxel]: the flow acts up to 3 voxels away, and
-/// its stencils reach one further.
-constexpr int bandWidthVox = 4;
+/// Width of the band on each side of the interface [voxel]: the flow acts up to 2.25 voxels away,
+/// and its stencils reach less than one further.
+constexpr int bandWidthVox = 3;
 
 /// Gives psi at the 512 voxels of the leaf with this first voxel. Called from several threads.
 using PsiSource = std::function<void(const openvdb::Coord& origin, float* psi)>;

@@ -51,9 +51,8 @@ LeafField initialSurface(const LeafTable& table, const LeafField& psi, double vo
         block.gather(table, psi, n);
         firstGuess(block.values, float(voxel), float(width), phi.leaf(n));
     });
-    // Half a voxel an iteration, from the interface to where the flow acts; its own iterations do
-    // the rim.
-    const int iterations = int(std::ceil(2.0 * width / voxel)) - 2;
+    // Half a voxel an iteration, from the interface to the rim of the band.
+    const int iterations = int(std::ceil(2.0 * width / voxel)) - 1;
     LeafField scratch;
     reinitialize(table, phi, voxel, width, iterations, scratch, progress);
     return phi;

@@ -165,16 +165,18 @@ Jet jetBeside(const LeafTable& table, const LeafField& coefficients, double voxe
 /// A closest point moved along the surface until it is the closest to a voxel: one Newton step on
 /// the spline, which leaves an error of fourth order in the distance moved. The point as it is
 /// where that does not bring it closer to the normal through the voxel.
-Seed polished(const Seed& seed, const Vec3d& x, const LeafTable& table,
-              const LeafField& coefficients, double voxel)
+/// @param[out] storage  for a point that was moved
+const Seed& polished(const Seed& seed, const Vec3d& x, const LeafTable& table,
+                     const LeafField& coefficients, double voxel, Seed& storage)
 {
-    constexpr double closeEnough = 0.0025, farthest = 2.0; // [voxel^2], [voxel]
-    const auto aside = [&](const Seed& at) {
-        const Vec3d d = x - at.y, n(at.n);
-        return (d - n.dot(d) * n).lengthSqr();
-    };
-    const double before = aside(seed);
-    if (before < closeEnough) return seed;
+    // What the expansion leaves out is of third order in the distance to the normal, and of the
+    // size of the change of curvature, at most some curvature a voxel.
+    constexpr float negligible = 1e-3f, farthest = 2.0f; // [voxel]
+    const openvdb::Vec3f offset(x - seed.y);
+    const float along = seed.n.dot(offset), aside2 = offset.lengthSqr() - along * along;
+    const float curvature2 = seed.kappa * seed.kappa - 2.0f * seed.gauss;
+    if (aside2 * aside2 * aside2 * curvature2 < negligible * negligible) return seed;
+
     const Vec3d d = stepAlong(seed, x);
     if (d.lengthSqr() > farthest * farthest) return seed;
     const double bend =
@@ -182,13 +184,14 @@ Seed polished(const Seed& seed, const Vec3d& x, const LeafTable& table,
         2.0 * (seed.A[3] * d.x() * d.y() + seed.A[4] * d.y() * d.z() + seed.A[5] * d.x() * d.z());
     Vec3d y = seed.y + d - 0.5 * bend * Vec3d(seed.n);
     const Jet jet = jetBeside(table, coefficients, voxel, seed.leaf, y);
-    const double slope = jet.gradient.length();
-    if (slope < 0.5) return seed;
-    y -= jet.value / (slope * slope) * jet.gradient;
-    Seed moved = seedAt(y, jet);
-    moved.leaf = seed.leaf;
-    const bool nearer = (x - moved.y).lengthSqr() < (x - seed.y).lengthSqr();
-    return nearer && aside(moved) < before ? moved : seed;
+    const double slope2 = jet.gradient.lengthSqr();
+    if (slope2 < 0.25) return seed;
+    y -= jet.value / slope2 * jet.gradient;
+    storage = seedAt(y, jet);
+    storage.leaf = seed.leaf;
+    const Vec3d moved = x - y, n(storage.n);
+    const bool nearer = moved.lengthSqr() < (x - seed.y).lengthSqr();
+    return nearer && (moved - n.dot(moved) * n).lengthSqr() < aside2 ? storage : seed;
 }
 
 /// Gradient of the same expansion.
@@ -493,7 +496,8 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     band.table = domain;
     band.phi = LeafField(domain.size());
     band.kinks.resize(domain.size());
-    band.seeds = seeds.size();
+    band.seeds = seeds.size() - 1; // without the one that stands for none
+    const float h = float(voxel);
     parallelFor(domain.size(), progress, [&](std::size_t n) {
         const std::int32_t m = table.find(domain.origin(n));
         const LeafMask negative =
@@ -501,25 +505,31 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
         LeafBlock<std::int32_t, 1> block;
         block.gather(domain, index, n);
         LeafMask active;
+        LeafMask reached;
+        float* phi = band.phi.leaf(n);
         for (int v = 0; v < leafSize; ++v) {
-            const float sign = negative.on(v) ? -1.0f : 1.0f;
-            const float width = float(negative.on(v) ? inside : outside);
-            band.phi.leaf(n)[v] = sign * width;
+            phi[v] = negative.on(v) ? float(-inside) : float(outside);
+            reached.set(v, index.leaf(n)[v] != noSeed);
+        }
+        Seed storage;
+        reached.forEach([&](int v) {
             const Coord local(v >> 6, v >> 3 & 7, v & 7);
             const std::int32_t* p = block.at(local.x(), local.y(), local.z());
-            if (*p == noSeed) continue;
             const Vec3d x = (domain.origin(n) + local).asVec3d();
-            const Seed seed = polished(seeds[*p], x, table, coefficients, voxel);
-            const float distance =
-                std::max(float(voxel) * distanceFrom(seed, x, sign), 1e-6f * float(voxel));
-            if (distance >= width) continue;
-            band.phi.leaf(n)[v] = sign * distance;
+            const float sign = negative.on(v) ? -1.0f : 1.0f;
+            const float width = float(negative.on(v) ? inside : outside) / h;
+            constexpr float margin = 0.5f; // what polishing may change [voxel]
+            if (distanceFrom(seeds[*p], x, sign) > width + margin) return;
+            const Seed& seed = polished(seeds[*p], x, table, coefficients, voxel, storage);
+            const float distance = std::max(distanceFrom(seed, x, sign), 1e-6f);
+            if (distance >= width) return;
+            phi[v] = sign * distance * h;
             active.set(v);
             for (const int step : {block.strideX, block.strideY, block.strideZ}) {
                 if (p[step] == noSeed || p[step] == *p) continue;
                 if (disagree(seeds[*p], seeds[p[step]], x)) band.kinks[n].set(v);
             }
-        }
+        });
         band.table.active(n) = active;
     });
     return band;

@@ -207,8 +207,8 @@ openvdb::FloatGrid::Ptr surfaceGrid(const DistanceBand& S, double voxel, Progres
 }
 
 /// Shares of the vertices near kinks, and of the others with a unit gradient.
-void checkGradient(const Mesh& mesh, const Spline& spline, const DistanceBand& S, double voxel,
-                   Progress& progress, SurfaceReport& report)
+void checkGradient(const Mesh& mesh, const std::vector<float>& slopes, const DistanceBand& S,
+                   double voxel, Progress& progress, SurfaceReport& report)
 {
     constexpr int kinkVox = 2;
     constexpr double gradientTolerance = 0.03;
@@ -229,7 +229,6 @@ void checkGradient(const Mesh& mesh, const Spline& spline, const DistanceBand& S
     const std::size_t vertices = mesh.positions.size();
     const Counts counts =
         parallelSum<Counts>((vertices + chunk - 1) / chunk, progress, [&](std::size_t c) {
-            SplineSampler sampler(spline);
             Counts sum;
             for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v) {
                 const openvdb::Vec3d x(mesh.positions[v]);
@@ -238,9 +237,8 @@ void checkGradient(const Mesh& mesh, const Spline& spline, const DistanceBand& S
                 const bool kink =
                     n != noLeaf &&
                     kinks.active(n).on(int(openvdb::FloatTree::LeafNodeType::coordToOffset(near)));
-                const double slope = sampler.at(x).gradient.length();
                 sum += {std::size_t(kink),
-                        std::size_t(!kink && std::abs(slope - 1.0) < gradientTolerance)};
+                        std::size_t(!kink && std::abs(slopes[v] - 1.0f) < gradientTolerance)};
             }
             return sum;
         });
@@ -331,7 +329,7 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
     }
     report.surface.kind = kind;
     report.surface.maxResidual = stats.maxResidual;
-    checkGradient(result.mesh, spline, S, options.voxel, progress, report.surface);
+    checkGradient(result.mesh, stats.slopes, S, options.voxel, progress, report.surface);
     // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
     const double labelReach = 2.0 * options.probe + 4.0 * options.epsilon + 4.0 * options.voxel;
     std::vector<std::int32_t> nearest =

@@ -19,7 +19,7 @@ using openvdb::Vec3f;
 namespace
 {
 
-constexpr double tolerance = 1e-6; // |S| at a vertex, in voxels
+constexpr double tolerance = 1e-5; // |S| at a vertex, in voxels
 constexpr int newtonSteps = 8, bisections = 30;
 constexpr std::size_t chunk = 512; // vertices that share a sampler
 
@@ -68,14 +68,16 @@ struct Vertices {
     Mesh& mesh;
     std::vector<float>& mean;
     std::vector<float>& gauss;
+    std::vector<float>& slope;
 
     void set(std::size_t v, const Vec3d& x, const Jet& jet)
     {
         mesh.positions[v] = Vec3f(x);
-        const double slope = jet.gradient.length();
-        mesh.normals[v] = slope > 0.0 ? Vec3f(jet.gradient / slope) : Vec3f(0.0f, 0.0f, 1.0f);
-        mean[v] = slope > 0.0 ? float(meanCurvature(jet)) : 0.0f;
-        gauss[v] = slope > 0.0 ? float(gaussianCurvature(jet)) : 0.0f;
+        const double length = jet.gradient.length();
+        slope[v] = float(length);
+        mesh.normals[v] = length > 0.0 ? Vec3f(jet.gradient / length) : Vec3f(0.0f, 0.0f, 1.0f);
+        mean[v] = length > 0.0 ? float(meanCurvature(jet)) : 0.0f;
+        gauss[v] = length > 0.0 ? float(gaussianCurvature(jet)) : 0.0f;
     }
 };
 
@@ -177,6 +179,7 @@ std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel)
             centroid /= 2.0 * double(end - begin); // each neighbour lies on two triangles
             const Vec3f oldPosition = mesh.positions[v], oldNormal = mesh.normals[v];
             const float oldMean = vertices.mean[v], oldGauss = vertices.gauss[v];
+            const float oldSlope = vertices.slope[v];
             Vec3d x = centroid;
             Jet jet;
             if (!newton(sampler, voxel, x, jet)) continue;
@@ -186,6 +189,7 @@ std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel)
                 mesh.normals[v] = oldNormal;
                 vertices.mean[v] = oldMean;
                 vertices.gauss[v] = oldGauss;
+                vertices.slope[v] = oldSlope;
                 continue;
             }
             ++moved;
@@ -214,7 +218,8 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
     mesh.positions = std::move(points);
     mesh.normals.resize(mesh.positions.size());
     std::vector<float> mean(mesh.positions.size()), gauss(mesh.positions.size());
-    Vertices vertices{mesh, mean, gauss};
+    stats.slopes.resize(mesh.positions.size());
+    Vertices vertices{mesh, mean, gauss, stats.slopes};
 
     const std::size_t chunks = (mesh.positions.size() + chunk - 1) / chunk;
     std::vector<std::size_t> bisected(chunks, 0);

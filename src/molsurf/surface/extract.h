@@ -15,9 +15,10 @@ namespace molsurf
 
 /// What extractMesh() had to do beyond the plain way.
 struct ExtractStats {
-    std::size_t bisected = 0; ///< vertices that Newton's method did not bring to the surface
-    std::size_t relaxed = 0;  ///< vertices moved along the surface, out of folds and slivers
-    double maxResidual = 0.0; ///< largest |S| at a vertex [Å]
+    std::size_t bisected = 0;  ///< vertices that Newton's method did not bring to the surface
+    std::size_t relaxed = 0;   ///< vertices moved along the surface, out of folds and slivers
+    double maxResidual = 0.0;  ///< largest |S| at a vertex [Å]
+    std::vector<float> slopes; ///< |grad S| at each vertex
 };
 
 /// Meshes {S = 0}.
