@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <iostream>
+#include <malloc.h>
 #include <new>
 
 using namespace molsurf;
@@ -48,6 +49,10 @@ int main(int argc, char** argv)
 {
     const auto start = std::chrono::steady_clock::now();
     std::ios_base::sync_with_stdio(false);
+    // Fields of many megabytes come and go between the stages: kept by the allocator, their pages
+    // need not be mapped and cleared anew each time.
+    mallopt(M_MMAP_THRESHOLD, 1 << 30);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
     try {
         const int status = perform(parseCall(argc, argv), start);
         errno = 0;

@@ -198,9 +198,9 @@ openvdb::FloatGrid::Ptr surfaceGrid(const DistanceBand& S, double voxel, Progres
         std::copy_n(S.phi.leaf(n), leafSize, phi.leaf(n));
         table.active(n) &= within(phi.leaf(n), float(width));
     });
-    // Half a voxel an iteration, from the interface to the rim.
+    // Two voxels outward from where sheets of S meet: farther out few of them are still wrong.
     LeafField scratch;
-    reinitialize(table, phi, voxel, width, int(2 * surfaceWidthVox), scratch, progress);
+    reinitialize(table, phi, voxel, width, 4, scratch, progress);
     auto grid = toLevelSet(table, phi, width, voxel, progress);
     grid->setName("surface");
     return grid;
