@@ -171,7 +171,7 @@ const Seed& polished(const Seed& seed, const Vec3d& x, const LeafTable& table,
 {
     // What the expansion leaves out is of third order in the distance to the normal, and of the
     // size of the change of curvature, at most some curvature a voxel.
-    constexpr float negligible = 1e-3f, farthest = 2.0f; // [voxel]
+    constexpr float negligible = 2e-4f, farthest = 2.0f; // [voxel]
     const openvdb::Vec3f offset(x - seed.y);
     const float along = seed.n.dot(offset), aside2 = offset.lengthSqr() - along * along;
     const float curvature2 = seed.kappa * seed.kappa - 2.0f * seed.gauss;

@@ -102,12 +102,18 @@ void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Ter
 {
     const double h = options_.voxel;
     const Vec3d low = origin.asVec3d() * h;
-    const double beyond = reach + 2.0 * options_.epsilon;
+    // Beyond this distance a term is negligible where psi = 0, and hardly felt at the rim of the
+    // band.
+    const auto cutoff2 = [&](double R) {
+        const double rim = R + reach + 2.0 * options_.epsilon;
+        return std::max(rim * rim, R * R + negligible * options_.epsilon * R / M_LN2);
+    };
+    const double farthest = std::sqrt(cutoff2(largest_));
 
     // The smallest value of each term in the leaf bounds psi from below, its largest from above.
     terms.clear();
     float floor = 2.0f * lowestPsi;
-    index_.forEachNear(low, low + Vec3d(7.0 * h), largest_ + beyond, [&](const Ball& ball, int) {
+    index_.forEachNear(low, low + Vec3d(7.0 * h), farthest, [&](const Ball& ball, int) {
         const openvdb::Vec3f c = openvdb::Vec3f((Vec3d(ball.center) - low) / h);
         const float R = ball.radius + float(options_.probe);
         const float C = float(M_LN2 / options_.epsilon) / R;
@@ -119,7 +125,7 @@ void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Ter
             farthest2 += f * f;
         }
         t.exponent = t.level - t.decay * nearest2;
-        if (nearest2 * h * h > (R + beyond) * (R + beyond)) return;
+        if (nearest2 * h * h > cutoff2(R)) return;
         floor = std::max(floor, t.level - t.decay * farthest2);
         terms.push_back(t);
     });

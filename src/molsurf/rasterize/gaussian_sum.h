@@ -37,7 +37,8 @@ public:
     LeafTable band(int steps, const Progress& progress) const;
 
     /// psi at all voxels of a leaf. Balls whose terms are below e^-12 of the sum throughout the
-    /// leaf are left out, and so are those farther than R_i + reach + 2 eps from it.
+    /// leaf are left out, and so are those that are farther than R_i + reach + 2 eps from it and
+    /// below e^-12 where psi = 0.
     /// @param[in]  origin  first voxel of the leaf
     /// @param[in]  reach   how far outside the balls of radius R_i psi is wanted [Å]
     /// @param[out] psi     512 values; always finite

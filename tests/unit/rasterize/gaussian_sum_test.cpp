@@ -80,7 +80,7 @@ TEST(GaussianSum, AgreesWithTheDefinitionNearTheSurface)
 // bands are narrow, and at a large eps these matter. Measured on 1crn at h 0.125: 2.6e-3 Å at eps
 // 0.5, 1.4e-2 Å at eps 1, 3.9e-2 Å at eps 2 (at h 0.5: 5e-7, 2e-5, 6e-4). A cutoff where the term
 // itself is negligible, at sqrt(R^2 + 12/C), would not.
-TEST(GaussianSum, DISABLED_AgreesWithTheDefinitionAtFineVoxelsAndLargeTolerances)
+TEST(GaussianSum, AgreesWithTheDefinitionAtFineVoxelsAndLargeTolerances)
 {
     const std::vector<Ball> balls = test::randomBalls(150, 12.0, Vec3d(1.3, -2.1, 0.4), 42);
     for (const double epsilon : {0.5, 1.0, 2.0})
