@@ -6,15 +6,30 @@
 
 #include <openvdb/tools/SignedFloodFill.h>
 
+#include <sys/mman.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 namespace molsurf
 {
 
 using openvdb::Coord;
+
+void* allocateLeaves(std::size_t bytes)
+{
+    constexpr std::size_t hugePage = 1 << 21, line = 64;
+    const bool large = bytes >= 2 * hugePage;
+    const std::size_t alignment = large ? hugePage : line;
+    void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+    if (!memory && bytes > 0) throw std::bad_alloc();
+#ifdef MADV_HUGEPAGE
+    if (large) madvise(memory, bytes, MADV_HUGEPAGE); // a hint; refusing it is no error
+#endif
+    return memory;
+}
 
 MOLSURF_KERNEL LeafMask lessThan(const float* values, float limit)
 {

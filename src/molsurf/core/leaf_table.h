@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -24,13 +25,21 @@ constexpr int leafSize = 512;       ///< voxels of a leaf
 constexpr std::int32_t noLeaf = -1; ///< in the table of neighbours: there is none
 constexpr int centreNeighbour = 13; ///< index of the leaf itself among its 27 neighbours
 
+/// Memory for large arrays, in huge pages where the system offers them: passes over leaf blocks
+/// jump from leaf to leaf, and would else wait for the page tables.
+/// @throws std::bad_alloc
+void* allocateLeaves(std::size_t bytes);
+
 /// 512 values a leaf, uninitialised when made.
 template<typename T>
 class LeafArray
 {
 public:
     LeafArray() = default;
-    explicit LeafArray(std::size_t leaves) : leaves_(leaves), data_(new T[leaves * leafSize]) {}
+    explicit LeafArray(std::size_t leaves)
+        : leaves_(leaves), data_(static_cast<T*>(allocateLeaves(leaves * leafSize * sizeof(T))))
+    {
+    }
 
     T* leaf(std::size_t n) { return data_.get() + n * leafSize; }
     const T* leaf(std::size_t n) const { return data_.get() + n * leafSize; }
@@ -39,7 +48,10 @@ public:
 
 private:
     std::size_t leaves_ = 0;
-    std::unique_ptr<T[]> data_;
+    struct Free {
+        void operator()(T* data) const { std::free(data); }
+    };
+    std::unique_ptr<T[], Free> data_;
 };
 
 using LeafField = LeafArray<float>;

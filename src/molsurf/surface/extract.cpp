@@ -141,14 +141,22 @@ bool isBad(const Mesh& mesh, const std::array<std::uint32_t, 3>& t)
 }
 
 /// Slides the vertices of bad triangles along the surface to the centroid of their neighbours.
-std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel)
+std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel,
+                  const Progress& progress)
 {
     constexpr int rounds = 8;
     Mesh& mesh = vertices.mesh;
+    const std::size_t chunks = (mesh.triangles.size() + chunk - 1) / chunk;
+    std::vector<std::vector<std::uint32_t>> found(chunks);
+    parallelFor(chunks, progress, [&](std::size_t c) {
+        const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * chunk);
+        for (std::size_t i = c * chunk; i < end; ++i) {
+            const auto& t = mesh.triangles[i];
+            if (isBad(mesh, t)) found[c].insert(found[c].end(), t.begin(), t.end());
+        }
+    });
     std::vector<std::uint32_t> bad;
-    for (const auto& t : mesh.triangles) {
-        if (isBad(mesh, t)) bad.insert(bad.end(), t.begin(), t.end());
-    }
+    for (const auto& f : found) bad.insert(bad.end(), f.begin(), f.end());
     if (bad.empty()) return 0;
     const VertexTriangles around = vertexTriangles(mesh);
     std::size_t moved = 0;
@@ -258,7 +266,7 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
     });
 
     SplineSampler sampler(spline);
-    stats.relaxed = relax(vertices, sampler, surface.voxelSize()[0]);
+    stats.relaxed = relax(vertices, sampler, surface.voxelSize()[0], progress);
     mesh.scalars.push_back({"mean_curvature", std::move(mean)});
     mesh.scalars.push_back({"gaussian_curvature", std::move(gauss)});
     return mesh;
