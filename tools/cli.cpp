@@ -98,7 +98,7 @@ const std::vector<Group>& groups()
           {"max-steps", "N", "steps at most", "50; plain: 2000"},
           {"tolerance", "T",
            "converged when the energy changes by less, relative\n"
-           "(and the mean displacement is below 100 T voxels)",
+           "(and the mean displacement is below sqrt(T) voxels)",
            shortest(preset.evolution.energyTolerance)},
           {"spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2",
            std::to_string(preset.splineLevel)}}},
@@ -328,9 +328,9 @@ void fillBuild(const Values& values, Call& call)
     values.get("regularizer", evolution.regularizer, {Regularizer::Gradient, Regularizer::Area});
     values.get("flow", evolution.flow, {Flow::Preconditioned, Flow::Plain});
     values.get("max-steps", evolution.maxSteps, 0, 1000000);
-    const EvolveOptions preset;
     values.get("tolerance", evolution.energyTolerance);
-    evolution.displacementTolerance *= evolution.energyTolerance / preset.energyTolerance;
+    // Near its minimum the energy is quadratic in the displacement.
+    evolution.displacementTolerance = std::sqrt(evolution.energyTolerance);
     values.get("spline-level", options.splineLevel, 0, 2);
 
     if (options.voxel > coarseVoxel)
