@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 namespace molsurf
 {
@@ -32,6 +30,15 @@ struct Seed {
     openvdb::Vec3f n;   // unit normal there, outward
     float A[6];         // shape operator: xx yy zz xy yz xz
     float kappa, gauss; // trace and tangential determinant of A
+
+    /// A t
+    template<typename T>
+    openvdb::math::Vec3<T> bend(const openvdb::math::Vec3<T>& t) const
+    {
+        return {A[0] * t.x() + A[3] * t.y() + A[5] * t.z(),
+                A[3] * t.x() + A[1] * t.y() + A[4] * t.z(),
+                A[5] * t.x() + A[4] * t.y() + A[2] * t.z()};
+    }
 };
 
 /// Shape operator of the level set through a point: the Hessian over the gradient's length,
@@ -76,9 +83,7 @@ Vec3d stepAlong(const Seed& seed, const Vec3d& voxel)
     const Vec3d n(seed.n), toVoxel = voxel - seed.y;
     const double s = n.dot(toVoxel);
     const Vec3d t = toVoxel - s * n;
-    const Vec3d At(seed.A[0] * t.x() + seed.A[3] * t.y() + seed.A[5] * t.z(),
-                   seed.A[3] * t.x() + seed.A[1] * t.y() + seed.A[4] * t.z(),
-                   seed.A[5] * t.x() + seed.A[4] * t.y() + seed.A[2] * t.z());
+    const Vec3d At = seed.bend(t);
     const double determinant = std::max(1.0 + s * seed.kappa + s * s * seed.gauss, 0.2);
     return (t + s * (double(seed.kappa) * t - At)) / determinant;
 }
@@ -89,7 +94,6 @@ constexpr double farthestFoot = 1.45;
 /// The closest point of a voxel next to the interface.
 /// @param[in] c      coefficients of phi/h
 /// @param[in] x      the voxel, relative to the leaf
-/// @param[in] start  phi/h there
 Seed closestPoint(const LeafBlock<float, 3>& c, const Coord& x)
 {
     const auto jetAt = [&](const Vec3d& p) {
@@ -123,9 +127,7 @@ float distanceFrom(const Seed& seed, const Vec3d& x, float sign)
     const openvdb::Vec3f d(x - seed.y);
     const float s = seed.n.dot(d);
     const openvdb::Vec3f t = d - s * seed.n;
-    const float tAt =
-        seed.A[0] * t.x() * t.x() + seed.A[1] * t.y() * t.y() + seed.A[2] * t.z() * t.z() +
-        2.0f * (seed.A[3] * t.x() * t.y() + seed.A[4] * t.y() * t.z() + seed.A[5] * t.x() * t.z());
+    const float tAt = t.dot(seed.bend(t));
     const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.02f);
     const float distance = sign * (s + 0.5f * (tAt + s * seed.gauss * t.dot(t)) / determinant);
     const float r2 = d.dot(d), r = std::sqrt(r2);
@@ -179,10 +181,7 @@ const Seed& polished(const Seed& seed, const Vec3d& x, const LeafTable& table,
 
     const Vec3d d = stepAlong(seed, x);
     if (d.lengthSqr() > farthest * farthest) return seed;
-    const double bend =
-        seed.A[0] * d.x() * d.x() + seed.A[1] * d.y() * d.y() + seed.A[2] * d.z() * d.z() +
-        2.0 * (seed.A[3] * d.x() * d.y() + seed.A[4] * d.y() * d.z() + seed.A[5] * d.x() * d.z());
-    Vec3d y = seed.y + d - 0.5 * bend * Vec3d(seed.n);
+    Vec3d y = seed.y + d - 0.5 * d.dot(seed.bend(d)) * Vec3d(seed.n);
     const Jet jet = jetBeside(table, coefficients, voxel, seed.leaf, y);
     const double slope2 = jet.gradient.lengthSqr();
     if (slope2 < 0.25) return seed;
@@ -200,9 +199,7 @@ openvdb::Vec3f gradientFrom(const Seed& seed, const Vec3d& x)
     const openvdb::Vec3f d(x - seed.y);
     const float s = seed.n.dot(d);
     const openvdb::Vec3f t = d - s * seed.n;
-    const openvdb::Vec3f At(seed.A[0] * t.x() + seed.A[3] * t.y() + seed.A[5] * t.z(),
-                            seed.A[3] * t.x() + seed.A[1] * t.y() + seed.A[4] * t.z(),
-                            seed.A[5] * t.x() + seed.A[4] * t.y() + seed.A[2] * t.z());
+    const openvdb::Vec3f At = seed.bend(t);
     const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.02f);
     openvdb::Vec3f gradient = seed.n + (At + s * seed.gauss * t) / determinant;
     gradient.normalize();
@@ -502,7 +499,7 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
         const std::int32_t m = table.find(domain.origin(n));
         const LeafMask negative =
             m != noLeaf ? inner[m] : sideOf(domain.origin(n), index.leaf(n), seeds);
-        LeafBlock<std::int32_t, 1> block;
+        SeedBlock block;
         block.gather(domain, index, n);
         LeafMask active;
         LeafMask reached;
