@@ -20,7 +20,7 @@ namespace
 
 /// Iterations that keep the band a distance while the interface moves by at most 0.4 voxel: each
 /// carries the distance half a voxel.
-constexpr int reinitializations = 2;
+constexpr int reinitializations = 1;
 
 /// Where the flow acts [voxel]: curvature is wanted there.
 constexpr double flowWidthVox = 2.25;
