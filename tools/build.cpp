@@ -84,7 +84,8 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     yesNo("option.waters", options.atoms.waters);
     text("option.radii", options.atoms.radii);
     number("option.probe", options.probe);
-    text("option.surface", report.surface.kind);
+    text("option.surface", nameOf(options.kind));
+    number("option.blobbiness", options.blobbiness);
     number("option.voxel", options.voxel);
     yesNo("option.fill-cavities", options.fillCavities);
     std::string fields = "surface";

@@ -82,8 +82,13 @@ const std::vector<Group>& groups()
            preset.atoms.radii},
           {"probe", "R", "probe radius [Å]", shortest(preset.probe)}}},
         {"Surface",
-         {{"surface", "KIND", "variational", "variational"},
+         {{"surface", "KIND",
+           "variational; ses, sas: solvent-excluded, -accessible;\n"
+           "vdw: van der Waals; gaussian",
+           nameOf(preset.kind)},
           {"voxel", "H", "edge of a voxel [Å], 0.05 to 10", shortest(preset.voxel)},
+          {"blobbiness", "D", "decay of the Gaussians of --surface gaussian",
+           shortest(preset.blobbiness)},
           {"fill-cavities", nullptr, "drop the inner walls", ""},
           {"fields", "LIST", "grids of the .vdb, by commas, or all of\n" + join(knownFields, ","),
            "surface"}}},
@@ -282,16 +287,6 @@ std::vector<std::string> fieldsOf(const Values& values)
     return fields;
 }
 
-void checkSurface(const Values& values)
-{
-    std::string kind = "variational";
-    values.get("surface", kind);
-    for (const char* later : {"ses", "sas", "vdw", "gaussian"})
-        if (kind == later)
-            misuse("--surface " + kind + ": not available in this version; expected variational");
-    if (kind != "variational") values.wrong("surface", "variational");
-}
-
 void fillBuild(const Values& values, Call& call)
 {
     const std::vector<std::string> inputs = values.list("input");
@@ -318,7 +313,10 @@ void fillBuild(const Values& values, Call& call)
     options.atoms.waters = values.on("waters");
     values.get("radii", options.atoms.radii);
     values.get("probe", options.probe);
-    checkSurface(values);
+    values.get("surface", options.kind,
+               {SurfaceKind::Variational, SurfaceKind::SolventExcluded,
+                SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals, SurfaceKind::Gaussian});
+    values.get("blobbiness", options.blobbiness);
     values.get("voxel", options.voxel);
     options.fillCavities = values.on("fill-cavities");
     options.fields = fieldsOf(values);

@@ -339,7 +339,6 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     band.table = domain;
     band.phi = LeafField(domain.size());
     band.kinks.resize(domain.size());
-    band.seeds = seeds.size();
     const float h = float(voxel);
     parallelFor(domain.size(), progress, [&](std::size_t n) {
         const std::int32_t m = table.find(domain.origin(n));

@@ -4,20 +4,11 @@
 /// @file
 /// The signed distance to the zero set of a level set, deep into the molecule, by closest points.
 
-#include "molsurf/core/leaf_table.h"
+#include "molsurf/core/distance_band.h"
 #include "molsurf/core/progress.h"
 
 namespace molsurf
 {
-
-/// A signed distance in a band that need not be symmetric.
-struct DistanceBand {
-    LeafTable table; ///< active: -inside < phi < outside
-    LeafField phi;   ///< [Å]; at inactive voxels -inside or outside
-    std::vector<LeafMask>
-        kinks; ///< active voxels beside which the gradient turns by more than 20 degrees
-    std::size_t seeds = 0; ///< interface voxels whose closest points carry the distance
-};
 
 /// Computes the signed distance to the zero set of the cubic B-spline through phi.
 ///
