@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pipeline/fields.h"
 
+#include "molsurf/bspline/curvature.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/rasterize/nearest_ball.h"
 
