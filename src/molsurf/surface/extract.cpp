@@ -49,7 +49,7 @@ void bisect(SplineSampler& sampler, double voxel, Vec3d& x, Jet& jet)
 }
 
 struct Vertices {
-    Mesh& mesh;
+    Mesh& mesh; ///< its scalars are the mean and the Gaussian curvature
     std::vector<float>& slope;
 
     void set(std::size_t v, const Vec3d& x, const Jet& jet)
@@ -58,6 +58,9 @@ struct Vertices {
         const double length = jet.gradient.length();
         slope[v] = float(length);
         mesh.normals[v] = length > 0.0 ? Vec3f(jet.gradient / length) : Vec3f(0.0f, 0.0f, 1.0f);
+        const bool regular = length >= leastSlope;
+        mesh.scalars[0].values[v] = regular ? float(meanCurvature(jet)) : 0.0f;
+        mesh.scalars[1].values[v] = regular ? float(gaussianCurvature(jet)) : 0.0f;
     }
 };
 
@@ -167,6 +170,7 @@ std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel,
             centroid /= 2.0 * double(end - begin); // each neighbour lies on two triangles
             const Vec3f oldPosition = mesh.positions[v], oldNormal = mesh.normals[v];
             const float oldSlope = vertices.slope[v];
+            const float oldMean = mesh.scalars[0].values[v], oldGauss = mesh.scalars[1].values[v];
             Vec3d x = centroid;
             Jet jet;
             if (!moveToSurface(sampler, voxel, 1.0, x, jet)) continue;
@@ -175,6 +179,8 @@ std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel,
                 mesh.positions[v] = oldPosition;
                 mesh.normals[v] = oldNormal;
                 vertices.slope[v] = oldSlope;
+                mesh.scalars[0].values[v] = oldMean;
+                mesh.scalars[1].values[v] = oldGauss;
                 continue;
             }
             ++moved;
@@ -236,6 +242,8 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
     mesh.positions = std::move(points);
     mesh.normals.resize(mesh.positions.size());
     stats.slopes.resize(mesh.positions.size());
+    for (const char* name : {"mean_curvature", "gaussian_curvature"})
+        mesh.scalars.push_back({name, std::vector<float>(mesh.positions.size())});
     Vertices vertices{mesh, stats.slopes};
     const double voxel = surface.voxelSize()[0];
 
@@ -277,7 +285,6 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
 
     SplineSampler sampler(spline);
     stats.relaxed = relax(vertices, sampler, voxel, progress);
-    addCurvature(spline, {"mean_curvature", "gaussian_curvature"}, mesh, progress);
     return mesh;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/statistics.h"
 
-#include <algorithm>
+#include <tbb/parallel_sort.h>
+
 #include <cmath>
 #include <utility>
 
@@ -23,7 +24,7 @@ Statistics statistics(const std::vector<float>& values, const std::vector<float>
     }
     Statistics out;
     if (samples.empty()) return out;
-    std::sort(samples.begin(), samples.end());
+    tbb::parallel_sort(samples.begin(), samples.end());
     out.mean = sum / weight;
     out.min = samples.front().first;
     out.max = samples.back().first;
