@@ -114,7 +114,7 @@ DistanceBand offsetInward(const NarrowBand& band, const Options& options, Progre
 {
     const double h = options.voxel, width = splineWidthVox * h * (1 << options.splineLevel);
     DistanceBand S = redistance(band.table, band.phi, h, options.probe + width,
-                                std::max(width - options.probe, h), progress);
+                                std::max(width - options.probe, h), -options.probe, progress);
     parallelFor(S.table.size(), progress, [&](std::size_t n) {
         for (int v = 0; v < leafSize; ++v) S.phi.leaf(n)[v] += float(options.probe);
     });
