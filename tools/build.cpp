@@ -91,6 +91,7 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     std::string fields = "surface";
     for (const std::string& field : options.fields) fields += "," + field;
     text("option.fields", fields);
+    yesNo("option.curvature-totals", options.curvatureIntegrals);
     number("option.epsilon", options.epsilon);
     number("option.lambda", options.evolution.lambda);
     text("option.regularizer", nameOf(options.evolution.regularizer));

@@ -2,6 +2,7 @@
 #include "cli.h"
 
 #include "molsurf/core/error.h"
+#include "molsurf/pipeline/fields.h"
 
 #include <boost/program_options.hpp>
 
@@ -37,8 +38,12 @@ struct Group {
     std::vector<Entry> entries;
 };
 
-const std::vector<std::string> knownFields = {
-    "surface", "sas", "spline", "mean_curvature", "gaussian_curvature", "atom_id"};
+// What --fields takes, `surface` first.
+const std::vector<std::string> knownFields = [] {
+    std::vector<std::string> names = fieldNames();
+    names.insert(names.begin(), "surface");
+    return names;
+}();
 
 const std::map<std::string, Format> formats = {{"vdb", Format::Vdb},   {"ply", Format::Ply},
                                                {"obj", Format::Obj},   {"stl", Format::Stl},
@@ -48,6 +53,23 @@ std::string join(const std::vector<std::string>& words, const char* between)
 {
     std::string all;
     for (const std::string& word : words) all += (all.empty() ? "" : between) + word;
+    return all;
+}
+
+// Words with commas between, in lines for the help text.
+std::string lines(const std::vector<std::string>& words)
+{
+    constexpr std::size_t width = 62;
+    std::string all, line;
+    for (const std::string& word : words) {
+        if (!line.empty() && line.size() + word.size() > width) {
+            all += line + "\n";
+            line.clear();
+        }
+        line += word + ",";
+    }
+    all += line;
+    all.pop_back();
     return all;
 }
 
@@ -90,8 +112,13 @@ const std::vector<Group>& groups()
           {"blobbiness", "D", "decay of the Gaussians of --surface gaussian",
            shortest(preset.blobbiness)},
           {"fill-cavities", nullptr, "drop the inner walls", ""},
-          {"fields", "LIST", "grids of the .vdb, by commas, or all of\n" + join(knownFields, ","),
-           "surface"}}},
+          {"fields", "LIST",
+           "grids of the .vdb, by commas, or all of\n" + lines(knownFields) +
+               ";\ncurvatures also at the vertices of a .ply; positive\n"
+               "where convex, 1/R on a ball; shape_index 1: a cap",
+           "surface"},
+          {"curvature-totals", nullptr, "integrate curvature over the surface, for the report",
+           ""}}},
         {"Resolution",
          {{"epsilon", "E", "tolerance of the Gaussian sum [Å]; larger is smoother",
            shortest(preset.epsilon)}}},
@@ -320,6 +347,7 @@ void fillBuild(const Values& values, Call& call)
     values.get("voxel", options.voxel);
     options.fillCavities = values.on("fill-cavities");
     options.fields = fieldsOf(values);
+    options.curvatureIntegrals = values.on("curvature-totals");
     values.get("epsilon", options.epsilon);
     EvolveOptions& evolution = options.evolution;
     values.get("lambda", evolution.lambda);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/evolution/evolve.h"
 
+#include "molsurf/bspline/curvature.h"
 #include "molsurf/bspline/fit.h"
 #include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"

@@ -33,8 +33,9 @@ struct Options {
     EvolveOptions evolution;   ///< lambda, regulariser, flow, stopping rule
     int splineLevel = 0;       ///< the spline lives on voxels of edge 2^level h; 0, 1 or 2
     bool fillCavities = false; ///< drop the inner walls
-    std::vector<std::string>
-        fields; ///< further grids to keep: "sas", "spline", "mean_curvature", ...
+    /// Further grids to keep, of fieldNames(); curvatures are then vertex attributes, too.
+    std::vector<std::string> fields;
+    bool curvatureIntegrals = false; ///< integrate curvature over the surface, for the report
 };
 
 /// The smallest and largest voxel edge that is taken, and the one above which a surface of atoms is

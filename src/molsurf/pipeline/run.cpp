@@ -14,7 +14,9 @@
 #include "molsurf/rasterize/nearest_ball.h"
 #include "molsurf/rasterize/union_distance.h"
 #include "molsurf/surface/extract.h"
+#include "molsurf/surface/integrate.h"
 #include "molsurf/surface/measure.h"
+#include "molsurf/surface/statistics.h"
 #include "molsurf/surface/topology.h"
 
 #include <algorithm>
@@ -316,6 +318,19 @@ void checkGradient(const Mesh& mesh, const std::vector<float>& slopes, const Dis
     report.gradientShare = double(counts.unit) / double(vertices - counts.kink); // may be 0/0
 }
 
+/// Statistics and integrals of the curvatures.
+void describeCurvature(const Mesh& mesh, const Spline& spline, const Options& options,
+                       Progress& progress, SurfaceReport& report)
+{
+    const std::vector<float> areas = vertexAreas(mesh);
+    report.meanCurvature = statistics(mesh.scalars[0].values, areas);
+    report.gaussianCurvature = statistics(mesh.scalars[1].values, areas);
+    if (!options.curvatureIntegrals) return;
+    constexpr double tolerance = 5.0; // for each unit of the Euler characteristic [sr]
+    const int chi = std::max(std::abs(report.eulerCharacteristic), 2);
+    report.integrals = integrateSurface(mesh, spline, tolerance * chi, progress);
+}
+
 } // namespace
 
 Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress)
@@ -386,6 +401,8 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
         nearestBalls(balls, result.mesh.positions, labelReach, progress);
     for (std::int32_t& i : nearest) i = i < 0 ? -1 : balls[i].atom;
     result.mesh.labels.push_back({"atom_id", std::move(nearest)});
+    addCurvature(spline, options.fields, result.mesh, progress);
+    describeCurvature(result.mesh, spline, options, progress, report.surface);
     watch.stop("mesh");
 
     if (wanted("sas")) {
@@ -402,12 +419,8 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
         result.fields.push_back(sas);
     }
     if (wanted("spline")) result.fields.push_back(splineGrid(spline));
-    if (wanted("mean_curvature")) {
-        result.fields.push_back(curvatureGrid(*result.surface, spline, false, progress));
-    }
-    if (wanted("gaussian_curvature")) {
-        result.fields.push_back(curvatureGrid(*result.surface, spline, true, progress));
-    }
+    for (auto& grid : curvatureGrids(*result.surface, spline, options.fields, progress))
+        result.fields.push_back(std::move(grid));
     if (wanted("atom_id")) {
         result.fields.push_back(atomGrid(*result.surface, balls, labelReach, progress));
     }
