@@ -59,6 +59,8 @@ class WrongCalls(ToolTest):
 
     def test_surface_kinds(self):
         self.refuse(CRAMBIN, "-o", "a.vdb", "--surface", "round", says="round")
+        self.refuse(CRAMBIN, "-o", "a.vdb", "--surface", "gaussian", "--blobbiness", "0",
+                    says="--blobbiness")
 
     def test_unknown_field(self):
         self.refuse(CRAMBIN, "-o", "a.vdb", "--fields", "sas,color", says="color")
