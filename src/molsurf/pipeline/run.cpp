@@ -91,11 +91,12 @@ double gaussianReach(double voxel)
 }
 
 /// The initial level set and the flow.
-NarrowBand evolveSurface(const std::vector<Ball>& balls, const Options& options, Progress& progress,
+NarrowBand evolveSurface(const BallSelection& atoms, const Options& options, Progress& progress,
                          Report& report, Stopwatch& watch)
 {
     const double h = options.voxel, reach = gaussianReach(h);
-    const GaussianSum field(balls, {options.probe, options.epsilon, 0.0, h, reach});
+    const GaussianSum field(atoms.balls, {options.probe, options.epsilon, 0.0, h, reach},
+                            atoms.decays);
     NarrowBand band = gaussianBand(field, h, progress, watch);
 
     progress.update("evolve", 0.0);
@@ -115,19 +116,31 @@ NarrowBand evolveSurface(const std::vector<Ball>& balls, const Options& options,
     return band;
 }
 
+/// The largest tolerance that the Gaussians of the balls have [Å].
+double largestTolerance(const BallSelection& atoms, const Options& options)
+{
+    double largest = options.epsilon;
+    for (std::size_t i = 0; i < atoms.decays.size(); ++i) {
+        if (atoms.decays[i].rate <= 0.0f) continue;
+        const double R = atoms.balls[i].radius + options.probe;
+        largest = std::max(largest, M_LN2 / (atoms.decays[i].rate * R));
+    }
+    return largest;
+}
+
 /// The level set that a smooth surface is offset from; empty for surfaces of a union of balls.
-NarrowBand makeBand(const std::vector<Ball>& balls, const Options& options, Progress& progress,
+NarrowBand makeBand(const BallSelection& atoms, const Options& options, Progress& progress,
                     Report& report, Stopwatch& watch)
 {
     switch (options.kind) {
     case SurfaceKind::Variational: {
-        NarrowBand band = evolveSurface(balls, options, progress, report, watch);
+        NarrowBand band = evolveSurface(atoms, options, progress, report, watch);
         band.psi = LeafField();
         return band;
     }
     case SurfaceKind::Gaussian: {
         const double h = options.voxel;
-        const GaussianSum field(balls, {0.0, 0.0, options.blobbiness, h, gaussianReach(h)});
+        const GaussianSum field(atoms.balls, {0.0, 0.0, options.blobbiness, h, gaussianReach(h)});
         NarrowBand band = gaussianBand(field, h, progress, watch);
         band.psi = LeafField();
         return band;
@@ -375,7 +388,15 @@ void describeCurvature(const Mesh& mesh, const Spline& spline, const Options& op
 
 Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress)
 {
+    BallSelection atoms;
+    atoms.balls = balls;
+    return run(atoms, options, progress);
+}
+
+Result run(const BallSelection& atoms, const Options& options, Progress& progress)
+{
     checkOptions(options);
+    const std::vector<Ball>& balls = atoms.balls;
     if (balls.empty()) throw Error(ErrorKind::Input, "no atoms");
 
     Result result;
@@ -384,7 +405,7 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
     report.voxel = options.voxel;
     Stopwatch watch(report);
 
-    NarrowBand band = makeBand(balls, options, progress, report, watch);
+    NarrowBand band = makeBand(atoms, options, progress, report, watch);
     const bool unionOfBalls = band.table.size() == 0;
     const auto wanted = [&](const char* field) {
         return std::find(options.fields.begin(), options.fields.end(), field) !=
@@ -437,7 +458,8 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
     report.surface.maxResidual = stats.maxResidual;
     checkGradient(result.mesh, stats.slopes, S, options.voxel, progress, report.surface);
     // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
-    const double labelReach = 2.0 * options.probe + 4.0 * options.epsilon + 4.0 * options.voxel;
+    const double labelReach =
+        2.0 * options.probe + 4.0 * largestTolerance(atoms, options) + 4.0 * options.voxel;
     std::vector<std::int32_t> nearest =
         nearestBalls(balls, result.mesh.positions, labelReach, progress);
     for (std::int32_t& i : nearest) i = i < 0 ? -1 : balls[i].atom;
