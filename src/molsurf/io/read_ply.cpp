@@ -218,8 +218,7 @@ void readFaces(const Element& element, std::size_t vertices, Values& values, Mes
                 if (!wanted) continue;
                 if (!(index >= 0.0 && index < double(vertices)))
                     badMesh("face " + std::to_string(f + 1) + ": expected a vertex from 0 to " +
-                            std::to_string(vertices - 1) + ", got " +
-                            std::to_string(std::int64_t(index)));
+                            std::to_string(vertices - 1) + ", got " + std::to_string(index));
                 corners.push_back(std::uint32_t(index));
             }
         }

@@ -40,12 +40,31 @@ struct Corners {
         return std::sqrt(std::max({(b - a).lengthSqr(), (c - b).lengthSqr(), (a - c).lengthSqr()}));
     }
     /// Parts along each side.
-    int parts() const
+    int parts(double spacing) const
     {
         constexpr double most = 256.0;
-        return int(std::clamp(std::ceil(longest() / sampleSpacing), 1.0, most));
+        return int(std::clamp(std::ceil(longest() / spacing), 1.0, most));
     }
 };
+
+/// sampleSpacing, or as many times doubled as it takes to have a million parts at most.
+double spacingOf(const Mesh& mesh, const Progress& progress)
+{
+    constexpr std::size_t mostParts = 1000000;
+    const std::size_t triangles = mesh.triangles.size();
+    for (double spacing = sampleSpacing;; spacing *= 2.0) {
+        const auto parts =
+            parallelSum<std::size_t>((triangles + chunk - 1) / chunk, progress, [&](std::size_t c) {
+                std::size_t sum = 0;
+                for (std::size_t i = c * chunk; i < std::min(triangles, (c + 1) * chunk); ++i) {
+                    const auto n = std::size_t(Corners(mesh, i).parts(spacing));
+                    if (n > 1) sum += n * n;
+                }
+                return sum;
+            });
+        if (parts <= mostParts) return spacing;
+    }
+}
 
 /// Sums of weighted distances.
 struct Sums {
@@ -117,12 +136,13 @@ OneWay distancesFrom(const Mesh& mesh, const DistanceTo& to, const Progress& pro
     });
 
     // Large triangles by their parts, the others by their corners.
+    const double spacing = spacingOf(mesh, progress);
     Sums sums = parallelSum<Sums>((triangles + chunk - 1) / chunk, progress, [&](std::size_t c) {
         DistanceTo::Query query(to);
         Sums part;
         for (std::size_t i = c * chunk; i < std::min(triangles, (c + 1) * chunk); ++i) {
             const Corners t(mesh, i);
-            const int n = t.parts();
+            const int n = t.parts(spacing);
             if (n > 1) {
                 addParts(t, n, query, part);
             } else {

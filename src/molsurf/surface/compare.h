@@ -35,7 +35,8 @@ struct OneWay {
     std::size_t samples = 0;          ///< points at which the distance was taken
 };
 
-/// Edges longer than this are sampled between their ends too [Å].
+/// Edges longer than this are sampled between their ends too [Å]; doubled until the parts of large
+/// triangles are a million at most.
 constexpr double sampleSpacing = 1.0;
 
 /// Measures the distance of every vertex of a mesh from another surface.

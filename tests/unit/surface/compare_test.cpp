@@ -147,6 +147,20 @@ TEST(Compare, LargeTrianglesAreSampledInside)
     EXPECT_NEAR(way.mean, 4.0 * (std::sqrt(2.0) + std::log(1.0 + std::sqrt(2.0))) / 3.0, 2e-2);
 }
 
+// However large the triangles, the work is bounded.
+TEST(Compare, HugeTriangles)
+{
+    Mesh mesh = test::box({0, 0, 0}, {3e4f, 3e4f, 3e4f});
+    for (int i = 0; i < 300; ++i)
+        for (int t = 0; t < 12; ++t)
+            mesh.triangles.push_back(
+                {mesh.triangles[t][0], mesh.triangles[t][1], mesh.triangles[t][2]});
+    const Surface one = meshSurface(test::box({0, 0, 0}, {1, 1, 1}));
+    const OneWay way = from(meshSurface(std::move(mesh)), one);
+    EXPECT_LT(way.samples, 4000000u);
+    EXPECT_NEAR(way.max, 3e4 * std::sqrt(3.0), 3.0);
+}
+
 TEST(Compare, TheSameBitsForAnyNumberOfThreads)
 {
     const Surface a = ballOf(2.3, first, 0.25), b = ballOf(2.0, first + Vec3d(0.3), 0.25);
