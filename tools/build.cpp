@@ -64,12 +64,14 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     yesNo("option.waters", options.atoms.waters);
     text("option.radii", options.atoms.radii);
     number("option.probe", options.probe);
-    text("option.surface", report.surface.kind);
+    text("option.surface", nameOf(options.kind));
+    number("option.blobbiness", options.blobbiness);
     number("option.voxel", options.voxel);
     yesNo("option.fill-cavities", options.fillCavities);
     std::string fields = "surface";
     for (const std::string& field : options.fields) fields += "," + field;
     text("option.fields", fields);
+    yesNo("option.curvature-totals", options.curvatureIntegrals);
     number("option.epsilon", options.epsilon);
     number("option.lambda", options.evolution.lambda);
     text("option.regularizer", nameOf(options.evolution.regularizer));

@@ -2,6 +2,7 @@
 #include "cli.h"
 
 #include "molsurf/core/error.h"
+#include "molsurf/pipeline/fields.h"
 
 #include <boost/program_options.hpp>
 
@@ -37,8 +38,12 @@ struct Group {
     std::vector<Entry> entries;
 };
 
-const std::vector<std::string> knownFields = {
-    "surface", "sas", "spline", "mean_curvature", "gaussian_curvature", "atom_id"};
+// What --fields takes, `surface` first.
+const std::vector<std::string> knownFields = [] {
+    std::vector<std::string> names = fieldNames();
+    names.insert(names.begin(), "surface");
+    return names;
+}();
 
 const std::map<std::string, Format> formats = {{"vdb", Format::Vdb},   {"ply", Format::Ply},
                                                {"obj", Format::Obj},   {"stl", Format::Stl},
@@ -48,6 +53,23 @@ std::string join(const std::vector<std::string>& words, const char* between)
 {
     std::string all;
     for (const std::string& word : words) all += (all.empty() ? "" : between) + word;
+    return all;
+}
+
+// Words with commas between, in lines for the help text.
+std::string lines(const std::vector<std::string>& words)
+{
+    constexpr std::size_t width = 62;
+    std::string all, line;
+    for (const std::string& word : words) {
+        if (!line.empty() && line.size() + word.size() > width) {
+            all += line + "\n";
+            line.clear();
+        }
+        line += word + ",";
+    }
+    all += line;
+    all.pop_back();
     return all;
 }
 
@@ -82,11 +104,21 @@ const std::vector<Group>& groups()
            preset.atoms.radii},
           {"probe", "R", "probe radius [Å]", shortest(preset.probe)}}},
         {"Surface",
-         {{"surface", "KIND", "variational", "variational"},
+         {{"surface", "KIND",
+           "variational; ses, sas: solvent-excluded, -accessible;\n"
+           "vdw: van der Waals; gaussian",
+           nameOf(preset.kind)},
           {"voxel", "H", "edge of a voxel [Å], 0.05 to 10", shortest(preset.voxel)},
+          {"blobbiness", "D", "decay of the Gaussians of --surface gaussian",
+           shortest(preset.blobbiness)},
           {"fill-cavities", nullptr, "drop the inner walls", ""},
-          {"fields", "LIST", "grids of the .vdb, by commas, or all of\n" + join(knownFields, ","),
-           "surface"}}},
+          {"fields", "LIST",
+           "grids of the .vdb, by commas, or all of\n" + lines(knownFields) +
+               ";\ncurvatures also at the vertices of a .ply; positive\n"
+               "where convex, 1/R on a ball; shape_index 1: a cap",
+           "surface"},
+          {"curvature-totals", nullptr, "integrate curvature over the surface, for the report",
+           ""}}},
         {"Resolution",
          {{"epsilon", "E", "tolerance of the Gaussian sum [Å]; larger is smoother",
            shortest(preset.epsilon)}}},
@@ -312,16 +344,6 @@ std::vector<std::string> fieldsOf(const Values& values)
     return fields;
 }
 
-void checkSurface(const Values& values)
-{
-    std::string kind = "variational";
-    values.get("surface", kind);
-    for (const char* later : {"ses", "sas", "vdw", "gaussian"})
-        if (kind == later)
-            misuse("--surface " + kind + ": not available in this version; expected variational");
-    if (kind != "variational") values.wrong("surface", "variational");
-}
-
 void fillRun(const Values& values, Call& call);
 
 void fillBuild(const Values& values, Call& call)
@@ -356,10 +378,14 @@ void fillRun(const Values& values, Call& call)
     options.atoms.waters = values.on("waters");
     values.get("radii", options.atoms.radii);
     values.get("probe", options.probe);
-    checkSurface(values);
+    values.get("surface", options.kind,
+               {SurfaceKind::Variational, SurfaceKind::SolventExcluded,
+                SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals, SurfaceKind::Gaussian});
+    values.get("blobbiness", options.blobbiness);
     values.get("voxel", options.voxel);
     options.fillCavities = values.on("fill-cavities");
     options.fields = fieldsOf(values);
+    options.curvatureIntegrals = values.on("curvature-totals");
     values.get("epsilon", options.epsilon);
     EvolveOptions& evolution = options.evolution;
     values.get("lambda", evolution.lambda);
@@ -428,6 +454,7 @@ void fillCompare(const Values& values, const po::variables_map& map, Call& call)
             output.format != Format::Json)
             misuse("-o " + output.path + ": compare writes .ply, .vdb or .json");
     if (map.count("fields")) misuse("--fields is not for compare");
+    if (values.on("curvature-totals")) misuse("--curvature-totals is not for compare");
     std::string color = "distance";
     values.get("color", color);
     if (color != "distance" && color != "signed-distance")
@@ -584,7 +611,8 @@ std::string compareHelpText()
     for (const Group& group : groupsOf(Verb::Compare)) {
         text += std::string("\n") + group.title + "\n";
         for (const Entry& entry : group.entries)
-            if (longName(entry) != "fields") text += helpLine(entry);
+            if (longName(entry) != "fields" && longName(entry) != "curvature-totals")
+                text += helpLine(entry);
     }
     text +=
         "\n"

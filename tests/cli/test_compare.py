@@ -115,7 +115,7 @@ for item in byname["distance"].iterOnValues():
     worst = max(worst, abs(item.value - abs(exact)), abs(signed.getValue(item.min) - exact))
     count += item.count
 assert count > 10000 or "%s" != "large.vdb", count
-assert worst < 1e-3, worst
+assert worst < 2e-3, worst  # the surface of an atom is a sphere up to about 1e-3
 """ % (*SMALL[:3], self.radius("small"), a)
             done = subprocess.run(["/usr/bin/python3", "-c", script], cwd=self.folder,
                                   capture_output=True, text=True)

@@ -19,6 +19,11 @@ except ImportError:
 needs_openvdb = unittest.skipUnless(pyopenvdb, "no python3-openvdb")
 
 
+CURVATURES = ("mean_curvature", "gaussian_curvature", "principal_curvature_1",
+              "principal_curvature_2", "shape_index", "curvedness", "principal_direction_1",
+              "principal_direction_2")
+
+
 class Report(ToolTest):
     def report(self, *words):
         self.check(0, CRAMBIN, "-o", "a.json", "--force", *words)
@@ -63,6 +68,21 @@ class Report(ToolTest):
         self.assertEqual(words[0], TOOL)
         self.assertEqual(words[words.index("--select") + 1], "*")
 
+    def test_curvature(self):
+        surface = self.report(*FAST)["surface"]
+        for name in ("mean_curvature", "gaussian_curvature"):
+            spread = surface[name]
+            middle = list(spread["percentiles"].values())
+            self.assertEqual(middle, sorted(middle))
+            self.assertTrue(spread["min"] <= middle[0] <= spread["mean"] <= middle[-1])
+            self.assertLessEqual(middle[-1], spread["max"])
+        self.assertIsNone(surface["total_gaussian_curvature"])
+        surface = self.report("--curvature-totals", *FAST)["surface"]
+        self.assertAlmostEqual(surface["integrated_area"] / surface["area"], 1, delta=0.02)
+        self.assertAlmostEqual(surface["integrated_volume"] / surface["volume"], 1, delta=0.005)
+        self.assertGreater(surface["total_mean_curvature"], 0)
+        self.assertGreater(surface["willmore_energy"], 12)
+
     def test_warnings_are_kept(self):
         report = self.report("--voxel", "1.5")
         self.assertTrue(any("--voxel" in warning for warning in report["warnings"]))
@@ -93,6 +113,21 @@ class Ply(ToolTest):
         euler = len(vertices) - len(edges) // 2 + len(triangles)
         self.assertEqual(euler, surface["euler_characteristic"])
 
+    def test_attributes(self):
+        usual = ["x", "y", "z", "nx", "ny", "nz", "mean_curvature", "gaussian_curvature"]
+        axes = ["_x", "_y", "_z"]
+        for fields, further in (("mean_curvature,spline", []), ("shape_index", ["shape_index"]),
+                                ("principal_direction_1,principal_curvature_2",
+                                 ["principal_curvature_2"] +
+                                 ["principal_direction_1" + axis for axis in axes])):
+            self.check(0, CRAMBIN, "-o", "a.ply", "--force", "--fields", fields, *FAST)
+            names, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+            self.assertEqual(names, usual + further + ["atom_id"], fields)
+            if "shape_index" in names:
+                column = [vertex[names.index("shape_index")] for vertex in vertices]
+                self.assertTrue(all(-1 <= x <= 1 for x in column))
+                self.assertTrue(min(column) < -0.5 < 0.5 < max(column))
+
     def test_triangles_turn_outward(self):
         self.check(0, CRAMBIN, "-o", "a.ply")
         _, vertices, triangles = read_ply((self.folder / "a.ply").read_bytes())
@@ -117,6 +152,11 @@ class Vdb(ToolTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("Name: surface", done.stdout)
         self.assertIn("class: level set", done.stdout)
+        self.build("--fields", "all", *FAST)
+        done = subprocess.run(["vdb_print", "-l", self.path], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in CURVATURES:
+            self.assertIn("Name: " + name, done.stdout)
 
     def test_info_reads_it(self):
         self.build(*FAST)
@@ -168,11 +208,13 @@ class Vdb(ToolTest):
         # By name: pyopenvdb lacks int32 grids, and reading all would refuse atom_id.
         self.build("--fields", "all", *FAST)
         voxels = pyopenvdb.read(self.path, "surface").activeVoxelCount()
-        for name in ("mean_curvature", "gaussian_curvature"):
+        for name in CURVATURES:
             self.assertEqual(pyopenvdb.read(self.path, name).activeVoxelCount(), voxels, name)
         for name in ("sas", "spline"):
             self.assertGreater(pyopenvdb.read(self.path, name).activeVoxelCount(), voxels, name)
         self.assertIn(b"grid atom_id", self.check(0, "info", self.path).stdout)
+        low, high = pyopenvdb.read(self.path, "shape_index").evalMinMax()
+        self.assertTrue(-1 <= low < high <= 1)
         self.build("--fields", "sas", *FAST)
         names = sorted(grid.name for grid in pyopenvdb.readAllGridMetadata(self.path))
         self.assertEqual(names, ["sas", "surface"])

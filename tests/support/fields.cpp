@@ -59,8 +59,9 @@ Shape torus(double A, double a, const Pose& pose, int count)
         const Vec3d radial(std::cos(t), std::sin(t), 0.0);
         const Vec3d n = std::cos(s) * radial + Vec3d(0, 0, std::sin(s));
         const double k = std::cos(s) / (A + a * std::cos(s));
-        shape.points.push_back(
-            {pose.toWorld(A * radial + a * n), pose.turn * n, 0.5 * (1.0 / a + k), k / a});
+        shape.points.push_back({pose.toWorld(A * radial + a * n), pose.turn * n,
+                                0.5 * (1.0 / a + k), k / a,
+                                pose.turn * (Vec3d(0, 0, std::cos(s)) - std::sin(s) * radial)});
     }
     shape.area = 4.0 * M_PI * M_PI * A * a;
     shape.volume = 2.0 * M_PI * M_PI * A * a * a;
@@ -98,6 +99,21 @@ double distanceToEllipsoid(const Vec3d& x, const Vec3d& axes)
     return std::copysign((p - y).length(), t);
 }
 
+/// The principal direction of the larger curvature of an ellipsoid: the normal of the confocal
+/// quadric sum x_i^2/(a_i^2 + t) = 1 through the point with the smaller |t|. (Principal directions
+/// are those of the confocal system, by Dupin's theorem; the curvature is -h/t, with h the distance
+/// of the tangent plane from the centre.)
+Vec3d largerDirection(const Vec3d& x, const Vec3d& axes)
+{
+    const Vec3d a = axes * axes;
+    // t^2 + p t + q = 0, the cubic without its root t = 0; both roots are negative.
+    const double p = a[0] + a[1] + a[2] - x.lengthSqr();
+    double q = a[0] * a[1] + a[1] * a[2] + a[2] * a[0];
+    for (int i = 0; i < 3; ++i) q -= x[i] * x[i] * (a[(i + 1) % 3] + a[(i + 2) % 3]);
+    const double t = -0.5 * p + std::sqrt(std::max(0.25 * p * p - q, 0.0));
+    return (x / (a + Vec3d(t))).unit();
+}
+
 } // namespace
 
 Shape ellipsoid(const Vec3d& axes, const Pose& pose, int count)
@@ -117,7 +133,7 @@ Shape ellipsoid(const Vec3d& axes, const Pose& pose, int count)
         shape.points.push_back(
             {pose.toWorld(x), pose.turn * n.unit(),
              (axes.lengthSqr() - x.lengthSqr()) / (2.0 * product * product * std::pow(s, 1.5)),
-             1.0 / (product * product * s * s)});
+             1.0 / (product * product * s * s), pose.turn * largerDirection(x, axes)});
     }
     // The area as an integral over the sphere: product |u/axes| du, by Gauss-free brute force on a
     // fine product grid in (z, angle); midpoint rule in z is replaced by Gauss-Legendre's two-point
@@ -137,6 +153,30 @@ Shape ellipsoid(const Vec3d& axes, const Pose& pose, int count)
     shape.area = area * product * (1.0 / rings) * (2.0 * M_PI / steps);
     shape.volume = 4.0 / 3.0 * M_PI * product;
     shape.extent = std::max({axes.x(), axes.y(), axes.z()});
+    shape.centre = pose.centre;
+    return shape;
+}
+
+Shape saddleOfTwoBalls(const Pose& pose, int count)
+{
+    const double probe = 1.4, R = 1.7 + probe, half = 2.0;
+    const double ring = std::sqrt(R * R - half * half); // of the probe's centres
+    Shape shape;
+    shape.distance = [=](const Vec3d& world) {
+        const Vec3d x = pose.toLocal(world), b(0.0, 0.0, half);
+        return distanceToTwoBalls(x, -b, R, b, R) + probe;
+    };
+    const double limit = std::asin(half / R) - 0.75 / probe; // seen from the probe
+    for (int i = 0; i < count; ++i) {
+        const double s = limit * (2.0 * (i + 0.5) / count - 1.0), t = 2.399963 * i + 0.2;
+        const Vec3d radial(std::cos(t), std::sin(t), 0.0), axis(0.0, 0.0, 1.0);
+        const Vec3d n = std::cos(s) * radial + std::sin(s) * axis;
+        const double k1 = std::cos(s) / (ring - probe * std::cos(s)), k2 = -1.0 / probe;
+        shape.points.push_back({pose.toWorld(ring * radial - probe * n), pose.turn * n,
+                                0.5 * (k1 + k2), k1 * k2, pose.turn * axis.cross(radial)});
+    }
+    shape.area = shape.volume = std::numeric_limits<double>::quiet_NaN();
+    shape.extent = half + 1.7;
     shape.centre = pose.centre;
     return shape;
 }

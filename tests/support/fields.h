@@ -9,6 +9,8 @@
 
 #include <openvdb/openvdb.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -36,6 +38,11 @@ struct SurfacePoint {
     openvdb::Vec3d x, n;
     double mean;  ///< (k1 + k2)/2 [1/Å]
     double gauss; ///< k1 k2 [1/Å^2]
+    /// Unit, tangential, along which the surface has k1, the larger; zero at an umbilic.
+    openvdb::Vec3d direction1 = openvdb::Vec3d(0.0);
+
+    double k1() const { return mean + std::sqrt(std::max(mean * mean - gauss, 0.0)); }
+    double k2() const { return mean - std::sqrt(std::max(mean * mean - gauss, 0.0)); }
 };
 
 /// A closed surface whose signed distance, curvatures, area and volume are known.
@@ -51,6 +58,12 @@ struct Shape {
 Shape sphere(double radius, const Pose& pose = Pose(), int count = 400);
 Shape torus(double ring, double tube, const Pose& pose = Pose(), int count = 400);
 Shape ellipsoid(const openvdb::Vec3d& axes, const Pose& pose = Pose(), int count = 400);
+
+/// The solvent-excluded surface of two balls of radius 1.7 Å that are 4 Å apart, for a probe of
+/// 1.4 Å: the exact distance, and points of the saddle between them, 0.75 Å or more from its
+/// borders. There k1 > 0 runs about the axis and k2 = -1/1.4 along the meridian. Area and volume
+/// are not given.
+Shape saddleOfTwoBalls(const Pose& pose = Pose(), int count = 400);
 
 /// Signed distance to the union of two balls, also inside, where the nearest point may lie on the
 /// circle that the spheres share.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bspline/spline.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -115,21 +116,22 @@ Jet SplineSampler::at(const Vec3d& x)
     return jet;
 }
 
-double meanCurvature(const Jet& jet)
+bool moveToSurface(SplineSampler& sampler, double h, double reach, Vec3d& x, Jet& jet)
 {
-    const double norm = jet.gradient.length();
-    const Vec3d n = jet.gradient / norm;
-    const double trace = jet.hessian(0, 0) + jet.hessian(1, 1) + jet.hessian(2, 2);
-    return 0.5 * (trace - n.dot(jet.hessian * n)) / norm;
-}
-
-double gaussianCurvature(const Jet& jet)
-{
-    const Vec3d n = jet.gradient.unit();
-    const Mat3d& H = jet.hessian;
-    const Vec3d x = H.row(0), y = H.row(1), z = H.row(2);
-    const Vec3d adjugateTimesN = n.x() * y.cross(z) + n.y() * z.cross(x) + n.z() * x.cross(y);
-    return n.dot(adjugateTimesN) / jet.gradient.lengthSqr();
+    constexpr double tolerance = 1e-5; // |S| [voxel]
+    constexpr double leastGradient = 0.05;
+    constexpr int steps = 8;
+    const Vec3d start = x;
+    for (int i = 0; i < steps; ++i) {
+        jet = sampler.at(x);
+        if (std::abs(jet.value) <= tolerance * h) return true;
+        const double slope = jet.gradient.length();
+        if (slope < leastGradient) return false;
+        const double step = std::clamp(jet.value / slope, -0.5 * reach * h, 0.5 * reach * h);
+        x -= step / slope * jet.gradient;
+        if ((x - start).lengthSqr() > reach * reach * h * h) return false;
+    }
+    return false;
 }
 
 } // namespace molsurf

@@ -70,13 +70,16 @@ private:
 /// @param[in] t         place in the cell, in [0, 1]^3
 Jet evaluateSpline(const float* c, int strideX, int strideY, const openvdb::Vec3d& t);
 
-/// Mean curvature (k1 + k2)/2 [1/Å] of the level set through a point; > 0 where the molecule is
-/// convex: 1/R on a ball. Formulas as in levelset/curvature.h.
-/// @pre |gradient| > 0
-double meanCurvature(const Jet& jet);
-
-/// Gaussian curvature k1 k2 [1/Å^2] of the level set through a point.
-/// @pre |gradient| > 0
-double gaussianCurvature(const Jet& jet);
+/// Moves a point along the gradient onto S = 0 by Newton's method.
+///
+/// For a distance that is its closest point of the surface; else one near it.
+///
+/// @param[in]     voxel  the unit of tolerance and reach [Å]
+/// @param[in]     reach  how far from its start the point may get [voxel]
+/// @param[in,out] x      [Å, world]; afterwards the last iterate
+/// @param[out]    jet    of S at the last iterate, or the one before
+/// @return whether |S| <= 1e-5 voxel at x, and jet is of x; false where the gradient fails (below
+///         0.05) or the surface is out of reach
+bool moveToSurface(SplineSampler& sampler, double voxel, double reach, openvdb::Vec3d& x, Jet& jet);
 
 } // namespace molsurf

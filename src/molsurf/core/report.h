@@ -4,6 +4,7 @@
 /// @file
 /// What a run tells about itself and its result: the content of the .json report.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,6 +18,41 @@ namespace molsurf
 struct Cavity {
     double area;   ///< [Å^2]
     double volume; ///< [Å^3], positive
+};
+
+/// The percentiles of Statistics.
+constexpr std::array<int, 9> percents = {1, 5, 10, 25, 50, 75, 90, 95, 99};
+
+/// How a quantity is distributed over the area of a surface, in its unit.
+struct Statistics {
+    double mean = 0.0;
+    double standardDeviation = 0.0;
+    double min = 0.0;
+    double max = 0.0;
+    std::array<double, percents.size()> percentiles = {}; ///< the values below which there is as
+                                                          ///< many percent of the area
+};
+
+/// Integrals over a closed surface, walls of cavities included.
+struct SurfaceIntegrals {
+    double area = 0.0;                 ///< [Å^2]
+    double volume = 0.0;               ///< [Å^3]
+    double meanCurvature = 0.0;        ///< of H [Å]
+    double gaussianCurvature = 0.0;    ///< of K [sr]: 2 pi times the Euler characteristic
+    double squaredMeanCurvature = 0.0; ///< of H^2 (Willmore) [1]: at least 4 pi
+    double unresolvedArea = 0.0;       ///< part of the area over which H and H^2 were not
+                                       ///< integrated [Å^2]
+
+    SurfaceIntegrals& operator+=(const SurfaceIntegrals& o)
+    {
+        area += o.area;
+        volume += o.volume;
+        meanCurvature += o.meanCurvature;
+        gaussianCurvature += o.gaussianCurvature;
+        squaredMeanCurvature += o.squaredMeanCurvature;
+        unresolvedArea += o.unresolvedArea;
+        return *this;
+    }
 };
 
 /// Area, volume and topology of a closed surface.
@@ -38,7 +74,10 @@ struct SurfaceReport {
     /// Share of the vertices away from kinks with | |grad Phi| - 1 | < 0.03; not a number if every
     /// vertex is near one.
     double gradientShare = 0.0;
-    double kinkShare = 0.0; ///< share of vertices within two voxels of a kink of the distance
+    double kinkShare = 0.0;       ///< share of vertices within two voxels of a kink of the distance
+    Statistics meanCurvature;     ///< [1/Å], at the vertices
+    Statistics gaussianCurvature; ///< [1/Å^2], at the vertices
+    std::optional<SurfaceIntegrals> integrals; ///< if Options::curvatureIntegrals
 };
 
 /// The history of the flow. The interface is the evolving level set's, near the solvent-accessible

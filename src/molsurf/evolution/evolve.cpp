@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/evolution/evolve.h"
 
+#include "molsurf/bspline/curvature.h"
 #include "molsurf/bspline/fit.h"
 #include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
@@ -20,7 +21,7 @@ namespace
 
 /// Iterations that keep the band a distance while the interface moves by at most 0.4 voxel: each
 /// carries the distance half a voxel.
-constexpr int reinitializations = 2;
+constexpr int reinitializations = 1;
 
 /// Where the flow acts [voxel]: curvature is wanted there.
 constexpr double flowWidthVox = 2.25;
@@ -43,7 +44,7 @@ void curvatureFromSpline(const Spline& spline, const openvdb::Coord& origin, dou
 Spline coarseSpline(const NarrowBand& band, double voxel, int level, const Progress& progress)
 {
     const double width = (flowWidthVox + 3.5 * (1 << level)) * voxel;
-    const DistanceBand wide = redistance(band.table, band.phi, voxel, width, width, progress);
+    const DistanceBand wide = redistance(band.table, band.phi, voxel, width, width, 0.0, progress);
     return fitSpline(wide.table, wide.phi, voxel, level, progress);
 }
 

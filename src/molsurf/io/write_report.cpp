@@ -11,11 +11,27 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
+Json statisticsJson(const Statistics& statistics)
+{
+    Json percentiles = Json::object();
+    for (std::size_t i = 0; i < percents.size(); ++i)
+        percentiles[std::to_string(percents[i])] = statistics.percentiles[i];
+    return {{"mean", statistics.mean},
+            {"standard_deviation", statistics.standardDeviation},
+            {"min", statistics.min},
+            {"max", statistics.max},
+            {"percentiles", std::move(percentiles)}};
+}
+
 Json surfaceJson(const SurfaceReport& surface)
 {
     Json cavities = Json::array();
     for (const Cavity& cavity : surface.cavities)
         cavities.push_back(Json{{"area", cavity.area}, {"volume", cavity.volume}});
+    const auto& integrals = surface.integrals;
+    const auto total = [&](double SurfaceIntegrals::*value) {
+        return integrals ? Json((*integrals).*value) : Json();
+    };
     return {{"kind", surface.kind},
             {"area", surface.area},
             {"volume", surface.volume},
@@ -32,7 +48,15 @@ Json surfaceJson(const SurfaceReport& surface)
             {"degenerate_triangles", surface.degenerateTriangles},
             {"max_residual", surface.maxResidual},
             {"gradient_share", surface.gradientShare},
-            {"kink_share", surface.kinkShare}};
+            {"kink_share", surface.kinkShare},
+            {"mean_curvature", statisticsJson(surface.meanCurvature)},
+            {"gaussian_curvature", statisticsJson(surface.gaussianCurvature)},
+            {"total_mean_curvature", total(&SurfaceIntegrals::meanCurvature)},
+            {"total_gaussian_curvature", total(&SurfaceIntegrals::gaussianCurvature)},
+            {"willmore_energy", total(&SurfaceIntegrals::squaredMeanCurvature)},
+            {"integrated_area", total(&SurfaceIntegrals::area)},
+            {"integrated_volume", total(&SurfaceIntegrals::volume)},
+            {"unresolved_area", total(&SurfaceIntegrals::unresolvedArea)}};
 }
 
 Json evolutionJson(const EvolutionReport& evolution)

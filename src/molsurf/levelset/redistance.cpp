@@ -4,9 +4,9 @@
 #include "molsurf/bspline/spline.h"
 #include "molsurf/core/leaf_block.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/simd.h"
+#include "molsurf/levelset/nearest_point.h"
 
-#include <tbb/parallel_for.h>
+#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +20,8 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// Index of the seed that stands for none.
-constexpr std::int32_t noSeed = 0;
+/// Index of no seed.
+constexpr std::int32_t noSeed = -1;
 
 /// A closest point on the interface, in units of voxels.
 struct Seed {
@@ -214,6 +214,7 @@ bool disagree(const Seed& a, const Seed& b, const Vec3d& x)
 }
 
 using SeedIndex = LeafArray<std::int32_t>;
+using SeedBlock = LeafBlock<std::int32_t, 1>;
 
 /// The voxels with a face neighbour of the other sign, among the active ones.
 std::vector<LeafMask> interfaceVoxels(const LeafTable& table, const std::vector<LeafMask>& inside,
@@ -234,7 +235,7 @@ std::vector<Seed> findSeeds(const LeafTable& table, const LeafField& coefficient
                             const std::vector<LeafMask>& interface,
                             std::vector<std::size_t>& begins, const Progress& progress)
 {
-    begins.assign(table.size() + 1, noSeed + 1);
+    begins.assign(table.size() + 1, 0);
     for (std::size_t n = 0; n < table.size(); ++n) begins[n + 1] = begins[n] + interface[n].count();
     std::vector<Seed> seeds(begins.back());
     parallelFor(table.size(), progress, [&](std::size_t n) {
@@ -288,159 +289,6 @@ LeafTable merged(const LeafTable& a, const LeafTable& b)
     return out;
 }
 
-/// The closest points alone, relative to a voxel amid them, by coordinate: what the search for the
-/// nearest reads.
-struct Points {
-    Coord centre;
-    std::vector<float> x, y, z;
-
-    explicit Points(const std::vector<Seed>& seeds) : x(seeds.size()), y(x.size()), z(x.size())
-    {
-        centre = Coord::floor(seeds[seeds.size() / 2].y);
-        tbb::parallel_for(std::size_t(0), seeds.size(), [&](std::size_t i) {
-            const Vec3d relative = seeds[i].y - centre.asVec3d();
-            x[i] = float(relative.x());
-            y[i] = float(relative.y());
-            z[i] = float(relative.z());
-        });
-        x[noSeed] = y[noSeed] = z[noSeed] = 1e15f; // farther than any
-    }
-};
-
-using SeedBlock = LeafBlock<std::int32_t, 1>;
-
-/// The nearest of the seeds that a voxel and its 26 neighbours have.
-/// @param[in]  p          the voxel in its block
-/// @param[out] distance2  to it, squared
-std::int32_t nearestSeed(const std::int32_t* p, const Coord& voxel, const Points& points,
-                         float& distance2)
-{
-    const openvdb::Vec3f x((voxel - points.centre).asVec3s());
-    std::int32_t best = noSeed, last = noSeed;
-    float least = 1e30f;
-    for (int dx = -SeedBlock::strideX; dx <= SeedBlock::strideX; dx += SeedBlock::strideX) {
-        for (int dy = -SeedBlock::strideY; dy <= SeedBlock::strideY; dy += SeedBlock::strideY) {
-            for (int dz = -1; dz <= 1; ++dz) {
-                const std::int32_t seed = p[dx + dy + dz];
-                if (seed == last) continue;
-                last = seed;
-                const openvdb::Vec3f y(points.x[seed], points.y[seed], points.z[seed]);
-                const float d2 = (x - y).lengthSqr();
-                if (d2 < least) {
-                    least = d2;
-                    best = seed;
-                }
-            }
-        }
-    }
-    distance2 = least;
-    return best;
-}
-
-/// The nearest of the seeds that a voxel and its 26 neighbours have, in the rows of a leaf that
-/// hold a voxel of the mask.
-/// @param[in] x,y,z         coordinates of the seeds
-/// @param[in] x0,y0,z0      the leaf's first voxel in the same frame
-MOLSURF_KERNEL void nearestOfAll(const std::int32_t* __restrict block, const LeafMask& mask,
-                                 const float* __restrict x, const float* __restrict y,
-                                 const float* __restrict z, float x0, float y0, float z0,
-                                 std::int32_t* __restrict out)
-{
-    constexpr int X = SeedBlock::strideX, Y = SeedBlock::strideY;
-    for (int row = 0; row < 64; ++row) {
-        if (mask.row(row) == 0) continue;
-        const std::int32_t* p = block + (row / 8 + 1) * X + (row % 8 + 1) * Y + 1;
-        const float px = x0 + float(row / 8), py = y0 + float(row % 8);
-        std::int32_t best[8];
-        float least[8];
-        for (int k = 0; k < 8; ++k) {
-            best[k] = noSeed;
-            least[k] = 1e30f;
-        }
-        for (int side = 0; side < 27; ++side) {
-            const std::int32_t* q = p + (side / 9 - 1) * X + (side / 3 % 3 - 1) * Y + side % 3 - 1;
-            for (int k = 0; k < 8; ++k) {
-                const std::int32_t seed = q[k];
-                const float dx = x[seed] - px, dy = y[seed] - py;
-                const float dz = z[seed] - (z0 + float(k));
-                const float d2 = dx * dx + dy * dy + dz * dz;
-                best[k] = d2 < least[k] ? seed : best[k];
-                least[k] = d2 < least[k] ? d2 : least[k];
-            }
-        }
-        for (int k = 0; k < 8; ++k) out[8 * row + k] = best[k];
-    }
-}
-
-/// Whether a leaf or one beside it has a voxel in its mask.
-bool anyAround(const LeafTable& table, const std::vector<LeafMask>& masks, std::size_t n)
-{
-    for (const std::int32_t m : table.neighbours(n)) {
-        if (m != noLeaf && masks[m].any()) return true;
-    }
-    return false;
-}
-
-/// Hands the seeds of the interface voxels on to the voxels about them, up to a distance, until
-/// every voxel has the nearest of its own and its 26 neighbours' seeds.
-///
-/// First in the order of the distance, as in fast marching: layer by layer those beside the voxels
-/// that are done, as far as they are nearer than the layer. Then all look at all neighbours, and
-/// those about changes again, until none changes.
-///
-/// @param[in]     farthest  distance to go to [voxel]
-/// @param[in]     known     the interface voxels
-/// @param[in,out] index     their seeds, noSeed elsewhere
-void propagate(const LeafTable& domain, const std::vector<Seed>& seeds, double farthest,
-               std::vector<LeafMask> known, SeedIndex& index, const Progress& progress)
-{
-    constexpr double layerWidth = 0.75;
-    const int layers = int(std::ceil((farthest + 1.0) / layerWidth));
-    const Points points(seeds);
-    SeedIndex next(domain.size());
-    std::vector<LeafMask> work(domain.size()), changed(domain.size());
-    for (int layer = 0;; ++layer) {
-        const bool march = layer < layers, all = layer == layers;
-        const float nearer2 = march ? float(std::pow(layerWidth * (layer + 1) + 0.5, 2)) : 1e30f;
-        parallelFor(domain.size(), progress, [&](std::size_t n) {
-            work[n] = LeafMask();
-            if (all) {
-                work[n] = known[n];
-            } else if (anyAround(domain, march ? known : changed, n)) {
-                work[n] = dilatedMask(domain, march ? known : changed, n, true);
-                work[n] &= march ? domain.active(n) & ~known[n] : known[n];
-            }
-        });
-        // next <- the nearest seeds of the voxels in work; only changes are written back
-        parallelFor(domain.size(), progress, [&](std::size_t n) {
-            changed[n] = LeafMask();
-            if (!work[n].any()) return;
-            SeedBlock block;
-            block.gather(domain, index, n);
-            std::int32_t* out = next.leaf(n);
-            if (all) {
-                const openvdb::Vec3f corner((domain.origin(n) - points.centre).asVec3s());
-                nearestOfAll(block.values, work[n], points.x.data(), points.y.data(),
-                             points.z.data(), corner.x(), corner.y(), corner.z(), out);
-            }
-            work[n].forEach([&](int v) {
-                const Coord local(v >> 6, v >> 3 & 7, v & 7);
-                const std::int32_t* p = block.at(local.x(), local.y(), local.z());
-                float distance2 = 0.0f;
-                if (!all) out[v] = nearestSeed(p, domain.origin(n) + local, points, distance2);
-                changed[n].set(v, out[v] != *p && distance2 < nearer2);
-            });
-        });
-        parallelFor(domain.size(), progress, [&](std::size_t n) {
-            changed[n].forEach([&](int v) { index.leaf(n)[v] = next.leaf(n)[v]; });
-            known[n] |= changed[n];
-        });
-        bool any = march || all;
-        for (std::size_t n = 0; n < domain.size() && !any; ++n) any = changed[n].any();
-        if (!any) return;
-    }
-}
-
 /// The inner voxels of a leaf that the given level set lacks, and that no interface can cross: all
 /// or none, as most of its closest points say. (Where the given leaves have a sign it stands:
 /// voxels do not change sides.)
@@ -458,7 +306,7 @@ LeafMask sideOf(const Coord& origin, const std::int32_t* index, const std::vecto
 } // namespace
 
 DistanceBand redistance(const LeafTable& table, const LeafField& phi, double voxel, double inside,
-                        double outside, const Progress& progress)
+                        double outside, double level, const Progress& progress)
 {
     std::vector<LeafMask> inner(table.size()), outer(table.size());
     parallelFor(table.size(), progress, [&](std::size_t n) {
@@ -470,30 +318,27 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     const LeafField coefficients = prefilter(table, phi, progress);
     const std::vector<Seed> seeds =
         findSeeds(table, coefficients, voxel, interface, begins, progress);
-    if (begins.back() == noSeed + 1) return DistanceBand();
+    if (seeds.empty()) return DistanceBand();
 
     const auto steps = [&](double width) { return int(std::ceil(width / voxel)); };
     const LeafTable domain = merged(reachable(table, interface, outer, steps(inside), progress),
                                     reachable(table, interface, inner, steps(outside), progress));
 
+    LeafPoints points{table, std::move(begins), std::vector<Vec3d>(seeds.size())};
+    parallelFor(seeds.size(), progress, [&](std::size_t i) { points.positions[i] = seeds[i].y; });
+    const double reach = std::max(inside, outside) / voxel + 1.0;
     SeedIndex index(domain.size());
-    std::vector<LeafMask> known(domain.size());
+    tbb::enumerable_thread_specific<NearestScratch> scratches;
     parallelFor(domain.size(), progress, [&](std::size_t n) {
         std::fill_n(index.leaf(n), leafSize, noSeed);
-        const std::int32_t m = table.find(domain.origin(n));
-        if (m == noLeaf) return;
-        known[n] = interface[m];
-        std::int32_t k = std::int32_t(begins[m]);
-        interface[m].forEach([&](int v) { index.leaf(n)[v] = k++; });
+        nearestPoints(points, domain.origin(n), domain.active(n), reach, scratches.local(),
+                      index.leaf(n));
     });
-
-    propagate(domain, seeds, std::max(inside, outside) / voxel, known, index, progress);
 
     DistanceBand band;
     band.table = domain;
     band.phi = LeafField(domain.size());
     band.kinks.resize(domain.size());
-    band.seeds = seeds.size() - 1; // without the one that stands for none
     const float h = float(voxel);
     parallelFor(domain.size(), progress, [&](std::size_t n) {
         const std::int32_t m = table.find(domain.origin(n));
@@ -515,10 +360,13 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
             const Vec3d x = (domain.origin(n) + local).asVec3d();
             const float sign = negative.on(v) ? -1.0f : 1.0f;
             const float width = float(negative.on(v) ? inside : outside) / h;
-            constexpr float margin = 0.5f; // what polishing may change [voxel]
-            if (distanceFrom(seeds[*p], x, sign) > width + margin) return;
-            const Seed& seed = polished(seeds[*p], x, table, coefficients, voxel, storage);
-            const float distance = std::max(distanceFrom(seed, x, sign), 1e-6f);
+            float distance = distanceFrom(seeds[*p], x, sign);
+            constexpr float sharpVox = 2.0f;
+            if (std::abs(sign * distance - float(level) / h) < sharpVox) {
+                const Seed& seed = polished(seeds[*p], x, table, coefficients, voxel, storage);
+                distance = distanceFrom(seed, x, sign);
+            }
+            distance = std::max(distance, 1e-6f);
             if (distance >= width) return;
             phi[v] = sign * distance * h;
             active.set(v);

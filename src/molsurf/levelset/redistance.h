@@ -4,20 +4,11 @@
 /// @file
 /// The signed distance to the zero set of a level set, deep into the molecule, by closest points.
 
-#include "molsurf/core/leaf_table.h"
+#include "molsurf/core/distance_band.h"
 #include "molsurf/core/progress.h"
 
 namespace molsurf
 {
-
-/// A signed distance in a band that need not be symmetric.
-struct DistanceBand {
-    LeafTable table; ///< active: -inside < phi < outside
-    LeafField phi;   ///< [Å]; at inactive voxels -inside or outside
-    std::vector<LeafMask>
-        kinks; ///< active voxels beside which the gradient turns by more than 20 degrees
-    std::size_t seeds = 0; ///< interface voxels whose closest points carry the distance
-};
 
 /// Computes the signed distance to the zero set of the cubic B-spline through phi.
 ///
@@ -25,12 +16,10 @@ struct DistanceBand {
 /// by
 ///    Newton's method (Chopp, Some improvements of the fast marching method, SIAM J. Sci. Comput.
 ///    23(1):230-244, 2001), with the normal n and the shape operator A there.
-/// 2. Closest points are handed from voxel to voxel, layer by layer, each keeping the nearest of
-/// its
-///    neighbours' (a feature transform; Danielsson, Euclidean distance mapping, Computer Graphics
-///    and Image Processing 14:227-248, 1980).
-/// 3. For each voxel x its point is moved along the spline by one more Newton step, and the
-/// distance follows
+/// 2. Every voxel takes the nearest of these points.
+/// 3. For voxels x within two voxels of `level` the point is moved along the spline by one more
+/// Newton step.
+/// 4. The distance follows
 ///    from the second-order expansion of the distance function about the normal through y: with
 ///    s = n.(x - y) and t = x - y - s n,  phi = s + (t.A t + s K t.t) / (2 (1 + s kappa + s^2 K)),
 ///    kappa = tr A, K = det A on the tangent plane.
@@ -39,7 +28,8 @@ struct DistanceBand {
 /// @param[in] phi      near its zero set a smooth signed distance [Å]
 /// @param[in] voxel    voxel edge h [Å]
 /// @param[in] inside,outside  depth and height of the result [Å]
+/// @param[in] level    the level set of the result that is wanted, which gets the best distances
 DistanceBand redistance(const LeafTable& table, const LeafField& phi, double voxel, double inside,
-                        double outside, const Progress& progress);
+                        double outside, double level, const Progress& progress);
 
 } // namespace molsurf

@@ -101,22 +101,33 @@ MOLSURF_KERNEL void blend(const LeafMask& mask, const float* __restrict on,
 /// field's. They are suppressed: made at every step they would add up to a drift of the interface.
 constexpr float stencilError = 0.02f;
 
-/// Signed distance of the zero of the second-order Taylor polynomial along the gradient; the value
-/// itself where the polynomial has no zero nearby (in crevices that the grid does not resolve).
-float taylorDistance(const float* p, float inverse)
+/// Signed distance of the zero of the second-order Taylor polynomial along the gradient, in the
+/// rows that have a voxel of the mask; the value itself where the polynomial has no zero nearby (in
+/// crevices that the grid does not resolve).
+MOLSURF_KERNEL void taylorDistance(const float* __restrict block, const LeafMask& mask,
+                                   float inverse, float* __restrict out)
 {
-    const Derivatives d = derivatives<2>(p, inverse);
-    const float norm2 = d.x * d.x + d.y * d.y + d.z * d.z;
-    if (norm2 < 0.25f) return p[0];
-    const float second = (d.x * d.x * d.xx + d.y * d.y * d.yy + d.z * d.z * d.zz +
-                          2.0f * (d.x * d.y * d.xy + d.y * d.z * d.yz + d.x * d.z * d.xz)) /
-                         norm2;
-    // |p| = a s - second s^2 / 2 for the step s toward the zero
-    const float discriminant = norm2 - 2.0f * second * p[0];
-    if (discriminant < 0.25f * norm2) return p[0];
-    const float change = 2.0f * p[0] / (std::sqrt(norm2) + std::sqrt(discriminant)) - p[0];
     const float noise = stencilError / inverse;
-    return p[0] + change * change * change / (change * change + noise * noise);
+    for (int row = 0; row < 64; ++row) {
+        if (mask.row(row) == 0) continue;
+        const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
+        for (int z = 0; z < 8; ++z) {
+            const Derivatives d = derivatives<2>(p + z, inverse);
+            const float value = p[z];
+            const float norm2 = larger(d.x * d.x + d.y * d.y + d.z * d.z, 1e-6f);
+            const float second = (d.x * d.x * d.xx + d.y * d.y * d.yy + d.z * d.z * d.zz +
+                                  2.0f * (d.x * d.y * d.xy + d.y * d.z * d.yz + d.x * d.z * d.xz)) /
+                                 norm2;
+            // |phi| = a s - second s^2 / 2 for the step s toward the zero
+            const float discriminant = norm2 - 2.0f * second * value;
+            const float root = std::sqrt(larger(discriminant, 0.0f));
+            const float change = 2.0f * value / (std::sqrt(norm2) + root) - value;
+            const float damped =
+                value + change * change * change / (change * change + noise * noise);
+            const bool zero = (norm2 >= 0.25f) & (discriminant >= 0.25f * norm2);
+            out[8 * row + z] = zero ? damped : value;
+        }
+    }
 }
 
 } // namespace
@@ -143,9 +154,9 @@ void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double w
             float* out = scratch.leaf(n);
             blend(table.active(n) & ~fixed, stepped, phi.leaf(n), w, out);
             if (i == 0) {
-                fixed.forEach([&](int v) {
-                    out[v] = taylorDistance(block.at(v >> 6, v >> 3 & 7, v & 7), 1.0f / h);
-                });
+                alignas(64) float distance[leafSize];
+                taylorDistance(block.values, fixed, 1.0f / h, distance);
+                fixed.forEach([&](int v) { out[v] = distance[v]; });
             }
         });
         std::swap(phi, scratch);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pipeline/fields.h"
 
+#include "molsurf/bspline/curvature.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/rasterize/nearest_ball.h"
 
@@ -14,8 +15,12 @@ using openvdb::Vec3d;
 
 const std::vector<std::string>& fieldNames()
 {
-    static const std::vector<std::string> names = {"sas", "spline", "mean_curvature",
-                                                   "gaussian_curvature", "atom_id"};
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all = {"sas", "spline"};
+        for (const CurvatureField& field : curvatureFields()) all.push_back(field.name);
+        all.push_back("atom_id");
+        return all;
+    }();
     return names;
 }
 
@@ -36,24 +41,77 @@ openvdb::FloatGrid::Ptr splineGrid(const Spline& spline)
     return grid;
 }
 
-openvdb::FloatGrid::Ptr curvatureGrid(const openvdb::FloatGrid& surface, const Spline& spline,
-                                      bool gaussian, const Progress& progress)
+namespace
 {
-    auto grid = openvdb::FloatGrid::create(0.0f);
-    grid->setTree(
-        std::make_shared<openvdb::FloatTree>(surface.tree(), 0.0f, openvdb::TopologyCopy()));
+
+/// A grid on the active voxels of another, zero.
+template<typename GridType>
+typename GridType::Ptr gridLike(const openvdb::FloatGrid& surface, const std::string& name)
+{
+    using Value = typename GridType::ValueType;
+    auto grid = GridType::create(Value(0.0f));
+    grid->setTree(std::make_shared<typename GridType::TreeType>(surface.tree(), Value(0.0f),
+                                                                openvdb::TopologyCopy()));
     grid->setTransform(surface.transform().copy());
-    grid->setName(gaussian ? "gaussian_curvature" : "mean_curvature");
-    openvdb::tree::LeafManager<openvdb::FloatTree> leaves(grid->tree());
+    grid->setName(name);
+    return grid;
+}
+
+/// How far a voxel of the band may be from the surface [voxel].
+constexpr double reachVox = 4.0;
+
+} // namespace
+
+std::vector<openvdb::GridBase::Ptr> curvatureGrids(const openvdb::FloatGrid& surface,
+                                                   const Spline& spline,
+                                                   const std::vector<std::string>& names,
+                                                   const Progress& progress)
+{
+    struct Target {
+        const CurvatureField* field;
+        openvdb::FloatGrid::Ptr scalars; // one of the two
+        openvdb::Vec3SGrid::Ptr vectors;
+        std::vector<float*> leaves; // values of each leaf, a vector's three together
+    };
+    std::vector<Target> targets;
+    std::vector<openvdb::GridBase::Ptr> grids;
+    for (const std::string& name : names) {
+        const CurvatureField* field = findCurvatureField(name);
+        if (!field) continue;
+        Target target{field, nullptr, nullptr, {}};
+        if (field->components == 1) {
+            target.scalars = gridLike<openvdb::FloatGrid>(surface, name);
+            for (auto leaf = target.scalars->tree().beginLeaf(); leaf; ++leaf)
+                target.leaves.push_back(leaf->buffer().data());
+            grids.push_back(target.scalars);
+        } else {
+            target.vectors = gridLike<openvdb::Vec3SGrid>(surface, name);
+            for (auto leaf = target.vectors->tree().beginLeaf(); leaf; ++leaf)
+                target.leaves.push_back(leaf->buffer().data()->asPointer());
+            grids.push_back(target.vectors);
+        }
+        targets.push_back(std::move(target));
+    }
+    if (targets.empty()) return grids;
+
+    // All grids have the leaves of `surface`, in the same order.
+    const double h = surface.voxelSize()[0];
+    openvdb::tree::LeafManager<const openvdb::FloatTree> leaves(surface.tree());
     parallelFor(leaves.leafCount(), progress, [&](std::size_t n) {
         SplineSampler sampler(spline);
-        for (auto it = leaves.leaf(n).beginValueOn(); it; ++it) {
-            const Jet jet = sampler.at(surface.indexToWorld(it.getCoord()));
-            if (jet.gradient.lengthSqr() < 1e-6) continue;
-            it.setValue(float(gaussian ? gaussianCurvature(jet) : meanCurvature(jet)));
+        for (auto it = leaves.leaf(n).cbeginValueOn(); it; ++it) {
+            Vec3d x = surface.indexToWorld(it.getCoord());
+            Jet jet;
+            if (!moveToSurface(sampler, h, reachVox, x, jet)) {
+                x = surface.indexToWorld(it.getCoord());
+                jet = sampler.at(x);
+            }
+            const Curvature k = curvature(jet);
+            for (const Target& t : targets)
+                t.field->value(k, t.leaves[n] + t.field->components * it.pos());
         }
     });
-    return grid;
+    return grids;
 }
 
 openvdb::Int32Grid::Ptr atomGrid(const openvdb::FloatGrid& surface, const std::vector<Ball>& balls,

@@ -16,17 +16,25 @@
 namespace molsurf
 {
 
-/// The names that Options::fields takes: "sas", "spline", "mean_curvature", "gaussian_curvature",
-/// "atom_id".
+/// The names that Options::fields takes: "sas", "spline", those of curvatureFields(), "atom_id".
 const std::vector<std::string>& fieldNames();
 
 /// The coefficients of a spline, as they are.
 openvdb::FloatGrid::Ptr splineGrid(const Spline& spline);
 
-/// Mean or Gaussian curvature, at each active voxel of `surface`, of the level set of the spline
-/// through that voxel [1/Å or 1/Å^2]; on the same voxels as `surface`, 0 elsewhere.
-openvdb::FloatGrid::Ptr curvatureGrid(const openvdb::FloatGrid& surface, const Spline& spline,
-                                      bool gaussian, const Progress& progress);
+/// Curvatures of the surface on the active voxels of `surface`, 0 elsewhere. A voxel has the value
+/// of the point of S = 0 that is reached from it along the gradient of S: the closest one. So the
+/// value does not change along the normals, a sample anywhere near the surface is that of the
+/// surface, and nothing grows without bound toward the centres of concave patches. Where the way
+/// along the gradient ends before the surface (on ridges of the distance) it is the curvature of
+/// the level set through the voxel.
+///
+/// @param[in] names  of curvatureFields(); others are skipped
+/// @return one grid a name, in their order: float, or vec3s for a direction
+std::vector<openvdb::GridBase::Ptr> curvatureGrids(const openvdb::FloatGrid& surface,
+                                                   const Spline& spline,
+                                                   const std::vector<std::string>& names,
+                                                   const Progress& progress);
 
 /// The atom whose ball is nearest to each active voxel of `surface`; -1 elsewhere.
 openvdb::Int32Grid::Ptr atomGrid(const openvdb::FloatGrid& surface, const std::vector<Ball>& balls,

@@ -13,21 +13,40 @@
 namespace molsurf
 {
 
+/// The surfaces that can be built.
+enum class SurfaceKind {
+    Variational,       ///< the minimiser of the energy, offset inward by the probe radius
+    SolventExcluded,   ///< the union of balls of radius r_i + r_b, offset inward by r_b
+    SolventAccessible, ///< the union of balls of radius r_i + r_b
+    VanDerWaals,       ///< the union of balls of radius r_i
+    Gaussian           ///< sum_i exp(-(d/r_i^2) (|x - x_i|^2 - r_i^2)) = 1
+};
+
 /// What surface is wanted, and how fine.
 struct Options {
     SelectOptions atoms;
+    SurfaceKind kind = SurfaceKind::Variational;
+    double blobbiness = 2.3;   ///< d of the Gaussian surface, in [0.1, 100]
     double probe = 1.4;        ///< probe radius r_b [Å], >= 0
     double voxel = 0.5;        ///< edge h of a voxel [Å], in [0.05, 10]
     double epsilon = 0.5;      ///< tolerance eps of the Gaussian sum [Å], > 0
     EvolveOptions evolution;   ///< lambda, regulariser, flow, stopping rule
     int splineLevel = 0;       ///< the spline lives on voxels of edge 2^level h; 0, 1 or 2
     bool fillCavities = false; ///< drop the inner walls
-    std::vector<std::string>
-        fields; ///< further grids to keep: "sas", "spline", "mean_curvature", ...
+    /// Further grids to keep, of fieldNames(); curvatures are then vertex attributes, too.
+    std::vector<std::string> fields;
+    bool curvatureIntegrals = false; ///< integrate curvature over the surface, for the report
 };
 
 /// The smallest and largest voxel edge that is taken, and the one above which a surface of atoms is
 /// no longer one [Å].
 constexpr double minVoxel = 0.05, maxVoxel = 10.0, coarseVoxel = 1.0;
+
+/// The command line's word for a surface: variational, ses, sas, vdw, gaussian.
+const char* nameOf(SurfaceKind kind);
+
+/// @throws Error(ErrorKind::Usage) for an option out of its range; names the option as the command
+///         line does
+void checkOptions(const Options& options);
 
 } // namespace molsurf

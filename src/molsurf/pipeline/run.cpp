@@ -12,14 +12,16 @@
 #include "molsurf/pipeline/fields.h"
 #include "molsurf/rasterize/gaussian_sum.h"
 #include "molsurf/rasterize/nearest_ball.h"
+#include "molsurf/rasterize/union_distance.h"
 #include "molsurf/surface/extract.h"
+#include "molsurf/surface/integrate.h"
 #include "molsurf/surface/measure.h"
+#include "molsurf/surface/statistics.h"
 #include "molsurf/surface/topology.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <sstream>
 
 namespace molsurf
 {
@@ -58,23 +60,11 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-void check(bool good, const std::string& option, const std::string& expected, double got)
+/// psi and the level set of psi = 0.
+NarrowBand gaussianBand(const GaussianSum& field, double voxel, Progress& progress,
+                        Stopwatch& watch)
 {
-    if (good) return;
-    std::ostringstream message;
-    message << option << ": expected " << expected << ", got " << got;
-    throw Error(ErrorKind::Usage, message.str());
-}
-
-/// The initial level set and the flow.
-NarrowBand evolveSurface(const std::vector<Ball>& balls, const Options& options, Progress& progress,
-                         Report& report, Stopwatch& watch)
-{
-    const double h = options.voxel;
-    // Stencils reach a voxel beyond the band, along diagonals.
-    GaussianOptions gaussian{options.probe, options.epsilon, h, (bandWidthVox + 1.5) * h};
     progress.update("density", 0.0);
-    const GaussianSum field(balls, gaussian);
     NarrowBand band;
     band.table = field.band(bandWidthVox, progress);
     if (band.table.size() == 0) {
@@ -87,12 +77,29 @@ NarrowBand evolveSurface(const std::vector<Ball>& balls, const Options& options,
     watch.stop("density");
 
     progress.update("initial", 0.0);
-    band.phi = initialSurface(band.table, band.psi, h, bandWidthVox * h, progress);
+    band.phi = initialSurface(band.table, band.psi, voxel, bandWidthVox * voxel, progress);
     watch.stop("initial");
+    return band;
+}
+
+/// How far from the balls of a sum psi is wanted [Å]: stencils reach a voxel beyond the band, along
+/// diagonals.
+double gaussianReach(double voxel)
+{
+    return (bandWidthVox + 1.5) * voxel;
+}
+
+/// The initial level set and the flow.
+NarrowBand evolveSurface(const std::vector<Ball>& balls, const Options& options, Progress& progress,
+                         Report& report, Stopwatch& watch)
+{
+    const double h = options.voxel, reach = gaussianReach(h);
+    const GaussianSum field(balls, {options.probe, options.epsilon, 0.0, h, reach});
+    NarrowBand band = gaussianBand(field, h, progress, watch);
 
     progress.update("evolve", 0.0);
     const auto source = [&](const openvdb::Coord& origin, float* psi) {
-        field.evaluate(origin, gaussian.reach, psi);
+        field.evaluate(origin, reach, psi);
     };
     EvolveOptions evolution = options.evolution;
     evolution.splineLevel = options.splineLevel;
@@ -107,15 +114,56 @@ NarrowBand evolveSurface(const std::vector<Ball>& balls, const Options& options,
     return band;
 }
 
+/// The level set that a smooth surface is offset from; empty for surfaces of a union of balls.
+NarrowBand makeBand(const std::vector<Ball>& balls, const Options& options, Progress& progress,
+                    Report& report, Stopwatch& watch)
+{
+    switch (options.kind) {
+    case SurfaceKind::Variational: {
+        NarrowBand band = evolveSurface(balls, options, progress, report, watch);
+        band.psi = LeafField();
+        return band;
+    }
+    case SurfaceKind::Gaussian: {
+        const double h = options.voxel;
+        const GaussianSum field(balls, {0.0, 0.0, options.blobbiness, h, gaussianReach(h)});
+        NarrowBand band = gaussianBand(field, h, progress, watch);
+        band.psi = LeafField();
+        return band;
+    }
+    default:
+        return NarrowBand();
+    }
+}
+
+/// How far the surface lies inside the set whose distance is known [Å].
+double offsetOf(const Options& options)
+{
+    return options.kind == SurfaceKind::Variational || options.kind == SurfaceKind::SolventExcluded
+               ? options.probe
+               : 0.0;
+}
+
 /// S = Phi + r_b on a band that holds the coefficients of every point of the surface.
-DistanceBand offsetInward(const NarrowBand& band, const Options& options, Progress& progress)
+DistanceBand distanceBand(const std::vector<Ball>& balls, const NarrowBand& band,
+                          const Options& options, Progress& progress)
 {
     const double h = options.voxel, width = splineWidthVox * h * (1 << options.splineLevel);
-    DistanceBand S = redistance(band.table, band.phi, h, options.probe + width,
-                                std::max(width - options.probe, h), progress);
-    parallelFor(S.table.size(), progress, [&](std::size_t n) {
-        for (int v = 0; v < leafSize; ++v) S.phi.leaf(n)[v] += float(options.probe);
-    });
+    const double offset = offsetOf(options);
+    const double inside = offset + width, outside = std::max(width - offset, h);
+    DistanceBand S;
+    if (options.kind == SurfaceKind::Variational || options.kind == SurfaceKind::Gaussian) {
+        S = redistance(band.table, band.phi, h, inside, outside, -offset, progress);
+    } else {
+        const double probe = options.kind == SurfaceKind::VanDerWaals ? 0.0 : options.probe;
+        const BallBoundary boundary = ballBoundary(balls, probe, progress);
+        S = distanceToUnion(balls, probe, boundary, h, inside, outside, progress);
+    }
+    if (offset > 0.0) {
+        parallelFor(S.table.size(), progress, [&](std::size_t n) {
+            for (int v = 0; v < leafSize; ++v) S.phi.leaf(n)[v] += float(offset);
+        });
+    }
     return S;
 }
 
@@ -138,13 +186,10 @@ void resample(DistanceBand& S, const Spline& spline, double voxel, Progress& pro
     });
 }
 
-/// Closes the cavities of a surface in the level set that it was offset from.
-/// @param[in]     mesh  of S = 0
-/// @param[in]     S     offset of the level set
-/// @param[in,out] band  afterwards inside throughout the cavities
-/// @return false if there are none
-bool fillCavities(const Mesh& mesh, const DistanceBand& S, double voxel, NarrowBand& band,
-                  Progress& progress)
+/// The voxels of the cavities of a surface.
+/// @param[in] mesh  of S = 0
+/// @return one mask a leaf of S; empty if there are none
+std::vector<LeafMask> cavityVoxels(const Mesh& mesh, const DistanceBand& S, double voxel)
 {
     std::size_t count = 0;
     const std::vector<std::uint32_t> pieces = connectedPieces(mesh, count);
@@ -168,24 +213,51 @@ bool fillCavities(const Mesh& mesh, const DistanceBand& S, double voxel, NarrowB
                 seeds[n].set(int(openvdb::FloatTree::LeafNodeType::coordToOffset(corner)));
         }
     }
-    if (!any) return false;
-    const std::vector<LeafMask> cavities = connectedTo(S.table, positive, seeds);
+    if (!any) return {};
+    return connectedTo(S.table, positive, seeds);
+}
 
-    // The same regions of the evolved level set, which they hold, are turned inside.
+/// Makes voxels inner ones, and the level set a distance again.
+void turnInside(const LeafTable& table, const std::vector<LeafMask>& voxels, double voxel,
+                double width, LeafField& phi, Progress& progress)
+{
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        voxels[n].forEach([&](int v) { phi.leaf(n)[v] = float(-width); });
+    }
+    LeafField scratch;
+    reinitialize(table, phi, voxel, width, int(std::ceil(2.0 * width / voxel)), scratch, progress);
+}
+
+/// Closes the cavities of a surface in the level set that it was offset from, which holds them.
+void fillCavities(const std::vector<LeafMask>& cavities, const DistanceBand& S, double voxel,
+                  NarrowBand& band, Progress& progress)
+{
     std::vector<LeafMask> outside(band.table.size()), start(band.table.size());
     for (std::size_t n = 0; n < band.table.size(); ++n) {
         outside[n] = ~lessThan(band.phi.leaf(n), 0.0f);
         const std::int32_t m = S.table.find(band.table.origin(n));
         if (m != noLeaf) start[n] = cavities[m];
     }
-    const std::vector<LeafMask> filled = connectedTo(band.table, outside, start);
-    const double width = bandWidthVox * voxel;
-    for (std::size_t n = 0; n < band.table.size(); ++n) {
-        filled[n].forEach([&](int v) { band.phi.leaf(n)[v] = float(-width); });
-    }
-    LeafField scratch;
-    reinitialize(band.table, band.phi, voxel, width, 2 * bandWidthVox, scratch, progress);
-    return true;
+    turnInside(band.table, connectedTo(band.table, outside, start), voxel, bandWidthVox * voxel,
+               band.phi, progress);
+}
+
+/// Closes the cavities of a surface in its own distance, which changes about them alone.
+void fillCavities(const std::vector<LeafMask>& cavities, double voxel, DistanceBand& S,
+                  Progress& progress)
+{
+    LeafField filled(S.table.size());
+    parallelFor(S.table.size(), progress,
+                [&](std::size_t n) { std::copy_n(S.phi.leaf(n), leafSize, filled.leaf(n)); });
+    turnInside(S.table, cavities, voxel, splineWidthVox * voxel, filled, progress);
+    LeafTable about = S.table;
+    for (std::size_t n = 0; n < about.size(); ++n) about.active(n) = cavities[n];
+    about = dilated(about, 2 * int(splineWidthVox), Spread::Ball, progress);
+    parallelFor(S.table.size(), progress, [&](std::size_t n) {
+        const std::int32_t m = about.find(S.table.origin(n));
+        if (m == noLeaf) return;
+        about.active(m).forEach([&](int v) { S.phi.leaf(n)[v] = filled.leaf(n)[v]; });
+    });
 }
 
 /// The level set grid: S made a distance on both sides.
@@ -246,30 +318,20 @@ void checkGradient(const Mesh& mesh, const std::vector<float>& slopes, const Dis
     report.gradientShare = double(counts.unit) / double(vertices - counts.kink); // may be 0/0
 }
 
-} // namespace
-
-void checkOptions(const Options& options)
+/// Statistics and integrals of the curvatures.
+void describeCurvature(const Mesh& mesh, const Spline& spline, const Options& options,
+                       Progress& progress, SurfaceReport& report)
 {
-    const auto finite = [](double x) { return std::isfinite(x); };
-    check(options.voxel >= minVoxel && options.voxel <= maxVoxel, "--voxel", "0.05 to 10 Å",
-          options.voxel);
-    check(finite(options.probe) && options.probe >= 0.0 && options.probe <= 100.0, "--probe",
-          "0 to 100 Å", options.probe);
-    check(options.epsilon >= 0.01 && options.epsilon <= 10.0, "--epsilon", "0.01 to 10 Å",
-          options.epsilon);
-    check(options.evolution.lambda >= 0.0 && options.evolution.lambda <= 1e6, "--lambda",
-          "0 to 1e6", options.evolution.lambda);
-    check(options.evolution.energyTolerance > 0.0 && finite(options.evolution.energyTolerance),
-          "--tolerance", "a positive number", options.evolution.energyTolerance);
-    for (const std::string& field : options.fields) {
-        const auto& names = fieldNames();
-        if (std::find(names.begin(), names.end(), field) == names.end()) {
-            throw Error(ErrorKind::Usage, "--fields: there is no field '" + field + "'");
-        }
-    }
-    check(options.splineLevel >= 0 && options.splineLevel <= 2, "--spline-level", "0, 1 or 2",
-          options.splineLevel);
+    const std::vector<float> areas = vertexAreas(mesh);
+    report.meanCurvature = statistics(mesh.scalars[0].values, areas);
+    report.gaussianCurvature = statistics(mesh.scalars[1].values, areas);
+    if (!options.curvatureIntegrals) return;
+    constexpr double tolerance = 5.0; // for each unit of the Euler characteristic [sr]
+    const int chi = std::max(std::abs(report.eulerCharacteristic), 2);
+    report.integrals = integrateSurface(mesh, spline, tolerance * chi, progress);
 }
+
+} // namespace
 
 Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress)
 {
@@ -282,8 +344,8 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
     report.voxel = options.voxel;
     Stopwatch watch(report);
 
-    NarrowBand band = evolveSurface(balls, options, progress, report, watch);
-    band.psi = LeafField();
+    NarrowBand band = makeBand(balls, options, progress, report, watch);
+    const bool unionOfBalls = band.table.size() == 0;
     const auto wanted = [&](const char* field) {
         return std::find(options.fields.begin(), options.fields.end(), field) !=
                options.fields.end();
@@ -294,7 +356,7 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
     ExtractStats stats;
     for (bool filled = false;; filled = true) {
         progress.update("redistance", 0.0);
-        S = offsetInward(band, options, progress);
+        if (!filled || !unionOfBalls) S = distanceBand(balls, band, options, progress);
         if (!options.fillCavities && !wanted("sas")) band = NarrowBand();
         watch.stop("redistance");
 
@@ -315,19 +377,22 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
                         "mesh: nothing of the molecule is left at this resolution [hint: a smaller "
                         "--voxel, --lambda or --epsilon]");
         }
-        if (filled || !options.fillCavities ||
-            !fillCavities(result.mesh, S, options.voxel, band, progress)) {
-            break;
+        if (filled || !options.fillCavities) break;
+        const std::vector<LeafMask> cavities = cavityVoxels(result.mesh, S, options.voxel);
+        if (cavities.empty()) break;
+        if (unionOfBalls) {
+            fillCavities(cavities, options.voxel, S, progress);
+        } else {
+            fillCavities(cavities, S, options.voxel, band, progress);
         }
     }
 
     progress.update("mesh", 0.7);
-    const std::string kind = report.surface.kind;
     report.surface = measure(result.mesh, progress);
     if (!report.surface.manifold && splitNonManifold(result.mesh) > 0) {
         report.surface = measure(result.mesh, progress);
     }
-    report.surface.kind = kind;
+    report.surface.kind = nameOf(options.kind);
     report.surface.maxResidual = stats.maxResidual;
     checkGradient(result.mesh, stats.slopes, S, options.voxel, progress, report.surface);
     // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
@@ -336,21 +401,26 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
         nearestBalls(balls, result.mesh.positions, labelReach, progress);
     for (std::int32_t& i : nearest) i = i < 0 ? -1 : balls[i].atom;
     result.mesh.labels.push_back({"atom_id", std::move(nearest)});
+    addCurvature(spline, options.fields, result.mesh, progress);
+    describeCurvature(result.mesh, spline, options, progress, report.surface);
     watch.stop("mesh");
 
     if (wanted("sas")) {
         const double width = surfaceWidthVox * options.voxel;
+        if (options.kind != SurfaceKind::Variational) {
+            DistanceBand exact =
+                distanceToUnion(balls, options.probe, ballBoundary(balls, options.probe, progress),
+                                options.voxel, width, width, progress);
+            band.table = std::move(exact.table);
+            band.phi = std::move(exact.phi);
+        }
         auto sas = toLevelSet(band.table, band.phi, width, options.voxel, progress);
         sas->setName("sas");
         result.fields.push_back(sas);
     }
     if (wanted("spline")) result.fields.push_back(splineGrid(spline));
-    if (wanted("mean_curvature")) {
-        result.fields.push_back(curvatureGrid(*result.surface, spline, false, progress));
-    }
-    if (wanted("gaussian_curvature")) {
-        result.fields.push_back(curvatureGrid(*result.surface, spline, true, progress));
-    }
+    for (auto& grid : curvatureGrids(*result.surface, spline, options.fields, progress))
+        result.fields.push_back(std::move(grid));
     if (wanted("atom_id")) {
         result.fields.push_back(atomGrid(*result.surface, balls, labelReach, progress));
     }

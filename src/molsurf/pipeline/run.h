@@ -34,8 +34,4 @@ struct Result {
 /// @throws Cancelled if the progress object says so
 Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress);
 
-/// @throws Error(ErrorKind::Usage) for an option out of its range; names the option as the command
-///         line does
-void checkOptions(const Options& options);
-
 } // namespace molsurf

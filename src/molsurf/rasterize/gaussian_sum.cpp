@@ -96,6 +96,8 @@ GaussianSum::GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& 
       }()),
       index_(balls, std::max(2.0, largest_ / 1.5))
 {
+    // The tolerance that the largest ball then has, the largest of all.
+    if (options_.blobbiness > 0.0) options_.epsilon = M_LN2 * largest_ / options_.blobbiness;
 }
 
 void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Term>& terms) const
@@ -106,7 +108,7 @@ void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Ter
     // band.
     const auto cutoff2 = [&](double R) {
         const double rim = R + reach + 2.0 * options_.epsilon;
-        return std::max(rim * rim, R * R + negligible * options_.epsilon * R / M_LN2);
+        return std::max(rim * rim, R * R + negligible / decay(R));
     };
     const double farthest = std::sqrt(cutoff2(largest_));
 
@@ -116,7 +118,7 @@ void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Ter
     index_.forEachNear(low, low + Vec3d(7.0 * h), farthest, [&](const Ball& ball, int) {
         const openvdb::Vec3f c = openvdb::Vec3f((Vec3d(ball.center) - low) / h);
         const float R = ball.radius + float(options_.probe);
-        const float C = float(M_LN2 / options_.epsilon) / R;
+        const float C = float(decay(R));
         Term t{c.x(), c.y(), c.z(), C * float(h * h), C * R * R, 0.0f};
         float nearest2 = 0.0f, farthest2 = 0.0f;
         for (const float x : {t.x, t.y, t.z}) {

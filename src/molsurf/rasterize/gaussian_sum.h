@@ -20,10 +20,11 @@ namespace molsurf
 
 /// Parameters of psi.
 struct GaussianOptions {
-    double probe = 1.4;   ///< probe radius r_b [Å]
-    double epsilon = 0.5; ///< tolerance eps [Å]
-    double voxel = 0.5;   ///< voxel edge h [Å]
-    double reach = 3.0;   ///< how far outside the balls of radius R_i psi is wanted [Å]
+    double probe = 1.4;      ///< probe radius r_b [Å]
+    double epsilon = 0.5;    ///< tolerance eps [Å]; not used with a blobbiness
+    double blobbiness = 0.0; ///< d > 0: C_i = d / R_i^2 instead, the Gaussian surface of Blinn
+    double voxel = 0.5;      ///< voxel edge h [Å]
+    double reach = 3.0;      ///< how far outside the balls of radius R_i psi is wanted [Å]
 };
 
 /// psi of a set of balls, evaluated leaf by leaf. The balls must outlive it.
@@ -56,6 +57,13 @@ private:
         float exponent; // largest exponent of the term in the leaf
     };
     void gatherTerms(const openvdb::Coord& origin, double reach, std::vector<Term>& terms) const;
+
+    /// C of a ball [1/Å^2]
+    double decay(double R) const
+    {
+        return options_.blobbiness > 0.0 ? options_.blobbiness / (R * R)
+                                         : M_LN2 / (options_.epsilon * R);
+    }
 
     const std::vector<Ball>& balls_;
     GaussianOptions options_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/distance.h"
 
+#include "molsurf/bspline/curvature.h"
 #include "molsurf/core/parallel.h"
 
 #include <algorithm>
@@ -173,9 +174,15 @@ Distance DistanceTo::Query::at(const Vec3d& x)
     if (sampler_) {
         const double voxel = surface.spline->voxel;
         const Vec3d local = surface.pose.toLocal(x), start = surface.pose.toLocal(near.point);
+        // The triangles follow the surface closely: a foot at another distance is not the closest.
+        constexpr double leeway = 0.25; // [voxel]
+        const double about = (local - start).length();
+        const auto good = [&](const std::optional<Foot>& foot) {
+            return foot && std::abs((local - foot->y).length() - about) <= leeway * voxel;
+        };
         std::optional<Foot> foot = closestOnSpline(*sampler_, voxel, local, start);
-        if (!foot) foot = ontoSpline(*sampler_, voxel, start);
-        if (foot) {
+        if (!good(foot)) foot = ontoSpline(*sampler_, voxel, start);
+        if (good(foot)) {
             const Vec3d way = local - foot->y;
             const double distance = way.length(), height = foot->normal.dot(way);
             // Away from the normal, at an edge of the surface, its sign means little.

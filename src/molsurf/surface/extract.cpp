@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/extract.h"
 
+#include "molsurf/bspline/curvature.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/surface/topology.h"
 
@@ -19,25 +20,8 @@ using openvdb::Vec3f;
 namespace
 {
 
-constexpr double tolerance = 1e-5; // |S| at a vertex, in voxels
-constexpr int newtonSteps = 8, bisections = 30;
+constexpr int bisections = 30;
 constexpr std::size_t chunk = 512; // vertices that share a sampler
-
-/// Moves a point along the gradient onto S = 0, by at most a voxel.
-bool newton(SplineSampler& sampler, double voxel, Vec3d& x, Jet& jet)
-{
-    const Vec3d start = x;
-    for (int i = 0; i < newtonSteps; ++i) {
-        jet = sampler.at(x);
-        if (std::abs(jet.value) <= tolerance * voxel) return true;
-        const double slope = jet.gradient.length();
-        if (slope < 0.05) return false;
-        const double step = std::clamp(jet.value / slope, -0.5 * voxel, 0.5 * voxel);
-        x -= step / slope * jet.gradient;
-        if ((x - start).lengthSqr() > voxel * voxel) return false;
-    }
-    return false;
-}
 
 /// Finds S = 0 between the corners of the cell of a point: the line from the corner nearest to the
 /// point to the nearest one of the other sign.
@@ -65,9 +49,7 @@ void bisect(SplineSampler& sampler, double voxel, Vec3d& x, Jet& jet)
 }
 
 struct Vertices {
-    Mesh& mesh;
-    std::vector<float>& mean;
-    std::vector<float>& gauss;
+    Mesh& mesh; ///< its scalars are the mean and the Gaussian curvature
     std::vector<float>& slope;
 
     void set(std::size_t v, const Vec3d& x, const Jet& jet)
@@ -76,8 +58,9 @@ struct Vertices {
         const double length = jet.gradient.length();
         slope[v] = float(length);
         mesh.normals[v] = length > 0.0 ? Vec3f(jet.gradient / length) : Vec3f(0.0f, 0.0f, 1.0f);
-        mean[v] = length > 0.0 ? float(meanCurvature(jet)) : 0.0f;
-        gauss[v] = length > 0.0 ? float(gaussianCurvature(jet)) : 0.0f;
+        const bool regular = length >= leastSlope;
+        mesh.scalars[0].values[v] = regular ? float(meanCurvature(jet)) : 0.0f;
+        mesh.scalars[1].values[v] = regular ? float(gaussianCurvature(jet)) : 0.0f;
     }
 };
 
@@ -186,18 +169,18 @@ std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel,
             }
             centroid /= 2.0 * double(end - begin); // each neighbour lies on two triangles
             const Vec3f oldPosition = mesh.positions[v], oldNormal = mesh.normals[v];
-            const float oldMean = vertices.mean[v], oldGauss = vertices.gauss[v];
             const float oldSlope = vertices.slope[v];
+            const float oldMean = mesh.scalars[0].values[v], oldGauss = mesh.scalars[1].values[v];
             Vec3d x = centroid;
             Jet jet;
-            if (!newton(sampler, voxel, x, jet)) continue;
+            if (!moveToSurface(sampler, voxel, 1.0, x, jet)) continue;
             vertices.set(v, x, jet);
             if (worst() <= before) {
                 mesh.positions[v] = oldPosition;
                 mesh.normals[v] = oldNormal;
-                vertices.mean[v] = oldMean;
-                vertices.gauss[v] = oldGauss;
                 vertices.slope[v] = oldSlope;
+                mesh.scalars[0].values[v] = oldMean;
+                mesh.scalars[1].values[v] = oldGauss;
                 continue;
             }
             ++moved;
@@ -213,6 +196,39 @@ std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel,
 
 } // namespace
 
+void addCurvature(const Spline& spline, const std::vector<std::string>& names, Mesh& mesh,
+                  const Progress& progress)
+{
+    std::vector<const CurvatureField*> fields;
+    std::vector<float*> columns; // one a component
+    const std::size_t vertices = mesh.positions.size(), before = mesh.scalars.size();
+    for (const std::string& name : names) {
+        const auto present = [&](const auto& a) { return a.name.rfind(name, 0) == 0; };
+        const CurvatureField* field = findCurvatureField(name);
+        if (!field || std::any_of(mesh.scalars.begin(), mesh.scalars.end(), present)) continue;
+        fields.push_back(field);
+        for (int i = 0; i < field->components; ++i) {
+            const std::string suffix = field->components > 1 ? std::string{'_', "xyz"[i]} : "";
+            mesh.scalars.push_back({name + suffix, std::vector<float>(vertices)});
+        }
+    }
+    if (fields.empty()) return;
+    for (std::size_t i = before; i < mesh.scalars.size(); ++i)
+        columns.push_back(mesh.scalars[i].values.data());
+    parallelFor((vertices + chunk - 1) / chunk, progress, [&](std::size_t c) {
+        SplineSampler sampler(spline);
+        for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v) {
+            const Curvature k = curvature(sampler.at(Vec3d(mesh.positions[v])));
+            auto column = columns.begin();
+            for (const CurvatureField* field : fields) {
+                float value[3];
+                field->value(k, value);
+                for (int i = 0; i < field->components; ++i) (*column++)[v] = value[i];
+            }
+        }
+    });
+}
+
 Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const Progress& progress,
                  ExtractStats& stats)
 {
@@ -225,9 +241,11 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
     Mesh mesh;
     mesh.positions = std::move(points);
     mesh.normals.resize(mesh.positions.size());
-    std::vector<float> mean(mesh.positions.size()), gauss(mesh.positions.size());
     stats.slopes.resize(mesh.positions.size());
-    Vertices vertices{mesh, mean, gauss, stats.slopes};
+    for (const char* name : {"mean_curvature", "gaussian_curvature"})
+        mesh.scalars.push_back({name, std::vector<float>(mesh.positions.size())});
+    Vertices vertices{mesh, stats.slopes};
+    const double voxel = surface.voxelSize()[0];
 
     const std::size_t chunks = (mesh.positions.size() + chunk - 1) / chunk;
     std::vector<std::size_t> bisected(chunks, 0);
@@ -239,9 +257,9 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
             const Vec3d start(mesh.positions[v]);
             Vec3d x = start;
             Jet jet;
-            if (!newton(sampler, surface.voxelSize()[0], x, jet)) {
+            if (!moveToSurface(sampler, voxel, 1.0, x, jet)) {
                 x = start;
-                bisect(sampler, surface.voxelSize()[0], x, jet);
+                bisect(sampler, voxel, x, jet);
                 ++bisected[c];
             }
             vertices.set(v, x, jet);
@@ -266,9 +284,7 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
     });
 
     SplineSampler sampler(spline);
-    stats.relaxed = relax(vertices, sampler, surface.voxelSize()[0], progress);
-    mesh.scalars.push_back({"mean_curvature", std::move(mean)});
-    mesh.scalars.push_back({"gaussian_curvature", std::move(gauss)});
+    stats.relaxed = relax(vertices, sampler, voxel, progress);
     return mesh;
 }
 

@@ -10,6 +10,9 @@
 
 #include <openvdb/openvdb.h>
 
+#include <string>
+#include <vector>
+
 namespace molsurf
 {
 
@@ -32,9 +35,14 @@ struct ExtractStats {
 /// @param[in] surface  level set whose signs are those of the spline at the voxels
 /// @param[in] spline   S
 /// @return a closed mesh, oriented outward, 2-manifold unless the mesher failed, with normals and
-/// the scalars mean_curvature and
-///         gaussian_curvature; empty if the level set has no zero
+///         the scalars mean_curvature and gaussian_curvature; empty if the level set has no zero
 Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const Progress& progress,
                  ExtractStats& stats);
+
+/// Adds curvatures of the spline at the vertices to Mesh::scalars; a direction becomes three, with
+/// _x, _y and _z at the end of their names.
+/// @param[in] names  of curvatureFields(); others, and those that the mesh already has, are skipped
+void addCurvature(const Spline& spline, const std::vector<std::string>& names, Mesh& mesh,
+                  const Progress& progress);
 
 } // namespace molsurf

@@ -22,7 +22,7 @@ DistanceBand redistanced(const test::Function& distance, const Vec3d& centre, do
 {
     const LeafTable table = test::bandTable(distance, centre, extent, voxel, 4.0 * voxel);
     const LeafField phi = test::filled(table, voxel, distance);
-    return redistance(table, phi, voxel, inside, outside, Progress());
+    return redistance(table, phi, voxel, inside, outside, -0.5 * inside, Progress());
 }
 
 /// Largest error at the active voxels for which `counts` holds; checks that the active voxels are
@@ -212,7 +212,7 @@ TEST(Redistance, MarksNoKinkInASphereAboveItsCentre)
 
 TEST(Redistance, OfNothingIsNothing)
 {
-    const DistanceBand band = redistance(LeafTable(), LeafField(0), 0.5, 3.0, 1.0, Progress());
+    const DistanceBand band = redistance(LeafTable(), LeafField(0), 0.5, 3.0, 1.0, 0.0, Progress());
     EXPECT_EQ(band.table.size(), 0u);
 }
 

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/nearest_point.h"
+
+#include "molsurf/core/simd.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+using openvdb::Vec3d;
+
+namespace
+{
+
+constexpr int lanes = 16, cube = 4; // a plane of a cube is a vector
+static_assert(cube * cube == lanes && leafDim % cube == 0);
+constexpr float cubeRadius = 0.5f * (cube - 1) * 1.7320508f; // of its voxels' centres
+
+using Floats = float __attribute__((vector_size(4 * lanes), aligned(4)));
+using Ints = std::int32_t __attribute__((vector_size(4 * lanes), aligned(4)));
+
+/// The nearest of some points to a place.
+/// @param[in] count  a multiple of `lanes`, positive
+MOLSURF_KERNEL int nearestOf(const float* x, const float* y, const float* z, int count, float px,
+                             float py, float pz, float& distance2)
+{
+    Floats least = Floats{} + 1e30f;
+    Ints best = {};
+    for (int i = 0; i < count; i += lanes) {
+        const Floats dx = *reinterpret_cast<const Floats*>(x + i) - px;
+        const Floats dy = *reinterpret_cast<const Floats*>(y + i) - py;
+        const Floats dz = *reinterpret_cast<const Floats*>(z + i) - pz;
+        const Floats d2 = dx * dx + dy * dy + dz * dz;
+        const Ints nearer = d2 < least;
+        least = nearer ? d2 : least;
+        best = nearer ? Ints{} + i : best;
+    }
+    int lane = 0;
+    for (int k = 1; k < lanes; ++k) {
+        if (least[k] < least[lane]) lane = k;
+    }
+    distance2 = least[lane];
+    return best[lane] + lane;
+}
+
+/// The points that may be the nearest to some place within a distance of a centre.
+/// @param[in]  y0     the nearest to the centre
+/// @param[out] out    their indices
+/// @return their number
+MOLSURF_KERNEL int candidates(const float* x, const float* y, const float* z, int count, float cx,
+                              float cy, float cz, int y0, float radius, std::int32_t* out)
+{
+    const float x0 = x[y0], yy0 = y[y0], z0 = z[y0];
+    const float d02 = (x0 - cx) * (x0 - cx) + (yy0 - cy) * (yy0 - cy) + (z0 - cz) * (z0 - cz);
+    const float limit = 4.0f * radius * radius;
+    int m = 0;
+    for (int i = 0; i < count; i += lanes) {
+        const Floats px = *reinterpret_cast<const Floats*>(x + i),
+                     py = *reinterpret_cast<const Floats*>(y + i),
+                     pz = *reinterpret_cast<const Floats*>(z + i);
+        const Floats dx = px - cx, dy = py - cy, dz = pz - cz;
+        const Floats ex = px - x0, ey = py - yy0, ez = pz - z0;
+        const Floats more = dx * dx + dy * dy + dz * dz - d02;
+        const Floats apart2 = ex * ex + ey * ey + ez * ez;
+        const Floats positive = more > 0.0f ? more : Floats{};
+        const Ints good = positive * positive <= limit * apart2 + 1e-3f ? Ints{} - 1 : Ints{};
+        std::uint64_t pairs[lanes / 2], any = 0;
+        std::memcpy(pairs, &good, sizeof pairs);
+        for (const std::uint64_t pair : pairs) any |= pair;
+        if (any == 0) continue;
+        for (int k = 0; k < lanes; ++k) {
+            out[m] = i + k;
+            m -= good[k];
+        }
+    }
+    return m;
+}
+
+/// The nearest of some points to each voxel of a cube.
+/// @param[in]  cx,cy,cz  the cube's first voxel
+/// @param[out] best      positions in the list, by 16 x + 4 y + z
+MOLSURF_KERNEL void nearestInCube(const float* x, const float* y, const float* z, int count,
+                                  float cx, float cy, float cz, std::int32_t* best, float* least)
+{
+    Floats vy, vz;
+    for (int k = 0; k < lanes; ++k) {
+        vy[k] = cy + float(k / cube);
+        vz[k] = cz + float(k % cube);
+    }
+    for (int plane = 0; plane < cube; plane += 2) {
+        const float vx = cx + float(plane);
+        Floats least0 = Floats{} + 1e30f, least1 = least0;
+        Ints best0 = {}, best1 = {};
+        for (int i = 0; i < count; ++i) {
+            const float dx = x[i] - vx;
+            const Floats dy = vy - y[i], dz = vz - z[i];
+            const Floats aside = dy * dy + dz * dz;
+            const Floats d0 = aside + dx * dx, d1 = aside + (dx - 1.0f) * (dx - 1.0f);
+            const Ints nearer0 = d0 < least0, nearer1 = d1 < least1;
+            least0 = nearer0 ? d0 : least0;
+            least1 = nearer1 ? d1 : least1;
+            best0 = nearer0 ? Ints{} + i : best0;
+            best1 = nearer1 ? Ints{} + i : best1;
+        }
+        *reinterpret_cast<Floats*>(least + lanes * plane) = least0;
+        *reinterpret_cast<Floats*>(least + lanes * (plane + 1)) = least1;
+        *reinterpret_cast<Ints*>(best + lanes * plane) = best0;
+        *reinterpret_cast<Ints*>(best + lanes * (plane + 1)) = best1;
+    }
+}
+
+/// The squared distance of a place from a leaf's voxels.
+double distance2ToLeaf(const Vec3d& p, const Coord& origin)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double d = std::abs(p[k] - (origin[k] + 3.5)) - 3.5;
+        if (d > 0.0) sum += d * d;
+    }
+    return sum;
+}
+
+/// Gathers the points that may be nearest to a voxel of a leaf, relative to its centre, padded to a
+/// multiple of `lanes`.
+/// @return their number with the padding
+int gatherPoints(const LeafPoints& points, const Coord& origin, double reach, NearestScratch& s)
+{
+    const double leafRadius = 3.5 * std::sqrt(3.0);
+    const Vec3d centre = origin.asVec3d() + Vec3d(3.5);
+    const double farthest = reach + leafRadius + LeafPoints::overhang;
+    const int R = int(std::ceil((reach + LeafPoints::overhang) / leafDim));
+
+    struct Near {
+        double distance2;
+        std::size_t leaf;
+    };
+    std::vector<Near> leaves;
+    const auto& origins = points.table.origins();
+    for (int dx = -R; dx <= R; ++dx) {
+        for (int dy = -R; dy <= R; ++dy) {
+            const Coord first = origin.offsetBy(leafDim * dx, leafDim * dy, -leafDim * R);
+            const Coord last = first.offsetBy(0, 0, 2 * leafDim * R);
+            if (distance2ToLeaf(centre, {first.x(), first.y(), origin.z()}) > farthest * farthest) {
+                continue;
+            }
+            auto it = std::lower_bound(origins.begin(), origins.end(), first);
+            for (; it != origins.end() && !(last < *it); ++it) {
+                const std::size_t n = std::size_t(it - origins.begin());
+                if (points.begins[n] == points.begins[n + 1]) continue;
+                const double d2 = distance2ToLeaf(centre, *it);
+                if (d2 <= farthest * farthest) leaves.push_back({d2, n});
+            }
+        }
+    }
+    std::sort(leaves.begin(), leaves.end(), [](const Near& a, const Near& b) {
+        return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.leaf < b.leaf);
+    });
+
+    std::size_t most = 0;
+    for (const Near& near : leaves) most += points.begins[near.leaf + 1] - points.begins[near.leaf];
+    most = (most + lanes - 1) / lanes * lanes;
+    s.x.resize(most);
+    s.y.resize(most);
+    s.z.resize(most);
+    s.index.resize(most);
+    std::size_t count = 0;
+    double limit = farthest;
+    float nearest2 = 1e30f;
+    for (const Near& near : leaves) {
+        if (near.distance2 > limit * limit) break;
+        for (std::size_t i = points.begins[near.leaf]; i < points.begins[near.leaf + 1]; ++i) {
+            const openvdb::Vec3f d(points.positions[i] - centre);
+            nearest2 = std::min(nearest2, d.lengthSqr());
+            s.x[count] = d.x();
+            s.y[count] = d.y();
+            s.z[count] = d.z();
+            s.index[count++] = std::int32_t(i);
+        }
+        // No voxel is farther from its nearest point than the centre from its own plus the radius.
+        limit = std::min(farthest,
+                         std::sqrt(double(nearest2)) + 2.0 * leafRadius + LeafPoints::overhang);
+    }
+    for (; count % lanes != 0; ++count) {
+        s.x[count] = s.y[count] = s.z[count] = 1e15f; // farther than any
+        s.index[count] = -1;
+    }
+    return int(count);
+}
+
+} // namespace
+
+void nearestPoints(const LeafPoints& points, const Coord& origin, const LeafMask& mask,
+                   double reach, NearestScratch& s, std::int32_t* out)
+{
+    const int count = gatherPoints(points, origin, reach, s);
+    if (count == 0) {
+        mask.forEach([&](int v) { out[v] = -1; });
+        return;
+    }
+    s.nearIndex.resize(std::size_t(count) + lanes);
+    s.nearX.resize(std::size_t(count));
+    s.nearY.resize(std::size_t(count));
+    s.nearZ.resize(std::size_t(count));
+    for (int b = 0; b < 8; ++b) {
+        const int bx = b >> 2, by = b >> 1 & 1, bz = b & 1;
+        const std::uint64_t columns = std::uint64_t(0x0f0f0f0f) << (32 * by + 4 * bz);
+        std::uint64_t any = 0;
+        for (int x = 0; x < cube; ++x) any |= mask.words[cube * bx + x] & columns;
+        if (any == 0) continue;
+
+        const float cx = float(cube * bx) - 3.5f, cy = float(cube * by) - 3.5f,
+                    cz = float(cube * bz) - 3.5f;
+        constexpr float half = 0.5f * (cube - 1);
+        float distance2;
+        const int y0 = nearestOf(s.x.data(), s.y.data(), s.z.data(), count, cx + half, cy + half,
+                                 cz + half, distance2);
+        const int near = candidates(s.x.data(), s.y.data(), s.z.data(), count, cx + half, cy + half,
+                                    cz + half, y0, cubeRadius, s.nearIndex.data());
+        for (int i = 0; i < near; ++i) {
+            s.nearX[i] = s.x[s.nearIndex[i]];
+            s.nearY[i] = s.y[s.nearIndex[i]];
+            s.nearZ[i] = s.z[s.nearIndex[i]];
+        }
+        std::int32_t best[cube * lanes];
+        float least[cube * lanes];
+        nearestInCube(s.nearX.data(), s.nearY.data(), s.nearZ.data(), near, cx, cy, cz, best,
+                      least);
+        const float reach2 = float(reach * reach);
+        for (int k = 0; k < cube * lanes; ++k) {
+            const int v = 64 * (cube * bx + k / lanes) + 8 * (cube * by + k / cube % cube) +
+                          cube * bz + k % cube;
+            if (mask.on(v)) out[v] = least[k] <= reach2 ? s.index[s.nearIndex[best[k]]] : -1;
+        }
+    }
+}
+
+} // namespace molsurf

@@ -1,0 +1,493 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/rasterize/union_distance.h"
+
+#include "molsurf/core/leaf_block.h"
+#include "molsurf/core/parallel.h"
+#include "molsurf/core/simd.h"
+#include "molsurf/rasterize/ball_index.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+namespace
+{
+
+constexpr int lanes = 16, cube = 4; // a plane of a cube is a vector
+constexpr int planes = cube, cubeSize = planes * lanes;
+static_assert(cube * cube == lanes && leafDim % cube == 0);
+constexpr double cubeRadius = 0.5 * (cube - 1) * 1.7320508; // [voxel]
+
+using Floats = float __attribute__((vector_size(4 * lanes), aligned(4)));
+using Ints = std::int32_t __attribute__((vector_size(4 * lanes), aligned(4)));
+
+/// A foot counts as uncovered if it lies at most this far, as a cosine, in a cap: the arcs about it
+/// hold a point just as near.
+constexpr float rimTolerance = 2e-6f;
+
+/// What a cube of voxels is evaluated on, relative to its leaf's centre [Å].
+struct NearPatch {
+    Vec3f centre;
+    float radius;
+    std::uint32_t capsBegin, capsEnd;
+    std::int32_t part;
+};
+struct NearCap {
+    float x, y, z, cosine;
+};
+struct NearArc {
+    Vec3f centre, axis, middle;
+    float radius, cosine;
+    std::int32_t part;
+};
+struct NearCorner {
+    Vec3f position;
+    std::int32_t part;
+};
+struct NearBall {
+    Vec3f centre;
+    float radius;
+};
+
+/// The voxels of a cube: places [Å], and for each the square of the least distance so far and the
+/// part that has it.
+struct Cube {
+    Vec3f first; // voxel
+    Vec3f centre;
+    float voxel, radius;
+    alignas(64) float least2[cubeSize];
+    alignas(64) std::int32_t part[cubeSize];
+};
+
+inline __attribute__((always_inline)) void places(const Cube& c, Floats& y, Floats& z)
+{
+    for (int k = 0; k < lanes; ++k) {
+        y[k] = c.first.y() + c.voxel * float(k / cube);
+        z[k] = c.first.z() + c.voxel * float(k % cube);
+    }
+}
+
+inline __attribute__((always_inline)) void squareRoot(const Floats& x, Floats& out)
+{
+    alignas(64) float values[lanes];
+    std::memcpy(values, &x, sizeof values);
+    for (float& v : values) v = std::sqrt(v);
+    std::memcpy(&out, values, sizeof values);
+}
+
+/// Keeps what is nearer.
+inline __attribute__((always_inline)) void keep(Cube& c, int plane, const Floats& d2, int part)
+{
+    Floats* least = reinterpret_cast<Floats*>(c.least2 + lanes * plane);
+    Ints* parts = reinterpret_cast<Ints*>(c.part + lanes * plane);
+    const Ints nearer = d2 < *least;
+    *least = nearer ? d2 : *least;
+    *parts = nearer ? Ints{} + part : *parts;
+}
+
+MOLSURF_KERNEL void nearCorners(Cube& c, const NearCorner* corners, std::size_t count)
+{
+    Floats y, z;
+    places(c, y, z);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3f& p = corners[i].position;
+        const Floats dy = y - p.y(), dz = z - p.z();
+        const Floats aside = dy * dy + dz * dz;
+        for (int plane = 0; plane < planes; ++plane) {
+            const float dx = c.first.x() + c.voxel * float(plane) - p.x();
+            keep(c, plane, aside + dx * dx, corners[i].part);
+        }
+    }
+}
+
+MOLSURF_KERNEL void nearArcs(Cube& c, const NearArc* arcs, std::size_t count)
+{
+    Floats y, z;
+    places(c, y, z);
+    for (std::size_t i = 0; i < count; ++i) {
+        const NearArc& arc = arcs[i];
+        const Floats dy = y - arc.centre.y(), dz = z - arc.centre.z();
+        for (int plane = 0; plane < planes; ++plane) {
+            const float dx = c.first.x() + c.voxel * float(plane) - arc.centre.x();
+            const Floats along = dx * arc.axis.x() + dy * arc.axis.y() + dz * arc.axis.z();
+            const Floats middle = dx * arc.middle.x() + dy * arc.middle.y() + dz * arc.middle.z();
+            const Floats square = dx * dx + dy * dy + dz * dz - along * along;
+            Floats r;
+            squareRoot(square > 0.0f ? square : Floats{}, r);
+            const Floats d2 = along * along + (r - arc.radius) * (r - arc.radius);
+            keep(c, plane, middle >= (arc.cosine - rimTolerance) * r ? d2 : Floats{} + 1e30f,
+                 arc.part);
+        }
+    }
+}
+
+MOLSURF_KERNEL void nearPatches(Cube& c, const NearPatch* patches, std::size_t count,
+                                const NearCap* caps)
+{
+    Floats y, z;
+    places(c, y, z);
+    for (std::size_t i = 0; i < count; ++i) {
+        const NearPatch& patch = patches[i];
+        const Floats dy = y - patch.centre.y(), dz = z - patch.centre.z();
+        for (int plane = 0; plane < planes; ++plane) {
+            const float dx = c.first.x() + c.voxel * float(plane) - patch.centre.x();
+            const Floats r2 = dx * dx + dy * dy + dz * dz;
+            Floats r;
+            squareRoot(r2, r);
+            const Floats d = patch.radius - r;
+            Floats d2 = d * d; // of voxels outside the ball too: the same holds for them
+            const Floats least = *reinterpret_cast<const Floats*>(c.least2 + lanes * plane);
+            // Only directions that would be nearer are looked at further.
+            Ints open = d2 < least ? Ints{} - 1 : Ints{};
+            std::int64_t words[lanes / 2];
+            const auto none = [&] {
+                std::memcpy(words, &open, sizeof words);
+                std::int64_t any = 0;
+                for (const std::int64_t w : words) any |= w;
+                return any == 0;
+            };
+            if (none()) continue;
+            for (std::uint32_t k = patch.capsBegin; k < patch.capsEnd; ++k) {
+                const NearCap& cap = caps[k];
+                const Floats along = dx * cap.x + dy * cap.y + dz * cap.z;
+                open = along > (cap.cosine + rimTolerance) * r ? Ints{} : open;
+                if ((k & 3) == 3 && none()) break;
+            }
+            d2 = open != 0 ? d2 : Floats{} + 1e30f;
+            keep(c, plane, d2, patch.part);
+        }
+    }
+}
+
+/// Distance to the nearest ball, and the squared distance less the squared radius, whose sign tells
+/// inside from outside even where the first is rounded.
+MOLSURF_KERNEL void nearBalls(const Cube& c, const NearBall* balls, std::size_t count,
+                              float* __restrict distance)
+{
+    Floats y, z;
+    places(c, y, z);
+    for (int plane = 0; plane < planes; ++plane) {
+        const float x = c.first.x() + c.voxel * float(plane);
+        Floats least = Floats{} + 1e15f;
+        for (std::size_t i = 0; i < count; ++i) {
+            const NearBall& b = balls[i];
+            const float dx = x - b.centre.x();
+            const Floats dy = y - b.centre.y(), dz = z - b.centre.z();
+            Floats d;
+            squareRoot(dx * dx + dy * dy + dz * dz, d);
+            d -= b.radius;
+            least = d < least ? d : least;
+        }
+        *reinterpret_cast<Floats*>(distance + lanes * plane) = least;
+    }
+}
+
+/// Everything near a leaf, relative to its centre.
+struct Near {
+    std::vector<NearPatch> patches, cubePatches;
+    std::vector<NearCap> caps;
+    std::vector<NearArc> arcs, cubeArcs;
+    std::vector<NearCorner> corners, cubeCorners;
+    std::vector<NearBall> balls, cubeBalls;
+};
+
+class Evaluator
+{
+public:
+    Evaluator(const std::vector<Ball>& balls, double probe, const BallBoundary& boundary,
+              double voxel, double inside, double outside)
+        : boundary_(boundary), probe_(probe), voxel_(voxel), inside_(inside), outside_(outside),
+          largest_(largest(balls) + probe), spheres_(patchBalls(boundary)),
+          patchIndex_(spheres_, std::max(2.0, largest_ / 1.5)),
+          ballIndex_(balls, std::max(2.0, largest_ / 1.5))
+    {
+    }
+
+    /// The leaves that may have a voxel of the band.
+    std::vector<Coord> leaves(const Progress& progress) const
+    {
+        const double edge = leafDim * voxel_;
+        std::vector<std::vector<Coord>> found(boundary_.patches.size());
+        parallelFor(found.size(), progress, [&](std::size_t i) {
+            const Patch& p = boundary_.patches[i];
+            const double far = p.radius + outside_, near = p.radius - inside_;
+            const Coord first = Coord::floor((p.centre - Vec3d(far)) / edge);
+            const Coord last = Coord::floor((p.centre + Vec3d(far)) / edge);
+            for (int x = first.x(); x <= last.x(); ++x) {
+                for (int y = first.y(); y <= last.y(); ++y) {
+                    for (int z = first.z(); z <= last.z(); ++z) {
+                        double least2 = 0.0, most2 = 0.0;
+                        const Vec3d low = Coord(x, y, z).asVec3d() * edge - p.centre;
+                        for (int k = 0; k < 3; ++k) {
+                            const double a = low[k], b = low[k] + edge - voxel_;
+                            const double n = a > 0.0 ? a : b < 0.0 ? b : 0.0;
+                            least2 += n * n;
+                            most2 += std::max(a * a, b * b);
+                        }
+                        if (least2 <= far * far && (near <= 0.0 || most2 >= near * near)) {
+                            found[i].emplace_back(leafDim * x, leafDim * y, leafDim * z);
+                        }
+                    }
+                }
+            }
+        });
+        std::vector<Coord> all;
+        for (const auto& f : found) all.insert(all.end(), f.begin(), f.end());
+        tbb::parallel_sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        return all;
+    }
+
+    /// @param[out] phi   of the leaf [Å]
+    /// @param[out] part  index of the nearest part: patches, then arcs, then corners
+    /// @return the voxels within the band
+    LeafMask evaluate(const Coord& origin, Near& near, float* phi, std::int32_t* part) const
+    {
+        gather(origin, near);
+        LeafMask active;
+        for (int b = 0; b < 8; ++b) {
+            const Coord corner(cube * (b >> 2), cube * (b >> 1 & 1), cube * (b & 1));
+            Cube c;
+            const float half = 0.5f * (leafDim - 1);
+            c.voxel = float(voxel_);
+            c.radius = float(cubeRadius * voxel_);
+            c.first = (Vec3f(corner.asVec3s()) - Vec3f(half)) * c.voxel;
+            c.centre = c.first + Vec3f(0.5f * (cube - 1) * c.voxel);
+            float distance[cubeSize];
+            evaluate(c, near, distance);
+            for (int k = 0; k < cubeSize; ++k) {
+                const int v = 64 * (corner.x() + k / lanes) + 8 * (corner.y() + k / cube % cube) +
+                              corner.z() + k % cube;
+                phi[v] = std::clamp(distance[k], float(-inside_), float(outside_));
+                part[v] = c.part[k];
+                active.set(v, distance[k] > float(-inside_) && distance[k] < float(outside_));
+            }
+        }
+        return active;
+    }
+
+private:
+    static double largest(const std::vector<Ball>& balls)
+    {
+        float r = 0.0f;
+        for (const Ball& ball : balls) r = std::max(r, ball.radius);
+        return r;
+    }
+    static std::vector<Ball> patchBalls(const BallBoundary& boundary)
+    {
+        std::vector<Ball> out;
+        for (const Patch& p : boundary.patches) {
+            out.push_back({Vec3f(p.centre), float(p.radius), p.ball});
+        }
+        return out;
+    }
+
+    void gather(const Coord& origin, Near& near) const
+    {
+        const Vec3d centre = (origin.asVec3d() + Vec3d(0.5 * (leafDim - 1))) * voxel_;
+        const double radius = 0.5 * (leafDim - 1) * std::sqrt(3.0) * voxel_;
+        const double reach = inside_ + radius;
+        near.patches.clear();
+        near.caps.clear();
+        near.arcs.clear();
+        near.corners.clear();
+        near.balls.clear();
+        ballIndex_.forEachNear(centre, centre, largest_ + outside_ + radius,
+                               [&](const Ball& ball, std::int32_t) {
+                                   const Vec3f c(Vec3d(ball.center) - centre);
+                                   const float R = float(ball.radius + probe_);
+                                   const double touch = R + outside_ + radius;
+                                   if (c.lengthSqr() < touch * touch) near.balls.push_back({c, R});
+                               });
+        // The largest overlap first: it may hold all voxels of a cube.
+        std::sort(near.balls.begin(), near.balls.end(), [](const NearBall& a, const NearBall& b) {
+            return a.centre.length() - a.radius < b.centre.length() - b.radius;
+        });
+        patchIndex_.forEachNear(centre, centre, largest_ + reach, [&](const Ball&, std::int32_t i) {
+            const Patch& patch = boundary_.patches[i];
+            const Vec3d c = patch.centre - centre;
+            const double distance = c.length();
+            // All parts of a patch lie on its sphere.
+            if (std::abs(distance - patch.radius) > reach) return;
+            near.patches.push_back(
+                {Vec3f(c), float(patch.radius), std::uint32_t(near.caps.size()), 0, i});
+            for (std::uint32_t k = patch.capsBegin; k < patch.capsEnd; ++k) {
+                const Cap& cap = boundary_.caps[k];
+                near.caps.push_back({float(cap.axis.x()), float(cap.axis.y()), float(cap.axis.z()),
+                                     float(cap.cosine)});
+            }
+            near.patches.back().capsEnd = std::uint32_t(near.caps.size());
+            const std::int32_t arcs = std::int32_t(boundary_.patches.size());
+            for (std::uint32_t k = patch.arcsBegin; k < patch.arcsEnd; ++k) {
+                const Arc& arc = boundary_.arcs[k];
+                const Vec3d m = arc.centre - centre;
+                if (distanceToCircle(arc, -m) > reach) continue;
+                near.arcs.push_back({Vec3f(m), Vec3f(arc.axis), Vec3f(arc.middle),
+                                     float(arc.radius), float(arc.cosine), arcs + std::int32_t(k)});
+            }
+            const std::int32_t corners = arcs + std::int32_t(boundary_.arcs.size());
+            for (std::uint32_t k = patch.cornersBegin; k < patch.cornersEnd; ++k) {
+                const Vec3d p = boundary_.corners[k].position - centre;
+                if (p.lengthSqr() > reach * reach) continue;
+                near.corners.push_back({Vec3f(p), corners + std::int32_t(k)});
+            }
+        });
+    }
+
+    /// @param[in] x  relative to the circle's centre
+    static double distanceToCircle(const Arc& arc, const Vec3d& x)
+    {
+        const double along = x.dot(arc.axis);
+        const double r = std::sqrt(std::max(0.0, x.lengthSqr() - along * along));
+        return std::hypot(along, r - arc.radius);
+    }
+
+    /// @param[out] distance  signed, of the cube's voxels [Å]
+    void evaluate(Cube& c, Near& near, float* distance) const
+    {
+        near.cubeBalls.clear();
+        bool within = false;
+        for (const NearBall& ball : near.balls) {
+            const float d = (ball.centre - c.centre).length();
+            if (d + c.radius < ball.radius) {
+                within = true;
+                break;
+            }
+            if (d - c.radius < ball.radius + float(outside_)) near.cubeBalls.push_back(ball);
+        }
+        if (within) {
+            std::fill_n(distance, cubeSize, -1.0f);
+        } else {
+            nearBalls(c, near.cubeBalls.data(), near.cubeBalls.size(), distance);
+        }
+        const bool allOutside =
+            std::all_of(distance, distance + cubeSize, [](float d) { return d >= 0.0f; });
+
+        const float beyond = float(inside_) * 1.0001f;
+        std::fill_n(c.least2, cubeSize, beyond * beyond);
+        std::fill_n(c.part, cubeSize, -1);
+        const float reach = beyond + c.radius;
+        near.cubeCorners.clear();
+        near.cubeArcs.clear();
+        near.cubePatches.clear();
+        if (allOutside) {
+            std::fill_n(c.least2, cubeSize, 1e15f); // only the nearest part is wanted
+        }
+        for (const NearCorner& corner : near.corners) {
+            if ((corner.position - c.centre).lengthSqr() < reach * reach) {
+                near.cubeCorners.push_back(corner);
+            }
+        }
+        nearCorners(c, near.cubeCorners.data(), near.cubeCorners.size());
+        for (const NearArc& arc : near.arcs) {
+            const Vec3f x = c.centre - arc.centre;
+            const float along = x.dot(arc.axis);
+            const float r = std::sqrt(std::max(0.0f, x.lengthSqr() - along * along)) - arc.radius;
+            if (along * along + r * r < reach * reach) near.cubeArcs.push_back(arc);
+        }
+        nearArcs(c, near.cubeArcs.data(), near.cubeArcs.size());
+        float farthest2 = 0.0f;
+        for (const float d2 : c.least2) farthest2 = std::max(farthest2, d2);
+        const float limit = std::sqrt(farthest2) + c.radius;
+        for (const NearPatch& patch : near.patches) {
+            const float gap = std::abs((patch.centre - c.centre).length() - patch.radius);
+            if (gap < limit) near.cubePatches.push_back(patch);
+        }
+        nearPatches(c, near.cubePatches.data(), near.cubePatches.size(), near.caps.data());
+        for (int k = 0; k < cubeSize; ++k) {
+            if (distance[k] < 0.0f) distance[k] = -std::sqrt(c.least2[k]);
+        }
+    }
+
+    const BallBoundary& boundary_;
+    double probe_, voxel_, inside_, outside_, largest_;
+    std::vector<Ball> spheres_;
+    BallIndex patchIndex_, ballIndex_;
+};
+
+/// The foot of a point on the whole sphere or circle of a part, or a corner.
+Vec3d footOn(const BallBoundary& boundary, std::int32_t part, const Vec3d& x)
+{
+    const std::size_t patches = boundary.patches.size(), arcs = boundary.arcs.size();
+    const std::size_t i = std::size_t(part);
+    if (i < patches) {
+        const Patch& p = boundary.patches[i];
+        Vec3d u = x - p.centre;
+        u.normalize();
+        return p.centre + p.radius * u;
+    }
+    if (i < patches + arcs) {
+        const Arc& arc = boundary.arcs[i - patches];
+        const Vec3d w = x - arc.centre;
+        Vec3d u = w - w.dot(arc.axis) * arc.axis;
+        u.normalize();
+        return arc.centre + arc.radius * u;
+    }
+    return boundary.corners[i - patches - arcs].position;
+}
+
+/// Whether the nearest boundary points of two neighbouring voxels lie apart: farther than they can
+/// on one smooth piece, and by more than 20 degrees as seen from the first.
+bool isKink(const Vec3d& x, const Vec3d& foot, const Vec3d& nextFoot, double voxel)
+{
+    constexpr double apartVox = 2.5, cosine = 0.94;
+    if ((foot - nextFoot).length() < apartVox * voxel) return false;
+    Vec3d a = foot - x, b = nextFoot - x;
+    a.normalize();
+    b.normalize();
+    return a.dot(b) < cosine;
+}
+
+} // namespace
+
+DistanceBand distanceToUnion(const std::vector<Ball>& balls, double probe,
+                             const BallBoundary& boundary, double voxel, double inside,
+                             double outside, const Progress& progress)
+{
+    DistanceBand band;
+    if (boundary.patches.empty()) return band;
+    const Evaluator evaluator(balls, probe, boundary, voxel, inside, outside);
+    LeafTable table(evaluator.leaves(progress));
+    LeafField phi(table.size());
+    LeafArray<std::int32_t> part(table.size());
+    tbb::enumerable_thread_specific<Near> scratch;
+    parallelFor(table.size(), progress, [&](std::size_t n) {
+        table.active(n) =
+            evaluator.evaluate(table.origin(n), scratch.local(), phi.leaf(n), part.leaf(n));
+    });
+
+    std::vector<LeafMask> kinks(table.size());
+    parallelFor(table.size(), progress, [&](std::size_t n) {
+        LeafBlock<std::int32_t, 1> block;
+        block.gather(table, part, n);
+        table.active(n).forEach([&](int v) {
+            const Coord local(v >> 6, v >> 3 & 7, v & 7);
+            const std::int32_t* p = block.at(local.x(), local.y(), local.z());
+            const Vec3d x = (table.origin(n) + local).asVec3d() * voxel;
+            for (const int step : {block.strideX, block.strideY, block.strideZ}) {
+                if (p[0] < 0 || p[step] < 0 || p[step] == p[0]) continue;
+                const Coord next(step == block.strideX, step == block.strideY,
+                                 step == block.strideZ);
+                const Vec3d foot = footOn(boundary, p[0], x);
+                const Vec3d nextFoot = footOn(boundary, p[step], x + next.asVec3d() * voxel);
+                if (isKink(x, foot, nextFoot, voxel)) kinks[n].set(v);
+            }
+        });
+    });
+    band.table = std::move(table);
+    band.phi = std::move(phi);
+    band.kinks = std::move(kinks);
+    return band;
+}
+
+} // namespace molsurf
