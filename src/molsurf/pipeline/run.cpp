@@ -10,6 +10,7 @@
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/pipeline/fields.h"
+#include "molsurf/rasterize/boundary_measure.h"
 #include "molsurf/rasterize/gaussian_sum.h"
 #include "molsurf/rasterize/nearest_ball.h"
 #include "molsurf/rasterize/union_distance.h"
@@ -144,6 +145,12 @@ double offsetOf(const Options& options)
                : 0.0;
 }
 
+/// The probe that the balls of a union surface are grown by [Å].
+double grownBy(const Options& options)
+{
+    return options.kind == SurfaceKind::VanDerWaals ? 0.0 : options.probe;
+}
+
 /// S = Phi + r_b on a band that holds the coefficients of every point of the surface.
 DistanceBand distanceBand(const std::vector<Ball>& balls, const NarrowBand& band,
                           const Options& options, Progress& progress)
@@ -155,7 +162,7 @@ DistanceBand distanceBand(const std::vector<Ball>& balls, const NarrowBand& band
     if (options.kind == SurfaceKind::Variational || options.kind == SurfaceKind::Gaussian) {
         S = redistance(band.table, band.phi, h, inside, outside, -offset, progress);
     } else {
-        const double probe = options.kind == SurfaceKind::VanDerWaals ? 0.0 : options.probe;
+        const double probe = grownBy(options);
         const BallBoundary boundary = ballBoundary(balls, probe, progress);
         S = distanceToUnion(balls, probe, boundary, h, inside, outside, progress);
     }
@@ -278,6 +285,39 @@ openvdb::FloatGrid::Ptr surfaceGrid(const DistanceBand& S, double voxel, Progres
     return grid;
 }
 
+/// Replaces area, volume and pieces by those of the union of balls itself. A mesh bridges what is
+/// narrower than a voxel: creases and small cavities.
+void measureExactly(const std::vector<Ball>& balls, const Options& options, Progress& progress,
+                    Report& report)
+{
+    const BallBoundary boundary = ballBoundary(balls, grownBy(options), progress);
+    SurfaceReport& s = report.surface;
+    const std::size_t shown = s.cavities.size();
+    s.area = s.volume = s.outerArea = s.outerVolume = 0.0;
+    s.components = 0;
+    s.cavities.clear();
+    for (const BoundaryPiece& piece : measureBoundary(boundary, progress).pieces) {
+        const bool cavity = piece.volume < 0.0;
+        if (cavity && options.fillCavities) continue;
+        s.area += piece.area;
+        s.volume += piece.volume;
+        if (cavity) {
+            s.cavities.push_back({piece.area, -piece.volume});
+        } else {
+            ++s.components;
+            s.outerArea += piece.area;
+            s.outerVolume += piece.volume;
+        }
+    }
+    std::stable_sort(s.cavities.begin(), s.cavities.end(),
+                     [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
+    if (!options.fillCavities && shown != s.cavities.size()) {
+        report.warnings.push_back("mesh: " + std::to_string(shown) + " inner walls for " +
+                                  std::to_string(s.cavities.size()) +
+                                  " cavities, for want of voxels [hint: a smaller --voxel]");
+    }
+}
+
 /// Shares of the vertices near kinks, and of the others with a unit gradient.
 void checkGradient(const Mesh& mesh, const std::vector<float>& slopes, const DistanceBand& S,
                    double voxel, Progress& progress, SurfaceReport& report)
@@ -393,6 +433,7 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
         report.surface = measure(result.mesh, progress);
     }
     report.surface.kind = nameOf(options.kind);
+    if (unionOfBalls && offsetOf(options) == 0.0) measureExactly(balls, options, progress, report);
     report.surface.maxResidual = stats.maxResidual;
     checkGradient(result.mesh, stats.slopes, S, options.voxel, progress, report.surface);
     // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.

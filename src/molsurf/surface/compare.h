@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How far one surface is from another. docs/math.md, section 10.
+/// How far one surface is from another. docs/math.md, section 11.
 
 #include "molsurf/core/progress.h"
 #include "molsurf/surface/distance.h"
