@@ -97,6 +97,14 @@ struct EvolutionReport {
     std::size_t creviceVoxels = 0;
 };
 
+/// Atoms of one resolution.
+struct ResolutionReport {
+    std::string select;      ///< as asked; empty: all
+    double resolution = 0.0; ///< d [Å]
+    std::size_t atoms = 0;   ///< balls that have it
+    double level = 0.0;      ///< of their Gaussians; not 0 where the volume was matched
+};
+
 /// Everything in the .json report.
 struct Report {
     std::string program = "vdb_molsurf";
@@ -106,9 +114,10 @@ struct Report {
     std::size_t atoms = 0; ///< balls used, after selection, expansion and drops
     double voxel = 0.0;    ///< [Å]
     SurfaceReport surface;
-    std::optional<EvolutionReport> evolution; ///< absent for surfaces that are not evolved
-    std::size_t activeVoxels = 0;             ///< of the grid `surface`
-    std::size_t gridBytes = 0;                ///< of the grid `surface` in memory
+    std::vector<ResolutionReport> resolutions; ///< one a rule, in their order
+    std::optional<EvolutionReport> evolution;  ///< absent for surfaces that are not evolved
+    std::size_t activeVoxels = 0;              ///< of the grid `surface`
+    std::size_t gridBytes = 0;                 ///< of the grid `surface` in memory
     std::vector<std::pair<std::string, double>> seconds; ///< stage, wall seconds; "total" last
     std::size_t peakMemoryBytes = 0;
     int threads = 0;

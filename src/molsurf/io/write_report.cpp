@@ -72,6 +72,18 @@ Json evolutionJson(const EvolutionReport& evolution)
             {"volume", evolution.volume}};
 }
 
+Json resolutionJson(const std::vector<ResolutionReport>& resolutions)
+{
+    Json out = Json::array();
+    for (const ResolutionReport& r : resolutions) {
+        out.push_back(Json{{"selection", r.select.empty() ? "all" : r.select},
+                           {"resolution", r.resolution},
+                           {"atoms", r.atoms},
+                           {"level", r.level}});
+    }
+    return out;
+}
+
 } // namespace
 
 std::string reportText(const Report& report)
@@ -87,6 +99,7 @@ std::string reportText(const Report& report)
         {"atoms", report.atoms},
         {"voxel", report.voxel},
         {"surface", surfaceJson(report.surface)},
+        {"resolution", resolutionJson(report.resolutions)},
         {"evolution", report.evolution ? evolutionJson(*report.evolution) : Json()},
         {"grid", {{"active_voxels", report.activeVoxels}, {"bytes", report.gridBytes}}},
         {"seconds", std::move(seconds)},

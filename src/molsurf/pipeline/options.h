@@ -30,6 +30,7 @@ struct Options {
     double probe = 1.4;        ///< probe radius r_b [Å], >= 0
     double voxel = 0.5;        ///< edge h of a voxel [Å], in [0.05, 10]
     double epsilon = 0.5;      ///< tolerance eps of the Gaussian sum [Å], > 0
+    bool matchVolume = false;  ///< resolution rules keep the enclosed volume, see matchVolumes()
     EvolveOptions evolution;   ///< lambda, regulariser, flow, stopping rule
     int splineLevel = 0;       ///< the spline lives on voxels of edge 2^level h; 0, 1 or 2
     bool fillCavities = false; ///< drop the inner walls

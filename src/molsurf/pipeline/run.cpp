@@ -10,6 +10,7 @@
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/pipeline/fields.h"
+#include "molsurf/pipeline/match_volume.h"
 #include "molsurf/rasterize/boundary_measure.h"
 #include "molsurf/rasterize/gaussian_sum.h"
 #include "molsurf/rasterize/nearest_ball.h"
@@ -396,6 +397,14 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
 Result run(const BallSelection& atoms, const Options& options, Progress& progress)
 {
     checkOptions(options);
+    if (options.matchVolume && !atoms.resolutions.empty()) {
+        BallSelection matched = atoms;
+        Options once = options;
+        once.matchVolume = false;
+        progress.update("match", 0.0);
+        matchVolumes(matched, once, progress);
+        return run(matched, once, progress);
+    }
     const std::vector<Ball>& balls = atoms.balls;
     if (balls.empty()) throw Error(ErrorKind::Input, "no atoms");
 
@@ -403,6 +412,10 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
     Report& report = result.report;
     report.atoms = balls.size();
     report.voxel = options.voxel;
+    for (const ResolutionGroup& group : atoms.resolutions) {
+        report.resolutions.push_back(
+            {group.rule.select, group.rule.resolution, group.balls, group.level});
+    }
     Stopwatch watch(report);
 
     NarrowBand band = makeBand(atoms, options, progress, report, watch);

@@ -45,6 +45,7 @@ struct Drop {
 struct ResolutionGroup {
     ResolutionRule rule;
     std::size_t balls = 0; ///< those that no later rule has
+    double level = 0.0;    ///< of their Gaussians, see Decay
 };
 
 /// The balls, and what was done to get them.
