@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -127,6 +128,13 @@ const std::vector<Group>& groups()
            "selection; repeats, later ones win",
            "", true},
           {"match-volume", nullptr, "resolutions keep the volume of the fine surface", ""}}},
+        {"Groups",
+         {{"groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]", ""},
+          {"group-by", "WORD", "groups by chain, entity, copy or residues:N instead", ""},
+          {"color", "WORD",
+           "colours of the mesh and the grid Cd: chain, group,\n"
+           "element, residue, mean-curvature, gaussian-curvature",
+           nameOf(preset.color)}}},
         {"Evolution",
          {{"lambda", "L", "weight of the regulariser [Å^2 for gradient, 1 for area]",
            shortest(preset.evolution.lambda)},
@@ -178,7 +186,8 @@ std::vector<Group> groupsOf(Verb verb)
 {
     if (verb != Verb::Compare) return groups();
     std::vector<Group> all = compareGroups();
-    all.insert(all.end(), groups().begin() + 1, groups().end());
+    std::copy_if(groups().begin() + 1, groups().end(), std::back_inserter(all),
+                 [](const Group& group) { return std::string(group.title) != "Groups"; });
     return all;
 }
 
@@ -365,6 +374,27 @@ std::vector<std::string> fieldsOf(const Values& values)
 
 void fillRun(const Values& values, Call& call);
 
+void fillGroups(const Values& values, Call& call)
+{
+    Options& options = call.options;
+    values.get("group-by", options.atoms.groupBy);
+    values.get("color", options.color,
+               {ColorBy::Nothing, ColorBy::Chain, ColorBy::Group, ColorBy::Element,
+                ColorBy::Residue, ColorBy::MeanCurvature, ColorBy::GaussianCurvature});
+    std::string file;
+    values.get("groups", file);
+    if (!file.empty() && !options.atoms.groupBy.empty()) misuse("--groups and --group-by together");
+    if (!file.empty()) options.atoms.groups = readGroups(file);
+    const bool groups = !file.empty() || !options.atoms.groupBy.empty();
+    if (options.color == ColorBy::Group && !groups)
+        misuse("--color group: expected --groups or --group-by too");
+    const auto has = [&](const char* field) {
+        return std::count(options.fields.begin(), options.fields.end(), field) > 0;
+    };
+    if (has("Cd") && options.color == ColorBy::Nothing) options.color = ColorBy::Chain;
+    options.atoms.labels = options.color != ColorBy::Nothing || has("chain_id") || has("Cd");
+}
+
 void fillBuild(const Values& values, Call& call)
 {
     const std::vector<std::string> inputs = values.list("input");
@@ -375,6 +405,7 @@ void fillBuild(const Values& values, Call& call)
     if (call.input.empty()) misuse("expected the name of a file as INPUT, got an empty word");
     call.outputs = outputsOf(values);
     fillRun(values, call);
+    fillGroups(values, call);
 }
 
 // D or SELECTION=D, the selection ending at the last =.

@@ -97,6 +97,16 @@ struct EvolutionReport {
     std::size_t creviceVoxels = 0;
 };
 
+/// A group of atoms and its part of the surface.
+struct GroupReport {
+    std::string name;
+    std::size_t atoms = 0;
+    double area = 0.0;   ///< of the surface nearest to its balls [Å^2]; all groups add up to the
+                         ///< whole, atoms without a group being one more, "other"
+    double volume = 0.0; ///< inside the surface and nearest to its balls [Å^3]; adds up too
+    std::string color;   ///< "#rrggbb", if the surface is coloured by group
+};
+
 /// Atoms of one resolution.
 struct ResolutionReport {
     std::string select;      ///< as asked; empty: all
@@ -115,6 +125,7 @@ struct Report {
     double voxel = 0.0;    ///< [Å]
     SurfaceReport surface;
     std::vector<ResolutionReport> resolutions; ///< one a rule, in their order
+    std::vector<GroupReport> groups;
     std::optional<EvolutionReport> evolution;  ///< absent for surfaces that are not evolved
     std::size_t activeVoxels = 0;              ///< of the grid `surface`
     std::size_t gridBytes = 0;                 ///< of the grid `surface` in memory

@@ -72,6 +72,17 @@ Json evolutionJson(const EvolutionReport& evolution)
             {"volume", evolution.volume}};
 }
 
+Json groupsJson(const std::vector<GroupReport>& groups)
+{
+    Json out = Json::array();
+    for (const GroupReport& g : groups) {
+        Json entry = {{"name", g.name}, {"atoms", g.atoms}, {"area", g.area}, {"volume", g.volume}};
+        if (!g.color.empty()) entry["color"] = g.color;
+        out.push_back(std::move(entry));
+    }
+    return out;
+}
+
 Json resolutionJson(const std::vector<ResolutionReport>& resolutions)
 {
     Json out = Json::array();
@@ -105,7 +116,7 @@ std::string reportText(const Report& report)
         {"seconds", std::move(seconds)},
         {"peak_memory_bytes", report.peakMemoryBytes},
         {"threads", report.threads},
-        {"groups", Json::array()},
+        {"groups", groupsJson(report.groups)},
         {"warnings", report.warnings},
     };
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

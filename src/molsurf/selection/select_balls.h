@@ -5,9 +5,11 @@
 /// From a structure to the balls whose surface is wanted.
 
 #include "molsurf/selection/ball.h"
+#include "molsurf/selection/groups.h"
 #include "molsurf/structure/structure.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +34,9 @@ struct SelectOptions {
     bool waters = false;           ///< keep waters
     std::string radii = "bondi";   ///< name of a set, or the path of a radii file, see readRadii()
     std::vector<ResolutionRule> resolutions; ///< later ones win
+    std::vector<GroupRule> groups;           ///< later ones win
+    std::string groupBy;                     ///< groups by chain, entity, ...; see labelBalls()
+    bool labels = false;                     ///< label the balls, also without groups
 };
 
 /// Atoms left out for one reason.
@@ -57,6 +62,7 @@ struct BallSelection {
     std::vector<Drop> drops;            ///< counted in one model, before the assembly is expanded
     std::size_t copies = 1;             ///< assembly operators applied, 1 without an assembly
     std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
+    std::optional<BallLabels> labels;   ///< if asked for, or with groups
     int model = 0;                      ///< number of the model that was used
     std::vector<std::string> warnings;  ///< one line each: unknown elements, missing altloc, ...
 };

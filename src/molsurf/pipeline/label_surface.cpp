@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/pipeline/label_surface.h"
+
+#include "molsurf/core/parallel.h"
+#include "molsurf/pipeline/palette.h"
+#include "molsurf/rasterize/nearest_ball.h"
+#include "molsurf/surface/color_map.h"
+#include "molsurf/surface/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+using openvdb::Vec3f;
+
+namespace
+{
+
+using Labels = std::vector<std::int32_t>;
+
+Labels atomsOf(const std::vector<Ball>& balls)
+{
+    Labels out;
+    out.reserve(balls.size());
+    for (const Ball& ball : balls) out.push_back(ball.atom);
+    return out;
+}
+
+/// The label of the ball that each point belongs to; -1 without one.
+Labels taken(const Labels& nearest, const Labels& labelOf)
+{
+    Labels out(nearest.size(), -1);
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+        if (nearest[i] >= 0) out[i] = labelOf[std::size_t(nearest[i])];
+    }
+    return out;
+}
+
+template<typename GridT>
+typename GridT::Ptr gridLike(const openvdb::FloatGrid& surface, const char* name,
+                             const typename GridT::ValueType& background)
+{
+    auto grid = GridT::create(background);
+    grid->setTree(std::make_shared<typename GridT::TreeType>(surface.tree(), background,
+                                                             openvdb::TopologyCopy()));
+    grid->setTransform(surface.transform().copy());
+    grid->setName(name);
+    return grid;
+}
+
+openvdb::GridBase::Ptr labelGrid(const openvdb::FloatGrid& surface, const char* name,
+                                 const Labels& labels)
+{
+    auto grid = gridLike<openvdb::Int32Grid>(surface, name, -1);
+    std::size_t i = 0;
+    for (auto it = grid->beginValueOn(); it; ++it) it.setValue(labels[i++]);
+    return grid;
+}
+
+/// Linear light of an 8-bit sRGB value (IEC 61966-2-1), which renderers expect.
+float linear(std::uint8_t value)
+{
+    const double s = value / 255.0;
+    return float(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+}
+
+openvdb::GridBase::Ptr colorGrid(const openvdb::FloatGrid& surface,
+                                 const std::vector<Color>& colors)
+{
+    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "Cd", Vec3f(0.0f));
+    std::size_t i = 0;
+    for (auto it = grid->beginValueOn(); it; ++it, ++i) {
+        it.setValue(Vec3f(linear(colors[i][0]), linear(colors[i][1]), linear(colors[i][2])));
+    }
+    return grid;
+}
+
+std::vector<Color> colorsOf(const Labels& nearest, const std::vector<Color>& ballColor)
+{
+    std::vector<Color> out(nearest.size(), neutralColor);
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+        if (nearest[i] >= 0) out[i] = ballColor[std::size_t(nearest[i])];
+    }
+    return out;
+}
+
+/// Red where the curvature is positive, blue where it is negative, full at the 95th percentile of
+/// its size.
+std::vector<Color> curvatureColors(const std::vector<float>& curvature)
+{
+    std::vector<float> sizes;
+    for (const float c : curvature) sizes.push_back(std::abs(c));
+    const std::size_t place = sizes.size() * 95 / 100;
+    std::nth_element(sizes.begin(), sizes.begin() + std::ptrdiff_t(place), sizes.end());
+    const ColorScale scale = signedScale(std::max(sizes[place], 1e-6f));
+    std::vector<Color> out;
+    for (const float c : curvature) out.push_back(scale.at(c));
+    return out;
+}
+
+/// Points of a lattice inside the surface, at most an Å apart [Å].
+std::vector<Vec3f> pointsInside(const openvdb::FloatGrid& surface)
+{
+    const double h = surface.voxelSize()[0];
+    const int stride = std::max(1, int(std::floor(1.0 / h + 1e-9)));
+    const auto onLattice = [&](const Coord& c) {
+        return c.x() % stride == 0 && c.y() % stride == 0 && c.z() % stride == 0;
+    };
+    std::vector<Vec3f> points;
+    for (auto it = surface.cbeginValueAll(); it; ++it) {
+        if (*it >= 0.0f) continue;
+        const openvdb::CoordBBox box = it.getBoundingBox();
+        for (auto c = box.begin(); c; ++c) {
+            if (onLattice(*c)) points.emplace_back(surface.indexToWorld(*c));
+        }
+    }
+    return points;
+}
+
+std::string hex(const Color& color)
+{
+    char text[8];
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", color[0], color[1], color[2]);
+    return text;
+}
+
+void reportGroups(const BallSelection& atoms, const Options& options, const Labels& nearest,
+                  double reach, Progress& progress, Result& result)
+{
+    const BallLabels& labels = *atoms.labels;
+    const std::size_t other = labels.groups.size();
+    const auto sums = [&](const Labels& nearestBall, auto&& weight) {
+        std::vector<double> out(other + 1, 0.0);
+        for (std::size_t i = 0; i < nearestBall.size(); ++i) {
+            const std::int32_t g =
+                nearestBall[i] < 0 ? -1 : labels.groupOf[std::size_t(nearestBall[i])];
+            out[g < 0 ? other : std::size_t(g)] += weight(i);
+        }
+        return out;
+    };
+    const auto scaled = [](std::vector<double> parts, double whole) {
+        double sum = 0.0;
+        for (const double p : parts) sum += p;
+        for (double& p : parts) p *= sum > 0.0 ? whole / sum : 0.0;
+        return parts;
+    };
+    const std::vector<float> areas = vertexAreas(result.mesh);
+    const std::vector<double> area = scaled(
+        sums(nearest, [&](std::size_t v) { return double(areas[v]); }), result.report.surface.area);
+    const std::vector<Vec3f> inside = pointsInside(*result.surface);
+    const std::vector<double> volume = scaled(
+        sums(nearestBalls(atoms.balls, inside, reach, progress), [](std::size_t) { return 1.0; }),
+        result.report.surface.volume);
+
+    std::vector<Color> colors;
+    if (options.color == ColorBy::Group) colors = groupColors(atoms, progress);
+    std::size_t grouped = 0;
+    for (std::size_t g = 0; g < other; ++g) {
+        const Group& group = labels.groups[g];
+        grouped += group.balls;
+        result.report.groups.push_back(
+            {group.name, group.balls, area[g], volume[g], colors.empty() ? "" : hex(colors[g])});
+    }
+    const std::size_t rest = atoms.balls.size() - grouped;
+    if (rest > 0 || area[other] > 0.0) {
+        result.report.groups.push_back(
+            {"other", rest, area[other], volume[other], colors.empty() ? "" : hex(neutralColor)});
+    }
+}
+
+} // namespace
+
+void labelSurface(const BallSelection& atoms, const Options& options, double reach,
+                  Progress& progress, Result& result)
+{
+    const auto wanted = [&](const char* field) {
+        return std::find(options.fields.begin(), options.fields.end(), field) !=
+               options.fields.end();
+    };
+    Mesh& mesh = result.mesh;
+    const Labels atomOf = atomsOf(atoms.balls);
+    const Labels nearest = nearestBalls(atoms.balls, mesh.positions, reach, progress);
+    mesh.labels.push_back({"atom_id", taken(nearest, atomOf)});
+    const bool grouped = atoms.labels && !atoms.labels->groups.empty();
+    if (atoms.labels) mesh.labels.push_back({"chain_id", taken(nearest, atoms.labels->chainOf)});
+    if (grouped) mesh.labels.push_back({"group_id", taken(nearest, atoms.labels->groupOf)});
+
+    const bool byCurvature =
+        options.color == ColorBy::MeanCurvature || options.color == ColorBy::GaussianCurvature;
+    std::vector<Color> ballColor;
+    if (options.color != ColorBy::Nothing && !byCurvature) {
+        ballColor = ballColors(atoms, options.color, progress);
+        mesh.colors = colorsOf(nearest, ballColor);
+    }
+    const std::string curvature =
+        options.color == ColorBy::MeanCurvature ? "mean_curvature" : "gaussian_curvature";
+    if (byCurvature) {
+        for (const auto& scalar : mesh.scalars) {
+            if (scalar.name == curvature) mesh.colors = curvatureColors(scalar.values);
+        }
+    }
+    if (grouped) reportGroups(atoms, options, nearest, reach, progress, result);
+
+    const bool colors = wanted("Cd") && !ballColor.empty();
+    if (!wanted("atom_id") && !wanted("chain_id") && !wanted("group_id") && !colors) return;
+    std::vector<Vec3f> points;
+    for (auto it = result.surface->cbeginValueOn(); it; ++it) {
+        points.emplace_back(result.surface->indexToWorld(it.getCoord()));
+    }
+    const Labels owner = nearestBalls(atoms.balls, points, reach, progress);
+    if (wanted("atom_id")) {
+        result.fields.push_back(labelGrid(*result.surface, "atom_id", taken(owner, atomOf)));
+    }
+    if (wanted("chain_id") && atoms.labels) {
+        result.fields.push_back(
+            labelGrid(*result.surface, "chain_id", taken(owner, atoms.labels->chainOf)));
+    }
+    if (wanted("group_id") && grouped) {
+        result.fields.push_back(
+            labelGrid(*result.surface, "group_id", taken(owner, atoms.labels->groupOf)));
+    }
+    if (colors) result.fields.push_back(colorGrid(*result.surface, colorsOf(owner, ballColor)));
+}
+
+} // namespace molsurf
