@@ -126,9 +126,9 @@ struct Report {
     SurfaceReport surface;
     std::vector<ResolutionReport> resolutions; ///< one a rule, in their order
     std::vector<GroupReport> groups;
-    std::optional<EvolutionReport> evolution;  ///< absent for surfaces that are not evolved
-    std::size_t activeVoxels = 0;              ///< of the grid `surface`
-    std::size_t gridBytes = 0;                 ///< of the grid `surface` in memory
+    std::optional<EvolutionReport> evolution; ///< absent for surfaces that are not evolved
+    std::size_t activeVoxels = 0;             ///< of the grid `surface`
+    std::size_t gridBytes = 0;                ///< of the grid `surface` in memory
     std::vector<std::pair<std::string, double>> seconds; ///< stage, wall seconds; "total" last
     std::size_t peakMemoryBytes = 0;
     int threads = 0;

@@ -5,11 +5,14 @@
 #include "molsurf/pipeline/palette.h"
 #include "molsurf/rasterize/nearest_ball.h"
 #include "molsurf/surface/color_map.h"
-#include "molsurf/surface/statistics.h"
+
+#include <openvdb/tools/Interpolation.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace molsurf
 {
@@ -102,20 +105,94 @@ std::vector<Color> curvatureColors(const std::vector<float>& curvature)
     return out;
 }
 
-/// Points of a lattice inside the surface, at most an Å apart [Å].
-std::vector<Vec3f> pointsInside(const openvdb::FloatGrid& surface)
+/// The part of a triangle where a function that is linear in it is negative.
+double negativeShare(std::array<double, 3> f)
 {
+    std::sort(f.begin(), f.end());
+    if (f[2] <= 0.0) return 1.0;
+    if (f[0] >= 0.0) return 0.0;
+    if (f[1] > 0.0) return f[0] * f[0] / ((f[1] - f[0]) * (f[2] - f[0]));
+    return 1.0 - f[2] * f[2] / ((f[2] - f[0]) * (f[2] - f[1]));
+}
+
+/// The area of every group, and at last of no group, on the mesh [Å^2]. A triangle of two groups
+/// is cut where it is equally far from the balls of both.
+std::vector<double> groupAreas(const std::vector<Ball>& balls, const BallLabels& labels,
+                               const Labels& nearest, const Mesh& mesh)
+{
+    const std::size_t other = labels.groups.size();
+    const auto groupOf = [&](std::uint32_t vertex) {
+        const std::int32_t g =
+            nearest[vertex] < 0 ? -1 : labels.groupOf[std::size_t(nearest[vertex])];
+        return g < 0 ? other : std::size_t(g);
+    };
+    const auto distance = [&](std::uint32_t from, std::uint32_t owner) {
+        if (nearest[owner] < 0) return std::numeric_limits<double>::max();
+        const Ball& ball = balls[std::size_t(nearest[owner])];
+        return double((mesh.positions[from] - ball.center).length()) - double(ball.radius);
+    };
+    std::vector<double> areas(other + 1, 0.0);
+    for (const auto& t : mesh.triangles) {
+        const auto corner = [&](int k) { return mesh.positions[t[k]]; };
+        const double area =
+            0.5 * double((corner(1) - corner(0)).cross(corner(2) - corner(0)).length());
+        const std::array<std::size_t, 3> group = {groupOf(t[0]), groupOf(t[1]), groupOf(t[2])};
+        const std::size_t second = group[1] != group[0] ? group[1] : group[2];
+        if (group[2] != group[0] && group[2] != second) { // three groups
+            for (const std::size_t g : group) areas[g] += area / 3.0;
+            continue;
+        }
+        std::array<double, 3> nearer{}; // how much nearer the first group is
+        for (int k = 0; k < 3; ++k) {
+            std::array<double, 2> least;
+            least.fill(std::numeric_limits<double>::max());
+            for (int o = 0; o < 3; ++o) {
+                double& d = least[group[std::size_t(o)] == group[0] ? 0 : 1];
+                d = std::min(d, distance(t[k], t[o]));
+            }
+            nearer[std::size_t(k)] = least[0] - least[1];
+        }
+        const double share = second == group[0] ? 1.0 : negativeShare(nearer);
+        areas[group[0]] += share * area;
+        areas[second] += (1.0 - share) * area;
+    }
+    return areas;
+}
+
+/// Points of a lattice inside the surface, at most an Å apart, and closer if the volume is small.
+std::vector<Vec3f> pointsInside(const openvdb::FloatGrid& surface, double volume)
+{
+    constexpr double enough = 1e5; // points
     const double h = surface.voxelSize()[0];
-    const int stride = std::max(1, int(std::floor(1.0 / h + 1e-9)));
+    const double pitch = std::min(1.0, std::cbrt(volume / enough)) / h;
+    const int stride = std::max(1, int(std::floor(pitch + 1e-9)));
+    const int parts = std::max(1, int(std::ceil(1.0 / pitch - 1e-9)));
     const auto onLattice = [&](const Coord& c) {
         return c.x() % stride == 0 && c.y() % stride == 0 && c.z() % stride == 0;
     };
+    const auto shift = [&](int k) { return (k + 0.5) / parts - 0.5; };
     std::vector<Vec3f> points;
+    openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::BoxSampler> phi(surface);
+    const auto addParts = [&](const Coord& c) {
+        for (int i = 0; i < parts; ++i) {
+            for (int j = 0; j < parts; ++j) {
+                for (int k = 0; k < parts; ++k) {
+                    const openvdb::Vec3d at =
+                        c.asVec3d() + openvdb::Vec3d(shift(i), shift(j), shift(k));
+                    if (phi.isSample(at) < 0.0f) points.emplace_back(surface.indexToWorld(at));
+                }
+            }
+        }
+    };
     for (auto it = surface.cbeginValueAll(); it; ++it) {
-        if (*it >= 0.0f) continue;
+        if (*it >= (parts > 1 ? float(h) : 0.0f)) continue;
         const openvdb::CoordBBox box = it.getBoundingBox();
         for (auto c = box.begin(); c; ++c) {
-            if (onLattice(*c)) points.emplace_back(surface.indexToWorld(*c));
+            if (parts > 1) {
+                addParts(*c);
+            } else if (onLattice(*c)) {
+                points.emplace_back(surface.indexToWorld(*c));
+            }
         }
     }
     return points;
@@ -133,28 +210,21 @@ void reportGroups(const BallSelection& atoms, const Options& options, const Labe
 {
     const BallLabels& labels = *atoms.labels;
     const std::size_t other = labels.groups.size();
-    const auto sums = [&](const Labels& nearestBall, auto&& weight) {
-        std::vector<double> out(other + 1, 0.0);
-        for (std::size_t i = 0; i < nearestBall.size(); ++i) {
-            const std::int32_t g =
-                nearestBall[i] < 0 ? -1 : labels.groupOf[std::size_t(nearestBall[i])];
-            out[g < 0 ? other : std::size_t(g)] += weight(i);
-        }
-        return out;
-    };
     const auto scaled = [](std::vector<double> parts, double whole) {
         double sum = 0.0;
         for (const double p : parts) sum += p;
         for (double& p : parts) p *= sum > 0.0 ? whole / sum : 0.0;
         return parts;
     };
-    const std::vector<float> areas = vertexAreas(result.mesh);
-    const std::vector<double> area = scaled(
-        sums(nearest, [&](std::size_t v) { return double(areas[v]); }), result.report.surface.area);
-    const std::vector<Vec3f> inside = pointsInside(*result.surface);
-    const std::vector<double> volume = scaled(
-        sums(nearestBalls(atoms.balls, inside, reach, progress), [](std::size_t) { return 1.0; }),
-        result.report.surface.volume);
+    const std::vector<double> area =
+        scaled(groupAreas(atoms.balls, labels, nearest, result.mesh), result.report.surface.area);
+    std::vector<double> points(other + 1, 0.0);
+    const std::vector<Vec3f> inside = pointsInside(*result.surface, result.report.surface.volume);
+    for (const std::int32_t ball : nearestBalls(atoms.balls, inside, reach, progress)) {
+        const std::int32_t g = ball < 0 ? -1 : labels.groupOf[std::size_t(ball)];
+        points[g < 0 ? other : std::size_t(g)] += 1.0;
+    }
+    const std::vector<double> volume = scaled(points, result.report.surface.volume);
 
     std::vector<Color> colors;
     if (options.color == ColorBy::Group) colors = groupColors(atoms, progress);

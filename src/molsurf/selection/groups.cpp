@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -148,10 +149,12 @@ std::vector<std::string> sequences(const Structure& structure)
 
 std::vector<GroupRule> readGroups(const std::string& path)
 {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) fail(path, "it is a folder");
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file.is_open() || file.bad() || errno == EISDIR) {
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file.is_open() || file.bad()) {
         fail(path, std::string("cannot be read: ") + std::strerror(errno ? errno : EIO));
     }
     const std::size_t first = text.find_first_not_of(" \t\r\n");

@@ -197,7 +197,8 @@ TEST(Band, IsEmptyWhereNoVoxelIsInside)
 // Rates and levels of single balls: psi = ln sum exp(level - C (|x - x_i|^2 - R^2)).
 TEST(GaussianSum, DecaysOfSingleBalls)
 {
-    const std::vector<Ball> balls = {{openvdb::Vec3f(0.0f), 1.7f, 0}, {openvdb::Vec3f(3.0f, 1.0f, 0.5f), 1.5f, 1}};
+    const std::vector<Ball> balls = {{openvdb::Vec3f(0.0f), 1.7f, 0},
+                                     {openvdb::Vec3f(3.0f, 1.0f, 0.5f), 1.5f, 1}};
     const std::vector<Decay> decays = {{0.1f, -1.0f}, {0.0f, 0.5f}};
     const GaussianOptions options{1.4, 0.5, 0.0, 0.5, 3.0};
     const GaussianSum field(balls, options, decays);
