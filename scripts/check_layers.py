@@ -31,6 +31,7 @@ LIBRARIES = {
     "gemmi/": ["src/molsurf/structure/", "src/molsurf/selection/"],
     "nlohmann/": ["src/molsurf/io/"],
     "png.h": ["src/molsurf/io/"],
+    "embree3/": ["src/molsurf/surface/"],
     "openssl/": ["tools/sha256.cpp"],
     "boost/program_options": ["tools/cli.cpp"],
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
+#include "outputs.h"
 #include "sha256.h"
 #include "stop.h"
 #include "terminal.h"
@@ -15,12 +16,10 @@
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 
-#include <sys/resource.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <optional>
 
 namespace molsurf::tool
@@ -28,25 +27,6 @@ namespace molsurf::tool
 
 namespace
 {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-void stopIfAsked()
-{
-    if (stopRequested()) throw Cancelled();
-}
-
-std::size_t peakMemory()
-{
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return std::size_t(usage.ru_maxrss) * 1024;
-}
 
 // Everything that is needed to make the file again.
 openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
@@ -130,40 +110,17 @@ void writeOne(const Call& call, const Result& result, Format format, OutputFile&
     }
 }
 
-// Writes all files, and only when every one is complete puts them in their place. The report comes
-// last, because it tells how long the others took; standard output, which cannot be taken back,
-// only precedes the reports.
 void writeAll(const Call& call, Result& result, Terminal& terminal, Clock::time_point programStart)
 {
-    std::vector<Output> outputs = call.outputs;
-    std::stable_sort(outputs.begin(), outputs.end(), [](const Output& a, const Output& b) {
-        const auto turn = [](const Output& o) {
-            return 2 * (o.format == Format::Json) + (o.path == "-");
-        };
-        return turn(a) < turn(b);
-    });
-
-    const Clock::time_point start = Clock::now();
-    auto& seconds = result.report.seconds;
-    std::vector<std::unique_ptr<OutputFile>> files;
-    bool timed = false;
-    const auto timeIt = [&] {
-        if (timed) return;
-        seconds.emplace_back("write", secondsSince(start));
-        seconds.emplace_back("total", secondsSince(programStart));
-        result.report.peakMemoryBytes = peakMemory();
-        timed = true;
-    };
-    for (const Output& output : outputs) {
-        if (output.format == Format::Json) timeIt();
-        terminal.update("write", double(files.size()) / double(outputs.size()));
-        files.push_back(std::make_unique<OutputFile>(output.path, call.force));
-        writeOne(call, result, output.format, *files.back());
-        stopIfAsked();
-    }
-    timeIt();
-    ignoreSignals();
-    for (const auto& file : files) file->commit();
+    writeOutputs(
+        call, terminal,
+        [&](Format format, OutputFile& file) { writeOne(call, result, format, file); },
+        [&](double writeSeconds) {
+            auto& seconds = result.report.seconds;
+            seconds.emplace_back("write", writeSeconds);
+            seconds.emplace_back("total", secondsSince(programStart));
+            result.report.peakMemoryBytes = peakMemory();
+        });
 }
 
 void completeReport(const Call& call, std::size_t atoms, double readSeconds,
@@ -185,11 +142,6 @@ void completeReport(const Call& call, std::size_t atoms, double readSeconds,
                                  }),
                   seconds.end());
     seconds.insert(seconds.begin(), {"read", readSeconds});
-}
-
-std::string counted(std::size_t count, const std::string& one, const std::string& many)
-{
-    return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
 std::string summary(const Report& report)
@@ -224,12 +176,7 @@ void sayTimes(const Report& report)
 int build(const Call& call, Clock::time_point start)
 {
     checkOptions(call.options);
-    std::vector<std::string> temporaries;
-    for (const Output& output : call.outputs) {
-        checkWritable(output.path, call.force);
-        if (output.path != "-") temporaries.push_back(temporaryName(output.path));
-    }
-    handleSignals(temporaries);
+    prepareOutputs(call);
     openvdb::initialize();
     std::optional<tbb::global_control> limit;
     if (call.threads)

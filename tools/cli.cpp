@@ -147,6 +147,36 @@ const std::vector<Group>& groups()
     return all;
 }
 
+// What compare has in the place of the group Output.
+const std::vector<Group>& compareGroups()
+{
+    static const std::vector<Group> all = {
+        {"Output (without -o the numbers are printed)",
+         {{"output,o", "FILE",
+           "file to write; repeats; the extension says what:\n"
+           ".ply mesh of A with distances and colours,\n"
+           ".vdb distances on the band of A, .json report;\n"
+           "- is standard output",
+           "", true},
+          {"format", "WORD", "what -o - writes: ply, vdb or json", ""},
+          {"force", nullptr, "replace existing files", ""},
+          {"color", "WORD",
+           "distance (viridis) or signed-distance (blue: A is\ninside B, red: outside)",
+           "distance"},
+          {"range", "D", "distance at the end of the colours [Å]",
+           "that of 99 % of the vertices"}}}};
+    return all;
+}
+
+// The groups of a verb, in the order of its help.
+std::vector<Group> groupsOf(Verb verb)
+{
+    if (verb != Verb::Compare) return groups();
+    std::vector<Group> all = compareGroups();
+    all.insert(all.end(), groups().begin() + 1, groups().end());
+    return all;
+}
+
 [[noreturn]] void misuse(const std::string& message)
 {
     throw Error(ErrorKind::Usage, message);
@@ -158,10 +188,10 @@ std::string longName(const Entry& entry)
     return name.substr(0, name.find(','));
 }
 
-po::options_description describeOptions()
+po::options_description describeOptions(Verb verb)
 {
     po::options_description all;
-    for (const Group& group : groups()) {
+    for (const Group& group : groupsOf(verb)) {
         for (const Entry& entry : group.entries) {
             if (!entry.value)
                 all.add_options()(entry.name, po::bool_switch());
@@ -314,6 +344,8 @@ std::vector<std::string> fieldsOf(const Values& values)
     return fields;
 }
 
+void fillRun(const Values& values, Call& call);
+
 void fillBuild(const Values& values, Call& call)
 {
     const std::vector<std::string> inputs = values.list("input");
@@ -323,6 +355,12 @@ void fillBuild(const Values& values, Call& call)
     call.input = inputs[0];
     if (call.input.empty()) misuse("expected the name of a file as INPUT, got an empty word");
     call.outputs = outputsOf(values);
+    fillRun(values, call);
+}
+
+// What all verbs that build a surface take.
+void fillRun(const Values& values, Call& call)
+{
     call.force = values.on("force");
     call.quiet = values.on("quiet");
     call.verbose = values.on("verbose");
@@ -381,9 +419,57 @@ void readConfig(const std::string& path, const po::options_description& all, po:
     }
 }
 
-Call parseBuild(int argc, const char* const* argv)
+// Build options that mean nothing unless a structure is read. --voxel is for meshes too.
+std::vector<std::string> givenForStructures(const po::variables_map& map)
 {
-    const po::options_description all = describeOptions();
+    std::vector<std::string> given;
+    for (const Group& group : groups()) {
+        const std::string title = group.title;
+        if (title == "Output" || title == "Run" || title == "Information") continue;
+        for (const Entry& entry : group.entries) {
+            const std::string name = longName(entry);
+            if (name != "voxel" && map.count(name) && !map[name].defaulted())
+                given.push_back("--" + name);
+        }
+    }
+    return given;
+}
+
+void fillCompare(const Values& values, const po::variables_map& map, Call& call)
+{
+    call.files = values.list("input");
+    if (call.files.size() != 2)
+        misuse("compare: expected two surfaces, A and B, got " + std::to_string(call.files.size()) +
+               " [hint: vdb_molsurf compare a.vdb b.ply -o difference.ply]");
+    for (const std::string& file : call.files)
+        if (file.empty()) misuse("compare: expected the name of a file, got an empty word");
+    if (call.files[0] == "-" && call.files[1] == "-")
+        misuse("compare: - - : standard input can be only one of the two");
+    if (!values.list("output").empty())
+        call.outputs = outputsOf(values);
+    else if (map.count("format"))
+        misuse("--format is for -o - only");
+    for (const Output& output : call.outputs)
+        if (output.format != Format::Ply && output.format != Format::Vdb &&
+            output.format != Format::Json)
+            misuse("-o " + output.path + ": compare writes .ply, .vdb or .json");
+    if (map.count("fields")) misuse("--fields is not for compare");
+    if (values.on("curvature-totals")) misuse("--curvature-totals is not for compare");
+    std::string color = "distance";
+    values.get("color", color);
+    if (color != "distance" && color != "signed-distance")
+        values.wrong("color", "distance or signed-distance");
+    call.colorBySign = color == "signed-distance";
+    values.get("range", call.colorRange);
+    if (map.count("range") && !(call.colorRange > 0.0))
+        values.wrong("range", "a positive number of Å");
+    fillRun(values, call);
+    call.given = givenForStructures(map);
+}
+
+Call parseBuild(int argc, const char* const* argv, Verb verb)
+{
+    const po::options_description all = describeOptions(verb);
     po::positional_options_description positional;
     positional.add("input", -1);
     // Without guessing: --vox must not come to mean something else when an option is added.
@@ -395,18 +481,22 @@ Call parseBuild(int argc, const char* const* argv)
         map);
     const Values values(map);
     Call call;
+    call.verb = verb;
     if (values.on("help"))
-        call.verb = Verb::Help;
+        call.verb = verb == Verb::Compare ? Verb::CompareHelp : Verb::Help;
     else if (values.on("version"))
         call.verb = Verb::Version;
     else if (values.on("list-radii"))
         call.verb = Verb::ListRadii;
-    if (call.verb != Verb::Build) return call;
+    if (call.verb != verb) return call;
 
     std::string config;
     values.get("config", config);
     if (!config.empty()) readConfig(config, all, map);
-    fillBuild(values, call);
+    if (verb == Verb::Compare)
+        fillCompare(values, map, call);
+    else
+        fillBuild(values, call);
     return call;
 }
 
@@ -478,8 +568,10 @@ Call parseCall(int argc, const char* const* argv)
     std::string command;
     for (int i = 0; i < argc; ++i) command += (i ? " " : "") + quoted(argv[i]);
     try {
-        Call call = argc > 1 && std::strcmp(argv[1], "info") == 0 ? parseInfo(argc, argv)
-                                                                  : parseBuild(argc, argv);
+        const std::string first = argc > 1 ? argv[1] : "";
+        Call call = first == "info"      ? parseInfo(argc, argv)
+                    : first == "compare" ? parseBuild(argc - 1, argv + 1, Verb::Compare)
+                                         : parseBuild(argc, argv, Verb::Build);
         call.command = command;
         return call;
     } catch (const po::unknown_option& e) {
@@ -493,6 +585,7 @@ std::string helpText()
 {
     std::string text =
         "vdb_molsurf INPUT -o FILE [-o FILE ...] [options]\n"
+        "vdb_molsurf compare A B [-o FILE ...] [options]\n"
         "vdb_molsurf info FILE.vdb ...\n"
         "\n"
         "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .pqr .xyzr,\n"
@@ -504,6 +597,31 @@ std::string helpText()
     text += "\n"
             "Exit status: 0 done, 1 failed, 2 wrong usage, 3 not converged (files are written),\n"
             "130 interrupted.\n";
+    return text;
+}
+
+std::string compareHelpText()
+{
+    std::string text =
+        "vdb_molsurf compare A B [-o FILE ...] [options]\n"
+        "\n"
+        "Distances of surface A from surface B and back, areas and volumes. A and B are each a\n"
+        ".vdb file (the grid surface, or the only level set), a mesh (.ply .obj .stl), or a\n"
+        "structure, whose surface is built with the options below. Lengths are in Å.\n";
+    for (const Group& group : groupsOf(Verb::Compare)) {
+        text += std::string("\n") + group.title + "\n";
+        for (const Entry& entry : group.entries)
+            if (longName(entry) != "fields" && longName(entry) != "curvature-totals")
+                text += helpLine(entry);
+    }
+    text +=
+        "\n"
+        "Distances are Euclidean, from the vertices of one surface to the closest point of the\n"
+        "other; signed ones are negative inside it. Means are weighted by area. On .vdb files\n"
+        "and structures both are smooth surfaces, meshes are their triangles.\n"
+        "\n"
+        "Exit status: 0 done, 1 failed, 2 wrong usage, 3 not converged (files are written),\n"
+        "130 interrupted.\n";
     return text;
 }
 

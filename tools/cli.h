@@ -23,7 +23,7 @@ struct Output {
 };
 
 /// What the tool is asked to do.
-enum class Verb { Build, Info, Help, InfoHelp, ListRadii, Version };
+enum class Verb { Build, Compare, Info, Help, CompareHelp, InfoHelp, ListRadii, Version };
 
 /// A parsed command line.
 struct Call {
@@ -31,8 +31,11 @@ struct Call {
     std::string command;            ///< the command line as typed, quoted for a shell
     std::string input;              ///< Build: a file, or "-"
     std::vector<Output> outputs;    ///< Build: at least one
-    std::vector<std::string> files; ///< Info: at least one
-    Options options;                ///< Build
+    std::vector<std::string> files; ///< Info: at least one; Compare: two
+    Options options;                ///< Build, Compare
+    bool colorBySign = false;       ///< Compare: by the signed distance
+    double colorRange = 0.0;        ///< Compare: distance at the end of the colours [Å]; 0: choose
+    std::vector<std::string> given; ///< Compare: options that are for structures only
     int threads = 0;                ///< 0: as many as there are
     bool force = false;
     bool quiet = false;
@@ -47,6 +50,9 @@ Call parseCall(int argc, const char* const* argv);
 
 /// The text of --help.
 std::string helpText();
+
+/// The text of `compare --help`.
+std::string compareHelpText();
 
 /// The text of `info --help`.
 std::string infoHelpText();

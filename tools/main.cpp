@@ -29,6 +29,9 @@ int perform(const Call& call, std::chrono::steady_clock::time_point start)
     case Verb::InfoHelp:
         std::cout << infoHelpText();
         return 0;
+    case Verb::CompareHelp:
+        std::cout << compareHelpText();
+        return 0;
     case Verb::Version:
         std::cout << "vdb_molsurf " MOLSURF_VERSION "\n";
         return 0;
@@ -37,6 +40,8 @@ int perform(const Call& call, std::chrono::steady_clock::time_point start)
         return 0;
     case Verb::Info:
         return info(call);
+    case Verb::Compare:
+        return molsurf::tool::compare(call, start);
     case Verb::Build:
         return build(call, start);
     }

@@ -18,6 +18,10 @@ constexpr int notConvergedStatus = 3;
 /// @param[in] start  when the program began, for the total time
 int build(const Call& call, std::chrono::steady_clock::time_point start);
 
+/// Compares two surfaces and writes the outputs: compare.cpp.
+/// @param[in] start  when the program began, for the total time
+int compare(const Call& call, std::chrono::steady_clock::time_point start);
+
 /// Prints what .vdb files hold: info.cpp.
 int info(const Call& call);
 

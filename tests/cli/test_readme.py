@@ -49,8 +49,9 @@ class Readme(ToolTest):
                     self.assertGreater((self.folder / name).stat().st_size, 0, name)
 
     def test_options_are_in_the_help(self):
-        """Every option that the page names is one that --help names."""
-        text = self.check(0, "--help").stdout.decode()
+        """Every option that the page names is one that --help or compare --help names."""
+        text = b"".join(self.check(0, *words, "--help").stdout for words in ([], ["compare"]))
+        text = text.decode()
         known = set(re.findall(r"--[a-z][a-z-]*", text))
         spans = re.findall(r"`(?:vdb_molsurf[^`]*|--[^`]*)`", README)
         named = {option for span in spans for option in re.findall(r"--[a-z][a-z-]*", span)}

@@ -53,10 +53,12 @@ def read_ply(data):
     header, body = data.split(b"end_header\n", 1)
     lines = header.decode("ascii").splitlines()
     assert lines[:2] == ["ply", "format binary_little_endian 1.0"], lines
-    letters = {"float": "f", "int": "i"}
+    letters = {"float": "f", "int": "i", "uchar": "B"}
     names, form, counts, element = [], "<", {}, None
     for line in lines[2:]:
         words = line.split()
+        if words[0] == "comment":
+            continue
         if words[0] == "element":
             element = words[1]
             counts[element] = int(words[2])

@@ -56,14 +56,18 @@ char* put(char* to, const T& value)
     return to + sizeof(T);
 }
 
-std::string plyHeader(const Mesh& mesh)
+std::string plyHeader(const Mesh& mesh, const std::vector<std::string>& comments)
 {
     std::string header = "ply\nformat binary_little_endian 1.0\n";
+    for (const std::string& comment : comments) header += "comment " + comment + "\n";
     header += "element vertex " + std::to_string(mesh.positions.size()) + "\n";
     for (const char* name : {"x", "y", "z", "nx", "ny", "nz"})
         header += std::string("property float ") + name + "\n";
     for (const auto& scalar : mesh.scalars) header += "property float " + scalar.name + "\n";
     for (const auto& label : mesh.labels) header += "property int " + label.name + "\n";
+    if (!mesh.colors.empty())
+        for (const char* name : {"red", "green", "blue"})
+            header += std::string("property uchar ") + name + "\n";
     header += "element face " + std::to_string(mesh.triangles.size()) + "\n";
     header += "property list uchar int vertex_indices\nend_header\n";
     return header;
@@ -111,20 +115,22 @@ void putVectors(Buffer& buffer, const char* key, const std::vector<openvdb::Vec3
 
 } // namespace
 
-void writePly(const Mesh& mesh, OutputFile& file)
+void writePly(const Mesh& mesh, OutputFile& file, const std::vector<std::string>& comments)
 {
-    const std::string header = plyHeader(mesh);
+    const std::string header = plyHeader(mesh, comments);
     file.write(header.data(), header.size());
 
     Buffer buffer(file);
-    const std::size_t vertexSize =
-        2 * sizeof(openvdb::Vec3f) + 4 * (mesh.scalars.size() + mesh.labels.size());
+    const std::size_t vertexSize = 2 * sizeof(openvdb::Vec3f) +
+                                   4 * (mesh.scalars.size() + mesh.labels.size()) +
+                                   (mesh.colors.empty() ? 0 : 3);
     for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
         char* to = buffer.take(vertexSize);
         to = put(to, mesh.positions[n]);
         to = put(to, mesh.normals[n]);
         for (const auto& scalar : mesh.scalars) to = put(to, scalar.values[n]);
         for (const auto& label : mesh.labels) to = put(to, label.values[n]);
+        if (!mesh.colors.empty()) to = put(to, mesh.colors[n]);
     }
     for (const auto& triangle : mesh.triangles) {
         char* to = buffer.take(1 + sizeof triangle);

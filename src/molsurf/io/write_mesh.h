@@ -8,17 +8,21 @@
 #include "molsurf/io/output_file.h"
 #include "molsurf/surface/mesh.h"
 
+#include <string>
+#include <vector>
+
 namespace molsurf
 {
 
 /// Writes binary little-endian PLY.
 ///
 /// Vertices come first: float x y z [Å], float nx ny nz (unit, outward), then each of Mesh::scalars
-/// as float and of Mesh::labels as int under its own name. A face is `list uchar int
-/// vertex_indices` of three indices and nothing else.
+/// as float and of Mesh::labels as int under its own name, then, if there are colours, uchar red
+/// green blue. A face is `list uchar int vertex_indices` of three indices and nothing else.
 ///
+/// @param[in] comments  lines for the header
 /// @throws Error(ErrorKind::Output) if the file cannot be written
-void writePly(const Mesh& mesh, OutputFile& file);
+void writePly(const Mesh& mesh, OutputFile& file, const std::vector<std::string>& comments = {});
 
 /// Writes Wavefront OBJ: positions [Å], normals, faces. Numbers have the fewest digits that give
 /// the same float back. The format has no place for attributes.

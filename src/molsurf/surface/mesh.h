@@ -28,6 +28,8 @@ struct Mesh {
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< indices into positions
     std::vector<Attribute<float>> scalars;       ///< curvatures [1/Å], [1/Å^2], distances [Å]
     std::vector<Attribute<std::int32_t>> labels; ///< atom, chain and group of a vertex
+    std::vector<std::array<std::uint8_t, 3>>
+        colors; ///< red, green, blue of a vertex (sRGB); empty if there are none
 };
 
 } // namespace molsurf

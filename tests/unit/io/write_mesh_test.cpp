@@ -38,6 +38,26 @@ T take(const char*& from)
     return value;
 }
 
+TEST(WritePly, ColoursAndComments)
+{
+    Mesh mesh = tetrahedron();
+    for (int v = 0; v < 4; ++v)
+        mesh.colors.push_back({std::uint8_t(10 * v), std::uint8_t(20 * v), std::uint8_t(30 * v)});
+    const std::string bytes = test::written([&](OutputFile& file) {
+        writePly(mesh, file, {"one", "two"});
+    });
+    const std::size_t end = bytes.find("end_header\n") + 11;
+    const std::string header = bytes.substr(0, end);
+    EXPECT_NE(header.find("1.0\ncomment one\ncomment two\nelement vertex"), std::string::npos);
+    EXPECT_NE(header.find("int atom_id\nproperty uchar red\nproperty uchar green\n"
+                          "property uchar blue\nelement face"),
+              std::string::npos);
+    ASSERT_EQ(bytes.size(), end + 4 * 35 + 4 * 13);
+    for (int v = 0; v < 4; ++v)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_EQ(int(std::uint8_t(bytes[end + 35 * v + 32 + k])), 10 * v * (k + 1));
+}
+
 TEST(WritePly, HoldsTheMeshAndNothingElse)
 {
     const Mesh mesh = tetrahedron();

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/read_mesh.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/core/progress.h"
+#include "molsurf/io/mesh_text.h"
+#include "molsurf/surface/distance.h"
+#include "molsurf/surface/topology.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace molsurf
+{
+
+namespace
+{
+
+std::string extensionOf(const std::string& path)
+{
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char& letter : extension)
+        if (letter >= 'A' && letter <= 'Z') letter = char(letter - 'A' + 'a');
+    return extension;
+}
+
+std::string contentOf(const std::string& path)
+{
+    std::error_code failure;
+    if (std::filesystem::is_directory(path, failure)) badMesh("it is a folder");
+    errno = 0;
+    std::ifstream file(path, std::ios_base::binary);
+    if (!file) badMesh(std::strerror(errno));
+    std::string content;
+    const auto size = std::filesystem::file_size(path, failure);
+    if (!failure) content.reserve(size);
+    std::vector<char> piece(std::size_t(1) << 20);
+    while (file.read(piece.data(), std::streamsize(piece.size())) || file.gcount() > 0)
+        content.append(piece.data(), std::size_t(file.gcount()));
+    if (file.bad()) badMesh(std::strerror(errno));
+    return content;
+}
+
+std::size_t hashOf(const openvdb::Vec3f& p)
+{
+    std::uint64_t hash = 0;
+    for (int i = 0; i < 3; ++i) {
+        const float value = p[i] + 0.0f; // -0 is 0
+        std::uint32_t bits;
+        std::memcpy(&bits, &value, sizeof bits);
+        hash = (hash ^ bits) * 0x9e3779b97f4a7c15ull;
+        hash ^= hash >> 29;
+    }
+    return std::size_t(hash);
+}
+
+/// The first vertex at the place of each vertex.
+std::vector<std::uint32_t> firstAtPlace(const std::vector<openvdb::Vec3f>& positions)
+{
+    std::size_t size = 16;
+    while (size < 2 * positions.size()) size *= 2;
+    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> table(size, none), first(positions.size());
+    for (std::uint32_t v = 0; v < positions.size(); ++v) {
+        std::size_t slot = hashOf(positions[v]) & (size - 1);
+        while (table[slot] != none && positions[table[slot]] != positions[v])
+            slot = (slot + 1) & (size - 1);
+        if (table[slot] == none) table[slot] = v;
+        first[v] = table[slot];
+    }
+    return first;
+}
+
+/// Drops vertices of no triangle.
+void dropUnused(Mesh& mesh)
+{
+    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> place(mesh.positions.size(), none);
+    for (const auto& t : mesh.triangles)
+        for (const std::uint32_t v : t) place[v] = 0;
+    std::uint32_t count = 0;
+    for (std::size_t v = 0; v < place.size(); ++v) {
+        if (place[v] == none) continue;
+        mesh.positions[count] = mesh.positions[v];
+        place[v] = count++;
+    }
+    mesh.positions.resize(count);
+    for (auto& t : mesh.triangles)
+        for (std::uint32_t& v : t) v = place[v];
+}
+
+void dropFlat(Mesh& mesh)
+{
+    std::size_t kept = 0;
+    for (const auto& t : mesh.triangles) {
+        const bool flat = mesh.positions[t[0]] == mesh.positions[t[1]] ||
+                          mesh.positions[t[1]] == mesh.positions[t[2]] ||
+                          mesh.positions[t[2]] == mesh.positions[t[0]];
+        if (!flat) mesh.triangles[kept++] = t;
+    }
+    mesh.triangles.resize(kept);
+}
+
+} // namespace
+
+bool isMeshName(const std::string& path)
+{
+    const std::string extension = extensionOf(path);
+    return extension == ".ply" || extension == ".obj" || extension == ".stl";
+}
+
+std::size_t weld(Mesh& mesh)
+{
+    const std::size_t before = mesh.positions.size();
+    const std::vector<std::uint32_t> first = firstAtPlace(mesh.positions);
+    for (auto& t : mesh.triangles)
+        for (std::uint32_t& v : t) v = first[v];
+    dropFlat(mesh);
+    dropUnused(mesh);
+    return before - mesh.positions.size();
+}
+
+Mesh readMesh(const std::string& path)
+{
+    try {
+        const std::string content = contentOf(path);
+        const std::string extension = extensionOf(path);
+        const bool stl = extension == ".stl";
+        Mesh mesh = stl                   ? parseStl(content)
+                    : extension == ".obj" ? parseObj(content)
+                                          : parsePly(content);
+        if (mesh.triangles.empty()) badMesh("expected triangles, got a mesh without any");
+        dropFlat(mesh);
+        if (stl || !hasInside(mesh, vertexTriangles(mesh), Progress())) {
+            weld(mesh);
+        } else {
+            dropUnused(mesh);
+        }
+        if (mesh.triangles.empty())
+            badMesh("expected triangles, got only such with two corners in one place");
+        return mesh;
+    } catch (const Error& e) {
+        throw Error(ErrorKind::Input, "cannot read " + path + ": " + e.what());
+    }
+}
+
+} // namespace molsurf

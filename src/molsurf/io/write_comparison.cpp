@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/write_comparison.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+namespace molsurf
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+template<typename T>
+Json orNull(const std::optional<T>& value)
+{
+    return value ? Json(*value) : Json();
+}
+
+std::optional<double> ratio(std::optional<double> a, std::optional<double> b)
+{
+    if (!a || !b || *b == 0.0) return std::nullopt;
+    return *a / *b;
+}
+
+Json operandJson(const OperandReport& operand)
+{
+    return {{"input", operand.input},
+            {"kind", operand.kind},
+            {"atoms", operand.atoms ? Json(operand.atoms) : Json()},
+            {"voxel", operand.voxel > 0.0 ? Json(operand.voxel) : Json()},
+            {"area", operand.area},
+            {"volume", orNull(operand.volume)},
+            {"vertices", operand.vertices},
+            {"triangles", operand.triangles},
+            {"closed", operand.closed}};
+}
+
+Json oneWayJson(const OneWayReport& way)
+{
+    return {{"mean", way.mean},
+            {"rms", way.rms},
+            {"max", way.max},
+            {"max_at", way.maxAt},
+            {"mean_signed", orNull(way.meanSigned)},
+            {"inside", orNull(way.inside)},
+            {"samples", way.samples}};
+}
+
+Json colorJson(const ColorReport& color)
+{
+    Json bar = Json::array();
+    for (const auto& [value, rgb] : color.bar)
+        bar.push_back(Json{{"value", value}, {"color", rgb}});
+    return {{"attribute", color.attribute},
+            {"map", color.map},
+            {"low", color.low},
+            {"high", color.high},
+            {"bar", std::move(bar)}};
+}
+
+std::string cell(std::optional<double> value, const char* form)
+{
+    if (!value) return "-";
+    char text[64];
+    std::snprintf(text, sizeof text, form, *value);
+    return text;
+}
+
+void row(std::string& table, const std::string& name, const std::vector<std::string>& cells)
+{
+    std::string line = name;
+    std::size_t column = 24;
+    for (const std::string& text : cells) {
+        // Right-aligned; Å is two bytes of a name only.
+        column += 14;
+        const std::size_t extra = name.find("Å") == std::string::npos ? 0 : 1;
+        const std::size_t width = column + extra;
+        line.resize(std::max(line.size() + 1, width - std::min(width, text.size())), ' ');
+        line += text;
+    }
+    table += line + "\n";
+}
+
+} // namespace
+
+std::string comparisonText(const ComparisonReport& report)
+{
+    Json seconds = Json::object();
+    for (const auto& [stage, time] : report.seconds) seconds[stage] = time;
+    const Json json = {
+        {"program", report.program},
+        {"version", report.version},
+        {"command", report.command},
+        {"a", operandJson(report.a)},
+        {"b", operandJson(report.b)},
+        {"a_to_b", oneWayJson(report.aToB)},
+        {"b_to_a", oneWayJson(report.bToA)},
+        {"hausdorff", report.hausdorff},
+        {"area_ratio", orNull(ratio(report.a.area, report.b.area))},
+        {"volume_ratio", orNull(ratio(report.a.volume, report.b.volume))},
+        {"color", colorJson(report.color)},
+        {"seconds", std::move(seconds)},
+        {"peak_memory_bytes", report.peakMemoryBytes},
+        {"threads", report.threads},
+        {"warnings", report.warnings},
+    };
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void writeComparison(const ComparisonReport& report, OutputFile& file)
+{
+    const std::string text = comparisonText(report);
+    file.write(text.data(), text.size());
+    file.finish();
+}
+
+std::string comparisonTable(const ComparisonReport& report)
+{
+    const OneWayReport &there = report.aToB, &back = report.bToA;
+    std::string table;
+    row(table, "distance [Å]", {"A to B", "B to A"});
+    const auto distances = [&](const char* name, std::optional<double> a, std::optional<double> b) {
+        row(table, name, {cell(a, "%.5f"), cell(b, "%.5f")});
+    };
+    distances("  mean", there.mean, back.mean);
+    distances("  mean, signed", there.meanSigned, back.meanSigned);
+    distances("  RMS", there.rms, back.rms);
+    distances("  max", there.max, back.max);
+    row(table, "  Hausdorff", {cell(report.hausdorff, "%.5f")});
+    row(table, "", {"A", "B", "A/B"});
+    row(table, "area [Å^2]",
+        {cell(report.a.area, "%.2f"), cell(report.b.area, "%.2f"),
+         cell(ratio(report.a.area, report.b.area), "%.5f")});
+    row(table, "volume [Å^3]",
+        {cell(report.a.volume, "%.2f"), cell(report.b.volume, "%.2f"),
+         cell(ratio(report.a.volume, report.b.volume), "%.5f")});
+    return table;
+}
+
+} // namespace molsurf

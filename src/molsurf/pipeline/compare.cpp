@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/pipeline/compare.h"
+
+#include "molsurf/bspline/fit.h"
+#include "molsurf/core/error.h"
+#include "molsurf/core/parallel.h"
+#include "molsurf/levelset/redistance.h"
+#include "molsurf/surface/extract.h"
+#include "molsurf/surface/measure.h"
+#include "molsurf/surface/topology.h"
+
+#include <openvdb/tools/MeshToVolume.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+using openvdb::FloatGrid;
+using openvdb::Mat3d;
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+namespace
+{
+
+/// How far on either side the spline through a level set has coefficients [voxel].
+constexpr double splineWidthVox = 4.5;
+
+[[noreturn]] void refuse(const std::string& message)
+{
+    throw Error(ErrorKind::Input, message);
+}
+
+std::string gridName(const openvdb::GridBase& grid)
+{
+    return "grid '" + grid.getName() + "'";
+}
+
+/// The level set that stands for the surface.
+FloatGrid::Ptr findLevelSet(const openvdb::GridPtrVec& grids)
+{
+    std::vector<FloatGrid::Ptr> found;
+    for (const auto& grid : grids) {
+        const bool named = grid->getName() == "surface";
+        if (grid->getGridClass() != openvdb::GRID_LEVEL_SET) {
+            if (named)
+                refuse("grid 'surface': expected class level set, got " +
+                       openvdb::GridBase::gridClassToString(grid->getGridClass()));
+            continue;
+        }
+        const auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
+        if (!floats && named)
+            refuse("grid 'surface': expected type float, got " + grid->valueType());
+        if (!floats) continue;
+        if (named) return floats;
+        found.push_back(floats);
+    }
+    if (found.empty())
+        refuse("expected a level set of type float, got none among " +
+               std::to_string(grids.size()) + " grids [hint: vdb_molsurf info FILE.vdb]");
+    if (found.size() > 1)
+        refuse("expected a grid 'surface' or only one level set, got " +
+               std::to_string(found.size()) + " level sets of other names");
+    return found[0];
+}
+
+/// The rotation and shift of a grid of cubes.
+Pose poseOf(const openvdb::GridBase& grid)
+{
+    const auto& transform = grid.transform();
+    if (!transform.isLinear()) refuse(gridName(grid) + ": expected a linear transform");
+    Pose pose;
+    pose.shift = transform.indexToWorld(Vec3d(0.0));
+    const double voxel = grid.voxelSize()[0];
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3d step(0.0);
+        step[axis] = 1.0;
+        pose.turn.setCol(axis, (transform.indexToWorld(step) - pose.shift) / voxel);
+    }
+    const Mat3d product = pose.turn.transpose() * pose.turn;
+    double worst = 0.0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            worst = std::max(worst, std::abs(product(i, j) - (i == j ? 1.0 : 0.0)));
+    if (!(worst < 1e-6) || pose.turn.det() < 0.0) {
+        std::ostringstream message;
+        message << gridName(grid)
+                << ": expected voxels that are cubes, not sheared or mirrored; got edges of "
+                << grid.voxelSize() << " Å";
+        refuse(message.str());
+    }
+    return pose;
+}
+
+/// The leaves of a grid as a field: all their values, and which are active.
+void readLeaves(const FloatGrid& grid, LeafTable& table, LeafField& field)
+{
+    std::vector<Coord> origins;
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) origins.push_back(leaf->origin());
+    table = LeafTable(std::move(origins));
+    field = LeafField(table.size());
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+        const auto n = std::size_t(table.find(leaf->origin()));
+        for (int v = 0; v < leafSize; ++v) {
+            field.leaf(n)[v] = leaf->getValue(openvdb::Index(v));
+            table.active(n).set(v, leaf->isValueOn(openvdb::Index(v)));
+        }
+    }
+}
+
+/// The spline through a level set.
+Spline fitted(const FloatGrid& grid, const Progress& progress)
+{
+    const double voxel = grid.voxelSize()[0];
+    LeafTable given;
+    LeafField values;
+    readLeaves(grid, given, values);
+    const float full = std::abs(grid.background()) * (1.0f - 1e-6f);
+    for (std::size_t n = 0; n < given.size(); ++n) given.active(n) &= within(values.leaf(n), full);
+    const double width = splineWidthVox * voxel;
+    DistanceBand band = redistance(given, values, voxel, width, width, 0.0, progress);
+    parallelFor(band.table.size(), progress, [&](std::size_t n) {
+        const std::int32_t m = given.find(band.table.origin(n));
+        if (m == noLeaf) return;
+        given.active(m).forEach([&](int v) { band.phi.leaf(n)[v] = values.leaf(m)[v]; });
+        band.table.active(n) |= given.active(m);
+    });
+    if (band.table.size() == 0) return Spline();
+    return fitSpline(band.table, band.phi, voxel, 0, progress);
+}
+
+Spline storedSpline(const FloatGrid& grid)
+{
+    Spline spline;
+    spline.voxel = grid.voxelSize()[0];
+    readLeaves(grid, spline.table, spline.coefficients);
+    return spline;
+}
+
+FloatGrid::Ptr findSpline(const openvdb::GridPtrVec& grids)
+{
+    for (const auto& grid : grids) {
+        if (grid->getName() != "spline") continue;
+        const auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
+        if (floats && !floats->empty()) return floats;
+    }
+    return nullptr;
+}
+
+void sayIfOpen(Operand& operand)
+{
+    if (operand.surface.closed) return;
+    operand.warnings.push_back("the mesh is open, or its triangles are not oriented alike: it has "
+                               "no volume and no inside");
+}
+
+} // namespace
+
+Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
+{
+    Operand operand;
+    operand.kind = "level set";
+    const FloatGrid::Ptr stored = findLevelSet(grids);
+    const Pose pose = poseOf(*stored);
+    operand.voxel = stored->voxelSize()[0];
+    stored->tree().voxelizeActiveTiles();
+    if (stored->tree().leafCount() == 0) refuse(gridName(*stored) + ": expected voxels, got none");
+    for (auto it = stored->cbeginValueOn(); it; ++it)
+        if (!std::isfinite(*it)) refuse(gridName(*stored) + ": a value is not a number");
+
+    Surface& surface = operand.surface;
+    surface.pose = pose;
+    const FloatGrid::Ptr coefficients = findSpline(grids);
+    if (coefficients) {
+        const Pose other = poseOf(*coefficients);
+        if ((other.shift - pose.shift).length() > 1e-3 * operand.voxel ||
+            !other.turn.eq(pose.turn, 1e-5))
+            refuse("grids 'surface' and 'spline': expected one origin and direction, got two");
+        surface.spline = storedSpline(*coefficients);
+    } else {
+        surface.spline = fitted(*stored, progress);
+    }
+
+    // The mesh is made in the frame of the spline.
+    const FloatGrid::Ptr local = stored->copy();
+    local->setTransform(openvdb::math::Transform::createLinearTransform(operand.voxel));
+    ExtractStats stats;
+    Mesh& mesh = surface.mesh;
+    if (surface.spline->table.size() > 0)
+        mesh = extractMesh(*local, *surface.spline, progress, stats);
+    if (mesh.triangles.empty())
+        refuse(gridName(*stored) + ": expected values of both signs, got no surface");
+    SurfaceReport report = measure(mesh, progress);
+    if (!report.manifold && splitNonManifold(mesh) > 0) report = measure(mesh, progress);
+    surface.closed = report.closed;
+    operand.size.area = report.area;
+    if (report.closed) operand.size.volume = report.volume;
+    sayIfOpen(operand);
+    for (Vec3f& p : mesh.positions) p = Vec3f(pose.toWorld(Vec3d(p)));
+    for (Vec3f& n : mesh.normals) n = Vec3f(pose.turn * Vec3d(n));
+    operand.levelSet = stored;
+    return operand;
+}
+
+Operand operandOf(Result&& result)
+{
+    Operand operand;
+    operand.kind = "structure";
+    operand.atoms = result.report.atoms;
+    operand.voxel = result.report.voxel;
+    const FloatGrid::Ptr coefficients = findSpline(result.fields);
+    if (!coefficients) throw std::logic_error("compare: a run without the field 'spline'");
+    operand.surface.spline = storedSpline(*coefficients);
+    operand.surface.mesh = std::move(result.mesh);
+    operand.surface.closed = result.report.surface.closed;
+    operand.size.area = result.report.surface.area;
+    if (operand.surface.closed) operand.size.volume = result.report.surface.volume;
+    operand.warnings = result.report.warnings;
+    operand.levelSet = result.surface;
+    return operand;
+}
+
+Operand operandOf(Mesh mesh, const Progress& progress)
+{
+    Operand operand;
+    operand.kind = "mesh";
+    Surface& surface = operand.surface;
+    surface.mesh = std::move(mesh);
+    surface.closed = hasInside(surface.mesh, vertexTriangles(surface.mesh), progress);
+    sayIfOpen(operand);
+    operand.size = sizeOfTriangles(surface.mesh, surface.closed, progress);
+    if (operand.size.volume && *operand.size.volume < 0.0) {
+        for (auto& t : surface.mesh.triangles) std::swap(t[1], t[2]);
+        for (Vec3f& n : surface.mesh.normals) n = -n;
+        operand.size.volume = -*operand.size.volume;
+        operand.warnings.push_back(
+            "the triangles of the mesh are oriented inward: they are turned round");
+    }
+    if (surface.mesh.normals.empty()) surface.mesh.normals = vertexNormals(surface.mesh);
+    return operand;
+}
+
+FloatGrid::Ptr levelSetOf(const Surface& surface, double voxel)
+{
+    if (!surface.closed)
+        refuse("the mesh is not closed: it has no level set [hint: write .ply instead of .vdb]");
+    const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
+    std::vector<openvdb::Vec3I> triangles;
+    triangles.reserve(surface.mesh.triangles.size());
+    for (const auto& t : surface.mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+    constexpr float halfWidth = 3.0f; // [voxel]
+    auto grid = openvdb::tools::meshToLevelSet<FloatGrid>(*transform, surface.mesh.positions,
+                                                          triangles, halfWidth);
+    grid->setName("surface");
+    return grid;
+}
+
+Comparison compare(const Operand& a, const DistanceTo& toA, const Operand& b, const DistanceTo& toB,
+                   Progress& progress)
+{
+    Comparison both;
+    progress.update("distance", 0.0);
+    both.aToB = distancesFrom(a.surface.mesh, toB, progress);
+    progress.update("distance", 0.5);
+    both.bToA = distancesFrom(b.surface.mesh, toA, progress);
+    both.hausdorff = std::max(both.aToB.max, both.bToA.max);
+    return both;
+}
+
+} // namespace molsurf

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/write_comparison.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace molsurf
+{
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+using Names = std::vector<std::string>;
+
+ComparisonReport sample()
+{
+    ComparisonReport report;
+    report.version = "1.2.3";
+    report.command = "vdb_molsurf compare a.vdb b.ply";
+    report.a = {"a.vdb", "level set", 0, 0.25, 200.0, 90.0, 100, 196, true};
+    report.b = {"b.ply", "mesh", 0, 0.0, 100.0, std::nullopt, 50, 90, false};
+    report.aToB = {0.5, 0.75, 2.0, {1.0, 2.0, 3.0}, std::nullopt, std::nullopt, 100};
+    report.bToA = {0.25, 0.375, 1.5, {4.0, 5.0, 6.0}, -0.125, 0.625, 60};
+    report.hausdorff = 2.0;
+    report.color = {"distance", "viridis", 0.0, 1.5, {{0.0, {68, 1, 84}}, {1.5, {253, 231, 37}}}};
+    report.seconds = {{"surfaces", 0.5}, {"total", 2.0}};
+    report.threads = 2;
+    report.warnings = {"b.ply: the mesh is open"};
+    return report;
+}
+
+Names keys(const Json& json)
+{
+    Names names;
+    for (const auto& item : json.items()) names.push_back(item.key());
+    return names;
+}
+
+TEST(WriteComparison, KeysAndValues)
+{
+    const Json json = Json::parse(comparisonText(sample()));
+    EXPECT_EQ(keys(json), (Names{"program", "version", "command", "a", "b", "a_to_b", "b_to_a",
+                                 "hausdorff", "area_ratio", "volume_ratio", "color", "seconds",
+                                 "peak_memory_bytes", "threads", "warnings"}));
+    EXPECT_EQ(keys(json["a"]), (Names{"input", "kind", "atoms", "voxel", "area", "volume",
+                                      "vertices", "triangles", "closed"}));
+    EXPECT_EQ(keys(json["a_to_b"]),
+              (Names{"mean", "rms", "max", "max_at", "mean_signed", "inside", "samples"}));
+    EXPECT_EQ(keys(json["color"]), (Names{"attribute", "map", "low", "high", "bar"}));
+    EXPECT_EQ(json["b_to_a"]["mean_signed"], -0.125);
+    EXPECT_EQ(json["b_to_a"]["max_at"], Json({4.0, 5.0, 6.0}));
+    EXPECT_EQ(json["area_ratio"], 2.0);
+    EXPECT_EQ(json["color"]["bar"][1]["color"], Json({253, 231, 37}));
+    EXPECT_EQ(json["seconds"]["total"], 2.0);
+}
+
+TEST(WriteComparison, WhatIsNotDefinedIsNull)
+{
+    const Json json = Json::parse(comparisonText(sample()));
+    EXPECT_TRUE(json["b"]["volume"].is_null());
+    EXPECT_TRUE(json["b"]["voxel"].is_null());
+    EXPECT_TRUE(json["a"]["atoms"].is_null());
+    EXPECT_TRUE(json["volume_ratio"].is_null());
+    EXPECT_TRUE(json["a_to_b"]["mean_signed"].is_null());
+    EXPECT_TRUE(json["a_to_b"]["inside"].is_null());
+}
+
+TEST(ComparisonTable, HasTheNumbers)
+{
+    const std::string table = comparisonTable(sample());
+    for (const char* word : {"0.50000", "0.37500", "-0.12500", "Hausdorff", "2.00000", "200.00"})
+        EXPECT_NE(table.find(word), std::string::npos) << word << "\n" << table;
+    EXPECT_NE(table.find(" -\n"), std::string::npos) << table; // no volume of B
+}
+
+} // namespace
+} // namespace molsurf

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What the verbs that write files share.
+
+#include "cli.h"
+#include "terminal.h"
+
+#include "molsurf/io/output_file.h"
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace molsurf::tool
+{
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start);
+
+/// The largest resident memory up to now [byte].
+std::size_t peakMemory();
+
+/// @throws Cancelled after a signal
+void stopIfAsked();
+
+/// "1 step", "2 steps".
+std::string counted(std::size_t count, const std::string& one, const std::string& many);
+
+/// Finds out whether all outputs can be written, and has them cleaned up after a signal. To be
+/// called before any work.
+/// @throws Error(ErrorKind::Output) as checkWritable()
+void prepareOutputs(const Call& call);
+
+/// Writes all files, and only when every one is complete puts them in their place. The report comes
+/// last, because it tells how long the others took; standard output, which cannot be taken back,
+/// only precedes the reports.
+///
+/// @param[in] writeOne  writes one of them
+/// @param[in] timed     is called once with the seconds that writing took, before the report is
+///                      written or else at the end
+void writeOutputs(const Call& call, Terminal& terminal,
+                  const std::function<void(Format, OutputFile&)>& writeOne,
+                  const std::function<void(double)>& timed);
+
+} // namespace molsurf::tool
