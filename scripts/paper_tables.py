@@ -34,10 +34,11 @@ PAPER = {
 }
 KEYS = ("A1", "A2", "A3", "V1", "V2", "V3")
 ASSEMBLIES = {"1A8O": "1"}  # the paper's areas are those of the dimer; the others as in the file
+EPSILON = 0.5  # the tool's default [Å]
 KINDS = ("gaussian", "ses", "variational")
 
 # The regularisers are compared where the flow rests, since their difference is small.
-REST = ("--tolerance", "1e-6", "--max-steps", "200")
+REST = ("--tolerance", "1e-5", "--max-steps", "200")
 NOT_CONVERGED = 3  # exit status of the tool; the files are written
 
 
@@ -68,6 +69,8 @@ def parse(words):
         help="tolerances [Å] of the second pair of tables [0.3,0.4,0.5]")
     add("--lambda", dest="weights", default="0.01,0.1", metavar="LIST",
         help="weights at which the regularisers are compared [0.01,0.1]; '' leaves that out")
+    add("--compared", action="append", default=[], metavar="NAME",
+        help="compare the regularisers for this structure; repeats [all]")
     add("-j", "--threads", type=int, metavar="N", help="threads of the tool [all]")
     add("--tool", default=os.environ.get("VDB_MOLSURF", ROOT / "build-release/tools/vdb_molsurf"),
         metavar="FILE", help="vdb_molsurf [$VDB_MOLSURF, else build-release/tools/vdb_molsurf]")
@@ -142,7 +145,7 @@ def measure(tool, args, name, path):
         surfaces[kind] = size(report)
     result = {"name": name, "input": path, "assembly": assembly or "none",
               "atoms": report["atoms"], "surfaces": surfaces, "ratios": ratios(surfaces),
-              "epsilon": [], "regularizers": []}
+              "epsilon": []}
     code = name.split()[0]
     if code in PAPER:
         result["paper"] = dict(zip(KEYS, PAPER[code]))
@@ -150,34 +153,34 @@ def measure(tool, args, name, path):
         third = size(tool.run(*words, "--epsilon", epsilon))
         result["epsilon"].append({"epsilon": epsilon, **third,
                                   "ratios": ratios(surfaces | {"variational": third})})
-    for weight in args.weights:
-        result["regularizers"] += regularizers(tool, words, weight)
+    weights = args.weights if not args.compared or name in args.compared else []
+    result["regularizers"] = [regularizers(tool, words, weight) for weight in weights]
     return result
 
 
 def regularizers(tool, words, weight):
-    """Both at one lambda, and h = 1 at the tension that h = |grad g|^2 has on a flat surface."""
-    slope = 2 * math.log(2) / 0.5  # |grad psi| on a flat SAS at the default epsilon of 0.5 Å
+    """Both at one lambda, and h = 1 at the tension that h = |grad g|^2 has on a flat surface.
+
+    The solvent-excluded surface gives the scale of their distances.
+    """
+    slope = 2 * math.log(2) / EPSILON  # |grad psi| on a flat solvent-accessible surface [1/Å]
     q = weight * slope ** 2
-    first = tool.folder / "first.vdb"
+    tension = q / (1 + q)
+    first, other = tool.folder / "first.vdb", tool.folder / "other.vdb"
     rows = []
-    for kind, value in (("gradient", weight), ("area", weight), ("area", q / (1 + q))):
-        other = tool.folder / "other.vdb"
-        target = other if rows else first
-        report = tool.run(*words, "--regularizer", kind, "--lambda", value, *REST,
-                          "-o", target, "--fields", "surface,spline")
-        row = {"compared_at": weight, "regularizer": kind, "lambda": value,
-               "tension": q / (1 + q) if kind == "gradient" else value,
-               "steps": report["evolution"]["steps"], **size(report)}
+    for kind, value in (("gradient", weight), ("area", weight), ("area", tension), ("ses", None)):
+        call = (("--surface", "ses") if kind == "ses" else
+                ("--regularizer", kind, "--lambda", value, *REST))
+        report = tool.run(*words, *call, "-o", other if rows else first,
+                          "--fields", "surface,spline")
+        row = {"regularizer": kind, "lambda": value,
+               "tension": tension if kind == "gradient" else value, **size(report)}
         for field in ("mean_curvature", "gaussian_curvature"):
             row[field] = report["surface"][field]
         if rows:
             row["distance"] = distance(tool, other, first)
         rows.append(row)
-    # For scale: what separates the solvent-excluded surface from the variational one.
-    tool.run(*words, "--surface", "ses", "-o", other, "--fields", "surface,spline")
-    rows[0]["ses_distance"] = distance(tool, other, first)
-    return rows
+    return {"lambda": weight, "rows": rows}
 
 
 def distance(tool, a, b):
@@ -231,29 +234,24 @@ def epsilon_table(structures, epsilons):
     yield from table(["structure", *(f"{value:g}" for value in epsilons), "paper"], rows)
 
 
+def regularizer_row(row):
+    h, k, apart = row["mean_curvature"], row["gaussian_curvature"], row.get("distance")
+    name = {"gradient": "\\|grad g\\|²", "area": "1", "ses": "(SES)"}[row["regularizer"]]
+    weights = ("-" if row[key] is None else f"{row[key]:.3f}" for key in ("lambda", "tension"))
+    return [name, *weights, f"{row['area']:.1f}" + ("" if row["converged"] else "*"),
+            f"{row['volume']:.1f}", str(row["euler_characteristic"]), f"{h['mean']:.4f}",
+            f"{h['percentiles']['5']:.2f}, {h['percentiles']['95']:.2f}",
+            f"{k['percentiles']['5']:.3f}, {k['percentiles']['95']:.3f}",
+            f"{apart['mean']:.3f}, {apart['max']:.2f}" if apart else "-"]
+
+
 def regularizer_table(one):
     yield (f"**Regularisers, {one['name']}**: area [Å²], volume [Å³], Euler characteristic, mean "
-           "curvature H [1/Å], Gaussian curvature K [1/Å²], distance of the surface from the first "
-           "one of the same block [Å]\n")
-    rows = []
-    for row in one["regularizers"]:
-        h, k = row["mean_curvature"], row["gaussian_curvature"]
-        apart = row.get("distance")
-        rows.append([
-            "\\|grad g\\|²" if row["regularizer"] == "gradient" else "1",
-            f"{row['lambda']:.3g}", f"{row['tension']:.3f}",
-            f"{row['area']:.1f}" + ("" if row["converged"] else "*"), f"{row['volume']:.1f}",
-            str(row["euler_characteristic"]), f"{h['mean']:.4f}", f"{h['standard_deviation']:.3f}",
-            f"{h['percentiles']['5']:.2f}, {h['percentiles']['95']:.2f}",
-            f"{k['percentiles']['5']:.2f}, {k['percentiles']['95']:.2f}",
-            f"{apart['mean']:.3f}, {apart['max']:.2f}" if apart else "-"])
-        if "ses_distance" in row:
-            apart = row["ses_distance"]
-            last = ["SES", *["-"] * 9, f"{apart['mean']:.3f}, {apart['max']:.2f}"]
-        if sum(1 for other in rows if other[0] != "SES") % 3 == 0:
-            rows.append(last)
-    yield from table(["h", "lambda", "tension", "area", "volume", "chi", "H mean", "H s.d.",
-                      "H 5 %, 95 %", "K 5 %, 95 %", "distance mean, max"], rows)
+           "curvature H [1/Å], Gaussian curvature K [1/Å²] (mean, percentiles), and the distance "
+           "from the surface with h = |grad g|² above [Å]\n")
+    rows = [regularizer_row(row) for block in one["regularizers"] for row in block["rows"]]
+    yield from table(["h", "lambda", "tension", "area", "volume", "chi", "H mean", "H 5 %, 95 %",
+                      "K 5 %, 95 %", "distance mean, max"], rows)
 
 
 def paper_table():
@@ -268,7 +266,8 @@ def markdown(result):
     structures = result["structures"]
     starred = any(not surface["converged"] for one in structures
                   for surface in [*one["surfaces"].values(), *one["epsilon"],
-                                  *one["regularizers"]])
+                                  *(row for block in one["regularizers"]
+                                    for row in block["rows"])])
     yield f"    {result['command']}\n"
     inputs = ", ".join(f"{one['name']}: `{pathlib.Path(one['input']).name}`" +
                        (f", assembly {one['assembly']}" if one["assembly"] != "none" else "")
