@@ -212,6 +212,7 @@ public:
     explicit Values(const po::variables_map& map) : map_(map) {}
 
     bool on(const char* name) const { return map_[name].as<bool>(); }
+    bool given(const char* name) const { return map_.count(name) > 0; }
 
     // Leaves `value` alone if the option was not given.
     void get(const char* name, std::string& value) const
@@ -397,10 +398,19 @@ void fillRun(const Values& values, Call& call)
     evolution.displacementTolerance = std::sqrt(evolution.energyTolerance);
     values.get("spline-level", options.splineLevel, 0, 2);
 
+    if (options.kind != SurfaceKind::Variational) {
+        for (const char* name :
+             {"epsilon", "lambda", "regularizer", "flow", "max-steps", "tolerance"}) {
+            if (values.given(name))
+                call.warnings.push_back(std::string("--") + name + " is for --surface variational");
+        }
+    }
+    if (options.kind != SurfaceKind::Gaussian && values.given("blobbiness"))
+        call.warnings.push_back("--blobbiness is for --surface gaussian");
     if (options.voxel > coarseVoxel)
         call.warnings.push_back("--voxel " + shortest(options.voxel) +
                                 ": voxels this large cannot show the atoms");
-    if (options.epsilon < 0.5 * options.voxel)
+    if (options.kind == SurfaceKind::Variational && options.epsilon < 0.5 * options.voxel)
         call.warnings.push_back("--epsilon " + shortest(options.epsilon) +
                                 ": a tolerance below half a voxel is not resolved");
 }

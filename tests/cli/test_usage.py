@@ -57,10 +57,10 @@ class WrongCalls(ToolTest):
     def test_unknown_format(self):
         self.refuse(CRAMBIN, "-o", "-", "--format", "glb", says="glb")
 
-    def test_surfaces_of_later_versions(self):
-        for kind in ("ses", "sas", "vdw", "gaussian"):
-            self.refuse(CRAMBIN, "-o", "a.vdb", "--surface", kind, says=[kind, "not available"])
+    def test_surface_kinds(self):
         self.refuse(CRAMBIN, "-o", "a.vdb", "--surface", "round", says="round")
+        self.refuse(CRAMBIN, "-o", "a.vdb", "--surface", "gaussian", "--blobbiness", "0",
+                    says="--blobbiness")
 
     def test_unknown_field(self):
         self.refuse(CRAMBIN, "-o", "a.vdb", "--fields", "sas,color", says="color")

@@ -264,9 +264,9 @@ Comparison compare(const Operand& a, const DistanceTo& toA, const Operand& b, co
 {
     Comparison both;
     progress.update("distance", 0.0);
-    both.aToB = distancesFrom(a.surface.mesh, toB, progress);
+    both.aToB = distancesFrom(a.surface, toB, progress);
     progress.update("distance", 0.5);
-    both.bToA = distancesFrom(b.surface.mesh, toA, progress);
+    both.bToA = distancesFrom(b.surface, toA, progress);
     both.hausdorff = std::max(both.aToB.max, both.bToA.max);
     return both;
 }

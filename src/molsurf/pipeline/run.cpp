@@ -10,6 +10,7 @@
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/pipeline/fields.h"
+#include "molsurf/rasterize/boundary_measure.h"
 #include "molsurf/rasterize/gaussian_sum.h"
 #include "molsurf/rasterize/nearest_ball.h"
 #include "molsurf/rasterize/union_distance.h"
@@ -90,11 +91,12 @@ double gaussianReach(double voxel)
 }
 
 /// The initial level set and the flow.
-NarrowBand evolveSurface(const std::vector<Ball>& balls, const Options& options, Progress& progress,
+NarrowBand evolveSurface(const BallSelection& atoms, const Options& options, Progress& progress,
                          Report& report, Stopwatch& watch)
 {
     const double h = options.voxel, reach = gaussianReach(h);
-    const GaussianSum field(balls, {options.probe, options.epsilon, 0.0, h, reach});
+    const GaussianSum field(atoms.balls, {options.probe, options.epsilon, 0.0, h, reach},
+                            atoms.decays);
     NarrowBand band = gaussianBand(field, h, progress, watch);
 
     progress.update("evolve", 0.0);
@@ -114,19 +116,31 @@ NarrowBand evolveSurface(const std::vector<Ball>& balls, const Options& options,
     return band;
 }
 
+/// The largest tolerance that the Gaussians of the balls have [Å].
+double largestTolerance(const BallSelection& atoms, const Options& options)
+{
+    double largest = options.epsilon;
+    for (std::size_t i = 0; i < atoms.decays.size(); ++i) {
+        if (atoms.decays[i].rate <= 0.0f) continue;
+        const double R = atoms.balls[i].radius + options.probe;
+        largest = std::max(largest, M_LN2 / (atoms.decays[i].rate * R));
+    }
+    return largest;
+}
+
 /// The level set that a smooth surface is offset from; empty for surfaces of a union of balls.
-NarrowBand makeBand(const std::vector<Ball>& balls, const Options& options, Progress& progress,
+NarrowBand makeBand(const BallSelection& atoms, const Options& options, Progress& progress,
                     Report& report, Stopwatch& watch)
 {
     switch (options.kind) {
     case SurfaceKind::Variational: {
-        NarrowBand band = evolveSurface(balls, options, progress, report, watch);
+        NarrowBand band = evolveSurface(atoms, options, progress, report, watch);
         band.psi = LeafField();
         return band;
     }
     case SurfaceKind::Gaussian: {
         const double h = options.voxel;
-        const GaussianSum field(balls, {0.0, 0.0, options.blobbiness, h, gaussianReach(h)});
+        const GaussianSum field(atoms.balls, {0.0, 0.0, options.blobbiness, h, gaussianReach(h)});
         NarrowBand band = gaussianBand(field, h, progress, watch);
         band.psi = LeafField();
         return band;
@@ -144,6 +158,12 @@ double offsetOf(const Options& options)
                : 0.0;
 }
 
+/// The probe that the balls of a union surface are grown by [Å].
+double grownBy(const Options& options)
+{
+    return options.kind == SurfaceKind::VanDerWaals ? 0.0 : options.probe;
+}
+
 /// S = Phi + r_b on a band that holds the coefficients of every point of the surface.
 DistanceBand distanceBand(const std::vector<Ball>& balls, const NarrowBand& band,
                           const Options& options, Progress& progress)
@@ -155,7 +175,7 @@ DistanceBand distanceBand(const std::vector<Ball>& balls, const NarrowBand& band
     if (options.kind == SurfaceKind::Variational || options.kind == SurfaceKind::Gaussian) {
         S = redistance(band.table, band.phi, h, inside, outside, -offset, progress);
     } else {
-        const double probe = options.kind == SurfaceKind::VanDerWaals ? 0.0 : options.probe;
+        const double probe = grownBy(options);
         const BallBoundary boundary = ballBoundary(balls, probe, progress);
         S = distanceToUnion(balls, probe, boundary, h, inside, outside, progress);
     }
@@ -278,6 +298,39 @@ openvdb::FloatGrid::Ptr surfaceGrid(const DistanceBand& S, double voxel, Progres
     return grid;
 }
 
+/// Replaces area, volume and pieces by those of the union of balls itself. A mesh bridges what is
+/// narrower than a voxel: creases and small cavities.
+void measureExactly(const std::vector<Ball>& balls, const Options& options, Progress& progress,
+                    Report& report)
+{
+    const BallBoundary boundary = ballBoundary(balls, grownBy(options), progress);
+    SurfaceReport& s = report.surface;
+    const std::size_t shown = s.cavities.size();
+    s.area = s.volume = s.outerArea = s.outerVolume = 0.0;
+    s.components = 0;
+    s.cavities.clear();
+    for (const BoundaryPiece& piece : measureBoundary(boundary, progress).pieces) {
+        const bool cavity = piece.volume < 0.0;
+        if (cavity && options.fillCavities) continue;
+        s.area += piece.area;
+        s.volume += piece.volume;
+        if (cavity) {
+            s.cavities.push_back({piece.area, -piece.volume});
+        } else {
+            ++s.components;
+            s.outerArea += piece.area;
+            s.outerVolume += piece.volume;
+        }
+    }
+    std::stable_sort(s.cavities.begin(), s.cavities.end(),
+                     [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
+    if (!options.fillCavities && shown != s.cavities.size()) {
+        report.warnings.push_back("mesh: " + std::to_string(shown) + " inner walls for " +
+                                  std::to_string(s.cavities.size()) +
+                                  " cavities, for want of voxels [hint: a smaller --voxel]");
+    }
+}
+
 /// Shares of the vertices near kinks, and of the others with a unit gradient.
 void checkGradient(const Mesh& mesh, const std::vector<float>& slopes, const DistanceBand& S,
                    double voxel, Progress& progress, SurfaceReport& report)
@@ -335,7 +388,15 @@ void describeCurvature(const Mesh& mesh, const Spline& spline, const Options& op
 
 Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress)
 {
+    BallSelection atoms;
+    atoms.balls = balls;
+    return run(atoms, options, progress);
+}
+
+Result run(const BallSelection& atoms, const Options& options, Progress& progress)
+{
     checkOptions(options);
+    const std::vector<Ball>& balls = atoms.balls;
     if (balls.empty()) throw Error(ErrorKind::Input, "no atoms");
 
     Result result;
@@ -344,7 +405,7 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
     report.voxel = options.voxel;
     Stopwatch watch(report);
 
-    NarrowBand band = makeBand(balls, options, progress, report, watch);
+    NarrowBand band = makeBand(atoms, options, progress, report, watch);
     const bool unionOfBalls = band.table.size() == 0;
     const auto wanted = [&](const char* field) {
         return std::find(options.fields.begin(), options.fields.end(), field) !=
@@ -393,10 +454,12 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
         report.surface = measure(result.mesh, progress);
     }
     report.surface.kind = nameOf(options.kind);
+    if (unionOfBalls && offsetOf(options) == 0.0) measureExactly(balls, options, progress, report);
     report.surface.maxResidual = stats.maxResidual;
     checkGradient(result.mesh, stats.slopes, S, options.voxel, progress, report.surface);
     // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
-    const double labelReach = 2.0 * options.probe + 4.0 * options.epsilon + 4.0 * options.voxel;
+    const double labelReach =
+        2.0 * options.probe + 4.0 * largestTolerance(atoms, options) + 4.0 * options.voxel;
     std::vector<std::int32_t> nearest =
         nearestBalls(balls, result.mesh.positions, labelReach, progress);
     for (std::int32_t& i : nearest) i = i < 0 ? -1 : balls[i].atom;

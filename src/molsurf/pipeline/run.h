@@ -34,4 +34,7 @@ struct Result {
 /// @throws Cancelled if the progress object says so
 Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress);
 
+/// The same with what else is known of the balls: resolutions.
+Result run(const BallSelection& atoms, const Options& options, Progress& progress);
+
 } // namespace molsurf

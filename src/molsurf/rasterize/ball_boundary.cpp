@@ -88,7 +88,7 @@ bool addArcs(const Vec3d& centre, double radius, std::int32_t ball, const Cap& c
     const bool first = ball < cap.other; // of the two, the one that keeps the arc
     const auto at = [&](double a) { return std::cos(a) * e1 + std::sin(a) * e2; };
     if (covered.empty()) {
-        if (first) parts.arcs.push_back({m, rho, cap.axis, e1, -2.0, {ball, cap.other}});
+        if (first) parts.arcs.push_back({m, rho, cap.axis, e1, M_PI, {ball, cap.other}, {-1, -1}});
         return true;
     }
     bool any = false;
@@ -105,8 +105,9 @@ bool addArcs(const Vec3d& centre, double radius, std::int32_t ball, const Cap& c
                               rho,
                               cap.axis,
                               at(0.5 * (begin + end)),
-                              std::cos(0.5 * (end - begin)),
-                              {ball, cap.other}});
+                              0.5 * (end - begin),
+                              {ball, cap.other},
+                              {byBegin, byEnd}});
         addCorner(begin, byBegin);
         addCorner(end, byEnd);
     };
@@ -126,6 +127,12 @@ bool addArcs(const Vec3d& centre, double radius, std::int32_t ball, const Cap& c
 }
 
 } // namespace
+
+Vec3d Arc::end(int which) const
+{
+    const double sine = std::sin(half) * (which == 0 ? -1.0 : 1.0);
+    return std::cos(half) * middle + sine * axis.cross(middle);
+}
 
 BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Progress& progress)
 {

@@ -36,14 +36,18 @@ struct Patch {
 };
 
 /// A part of the circle of two spheres that no third ball covers: the points centre + radius u with
-/// u a unit vector, u.axis = 0 and u.middle >= cosine.
+/// u a unit vector, u.axis = 0 and the angle between u and middle at most half.
 struct Arc {
     openvdb::Vec3d centre;
     double radius;
     openvdb::Vec3d axis;   ///< unit vector from the first ball to the second
     openvdb::Vec3d middle; ///< unit vector to the middle of the arc
-    double cosine;         ///< of half its angle; -2 for a whole circle
-    std::int32_t balls[2];
+    double half;           ///< half its angle, in (0, pi]
+    std::int32_t balls[2]; ///< indices in the caller's vector, ascending
+    std::int32_t ends[2];  ///< balls that cover the circle before and after it; -1: a whole circle
+
+    /// The direction of an end from the centre: 0 the first, 1 the last about the axis.
+    openvdb::Vec3d end(int which) const;
 };
 
 /// A point of three spheres that no fourth ball covers.

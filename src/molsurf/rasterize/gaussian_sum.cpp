@@ -88,16 +88,27 @@ float distanceToLeaf(float centre)
 
 } // namespace
 
-GaussianSum::GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& options)
-    : balls_(balls), options_(options), largest_([&] {
+GaussianSum::GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& options,
+                         std::vector<Decay> decays)
+    : balls_(balls), options_(options), decays_(std::move(decays)), epsilon_(options.epsilon),
+      largest_([&] {
           float largest = 0.0f;
           for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
           return largest + options.probe;
       }()),
       index_(balls, std::max(2.0, largest_ / 1.5))
 {
-    // The tolerance that the largest ball then has, the largest of all.
     if (options_.blobbiness > 0.0) options_.epsilon = M_LN2 * largest_ / options_.blobbiness;
+    double slowest = 1e30;
+    for (std::size_t i = 0; i < decays_.size(); ++i) {
+        const double R = balls[i].radius + options_.probe;
+        if (decays_[i].rate > 0.0f) slowest = std::min(slowest, double(decays_[i].rate));
+        const double square = R * R + decays_[i].level / rate(i, R);
+        largest_ = std::max(largest_, std::sqrt(std::max(square, 0.0)));
+    }
+    if (slowest < 1e30) {
+        options_.epsilon = std::max(options_.epsilon, M_LN2 / (slowest * largest_));
+    }
 }
 
 void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Term>& terms) const
@@ -106,20 +117,22 @@ void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Ter
     const Vec3d low = origin.asVec3d() * h;
     // Beyond this distance a term is negligible where psi = 0, and hardly felt at the rim of the
     // band.
-    const auto cutoff2 = [&](double R) {
+    const auto cutoff2 = [&](double R, double C, double level) {
         const double rim = R + reach + 2.0 * options_.epsilon;
-        return std::max(rim * rim, R * R + negligible / decay(R));
+        return std::max(rim * rim, R * R + (negligible + level) / C);
     };
-    const double farthest = std::sqrt(cutoff2(largest_));
+    const double slowest = M_LN2 / (options_.epsilon * largest_);
+    const double farthest = std::sqrt(cutoff2(largest_, slowest, 0.0));
 
     // The smallest value of each term in the leaf bounds psi from below, its largest from above.
     terms.clear();
     float floor = 2.0f * lowestPsi;
-    index_.forEachNear(low, low + Vec3d(7.0 * h), farthest, [&](const Ball& ball, int) {
+    index_.forEachNear(low, low + Vec3d(7.0 * h), farthest, [&](const Ball& ball, int i) {
         const openvdb::Vec3f c = openvdb::Vec3f((Vec3d(ball.center) - low) / h);
         const float R = ball.radius + float(options_.probe);
-        const float C = float(decay(R));
-        Term t{c.x(), c.y(), c.z(), C * float(h * h), C * R * R, 0.0f};
+        const float C = float(rate(std::size_t(i), R));
+        const float level = decays_.empty() ? 0.0f : decays_[std::size_t(i)].level;
+        Term t{c.x(), c.y(), c.z(), C * float(h * h), C * R * R + level, 0.0f};
         float nearest2 = 0.0f, farthest2 = 0.0f;
         for (const float x : {t.x, t.y, t.z}) {
             const float n = distanceToLeaf(x), f = std::max(std::abs(x), std::abs(x - 7.0f));
@@ -127,7 +140,7 @@ void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Ter
             farthest2 += f * f;
         }
         t.exponent = t.level - t.decay * nearest2;
-        if (nearest2 * h * h > cutoff2(R)) return;
+        if (nearest2 * h * h > cutoff2(R, C, level)) return;
         floor = std::max(floor, t.level - t.decay * farthest2);
         terms.push_back(t);
     });

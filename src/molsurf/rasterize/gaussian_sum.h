@@ -31,7 +31,13 @@ struct GaussianOptions {
 class GaussianSum
 {
 public:
-    GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& options);
+    /// @param[in] decays  one a ball, or none: all by the options
+    GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& options,
+                std::vector<Decay> decays = {});
+
+    /// How far psi = 0 may lie outside the balls of radius R_i, as a length for each doubling of
+    /// the balls that meet there: the largest tolerance of all balls [Å].
+    double tolerance() const { return options_.epsilon; }
 
     /// The voxels within `steps` voxels (see dilated()) of those next to psi = 0.
     /// @return an empty table if psi is negative at all voxels
@@ -59,15 +65,17 @@ private:
     void gatherTerms(const openvdb::Coord& origin, double reach, std::vector<Term>& terms) const;
 
     /// C of a ball [1/Å^2]
-    double decay(double R) const
+    double rate(std::size_t i, double R) const
     {
-        return options_.blobbiness > 0.0 ? options_.blobbiness / (R * R)
-                                         : M_LN2 / (options_.epsilon * R);
+        if (!decays_.empty() && decays_[i].rate > 0.0f) return decays_[i].rate;
+        return options_.blobbiness > 0.0 ? options_.blobbiness / (R * R) : M_LN2 / (epsilon_ * R);
     }
 
     const std::vector<Ball>& balls_;
-    GaussianOptions options_;
-    double largest_; // largest R_i [Å]
+    GaussianOptions options_; // with the largest tolerance of all balls
+    std::vector<Decay> decays_;
+    double epsilon_; // of balls without a rate of their own [Å]
+    double largest_; // largest R_i, swollen [Å]
     BallIndex index_;
 };
 

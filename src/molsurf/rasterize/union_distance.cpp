@@ -121,9 +121,11 @@ MOLSURF_KERNEL void nearArcs(Cube& c, const NearArc* arcs, std::size_t count)
             const float dx = c.first.x() + c.voxel * float(plane) - arc.centre.x();
             const Floats along = dx * arc.axis.x() + dy * arc.axis.y() + dz * arc.axis.z();
             const Floats middle = dx * arc.middle.x() + dy * arc.middle.y() + dz * arc.middle.z();
-            const Floats square = dx * dx + dy * dy + dz * dz - along * along;
+            // Not from squares, which cancel near the axis.
+            const Floats px = dx - along * arc.axis.x(), py = dy - along * arc.axis.y();
+            const Floats pz = dz - along * arc.axis.z();
             Floats r;
-            squareRoot(square > 0.0f ? square : Floats{}, r);
+            squareRoot(px * px + py * py + pz * pz, r);
             const Floats d2 = along * along + (r - arc.radius) * (r - arc.radius);
             keep(c, plane, middle >= (arc.cosine - rimTolerance) * r ? d2 : Floats{} + 1e30f,
                  arc.part);
@@ -332,8 +334,9 @@ private:
                 const Arc& arc = boundary_.arcs[k];
                 const Vec3d m = arc.centre - centre;
                 if (distanceToCircle(arc, -m) > reach) continue;
+                const float cosine = arc.ends[0] < 0 ? -2.0f : float(std::cos(arc.half));
                 near.arcs.push_back({Vec3f(m), Vec3f(arc.axis), Vec3f(arc.middle),
-                                     float(arc.radius), float(arc.cosine), arcs + std::int32_t(k)});
+                                     float(arc.radius), cosine, arcs + std::int32_t(k)});
             }
             const std::int32_t corners = arcs + std::int32_t(boundary_.arcs.size());
             for (std::uint32_t k = patch.cornersBegin; k < patch.cornersEnd; ++k) {

@@ -9,6 +9,7 @@
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -232,6 +233,41 @@ void applyFilters(const Structure& structure, const SelectOptions& options, cons
     chooseAltloc(structure, options.altloc, filter, out);
 }
 
+/// Gives every ball the rate of the last rule that has its atom.
+void applyResolutions(const Structure& structure, const SelectOptions& options, BallSelection& out)
+{
+    if (options.resolutions.empty()) return;
+    std::vector<std::int32_t> ruleOf(structure.atoms.size(), -1);
+    for (std::size_t r = 0; r < options.resolutions.size(); ++r) {
+        const ResolutionRule& rule = options.resolutions[r];
+        if (rule.select.empty()) {
+            std::fill(ruleOf.begin(), ruleOf.end(), std::int32_t(r));
+        } else {
+            const AtomMatch match = matchAtoms(structure, rule.select);
+            for (std::size_t i = 0; i < ruleOf.size(); ++i) {
+                if (match.atoms[i]) ruleOf[i] = std::int32_t(r);
+            }
+            out.warnings.insert(out.warnings.end(), match.warnings.begin(), match.warnings.end());
+        }
+        out.resolutions.push_back({rule, 0});
+    }
+    out.decays.resize(out.balls.size());
+    out.resolutionOf.resize(out.balls.size());
+    for (std::size_t i = 0; i < out.balls.size(); ++i) {
+        const std::int32_t r = ruleOf[std::size_t(out.balls[i].atom)];
+        out.resolutionOf[i] = r;
+        if (r < 0) continue;
+        const double d = options.resolutions[std::size_t(r)].resolution;
+        out.decays[i].rate = float(M_PI * M_PI / (d * d));
+        ++out.resolutions[std::size_t(r)].balls;
+    }
+    for (const ResolutionGroup& group : out.resolutions) {
+        if (group.balls > 0) continue;
+        out.warnings.push_back("resolution " + inQuotes(group.rule.select) +
+                               ": no ball is left for it");
+    }
+}
+
 } // namespace
 
 BallSelection selectBalls(const Structure& structure, const SelectOptions& options)
@@ -266,6 +302,7 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
                                  " atoms: dropped " + describeDrops(out.drops));
     }
     checkExtent(structure, out.balls);
+    applyResolutions(structure, options, out);
     return out;
 }
 

@@ -14,6 +14,13 @@
 namespace molsurf
 {
 
+/// A resolution, for some or all atoms.
+struct ResolutionRule {
+    std::string select; ///< gemmi selections joined by '|'; empty: all
+    double resolution;  ///< d [Å], in [minResolution, maxResolution]
+};
+constexpr double minResolution = 1.0, maxResolution = 50.0;
+
 /// Which atoms are used, and how large they are.
 struct SelectOptions {
     std::string select;            ///< gemmi selections joined by '|', see matchAtoms(); empty: all
@@ -24,6 +31,7 @@ struct SelectOptions {
     bool hetero = true;            ///< keep ligands and ions
     bool waters = false;           ///< keep waters
     std::string radii = "bondi";   ///< name of a set, or the path of a radii file, see readRadii()
+    std::vector<ResolutionRule> resolutions; ///< later ones win
 };
 
 /// Atoms left out for one reason.
@@ -33,9 +41,18 @@ struct Drop {
     std::size_t count;
 };
 
+/// The balls that a resolution rule applies to.
+struct ResolutionGroup {
+    ResolutionRule rule;
+    std::size_t balls = 0; ///< those that no later rule has
+};
+
 /// The balls, and what was done to get them.
 struct BallSelection {
     std::vector<Ball> balls;
+    std::vector<Decay> decays;                ///< one a ball; empty without resolution rules
+    std::vector<ResolutionGroup> resolutions; ///< one a rule
+    std::vector<std::int32_t> resolutionOf;   ///< rule of each ball, or -1; empty without rules
     std::vector<Drop> drops;            ///< counted in one model, before the assembly is expanded
     std::size_t copies = 1;             ///< assembly operators applied, 1 without an assembly
     std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
@@ -52,6 +69,9 @@ struct BallSelection {
 /// On a tie the label with the highest mean occupancy in that residue wins, then the first in the
 /// file, so a residue with equal alternatives keeps one conformer. Where the alternatives are
 /// different residues, one of them is kept, by the same rule.
+///
+/// A resolution d makes the Gaussians of its atoms fall off at the rate C = pi^2/d^2: blurred at
+/// the resolution d, after Bajaj, Xu and Zhang 2009.
 ///
 /// Radii of .pqr and .xyzr come from the file; options.radii must then be "bondi", its default.
 ///

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace molsurf
 {
@@ -126,8 +127,9 @@ void addParts(const Corners& t, int n, DistanceTo::Query& query, Sums& sums)
 
 } // namespace
 
-OneWay distancesFrom(const Mesh& mesh, const DistanceTo& to, const Progress& progress)
+OneWay distancesFrom(const Surface& from, const DistanceTo& to, const Progress& progress)
 {
+    const Mesh& mesh = from.mesh;
     const std::size_t vertices = mesh.positions.size(), triangles = mesh.triangles.size();
     std::vector<Distance> distances(vertices);
     inChunks(vertices, progress, [&](std::size_t begin, std::size_t end) {
@@ -136,7 +138,8 @@ OneWay distancesFrom(const Mesh& mesh, const DistanceTo& to, const Progress& pro
     });
 
     // Large triangles by their parts, the others by their corners.
-    const double spacing = spacingOf(mesh, progress);
+    const double spacing =
+        from.spline ? std::numeric_limits<double>::infinity() : spacingOf(mesh, progress);
     Sums sums = parallelSum<Sums>((triangles + chunk - 1) / chunk, progress, [&](std::size_t c) {
         DistanceTo::Query query(to);
         Sums part;

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How far one surface is from another. docs/math.md, section 10.
+/// How far one surface is from another. docs/math.md, section 11.
 
 #include "molsurf/core/progress.h"
 #include "molsurf/surface/distance.h"
@@ -39,15 +39,15 @@ struct OneWay {
 /// triangles are a million at most.
 constexpr double sampleSpacing = 1.0;
 
-/// Measures the distance of every vertex of a mesh from another surface.
+/// Measures the distance of every vertex of a surface from another one.
 ///
 /// The mean of f is the sum of A_v f_v over the sum of A_v, with A_v a third of the area of the
-/// triangles at a vertex: exact for f linear on the triangles. A triangle with an edge longer than
-/// sampleSpacing counts by its n^2 parts instead, at their centroids, with n edges along each side;
-/// the maximum is then over their corners, too.
+/// triangles at a vertex: exact for f linear on the triangles. If the triangles are the surface, one
+/// with an edge longer than sampleSpacing counts by its n^2 parts instead, at their centroids, with
+/// n edges along each side; the maximum is then over their corners, too.
 ///
-/// @param[in] mesh  with at least one triangle
-OneWay distancesFrom(const Mesh& mesh, const DistanceTo& to, const Progress& progress);
+/// @param[in] from  with at least one triangle
+OneWay distancesFrom(const Surface& from, const DistanceTo& to, const Progress& progress);
 
 /// The distance from a surface at every active voxel of a grid.
 /// @param[in] on  a level set; the results have its active voxels and its transform

@@ -3,7 +3,7 @@
 
 /// @file
 /// The distance of any point from a surface, near or far: to triangles, or to the zero set of a
-/// spline that triangles sample. docs/math.md, section 10.
+/// spline that triangles sample. docs/math.md, section 11.
 
 #include "molsurf/bspline/spline.h"
 #include "molsurf/core/progress.h"

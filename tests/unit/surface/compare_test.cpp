@@ -42,7 +42,7 @@ Surface meshSurface(Mesh mesh)
 OneWay from(const Surface& a, const Surface& b)
 {
     const DistanceTo to(b);
-    return distancesFrom(a.mesh, to, Progress());
+    return distancesFrom(a, to, Progress());
 }
 
 const Vec3d first(0.13, 0.29, 0.41);
@@ -102,6 +102,9 @@ TEST(Compare, ASurfaceWithItself)
     EXPECT_LT(from(a, a).max, 1e-5);
     const Surface b = meshSurface(test::box({0, 0, 0}, {3, 1, 2}));
     EXPECT_LT(from(b, b).max, 1e-12);
+    // Triangles of a spline are not sampled inside, however large: they are not the surface.
+    const Surface coarse = ballOf(8.0, first, 1.5);
+    EXPECT_LT(from(coarse, coarse).max, 5e-5);
 }
 
 /// A square of two triangles at height z + slope x.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Area, volume and topology of a union of balls in closed form.
+
+#include "molsurf/core/progress.h"
+#include "molsurf/rasterize/ball_boundary.h"
+
+#include <vector>
+
+namespace molsurf
+{
+
+/// One connected piece of the boundary of a union of balls.
+struct BoundaryPiece {
+    double area = 0.0;           ///< [Å^2]
+    double volume = 0.0;         ///< enclosed; negative: a cavity [Å^3]
+    int eulerCharacteristic = 0; ///< 2 - 2 genus
+};
+
+/// The pieces, and the share of every ball.
+struct BoundaryMeasure {
+    std::vector<BoundaryPiece> pieces; ///< in the order of their first ball
+    std::vector<double> patchAreas;    ///< one a patch [Å^2]
+};
+
+/// Measures the boundary of a union of balls, without a grid.
+///
+/// A face, a connected part of a patch, is bounded by loops of arcs. With half angles theta of the
+/// caps, angles phi of the arcs and exterior angles epsilon of the corners the theorem of Gauss and
+/// Bonnet gives its area R^2 (2 pi (2 - loops) + sum phi cos theta - sum epsilon) (Connolly,
+/// Analytical molecular surface calculation, J. Appl. Cryst. 16:548-558, 1983). The volume is the
+/// flux of x/3 through the faces, their integrated normals being integrals over the loops. Loops of
+/// a sphere bound the same face if they lie on the same side of every connected cluster of caps.
+///
+/// @return exact but for rounding, and for corners of four or more spheres, where the pieces may be
+///         joined wrongly
+BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& progress);
+
+} // namespace molsurf

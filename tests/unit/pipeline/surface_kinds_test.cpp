@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "support/mesh_checks.h"
+#include "support/runs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+Options optionsFor(SurfaceKind kind, double voxel = 0.5)
+{
+    Options options;
+    options.kind = kind;
+    options.voxel = voxel;
+    return options;
+}
+
+/// Random rigid motions.
+struct Motion {
+    openvdb::Mat3d turn;
+    Vec3d shift;
+    Vec3f operator()(const Vec3d& x) const { return Vec3f(turn * x + shift); }
+};
+
+Motion randomMotion(std::mt19937& random)
+{
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> place(-3.0, 3.0);
+    Vec3d a(normal(random), normal(random), normal(random));
+    Vec3d b(normal(random), normal(random), normal(random));
+    a.normalize();
+    b -= b.dot(a) * a;
+    b.normalize();
+    return {openvdb::Mat3d(a, b, a.cross(b)), {place(random), place(random), place(random)}};
+}
+
+/// The largest errors of area and volume of an SES over random places and orientations [%].
+std::pair<double, double> worstOf(const std::vector<Vec3d>& centres, double area, double volume,
+                                  double voxel, int poses)
+{
+    std::mt19937 random(11);
+    std::pair<double, double> worst{0.0, 0.0};
+    for (int pose = 0; pose < poses; ++pose) {
+        const Motion move = randomMotion(random);
+        std::vector<Ball> balls;
+        for (const Vec3d& c : centres) balls.push_back({move(c), 1.7f, 0});
+        const SurfaceReport s =
+            test::runOn(balls, optionsFor(SurfaceKind::SolventExcluded, voxel)).report.surface;
+        EXPECT_TRUE(s.closed && s.manifold);
+        worst.first = std::max(worst.first, 100.0 * std::abs(s.area / area - 1.0));
+        worst.second = std::max(worst.second, 100.0 * std::abs(s.volume / volume - 1.0));
+    }
+    return worst;
+}
+
+// One, two and three atoms of radius 1.7 Å, 4 Å apart, probe 1.4 Å: spheres, tori and the triangles
+// of the probes that touch three.
+TEST(SolventExcluded, AreaAndVolumeInClosedForm)
+{
+    struct Case {
+        std::vector<Vec3d> centres;
+        double area, volume;
+    };
+    const Vec3d third(2.0, 2.0 * std::sqrt(3.0), 0.0);
+    const Case cases[] = {{{Vec3d(0.0)}, 36.316811, 20.579526},
+                          {{Vec3d(0.0), Vec3d(4.0, 0.0, 0.0)}, 73.076789, 44.317154},
+                          {{Vec3d(0.0), Vec3d(4.0, 0.0, 0.0), third}, 107.214561, 71.467744}};
+    for (const Case& c : cases) {
+        const auto [area, volume] = worstOf(c.centres, c.area, c.volume, 0.5, 20);
+        EXPECT_LT(area, 0.4) << c.centres.size();
+        EXPECT_LT(volume, 0.6) << c.centres.size();
+        const auto [fineArea, fineVolume] = worstOf(c.centres, c.area, c.volume, 0.25, 5);
+        EXPECT_LT(fineArea, 0.1) << c.centres.size();
+        EXPECT_LT(fineVolume, 0.15) << c.centres.size();
+    }
+}
+
+// Against the area and volume of NanoShaper 1.5 at 0.125 Å.
+TEST(SolventExcluded, OfProteins)
+{
+    const Options options = optionsFor(SurfaceKind::SolventExcluded);
+    const Result result = test::runOn(test::balls("1crn.pdb"), options);
+    const SurfaceReport& s = result.report.surface;
+    EXPECT_NEAR(s.area, 2317.8, 0.005 * 2317.8);
+    EXPECT_NEAR(s.volume, 4664.7, 0.0015 * 4664.7);
+    EXPECT_EQ(s.kind, "ses");
+    EXPECT_FALSE(result.report.evolution);
+    const test::MeshVerdict verdict = test::judge(result.mesh);
+    EXPECT_TRUE(verdict.good()) << verdict;
+}
+
+// The union of balls is known exactly, whatever the voxels.
+TEST(UnionSurfaces, AreExactAtAnyVoxel)
+{
+    const std::vector<Ball> balls = test::balls("1crn.pdb");
+    for (const SurfaceKind kind : {SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals}) {
+        const Result coarse = test::runOn(balls, optionsFor(kind, 0.5));
+        const Result fine = test::runOn(balls, optionsFor(kind, 0.3));
+        EXPECT_NEAR(coarse.report.surface.area, fine.report.surface.area, 1e-6);
+        EXPECT_NEAR(coarse.report.surface.volume, fine.report.surface.volume, 1e-6);
+        // The grid knows the volume too.
+        double inside = 0.0;
+        for (auto v = fine.surface->cbeginValueOn(); v; ++v) {
+            inside += std::clamp(0.5 - *v / 0.3, 0.0, 1.0);
+        }
+        for (auto v = fine.surface->cbeginValueOff(); v; ++v) {
+            if (*v < 0.0f) inside += double(v.getVoxelCount());
+        }
+        EXPECT_NEAR(inside * 0.027, fine.report.surface.volume, 0.004 * fine.report.surface.volume);
+        EXPECT_TRUE(fine.report.surface.closed && fine.report.surface.manifold);
+    }
+}
+
+// psi = 0 of one atom is its sphere; of the same atom twice 2 exp(-(d/r^2)(x^2 - r^2)) = 1.
+TEST(Gaussian, OneAtomAndTheSameTwice)
+{
+    const Vec3f c(0.137f, -0.291f, 0.443f);
+    Options options = optionsFor(SurfaceKind::Gaussian, 0.25);
+    const SurfaceReport one = test::runOn({{c, 1.7f, 0}}, options).report.surface;
+    EXPECT_NEAR(std::sqrt(one.area / (4.0 * M_PI)), 1.7, 0.002);
+    options.blobbiness = 1.0;
+    const SurfaceReport two = test::runOn({{c, 1.7f, 0}, {c, 1.7f, 1}}, options).report.surface;
+    const double radius = 1.7 * std::sqrt(1.0 + std::log(2.0));
+    EXPECT_NEAR(std::sqrt(two.area / (4.0 * M_PI)), radius, 0.002);
+    EXPECT_NEAR(std::cbrt(two.volume * 3.0 / (4.0 * M_PI)), radius, 0.002);
+}
+
+/// Balls on a sphere about a hollow.
+std::vector<Ball> shell(double radius)
+{
+    std::vector<Ball> out;
+    for (int k = 0; k < 200; ++k) {
+        const double z = 1.0 - (2.0 * k + 1.0) / 200, a = k * M_PI * (3.0 - std::sqrt(5.0));
+        const double s = std::sqrt(1.0 - z * z);
+        out.push_back({Vec3f(float(radius * s * std::cos(a)), float(radius * s * std::sin(a)),
+                             float(radius * z)),
+                       1.9f, 0});
+    }
+    return out;
+}
+
+TEST(UnionSurfaces, CavitiesAreListedOrFilled)
+{
+    for (const SurfaceKind kind : {SurfaceKind::SolventExcluded, SurfaceKind::SolventAccessible,
+                                   SurfaceKind::VanDerWaals, SurfaceKind::Gaussian}) {
+        Options options = optionsFor(kind);
+        const Result hollow = test::runOn(shell(8.0), options);
+        const SurfaceReport& s = hollow.report.surface;
+        ASSERT_EQ(s.cavities.size(), 1u) << nameOf(kind);
+        EXPECT_EQ(s.components, 1);
+        EXPECT_GT(s.cavities[0].volume, 100.0);
+
+        options.fillCavities = true;
+        const Result filled = test::runOn(shell(8.0), options);
+        const SurfaceReport& f = filled.report.surface;
+        EXPECT_TRUE(f.cavities.empty()) << nameOf(kind);
+        EXPECT_EQ(f.eulerCharacteristic, 2) << nameOf(kind);
+        EXPECT_NEAR(f.area, s.outerArea, 0.001 * s.outerArea) << nameOf(kind);
+        EXPECT_NEAR(f.volume, s.outerVolume, 0.001 * s.outerVolume) << nameOf(kind);
+        // Voxels of the cavity are inner ones.
+        EXPECT_LT(filled.surface->tree().getValue(openvdb::Coord(0)), 0.0f) << nameOf(kind);
+        EXPECT_GT(hollow.surface->tree().getValue(openvdb::Coord(0)), 0.0f) << nameOf(kind);
+    }
+}
+
+TEST(UnionSurfaces, OfSpecialPositions)
+{
+    const auto at = [](float x, float y, float z) { return Ball{Vec3f(x, y, z), 1.7f, 0}; };
+    const std::vector<std::vector<Ball>> cases = {
+        {at(0, 0, 0), at(0, 0, 0)},                                  // equal
+        {at(0, 0, 0), at(3.4f, 0, 0)},                               // touching
+        {at(0, 0, 0), at(2, 0, 0), at(0, 2, 0), at(2, 2, 0)},        // four spheres, one point
+        {at(0, 0, 0), at(1.5f, 0, 0), at(3, 0, 0), at(4.5f, 0, 0)}}; // collinear
+    for (const SurfaceKind kind : {SurfaceKind::SolventExcluded, SurfaceKind::SolventAccessible,
+                                   SurfaceKind::VanDerWaals, SurfaceKind::Gaussian}) {
+        for (const auto& balls : cases) {
+            const Result result = test::runOn(balls, optionsFor(kind));
+            const SurfaceReport& s = result.report.surface;
+            EXPECT_TRUE(s.closed && s.manifold) << nameOf(kind) << " " << balls.size();
+            EXPECT_GT(s.volume, 20.0);
+            EXPECT_LT(s.volume, 1.1 * double(balls.size()) * 124.8);
+        }
+    }
+}
+
+} // namespace
+} // namespace molsurf
