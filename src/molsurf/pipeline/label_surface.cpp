@@ -159,29 +159,47 @@ std::vector<double> groupAreas(const std::vector<Ball>& balls, const BallLabels&
     return areas;
 }
 
-/// Points of a lattice inside the surface, at most an Å apart, and closer if the volume is small.
+/// A place in [0, 1)^3 for every cell of a lattice: Roberts' low-discrepancy sequence R3.
+openvdb::Vec3d placeIn(const Coord& cell)
+{
+    const auto fraction = [](int i, int j, int k) {
+        const double u = i * 0.8191725134 + j * 0.6710436067 + k * 0.5497004779;
+        return u - std::floor(u);
+    };
+    return {fraction(cell.x(), cell.y(), cell.z()), fraction(cell.y(), cell.z(), cell.x()),
+            fraction(cell.z(), cell.x(), cell.y())};
+}
+
+/// One point in every cell of a lattice, if inside the surface. Cells are at most an Å wide, and
+/// smaller if the volume is small; the places in them vary, so that borders along the lattice do no
+/// harm.
 std::vector<Vec3f> pointsInside(const openvdb::FloatGrid& surface, double volume)
 {
     constexpr double enough = 1e5; // points
     const double h = surface.voxelSize()[0];
-    const double pitch = std::min(1.0, std::cbrt(volume / enough)) / h;
-    const int stride = std::max(1, int(std::floor(pitch + 1e-9)));
-    const int parts = std::max(1, int(std::ceil(1.0 / pitch - 1e-9)));
-    const auto onLattice = [&](const Coord& c) {
-        return c.x() % stride == 0 && c.y() % stride == 0 && c.z() % stride == 0;
-    };
-    const auto shift = [&](int k) { return (k + 0.5) / parts - 0.5; };
-    std::vector<Vec3f> points;
+    const double width = std::min(1.0, std::cbrt(volume / enough)) / h;
+    const int stride = std::max(1, int(std::floor(width + 1e-9)));     // voxels a cell, or
+    const int parts = std::max(1, int(std::ceil(1.0 / width - 1e-9))); // cells a voxel
     openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::BoxSampler> phi(surface);
-    const auto addParts = [&](const Coord& c) {
-        for (int i = 0; i < parts; ++i) {
-            for (int j = 0; j < parts; ++j) {
-                for (int k = 0; k < parts; ++k) {
-                    const openvdb::Vec3d at =
-                        c.asVec3d() + openvdb::Vec3d(shift(i), shift(j), shift(k));
-                    if (phi.isSample(at) < 0.0f) points.emplace_back(surface.indexToWorld(at));
-                }
-            }
+    std::vector<Vec3f> points;
+    const auto addOne = [&](const Coord& voxel) {
+        Coord cell;
+        for (int a = 0; a < 3; ++a) {
+            cell[a] = (voxel[a] - (voxel[a] < 0 ? stride - 1 : 0)) / stride;
+        }
+        const openvdb::Vec3d at = placeIn(cell) * stride;
+        for (int a = 0; a < 3; ++a) {
+            if (cell[a] * stride + int(at[a]) != voxel[a]) return;
+        }
+        points.emplace_back(surface.indexToWorld(voxel));
+    };
+    const auto addParts = [&](const Coord& voxel) {
+        for (int p = 0; p < parts * parts * parts; ++p) {
+            const Coord cell =
+                Coord(voxel.x() * parts + p % parts, //
+                      voxel.y() * parts + p / parts % parts, voxel.z() * parts + p / parts / parts);
+            const openvdb::Vec3d at = (cell.asVec3d() + placeIn(cell)) / parts - 0.5;
+            if (phi.isSample(at) < 0.0f) points.emplace_back(surface.indexToWorld(at));
         }
     };
     for (auto it = surface.cbeginValueAll(); it; ++it) {
@@ -190,8 +208,8 @@ std::vector<Vec3f> pointsInside(const openvdb::FloatGrid& surface, double volume
         for (auto c = box.begin(); c; ++c) {
             if (parts > 1) {
                 addParts(*c);
-            } else if (onLattice(*c)) {
-                points.emplace_back(surface.indexToWorld(*c));
+            } else {
+                addOne(*c);
             }
         }
     }
