@@ -8,7 +8,9 @@
 #include "molsurf/selection/groups.h"
 #include "molsurf/structure/structure.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,8 +65,9 @@ struct BallSelection {
     std::size_t copies = 1;             ///< assembly operators applied, 1 without an assembly
     std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
     std::optional<BallLabels> labels;   ///< if asked for, or with groups
-    int model = 0;                      ///< number of the model that was used
-    std::vector<std::string> warnings;  ///< one line each: unknown elements, missing altloc, ...
+    std::vector<std::array<std::uint8_t, 3>> colors; ///< sRGB, one a ball; empty: not chosen
+    int model = 0;                                   ///< number of the model that was used
+    std::vector<std::string> warnings; ///< one line each: unknown elements, missing altloc, ...
 };
 
 /// Chooses atoms, gives them radii, and applies the operators of the assembly.
