@@ -43,6 +43,7 @@ struct Atom {
 struct Operator {
     std::array<std::array<double, 3>, 3> rotation; ///< rows
     openvdb::Vec3d translation;
+    std::string name; ///< "7"; of a product "(1)(61)"; may be empty
 };
 
 /// Some chains and the operators that make their copies.
@@ -51,7 +52,8 @@ struct AssemblyPart {
     std::vector<Operator> operators; ///< products already multiplied out
 };
 
-/// A biological assembly.
+/// A biological assembly, or with the name "ncs" what the non-crystallographic symmetry of the file
+/// makes of its coordinates.
 struct Assembly {
     std::string name; ///< "1"
     std::vector<AssemblyPart> parts;
