@@ -290,11 +290,13 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
     if (options.assembly == "none") {
         out.balls = std::move(balls);
         out.copyBegin = {0, out.balls.size()};
+        out.copyNumbers = {1};
     } else {
-        ExpandedBalls expanded = expandAssembly(structure, options.assembly, balls);
+        ExpandedBalls expanded = expandAssembly(structure, options.assembly, options.copies, balls);
         filter.note("not in the assembly", expanded.unused);
         out.balls = std::move(expanded.balls);
         out.copyBegin = std::move(expanded.copyBegin);
+        out.copyNumbers = std::move(expanded.copyNumbers);
         out.copies = out.copyBegin.size() - 1;
     }
     if (out.balls.empty()) {

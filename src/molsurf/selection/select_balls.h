@@ -26,6 +26,7 @@ struct SelectOptions {
     std::string select;            ///< gemmi selections joined by '|', see matchAtoms(); empty: all
     int model = 0;                 ///< number in the file; 0: that of the selection, or the first
     std::string assembly = "none"; ///< name in the file, or "none": the coordinates as they stand
+    std::string copies;            ///< "1,7,20-25" or "fold:5", see parseCopies(); empty: all
     std::string altloc;            ///< "": the highest occupancy; "A": blank and that label; "all"
     bool hydrogens = true;         ///< keep the hydrogens (and deuterium) of the file
     bool hetero = true;            ///< keep ligands and ions
@@ -56,6 +57,7 @@ struct BallSelection {
     std::vector<Drop> drops;            ///< counted in one model, before the assembly is expanded
     std::size_t copies = 1;             ///< assembly operators applied, 1 without an assembly
     std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
+    std::vector<int> copyNumbers;       ///< of copy i in the whole assembly, from 1
     int model = 0;                      ///< number of the model that was used
     std::vector<std::string> warnings;  ///< one line each: unknown elements, missing altloc, ...
 };
