@@ -57,6 +57,7 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     text("option.select", options.atoms.select.empty() ? "all" : options.atoms.select);
     text("option.model", options.atoms.model ? std::to_string(options.atoms.model) : "first");
     text("option.assembly", options.atoms.assembly);
+    text("option.copies", options.atoms.copies.empty() ? "all" : options.atoms.copies);
     text("option.altloc",
          options.atoms.altloc.empty() ? "highest occupancy" : options.atoms.altloc);
     yesNo("option.no-hydrogens", !options.atoms.hydrogens);

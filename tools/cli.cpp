@@ -94,8 +94,14 @@ const std::vector<Group>& groups()
         {"Atoms",
          {{"select", "EXPR", "gemmi selections joined by |, e.g. \"/1/A/53-132|*;polymer\"", "all"},
           {"model", "N", "number of the model in the file", "the first"},
-          {"assembly", "ID", "biological assembly to build; none: as in the file",
+          {"assembly", "ID",
+           "biological assembly to build; none: as in the file;\n"
+           "ncs: with the copies of MTRIX records or struct_ncs_oper",
            preset.atoms.assembly},
+          {"copies", "LIST",
+           "copies of the assembly: numbers such as 1,7,20-25, or\n"
+           "fold:N, those about the nearest N-fold axis, with copy 1",
+           "all"},
           {"altloc", "A", "alternate location to take, or all", "highest occupancy"},
           {"no-hydrogens", nullptr, "drop hydrogens", ""},
           {"no-hetero", nullptr, "drop ligands and ions", ""},
@@ -373,6 +379,7 @@ void fillRun(const Values& values, Call& call)
     values.get("select", options.atoms.select);
     values.get("model", options.atoms.model, 1, 1000000000);
     values.get("assembly", options.atoms.assembly);
+    values.get("copies", options.atoms.copies);
     values.get("altloc", options.atoms.altloc);
     options.atoms.hydrogens = !values.on("no-hydrogens");
     options.atoms.hetero = !values.on("no-hetero");
@@ -528,7 +535,7 @@ Call parseInfo(int argc, const char* const* argv)
         else
             call.files.push_back(word);
     }
-    if (call.files.empty()) misuse("info: expected FILE.vdb");
+    if (call.files.empty()) misuse("info: expected a FILE");
     return call;
 }
 
@@ -596,7 +603,7 @@ std::string helpText()
     std::string text =
         "vdb_molsurf INPUT -o FILE [-o FILE ...] [options]\n"
         "vdb_molsurf compare A B [-o FILE ...] [options]\n"
-        "vdb_molsurf info FILE.vdb ...\n"
+        "vdb_molsurf info FILE ...\n"
         "\n"
         "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .pqr .xyzr,\n"
         "each also .gz, or - for standard input). Lengths are in Å. Defaults are in brackets.\n";
@@ -637,11 +644,14 @@ std::string compareHelpText()
 
 std::string infoHelpText()
 {
-    return "vdb_molsurf info FILE.vdb ...\n"
+    return "vdb_molsurf info FILE ...\n"
            "\n"
-           "Prints what .vdb files hold: metadata, grids with type, class, voxel size, "
-           "background,\n"
-           "active voxels, memory and bounding box, and the area and volume of level sets.\n";
+           "Prints what files hold. OpenVDB files: metadata, grids with type, class, voxel size,\n"
+           "background, active voxels, memory and bounding box, and the area and volume of level\n"
+           "sets. Structures: models, chains, atoms, and assemblies with their copies, point "
+           "group\n"
+           "and rotation axes; for every fold the copies that --copies fold:N takes. The content\n"
+           "says which it is, not the name.\n";
 }
 
 } // namespace molsurf::tool

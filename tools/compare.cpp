@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 
@@ -38,14 +37,6 @@ struct Read {
     Operand operand;
     bool converged = true;
 };
-
-bool isVdbName(const std::string& path)
-{
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& letter : extension)
-        if (letter >= 'A' && letter <= 'Z') letter = char(letter - 'A' + 'a');
-    return extension == ".vdb";
-}
 
 /// Runs f; an Input error of it names the file.
 template<typename F>
@@ -65,7 +56,7 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
     Read read;
     read.path = path;
     terminal.update("read", 0.0);
-    if (isVdbName(path)) {
+    if (isVdbFile(path)) {
         const VdbFile file = readVdb(path);
         stopIfAsked();
         terminal.update("surface", 0.0);
