@@ -145,7 +145,8 @@ void closestPoints(benchmark::State& state)
     Progress progress;
     std::size_t voxels = 0;
     for (auto _ : state) {
-        const DistanceBand band = redistance(shell().table, shell().phi, voxel, 3.4, 0.6, -1.4, progress);
+        const DistanceBand band =
+            redistance(shell().table, shell().phi, voxel, 3.4, 0.6, -1.4, progress);
         voxels = band.table.activeCount();
     }
     state.counters["voxels/s"] = benchmark::Counter(double(state.iterations()) * double(voxels),

@@ -29,7 +29,7 @@ STAGES = {
 # Where a library may be included: what is not named here may be included anywhere.
 LIBRARIES = {
     "gemmi/": ["src/molsurf/structure/", "src/molsurf/selection/"],
-    "nlohmann/": ["src/molsurf/io/"],
+    "nlohmann/": ["src/molsurf/io/", "src/molsurf/selection/groups.cpp"],
     "png.h": ["src/molsurf/io/"],
     "embree3/": ["src/molsurf/surface/"],
     "openssl/": ["tools/sha256.cpp"],

@@ -204,7 +204,7 @@ int build(const Call& call, Clock::time_point start)
     }
 
     stopIfAsked();
-    Result result = run(selection.balls, call.options, terminal);
+    Result result = run(selection, call.options, terminal);
     terminal.erase();
     if (!call.quiet)
         for (const std::string& warning : result.report.warnings) say("warning: " + warning);

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -127,7 +128,19 @@ const std::vector<Group>& groups()
            ""}}},
         {"Resolution",
          {{"epsilon", "E", "tolerance of the Gaussian sum [Å]; larger is smoother",
-           shortest(preset.epsilon)}}},
+           shortest(preset.epsilon)},
+          {"resolution", "[SEL=]D",
+           "blur to D [Å], 1 to 50, all atoms or those of a\n"
+           "selection; repeats, later ones win",
+           "", true},
+          {"match-volume", nullptr, "resolutions keep the volume of the fine surface", ""}}},
+        {"Groups",
+         {{"groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]", ""},
+          {"group-by", "WORD", "groups by chain, entity, copy or residues:N instead", ""},
+          {"color", "WORD",
+           "colours of the mesh and the grid Cd: chain, group,\n"
+           "element, residue, mean-curvature, gaussian-curvature",
+           nameOf(preset.color)}}},
         {"Evolution",
          {{"lambda", "L", "weight of the regulariser [Å^2 for gradient, 1 for area]",
            shortest(preset.evolution.lambda)},
@@ -179,7 +192,8 @@ std::vector<Group> groupsOf(Verb verb)
 {
     if (verb != Verb::Compare) return groups();
     std::vector<Group> all = compareGroups();
-    all.insert(all.end(), groups().begin() + 1, groups().end());
+    std::copy_if(groups().begin() + 1, groups().end(), std::back_inserter(all),
+                 [](const Group& group) { return std::string(group.title) != "Groups"; });
     return all;
 }
 
@@ -215,7 +229,19 @@ po::options_description describeOptions(Verb verb)
 class Values
 {
 public:
-    explicit Values(const po::variables_map& map) : map_(map) {}
+    Values(const po::variables_map& map, std::vector<std::string> order)
+        : map_(map), order_(std::move(order))
+    {
+    }
+
+    // Where the command line has the n-th value of an option; 0 if it came from elsewhere.
+    std::size_t position(const std::string& name, std::size_t n = 0) const
+    {
+        for (std::size_t i = 0; i < order_.size(); ++i) {
+            if (order_[i] == name && n-- == 0) return i + 1;
+        }
+        return 0;
+    }
 
     bool on(const char* name) const { return map_[name].as<bool>(); }
     bool given(const char* name) const { return map_.count(name) > 0; }
@@ -285,6 +311,7 @@ private:
     }
 
     const po::variables_map& map_;
+    std::vector<std::string> order_; // names of the options on the command line
 };
 
 Format formatOf(const std::string& path)
@@ -353,6 +380,27 @@ std::vector<std::string> fieldsOf(const Values& values)
 
 void fillRun(const Values& values, Call& call);
 
+void fillGroups(const Values& values, Call& call)
+{
+    Options& options = call.options;
+    values.get("group-by", options.atoms.groupBy);
+    values.get("color", options.color,
+               {ColorBy::Nothing, ColorBy::Chain, ColorBy::Group, ColorBy::Element,
+                ColorBy::Residue, ColorBy::MeanCurvature, ColorBy::GaussianCurvature});
+    std::string file;
+    values.get("groups", file);
+    if (!file.empty() && !options.atoms.groupBy.empty()) misuse("--groups and --group-by together");
+    if (!file.empty()) options.atoms.groups = readGroups(file);
+    const bool groups = !file.empty() || !options.atoms.groupBy.empty();
+    if (options.color == ColorBy::Group && !groups)
+        misuse("--color group: expected --groups or --group-by too");
+    const auto has = [&](const char* field) {
+        return std::count(options.fields.begin(), options.fields.end(), field) > 0;
+    };
+    if (has("Cd") && options.color == ColorBy::Nothing) options.color = ColorBy::Chain;
+    options.atoms.labels = options.color != ColorBy::Nothing || has("chain_id") || has("Cd");
+}
+
 void fillBuild(const Values& values, Call& call)
 {
     const std::vector<std::string> inputs = values.list("input");
@@ -363,6 +411,49 @@ void fillBuild(const Values& values, Call& call)
     if (call.input.empty()) misuse("expected the name of a file as INPUT, got an empty word");
     call.outputs = outputsOf(values);
     fillRun(values, call);
+    fillGroups(values, call);
+}
+
+// D or SELECTION=D, the selection ending at the last =.
+ResolutionRule parseResolution(const std::string& text)
+{
+    const std::size_t split = text.rfind('=');
+    const std::string number = split == std::string::npos ? text : text.substr(split + 1);
+    ResolutionRule rule;
+    if (split != std::string::npos) rule.select = text.substr(0, split);
+    const char* end = number.data() + number.size();
+    const auto [stop, problem] = std::from_chars(number.data(), end, rule.resolution);
+    if (problem != std::errc() || stop != end || split == 0 ||
+        !(rule.resolution >= minResolution && rule.resolution <= maxResolution)) {
+        misuse("--resolution: expected D or SELECTION=D with D from 1 to 50 Å, got '" + text + "'");
+    }
+    return rule;
+}
+
+// Of --epsilon and a --resolution for all atoms the later one wins.
+void fillResolutions(const Values& values, Call& call)
+{
+    std::vector<ResolutionRule>& rules = call.options.atoms.resolutions;
+    std::size_t all = 0; // 1 + the last rule for all atoms
+    for (const std::string& text : values.list("resolution")) {
+        rules.push_back(parseResolution(text));
+        if (rules.back().select.empty()) all = rules.size();
+    }
+    if (all > 0 && values.given("epsilon")) {
+        if (values.position("epsilon") > values.position("resolution", all - 1)) {
+            call.warnings.push_back("--resolution for all atoms is without effect: --epsilon "
+                                    "comes later");
+            rules.erase(std::remove_if(rules.begin(), rules.begin() + std::ptrdiff_t(all),
+                                       [](const ResolutionRule& r) { return r.select.empty(); }),
+                        rules.begin() + std::ptrdiff_t(all));
+        } else {
+            call.warnings.push_back("--epsilon is without effect: --resolution for all atoms "
+                                    "comes later");
+        }
+    }
+    call.options.matchVolume = values.on("match-volume");
+    if (call.options.matchVolume && rules.empty())
+        call.warnings.push_back("--match-volume is for --resolution");
 }
 
 // What all verbs that build a surface take.
@@ -390,6 +481,7 @@ void fillRun(const Values& values, Call& call)
                {SurfaceKind::Variational, SurfaceKind::SolventExcluded,
                 SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals, SurfaceKind::Gaussian});
     values.get("blobbiness", options.blobbiness);
+    fillResolutions(values, call);
     values.get("voxel", options.voxel);
     options.fillCavities = values.on("fill-cavities");
     options.fields = fieldsOf(values);
@@ -406,8 +498,8 @@ void fillRun(const Values& values, Call& call)
     values.get("spline-level", options.splineLevel, 0, 2);
 
     if (options.kind != SurfaceKind::Variational) {
-        for (const char* name :
-             {"epsilon", "lambda", "regularizer", "flow", "max-steps", "tolerance"}) {
+        for (const char* name : {"epsilon", "resolution", "match-volume", "lambda", "regularizer",
+                                 "flow", "max-steps", "tolerance"}) {
             if (values.given(name))
                 call.warnings.push_back(std::string("--") + name + " is for --surface variational");
         }
@@ -493,10 +585,14 @@ Call parseBuild(int argc, const char* const* argv, Verb verb)
     const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
 
     po::variables_map map;
-    po::store(
-        po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(),
-        map);
-    const Values values(map);
+    const auto parsed =
+        po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run();
+    po::store(parsed, map);
+    std::vector<std::string> order; // one a value
+    for (const auto& option : parsed.options) {
+        order.insert(order.end(), std::max<std::size_t>(option.value.size(), 1), option.string_key);
+    }
+    const Values values(map, std::move(order));
     Call call;
     call.verb = verb;
     if (values.on("help"))

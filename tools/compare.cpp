@@ -75,7 +75,7 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
         }
         Options options = call.options;
         options.fields = {"spline"};
-        Result result = run(selection.balls, options, terminal);
+        Result result = run(selection, options, terminal);
         read.converged = !result.report.evolution || result.report.evolution->converged;
         read.operand = operandOf(std::move(result));
         auto& warnings = read.operand.warnings;

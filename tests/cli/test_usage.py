@@ -62,6 +62,10 @@ class WrongCalls(ToolTest):
         self.refuse(CRAMBIN, "-o", "a.vdb", "--surface", "gaussian", "--blobbiness", "0",
                     says="--blobbiness")
 
+    def test_resolution(self):
+        for value in ("0", "200", "nan", "5A", "=5", "A=", "A=0", ""):
+            self.refuse(CRAMBIN, "-o", "a.vdb", "--resolution", value, says="--resolution")
+
     def test_unknown_field(self):
         self.refuse(CRAMBIN, "-o", "a.vdb", "--fields", "sas,color", says="color")
 

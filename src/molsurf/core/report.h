@@ -97,6 +97,24 @@ struct EvolutionReport {
     std::size_t creviceVoxels = 0;
 };
 
+/// A group of atoms and its part of the surface.
+struct GroupReport {
+    std::string name;
+    std::size_t atoms = 0;
+    double area = 0.0;   ///< of the surface nearest to its balls [Å^2]; all groups add up to the
+                         ///< whole, atoms without a group being one more, "other"
+    double volume = 0.0; ///< inside the surface and nearest to its balls [Å^3]; adds up too
+    std::string color;   ///< "#rrggbb", if the surface is coloured by group
+};
+
+/// Atoms of one resolution.
+struct ResolutionReport {
+    std::string select;      ///< as asked; empty: all
+    double resolution = 0.0; ///< d [Å]
+    std::size_t atoms = 0;   ///< balls that have it
+    double level = 0.0;      ///< of their Gaussians; not 0 where the volume was matched
+};
+
 /// Everything in the .json report.
 struct Report {
     std::string program = "vdb_molsurf";
@@ -106,6 +124,8 @@ struct Report {
     std::size_t atoms = 0; ///< balls used, after selection, expansion and drops
     double voxel = 0.0;    ///< [Å]
     SurfaceReport surface;
+    std::vector<ResolutionReport> resolutions; ///< one a rule, in their order
+    std::vector<GroupReport> groups;
     std::optional<EvolutionReport> evolution; ///< absent for surfaces that are not evolved
     std::size_t activeVoxels = 0;             ///< of the grid `surface`
     std::size_t gridBytes = 0;                ///< of the grid `surface` in memory

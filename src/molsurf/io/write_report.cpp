@@ -72,6 +72,29 @@ Json evolutionJson(const EvolutionReport& evolution)
             {"volume", evolution.volume}};
 }
 
+Json groupsJson(const std::vector<GroupReport>& groups)
+{
+    Json out = Json::array();
+    for (const GroupReport& g : groups) {
+        Json entry = {{"name", g.name}, {"atoms", g.atoms}, {"area", g.area}, {"volume", g.volume}};
+        if (!g.color.empty()) entry["color"] = g.color;
+        out.push_back(std::move(entry));
+    }
+    return out;
+}
+
+Json resolutionJson(const std::vector<ResolutionReport>& resolutions)
+{
+    Json out = Json::array();
+    for (const ResolutionReport& r : resolutions) {
+        out.push_back(Json{{"selection", r.select.empty() ? "all" : r.select},
+                           {"resolution", r.resolution},
+                           {"atoms", r.atoms},
+                           {"level", r.level}});
+    }
+    return out;
+}
+
 } // namespace
 
 std::string reportText(const Report& report)
@@ -87,12 +110,13 @@ std::string reportText(const Report& report)
         {"atoms", report.atoms},
         {"voxel", report.voxel},
         {"surface", surfaceJson(report.surface)},
+        {"resolution", resolutionJson(report.resolutions)},
         {"evolution", report.evolution ? evolutionJson(*report.evolution) : Json()},
         {"grid", {{"active_voxels", report.activeVoxels}, {"bytes", report.gridBytes}}},
         {"seconds", std::move(seconds)},
         {"peak_memory_bytes", report.peakMemoryBytes},
         {"threads", report.threads},
-        {"groups", Json::array()},
+        {"groups", groupsJson(report.groups)},
         {"warnings", report.warnings},
     };
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -3,7 +3,6 @@
 
 #include "molsurf/bspline/curvature.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/rasterize/nearest_ball.h"
 
 #include <openvdb/tree/LeafManager.h>
 
@@ -18,7 +17,7 @@ const std::vector<std::string>& fieldNames()
     static const std::vector<std::string> names = [] {
         std::vector<std::string> all = {"sas", "spline"};
         for (const CurvatureField& field : curvatureFields()) all.push_back(field.name);
-        all.push_back("atom_id");
+        for (const char* name : {"atom_id", "chain_id", "group_id", "Cd"}) all.push_back(name);
         return all;
     }();
     return names;
@@ -112,26 +111,6 @@ std::vector<openvdb::GridBase::Ptr> curvatureGrids(const openvdb::FloatGrid& sur
         }
     });
     return grids;
-}
-
-openvdb::Int32Grid::Ptr atomGrid(const openvdb::FloatGrid& surface, const std::vector<Ball>& balls,
-                                 double reach, const Progress& progress)
-{
-    auto grid = openvdb::Int32Grid::create(-1);
-    grid->setTree(
-        std::make_shared<openvdb::Int32Tree>(surface.tree(), -1, openvdb::TopologyCopy()));
-    grid->setTransform(surface.transform().copy());
-    grid->setName("atom_id");
-    std::vector<openvdb::Vec3f> points;
-    for (auto it = grid->cbeginValueOn(); it; ++it) {
-        points.emplace_back(surface.indexToWorld(it.getCoord()));
-    }
-    const std::vector<std::int32_t> nearest = nearestBalls(balls, points, reach, progress);
-    std::size_t i = 0;
-    for (auto it = grid->beginValueOn(); it; ++it, ++i) {
-        it.setValue(nearest[i] < 0 ? -1 : balls[nearest[i]].atom);
-    }
-    return grid;
 }
 
 } // namespace molsurf

@@ -16,7 +16,8 @@
 namespace molsurf
 {
 
-/// The names that Options::fields takes: "sas", "spline", those of curvatureFields(), "atom_id".
+/// The names that Options::fields takes: "sas", "spline", those of curvatureFields(),
+/// "atom_id", "chain_id", "group_id", "Cd".
 const std::vector<std::string>& fieldNames();
 
 /// The coefficients of a spline, as they are.
@@ -35,9 +36,5 @@ std::vector<openvdb::GridBase::Ptr> curvatureGrids(const openvdb::FloatGrid& sur
                                                    const Spline& spline,
                                                    const std::vector<std::string>& names,
                                                    const Progress& progress);
-
-/// The atom whose ball is nearest to each active voxel of `surface`; -1 elsewhere.
-openvdb::Int32Grid::Ptr atomGrid(const openvdb::FloatGrid& surface, const std::vector<Ball>& balls,
-                                 double reach, const Progress& progress);
 
 } // namespace molsurf

@@ -41,6 +41,26 @@ const char* nameOf(SurfaceKind kind)
     }
 }
 
+const char* nameOf(ColorBy color)
+{
+    switch (color) {
+    case ColorBy::Chain:
+        return "chain";
+    case ColorBy::Group:
+        return "group";
+    case ColorBy::Element:
+        return "element";
+    case ColorBy::Residue:
+        return "residue";
+    case ColorBy::MeanCurvature:
+        return "mean-curvature";
+    case ColorBy::GaussianCurvature:
+        return "gaussian-curvature";
+    default:
+        return "none";
+    }
+}
+
 void checkOptions(const Options& options)
 {
     parseCopies(options.atoms.copies);

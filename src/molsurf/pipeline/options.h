@@ -22,14 +22,19 @@ enum class SurfaceKind {
     Gaussian           ///< sum_i exp(-(d/r_i^2) (|x - x_i|^2 - r_i^2)) = 1
 };
 
+/// What the colours of the surface tell.
+enum class ColorBy { Nothing, Chain, Group, Element, Residue, MeanCurvature, GaussianCurvature };
+
 /// What surface is wanted, and how fine.
 struct Options {
     SelectOptions atoms;
     SurfaceKind kind = SurfaceKind::Variational;
-    double blobbiness = 2.3;   ///< d of the Gaussian surface, in [0.1, 100]
-    double probe = 1.4;        ///< probe radius r_b [Å], >= 0
-    double voxel = 0.5;        ///< edge h of a voxel [Å], in [0.05, 10]
-    double epsilon = 0.5;      ///< tolerance eps of the Gaussian sum [Å], > 0
+    double blobbiness = 2.3;          ///< d of the Gaussian surface, in [0.1, 100]
+    double probe = 1.4;               ///< probe radius r_b [Å], >= 0
+    double voxel = 0.5;               ///< edge h of a voxel [Å], in [0.05, 10]
+    double epsilon = 0.5;             ///< tolerance eps of the Gaussian sum [Å], > 0
+    ColorBy color = ColorBy::Nothing; ///< colours of the mesh's vertices and of the grid Cd
+    bool matchVolume = false;  ///< resolution rules keep the enclosed volume, see matchVolumes()
     EvolveOptions evolution;   ///< lambda, regulariser, flow, stopping rule
     int splineLevel = 0;       ///< the spline lives on voxels of edge 2^level h; 0, 1 or 2
     bool fillCavities = false; ///< drop the inner walls
@@ -44,6 +49,10 @@ constexpr double minVoxel = 0.05, maxVoxel = 10.0, coarseVoxel = 1.0;
 
 /// The command line's word for a surface: variational, ses, sas, vdw, gaussian.
 const char* nameOf(SurfaceKind kind);
+
+/// The command line's word: none, chain, group, element, residue, mean-curvature,
+/// gaussian-curvature.
+const char* nameOf(ColorBy color);
 
 /// @throws Error(ErrorKind::Usage) for an option out of its range; names the option as the command
 ///         line does

@@ -10,9 +10,10 @@
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/pipeline/fields.h"
+#include "molsurf/pipeline/label_surface.h"
+#include "molsurf/pipeline/match_volume.h"
 #include "molsurf/rasterize/boundary_measure.h"
 #include "molsurf/rasterize/gaussian_sum.h"
-#include "molsurf/rasterize/nearest_ball.h"
 #include "molsurf/rasterize/union_distance.h"
 #include "molsurf/surface/extract.h"
 #include "molsurf/surface/integrate.h"
@@ -396,6 +397,14 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
 Result run(const BallSelection& atoms, const Options& options, Progress& progress)
 {
     checkOptions(options);
+    if (options.matchVolume && !atoms.resolutions.empty()) {
+        BallSelection matched = atoms;
+        Options once = options;
+        once.matchVolume = false;
+        progress.update("match", 0.0);
+        matchVolumes(matched, once, progress);
+        return run(matched, once, progress);
+    }
     const std::vector<Ball>& balls = atoms.balls;
     if (balls.empty()) throw Error(ErrorKind::Input, "no atoms");
 
@@ -403,6 +412,10 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
     Report& report = result.report;
     report.atoms = balls.size();
     report.voxel = options.voxel;
+    for (const ResolutionGroup& group : atoms.resolutions) {
+        report.resolutions.push_back(
+            {group.rule.select, group.rule.resolution, group.balls, group.level});
+    }
     Stopwatch watch(report);
 
     NarrowBand band = makeBand(atoms, options, progress, report, watch);
@@ -460,10 +473,6 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
     // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
     const double labelReach =
         2.0 * options.probe + 4.0 * largestTolerance(atoms, options) + 4.0 * options.voxel;
-    std::vector<std::int32_t> nearest =
-        nearestBalls(balls, result.mesh.positions, labelReach, progress);
-    for (std::int32_t& i : nearest) i = i < 0 ? -1 : balls[i].atom;
-    result.mesh.labels.push_back({"atom_id", std::move(nearest)});
     addCurvature(spline, options.fields, result.mesh, progress);
     describeCurvature(result.mesh, spline, options, progress, report.surface);
     watch.stop("mesh");
@@ -484,9 +493,9 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
     if (wanted("spline")) result.fields.push_back(splineGrid(spline));
     for (auto& grid : curvatureGrids(*result.surface, spline, options.fields, progress))
         result.fields.push_back(std::move(grid));
-    if (wanted("atom_id")) {
-        result.fields.push_back(atomGrid(*result.surface, balls, labelReach, progress));
-    }
+    progress.update("color", 0.0);
+    labelSurface(atoms, options, labelReach, progress, result);
+    watch.stop("color");
 
     report.activeVoxels = result.surface->activeVoxelCount();
     report.gridBytes = result.surface->memUsage();

@@ -305,6 +305,12 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
     }
     checkExtent(structure, out.balls);
     applyResolutions(structure, options, out);
+    if (options.labels || !options.groups.empty() || !options.groupBy.empty()) {
+        out.labels =
+            labelBalls(structure, out.balls, out.copyBegin, options.groups, options.groupBy);
+        out.warnings.insert(out.warnings.end(), out.labels->warnings.begin(),
+                            out.labels->warnings.end());
+    }
     return out;
 }
 

@@ -5,9 +5,11 @@
 /// From a structure to the balls whose surface is wanted.
 
 #include "molsurf/selection/ball.h"
+#include "molsurf/selection/groups.h"
 #include "molsurf/structure/structure.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,9 @@ struct SelectOptions {
     bool waters = false;           ///< keep waters
     std::string radii = "bondi";   ///< name of a set, or the path of a radii file, see readRadii()
     std::vector<ResolutionRule> resolutions; ///< later ones win
+    std::vector<GroupRule> groups;           ///< later ones win
+    std::string groupBy;                     ///< groups by chain, entity, ...; see labelBalls()
+    bool labels = false;                     ///< label the balls, also without groups
 };
 
 /// Atoms left out for one reason.
@@ -46,6 +51,7 @@ struct Drop {
 struct ResolutionGroup {
     ResolutionRule rule;
     std::size_t balls = 0; ///< those that no later rule has
+    double level = 0.0;    ///< of their Gaussians, see Decay
 };
 
 /// The balls, and what was done to get them.
@@ -58,6 +64,7 @@ struct BallSelection {
     std::size_t copies = 1;             ///< assembly operators applied, 1 without an assembly
     std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
     std::vector<int> copyNumbers;       ///< of copy i in the whole assembly, from 1
+    std::optional<BallLabels> labels;   ///< if asked for, or with groups
     int model = 0;                      ///< number of the model that was used
     std::vector<std::string> warnings;  ///< one line each: unknown elements, missing altloc, ...
 };

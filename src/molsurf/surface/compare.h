@@ -42,9 +42,9 @@ constexpr double sampleSpacing = 1.0;
 /// Measures the distance of every vertex of a surface from another one.
 ///
 /// The mean of f is the sum of A_v f_v over the sum of A_v, with A_v a third of the area of the
-/// triangles at a vertex: exact for f linear on the triangles. If the triangles are the surface, one
-/// with an edge longer than sampleSpacing counts by its n^2 parts instead, at their centroids, with
-/// n edges along each side; the maximum is then over their corners, too.
+/// triangles at a vertex: exact for f linear on the triangles. If the triangles are the surface,
+/// one with an edge longer than sampleSpacing counts by its n^2 parts instead, at their centroids,
+/// with n edges along each side; the maximum is then over their corners, too.
 ///
 /// @param[in] from  with at least one triangle
 OneWay distancesFrom(const Surface& from, const DistanceTo& to, const Progress& progress);

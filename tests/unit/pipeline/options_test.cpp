@@ -111,7 +111,7 @@ TEST(Run, TellsItsProgress)
     EXPECT_TRUE(progress.good);
     ASSERT_GE(progress.stages.size(), 5u);
     EXPECT_EQ(progress.stages.front(), "density");
-    EXPECT_EQ(progress.stages.back(), "mesh");
+    EXPECT_EQ(progress.stages.back(), "color");
 }
 
 } // namespace

@@ -194,5 +194,32 @@ TEST(Band, IsEmptyWhereNoVoxelIsInside)
     EXPECT_EQ(GaussianSum(balls, optionsFor(0.5, 10.0)).band(4, Progress()).size(), 0u);
 }
 
+// Rates and levels of single balls: psi = ln sum exp(level - C (|x - x_i|^2 - R^2)).
+TEST(GaussianSum, DecaysOfSingleBalls)
+{
+    const std::vector<Ball> balls = {{openvdb::Vec3f(0.0f), 1.7f, 0},
+                                     {openvdb::Vec3f(3.0f, 1.0f, 0.5f), 1.5f, 1}};
+    const std::vector<Decay> decays = {{0.1f, -1.0f}, {0.0f, 0.5f}};
+    const GaussianOptions options{1.4, 0.5, 0.0, 0.5, 3.0};
+    const GaussianSum field(balls, options, decays);
+    std::vector<float> psi(leafSize);
+    for (const Coord& origin : {Coord(0), Coord(-8, 0, 8)}) {
+        field.evaluate(origin, options.reach, psi.data());
+        for (int v = 0; v < leafSize; v += 7) {
+            const Vec3d x = origin.offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() * 0.5;
+            double sum = 0.0;
+            for (int i = 0; i < 2; ++i) {
+                const double R = balls[i].radius + 1.4;
+                const double C = i == 0 ? 0.1 : M_LN2 / (0.5 * R);
+                sum += std::exp(decays[i].level -
+                                C * ((x - Vec3d(balls[i].center)).lengthSqr() - R * R));
+            }
+            EXPECT_NEAR(psi[v], std::log(sum), 2e-5 * (1.0 + std::abs(std::log(sum)))) << x;
+        }
+    }
+    // Beyond the ball that falls off fast only the slow one is left.
+    EXPECT_NEAR(field.tolerance(), M_LN2 / (0.1 * (1.7 + 1.4)), 0.01);
+}
+
 } // namespace
 } // namespace molsurf

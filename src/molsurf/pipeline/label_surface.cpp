@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/pipeline/label_surface.h"
+
+#include "molsurf/core/parallel.h"
+#include "molsurf/pipeline/palette.h"
+#include "molsurf/rasterize/nearest_ball.h"
+#include "molsurf/surface/color_map.h"
+
+#include <openvdb/tools/Interpolation.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+using openvdb::Vec3f;
+
+namespace
+{
+
+using Labels = std::vector<std::int32_t>;
+
+Labels atomsOf(const std::vector<Ball>& balls)
+{
+    Labels out;
+    out.reserve(balls.size());
+    for (const Ball& ball : balls) out.push_back(ball.atom);
+    return out;
+}
+
+/// The label of the ball that each point belongs to; -1 without one.
+Labels taken(const Labels& nearest, const Labels& labelOf)
+{
+    Labels out(nearest.size(), -1);
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+        if (nearest[i] >= 0) out[i] = labelOf[std::size_t(nearest[i])];
+    }
+    return out;
+}
+
+template<typename GridT>
+typename GridT::Ptr gridLike(const openvdb::FloatGrid& surface, const char* name,
+                             const typename GridT::ValueType& background)
+{
+    auto grid = GridT::create(background);
+    grid->setTree(std::make_shared<typename GridT::TreeType>(surface.tree(), background,
+                                                             openvdb::TopologyCopy()));
+    grid->setTransform(surface.transform().copy());
+    grid->setName(name);
+    return grid;
+}
+
+openvdb::GridBase::Ptr labelGrid(const openvdb::FloatGrid& surface, const char* name,
+                                 const Labels& labels)
+{
+    auto grid = gridLike<openvdb::Int32Grid>(surface, name, -1);
+    std::size_t i = 0;
+    for (auto it = grid->beginValueOn(); it; ++it) it.setValue(labels[i++]);
+    return grid;
+}
+
+/// Linear light of an 8-bit sRGB value (IEC 61966-2-1), which renderers expect.
+float linear(std::uint8_t value)
+{
+    const double s = value / 255.0;
+    return float(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+}
+
+openvdb::GridBase::Ptr colorGrid(const openvdb::FloatGrid& surface,
+                                 const std::vector<Color>& colors)
+{
+    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "Cd", Vec3f(0.0f));
+    std::size_t i = 0;
+    for (auto it = grid->beginValueOn(); it; ++it, ++i) {
+        it.setValue(Vec3f(linear(colors[i][0]), linear(colors[i][1]), linear(colors[i][2])));
+    }
+    return grid;
+}
+
+std::vector<Color> colorsOf(const Labels& nearest, const std::vector<Color>& ballColor)
+{
+    std::vector<Color> out(nearest.size(), neutralColor);
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+        if (nearest[i] >= 0) out[i] = ballColor[std::size_t(nearest[i])];
+    }
+    return out;
+}
+
+/// Red where the curvature is positive, blue where it is negative, full at the 95th percentile of
+/// its size.
+std::vector<Color> curvatureColors(const std::vector<float>& curvature)
+{
+    std::vector<float> sizes;
+    for (const float c : curvature) sizes.push_back(std::abs(c));
+    const std::size_t place = sizes.size() * 95 / 100;
+    std::nth_element(sizes.begin(), sizes.begin() + std::ptrdiff_t(place), sizes.end());
+    const ColorScale scale = signedScale(std::max(sizes[place], 1e-6f));
+    std::vector<Color> out;
+    for (const float c : curvature) out.push_back(scale.at(c));
+    return out;
+}
+
+/// The part of a triangle where a function that is linear in it is negative.
+double negativeShare(std::array<double, 3> f)
+{
+    std::sort(f.begin(), f.end());
+    if (f[2] <= 0.0) return 1.0;
+    if (f[0] >= 0.0) return 0.0;
+    if (f[1] > 0.0) return f[0] * f[0] / ((f[1] - f[0]) * (f[2] - f[0]));
+    return 1.0 - f[2] * f[2] / ((f[2] - f[0]) * (f[2] - f[1]));
+}
+
+/// The area of every group, and at last of no group, on the mesh [Å^2]. A triangle of two groups
+/// is cut where it is equally far from the balls of both.
+std::vector<double> groupAreas(const std::vector<Ball>& balls, const BallLabels& labels,
+                               const Labels& nearest, const Mesh& mesh)
+{
+    const std::size_t other = labels.groups.size();
+    const auto groupOf = [&](std::uint32_t vertex) {
+        const std::int32_t g =
+            nearest[vertex] < 0 ? -1 : labels.groupOf[std::size_t(nearest[vertex])];
+        return g < 0 ? other : std::size_t(g);
+    };
+    const auto distance = [&](std::uint32_t from, std::uint32_t owner) {
+        if (nearest[owner] < 0) return std::numeric_limits<double>::max();
+        const Ball& ball = balls[std::size_t(nearest[owner])];
+        return double((mesh.positions[from] - ball.center).length()) - double(ball.radius);
+    };
+    std::vector<double> areas(other + 1, 0.0);
+    for (const auto& t : mesh.triangles) {
+        const auto corner = [&](int k) { return mesh.positions[t[k]]; };
+        const double area =
+            0.5 * double((corner(1) - corner(0)).cross(corner(2) - corner(0)).length());
+        const std::array<std::size_t, 3> group = {groupOf(t[0]), groupOf(t[1]), groupOf(t[2])};
+        const std::size_t second = group[1] != group[0] ? group[1] : group[2];
+        if (group[2] != group[0] && group[2] != second) { // three groups
+            for (const std::size_t g : group) areas[g] += area / 3.0;
+            continue;
+        }
+        std::array<double, 3> nearer{}; // how much nearer the first group is
+        for (int k = 0; k < 3; ++k) {
+            std::array<double, 2> least;
+            least.fill(std::numeric_limits<double>::max());
+            for (int o = 0; o < 3; ++o) {
+                double& d = least[group[std::size_t(o)] == group[0] ? 0 : 1];
+                d = std::min(d, distance(t[k], t[o]));
+            }
+            nearer[std::size_t(k)] = least[0] - least[1];
+        }
+        const double share = second == group[0] ? 1.0 : negativeShare(nearer);
+        areas[group[0]] += share * area;
+        areas[second] += (1.0 - share) * area;
+    }
+    return areas;
+}
+
+/// A place in [0, 1)^3 for every cell of a lattice: Roberts' low-discrepancy sequence R3.
+openvdb::Vec3d placeIn(const Coord& cell)
+{
+    const auto fraction = [](int i, int j, int k) {
+        const double u = i * 0.8191725134 + j * 0.6710436067 + k * 0.5497004779;
+        return u - std::floor(u);
+    };
+    return {fraction(cell.x(), cell.y(), cell.z()), fraction(cell.y(), cell.z(), cell.x()),
+            fraction(cell.z(), cell.x(), cell.y())};
+}
+
+/// One point in every cell of a lattice, if inside the surface. Cells are at most an Å wide, and
+/// smaller if the volume is small; the places in them vary, so that borders along the lattice do no
+/// harm.
+std::vector<Vec3f> pointsInside(const openvdb::FloatGrid& surface, double volume)
+{
+    constexpr double enough = 1e5; // points
+    const double h = surface.voxelSize()[0];
+    const double width = std::min(1.0, std::cbrt(volume / enough)) / h;
+    const int stride = std::max(1, int(std::floor(width + 1e-9)));     // voxels a cell, or
+    const int parts = std::max(1, int(std::ceil(1.0 / width - 1e-9))); // cells a voxel
+    openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::BoxSampler> phi(surface);
+    std::vector<Vec3f> points;
+    const auto addOne = [&](const Coord& voxel) {
+        Coord cell;
+        for (int a = 0; a < 3; ++a) {
+            cell[a] = (voxel[a] - (voxel[a] < 0 ? stride - 1 : 0)) / stride;
+        }
+        const openvdb::Vec3d at = placeIn(cell) * stride;
+        for (int a = 0; a < 3; ++a) {
+            if (cell[a] * stride + int(at[a]) != voxel[a]) return;
+        }
+        points.emplace_back(surface.indexToWorld(voxel));
+    };
+    const auto addParts = [&](const Coord& voxel) {
+        for (int p = 0; p < parts * parts * parts; ++p) {
+            const Coord cell =
+                Coord(voxel.x() * parts + p % parts, //
+                      voxel.y() * parts + p / parts % parts, voxel.z() * parts + p / parts / parts);
+            const openvdb::Vec3d at = (cell.asVec3d() + placeIn(cell)) / parts - 0.5;
+            if (phi.isSample(at) < 0.0f) points.emplace_back(surface.indexToWorld(at));
+        }
+    };
+    for (auto it = surface.cbeginValueAll(); it; ++it) {
+        if (*it >= (parts > 1 ? float(h) : 0.0f)) continue;
+        const openvdb::CoordBBox box = it.getBoundingBox();
+        for (auto c = box.begin(); c; ++c) {
+            if (parts > 1) {
+                addParts(*c);
+            } else {
+                addOne(*c);
+            }
+        }
+    }
+    return points;
+}
+
+std::string hex(const Color& color)
+{
+    char text[8];
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", color[0], color[1], color[2]);
+    return text;
+}
+
+void reportGroups(const BallSelection& atoms, const Options& options, const Labels& nearest,
+                  double reach, Progress& progress, Result& result)
+{
+    const BallLabels& labels = *atoms.labels;
+    const std::size_t other = labels.groups.size();
+    const auto scaled = [](std::vector<double> parts, double whole) {
+        double sum = 0.0;
+        for (const double p : parts) sum += p;
+        for (double& p : parts) p *= sum > 0.0 ? whole / sum : 0.0;
+        return parts;
+    };
+    const std::vector<double> area =
+        scaled(groupAreas(atoms.balls, labels, nearest, result.mesh), result.report.surface.area);
+    std::vector<double> points(other + 1, 0.0);
+    const std::vector<Vec3f> inside = pointsInside(*result.surface, result.report.surface.volume);
+    for (const std::int32_t ball : nearestBalls(atoms.balls, inside, reach, progress)) {
+        const std::int32_t g = ball < 0 ? -1 : labels.groupOf[std::size_t(ball)];
+        points[g < 0 ? other : std::size_t(g)] += 1.0;
+    }
+    const std::vector<double> volume = scaled(points, result.report.surface.volume);
+
+    std::vector<Color> colors;
+    if (options.color == ColorBy::Group) colors = groupColors(atoms, progress);
+    std::size_t grouped = 0;
+    for (std::size_t g = 0; g < other; ++g) {
+        const Group& group = labels.groups[g];
+        grouped += group.balls;
+        result.report.groups.push_back(
+            {group.name, group.balls, area[g], volume[g], colors.empty() ? "" : hex(colors[g])});
+    }
+    const std::size_t rest = atoms.balls.size() - grouped;
+    if (rest > 0 || area[other] > 0.0) {
+        result.report.groups.push_back(
+            {"other", rest, area[other], volume[other], colors.empty() ? "" : hex(neutralColor)});
+    }
+}
+
+} // namespace
+
+void labelSurface(const BallSelection& atoms, const Options& options, double reach,
+                  Progress& progress, Result& result)
+{
+    const auto wanted = [&](const char* field) {
+        return std::find(options.fields.begin(), options.fields.end(), field) !=
+               options.fields.end();
+    };
+    Mesh& mesh = result.mesh;
+    const Labels atomOf = atomsOf(atoms.balls);
+    const Labels nearest = nearestBalls(atoms.balls, mesh.positions, reach, progress);
+    mesh.labels.push_back({"atom_id", taken(nearest, atomOf)});
+    const bool grouped = atoms.labels && !atoms.labels->groups.empty();
+    if (atoms.labels) mesh.labels.push_back({"chain_id", taken(nearest, atoms.labels->chainOf)});
+    if (grouped) mesh.labels.push_back({"group_id", taken(nearest, atoms.labels->groupOf)});
+
+    const bool byCurvature =
+        options.color == ColorBy::MeanCurvature || options.color == ColorBy::GaussianCurvature;
+    std::vector<Color> ballColor;
+    if (options.color != ColorBy::Nothing && !byCurvature) {
+        ballColor = ballColors(atoms, options.color, progress);
+        mesh.colors = colorsOf(nearest, ballColor);
+    }
+    const std::string curvature =
+        options.color == ColorBy::MeanCurvature ? "mean_curvature" : "gaussian_curvature";
+    if (byCurvature) {
+        for (const auto& scalar : mesh.scalars) {
+            if (scalar.name == curvature) mesh.colors = curvatureColors(scalar.values);
+        }
+    }
+    if (grouped) reportGroups(atoms, options, nearest, reach, progress, result);
+
+    const bool colors = wanted("Cd") && !ballColor.empty();
+    if (!wanted("atom_id") && !wanted("chain_id") && !wanted("group_id") && !colors) return;
+    std::vector<Vec3f> points;
+    for (auto it = result.surface->cbeginValueOn(); it; ++it) {
+        points.emplace_back(result.surface->indexToWorld(it.getCoord()));
+    }
+    const Labels owner = nearestBalls(atoms.balls, points, reach, progress);
+    if (wanted("atom_id")) {
+        result.fields.push_back(labelGrid(*result.surface, "atom_id", taken(owner, atomOf)));
+    }
+    if (wanted("chain_id") && atoms.labels) {
+        result.fields.push_back(
+            labelGrid(*result.surface, "chain_id", taken(owner, atoms.labels->chainOf)));
+    }
+    if (wanted("group_id") && grouped) {
+        result.fields.push_back(
+            labelGrid(*result.surface, "group_id", taken(owner, atoms.labels->groupOf)));
+    }
+    if (colors) result.fields.push_back(colorGrid(*result.surface, colorsOf(owner, ballColor)));
+}
+
+} // namespace molsurf

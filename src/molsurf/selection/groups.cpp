@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/selection/groups.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/selection/match_atoms.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace molsurf
+{
+
+namespace
+{
+
+[[noreturn]] void fail(const std::string& path, const std::string& what)
+{
+    throw Error(ErrorKind::Input, path + ": " + what);
+}
+
+std::array<std::uint8_t, 3> parseColor(const std::string& path, const std::string& text)
+{
+    std::array<std::uint8_t, 3> color{};
+    bool good = text.size() == 7 && text[0] == '#';
+    for (std::size_t k = 0; good && k < 3; ++k) {
+        const char* begin = text.data() + 1 + 2 * k;
+        const auto [end, problem] = std::from_chars(begin, begin + 2, color[k], 16);
+        good = problem == std::errc() && end == begin + 2;
+    }
+    if (!good) fail(path, "expected a colour like #d55e00, got '" + text + "'");
+    return color;
+}
+
+std::vector<GroupRule> readJson(const std::string& path, const std::string& text)
+{
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    if (json.is_discarded()) fail(path, "is no valid JSON");
+    if (!json.is_object() || !json.contains("groups") || !json["groups"].is_array()) {
+        fail(path, R"(expected {"groups": [{"name": ..., "select": ...}, ...]})");
+    }
+    std::vector<GroupRule> rules;
+    for (const auto& entry : json["groups"]) {
+        const auto word = [&](const char* key) {
+            if (!entry.is_object() || !entry.contains(key) || !entry[key].is_string()) {
+                fail(path, "group " + std::to_string(rules.size() + 1) + ": expected a text \"" +
+                               key + "\"");
+            }
+            return entry[key].get<std::string>();
+        };
+        GroupRule rule{word("name"), word("select"), {}};
+        if (entry.contains("color")) rule.color = parseColor(path, word("color"));
+        for (const auto& item : entry.items()) {
+            if (item.key() != "name" && item.key() != "select" && item.key() != "color") {
+                fail(path, "group " + rule.name + ": unknown key \"" + item.key() +
+                               "\" [hint: name, select, color]");
+            }
+        }
+        rules.push_back(std::move(rule));
+    }
+    return rules;
+}
+
+std::vector<GroupRule> readTable(const std::string& path, const std::string& text)
+{
+    std::vector<GroupRule> rules;
+    std::istringstream lines(text);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+        std::istringstream words(line);
+        std::vector<std::string> columns{std::istream_iterator<std::string>(words), {}};
+        if (columns.empty() || columns[0][0] == '#') continue;
+        if (columns.size() < 2 || columns.size() > 3) {
+            fail(path, "line " + std::to_string(number) +
+                           ": expected name, selection and perhaps colour, got '" + line + "'");
+        }
+        GroupRule rule{columns[0], columns[1], {}};
+        if (columns.size() == 3) rule.color = parseColor(path, columns[2]);
+        rules.push_back(std::move(rule));
+    }
+    return rules;
+}
+
+ResidueClass classOf(const std::string& name)
+{
+    static const std::map<std::string, ResidueClass> classes = [] {
+        std::map<std::string, ResidueClass> out;
+        const auto add = [&](ResidueClass c, std::initializer_list<const char*> names) {
+            for (const char* n : names) out[n] = c;
+        };
+        add(ResidueClass::Hydrophobic, {"ALA", "VAL", "LEU", "ILE", "MET", "MSE"});
+        add(ResidueClass::Aromatic, {"PHE", "TYR", "TRP"});
+        add(ResidueClass::Polar, {"SER", "THR", "ASN", "GLN"});
+        add(ResidueClass::Positive, {"LYS", "ARG", "HIS", "HID", "HIE", "HIP"});
+        add(ResidueClass::Negative, {"ASP", "GLU"});
+        add(ResidueClass::Special, {"GLY", "PRO", "CYS", "CYX", "SEC"});
+        add(ResidueClass::Nucleic,
+            {"A", "C", "G", "U", "T", "I", "N", "DA", "DC", "DG", "DT", "DU"});
+        return out;
+    }();
+    const auto found = classes.find(name);
+    return found == classes.end() ? ResidueClass::Other : found->second;
+}
+
+/// The group of every atom by the rules, or -1.
+std::vector<std::int32_t> byRules(const Structure& structure, const std::vector<GroupRule>& rules,
+                                  BallLabels& labels)
+{
+    std::vector<std::int32_t> group(structure.atoms.size(), -1);
+    for (std::size_t r = 0; r < rules.size(); ++r) {
+        const AtomMatch match = matchAtoms(structure, rules[r].select);
+        std::map<std::int32_t, std::size_t> lost;
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            if (!match.atoms[i]) continue;
+            if (group[i] >= 0) ++lost[group[i]];
+            group[i] = std::int32_t(r);
+        }
+        for (const auto& [from, count] : lost) {
+            labels.warnings.push_back("groups: " + std::to_string(count) + " atoms of " +
+                                      rules[std::size_t(from)].name + " belong to " +
+                                      rules[r].name + ", which comes later");
+        }
+        labels.warnings.insert(labels.warnings.end(), match.warnings.begin(), match.warnings.end());
+        labels.groups.push_back({rules[r].name, 0, rules[r].color});
+    }
+    return group;
+}
+
+/// For each chain the residue names of its atoms' residues.
+std::vector<std::string> sequences(const Structure& structure)
+{
+    std::vector<std::string> out(structure.chains.size());
+    for (const Residue& residue : structure.residues) {
+        if (!residue.water) out[std::size_t(residue.chain)] += residue.name + " ";
+    }
+    return out;
+}
+
+} // namespace
+
+std::vector<GroupRule> readGroups(const std::string& path)
+{
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) fail(path, "it is a folder");
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file.is_open() || file.bad()) {
+        fail(path, std::string("cannot be read: ") + std::strerror(errno ? errno : EIO));
+    }
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    const bool json = first != std::string::npos && text[first] == '{';
+    std::vector<GroupRule> rules = json ? readJson(path, text) : readTable(path, text);
+    if (rules.empty()) fail(path, "has no group");
+    std::set<std::string> names;
+    for (const GroupRule& rule : rules) {
+        if (rule.name.empty()) fail(path, "a group has no name");
+        if (!names.insert(rule.name).second) fail(path, "two groups are named '" + rule.name + "'");
+    }
+    return rules;
+}
+
+BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls,
+                      const std::vector<std::size_t>& copyBegin,
+                      const std::vector<GroupRule>& rules, const std::string& by)
+{
+    int perGroup = 0;
+    if (by.rfind("residues:", 0) == 0) {
+        const auto [end, problem] = std::from_chars(by.data() + 9, by.data() + by.size(), perGroup);
+        if (problem != std::errc() || end != by.data() + by.size()) perGroup = 0;
+    }
+    if (!by.empty() && by != "chain" && by != "entity" && by != "copy" && perGroup < 1) {
+        throw Error(ErrorKind::Usage,
+                    "--group-by: expected chain, entity, copy or residues:N, got '" + by + "'");
+    }
+
+    BallLabels labels;
+    std::vector<std::int32_t> groupOfAtom;
+    if (by.empty() && !rules.empty()) groupOfAtom = byRules(structure, rules, labels);
+    const std::vector<std::string> sequence =
+        by == "entity" ? sequences(structure) : std::vector<std::string>();
+    std::map<std::string, std::int32_t> number; // of groups by name
+    std::map<std::string, std::int32_t> entity; // of chains by sequence
+    const std::size_t copies = copyBegin.size() - 1;
+    labels.chainOf.resize(balls.size());
+    labels.elementOf.resize(balls.size());
+    labels.residueClassOf.resize(balls.size());
+    if (!by.empty() || !rules.empty()) labels.groupOf.assign(balls.size(), -1);
+    for (std::size_t c = 0; c < copies; ++c) {
+        const std::string suffix = c == 0 ? "" : "-" + std::to_string(c + 1);
+        std::vector<std::int32_t> chain(structure.chains.size(), -1); // in this copy
+        std::int32_t lastResidue = -1, lastGroup = -1;
+        for (std::size_t i = copyBegin[c]; i < copyBegin[c + 1]; ++i) {
+            const Atom& atom = structure.atoms[std::size_t(balls[i].atom)];
+            const Residue& residue = structure.residues[std::size_t(atom.residue)];
+            const std::string& chainName = structure.chains[std::size_t(residue.chain)];
+            std::int32_t& index = chain[std::size_t(residue.chain)];
+            if (index < 0) {
+                index = std::int32_t(labels.chains.size());
+                labels.chains.push_back(chainName + suffix);
+            }
+            labels.chainOf[i] = index;
+            labels.elementOf[i] = atom.element;
+            labels.residueClassOf[i] = classOf(residue.name);
+            if (!groupOfAtom.empty()) {
+                labels.groupOf[i] = groupOfAtom[std::size_t(balls[i].atom)];
+            } else if (!by.empty()) {
+                if (atom.residue != lastResidue || i == copyBegin[c]) {
+                    std::string name;
+                    if (by == "chain") name = chainName + suffix;
+                    if (by == "copy") name = "copy " + std::to_string(c + 1);
+                    if (by == "entity") {
+                        const std::int32_t next = std::int32_t(entity.size()) + 1;
+                        const auto e = entity.emplace(sequence[std::size_t(residue.chain)], next);
+                        name = "entity " + std::to_string(e.first->second);
+                    }
+                    if (perGroup > 0) {
+                        const int block = residue.number >= 1
+                                              ? (residue.number - 1) / perGroup
+                                              : (residue.number - perGroup) / perGroup;
+                        name = chainName + suffix + "/" + std::to_string(block * perGroup + 1) +
+                               "-" + std::to_string((block + 1) * perGroup);
+                    }
+                    const auto added = number.emplace(name, std::int32_t(labels.groups.size()));
+                    if (added.second) labels.groups.push_back({name, 0, {}});
+                    lastGroup = added.first->second;
+                    lastResidue = atom.residue;
+                }
+                labels.groupOf[i] = lastGroup;
+            }
+            if (!labels.groupOf.empty() && labels.groupOf[i] >= 0) {
+                ++labels.groups[std::size_t(labels.groupOf[i])].balls;
+            }
+        }
+    }
+    for (const Group& group : labels.groups) {
+        if (group.balls == 0) {
+            labels.warnings.push_back("groups: no ball is left for " + group.name);
+        }
+    }
+    return labels;
+}
+
+} // namespace molsurf

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/pipeline/palette.h"
+#include "support/runs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3f;
+
+/// Two balls, each a group of its own.
+BallSelection pair(float distance)
+{
+    BallSelection atoms;
+    atoms.balls = {{Vec3f(0.1f, 0.2f, 0.3f), 1.7f, 0},
+                   {Vec3f(0.1f + distance, 0.2f, 0.3f), 1.7f, 1}};
+    atoms.copyBegin = {0, 2};
+    BallLabels labels;
+    labels.chains = {"A", "B"};
+    labels.chainOf = labels.groupOf = {0, 1};
+    labels.groups = {{"left", 1, {}}, {"right", 1, Color{1, 2, 3}}};
+    labels.elementOf = {6, 8};
+    labels.residueClassOf = {ResidueClass::Other, ResidueClass::Other};
+    atoms.labels = labels;
+    return atoms;
+}
+
+template<typename T>
+const Attribute<T>* find(const std::vector<Attribute<T>>& all, const std::string& name)
+{
+    for (const auto& a : all) {
+        if (a.name == name) return &a;
+    }
+    return nullptr;
+}
+
+TEST(Groups, ShareAreaAndVolumeOfTwoBalls)
+{
+    Options options;
+    options.kind = SurfaceKind::VanDerWaals;
+    options.voxel = 0.25;
+    options.color = ColorBy::Group;
+    options.fields = {"chain_id", "group_id", "Cd"};
+    Progress progress;
+    const Result result = run(pair(2.0f), options, progress);
+    const auto& groups = result.report.groups;
+    ASSERT_EQ(groups.size(), 2u);
+    EXPECT_NEAR(groups[0].area + groups[1].area, result.report.surface.area, 1e-6);
+    EXPECT_NEAR(groups[0].volume + groups[1].volume, result.report.surface.volume, 1e-6);
+    EXPECT_NEAR(groups[0].area / groups[1].area, 1.0, 0.005);
+    EXPECT_NEAR(groups[0].volume / groups[1].volume, 1.0, 0.005);
+    EXPECT_EQ(groups[1].color, "#010203");
+
+    const auto* group = find(result.mesh.labels, "group_id");
+    ASSERT_TRUE(group && find(result.mesh.labels, "chain_id"));
+    ASSERT_EQ(result.mesh.colors.size(), result.mesh.positions.size());
+    for (std::size_t v = 0; v < group->values.size(); ++v) {
+        const float x = result.mesh.positions[v].x();
+        if (std::abs(x - 1.1f) < 0.01f) continue;
+        EXPECT_EQ(group->values[v], x < 1.1f ? 0 : 1);
+        if (x > 1.1f) {
+            EXPECT_EQ(result.mesh.colors[v], (Color{1, 2, 3}));
+        }
+    }
+    std::set<std::string> names;
+    for (const auto& field : result.fields) names.insert(field->getName());
+    EXPECT_EQ(names, (std::set<std::string>{"chain_id", "group_id", "Cd"}));
+}
+
+// Copies of one molecule, turned about an axis, have equal parts.
+TEST(Groups, CopiesHaveEqualParts)
+{
+    SelectOptions select;
+    select.assembly = "1";
+    select.groupBy = "copy";
+    const BallSelection atoms =
+        selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + "/1a8o.cif.gz"), select);
+    Progress progress;
+    const Result result = run(atoms, Options(), progress);
+    ASSERT_EQ(result.report.groups.size(), 2u);
+    const double a = result.report.groups[0].area, b = result.report.groups[1].area;
+    EXPECT_NEAR(a / b, 1.0, 0.005);
+    EXPECT_NEAR(result.report.groups[0].volume / result.report.groups[1].volume, 1.0, 0.01);
+}
+
+TEST(Palette, NeighboursDiffer)
+{
+    // A ring of odd length, and one thing that touches all.
+    std::vector<std::vector<std::int32_t>> neighbours(60);
+    for (std::int32_t i = 0; i < 59; ++i) {
+        neighbours[std::size_t(i)] = {(i + 1) % 59, (i + 58) % 59, 59};
+        neighbours[59].push_back(i);
+    }
+    const std::vector<Color> colors = distinctColors(neighbours);
+    for (std::size_t i = 0; i < 60; ++i) {
+        for (const std::int32_t n : neighbours[i]) EXPECT_NE(colors[i], colors[std::size_t(n)]);
+    }
+    EXPECT_GE(std::set<Color>(colors.begin(), colors.end()).size(), 7u);
+}
+
+TEST(Palette, ElementsAndLabelsOfBalls)
+{
+    const BallSelection atoms = pair(2.0f);
+    const auto elements = ballColors(atoms, ColorBy::Element, Progress());
+    EXPECT_EQ(elements[1], (Color{255, 13, 13})); // oxygen is red
+    const auto chains = ballColors(atoms, ColorBy::Chain, Progress());
+    EXPECT_NE(chains[0], chains[1]);
+    BallSelection plain;
+    plain.balls = atoms.balls;
+    EXPECT_EQ(ballColors(plain, ColorBy::Chain, Progress())[0], neutralColor);
+}
+
+} // namespace
+} // namespace molsurf

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "support/mesh_checks.h"
+#include "support/runs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace molsurf
+{
+namespace
+{
+
+BallSelection crambin(std::vector<ResolutionRule> rules)
+{
+    SelectOptions options;
+    options.resolutions = std::move(rules);
+    return selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + "/1crn.pdb"), options);
+}
+
+Result runOn(const BallSelection& atoms, bool matchVolume = false)
+{
+    Options options;
+    options.matchVolume = matchVolume;
+    Progress progress;
+    return run(atoms, options, progress);
+}
+
+TEST(Resolution, RatesAreThoseOfTheLastRule)
+{
+    const BallSelection atoms = crambin({{"", 10.0}, {"/1/A/1-20", 5.0}, {"/1/A/10-46", 8.0}});
+    ASSERT_EQ(atoms.decays.size(), atoms.balls.size());
+    std::size_t counts[3] = {0, 0, 0};
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
+        const double d = atoms.resolutions[std::size_t(atoms.resolutionOf[i])].rule.resolution;
+        EXPECT_NEAR(atoms.decays[i].rate, M_PI * M_PI / (d * d), 1e-6);
+        ++counts[atoms.resolutionOf[i]];
+    }
+    for (int r = 0; r < 3; ++r) EXPECT_EQ(counts[r], atoms.resolutions[std::size_t(r)].balls);
+    EXPECT_EQ(counts[0], 0u);
+    EXPECT_GT(counts[1], 40u);
+    EXPECT_GT(counts[2], 200u);
+    EXPECT_FALSE(atoms.warnings.empty()); // the first rule has no ball
+    EXPECT_TRUE(crambin({}).decays.empty());
+}
+
+TEST(Resolution, CoarseSurfacesSwellUnlessTheVolumeIsMatched)
+{
+    const double fine = runOn(crambin({})).report.surface.volume;
+    const BallSelection coarse = crambin({{"", 10.0}});
+    const Result swollen = runOn(coarse), matched = runOn(coarse, true);
+    EXPECT_GT(swollen.report.surface.volume, 1.5 * fine);
+    EXPECT_NEAR(matched.report.surface.volume, fine, 0.01 * fine);
+    EXPECT_LT(matched.report.resolutions.at(0).level, -0.5);
+    // Smoother: less of every other surface than the fine one has.
+    EXPECT_LT(matched.report.surface.area, 0.9 * runOn(crambin({})).report.surface.area);
+    EXPECT_TRUE(test::judge(matched.mesh).good());
+}
+
+// Far from the seam each half is what it is when all atoms have its resolution.
+TEST(Resolution, HalvesOfTwoResolutionsJoin)
+{
+    const Result both = runOn(crambin({{"", 10.0}, {"/1/A/1-23", 5.0}}));
+    const test::MeshVerdict verdict = test::judge(both.mesh);
+    EXPECT_TRUE(verdict.good()) << verdict;
+    EXPECT_EQ(both.report.surface.components, 1);
+    const double low = runOn(crambin({{"", 5.0}})).report.surface.volume;
+    const double high = runOn(crambin({{"", 10.0}})).report.surface.volume;
+    EXPECT_GT(both.report.surface.volume, 1.1 * low);
+    EXPECT_LT(both.report.surface.volume, 0.9 * high);
+}
+
+} // namespace
+} // namespace molsurf

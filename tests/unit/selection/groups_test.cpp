@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/core/error.h"
+#include "molsurf/selection/select_balls.h"
+#include "molsurf/structure/read_structure.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace molsurf
+{
+namespace
+{
+
+class GroupsFile : public ::testing::Test
+{
+protected:
+    void TearDown() override { std::filesystem::remove(path_); }
+
+    std::vector<GroupRule> read(const std::string& text)
+    {
+        std::ofstream(path_) << text;
+        return readGroups(path_);
+    }
+    void refuse(const std::string& text, const std::string& says)
+    {
+        try {
+            read(text);
+            ADD_FAILURE() << text << " is taken";
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::Input);
+            EXPECT_NE(std::string(e.what()).find(says), std::string::npos) << e.what();
+        }
+    }
+    std::string path_ = testing::TempDir() + "/groups_" +
+                        testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST_F(GroupsFile, JsonAndTable)
+{
+    const auto json = read(R"( {"groups": [{"name": "red", "select": "A/1-5", "color": "#d55E00"},
+                                           {"name": "b c", "select": "B"}]})");
+    ASSERT_EQ(json.size(), 2u);
+    EXPECT_EQ(json[0].color, (std::array<std::uint8_t, 3>{0xd5, 0x5e, 0x00}));
+    EXPECT_EQ(json[1].name, "b c");
+    EXPECT_FALSE(json[1].color);
+    const auto table = read("# domains\nred A/1-5|A/9 #d55e00\n\n b\tB\r\n");
+    ASSERT_EQ(table.size(), 2u);
+    EXPECT_EQ(table[0].select, "A/1-5|A/9");
+    EXPECT_EQ(table[0].color, json[0].color);
+    EXPECT_EQ(table[1].select, "B");
+}
+
+TEST_F(GroupsFile, BadOnesAreRefused)
+{
+    refuse("", "no group");
+    refuse("# nothing\n", "no group");
+    refuse("{\"groups\": []}", "no group");
+    refuse("{\"groups\": [", "JSON");
+    refuse("{\"group\": 3}", "groups");
+    refuse("{\"groups\": [{\"name\": \"a\"}]}", "select");
+    refuse("{\"groups\": [{\"name\": \"a\", \"select\": 7}]}", "select");
+    refuse("{\"groups\": [{\"name\": \"a\", \"select\": \"A\", \"colour\": \"x\"}]}", "colour");
+    refuse("a A red", "red");
+    refuse("a A #12345", "#12345");
+    refuse("a A #12345g", "#12345g");
+    refuse("a\n", "line 1");
+    refuse("a A\na B\n", "named 'a'");
+    EXPECT_THROW(readGroups("/no/such/file"), Error);
+    EXPECT_THROW(readGroups(testing::TempDir()), Error);
+}
+
+BallLabels labelled(const SelectOptions& options, const std::string& file = "/4at1.ent.gz")
+{
+    const BallSelection out =
+        selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + file), options);
+    EXPECT_EQ(out.labels->chainOf.size(), out.balls.size());
+    return *out.labels;
+}
+
+TEST(Labels, GroupsByChainEntityCopyAndResidues)
+{
+    SelectOptions options;
+    options.groupBy = "chain";
+    const BallLabels chains = labelled(options);
+    ASSERT_EQ(chains.groups.size(), 4u); // two catalytic, two regulatory
+    EXPECT_EQ(chains.groups[0].name, "A");
+    std::size_t all = 0;
+    for (const Group& group : chains.groups) all += group.balls;
+    EXPECT_EQ(all, chains.chainOf.size());
+
+    options.groupBy = "entity";
+    const BallLabels entities = labelled(options);
+    ASSERT_EQ(entities.groups.size(), 2u);
+    EXPECT_EQ(entities.groups[0].balls, chains.groups[0].balls + chains.groups[2].balls);
+
+    options.groupBy = "copy";
+    options.assembly = "1";
+    const BallLabels copies = labelled(options, "/1a8o.cif.gz");
+    ASSERT_EQ(copies.groups.size(), 2u);
+    EXPECT_EQ(copies.groups[0].balls, copies.groups[1].balls);
+    EXPECT_EQ(copies.groups[1].name, "copy 2");
+    EXPECT_EQ(copies.chains.size(), 2u);
+    EXPECT_EQ(copies.chains[1], "A-2");
+
+    options.assembly = "none";
+    options.groupBy = "residues:20";
+    const BallLabels blocks = labelled(options, "/1crn.pdb");
+    ASSERT_EQ(blocks.groups.size(), 3u); // 46 residues
+    EXPECT_EQ(blocks.groups[0].name, "A/1-20");
+
+    for (const char* bad : {"colour", "residues:", "residues:0", "residues:-3", "residues:2x"}) {
+        options.groupBy = bad;
+        EXPECT_THROW(labelled(options, "/1crn.pdb"), Error) << bad;
+    }
+}
+
+TEST(Labels, LaterRulesWinAndSaySo)
+{
+    SelectOptions options;
+    options.groups = {{"all", "A", {}}, {"helix", "A/7-19", {}}};
+    const BallLabels labels = labelled(options, "/1crn.pdb");
+    EXPECT_GT(labels.groups[0].balls, 150u);
+    EXPECT_GT(labels.groups[1].balls, 60u);
+    EXPECT_EQ(labels.groups[0].balls + labels.groups[1].balls, 327u);
+    ASSERT_EQ(labels.warnings.size(), 1u);
+    EXPECT_NE(labels.warnings[0].find("helix"), std::string::npos);
+    EXPECT_EQ(labels.elementOf[0], 7); // N of THR 1
+    EXPECT_EQ(labels.residueClassOf[0], ResidueClass::Polar);
+
+    options.groups = {{"none", "Q", {}}};
+    EXPECT_THROW(labelled(options, "/1crn.pdb"), Error);
+}
+
+} // namespace
+} // namespace molsurf
