@@ -133,6 +133,11 @@ const std::vector<Group>& groups()
            "blur to D [Å], 1 to 50, all atoms or those of a\n"
            "selection; repeats, later ones win",
            "", true},
+          {"coarse", "[SEL=]WORD",
+           "beads in the place of atoms: residue (its backbone and\n"
+           "side chain), N (about N atoms each) or atom; all or\n"
+           "those of a selection; repeats, later ones win",
+           "atom", true},
           {"match-volume", nullptr, "resolutions keep the volume of the fine surface", ""}}},
         {"Groups",
          {{"groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]", ""},
@@ -244,7 +249,7 @@ public:
     }
 
     bool on(const char* name) const { return map_[name].as<bool>(); }
-    bool given(const char* name) const { return map_.count(name) > 0; }
+    bool given(const char* name) const { return map_.count(name) && !map_[name].defaulted(); }
 
     // Leaves `value` alone if the option was not given.
     void get(const char* name, std::string& value) const
@@ -482,6 +487,9 @@ void fillRun(const Values& values, Call& call)
                 SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals, SurfaceKind::Gaussian});
     values.get("blobbiness", options.blobbiness);
     fillResolutions(values, call);
+    for (const std::string& text : values.list("coarse")) {
+        options.atoms.coarse.push_back(parseCoarse(text));
+    }
     values.get("voxel", options.voxel);
     options.fillCavities = values.on("fill-cavities");
     options.fields = fieldsOf(values);

@@ -13,6 +13,7 @@
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/pipeline/compare.h"
 #include "molsurf/pipeline/run.h"
+#include "molsurf/pipeline/size_beads.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 #include "molsurf/surface/color_map.h"
@@ -70,7 +71,8 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
         {
             const Structure structure = readStructure(path);
             stopIfAsked();
-            selection = selectBalls(structure, call.options.atoms);
+            selection =
+                selectBalls(structure, call.options.atoms, beadSizer(call.options, terminal));
             said.push_back(describeSelection(structure, selection));
         }
         Options options = call.options;

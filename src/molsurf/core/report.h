@@ -115,6 +115,12 @@ struct ResolutionReport {
     double level = 0.0;      ///< of their Gaussians; not 0 where the volume was matched
 };
 
+/// Beads that stand for several atoms.
+struct CoarseReport {
+    std::size_t beads = 0;
+    std::size_t atoms = 0; ///< that they stand for
+};
+
 /// Everything in the .json report.
 struct Report {
     std::string program = "vdb_molsurf";
@@ -124,6 +130,7 @@ struct Report {
     std::size_t atoms = 0; ///< balls used, after selection, expansion and drops
     double voxel = 0.0;    ///< [Å]
     SurfaceReport surface;
+    std::optional<CoarseReport> coarse;        ///< with beads
     std::vector<ResolutionReport> resolutions; ///< one a rule, in their order
     std::vector<GroupReport> groups;
     std::optional<EvolutionReport> evolution; ///< absent for surfaces that are not evolved

@@ -53,12 +53,19 @@ std::vector<Ball> ballsOfPart(const Structure& structure, const AssemblyPart& pa
     return chosen;
 }
 
+/// The centre of a ball, in double precision if it is an atom.
+openvdb::Vec3d centreOf(const Structure& structure, const Ball& ball)
+{
+    const openvdb::Vec3d& atom = structure.atoms[static_cast<std::size_t>(ball.atom)].position;
+    return openvdb::Vec3f(atom) == ball.center ? atom : openvdb::Vec3d(ball.center);
+}
+
 void appendCopy(const Structure& structure, const Operator& op, const std::vector<Ball>& balls,
                 std::vector<Ball>& out)
 {
     const auto& r = op.rotation;
     for (const Ball& ball : balls) {
-        const auto& p = structure.atoms[static_cast<std::size_t>(ball.atom)].position;
+        const openvdb::Vec3d p = centreOf(structure, ball);
         const openvdb::Vec3d center(r[0][0] * p[0] + r[0][1] * p[1] + r[0][2] * p[2],
                                     r[1][0] * p[0] + r[1][1] * p[1] + r[1][2] * p[2],
                                     r[2][0] * p[0] + r[2][1] * p[1] + r[2][2] * p[2]);
@@ -71,9 +78,7 @@ openvdb::Vec3d centroidOf(const Structure& structure, const std::vector<std::vec
 {
     openvdb::Vec3d sum(0.0);
     for (const std::vector<Ball>& part : parts) {
-        for (const Ball& ball : part) {
-            sum += structure.atoms[static_cast<std::size_t>(ball.atom)].position;
-        }
+        for (const Ball& ball : part) sum += centreOf(structure, ball);
         if (!part.empty()) return sum / double(part.size());
     }
     return sum;

@@ -24,8 +24,8 @@ struct ExpandedBalls {
 
 /// Applies the operators of an assembly to the balls whose chains it lists.
 ///
-/// Centres are computed in double precision from the atoms' positions. A part of the assembly none
-/// of whose chains has a ball makes no copy.
+/// Centres of atoms are computed in double precision from the atoms' positions. A part of the
+/// assembly none of whose chains has a ball makes no copy.
 ///
 /// @param[in] copies  which copies, see parseCopies(); empty: all
 /// @param[in] balls   in the coordinates of the file

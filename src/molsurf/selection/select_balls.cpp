@@ -270,7 +270,8 @@ void applyResolutions(const Structure& structure, const SelectOptions& options, 
 
 } // namespace
 
-BallSelection selectBalls(const Structure& structure, const SelectOptions& options)
+BallSelection selectBalls(const Structure& structure, const SelectOptions& options,
+                          const SizeBeads& sizeBeads)
 {
     if (structure.hasRadii && options.radii != "bondi") {
         throw Error(ErrorKind::Usage, "radii " + inQuotes(options.radii) +
@@ -287,6 +288,13 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
     Filter filter(model, out);
     applyFilters(structure, options, match, filter, out);
     std::vector<Ball> balls = makeBalls(structure, options, filter, out);
+    std::vector<std::int32_t> beadAtoms; // by the representative atom: how many a bead stands for
+    if (!options.coarse.empty()) {
+        CoarseBalls coarse = coarseGrain(structure, balls, options.coarse, sizeBeads);
+        balls = std::move(coarse.balls);
+        beadAtoms = std::move(coarse.beadAtoms);
+        out.warnings.insert(out.warnings.end(), coarse.warnings.begin(), coarse.warnings.end());
+    }
     if (options.assembly == "none") {
         out.balls = std::move(balls);
         out.copyBegin = {0, out.balls.size()};
@@ -304,6 +312,11 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
                                  " atoms: dropped " + describeDrops(out.drops));
     }
     checkExtent(structure, out.balls);
+    for (const Ball& ball : out.balls) {
+        const std::int32_t n = beadAtoms.empty() ? 0 : beadAtoms[std::size_t(ball.atom)];
+        out.beads += n > 0;
+        out.beadAtoms += std::size_t(n);
+    }
     applyResolutions(structure, options, out);
     if (options.labels || !options.groups.empty() || !options.groupBy.empty()) {
         out.labels =
@@ -331,6 +344,10 @@ std::string describeSelection(const Structure& structure, const BallSelection& s
     if (structure.models.size() > 1) text += " in model " + std::to_string(selection.model);
     text += "; used " + counted(selection.balls.size(), "ball");
     if (selection.copies > 1) text += " (" + std::to_string(selection.copies) + " copies)";
+    if (selection.beads > 0) {
+        text += ", of them " + counted(selection.beads, "bead") + " for " +
+                counted(selection.beadAtoms, "atom");
+    }
     if (!selection.drops.empty()) text += "; dropped " + describeDrops(selection.drops);
     return text;
 }
