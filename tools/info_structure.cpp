@@ -133,6 +133,9 @@ void infoStructure(const std::string& path)
     for (const Model& model : structure.models) models.push_back(std::to_string(model.number));
     line("models",
          std::to_string(models.size()) + (models.size() > 1 ? " (" + joined(models) + ")" : ""));
+    if (structure.beads == BeadKind::Martini2) line("beads", "Martini 2");
+    if (structure.beads == BeadKind::Martini3) line("beads", "Martini 3");
+    if (structure.beads == BeadKind::Unnamed) line("beads", "one or a few a residue");
     const Model& first = structure.models[0];
     std::size_t water = 0, hetero = 0, hydrogen = 0;
     std::set<std::int32_t> used;

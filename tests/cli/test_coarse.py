@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MPL-2.0
-"""Beads: --coarse."""
+"""Beads: --coarse, and files of them."""
 
 import json
 import unittest
@@ -65,6 +65,45 @@ class Coarse(ToolTest):
         self.check(1, CRAMBIN, "--coarse", "B=residue", "-o", "b.vdb",
                    says=['"B"', "the chains are A"])
         self.assertEqual(self.names(), [])
+
+class Martini(ToolTest):
+    def write(self, residues):
+        """Beads in a row, 3 Å apart: {"ALA": "BB SC1"}."""
+        text = ""
+        atoms = [(residue, i, bead) for i, (residue, beads) in enumerate(residues)
+                 for bead in beads.split()]
+        for n, (residue, i, bead) in enumerate(atoms, 1):
+            text += (f"ATOM  {n:5}  {bead:3} {residue:4}A{i:4}    {3.0 * n:8.3f}{0:8.3f}{0:8.3f}"
+                     "  1.00  0.00\n")
+        (self.folder / "beads.pdb").write_text(text)
+
+    def said(self, *words):
+        return self.check(0, "beads.pdb", *words, "-o", "a.json", "--force",
+                          *QUICK).stderr.decode()
+
+    def test_radii_by_size(self):
+        self.write([("ALA", "BB"), ("PHE", "BB SC1 SC2 SC3"), ("W", "W")])
+        self.assertIn("beads of Martini 2, not atoms: radii martini2 were used: 2 of 2.64 Å, "
+                      "3 of 2.41 Å\n", self.said())
+        self.assertIn("dropped 1 water", self.said())
+        self.assertIn("3 of 2.64 Å, 3 of 2.41 Å\n", self.said("--waters"))
+        self.assertIn("radii martini3 were used: 1 of 2.64 Å, 2 of 2.30 Å, 2 of 1.91 Å",
+                      self.said("--radii", "martini3"))
+        self.assertRegex(self.check(0, "info", "beads.pdb").stdout.decode(), r"beads +Martini 2\n")
+
+    def test_named_by_atoms(self):
+        self.write([("MET", "CA CG"), ("ALA", "CA"), ("PHE", "CA CE1 CE2")])
+        self.assertIn("beads, not atoms (one or a few a residue): radii martini2 were used: "
+                      "6 of 2.64 Å\n", self.said())
+
+    def test_radii_of_the_user(self):
+        self.write([("ALA", "BB"), ("LEU", "BB SC1")])
+        (self.folder / "my.radii").write_text("* 3.0\n")
+        self.assertNotIn("martini", self.said("--radii", "my.radii"))
+
+    def test_atoms_as_beads(self):
+        self.check(0, CRAMBIN, "--radii", "martini", "-o", "a.json", *QUICK,
+                   says="the file has atoms, not beads: radii martini2 were used: 327 of 2.64 Å")
 
 
 if __name__ == "__main__":

@@ -31,6 +31,39 @@ def ring(folds):
             + ATOM)
 
 
+def product(a, b):
+    return tuple(tuple(sum(a[i][k] * b[k][j] for k in range(3)) for j in range(3))
+                 for i in range(3))
+
+
+def icosahedron():
+    """The 60 rotations, from a five-fold axis (0, 1, golden) and a two-fold axis z."""
+    golden = (1 + math.sqrt(5)) / 2
+    five = tuple(tuple(x / 2 for x in row) for row in
+                 ((golden - 1, -golden, 1), (golden, 1, golden - 1), (-1, golden - 1, golden)))
+    two = ((-1, 0, 0), (0, -1, 0), (0, 0, 1))
+    group = {}
+    new = [((1, 0, 0), (0, 1, 0), (0, 0, 1))]
+    while new:
+        matrix = new.pop()
+        key = tuple(round(x, 4) + 0.0 for row in matrix for x in row)
+        if key not in group:
+            group[key] = matrix
+            new += [product(five, matrix), product(two, matrix)]
+    return list(group.values())
+
+
+def biomt(operators):
+    """REMARK 350 of operators ((3x3), shift)."""
+    text = ("REMARK 350 BIOMOLECULE: 1\n"
+            "REMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n")
+    for i, (matrix, shift) in enumerate(operators, 1):
+        for row, (three, t) in enumerate(zip(matrix, shift), 1):
+            figures = "".join(f"{x:10.6f}" for x in three)
+            text += f"REMARK 350   BIOMT{row} {i:3}{figures}     {t:10.5f}\n"
+    return text
+
+
 class Symmetry(ToolTest):
     def write(self, name, content):
         (self.folder / name).write_text(content)
@@ -58,6 +91,31 @@ class Symmetry(ToolTest):
         self.check(1, "ring.pdb", "--assembly", "1", "--copies", "7", "-o", "b.vdb",
                    says="from 1 to 6, got 7")
         self.assertNotIn("b.vdb", self.names())
+
+    def test_an_icosahedral_shell(self):
+        self.write("shell.pdb", biomt([(m, (0, 0, 0)) for m in icosahedron()])
+                   + ATOM.replace("20.000   0.000  10.000", " 6.000  50.000  70.000"))
+        self.assertEqual(self.atoms("shell.pdb", "--assembly", "1"), 60)
+        for fold in (2, 3, 5):
+            self.assertEqual(
+                self.atoms("shell.pdb", "--assembly", "1", "--copies", f"fold:{fold}"), fold)
+        self.check(1, "shell.pdb", "--assembly", "1", "--copies", "fold:4", "-o", "b.vdb",
+                   says=["fold:4", "6 five-fold, 10 three-fold, 15 two-fold axes"])
+        text = self.check(0, "info", "shell.pdb").stdout.decode()
+        self.assertRegex(text, r"point group +I\n")
+        self.assertRegex(text, r"fold:5 +axis \(.*\), copies (\d+(-\d+)?(, )?){1,5}\n")
+
+    def test_a_helix(self):
+        screws = []
+        for i in range(12):
+            a = math.radians(27 * i)
+            c, s = math.cos(a), math.sin(a)
+            screws.append((((c, -s, 0), (s, c, 0), (0, 0, 1)), (0, 0, 1.41 * i)))
+        self.write("helix.pdb", biomt(screws) + ATOM)
+        self.assertEqual(self.atoms("helix.pdb", "--assembly", "1"), 12)
+        self.assertEqual(self.atoms("helix.pdb", "--assembly", "1", "--copies", "3-5"), 3)
+        self.check(1, "helix.pdb", "--assembly", "1", "--copies", "fold:5", "-o", "b.vdb",
+                   says=["fold:5", "helical, rise 1.41 Å, twist 27.00 degrees"])
 
     def test_wrong_calls(self):
         for word in ("0", "x", "fold:1", "fold:", "3-1", "1,", "-2"):

@@ -36,7 +36,7 @@ const RotationAxis* nearestAxis(const Symmetry& symmetry, int fold, const openvd
 std::vector<std::size_t> copiesAbout(const RotationAxis& axis,
                                      const std::vector<std::size_t>& copies);
 
-/// The axes for people: "icosahedral (I): 6 five-fold, 10 three-fold, 15 two-fold axes", "helical,
+/// The axes for people: "6 five-fold, 10 three-fold, 15 two-fold axes", "helical,
 /// rise 1.41 Å, twist 22.03 degrees", "no rotation axis".
 std::string describeSymmetry(const Symmetry& symmetry);
 

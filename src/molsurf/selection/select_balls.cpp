@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -128,6 +130,33 @@ std::string describeCounts(const std::map<std::string, std::size_t>& counts)
     return joined(parts);
 }
 
+/// The set of radii to use: for beads a Martini set, unless another one than the default is named.
+std::string radiiName(const Structure& structure, const std::string& asked)
+{
+    const bool beads = structure.beads != BeadKind::None;
+    if (asked != "martini" && !(asked == "bondi" && beads)) return asked;
+    return structure.beads == BeadKind::Martini3 ? "martini3" : "martini2";
+}
+
+/// "the file has Martini beads, not atoms: radii martini2 for 80 beads of 2.64 Å, 12 of 2.41 Å"
+std::string describeBeads(BeadKind beads, const std::string& set, const std::vector<float>& radii)
+{
+    std::map<float, std::size_t, std::greater<float>> counts;
+    for (const float r : radii) ++counts[r];
+    std::string text = "the file has atoms, not beads";
+    if (beads == BeadKind::Unnamed) text = "the file has beads, not atoms (one or a few a residue)";
+    if (beads == BeadKind::Martini2) text = "the file has beads of Martini 2, not atoms";
+    if (beads == BeadKind::Martini3) text = "the file has beads of Martini 3, not atoms";
+    text += ": radii " + set + " were used:";
+    for (const auto& [radius, count] : counts) {
+        char part[64];
+        std::snprintf(part, sizeof part, "%s %zu of %.2f Å", text.back() == ':' ? "" : ",", count,
+                      double(radius));
+        text += part;
+    }
+    return text;
+}
+
 /// The radius of every chosen atom [Å].
 std::vector<float> findRadii(const Structure& structure, const SelectOptions& options,
                              const Indices& atoms, std::vector<std::string>& warnings)
@@ -140,7 +169,8 @@ std::vector<float> findRadii(const Structure& structure, const SelectOptions& op
         }
         return radii;
     }
-    const RadiiSet set = readRadii(options.radii), fallback = readRadii("bondi");
+    const RadiiSet set = readRadii(radiiName(structure, options.radii)),
+                   fallback = readRadii("bondi");
     std::map<std::string, std::size_t> uncovered, unknown;
     for (const std::int32_t i : atoms) {
         const Atom& atom = structure.atoms[static_cast<std::size_t>(i)];
@@ -153,6 +183,9 @@ std::vector<float> findRadii(const Structure& structure, const SelectOptions& op
                                        : "unknown element of atom " + inQuotes(atom.name)];
         }
         radii.push_back(radius < 0 ? unknownRadius : radius);
+    }
+    if (set.name == "martini2" || set.name == "martini3") {
+        warnings.push_back(describeBeads(structure.beads, set.name, radii));
     }
     if (!uncovered.empty()) {
         warnings.push_back("radii " + set.name + " lacks " + describeCounts(uncovered) +

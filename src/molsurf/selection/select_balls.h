@@ -89,6 +89,9 @@ struct BallSelection {
 /// Coarse rules put beads in the place of atoms before the assembly is built, see coarseGrain(). A
 /// bead goes as its representative atom: for groups, labels and resolutions.
 ///
+/// Beads of a coarse-grained file (Structure::beads) have the radii of martini2 or martini3 unless
+/// options.radii names others; "martini" is the set of their force field.
+///
 /// Radii of .pqr and .xyzr come from the file; options.radii must then be "bondi", its default.
 ///
 /// @param[in] sizeBeads  needed with coarse rules; molsurf/pipeline/size_beads.h has one
