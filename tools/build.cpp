@@ -17,9 +17,11 @@
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 
+#include <openvdb/tools/Composite.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <optional>
 
@@ -28,6 +30,12 @@ namespace molsurf::tool
 
 namespace
 {
+
+std::string shortest(double number)
+{
+    char digits[32];
+    return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
 
 // Everything that is needed to make the file again.
 openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
@@ -59,10 +67,6 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     text("option.model", options.atoms.model ? std::to_string(options.atoms.model) : "first");
     text("option.assembly", options.atoms.assembly);
     text("option.copies", options.atoms.copies.empty() ? "all" : options.atoms.copies);
-    std::string coarse;
-    for (const CoarseRule& rule : options.atoms.coarse)
-        coarse += (coarse.empty() ? "" : " ") + nameOf(rule);
-    text("option.coarse", coarse.empty() ? "atom" : coarse);
     text("option.altloc",
          options.atoms.altloc.empty() ? "highest occupancy" : options.atoms.altloc);
     yesNo("option.no-hydrogens", !options.atoms.hydrogens);
@@ -74,6 +78,28 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     number("option.blobbiness", options.blobbiness);
     number("option.voxel", options.voxel);
     yesNo("option.fill-cavities", options.fillCavities);
+    std::string coarse;
+    for (const CoarseRule& rule : options.atoms.coarse)
+        coarse += (coarse.empty() ? "" : ", ") + nameOf(rule);
+    text("option.coarse", coarse.empty() ? "atom" : coarse);
+    std::string resolutions;
+    for (const ResolutionRule& rule : options.atoms.resolutions) {
+        resolutions += (resolutions.empty() ? "" : ", ") +
+                       (rule.select.empty() ? "" : rule.select + "=") + shortest(rule.resolution);
+    }
+    text("option.resolution", resolutions);
+    yesNo("option.match-volume", options.matchVolume);
+    std::string groups;
+    for (const GroupRule& group : options.atoms.groups)
+        groups += (groups.empty() ? "" : ", ") + group.name + " " + group.select;
+    text("option.groups", groups);
+    text("option.group-by", options.atoms.groupBy);
+    text("option.color", nameOf(options.color));
+    text("option.split", options.split ? "group" : "none");
+    std::string surfaceOf;
+    for (const auto& [name, kind] : options.surfaceOf)
+        surfaceOf += (surfaceOf.empty() ? "" : ",") + name + "=" + nameOf(kind);
+    text("option.surface-of", surfaceOf);
     std::string fields = "surface";
     for (const std::string& field : options.fields) fields += "," + field;
     text("option.fields", fields);
@@ -89,11 +115,25 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     return map;
 }
 
+// The union of the parts, if there are any.
+openvdb::FloatGrid::ConstPtr wholeSurface(const Result& result)
+{
+    if (result.surface) return result.surface;
+    openvdb::FloatGrid::Ptr all;
+    for (const auto& field : result.fields) {
+        if (field->getName().rfind("surface_", 0) != 0) continue;
+        const auto part = openvdb::gridPtrCast<openvdb::FloatGrid>(field);
+        all = all ? openvdb::tools::csgUnionCopy(*all, *part) : part;
+    }
+    return all;
+}
+
 void writeOne(const Call& call, const Result& result, Format format, OutputFile& file)
 {
     switch (format) {
     case Format::Vdb: {
-        openvdb::GridCPtrVec grids = {result.surface};
+        openvdb::GridCPtrVec grids;
+        if (result.surface) grids.push_back(result.surface);
         grids.insert(grids.end(), result.fields.begin(), result.fields.end());
         writeVdb(grids, vdbMetadata(call, result.report), file);
         break;
@@ -108,7 +148,7 @@ void writeOne(const Call& call, const Result& result, Format format, OutputFile&
         writeStl(result.mesh, file);
         break;
     case Format::Png:
-        writePng(drawSurface(*result.surface), file);
+        writePng(drawSurface(*wholeSurface(result)), file);
         break;
     case Format::Json:
         writeReport(result.report, file);
@@ -215,7 +255,7 @@ int build(const Call& call, Clock::time_point start)
         for (const std::string& warning : result.report.warnings) say("warning: " + warning);
     completeReport(call, selection.balls.size(), readSeconds, warnings, result.report);
     const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
-    result.surface->setCreator(creator);
+    if (result.surface) result.surface->setCreator(creator);
     for (const auto& field : result.fields) field->setCreator(creator);
 
     writeAll(call, result, terminal, start);

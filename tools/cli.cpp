@@ -142,6 +142,12 @@ const std::vector<Group>& groups()
         {"Groups",
          {{"groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]", ""},
           {"group-by", "WORD", "groups by chain, entity, copy or residues:N instead", ""},
+          {"split", "group", "a level set and a closed mesh for every group, alone", ""},
+          {"surface-of", "GROUP=KIND",
+           "this group alone, by another --surface; repeats; the\n"
+           "other atoms together",
+           "", true},
+          {"interfaces", nullptr, "buried areas between groups, for the report", ""},
           {"color", "WORD",
            "colours of the mesh and the grid Cd: chain, group,\n"
            "element, residue, mean-curvature, gaussian-curvature",
@@ -277,17 +283,13 @@ public:
     template<typename Enum>
     void get(const char* name, Enum& value, std::initializer_list<Enum> choices) const
     {
-        if (!map_.count(name)) return;
-        const std::string word = map_[name].as<std::string>();
-        std::vector<std::string> words;
-        for (Enum choice : choices) {
-            if (word == nameOf(choice)) {
-                value = choice;
-                return;
-            }
-            words.push_back(nameOf(choice));
-        }
-        wrong(name, join(words, " or "));
+        pick(name, value, choices);
+    }
+
+    template<typename Enum, std::size_t n>
+    void get(const char* name, Enum& value, const Enum (&choices)[n]) const
+    {
+        pick(name, value, choices);
     }
 
     std::vector<std::string> list(const char* name) const
@@ -303,6 +305,22 @@ public:
     }
 
 private:
+    template<typename Enum, typename Choices>
+    void pick(const char* name, Enum& value, const Choices& choices) const
+    {
+        if (!map_.count(name)) return;
+        const std::string word = map_[name].as<std::string>();
+        std::vector<std::string> words;
+        for (Enum choice : choices) {
+            if (word == nameOf(choice)) {
+                value = choice;
+                return;
+            }
+            words.push_back(nameOf(choice));
+        }
+        wrong(name, join(words, " or "));
+    }
+
     template<typename T>
     T number(const char* name, const std::string& expected) const
     {
@@ -385,6 +403,21 @@ std::vector<std::string> fieldsOf(const Values& values)
 
 void fillRun(const Values& values, Call& call);
 
+constexpr SurfaceKind surfaceKinds[] = {SurfaceKind::Variational, SurfaceKind::SolventExcluded,
+                                        SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals,
+                                        SurfaceKind::Gaussian};
+
+// GROUP=KIND, the group ending at the last =.
+std::pair<std::string, SurfaceKind> parseSurfaceOf(const std::string& text)
+{
+    const std::size_t split = text.rfind('=');
+    for (const SurfaceKind kind : surfaceKinds) {
+        if (split != std::string::npos && split > 0 && text.substr(split + 1) == nameOf(kind))
+            return {text.substr(0, split), kind};
+    }
+    misuse("--surface-of: expected GROUP=KIND with a kind of --surface, got '" + text + "'");
+}
+
 void fillGroups(const Values& values, Call& call)
 {
     Options& options = call.options;
@@ -397,6 +430,16 @@ void fillGroups(const Values& values, Call& call)
     if (!file.empty() && !options.atoms.groupBy.empty()) misuse("--groups and --group-by together");
     if (!file.empty()) options.atoms.groups = readGroups(file);
     const bool groups = !file.empty() || !options.atoms.groupBy.empty();
+    std::string split;
+    values.get("split", split);
+    if (!split.empty() && split != "group") values.wrong("split", "group");
+    options.split = !split.empty();
+    options.interfaces = values.on("interfaces");
+    for (const char* name : {"split", "surface-of", "interfaces"}) {
+        const bool on = name == std::string("interfaces") ? options.interfaces : values.given(name);
+        if (on && !groups)
+            misuse("--" + std::string(name) + ": expected --groups or --group-by too");
+    }
     if (options.color == ColorBy::Group && !groups)
         misuse("--color group: expected --groups or --group-by too");
     const auto has = [&](const char* field) {
@@ -482,9 +525,9 @@ void fillRun(const Values& values, Call& call)
     options.atoms.waters = values.on("waters");
     values.get("radii", options.atoms.radii);
     values.get("probe", options.probe);
-    values.get("surface", options.kind,
-               {SurfaceKind::Variational, SurfaceKind::SolventExcluded,
-                SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals, SurfaceKind::Gaussian});
+    values.get("surface", options.kind, surfaceKinds);
+    for (const std::string& text : values.list("surface-of"))
+        options.surfaceOf.push_back(parseSurfaceOf(text));
     values.get("blobbiness", options.blobbiness);
     fillResolutions(values, call);
     for (const std::string& text : values.list("coarse")) {
@@ -505,19 +548,24 @@ void fillRun(const Values& values, Call& call)
     evolution.displacementTolerance = std::sqrt(evolution.energyTolerance);
     values.get("spline-level", options.splineLevel, 0, 2);
 
-    if (options.kind != SurfaceKind::Variational) {
+    const auto builds = [&](SurfaceKind kind) {
+        return options.kind == kind ||
+               std::any_of(options.surfaceOf.begin(), options.surfaceOf.end(),
+                           [=](const auto& of) { return of.second == kind; });
+    };
+    if (!builds(SurfaceKind::Variational)) {
         for (const char* name : {"epsilon", "resolution", "match-volume", "lambda", "regularizer",
                                  "flow", "max-steps", "tolerance"}) {
             if (values.given(name))
                 call.warnings.push_back(std::string("--") + name + " is for --surface variational");
         }
     }
-    if (options.kind != SurfaceKind::Gaussian && values.given("blobbiness"))
+    if (!builds(SurfaceKind::Gaussian) && values.given("blobbiness"))
         call.warnings.push_back("--blobbiness is for --surface gaussian");
     if (options.voxel > coarseVoxel)
         call.warnings.push_back("--voxel " + shortest(options.voxel) +
                                 ": voxels this large cannot show the atoms");
-    if (options.kind == SurfaceKind::Variational && options.epsilon < 0.5 * options.voxel)
+    if (builds(SurfaceKind::Variational) && options.epsilon < 0.5 * options.voxel)
         call.warnings.push_back("--epsilon " + shortest(options.epsilon) +
                                 ": a tolerance below half a voxel is not resolved");
 }

@@ -49,7 +49,7 @@ class Coarse(ToolTest):
     def test_told_in_the_vdb(self):
         self.check(0, CRAMBIN, "--coarse", "residue", "--coarse", "A/1-9=4", "-o", "a.vdb", *QUICK)
         text = self.check(0, "info", "a.vdb").stdout.decode()
-        self.assertRegex(text, r"option.coarse +residue A/1-9=4\n")
+        self.assertRegex(text, r"option.coarse +residue, A/1-9=4\n")
 
     def test_the_same_bits(self):
         for name, threads in (("a", 1), ("b", 2)):

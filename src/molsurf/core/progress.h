@@ -28,6 +28,17 @@ public:
     virtual bool cancelled() const { return false; }
 };
 
+/// Tells nobody of runs within a run, but lets them be stopped.
+class QuietProgress : public Progress
+{
+public:
+    explicit QuietProgress(const Progress& outer) : outer_(outer) {}
+    bool cancelled() const override { return outer_.cancelled(); }
+
+private:
+    const Progress& outer_;
+};
+
 /// Thrown by a stage that found Progress::cancelled() true. Not an Error: nothing went wrong.
 class Cancelled : public std::exception
 {

@@ -105,6 +105,13 @@ struct GroupReport {
                          ///< whole, atoms without a group being one more, "other"
     double volume = 0.0; ///< inside the surface and nearest to its balls [Å^3]; adds up too
     std::string color;   ///< "#rrggbb", if the surface is coloured by group
+    std::optional<double> aloneArea{}; ///< of the group surfaced alone, with interfaces [Å^2]
+};
+
+/// The area that two groups of atoms bury between them.
+struct InterfaceReport {
+    std::string first, second; ///< names of the groups
+    double area = 0.0;         ///< (A_first + A_second - A_both) / 2, each surfaced alone [Å^2]
 };
 
 /// Atoms of one resolution.
@@ -121,6 +128,13 @@ struct CoarseReport {
     std::size_t atoms = 0; ///< that they stand for
 };
 
+/// A surface of some of the atoms, alone.
+struct PartReport {
+    std::string name;
+    std::size_t atoms = 0;
+    SurfaceReport surface;
+};
+
 /// Everything in the .json report.
 struct Report {
     std::string program = "vdb_molsurf";
@@ -133,6 +147,9 @@ struct Report {
     std::optional<CoarseReport> coarse;        ///< with beads
     std::vector<ResolutionReport> resolutions; ///< one a rule, in their order
     std::vector<GroupReport> groups;
+    std::vector<InterfaceReport> interfaces; ///< of groups that touch, if asked for
+    std::vector<PartReport> parts; ///< surfaces of their own, of which `surface` is the sum; empty
+                                   ///< if there is one only
     std::optional<EvolutionReport> evolution; ///< absent for surfaces that are not evolved
     std::size_t activeVoxels = 0;             ///< of the grid `surface`
     std::size_t gridBytes = 0;                ///< of the grid `surface` in memory

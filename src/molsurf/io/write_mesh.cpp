@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -96,8 +97,7 @@ public:
     }
 
 private:
-    static constexpr std::ptrdiff_t longest =
-        128; // three floats of at most 15 letters; six indices
+    static constexpr std::ptrdiff_t longest = 128; // six floats of at most 15 letters; six indices
     Buffer& buffer_;
     char* begin_;
     char* end_;
@@ -111,6 +111,32 @@ void putVectors(Buffer& buffer, const char* key, const std::vector<openvdb::Vec3
         for (int i = 0; i < 3; ++i) (line << " ").number(v[i]);
         line << "\n";
     }
+}
+
+/// Positions, with colours from 0 to 1 behind them if there are any.
+void putVertices(Buffer& buffer, const Mesh& mesh)
+{
+    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+        Line line(buffer);
+        line << "v";
+        for (int i = 0; i < 3; ++i) (line << " ").number(mesh.positions[n][i]);
+        if (!mesh.colors.empty()) {
+            for (const std::uint8_t c : mesh.colors[n]) {
+                (line << " ").number(float(std::round(c / 255.0 * 1e4) / 1e4));
+            }
+        }
+        line << "\n";
+    }
+}
+
+std::string inOneWord(std::string name)
+{
+    constexpr std::size_t longest = 200;
+    if (name.size() > longest) name.resize(longest);
+    for (char& letter : name) {
+        if (letter == ' ' || letter == '\t' || letter == '\n' || letter == '\r') letter = '_';
+    }
+    return name;
 }
 
 } // namespace
@@ -144,9 +170,15 @@ void writePly(const Mesh& mesh, OutputFile& file, const std::vector<std::string>
 void writeObj(const Mesh& mesh, OutputFile& file)
 {
     Buffer buffer(file);
-    putVectors(buffer, "v", mesh.positions);
+    putVertices(buffer, mesh);
     putVectors(buffer, "vn", mesh.normals);
+    auto part = mesh.parts.begin();
     for (const auto& triangle : mesh.triangles) {
+        const std::size_t number = std::size_t(&triangle - mesh.triangles.data());
+        for (; part != mesh.parts.end() && part->firstTriangle == number; ++part) {
+            const std::string line = "o " + inOneWord(part->name) + "\n";
+            std::copy(line.begin(), line.end(), buffer.take(line.size()));
+        }
         Line line(buffer);
         line << "f";
         for (std::uint32_t corner : triangle) {

@@ -24,8 +24,10 @@ namespace molsurf
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writePly(const Mesh& mesh, OutputFile& file, const std::vector<std::string>& comments = {});
 
-/// Writes Wavefront OBJ: positions [Å], normals, faces. Numbers have the fewest digits that give
-/// the same float back. The format has no place for attributes.
+/// Writes Wavefront OBJ: positions [Å], normals, faces; an object ("o NAME") for each of the mesh's
+/// parts. Numbers have the fewest digits that give the same float back. Colours, from 0 to 1, stand
+/// behind the positions, as MeshLab, Blender and others read them; the format has no place for
+/// other attributes.
 ///
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeObj(const Mesh& mesh, OutputFile& file);

@@ -78,7 +78,27 @@ Json groupsJson(const std::vector<GroupReport>& groups)
     for (const GroupReport& g : groups) {
         Json entry = {{"name", g.name}, {"atoms", g.atoms}, {"area", g.area}, {"volume", g.volume}};
         if (!g.color.empty()) entry["color"] = g.color;
+        if (g.aloneArea) entry["alone_area"] = *g.aloneArea;
         out.push_back(std::move(entry));
+    }
+    return out;
+}
+
+Json interfacesJson(const std::vector<InterfaceReport>& interfaces)
+{
+    Json out = Json::array();
+    for (const InterfaceReport& i : interfaces) {
+        out.push_back(Json{{"groups", {i.first, i.second}}, {"buried_area", i.area}});
+    }
+    return out;
+}
+
+Json partsJson(const std::vector<PartReport>& parts)
+{
+    Json out = Json::array();
+    for (const PartReport& part : parts) {
+        out.push_back(Json{
+            {"name", part.name}, {"atoms", part.atoms}, {"surface", surfaceJson(part.surface)}});
     }
     return out;
 }
@@ -123,6 +143,8 @@ std::string reportText(const Report& report)
         {"peak_memory_bytes", report.peakMemoryBytes},
         {"threads", report.threads},
         {"groups", groupsJson(report.groups)},
+        {"interfaces", interfacesJson(report.interfaces)},
+        {"parts", partsJson(report.parts)},
         {"warnings", report.warnings},
     };
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -91,8 +91,6 @@ std::vector<Color> colorsOf(const Labels& nearest, const std::vector<Color>& bal
     return out;
 }
 
-/// Red where the curvature is positive, blue where it is negative, full at the 95th percentile of
-/// its size.
 std::vector<Color> curvatureColors(const std::vector<float>& curvature)
 {
     std::vector<float> sizes;
@@ -262,6 +260,15 @@ void reportGroups(const BallSelection& atoms, const Options& options, const Labe
 
 } // namespace
 
+void colorByCurvature(ColorBy by, Mesh& mesh)
+{
+    if (by != ColorBy::MeanCurvature && by != ColorBy::GaussianCurvature) return;
+    const char* name = by == ColorBy::MeanCurvature ? "mean_curvature" : "gaussian_curvature";
+    for (const auto& scalar : mesh.scalars) {
+        if (scalar.name == name) mesh.colors = curvatureColors(scalar.values);
+    }
+}
+
 void labelSurface(const BallSelection& atoms, const Options& options, double reach,
                   Progress& progress, Result& result)
 {
@@ -277,19 +284,12 @@ void labelSurface(const BallSelection& atoms, const Options& options, double rea
     if (atoms.labels) mesh.labels.push_back({"chain_id", taken(nearest, atoms.labels->chainOf)});
     if (grouped) mesh.labels.push_back({"group_id", taken(nearest, atoms.labels->groupOf)});
 
-    const bool byCurvature =
-        options.color == ColorBy::MeanCurvature || options.color == ColorBy::GaussianCurvature;
+    colorByCurvature(options.color, mesh);
     std::vector<Color> ballColor;
-    if (options.color != ColorBy::Nothing && !byCurvature) {
-        ballColor = ballColors(atoms, options.color, progress);
+    if (options.color != ColorBy::Nothing && mesh.colors.empty()) {
+        ballColor =
+            atoms.colors.empty() ? ballColors(atoms, options.color, progress) : atoms.colors;
         mesh.colors = colorsOf(nearest, ballColor);
-    }
-    const std::string curvature =
-        options.color == ColorBy::MeanCurvature ? "mean_curvature" : "gaussian_curvature";
-    if (byCurvature) {
-        for (const auto& scalar : mesh.scalars) {
-            if (scalar.name == curvature) mesh.colors = curvatureColors(scalar.values);
-        }
     }
     if (grouped) reportGroups(atoms, options, nearest, reach, progress, result);
 

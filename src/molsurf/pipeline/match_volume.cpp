@@ -17,22 +17,11 @@ namespace
 constexpr double closeEnough = 0.002; // relative
 constexpr int mostRuns = 12;
 
-/// Tells nobody of the runs in between, but lets them be stopped.
-class Silent : public Progress
-{
-public:
-    explicit Silent(const Progress& outer) : outer_(outer) {}
-    bool cancelled() const override { return outer_.cancelled(); }
-
-private:
-    const Progress& outer_;
-};
-
 double volumeOf(const BallSelection& atoms, const Options& options, const Progress& progress)
 {
-    Silent silent(progress);
+    QuietProgress quiet(progress);
     try {
-        return run(atoms, options, silent).report.surface.outerVolume;
+        return run(atoms, options, quiet).report.surface.outerVolume;
     } catch (const Error& e) {
         if (e.kind() != ErrorKind::Numeric) throw;
         return 0.0; // nothing is left

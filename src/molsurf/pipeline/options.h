@@ -8,6 +8,7 @@
 #include "molsurf/selection/select_balls.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace molsurf
@@ -34,6 +35,10 @@ struct Options {
     double voxel = 0.5;               ///< edge h of a voxel [Å], in [0.05, 10]
     double epsilon = 0.5;             ///< tolerance eps of the Gaussian sum [Å], > 0
     ColorBy color = ColorBy::Nothing; ///< colours of the mesh's vertices and of the grid Cd
+    bool split = false;               ///< a surface for every group of atoms
+    /// Groups that have a surface of their own, and its kind.
+    std::vector<std::pair<std::string, SurfaceKind>> surfaceOf;
+    bool interfaces = false;   ///< buried areas between groups, for the report
     bool matchVolume = false;  ///< resolution rules keep the enclosed volume, see matchVolumes()
     EvolveOptions evolution;   ///< lambda, regulariser, flow, stopping rule
     int splineLevel = 0;       ///< the spline lives on voxels of edge 2^level h; 0, 1 or 2

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pipeline/palette.h"
 
-#include "molsurf/core/parallel.h"
-#include "molsurf/rasterize/ball_index.h"
+#include "molsurf/pipeline/contacts.h"
 
 #include <algorithm>
-#include <set>
 #include <tuple>
 
 namespace molsurf
@@ -13,6 +11,9 @@ namespace molsurf
 
 namespace
 {
+
+/// A gap between balls across which surfaces still look as if they touched [Å].
+constexpr double visibleGap = 1.0;
 
 constexpr Color base[] = {{86, 180, 233}, {230, 159, 0}, {0, 158, 115}, {204, 121, 167},
                           {240, 228, 66}, {0, 114, 178}, {213, 94, 0},  {153, 153, 153}};
@@ -102,42 +103,6 @@ Color classColor(ResidueClass residue)
     }
 }
 
-/// For each label the labels of balls that nearly touch its own.
-std::vector<std::vector<std::int32_t>> contacts(const std::vector<Ball>& balls,
-                                                const std::vector<std::int32_t>& labelOf,
-                                                std::size_t labels, const Progress& progress)
-{
-    constexpr double gap = 1.0; // Å, between surfaces that still look as if they touched
-    float largest = 0.0f;
-    for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
-    const BallIndex index(balls, 4.0);
-    constexpr std::size_t chunk = 1024;
-    std::vector<std::set<std::pair<std::int32_t, std::int32_t>>> found((balls.size() + chunk - 1) /
-                                                                       chunk);
-    parallelFor(found.size(), progress, [&](std::size_t c) {
-        for (std::size_t i = c * chunk; i < std::min(balls.size(), (c + 1) * chunk); ++i) {
-            if (labelOf[i] < 0) continue;
-            const openvdb::Vec3d x(balls[i].center);
-            index.forEachNear(
-                x, x, balls[i].radius + largest + gap, [&](const Ball& other, std::int32_t j) {
-                    if (labelOf[j] < 0 || labelOf[j] >= labelOf[i]) return;
-                    const double touch = balls[i].radius + other.radius + gap;
-                    if ((openvdb::Vec3d(other.center) - x).lengthSqr() < touch * touch) {
-                        found[c].emplace(labelOf[i], labelOf[j]);
-                    }
-                });
-        }
-    });
-    std::set<std::pair<std::int32_t, std::int32_t>> all;
-    for (const auto& f : found) all.insert(f.begin(), f.end());
-    std::vector<std::vector<std::int32_t>> out(labels);
-    for (const auto& [a, b] : all) {
-        out[std::size_t(a)].push_back(b);
-        out[std::size_t(b)].push_back(a);
-    }
-    return out;
-}
-
 std::vector<Color> spread(const std::vector<Color>& colors, const std::vector<std::int32_t>& of)
 {
     std::vector<Color> out(of.size(), neutralColor);
@@ -178,8 +143,8 @@ std::vector<Color> groupColors(const BallSelection& atoms, const Progress& progr
 {
     if (!atoms.labels || atoms.labels->groups.empty()) return {};
     const BallLabels& labels = *atoms.labels;
-    std::vector<Color> colors =
-        distinctColors(contacts(atoms.balls, labels.groupOf, labels.groups.size(), progress));
+    std::vector<Color> colors = distinctColors(
+        contacts(atoms.balls, labels.groupOf, labels.groups.size(), visibleGap, progress));
     for (std::size_t g = 0; g < labels.groups.size(); ++g) {
         if (labels.groups[g].color) colors[g] = *labels.groups[g].color;
     }
@@ -193,9 +158,9 @@ std::vector<Color> ballColors(const BallSelection& atoms, ColorBy by, const Prog
     const BallLabels& labels = *atoms.labels;
     switch (by) {
     case ColorBy::Chain:
-        return spread(
-            distinctColors(contacts(atoms.balls, labels.chainOf, labels.chains.size(), progress)),
-            labels.chainOf);
+        return spread(distinctColors(contacts(atoms.balls, labels.chainOf, labels.chains.size(),
+                                              visibleGap, progress)),
+                      labels.chainOf);
     case ColorBy::Group:
         if (labels.groups.empty()) return out;
         return spread(groupColors(atoms, progress), labels.groupOf);

@@ -10,8 +10,10 @@
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/pipeline/fields.h"
+#include "molsurf/pipeline/interfaces.h"
 #include "molsurf/pipeline/label_surface.h"
 #include "molsurf/pipeline/match_volume.h"
+#include "molsurf/pipeline/parts.h"
 #include "molsurf/rasterize/boundary_measure.h"
 #include "molsurf/rasterize/gaussian_sum.h"
 #include "molsurf/rasterize/union_distance.h"
@@ -115,18 +117,6 @@ NarrowBand evolveSurface(const BallSelection& atoms, const Options& options, Pro
             "smaller --tolerance and more --max-steps]");
     }
     return band;
-}
-
-/// The largest tolerance that the Gaussians of the balls have [Å].
-double largestTolerance(const BallSelection& atoms, const Options& options)
-{
-    double largest = options.epsilon;
-    for (std::size_t i = 0; i < atoms.decays.size(); ++i) {
-        if (atoms.decays[i].rate <= 0.0f) continue;
-        const double R = atoms.balls[i].radius + options.probe;
-        largest = std::max(largest, M_LN2 / (atoms.decays[i].rate * R));
-    }
-    return largest;
 }
 
 /// The level set that a smooth surface is offset from; empty for surfaces of a union of balls.
@@ -385,38 +375,12 @@ void describeCurvature(const Mesh& mesh, const Spline& spline, const Options& op
     report.integrals = integrateSurface(mesh, spline, tolerance * chi, progress);
 }
 
-} // namespace
-
-Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress)
+/// The surface of all balls.
+Result runWhole(const BallSelection& atoms, const Options& options, Progress& progress)
 {
-    BallSelection atoms;
-    atoms.balls = balls;
-    return run(atoms, options, progress);
-}
-
-Result run(const BallSelection& atoms, const Options& options, Progress& progress)
-{
-    checkOptions(options);
-    if (options.matchVolume && !atoms.resolutions.empty()) {
-        BallSelection matched = atoms;
-        Options once = options;
-        once.matchVolume = false;
-        progress.update("match", 0.0);
-        matchVolumes(matched, once, progress);
-        return run(matched, once, progress);
-    }
     const std::vector<Ball>& balls = atoms.balls;
-    if (balls.empty()) throw Error(ErrorKind::Input, "no atoms");
-
     Result result;
     Report& report = result.report;
-    report.atoms = balls.size();
-    report.voxel = options.voxel;
-    if (atoms.beads > 0) report.coarse = CoarseReport{atoms.beads, atoms.beadAtoms};
-    for (const ResolutionGroup& group : atoms.resolutions) {
-        report.resolutions.push_back(
-            {group.rule.select, group.rule.resolution, group.balls, group.level});
-    }
     Stopwatch watch(report);
 
     NarrowBand band = makeBand(atoms, options, progress, report, watch);
@@ -500,6 +464,55 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
 
     report.activeVoxels = result.surface->activeVoxelCount();
     report.gridBytes = result.surface->memUsage();
+    return result;
+}
+
+} // namespace
+
+double largestTolerance(const BallSelection& atoms, const Options& options)
+{
+    double largest = options.epsilon;
+    for (std::size_t i = 0; i < atoms.decays.size(); ++i) {
+        if (atoms.decays[i].rate <= 0.0f) continue;
+        const double R = atoms.balls[i].radius + options.probe;
+        largest = std::max(largest, M_LN2 / (atoms.decays[i].rate * R));
+    }
+    return largest;
+}
+
+Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress)
+{
+    BallSelection atoms;
+    atoms.balls = balls;
+    return run(atoms, options, progress);
+}
+
+Result run(const BallSelection& atoms, const Options& options, Progress& progress)
+{
+    checkOptions(options);
+    if (options.matchVolume && !atoms.resolutions.empty()) {
+        BallSelection matched = atoms;
+        Options once = options;
+        once.matchVolume = false;
+        progress.update("match", 0.0);
+        matchVolumes(matched, once, progress);
+        return run(matched, once, progress);
+    }
+    if (atoms.balls.empty()) throw Error(ErrorKind::Input, "no atoms");
+    const bool whole = !options.split && options.surfaceOf.empty();
+    if ((!whole || options.interfaces) && (!atoms.labels || atoms.labels->groups.empty())) {
+        throw Error(ErrorKind::Input, "there are no groups to surface alone");
+    }
+    Result result = whole ? runWhole(atoms, options, progress) : runParts(atoms, options, progress);
+    Report& report = result.report;
+    report.atoms = atoms.balls.size();
+    report.voxel = options.voxel;
+    if (atoms.beads > 0) report.coarse = CoarseReport{atoms.beads, atoms.beadAtoms};
+    for (const ResolutionGroup& group : atoms.resolutions) {
+        report.resolutions.push_back(
+            {group.rule.select, group.rule.resolution, group.balls, group.level});
+    }
+    if (options.interfaces) measureInterfaces(atoms, options, progress, report);
     return result;
 }
 

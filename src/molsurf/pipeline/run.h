@@ -19,7 +19,8 @@ namespace molsurf
 
 /// What a run leaves.
 struct Result {
-    openvdb::FloatGrid::Ptr surface;            ///< signed distance to the molecular surface [Å]
+    openvdb::FloatGrid::Ptr surface; ///< signed distance to the molecular surface [Å]; null with
+                                     ///< parts, whose surfaces are among the fields
     std::vector<openvdb::GridBase::Ptr> fields; ///< the grids that Options::fields asked for
     Mesh mesh;
     Report report; ///< program, command, input and the like are left to the caller
@@ -34,7 +35,10 @@ struct Result {
 /// @throws Cancelled if the progress object says so
 Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress);
 
-/// The same with what else is known of the balls: resolutions.
+/// The same with what else is known of the balls: resolutions, groups, colours.
 Result run(const BallSelection& atoms, const Options& options, Progress& progress);
+
+/// The largest tolerance that the Gaussians of the balls have [Å].
+double largestTolerance(const BallSelection& atoms, const Options& options);
 
 } // namespace molsurf

@@ -117,7 +117,13 @@ std::vector<std::int32_t> byRules(const Structure& structure, const std::vector<
 {
     std::vector<std::int32_t> group(structure.atoms.size(), -1);
     for (std::size_t r = 0; r < rules.size(); ++r) {
-        const AtomMatch match = matchAtoms(structure, rules[r].select);
+        const AtomMatch match = [&] {
+            try {
+                return matchAtoms(structure, rules[r].select);
+            } catch (const Error& e) { // the file of groups is wrong, not the call
+                throw Error(ErrorKind::Input, "group " + rules[r].name + ": " + e.what());
+            }
+        }();
         std::map<std::int32_t, std::size_t> lost;
         for (std::size_t i = 0; i < group.size(); ++i) {
             if (!match.atoms[i]) continue;

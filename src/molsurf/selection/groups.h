@@ -68,8 +68,8 @@ std::vector<GroupRule> readGroups(const std::string& path);
 /// @param[in] by         "", "chain", "entity" (chains of the same residues), "copy" (of the
 ///                       assembly), or "residues:N" (N residues of a chain each): groups instead of
 ///                       the rules
-/// @throws Error(ErrorKind::Input) if a selection matches nothing
-/// @throws Error(ErrorKind::Usage) if a selection does not parse, or `by` is none of these
+/// @throws Error(ErrorKind::Input) if a selection does not parse or matches nothing
+/// @throws Error(ErrorKind::Usage) if `by` is none of these
 BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls,
                       const std::vector<std::size_t>& copyBegin,
                       const std::vector<GroupRule>& rules, const std::string& by);

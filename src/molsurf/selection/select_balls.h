@@ -9,7 +9,9 @@
 #include "molsurf/selection/groups.h"
 #include "molsurf/structure/structure.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -69,8 +71,9 @@ struct BallSelection {
     std::size_t beads = 0;              ///< balls that a coarse rule made
     std::size_t beadAtoms = 0;          ///< atoms that these stand for
     std::optional<BallLabels> labels;   ///< if asked for, or with groups
-    int model = 0;                      ///< number of the model that was used
-    std::vector<std::string> warnings;  ///< one line each: unknown elements, missing altloc, ...
+    std::vector<std::array<std::uint8_t, 3>> colors; ///< sRGB, one a ball; empty: not chosen
+    int model = 0;                                   ///< number of the model that was used
+    std::vector<std::string> warnings; ///< one line each: unknown elements, missing altloc, ...
 };
 
 /// Chooses atoms, gives them radii, and applies the operators of the assembly.

@@ -21,6 +21,12 @@ struct Attribute {
     std::vector<T> values; ///< as many as the mesh has vertices
 };
 
+/// Consecutive triangles with a name.
+struct MeshPart {
+    std::string name;
+    std::size_t firstTriangle = 0;
+};
+
 /// Triangles, counter-clockwise seen from outside the molecule.
 struct Mesh {
     std::vector<openvdb::Vec3f> positions;               ///< [Å]
@@ -29,7 +35,8 @@ struct Mesh {
     std::vector<Attribute<float>> scalars;       ///< curvatures [1/Å], [1/Å^2], distances [Å]
     std::vector<Attribute<std::int32_t>> labels; ///< atom, chain and group of a vertex
     std::vector<std::array<std::uint8_t, 3>>
-        colors; ///< red, green, blue of a vertex (sRGB); empty if there are none
+        colors;                  ///< red, green, blue of a vertex (sRGB); empty if there are none
+    std::vector<MeshPart> parts; ///< surfaces of their own; empty if there is one only
 };
 
 } // namespace molsurf

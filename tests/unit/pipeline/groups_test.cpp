@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+#include "molsurf/core/error.h"
 #include "molsurf/pipeline/palette.h"
 #include "support/runs.h"
 
@@ -87,6 +88,113 @@ TEST(Groups, CopiesHaveEqualParts)
     const double a = result.report.groups[0].area, b = result.report.groups[1].area;
     EXPECT_NEAR(a / b, 1.0, 0.005);
     EXPECT_NEAR(result.report.groups[0].volume / result.report.groups[1].volume, 1.0, 0.01);
+}
+
+// Two balls of radius R whose centres are d apart hide caps of height R - d/2.
+TEST(Interfaces, OfTwoBallsAreTheirCaps)
+{
+    for (const auto& [kind, grown] : {std::pair(SurfaceKind::VanDerWaals, 0.0),
+                                      std::pair(SurfaceKind::SolventAccessible, 1.4)}) {
+        Options options;
+        options.kind = kind;
+        options.interfaces = true;
+        Progress progress;
+        const Report report = run(pair(2.5f), options, progress).report;
+        const double R = 1.7 + grown, cap = 2.0 * M_PI * R * (R - 1.25);
+        ASSERT_EQ(report.interfaces.size(), 1u);
+        EXPECT_EQ(report.interfaces[0].first, "left");
+        EXPECT_EQ(report.interfaces[0].second, "right");
+        EXPECT_NEAR(report.interfaces[0].area, cap, 1e-4 * cap);
+        EXPECT_NEAR(*report.groups[0].aloneArea, 4.0 * M_PI * R * R, 1e-3);
+        EXPECT_NEAR(report.groups[0].area, 4.0 * M_PI * R * R - cap, 0.01 * cap);
+    }
+}
+
+TEST(Interfaces, FarGroupsHaveNone)
+{
+    Options options;
+    options.kind = SurfaceKind::SolventExcluded;
+    options.interfaces = true;
+    Progress progress;
+    EXPECT_TRUE(run(pair(6.5f), options, progress).report.interfaces.empty());
+    const Report near = run(pair(4.0f), options, progress).report;
+    ASSERT_EQ(near.interfaces.size(), 1u);
+    EXPECT_NEAR(near.interfaces[0].area, 36.316811 - 73.076789 / 2.0, 0.1);
+}
+
+TEST(Parts, SplitGivesEveryGroupItsOwnClosedSurface)
+{
+    Options options;
+    options.split = true;
+    options.voxel = 0.25;
+    options.kind = SurfaceKind::VanDerWaals;
+    options.fields = {"group_id"};
+    Progress progress;
+    const Result result = run(pair(2.0f), options, progress);
+    EXPECT_EQ(result.surface, nullptr);
+    std::vector<std::string> names;
+    for (const auto& field : result.fields) names.push_back(field->getName());
+    EXPECT_EQ(names, (std::vector<std::string>{"surface_left", "group_id_left", "surface_right",
+                                               "group_id_right"}));
+    EXPECT_EQ(result.fields[0]->transform(), result.fields[2]->transform());
+    const Report& report = result.report;
+    ASSERT_EQ(report.parts.size(), 2u);
+    const double area = 4.0 * M_PI * 1.7 * 1.7;
+    for (const PartReport& part : report.parts) {
+        EXPECT_EQ(part.atoms, 1u);
+        EXPECT_NEAR(part.surface.area, area, 1e-6 * area);
+        EXPECT_TRUE(part.surface.closed && part.surface.manifold);
+    }
+    EXPECT_NEAR(report.surface.area, 2.0 * area, 1e-5 * area);
+    EXPECT_EQ(report.surface.eulerCharacteristic, 4);
+    EXPECT_EQ(report.surface.components, 2);
+    ASSERT_EQ(report.groups.size(), 2u);
+    EXPECT_NEAR(report.groups[1].area, area, 1e-5 * area);
+
+    // The second part's triangles have the second part's vertices.
+    ASSERT_EQ(result.mesh.parts.size(), 2u);
+    const auto* group = find(result.mesh.labels, "group_id");
+    ASSERT_EQ(group->values.size(), result.mesh.positions.size());
+    for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t) {
+        for (const std::uint32_t v : result.mesh.triangles[t]) {
+            ASSERT_EQ(group->values[v], t < result.mesh.parts[1].firstTriangle ? 0 : 1);
+        }
+    }
+}
+
+TEST(Parts, SurfaceOfAGroup)
+{
+    Options options;
+    options.kind = SurfaceKind::VanDerWaals;
+    options.surfaceOf = {{"right", SurfaceKind::SolventAccessible}};
+    Progress progress;
+    const Report report = run(pair(2.0f), options, progress).report;
+    ASSERT_EQ(report.parts.size(), 2u);
+    EXPECT_EQ(report.parts[0].name, "right");
+    EXPECT_EQ(report.parts[0].surface.kind, "sas");
+    EXPECT_NEAR(report.parts[0].surface.area, 4.0 * M_PI * 3.1 * 3.1, 1e-3);
+    EXPECT_EQ(report.parts[1].name, "other");
+    EXPECT_NEAR(report.parts[1].surface.area, 4.0 * M_PI * 1.7 * 1.7, 1e-3);
+    EXPECT_EQ(report.surface.kind, "mixed");
+
+    options.surfaceOf = {{"middle", SurfaceKind::SolventAccessible}};
+    EXPECT_THROW(run(pair(2.0f), options, progress), Error);
+    EXPECT_THROW(run(pair(2.0f).balls, options, progress), Error); // no groups
+}
+
+// A part has the colours of the whole, though it has fewer neighbours.
+TEST(Parts, KeepTheColorsOfTheWhole)
+{
+    Options options;
+    options.kind = SurfaceKind::VanDerWaals;
+    options.color = ColorBy::Chain;
+    Progress progress;
+    const auto whole = ballColors(pair(2.0f), ColorBy::Chain, progress);
+    options.split = true;
+    const Result result = run(pair(2.0f), options, progress);
+    const std::set<Color> found(result.mesh.colors.begin(), result.mesh.colors.end());
+    EXPECT_EQ(found, std::set<Color>(whole.begin(), whole.end()));
+    EXPECT_EQ(found.size(), 2u);
 }
 
 TEST(Palette, NeighboursDiffer)

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Resolutions, groups, colours and parts, as a user asks for them."""
+
+import json
+import unittest
+
+from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply
+
+DIMER = [DATA / "1a8o.cif.gz", "--assembly", "1"]
+
+
+class Refused(ToolTest):
+    def refuse(self, status, *words, says=()):
+        before = self.names()
+        self.check(status, CRAMBIN, "-o", "a.json", *words, says=says)
+        self.assertEqual(self.names(), before)
+
+    def write(self, text, name="groups"):
+        (self.folder / name).write_text(text)
+        return name
+
+    def test_resolution(self):
+        for value in ("0", "200", "-3", "nan", "x", "", "A=", "=5", "A=0.5"):
+            self.refuse(2, "--resolution", value, says="--resolution")
+
+    def test_resolution_of_nothing(self):
+        self.refuse(1, "--resolution", "/1/Z=5", says="/1/Z")
+
+    def test_no_such_file(self):
+        self.refuse(1, "--groups", "none.json", says=["none.json", "No such file"])
+
+    def test_folder(self):
+        self.refuse(1, "--groups", ".", says="folder")
+
+    def test_bad_files(self):
+        for text, says in (("{", "valid JSON"), ("{}", '"groups"'), ("", "no group"),
+                           ('{"groups": [{"name": "a"}]}', "select"),
+                           ('{"groups": [{"name": "a", "select": "A", "colour": "#fff"}]}',
+                            "colour"),
+                           ("a A red\n", "red"), ("a\n", "line 1"),
+                           ("a A\na A\n", "two groups")):
+            self.refuse(1, "--groups", self.write(text), says=["groups", says])
+
+    def test_unknown_chain(self):
+        self.refuse(1, "--groups", self.write("a /1/Z\n"), says="/1/Z")
+
+    def test_selection_that_does_not_parse(self):
+        self.refuse(1, "--groups", self.write("a A;b<x\n"), says=["group a", "b<x"])
+
+    def test_words(self):
+        self.refuse(2, "--group-by", "domain", says=["chain", "domain"])
+        self.refuse(2, "--group-by", "residues:0", says="residues:0")
+        self.refuse(2, "--color", "blue", says="blue")
+        self.refuse(2, "--color", "group", says="--groups")
+        self.refuse(2, "--split", "chain", "--group-by", "chain", says="chain")
+        self.refuse(2, "--split", "group", says="--groups")
+        self.refuse(2, "--interfaces", says="--groups")
+        self.refuse(2, "--surface-of", "a", "--group-by", "chain", says="GROUP=KIND")
+        self.refuse(1, "--surface-of", "B=vdw", "--group-by", "chain", says=["'B'", "A"])
+        self.refuse(2, "--groups", self.write("a A\n"), "--group-by", "chain", says="together")
+
+
+class Groups(ToolTest):
+    def report(self, *words, says=()):
+        self.check(0, *words, *FAST, "-o", "a.json", "--force", says=says)
+        return json.loads((self.folder / "a.json").read_text())
+
+    def test_resolution_is_reported(self):
+        report = self.report(CRAMBIN, "--resolution", "5", "--resolution", "/1/A/1-10=8")
+        self.assertEqual([(r["selection"], r["resolution"]) for r in report["resolution"]],
+                         [("all", 5), ("/1/A/1-10", 8)])
+        self.assertEqual(sum(r["atoms"] for r in report["resolution"]), report["atoms"])
+
+    def test_later_one_of_epsilon_and_resolution_wins(self):
+        self.report(CRAMBIN, "--resolution", "5", "--epsilon", "1", says="--epsilon comes later")
+        self.report(CRAMBIN, "--epsilon", "1", "--resolution", "5", says="--resolution for all")
+
+    def test_file(self):
+        (self.folder / "g").write_text("# two parts\nfirst /1/A/1-20 #d55e00\nlast /1/A/21-46\n")
+        report = self.report(CRAMBIN, "--groups", "g", "--color", "group", "-o", "a.ply")
+        first, last = report["groups"]
+        self.assertEqual(first["color"], "#d55e00")
+        self.assertEqual(first["atoms"] + last["atoms"], report["atoms"])
+        for key in ("area", "volume"):
+            self.assertAlmostEqual(first[key] + last[key], report["surface"][key],
+                                   delta=1e-6 * report["surface"][key])
+        names, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+        group, red = names.index("group_id"), names.index("red")
+        self.assertEqual({v[red:red + 3] for v in vertices if v[group] == 0}, {(0xD5, 0x5E, 0)})
+        self.assertEqual({v[group] for v in vertices}, {0, 1})
+
+    def test_overlapping_and_empty_groups_are_told(self):
+        (self.folder / "g").write_text("all A\nhalf /1/A/1-20\n")
+        self.report(CRAMBIN, "--groups", "g", says=["atoms of all belong to half"])
+        (self.folder / "g").write_text("half /1/A/1-20\nall A\n")
+        self.report(CRAMBIN, "--groups", "g", says=["no ball is left for half"])
+
+    def test_split(self):
+        report = self.report(*DIMER, "--group-by", "copy", "--split", "group", "-o", "a.obj",
+                             "-o", "a.vdb")
+        self.assertEqual([part["name"] for part in report["parts"]], ["copy 1", "copy 2"])
+        for part in report["parts"]:
+            self.assertTrue(part["surface"]["closed"] and part["surface"]["manifold"])
+        lines = (self.folder / "a.obj").read_text().splitlines()
+        self.assertEqual([line for line in lines if line[0] == "o"], ["o copy_1", "o copy_2"])
+        info = self.check(0, "info", "a.vdb").stdout.decode()
+        self.assertIn("grid surface_copy_1", info)
+        self.assertIn("grid surface_copy_2", info)
+
+    def test_surface_of(self):
+        report = self.report(*DIMER, "--group-by", "copy", "--surface-of", "copy 2=ses")
+        self.assertEqual([(p["name"], p["surface"]["kind"]) for p in report["parts"]],
+                         [("copy 2", "ses"), ("other", "variational")])
+
+    def test_interfaces(self):
+        report = self.report(*DIMER, "--group-by", "copy", "--interfaces", "--surface", "sas")
+        buried, = report["interfaces"]
+        self.assertEqual(buried["groups"], ["copy 1", "copy 2"])
+        alone = sum(group["alone_area"] for group in report["groups"])
+        self.assertAlmostEqual(buried["buried_area"], (alone - report["surface"]["area"]) / 2,
+                               delta=1e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()
