@@ -13,6 +13,7 @@
 #include "molsurf/io/write_report.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/pipeline/run.h"
+#include "molsurf/pipeline/size_beads.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 
@@ -64,6 +65,7 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     text("option.select", options.atoms.select.empty() ? "all" : options.atoms.select);
     text("option.model", options.atoms.model ? std::to_string(options.atoms.model) : "first");
     text("option.assembly", options.atoms.assembly);
+    text("option.copies", options.atoms.copies.empty() ? "all" : options.atoms.copies);
     text("option.altloc",
          options.atoms.altloc.empty() ? "highest occupancy" : options.atoms.altloc);
     yesNo("option.no-hydrogens", !options.atoms.hydrogens);
@@ -75,6 +77,10 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     number("option.blobbiness", options.blobbiness);
     number("option.voxel", options.voxel);
     yesNo("option.fill-cavities", options.fillCavities);
+    std::string coarse;
+    for (const CoarseRule& rule : options.atoms.coarse)
+        coarse += (coarse.empty() ? "" : ", ") + nameOf(rule);
+    text("option.coarse", coarse.empty() ? "atom" : coarse);
     std::string resolutions;
     for (const ResolutionRule& rule : options.atoms.resolutions) {
         resolutions += (resolutions.empty() ? "" : ", ") +
@@ -218,7 +224,7 @@ int build(const Call& call, Clock::time_point start)
     {
         const Structure structure = readStructure(call.input);
         stopIfAsked();
-        selection = selectBalls(structure, call.options.atoms);
+        selection = selectBalls(structure, call.options.atoms, beadSizer(call.options, terminal));
         description = describeSelection(structure, selection);
     }
     const double readSeconds = secondsSince(readStart);

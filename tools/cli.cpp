@@ -95,8 +95,14 @@ const std::vector<Group>& groups()
         {"Atoms",
          {{"select", "EXPR", "gemmi selections joined by |, e.g. \"/1/A/53-132|*;polymer\"", "all"},
           {"model", "N", "number of the model in the file", "the first"},
-          {"assembly", "ID", "biological assembly to build; none: as in the file",
+          {"assembly", "ID",
+           "biological assembly to build; none: as in the file;\n"
+           "ncs: with the copies of MTRIX records or struct_ncs_oper",
            preset.atoms.assembly},
+          {"copies", "LIST",
+           "copies of the assembly: numbers such as 1,7,20-25, or\n"
+           "fold:N, those about the nearest N-fold axis, with copy 1",
+           "all"},
           {"altloc", "A", "alternate location to take, or all", "highest occupancy"},
           {"no-hydrogens", nullptr, "drop hydrogens", ""},
           {"no-hetero", nullptr, "drop ligands and ions", ""},
@@ -127,6 +133,11 @@ const std::vector<Group>& groups()
            "blur to D [Å], 1 to 50, all atoms or those of a\n"
            "selection; repeats, later ones win",
            "", true},
+          {"coarse", "[SEL=]WORD",
+           "beads in the place of atoms: residue (its backbone and\n"
+           "side chain), N (about N atoms each) or atom; all or\n"
+           "those of a selection; repeats, later ones win",
+           "atom", true},
           {"match-volume", nullptr, "resolutions keep the volume of the fine surface", ""}}},
         {"Groups",
          {{"groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]", ""},
@@ -244,7 +255,7 @@ public:
     }
 
     bool on(const char* name) const { return map_[name].as<bool>(); }
-    bool given(const char* name) const { return map_.count(name) > 0; }
+    bool given(const char* name) const { return map_.count(name) && !map_[name].defaulted(); }
 
     // Leaves `value` alone if the option was not given.
     void get(const char* name, std::string& value) const
@@ -507,6 +518,7 @@ void fillRun(const Values& values, Call& call)
     values.get("select", options.atoms.select);
     values.get("model", options.atoms.model, 1, 1000000000);
     values.get("assembly", options.atoms.assembly);
+    values.get("copies", options.atoms.copies);
     values.get("altloc", options.atoms.altloc);
     options.atoms.hydrogens = !values.on("no-hydrogens");
     options.atoms.hetero = !values.on("no-hetero");
@@ -518,6 +530,9 @@ void fillRun(const Values& values, Call& call)
         options.surfaceOf.push_back(parseSurfaceOf(text));
     values.get("blobbiness", options.blobbiness);
     fillResolutions(values, call);
+    for (const std::string& text : values.list("coarse")) {
+        options.atoms.coarse.push_back(parseCoarse(text));
+    }
     values.get("voxel", options.voxel);
     options.fillCavities = values.on("fill-cavities");
     options.fields = fieldsOf(values);
@@ -672,7 +687,7 @@ Call parseInfo(int argc, const char* const* argv)
         else
             call.files.push_back(word);
     }
-    if (call.files.empty()) misuse("info: expected FILE.vdb");
+    if (call.files.empty()) misuse("info: expected a FILE");
     return call;
 }
 
@@ -740,7 +755,7 @@ std::string helpText()
     std::string text =
         "vdb_molsurf INPUT -o FILE [-o FILE ...] [options]\n"
         "vdb_molsurf compare A B [-o FILE ...] [options]\n"
-        "vdb_molsurf info FILE.vdb ...\n"
+        "vdb_molsurf info FILE ...\n"
         "\n"
         "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .pqr .xyzr,\n"
         "each also .gz, or - for standard input). Lengths are in Å. Defaults are in brackets.\n";
@@ -781,11 +796,14 @@ std::string compareHelpText()
 
 std::string infoHelpText()
 {
-    return "vdb_molsurf info FILE.vdb ...\n"
+    return "vdb_molsurf info FILE ...\n"
            "\n"
-           "Prints what .vdb files hold: metadata, grids with type, class, voxel size, "
-           "background,\n"
-           "active voxels, memory and bounding box, and the area and volume of level sets.\n";
+           "Prints what files hold. OpenVDB files: metadata, grids with type, class, voxel size,\n"
+           "background, active voxels, memory and bounding box, and the area and volume of level\n"
+           "sets. Structures: models, chains, atoms, and assemblies with their copies, point "
+           "group\n"
+           "and rotation axes; for every fold the copies that --copies fold:N takes. The content\n"
+           "says which it is, not the name.\n";
 }
 
 } // namespace molsurf::tool

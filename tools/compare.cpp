@@ -13,6 +13,7 @@
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/pipeline/compare.h"
 #include "molsurf/pipeline/run.h"
+#include "molsurf/pipeline/size_beads.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 #include "molsurf/surface/color_map.h"
@@ -22,7 +23,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 
@@ -38,14 +38,6 @@ struct Read {
     Operand operand;
     bool converged = true;
 };
-
-bool isVdbName(const std::string& path)
-{
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& letter : extension)
-        if (letter >= 'A' && letter <= 'Z') letter = char(letter - 'A' + 'a');
-    return extension == ".vdb";
-}
 
 /// Runs f; an Input error of it names the file.
 template<typename F>
@@ -65,7 +57,7 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
     Read read;
     read.path = path;
     terminal.update("read", 0.0);
-    if (isVdbName(path)) {
+    if (isVdbFile(path)) {
         const VdbFile file = readVdb(path);
         stopIfAsked();
         terminal.update("surface", 0.0);
@@ -79,7 +71,8 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
         {
             const Structure structure = readStructure(path);
             stopIfAsked();
-            selection = selectBalls(structure, call.options.atoms);
+            selection =
+                selectBalls(structure, call.options.atoms, beadSizer(call.options, terminal));
             said.push_back(describeSelection(structure, selection));
         }
         Options options = call.options;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
+#include "molsurf/core/error.h"
 #include "molsurf/io/read_vdb.h"
 
 #include <openvdb/tools/LevelSetMeasure.h>
@@ -12,13 +13,6 @@ namespace molsurf::tool
 
 namespace
 {
-
-void line(const char* name, const std::string& value)
-{
-    std::string text = "    " + std::string(name);
-    text.resize(std::max<std::size_t>(text.size() + 1, 20), ' ');
-    std::cout << text << value << "\n";
-}
 
 template<typename T>
 std::string text(const T& value)
@@ -70,10 +64,21 @@ void describe(const openvdb::GridBase& grid)
 
 } // namespace
 
+void line(const char* name, const std::string& value)
+{
+    std::string text = "    " + std::string(name);
+    text.resize(std::max<std::size_t>(text.size() + 1, 20), ' ');
+    std::cout << text << value << "\n";
+}
+
 int info(const Call& call)
 {
     openvdb::initialize();
     for (const std::string& path : call.files) {
+        if (!isVdbFile(path)) {
+            infoStructure(path);
+            continue;
+        }
         const VdbFile file = readVdb(path);
         std::cout << path << "\n  metadata\n";
         for (auto meta = file.metadata.beginMeta(); meta != file.metadata.endMeta(); ++meta)

@@ -7,6 +7,7 @@
 #include "cli.h"
 
 #include <chrono>
+#include <string>
 
 namespace molsurf::tool
 {
@@ -22,7 +23,13 @@ int build(const Call& call, std::chrono::steady_clock::time_point start);
 /// @param[in] start  when the program began, for the total time
 int compare(const Call& call, std::chrono::steady_clock::time_point start);
 
-/// Prints what .vdb files hold: info.cpp.
+/// Prints what files hold: info.cpp.
 int info(const Call& call);
+
+/// The part of it for a structure file: info_structure.cpp.
+void infoStructure(const std::string& path);
+
+/// Prints one line of it.
+void line(const char* name, const std::string& value);
 
 } // namespace molsurf::tool

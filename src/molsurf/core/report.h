@@ -122,6 +122,12 @@ struct ResolutionReport {
     double level = 0.0;      ///< of their Gaussians; not 0 where the volume was matched
 };
 
+/// Beads that stand for several atoms.
+struct CoarseReport {
+    std::size_t beads = 0;
+    std::size_t atoms = 0; ///< that they stand for
+};
+
 /// A surface of some of the atoms, alone.
 struct PartReport {
     std::string name;
@@ -138,6 +144,7 @@ struct Report {
     std::size_t atoms = 0; ///< balls used, after selection, expansion and drops
     double voxel = 0.0;    ///< [Å]
     SurfaceReport surface;
+    std::optional<CoarseReport> coarse;        ///< with beads
     std::vector<ResolutionReport> resolutions; ///< one a rule, in their order
     std::vector<GroupReport> groups;
     std::vector<InterfaceReport> interfaces; ///< of groups that touch, if asked for

@@ -6,6 +6,7 @@
 #include <openvdb/io/Stream.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -22,6 +23,14 @@ namespace
 }
 
 } // namespace
+
+bool isVdbFile(const std::string& path)
+{
+    std::ifstream stream(path, std::ios_base::binary);
+    std::int64_t magic = 0;
+    stream.read(reinterpret_cast<char*>(&magic), sizeof magic);
+    return stream && magic == openvdb::OPENVDB_MAGIC;
+}
 
 VdbFile readVdb(const std::string& path)
 {

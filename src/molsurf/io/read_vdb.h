@@ -17,6 +17,10 @@ struct VdbFile {
     openvdb::MetaMap metadata; ///< of the file as a whole
 };
 
+/// True if a file can be read and starts with OpenVDB's magic number, whatever its name: VIPERdb
+/// names PDB files .vdb, too.
+bool isVdbFile(const std::string& path);
+
 /// Reads all of a .vdb file. openvdb::initialize() must have been called.
 ///
 /// @throws Error(ErrorKind::Input) if the file does not exist, is no .vdb file or is cut short

@@ -115,6 +115,11 @@ Json resolutionJson(const std::vector<ResolutionReport>& resolutions)
     return out;
 }
 
+Json coarseJson(const CoarseReport& coarse)
+{
+    return {{"beads", coarse.beads}, {"atoms", coarse.atoms}};
+}
+
 } // namespace
 
 std::string reportText(const Report& report)
@@ -130,6 +135,7 @@ std::string reportText(const Report& report)
         {"atoms", report.atoms},
         {"voxel", report.voxel},
         {"surface", surfaceJson(report.surface)},
+        {"coarse", report.coarse ? coarseJson(*report.coarse) : Json()},
         {"resolution", resolutionJson(report.resolutions)},
         {"evolution", report.evolution ? evolutionJson(*report.evolution) : Json()},
         {"grid", {{"active_voxels", report.activeVoxels}, {"bytes", report.gridBytes}}},

@@ -3,6 +3,7 @@
 
 #include "molsurf/core/error.h"
 #include "molsurf/pipeline/fields.h"
+#include "molsurf/selection/choose_copies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,6 +63,11 @@ const char* nameOf(ColorBy color)
 
 void checkOptions(const Options& options)
 {
+    parseCopies(options.atoms.copies);
+    if (!options.atoms.copies.empty() && options.atoms.assembly == "none") {
+        throw Error(ErrorKind::Usage,
+                    "--copies is for an assembly [hint: --assembly 1, for example]");
+    }
     const auto finite = [](double x) { return std::isfinite(x); };
     check(options.voxel >= minVoxel && options.voxel <= maxVoxel, "--voxel", "0.05 to 10 Å",
           options.voxel);

@@ -507,6 +507,7 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
     Report& report = result.report;
     report.atoms = atoms.balls.size();
     report.voxel = options.voxel;
+    if (atoms.beads > 0) report.coarse = CoarseReport{atoms.beads, atoms.beadAtoms};
     for (const ResolutionGroup& group : atoms.resolutions) {
         report.resolutions.push_back(
             {group.rule.select, group.rule.resolution, group.balls, group.level});

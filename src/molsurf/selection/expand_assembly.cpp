@@ -2,6 +2,7 @@
 #include "molsurf/selection/expand_assembly.h"
 
 #include "molsurf/core/error.h"
+#include "molsurf/selection/choose_copies.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
@@ -52,12 +53,19 @@ std::vector<Ball> ballsOfPart(const Structure& structure, const AssemblyPart& pa
     return chosen;
 }
 
+/// The centre of a ball, in double precision if it is an atom.
+openvdb::Vec3d centreOf(const Structure& structure, const Ball& ball)
+{
+    const openvdb::Vec3d& atom = structure.atoms[static_cast<std::size_t>(ball.atom)].position;
+    return openvdb::Vec3f(atom) == ball.center ? atom : openvdb::Vec3d(ball.center);
+}
+
 void appendCopy(const Structure& structure, const Operator& op, const std::vector<Ball>& balls,
                 std::vector<Ball>& out)
 {
     const auto& r = op.rotation;
     for (const Ball& ball : balls) {
-        const auto& p = structure.atoms[static_cast<std::size_t>(ball.atom)].position;
+        const openvdb::Vec3d p = centreOf(structure, ball);
         const openvdb::Vec3d center(r[0][0] * p[0] + r[0][1] * p[1] + r[0][2] * p[2],
                                     r[1][0] * p[0] + r[1][1] * p[1] + r[1][2] * p[2],
                                     r[2][0] * p[0] + r[2][1] * p[1] + r[2][2] * p[2]);
@@ -65,27 +73,44 @@ void appendCopy(const Structure& structure, const Operator& op, const std::vecto
     }
 }
 
+/// The centre of the balls that an assembly uses first: those of its first part that has any.
+openvdb::Vec3d centroidOf(const Structure& structure, const std::vector<std::vector<Ball>>& parts)
+{
+    openvdb::Vec3d sum(0.0);
+    for (const std::vector<Ball>& part : parts) {
+        for (const Ball& ball : part) sum += centreOf(structure, ball);
+        if (!part.empty()) return sum / double(part.size());
+    }
+    return sum;
+}
+
 } // namespace
 
 ExpandedBalls expandAssembly(const Structure& structure, const std::string& name,
-                             const std::vector<Ball>& balls)
+                             const std::string& copies, const std::vector<Ball>& balls)
 {
     const Assembly& assembly = findAssembly(structure, name);
     ExpandedBalls out;
     std::vector<char> used(balls.size());
     std::vector<std::vector<Ball>> parts;
-    std::size_t total = 0;
     for (const AssemblyPart& part : assembly.parts) {
         parts.push_back(ballsOfPart(structure, part, balls, used));
-        total += parts.back().size() * part.operators.size();
     }
+    const std::vector<Operator> operators = operatorsOf(assembly);
+    const std::vector<std::size_t> partOf = partsOfCopies(assembly);
+    const std::vector<std::size_t> chosen =
+        chooseCopies(structure, assembly, parseCopies(copies), centroidOf(structure, parts));
+    std::size_t total = 0;
+    for (const std::size_t i : chosen) total += parts[partOf[i]].size();
     out.balls.reserve(total);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (parts[i].empty()) continue;
-        for (const Operator& op : assembly.parts[i].operators) {
-            out.copyBegin.push_back(out.balls.size());
-            appendCopy(structure, op, parts[i], out.balls);
-        }
+    for (const std::size_t i : chosen) {
+        const std::vector<Ball>& part = parts[partOf[i]];
+        if (part.empty()) continue;
+        const std::string problem = rotationProblem(operators[i]);
+        if (!problem.empty()) fail(structure, name, problem);
+        out.copyBegin.push_back(out.balls.size());
+        out.copyNumbers.push_back(static_cast<int>(i) + 1);
+        appendCopy(structure, operators[i], part, out.balls);
     }
     out.copyBegin.push_back(out.balls.size());
     out.unused = static_cast<std::size_t>(std::count(used.begin(), used.end(), char{0}));

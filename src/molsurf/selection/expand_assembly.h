@@ -18,17 +18,21 @@ namespace molsurf
 struct ExpandedBalls {
     std::vector<Ball> balls;
     std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
+    std::vector<int> copyNumbers;       ///< of copy i in the whole assembly, from 1
     std::size_t unused = 0;             ///< balls that no part of the assembly lists
 };
 
 /// Applies the operators of an assembly to the balls whose chains it lists.
 ///
-/// Centres are computed in double precision from the atoms' positions. A part of the assembly none
-/// of whose chains has a ball makes no copy.
+/// Centres of atoms are computed in double precision from the atoms' positions. A part of the
+/// assembly none of whose chains has a ball makes no copy.
 ///
-/// @param[in] balls  in the coordinates of the file
-/// @throws Error(ErrorKind::Input) if the file describes no such assembly, or if it cannot be built
+/// @param[in] copies  which copies, see parseCopies(); empty: all
+/// @param[in] balls   in the coordinates of the file
+/// @throws Error(ErrorKind::Input) if the file describes no such assembly, if it cannot be built,
+///         or if it has no such copies
+/// @throws Error(ErrorKind::Usage) if `copies` cannot be parsed
 ExpandedBalls expandAssembly(const Structure& structure, const std::string& name,
-                             const std::vector<Ball>& balls);
+                             const std::string& copies, const std::vector<Ball>& balls);
 
 } // namespace molsurf

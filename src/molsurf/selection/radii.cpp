@@ -6,6 +6,7 @@
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/text_fields.h"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
@@ -46,6 +47,62 @@ constexpr Table alvarez{
     "Yb 2.80 Lu 2.74 Hf 2.63 Ta 2.53 W 2.57 Re 2.49 Os 2.48 Ir 2.41 Pt 2.29 Au 2.32 Hg 2.45 "
     "Tl 2.47 Pb 2.60 Bi 2.54 Ac 2.80 Th 2.93 Pa 2.88 U 2.71 Np 2.82 Pu 2.81 Am 2.83 Cm 3.05 "
     "Bk 3.40 Cf 3.05 Es 2.70"};
+
+/// Beads of a Martini force field by size.
+struct Martini {
+    const char* name;
+    double sigma[3];    ///< of regular, small and tiny beads [Å]
+    string_view sizes;  ///< by residue: the sizes R, S, T of BB, SC1, SC2, ...
+    string_view others; ///< by bead, in any residue
+};
+
+constexpr string_view martiniSizes = "RST";
+
+// L. Monticelli et al., The MARTINI coarse-grained force field: extension to proteins, J. Chem.
+// Theory Comput. 4 (2008) 819, doi 10.1021/ct700324x; D. H. de Jong et al., Improved parameters for
+// the Martini coarse-grained protein force field, J. Chem. Theory Comput. 9 (2013) 687,
+// doi 10.1021/ct300646g: rings are of small beads. Tiny beads are those of nucleic acids, J. J.
+// Uusitalo et al., J. Chem. Theory Comput. 11 (2015) 3932, doi 10.1021/acs.jctc.5b00286.
+constexpr Martini martini2{"martini2",
+                           {4.7, 4.3, 3.2},
+                           "HIS RSSS HSD RSSS HSE RSSS HSP RSSS PHE RSSS TYR RSSS TRP RSSSS "
+                           "DA RTTTT DC RTTT DG RTTTT DT RTTT A RTTTT C RTTT G RTTTT U RTTT",
+                           "ROH S R1 S R2 S R3 S R4 S R5 S BB2 S BB3 S"};
+
+// P. C. T. Souza et al., Martini 3: a general purpose force field for coarse-grained molecular
+// dynamics, Nat. Methods 18 (2021) 382, doi 10.1038/s41592-021-01098-3.
+constexpr Martini martini3{"martini3",
+                           {4.7, 4.1, 3.4},
+                           "GLY S ALA ST CYS RT VAL SS LEU RS ILE RS PRO SS ASN RS ASP RS THR RS "
+                           "SER RT LYS RSS ARG RSS HIS RTTT HSD RTTT HSE RTTT HSP RTTT HID RTTT "
+                           "HIE RTTT HIP RTTT PHE RSTT TYR RTTTT TRP RTTTTT",
+                           "SW S TW T GL1 S NA T NA+ T CL T CL- T"};
+
+/// Where the Lennard-Jones potential of two equal beads is least they touch: r = 2^(1/6) sigma / 2.
+float beadRadius(const Martini& martini, char size)
+{
+    return static_cast<float>(0.5 * std::pow(2.0, 1.0 / 6.0) *
+                              martini.sigma[martiniSizes.find(size)]);
+}
+
+RadiiSet martiniSet(const Martini& martini)
+{
+    RadiiSet set;
+    set.name = martini.name;
+    const Fields residues = splitFields(martini.sizes), beads = splitFields(martini.others);
+    for (std::size_t i = 0; i + 1 < residues.size(); i += 2) {
+        const string_view sizes = residues[i + 1];
+        for (std::size_t k = 0; k < sizes.size(); ++k) {
+            const std::string bead = k == 0 ? "BB" : "SC" + std::to_string(k);
+            set.atoms[{std::string(residues[i]), bead}] = beadRadius(martini, sizes[k]);
+        }
+    }
+    for (std::size_t i = 0; i + 1 < beads.size(); i += 2) {
+        set.atoms[{"*", std::string(beads[i])}] = beadRadius(martini, beads[i + 1][0]);
+    }
+    set.otherwise = beadRadius(martini, 'R');
+    return set;
+}
 
 /// Sets the radii of a table where there are none yet.
 void fill(ElementRadii& radii, const Table& table)
@@ -144,6 +201,16 @@ std::string describe(const RadiiSet& set, const char* source)
     return text + "\n";
 }
 
+std::string describe(const Martini& martini, const char* source)
+{
+    char text[80];
+    std::snprintf(text, sizeof text, "\n  regular %.2f  small %.2f  tiny %.2f\n",
+                  static_cast<double>(beadRadius(martini, 'R')),
+                  static_cast<double>(beadRadius(martini, 'S')),
+                  static_cast<double>(beadRadius(martini, 'T')));
+    return std::string(martini.name) + ": " + source + text;
+}
+
 } // namespace
 
 float RadiiSet::find(const std::string& residue, const std::string& atom,
@@ -166,10 +233,13 @@ RadiiSet readRadii(const std::string& name)
     if (name == "bondi") return bondiSet();
     if (name == "alvarez") return alvarezSet();
     if (name == "gemmi") return gemmiSet();
+    if (name == martini2.name) return martiniSet(martini2);
+    if (name == martini3.name) return martiniSet(martini3);
     std::error_code status;
     if (!std::filesystem::exists(name, status)) {
         throw Error(ErrorKind::Input,
-                    "radii: expected bondi, alvarez, gemmi or a file that exists, got " +
+                    "radii: expected bondi, alvarez, gemmi, martini, martini2, martini3 or a "
+                    "file that exists, got " +
                         inQuotes(name));
     }
     return readFile(name);
@@ -183,7 +253,14 @@ std::string describeRadii()
                "  M. Mantina et al., J. Phys. Chem. A 113 (2009) 5806, then from alvarez [Å]") +
            "\n" + describe(alvarezSet(), "S. Alvarez, Dalton Trans. 42 (2013) 8617 [Å]") + "\n" +
            describe(gemmiSet(), "the table of gemmi: Bondi and Mantina, the others from cctbx;\n"
-                                "  metals are much smaller than in the other sets [Å]");
+                                "  metals are much smaller than in the other sets [Å]") +
+           "\n" +
+           describe(martini2,
+                    "beads by name and residue, r = 2^(1/6) sigma / 2; Monticelli et al.,\n"
+                    "  J. Chem. Theory Comput. 4 (2008) 819, and later ones [Å]") +
+           "\n" + describe(martini3, "Souza et al., Nat. Methods 18 (2021) 382 [Å]") +
+           "\nmartini: the one of these two whose beads the file has; taken for such files "
+           "anyway\n";
 }
 
 } // namespace molsurf

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -128,6 +130,33 @@ std::string describeCounts(const std::map<std::string, std::size_t>& counts)
     return joined(parts);
 }
 
+/// The set of radii to use: for beads a Martini set, unless another one than the default is named.
+std::string radiiName(const Structure& structure, const std::string& asked)
+{
+    const bool beads = structure.beads != BeadKind::None;
+    if (asked != "martini" && !(asked == "bondi" && beads)) return asked;
+    return structure.beads == BeadKind::Martini3 ? "martini3" : "martini2";
+}
+
+/// "the file has Martini beads, not atoms: radii martini2 for 80 beads of 2.64 Å, 12 of 2.41 Å"
+std::string describeBeads(BeadKind beads, const std::string& set, const std::vector<float>& radii)
+{
+    std::map<float, std::size_t, std::greater<float>> counts;
+    for (const float r : radii) ++counts[r];
+    std::string text = "the file has atoms, not beads";
+    if (beads == BeadKind::Unnamed) text = "the file has beads, not atoms (one or a few a residue)";
+    if (beads == BeadKind::Martini2) text = "the file has beads of Martini 2, not atoms";
+    if (beads == BeadKind::Martini3) text = "the file has beads of Martini 3, not atoms";
+    text += ": radii " + set + " were used:";
+    for (const auto& [radius, count] : counts) {
+        char part[64];
+        std::snprintf(part, sizeof part, "%s %zu of %.2f Å", text.back() == ':' ? "" : ",", count,
+                      double(radius));
+        text += part;
+    }
+    return text;
+}
+
 /// The radius of every chosen atom [Å].
 std::vector<float> findRadii(const Structure& structure, const SelectOptions& options,
                              const Indices& atoms, std::vector<std::string>& warnings)
@@ -140,7 +169,8 @@ std::vector<float> findRadii(const Structure& structure, const SelectOptions& op
         }
         return radii;
     }
-    const RadiiSet set = readRadii(options.radii), fallback = readRadii("bondi");
+    const RadiiSet set = readRadii(radiiName(structure, options.radii)),
+                   fallback = readRadii("bondi");
     std::map<std::string, std::size_t> uncovered, unknown;
     for (const std::int32_t i : atoms) {
         const Atom& atom = structure.atoms[static_cast<std::size_t>(i)];
@@ -153,6 +183,9 @@ std::vector<float> findRadii(const Structure& structure, const SelectOptions& op
                                        : "unknown element of atom " + inQuotes(atom.name)];
         }
         radii.push_back(radius < 0 ? unknownRadius : radius);
+    }
+    if (set.name == "martini2" || set.name == "martini3") {
+        warnings.push_back(describeBeads(structure.beads, set.name, radii));
     }
     if (!uncovered.empty()) {
         warnings.push_back("radii " + set.name + " lacks " + describeCounts(uncovered) +
@@ -270,7 +303,8 @@ void applyResolutions(const Structure& structure, const SelectOptions& options, 
 
 } // namespace
 
-BallSelection selectBalls(const Structure& structure, const SelectOptions& options)
+BallSelection selectBalls(const Structure& structure, const SelectOptions& options,
+                          const SizeBeads& sizeBeads)
 {
     if (structure.hasRadii && options.radii != "bondi") {
         throw Error(ErrorKind::Usage, "radii " + inQuotes(options.radii) +
@@ -287,14 +321,23 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
     Filter filter(model, out);
     applyFilters(structure, options, match, filter, out);
     std::vector<Ball> balls = makeBalls(structure, options, filter, out);
+    std::vector<std::int32_t> beadAtoms; // by the representative atom: how many a bead stands for
+    if (!options.coarse.empty()) {
+        CoarseBalls coarse = coarseGrain(structure, balls, options.coarse, sizeBeads);
+        balls = std::move(coarse.balls);
+        beadAtoms = std::move(coarse.beadAtoms);
+        out.warnings.insert(out.warnings.end(), coarse.warnings.begin(), coarse.warnings.end());
+    }
     if (options.assembly == "none") {
         out.balls = std::move(balls);
         out.copyBegin = {0, out.balls.size()};
+        out.copyNumbers = {1};
     } else {
-        ExpandedBalls expanded = expandAssembly(structure, options.assembly, balls);
+        ExpandedBalls expanded = expandAssembly(structure, options.assembly, options.copies, balls);
         filter.note("not in the assembly", expanded.unused);
         out.balls = std::move(expanded.balls);
         out.copyBegin = std::move(expanded.copyBegin);
+        out.copyNumbers = std::move(expanded.copyNumbers);
         out.copies = out.copyBegin.size() - 1;
     }
     if (out.balls.empty()) {
@@ -302,6 +345,11 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
                                  " atoms: dropped " + describeDrops(out.drops));
     }
     checkExtent(structure, out.balls);
+    for (const Ball& ball : out.balls) {
+        const std::int32_t n = beadAtoms.empty() ? 0 : beadAtoms[std::size_t(ball.atom)];
+        out.beads += n > 0;
+        out.beadAtoms += std::size_t(n);
+    }
     applyResolutions(structure, options, out);
     if (options.labels || !options.groups.empty() || !options.groupBy.empty()) {
         out.labels =
@@ -329,6 +377,10 @@ std::string describeSelection(const Structure& structure, const BallSelection& s
     if (structure.models.size() > 1) text += " in model " + std::to_string(selection.model);
     text += "; used " + counted(selection.balls.size(), "ball");
     if (selection.copies > 1) text += " (" + std::to_string(selection.copies) + " copies)";
+    if (selection.beads > 0) {
+        text += ", of them " + counted(selection.beads, "bead") + " for " +
+                counted(selection.beadAtoms, "atom");
+    }
     if (!selection.drops.empty()) text += "; dropped " + describeDrops(selection.drops);
     return text;
 }

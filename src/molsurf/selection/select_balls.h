@@ -5,6 +5,7 @@
 /// From a structure to the balls whose surface is wanted.
 
 #include "molsurf/selection/ball.h"
+#include "molsurf/selection/coarse_grain.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/structure/structure.h"
 
@@ -30,11 +31,13 @@ struct SelectOptions {
     std::string select;            ///< gemmi selections joined by '|', see matchAtoms(); empty: all
     int model = 0;                 ///< number in the file; 0: that of the selection, or the first
     std::string assembly = "none"; ///< name in the file, or "none": the coordinates as they stand
+    std::string copies;            ///< "1,7,20-25" or "fold:5", see parseCopies(); empty: all
     std::string altloc;            ///< "": the highest occupancy; "A": blank and that label; "all"
     bool hydrogens = true;         ///< keep the hydrogens (and deuterium) of the file
     bool hetero = true;            ///< keep ligands and ions
     bool waters = false;           ///< keep waters
     std::string radii = "bondi";   ///< name of a set, or the path of a radii file, see readRadii()
+    std::vector<CoarseRule> coarse;          ///< later ones win
     std::vector<ResolutionRule> resolutions; ///< later ones win
     std::vector<GroupRule> groups;           ///< later ones win
     std::string groupBy;                     ///< groups by chain, entity, ...; see labelBalls()
@@ -64,6 +67,9 @@ struct BallSelection {
     std::vector<Drop> drops;            ///< counted in one model, before the assembly is expanded
     std::size_t copies = 1;             ///< assembly operators applied, 1 without an assembly
     std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
+    std::vector<int> copyNumbers;       ///< of copy i in the whole assembly, from 1
+    std::size_t beads = 0;              ///< balls that a coarse rule made
+    std::size_t beadAtoms = 0;          ///< atoms that these stand for
     std::optional<BallLabels> labels;   ///< if asked for, or with groups
     std::vector<std::array<std::uint8_t, 3>> colors; ///< sRGB, one a ball; empty: not chosen
     int model = 0;                                   ///< number of the model that was used
@@ -83,15 +89,23 @@ struct BallSelection {
 /// A resolution d makes the Gaussians of its atoms fall off at the rate C = pi^2/d^2: blurred at
 /// the resolution d, after Bajaj, Xu and Zhang 2009.
 ///
+/// Coarse rules put beads in the place of atoms before the assembly is built, see coarseGrain(). A
+/// bead goes as its representative atom: for groups, labels and resolutions.
+///
+/// Beads of a coarse-grained file (Structure::beads) have the radii of martini2 or martini3 unless
+/// options.radii names others; "martini" is the set of their force field.
+///
 /// Radii of .pqr and .xyzr come from the file; options.radii must then be "bondi", its default.
 ///
+/// @param[in] sizeBeads  needed with coarse rules; molsurf/pipeline/size_beads.h has one
 /// @throws Error(ErrorKind::Input) if nothing is selected or nothing is left, if the model, the
 ///         alternate location, the assembly or the radii file does not exist, or if the molecule is
 ///         larger than 1e6 Å
 /// @throws Error(ErrorKind::Usage) if the selection cannot be parsed or names another model than
 ///         options.model, if options.altloc is no label, or if radii are asked for a file that has
 ///         its own
-BallSelection selectBalls(const Structure& structure, const SelectOptions& options);
+BallSelection selectBalls(const Structure& structure, const SelectOptions& options,
+                          const SizeBeads& sizeBeads = nullptr);
 
 /// One line that says what was read, used and dropped, by kind and count:
 /// "1a8o.cif.gz: mmCIF, 1 model, 644 atoms; used 1112 balls (2 copies); dropped 88 water".

@@ -119,6 +119,7 @@ void Remark350::addRow(string_view text)
     }
     operator_.rotation[static_cast<std::size_t>(index)] = {row[0], row[1], row[2]};
     operator_.translation[index] = row[3];
+    operator_.name = fields[1];
     if (index == 2) part().operators.push_back(operator_);
 }
 
@@ -151,6 +152,10 @@ Operator multiplied(const Operator& first, const Operator& second)
         product.translation[component] =
             row[0] * t[0] + row[1] * t[1] + row[2] * t[2] + first.translation[component];
     }
+    auto factor = [](const std::string& name) {
+        return name.empty() || name[0] == '(' ? name : "(" + name + ")";
+    };
+    product.name = factor(first.name) + factor(second.name);
     return product;
 }
 
@@ -192,6 +197,45 @@ std::vector<Operator> expandOperators(const std::string& expression,
         products = std::move(next);
     }
     return products;
+}
+
+std::optional<Assembly> parseMtrix(const std::vector<string_view>& records,
+                                   std::vector<std::string>& warnings)
+{
+    constexpr std::size_t serialBegin = 7, serialWidth = 3, given = 59;
+    constexpr std::array<std::size_t, 4> begin{10, 20, 30, 45}; // F10.6, at the end F10.5
+    Operator op{};
+    std::vector<Operator> operators;
+    for (const string_view line : records) {
+        std::array<double, 4> row{};
+        const int index = line.size() > 5 ? line[5] - '1' : -1;
+        bool good = index >= 0 && index < 3;
+        for (std::size_t i = 0; good && i < 4; ++i) {
+            good =
+                begin[i] < line.size() && parseNumber(trimmed(line.substr(begin[i], 10)), row[i]);
+        }
+        if (!good) {
+            warnings.push_back("the MTRIX records were ignored: expected MTRIXn, a number and four "
+                               "figures, got " +
+                               inQuotes(line));
+            return std::nullopt;
+        }
+        op.rotation[static_cast<std::size_t>(index)] = {row[0], row[1], row[2]};
+        op.translation[index] = row[3];
+        op.name = trimmed(line.substr(serialBegin, serialWidth));
+        if (index == 2 && (line.size() <= given || line[given] != '1')) operators.push_back(op);
+    }
+    return ncsAssembly(std::move(operators));
+}
+
+std::optional<Assembly> ncsAssembly(std::vector<Operator> operators)
+{
+    if (operators.empty()) return std::nullopt;
+    Operator identity{};
+    for (std::size_t i = 0; i < 3; ++i) identity.rotation[i][i] = 1.0;
+    identity.name = "given";
+    operators.insert(operators.begin(), identity);
+    return Assembly{"ncs", {{{}, std::move(operators)}}, {}};
 }
 
 std::vector<Assembly> parseRemark350(const std::vector<string_view>& remarks)

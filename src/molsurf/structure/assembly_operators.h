@@ -7,6 +7,7 @@
 #include "molsurf/structure/structure.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,5 +39,19 @@ std::vector<Operator> expandOperators(const std::string& expression,
 ///
 /// @param[in] remarks  lines that start with "REMARK 350"
 std::vector<Assembly> parseRemark350(const std::vector<std::string_view>& remarks);
+
+/// The assembly "ncs": the coordinates as they are given, and their copies by non-crystallographic
+/// symmetry, for all chains; nothing if there are no operators.
+///
+/// @param[in] operators  those whose copies the file does not hold
+std::optional<Assembly> ncsAssembly(std::vector<Operator> operators);
+
+/// The same from the MTRIX records of a PDB file. Those marked as given ("1" in column 60) are
+/// left out.
+///
+/// @param[in]  records   lines that start with "MTRIX"
+/// @param[out] warnings  gets a line if a record cannot be read; there is no assembly then
+std::optional<Assembly> parseMtrix(const std::vector<std::string_view>& records,
+                                   std::vector<std::string>& warnings);
 
 } // namespace molsurf

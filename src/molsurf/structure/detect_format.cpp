@@ -149,7 +149,9 @@ StructureFormat detectFormat(const std::string& path, const std::string& text)
     if (extension == ".cif" || extension == ".mmcif") return StructureFormat::Mmcif;
     if (extension == ".pqr") return StructureFormat::Pqr;
     if (extension == ".xyzr") return StructureFormat::Xyzr;
-    fail(path, "is no structure: expected PDB, mmCIF, PQR or xyzr, got " + inQuotes(first));
+    const std::string what =
+        extension == ".vdb" ? "is not a .vdb file of OpenVDB, and no structure" : "is no structure";
+    fail(path, what + ": expected PDB, mmCIF, PQR or xyzr, got " + inQuotes(first));
 }
 
 } // namespace molsurf

@@ -71,7 +71,7 @@ int modelNumber(string_view line, int previous)
 PdbRecords preparePdb(std::string& text, const std::string& path)
 {
     PdbRecords records;
-    std::vector<string_view> remarks;
+    std::vector<string_view> remarks, matrices;
     int next = 1; // number of the model that the next atom starts
     bool inModel = false, ended = false;
     for (LineReader lines(text); lines.next();) {
@@ -99,10 +99,13 @@ PdbRecords preparePdb(std::string& text, const std::string& path)
             ended = true;
         } else if (record.substr(0, 3) != "TER") {
             if (line.substr(0, 10) == "REMARK 350") remarks.push_back(line);
+            if (line.substr(0, 5) == "MTRIX") matrices.push_back(line);
             std::fill_n(begin, std::min<std::size_t>(line.size(), 4), ' ');
         }
     }
     records.assemblies = parseRemark350(remarks);
+    auto ncs = parseMtrix(matrices, records.warnings);
+    if (ncs) records.assemblies.push_back(std::move(*ncs));
     return records;
 }
 

@@ -205,13 +205,19 @@ void completeAtomSite(Block& block, const std::string& path)
     loop.values = std::move(values);
 }
 
-std::map<std::string, Operator> readOperators(Block& block)
+/// Columns of a matrix and a vector in a table of operators.
+constexpr std::array<const char*, 12> operatorColumns{
+    "matrix[1][1]", "matrix[1][2]", "matrix[1][3]", "matrix[2][1]", "matrix[2][2]", "matrix[2][3]",
+    "matrix[3][1]", "matrix[3][2]", "matrix[3][3]", "vector[1]",    "vector[2]",    "vector[3]"};
+
+/// The operators of a category, each with the row of `id` and of a further column, if it is given.
+template<typename Add>
+void readOperators(Block& block, const std::string& category, const char* further, Add add)
 {
-    std::map<std::string, Operator> operators;
-    auto table = block.find("_pdbx_struct_oper_list.",
-                            {"id", "matrix[1][1]", "matrix[1][2]", "matrix[1][3]", "matrix[2][1]",
-                             "matrix[2][2]", "matrix[2][3]", "matrix[3][1]", "matrix[3][2]",
-                             "matrix[3][3]", "vector[1]", "vector[2]", "vector[3]"});
+    std::vector<std::string> columns{"id"};
+    columns.insert(columns.end(), operatorColumns.begin(), operatorColumns.end());
+    if (further) columns.push_back(std::string("?") + further);
+    auto table = block.find(category, columns);
     for (auto row : table) {
         Operator op{};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -220,9 +226,9 @@ std::map<std::string, Operator> readOperators(Block& block)
             }
             op.translation[static_cast<int>(i)] = gemmi::cif::as_number(row[10 + i]);
         }
-        operators[row.str(0)] = op;
+        op.name = row.str(0);
+        add(op, further && row.has(13) ? row.str(13) : std::string());
     }
-    return operators;
 }
 
 std::vector<std::string> splitList(const std::string& list)
@@ -241,7 +247,9 @@ std::vector<std::string> splitList(const std::string& list)
 /// Chains that share an operator expression become one part, so that a copy is whole.
 std::vector<Assembly> readAssemblies(Block& block)
 {
-    const std::map<std::string, Operator> operators = readOperators(block);
+    std::map<std::string, Operator> operators;
+    readOperators(block, "_pdbx_struct_oper_list.", nullptr,
+                  [&](const Operator& op, const std::string&) { operators[op.name] = op; });
     std::vector<Assembly> assemblies;
     std::map<std::pair<std::size_t, std::string>, std::size_t> partOf;
     auto table = block.find("_pdbx_struct_assembly_gen.",
@@ -266,6 +274,13 @@ std::vector<Assembly> readAssemblies(Block& block)
             found->problem = error.what();
         }
     }
+    std::vector<Operator> generated;
+    readOperators(block, "_struct_ncs_oper.", "code",
+                  [&](const Operator& op, const std::string& code) {
+                      if (code == "generate") generated.push_back(op);
+                  });
+    auto ncs = ncsAssembly(std::move(generated));
+    if (ncs) assemblies.push_back(std::move(*ncs));
     return assemblies;
 }
 

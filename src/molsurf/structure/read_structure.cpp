@@ -2,6 +2,7 @@
 #include "molsurf/structure/read_structure.h"
 
 #include "molsurf/core/error.h"
+#include "molsurf/structure/beads.h"
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/read_ball_list.h"
@@ -74,6 +75,7 @@ Structure readStructure(const std::string& path)
                         (records ? "ATOM or HETATM records" : "coordinates") + ", got none");
     }
     checkCoordinates(structure, path);
+    if (!structure.hasRadii) markBeads(structure);
     return structure;
 }
 

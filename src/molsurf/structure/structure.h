@@ -43,6 +43,7 @@ struct Atom {
 struct Operator {
     std::array<std::array<double, 3>, 3> rotation; ///< rows
     openvdb::Vec3d translation;
+    std::string name; ///< "7"; of a product "(1)(61)"; may be empty
 };
 
 /// Some chains and the operators that make their copies.
@@ -51,7 +52,8 @@ struct AssemblyPart {
     std::vector<Operator> operators; ///< products already multiplied out
 };
 
-/// A biological assembly.
+/// A biological assembly, or with the name "ncs" what the non-crystallographic symmetry of the file
+/// makes of its coordinates.
 struct Assembly {
     std::string name; ///< "1"
     std::vector<AssemblyPart> parts;
@@ -64,6 +66,14 @@ struct Model {
     std::size_t begin, end;
 };
 
+/// What the atoms of a coarse-grained file are, see findBeads().
+enum class BeadKind : std::uint8_t {
+    None,     ///< atoms
+    Martini2, ///< beads of Martini 2, by name
+    Martini3, ///< beads of Martini 3, by name
+    Unnamed   ///< beads that are named by atoms
+};
+
 /// A file's content.
 struct Structure {
     std::string source; ///< file name without folder, or "-" for standard input
@@ -74,6 +84,7 @@ struct Structure {
     std::vector<std::string> chains; ///< author's names (auth_asym_id in mmCIF)
     std::vector<std::string> asyms;  ///< label_asym_id in mmCIF; elsewhere the same as chains
     std::vector<Assembly> assemblies;
+    BeadKind beads = BeadKind::None;
     bool hasRadii = false;             ///< true if every atom has the file's own radius
     std::vector<std::string> warnings; ///< one line each: parts of the file that were ignored
 };

@@ -5,6 +5,8 @@
 #include "molsurf/structure/read_structure.h"
 #include "unit/structure/temp_file.h"
 
+#include <cmath>
+
 namespace molsurf::test
 {
 namespace
@@ -32,9 +34,33 @@ TEST(Radii, AreListedWithTheirSource)
 {
     const std::string text = describeRadii();
     for (const char* part : {"bondi: A. Bondi", "441", "alvarez: S. Alvarez", "8617",
-                             "gemmi:", " C 1.70", " C 1.77", "Fe 1.26"}) {
+                             "gemmi:", "martini2:", "martini3: Souza", "small 2.30", " C 1.70",
+                             " C 1.77", "Fe 1.26"}) {
         EXPECT_HAS(text, part);
     }
+}
+
+// 2^(1/6) / 2 of 4.7, 4.3 and 3.2 Å, and of 4.7, 4.1 and 3.4 Å.
+TEST(Radii, OfMartiniBeads)
+{
+    const RadiiSet two = readRadii("martini2"), three = readRadii("martini3");
+    const auto near = [](float radius, double expected) {
+        return std::abs(radius - expected) < 5e-4;
+    };
+    EXPECT_TRUE(near(two.find("ALA", "BB", 0), 2.638));
+    EXPECT_TRUE(near(two.find("LYS", "SC2", 0), 2.638));
+    EXPECT_TRUE(near(two.find("PHE", "BB", 0), 2.638));
+    EXPECT_TRUE(near(two.find("PHE", "SC3", 0), 2.413));
+    EXPECT_TRUE(near(two.find("CHOL", "R3", 0), 2.413));
+    EXPECT_TRUE(near(two.find("DG", "SC4", 0), 1.796));
+    EXPECT_TRUE(near(two.find("POPC", "C1A", 0), 2.638));
+    EXPECT_TRUE(near(three.find("GLY", "BB", 0), 2.301));
+    EXPECT_TRUE(near(three.find("ALA", "SC1", 0), 1.908));
+    EXPECT_TRUE(near(three.find("TRP", "SC5", 0), 1.908));
+    EXPECT_TRUE(near(three.find("PHE", "SC1", 0), 2.301));
+    EXPECT_TRUE(near(three.find("W", "W", 0), 2.638));
+    EXPECT_TRUE(near(three.find("TW", "TW", 0), 1.908));
+    EXPECT_TRUE(near(three.find("ANY", "XYZ", 0), 2.638));
 }
 
 TEST(Radii, RulesOfAFileByPrecedence)
@@ -73,7 +99,8 @@ TEST(Radii, NamesFileAndLineOfAnError)
     EXPECT_HAS(message("C nan"), "radius: expected");
     EXPECT_HAS(message("C wide"), "radius: expected");
     EXPECT_HAS(errorOf(ErrorKind::Input, [] { readRadii("bondy"); }),
-               "expected bondi, alvarez, gemmi or a file that exists, got \"bondy\"");
+               "expected bondi, alvarez, gemmi, martini, martini2, martini3 or a file that exists, "
+               "got \"bondy\"");
 }
 
 const std::string atoms =

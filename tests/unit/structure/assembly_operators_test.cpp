@@ -117,5 +117,16 @@ TEST(Remark350, WithoutAListOfChainsAppliesToAll)
     EXPECT_TRUE(assemblies[0].parts[0].chains.empty());
 }
 
+TEST(AssemblyOperators, ProductsAreNamedAsTheFileNamesThem)
+{
+    Operator a{}, b{};
+    a.name = "X0";
+    b.name = "61";
+    EXPECT_EQ(multiplied(a, b).name, "(X0)(61)");
+    EXPECT_EQ(multiplied(multiplied(a, b), b).name, "(X0)(61)(61)");
+    EXPECT_EQ(expandOperators("(1)(2)", {{"1", a}, {"2", b}}).at(0).name, "(X0)(61)");
+    EXPECT_EQ(expandOperators("2", {{"2", b}}).at(0).name, "61");
+}
+
 } // namespace
 } // namespace molsurf::test

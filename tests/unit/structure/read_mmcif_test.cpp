@@ -157,5 +157,28 @@ TEST(ReadMmcif, AnAssemblyThatCannotBeBuiltIsNoErrorYet)
     EXPECT_HAS(s.assemblies[0].problem, "operator \"1\" is not listed");
 }
 
+TEST(ReadMmcif, ReadsNonCrystallographicSymmetry)
+{
+    std::string columns = "loop_\n_struct_ncs_oper.id\n_struct_ncs_oper.code\n";
+    for (const char* name : {"matrix[1][1]", "matrix[1][2]", "matrix[1][3]", "matrix[2][1]",
+                             "matrix[2][2]", "matrix[2][3]", "matrix[3][1]", "matrix[3][2]",
+                             "matrix[3][3]", "vector[1]", "vector[2]", "vector[3]"}) {
+        columns += std::string("_struct_ncs_oper.") + name + "\n";
+    }
+    const std::string atoms = atomSite(full, "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n");
+    const std::string given = "1 given 1 0 0 0 1 0 0 0 1 0 0 0\n";
+    EXPECT_TRUE(readText(atoms + columns + given).assemblies.empty());
+    const Structure s =
+        readText(atoms + columns + given + "2 generate 0 -1 0 1 0 0 0 0 1 100 -20.5 3\n");
+    ASSERT_EQ(s.assemblies.size(), 1u);
+    EXPECT_EQ(s.assemblies[0].name, "ncs");
+    const auto& operators = s.assemblies[0].parts.at(0).operators;
+    ASSERT_EQ(operators.size(), 2u);
+    EXPECT_EQ(operators[0].rotation[0][0], 1);
+    EXPECT_EQ(operators[1].name, "2");
+    EXPECT_EQ(operators[1].rotation[0], (std::array<double, 3>{0, -1, 0}));
+    EXPECT_EQ(operators[1].translation, openvdb::Vec3d(100, -20.5, 3));
+}
+
 } // namespace
 } // namespace molsurf::test

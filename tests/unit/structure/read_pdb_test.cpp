@@ -212,5 +212,43 @@ TEST(ReadPdb, ReadsAssembly)
     EXPECT_EQ(s.asyms, s.chains);
 }
 
+TEST(ReadPdb, ReadsNonCrystallographicSymmetry)
+{
+    const std::string given =
+        "MTRIX1   1  1.000000  0.000000  0.000000        0.00000    1                    \n"
+        "MTRIX2   1  0.000000  1.000000  0.000000        0.00000    1                    \n"
+        "MTRIX3   1  0.000000  0.000000  1.000000        0.00000    1                    \n";
+    const std::string missing = "MTRIX1   2  0.000000 -1.000000  0.000000      100.00000\n"
+                                "MTRIX2   2  1.000000  0.000000  0.000000      -20.50000\n"
+                                "MTRIX3   2  0.000000  0.000000  1.000000        3.00000\n";
+    const std::string atom =
+        "ATOM      1  CA  ALA A   1       1.000   2.000   3.000  1.00  0.00           C  \n";
+    EXPECT_TRUE(readText(given + atom).assemblies.empty());
+    const Structure s = readText(given + missing + atom);
+    ASSERT_EQ(s.assemblies.size(), 1u);
+    EXPECT_EQ(s.assemblies[0].name, "ncs");
+    ASSERT_EQ(s.assemblies[0].parts.size(), 1u);
+    EXPECT_TRUE(s.assemblies[0].parts[0].chains.empty());
+    const auto& operators = s.assemblies[0].parts[0].operators;
+    ASSERT_EQ(operators.size(), 2u);
+    EXPECT_EQ(operators[0].rotation[0][0], 1);
+    EXPECT_EQ(operators[1].name, "2");
+    EXPECT_EQ(operators[1].rotation[0], (std::array<double, 3>{0, -1, 0}));
+    EXPECT_EQ(operators[1].rotation[1], (std::array<double, 3>{1, 0, 0}));
+    EXPECT_EQ(operators[1].translation, openvdb::Vec3d(100, -20.5, 3));
+    const Structure bad = readText("MTRIX1   2  0.000000 what\n" + atom);
+    EXPECT_TRUE(bad.assemblies.empty());
+    ASSERT_EQ(bad.warnings.size(), 1u);
+    EXPECT_HAS(bad.warnings[0], "MTRIX");
+}
+
+TEST(ReadPdb, ANameThatEndsInVdbMeansNothing)
+{
+    const std::string text = contentOf(dataFile("1crn.pdb"));
+    const Structure s = readText(text, "1crn_full.vdb");
+    EXPECT_EQ(s.format, "PDB");
+    EXPECT_EQ(s.atoms.size(), 327u);
+}
+
 } // namespace
 } // namespace molsurf::test

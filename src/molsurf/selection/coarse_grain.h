@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Beads that stand for several atoms.
+
+#include "molsurf/selection/ball.h"
+#include "molsurf/structure/structure.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// What becomes of some or all atoms.
+struct CoarseRule {
+    enum class Level { Atom, Residue, Cluster };
+    std::string select; ///< gemmi selections joined by '|'; empty: all
+    Level level = Level::Atom;
+    int atoms = 1; ///< Cluster: about how many share a bead, >= 2
+};
+
+/// Reads "atom", "residue", a number of atoms, or any of them after "SELECTION=".
+/// @throws Error(ErrorKind::Usage) if the text is none of them
+CoarseRule parseCoarse(const std::string& text);
+
+/// The text that parseCoarse() makes the rule of.
+std::string nameOf(const CoarseRule& rule);
+
+/// Sets the radii of beads.
+///
+/// @param[in]     balls    all atoms
+/// @param[in]     members  one list a bead: indices in `balls`, ascending; every ball is in one
+/// @param[in,out] beads    centres are set; radii of 0 are to be set, others are atoms'
+using SizeBeads = std::function<void(const std::vector<Ball>& balls,
+                                     const std::vector<std::vector<std::size_t>>& members,
+                                     std::vector<Ball>& beads)>;
+
+/// Beads, and what they stand for.
+struct CoarseBalls {
+    std::vector<Ball> balls;
+    std::vector<std::int32_t> beadAtoms; ///< one an atom of the structure: the number of atoms its
+                                         ///< bead stands for, if it represents one; else 0
+    std::vector<std::string> warnings;
+};
+
+/// Puts beads in the place of atoms; later rules win.
+///
+/// Residue: the atoms N, CA, C and O of an amino acid are one bead, its side chain another one, as
+/// in Levitt, J. Mol. Biol. 104:59-107, 1976 (simplified representation of protein conformations).
+/// A nucleotide is three: phosphate with O5', sugar, base, as in Knotts et al., J. Chem. Phys.
+/// 126:084901, 2007. Other parts of a polymer are one bead; ligands are cut into clusters of about
+/// four atoms. Cluster: the atoms of a chain are cut at the median across their longest extent,
+/// again and again; ligands are clustered each on its own. In both, hydrogens go with the nearest
+/// atom of their residue, and waters and ions are beads of their own. A rule for a part of a
+/// residue or chain makes beads of that part alone.
+///
+/// The centre of a bead is that of its atoms, weighted by the volumes of their balls. Its `atom` is
+/// the one nearest to the centre. Beads stand in the order of their first atoms.
+///
+/// @param[in] balls  atoms in the coordinates of the file
+/// @throws Error as matchAtoms()
+CoarseBalls coarseGrain(const Structure& structure, const std::vector<Ball>& balls,
+                        const std::vector<CoarseRule>& rules, const SizeBeads& sizeBeads);
+
+} // namespace molsurf

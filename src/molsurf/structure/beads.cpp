@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/structure/beads.h"
+
+#include <gemmi/resinfo.hpp>
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace molsurf
+{
+namespace
+{
+
+using std::string_view;
+
+bool isOneOf(string_view name, std::initializer_list<string_view> names)
+{
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// A word and one digit: SC1.
+bool isNumbered(string_view name, string_view word)
+{
+    return name.size() == word.size() + 1 && name.substr(0, word.size()) == word &&
+           name.back() >= '0' && name.back() <= '9';
+}
+
+bool isWaterBead(string_view name)
+{
+    return isOneOf(name, {"W", "WF", "WP", "WM", "SW", "TW", "PW"});
+}
+
+/// Names of beads that no atom has.
+bool isCertainBead(string_view name)
+{
+    return name == "BB" || name == "PO4" || isNumbered(name, "BB") || isNumbered(name, "SC") ||
+           isNumbered(name, "GL") || isWaterBead(name);
+}
+
+/// C1A, D2B, T1A: beads of lipid tails.
+bool isTailBead(string_view name)
+{
+    return name.size() == 3 && isOneOf(name.substr(0, 1), {"C", "D", "T"}) && name[1] >= '1' &&
+           name[1] <= '9' && name[2] >= 'A' && name[2] <= 'F';
+}
+
+bool isBead(string_view name)
+{
+    return isCertainBead(name) || isTailBead(name) || isNumbered(name, "R") ||
+           isNumbered(name, "AM") || isNumbered(name, "C") || isNumbered(name, "P") ||
+           isOneOf(name, {"NC3", "NH3", "CNO", "ROH", "COH", "COO", "NA", "NA+", "CL", "CL-", "CA",
+                          "CA+", "ION"});
+}
+
+/// The atoms of the first model, residue by residue.
+std::map<std::int32_t, std::vector<const Atom*>> residuesOf(const Structure& structure)
+{
+    std::map<std::int32_t, std::vector<const Atom*>> out;
+    const Model& model = structure.models.front();
+    for (std::size_t i = model.begin; i < model.end; ++i) {
+        out[structure.atoms[i].residue].push_back(&structure.atoms[i]);
+    }
+    return out;
+}
+
+bool has(const std::vector<const Atom*>& atoms, string_view name)
+{
+    return std::any_of(atoms.begin(), atoms.end(), [&](const Atom* a) { return a->name == name; });
+}
+
+bool isMartini(const Structure& structure)
+{
+    const Model& model = structure.models.front();
+    std::size_t beads = 0, certain = 0;
+    for (std::size_t i = model.begin; i < model.end; ++i) {
+        beads += isBead(structure.atoms[i].name);
+        certain += isCertainBead(structure.atoms[i].name);
+    }
+    return certain > 0 && 10 * beads >= 9 * (model.end - model.begin);
+}
+
+bool isMartini2(const Structure& structure)
+{
+    struct Last {
+        string_view residue, bead; // of Martini 3
+    };
+    constexpr std::array<Last, 3> lasts{{{"ALA", "SC1"}, {"TYR", "SC4"}, {"TRP", "SC5"}}};
+    for (const auto& [index, atoms] : residuesOf(structure)) {
+        const std::string& name = structure.residues[std::size_t(index)].name;
+        for (const Last& last : lasts) {
+            if (name == last.residue) return !has(atoms, last.bead);
+        }
+    }
+    return false;
+}
+
+bool isUnnamed(const Structure& structure)
+{
+    constexpr double longestBond = 1.9; // [Å], of heavy atoms in amino acids: C-S 1.8
+    bool sideChain = false;
+    for (const auto& [index, atoms] : residuesOf(structure)) {
+        const Residue& residue = structure.residues[std::size_t(index)];
+        if (residue.water) continue;
+        if (!gemmi::find_tabulated_residue(residue.name).is_amino_acid() || !has(atoms, "CA") ||
+            has(atoms, "N") || has(atoms, "C")) {
+            return false;
+        }
+        sideChain = sideChain || atoms.size() > 1;
+        for (const Atom* a : atoms) {
+            for (const Atom* b : atoms) {
+                if (a < b && (a->position - b->position).length() < longestBond) return false;
+            }
+        }
+    }
+    return sideChain;
+}
+
+} // namespace
+
+BeadKind findBeads(const Structure& structure)
+{
+    if (structure.models.empty()) return BeadKind::None;
+    if (isMartini(structure)) {
+        return isMartini2(structure) ? BeadKind::Martini2 : BeadKind::Martini3;
+    }
+    return isUnnamed(structure) ? BeadKind::Unnamed : BeadKind::None;
+}
+
+void markBeads(Structure& structure)
+{
+    structure.beads = findBeads(structure);
+    if (structure.beads != BeadKind::Martini2 && structure.beads != BeadKind::Martini3) return;
+    for (Atom& atom : structure.atoms) {
+        atom.element = 0;
+        if (!isWaterBead(atom.name)) continue;
+        Residue& residue = structure.residues[std::size_t(atom.residue)];
+        residue.water = true;
+        residue.hetero = false;
+    }
+}
+
+} // namespace molsurf

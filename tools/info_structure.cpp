@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "verbs.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/selection/choose_copies.h"
+#include "molsurf/structure/read_structure.h"
+#include "molsurf/structure/text_fields.h"
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <set>
+
+namespace molsurf::tool
+{
+
+namespace
+{
+
+const Residue& residueOf(const Structure& structure, const Atom& atom)
+{
+    return structure.residues[std::size_t(atom.residue)];
+}
+
+/// Atoms of the first model that a part of an assembly copies, and the centre of those that are no
+/// water.
+struct PartAtoms {
+    std::size_t count = 0;
+    openvdb::Vec3d centroid{0.0};
+};
+
+PartAtoms atomsOf(const Structure& structure, const AssemblyPart& part)
+{
+    const std::set<std::string> names(part.chains.begin(), part.chains.end());
+    PartAtoms atoms;
+    std::size_t dry = 0;
+    for (std::size_t i = structure.models[0].begin; i < structure.models[0].end; ++i) {
+        const Atom& atom = structure.atoms[i];
+        const Residue& residue = residueOf(structure, atom);
+        if (!names.empty() && !names.count(structure.asyms[std::size_t(residue.asym)])) continue;
+        ++atoms.count;
+        if (residue.water) continue;
+        atoms.centroid += atom.position;
+        ++dry;
+    }
+    if (dry > 0) atoms.centroid /= double(dry);
+    return atoms;
+}
+
+std::string vectorText(const openvdb::Vec3d& v, int decimals)
+{
+    const double unit = std::pow(10.0, -decimals);
+    std::string all;
+    for (int i = 0; i < 3; ++i) {
+        char number[32];
+        const double shown = std::abs(v[i]) < 0.5 * unit ? 0.0 : v[i]; // no "-0.00"
+        std::snprintf(number, sizeof number, "%.*f", decimals, shown);
+        all += (i ? ", " : "(") + std::string(number);
+    }
+    return all + ")";
+}
+
+openvdb::Vec3d moved(const Operator& op, const openvdb::Vec3d& x)
+{
+    openvdb::Vec3d out = op.translation;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) out[i] += op.rotation[std::size_t(i)][std::size_t(j)] * x[j];
+    return out;
+}
+
+/// "1-60", "1, 7, 23": ascending numbers, counted from 1.
+std::string ranges(const std::vector<std::size_t>& indices)
+{
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < indices.size();) {
+        std::size_t j = i;
+        while (j + 1 < indices.size() && indices[j + 1] == indices[j] + 1) ++j;
+        words.push_back(std::to_string(indices[i] + 1));
+        if (j > i) words.back() += "-" + std::to_string(indices[j] + 1);
+        i = j + 1;
+    }
+    return joined(words);
+}
+
+void describe(const Structure& structure, const Assembly& assembly)
+{
+    std::cout << "  assembly " << assembly.name << "\n";
+    if (!assembly.problem.empty()) return line("problem", assembly.problem);
+    std::size_t atoms = 0;
+    std::vector<openvdb::Vec3d> centroids;
+    for (const AssemblyPart& part : assembly.parts) {
+        const PartAtoms of = atomsOf(structure, part);
+        atoms += of.count * part.operators.size();
+        if (of.count > 0) centroids.push_back(of.centroid);
+        const std::string chains = part.chains.empty() ? "all" : joined(part.chains);
+        line("copies", std::to_string(part.operators.size()) + " of chains " + chains);
+    }
+    line("atoms", std::to_string(atoms));
+    const std::vector<Operator> operators = operatorsOf(assembly);
+    if (operators.empty() || centroids.empty()) return;
+    Symmetry symmetry;
+    try {
+        symmetry = findSymmetry(assembly, centroids[0]);
+    } catch (const Error& error) {
+        return line("problem", error.what());
+    }
+    line("point group",
+         symmetry.pointGroup.empty() ? "not one of C, D, T, O and I" : symmetry.pointGroup);
+    line("symmetry", describeSymmetry(symmetry));
+    if (symmetry.axes.empty()) return;
+    line("centre", vectorText(symmetry.centre, 2) + " Å");
+    const openvdb::Vec3d home = moved(operators[0], centroids[0]);
+    std::set<int> folds;
+    for (const RotationAxis& axis : symmetry.axes) folds.insert(-axis.fold);
+    for (const int fold : folds) {
+        const RotationAxis& axis = *nearestAxis(symmetry, -fold, home);
+        CopyChoice choice;
+        choice.fold = -fold;
+        line(("fold:" + std::to_string(-fold)).c_str(),
+             "axis " + vectorText(axis.direction, 4) + ", copies " +
+                 ranges(chooseCopies(structure, assembly, choice, centroids[0])));
+    }
+}
+
+} // namespace
+
+void infoStructure(const std::string& path)
+{
+    const Structure structure = readStructure(path);
+    std::cout << path << "\n  structure\n";
+    line("format", structure.format);
+    std::vector<std::string> models;
+    for (const Model& model : structure.models) models.push_back(std::to_string(model.number));
+    line("models",
+         std::to_string(models.size()) + (models.size() > 1 ? " (" + joined(models) + ")" : ""));
+    if (structure.beads == BeadKind::Martini2) line("beads", "Martini 2");
+    if (structure.beads == BeadKind::Martini3) line("beads", "Martini 3");
+    if (structure.beads == BeadKind::Unnamed) line("beads", "one or a few a residue");
+    const Model& first = structure.models[0];
+    std::size_t water = 0, hetero = 0, hydrogen = 0;
+    std::set<std::int32_t> used;
+    for (std::size_t i = first.begin; i < first.end; ++i) {
+        const Residue& residue = residueOf(structure, structure.atoms[i]);
+        water += residue.water;
+        hetero += residue.hetero;
+        hydrogen += structure.atoms[i].element == 1;
+        used.insert(residue.chain);
+    }
+    std::vector<std::string> chains;
+    for (const std::int32_t i : used) chains.push_back(structure.chains[std::size_t(i)]);
+    line("chains", std::to_string(chains.size()) + " (" + joined(chains) + ")");
+    line("atoms", std::to_string(first.end - first.begin) + " (" + std::to_string(water) +
+                      " water, " + std::to_string(hetero) + " ligand or ion, " +
+                      std::to_string(hydrogen) + " hydrogen)");
+    for (const std::string& warning : structure.warnings) line("warning", warning);
+    if (structure.assemblies.empty()) line("assemblies", "none");
+    for (const Assembly& assembly : structure.assemblies) describe(structure, assembly);
+}
+
+} // namespace molsurf::tool
