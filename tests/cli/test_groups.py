@@ -107,6 +107,20 @@ class Groups(ToolTest):
         self.assertIn("grid surface_copy_1", info)
         self.assertIn("grid surface_copy_2", info)
 
+    def test_copies_in_the_file(self):
+        (self.folder / "g").write_text("one A copies=2 #d55e00\n")
+        report = self.report(*DIMER, "--groups", "g", "--surface", "vdw")
+        one, other = report["groups"]
+        self.assertEqual((one["name"], other["name"]), ("one", "other"))
+        self.assertEqual(one["atoms"], other["atoms"])
+        self.assertAlmostEqual(one["area"], other["area"], delta=0.01 * one["area"])
+        for text, says in (("one A copies=3\n", ["group one", "3"]),
+                           ("one A copies=fold:7\n", ["group one", "7"]),
+                           ("one A copies=x\n", ["group one", "'x'"])):
+            (self.folder / "g").write_text(text)
+            self.check(1, *DIMER, "--groups", "g", "-o", "b.json", says=says)
+        self.check(1, CRAMBIN, "--groups", "g", "-o", "b.json", says="--assembly")
+
     def test_surface_of(self):
         report = self.report(*DIMER, "--group-by", "copy", "--surface-of", "copy 2=ses")
         self.assertEqual([(p["name"], p["surface"]["kind"]) for p in report["parts"]],

@@ -84,7 +84,32 @@ openvdb::Vec3d centroidOf(const Structure& structure, const std::vector<std::vec
     return sum;
 }
 
+/// The balls of every part of an assembly.
+std::vector<std::vector<Ball>> ballsOfParts(const Structure& structure, const Assembly& assembly,
+                                            const std::vector<Ball>& balls, std::vector<char>& used)
+{
+    std::vector<std::vector<Ball>> parts;
+    for (const AssemblyPart& part : assembly.parts) {
+        parts.push_back(ballsOfPart(structure, part, balls, used));
+    }
+    return parts;
+}
+
 } // namespace
+
+std::vector<int> findCopies(const Structure& structure, const std::string& name,
+                            const std::string& copies, const std::vector<Ball>& balls)
+{
+    const Assembly& assembly = findAssembly(structure, name);
+    std::vector<char> used(balls.size());
+    const auto parts = ballsOfParts(structure, assembly, balls, used);
+    std::vector<int> numbers;
+    for (const std::size_t i :
+         chooseCopies(structure, assembly, parseCopies(copies), centroidOf(structure, parts))) {
+        numbers.push_back(static_cast<int>(i) + 1);
+    }
+    return numbers;
+}
 
 ExpandedBalls expandAssembly(const Structure& structure, const std::string& name,
                              const std::string& copies, const std::vector<Ball>& balls)
@@ -92,10 +117,7 @@ ExpandedBalls expandAssembly(const Structure& structure, const std::string& name
     const Assembly& assembly = findAssembly(structure, name);
     ExpandedBalls out;
     std::vector<char> used(balls.size());
-    std::vector<std::vector<Ball>> parts;
-    for (const AssemblyPart& part : assembly.parts) {
-        parts.push_back(ballsOfPart(structure, part, balls, used));
-    }
+    const auto parts = ballsOfParts(structure, assembly, balls, used);
     const std::vector<Operator> operators = operatorsOf(assembly);
     const std::vector<std::size_t> partOf = partsOfCopies(assembly);
     const std::vector<std::size_t> chosen =

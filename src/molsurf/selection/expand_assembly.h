@@ -22,6 +22,14 @@ struct ExpandedBalls {
     std::size_t unused = 0;             ///< balls that no part of the assembly lists
 };
 
+/// The numbers of some copies of an assembly.
+///
+/// @param[in] copies  see parseCopies()
+/// @param[in] balls   in the coordinates of the file
+/// @throws Error as expandAssembly()
+std::vector<int> findCopies(const Structure& structure, const std::string& name,
+                            const std::string& copies, const std::vector<Ball>& balls);
+
 /// Applies the operators of an assembly to the balls whose chains it lists.
 ///
 /// Centres of atoms are computed in double precision from the atoms' positions. A part of the

@@ -57,12 +57,16 @@ std::vector<GroupRule> readJson(const std::string& path, const std::string& text
             }
             return entry[key].get<std::string>();
         };
-        GroupRule rule{word("name"), word("select"), {}};
+        GroupRule rule;
+        rule.name = word("name");
+        rule.select = word("select");
         if (entry.contains("color")) rule.color = parseColor(path, word("color"));
+        if (entry.contains("copies")) rule.copies = word("copies");
         for (const auto& item : entry.items()) {
-            if (item.key() != "name" && item.key() != "select" && item.key() != "color") {
+            if (item.key() != "name" && item.key() != "select" && item.key() != "color" &&
+                item.key() != "copies") {
                 fail(path, "group " + rule.name + ": unknown key \"" + item.key() +
-                               "\" [hint: name, select, color]");
+                               "\" [hint: name, select, color, copies]");
             }
         }
         rules.push_back(std::move(rule));
@@ -79,12 +83,20 @@ std::vector<GroupRule> readTable(const std::string& path, const std::string& tex
         std::istringstream words(line);
         std::vector<std::string> columns{std::istream_iterator<std::string>(words), {}};
         if (columns.empty() || columns[0][0] == '#') continue;
-        if (columns.size() < 2 || columns.size() > 3) {
+        if (columns.size() < 2) {
             fail(path, "line " + std::to_string(number) +
                            ": expected name, selection and perhaps colour, got '" + line + "'");
         }
-        GroupRule rule{columns[0], columns[1], {}};
-        if (columns.size() == 3) rule.color = parseColor(path, columns[2]);
+        GroupRule rule;
+        rule.name = columns[0];
+        rule.select = columns[1];
+        for (std::size_t k = 2; k < columns.size(); ++k) {
+            if (columns[k].rfind("copies=", 0) == 0) {
+                rule.copies = columns[k].substr(7);
+            } else {
+                rule.color = parseColor(path, columns[k]);
+            }
+        }
         rules.push_back(std::move(rule));
     }
     return rules;
@@ -111,34 +123,45 @@ ResidueClass classOf(const std::string& name)
     return found == classes.end() ? ResidueClass::Other : found->second;
 }
 
-/// The group of every atom by the rules, or -1.
-std::vector<std::int32_t> byRules(const Structure& structure, const std::vector<GroupRule>& rules,
-                                  BallLabels& labels)
+/// Gives every ball the last rule that has its atom in its copy.
+void labelByRules(const Structure& structure, const std::vector<Ball>& balls,
+                  const std::vector<std::size_t>& copyBegin, const std::vector<int>& copyNumbers,
+                  const std::vector<GroupRule>& rules, BallLabels& labels)
 {
-    std::vector<std::int32_t> group(structure.atoms.size(), -1);
-    for (std::size_t r = 0; r < rules.size(); ++r) {
-        const AtomMatch match = [&] {
-            try {
-                return matchAtoms(structure, rules[r].select);
-            } catch (const Error& e) { // the file of groups is wrong, not the call
-                throw Error(ErrorKind::Input, "group " + rules[r].name + ": " + e.what());
-            }
-        }();
-        std::map<std::int32_t, std::size_t> lost;
-        for (std::size_t i = 0; i < group.size(); ++i) {
-            if (!match.atoms[i]) continue;
-            if (group[i] >= 0) ++lost[group[i]];
-            group[i] = std::int32_t(r);
+    std::vector<std::vector<char>> has; // by rule and atom
+    for (const GroupRule& rule : rules) {
+        try {
+            AtomMatch match = matchAtoms(structure, rule.select);
+            has.emplace_back(match.atoms.begin(), match.atoms.end());
+            labels.warnings.insert(labels.warnings.end(), match.warnings.begin(),
+                                   match.warnings.end());
+        } catch (const Error& e) { // the file of groups is wrong, not the call
+            throw Error(ErrorKind::Input, "group " + rule.name + ": " + e.what());
         }
-        for (const auto& [from, count] : lost) {
-            labels.warnings.push_back("groups: " + std::to_string(count) + " atoms of " +
-                                      rules[std::size_t(from)].name + " belong to " +
-                                      rules[r].name + ", which comes later");
-        }
-        labels.warnings.insert(labels.warnings.end(), match.warnings.begin(), match.warnings.end());
-        labels.groups.push_back({rules[r].name, 0, rules[r].color});
+        labels.groups.push_back({rule.name, 0, rule.color});
     }
-    return group;
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> lost; // to a later rule: atoms
+    labels.groupOf.assign(balls.size(), -1);
+    for (std::size_t c = 0; c + 1 < copyBegin.size(); ++c) {
+        const auto applies = [&](const GroupRule& rule) {
+            const auto& numbers = rule.copyNumbers;
+            return numbers.empty() ||
+                   std::find(numbers.begin(), numbers.end(), copyNumbers[c]) != numbers.end();
+        };
+        for (std::size_t r = 0; r < rules.size(); ++r) {
+            if (!applies(rules[r])) continue;
+            for (std::size_t i = copyBegin[c]; i < copyBegin[c + 1]; ++i) {
+                if (!has[r][std::size_t(balls[i].atom)]) continue;
+                if (labels.groupOf[i] >= 0) ++lost[{std::size_t(labels.groupOf[i]), r}];
+                labels.groupOf[i] = std::int32_t(r);
+            }
+        }
+    }
+    for (const auto& [rule, count] : lost) {
+        labels.warnings.push_back("groups: " + std::to_string(count) + " atoms of " +
+                                  rules[rule.first].name + " belong to " + rules[rule.second].name +
+                                  ", which comes later");
+    }
 }
 
 /// For each chain the residue names of its atoms' residues.
@@ -177,7 +200,8 @@ std::vector<GroupRule> readGroups(const std::string& path)
 
 BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls,
                       const std::vector<std::size_t>& copyBegin,
-                      const std::vector<GroupRule>& rules, const std::string& by)
+                      const std::vector<int>& copyNumbers, const std::vector<GroupRule>& rules,
+                      const std::string& by)
 {
     int perGroup = 0;
     if (by.rfind("residues:", 0) == 0) {
@@ -190,8 +214,9 @@ BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls
     }
 
     BallLabels labels;
-    std::vector<std::int32_t> groupOfAtom;
-    if (by.empty() && !rules.empty()) groupOfAtom = byRules(structure, rules, labels);
+    if (by.empty() && !rules.empty()) {
+        labelByRules(structure, balls, copyBegin, copyNumbers, rules, labels);
+    }
     const std::vector<std::string> sequence =
         by == "entity" ? sequences(structure) : std::vector<std::string>();
     std::map<std::string, std::int32_t> number; // of groups by name
@@ -200,9 +225,10 @@ BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls
     labels.chainOf.resize(balls.size());
     labels.elementOf.resize(balls.size());
     labels.residueClassOf.resize(balls.size());
-    if (!by.empty() || !rules.empty()) labels.groupOf.assign(balls.size(), -1);
+    if (!by.empty()) labels.groupOf.assign(balls.size(), -1);
     for (std::size_t c = 0; c < copies; ++c) {
-        const std::string suffix = c == 0 ? "" : "-" + std::to_string(c + 1);
+        const std::string copyName = std::to_string(copyNumbers[c]);
+        const std::string suffix = copyNumbers[c] == 1 ? "" : "-" + copyName;
         std::vector<std::int32_t> chain(structure.chains.size(), -1); // in this copy
         std::int32_t lastResidue = -1, lastGroup = -1;
         for (std::size_t i = copyBegin[c]; i < copyBegin[c + 1]; ++i) {
@@ -217,13 +243,11 @@ BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls
             labels.chainOf[i] = index;
             labels.elementOf[i] = atom.element;
             labels.residueClassOf[i] = classOf(residue.name);
-            if (!groupOfAtom.empty()) {
-                labels.groupOf[i] = groupOfAtom[std::size_t(balls[i].atom)];
-            } else if (!by.empty()) {
+            if (!by.empty()) {
                 if (atom.residue != lastResidue || i == copyBegin[c]) {
                     std::string name;
                     if (by == "chain") name = chainName + suffix;
-                    if (by == "copy") name = "copy " + std::to_string(c + 1);
+                    if (by == "copy") name = "copy " + copyName;
                     if (by == "entity") {
                         const std::int32_t next = std::int32_t(entity.size()) + 1;
                         const auto e = entity.emplace(sequence[std::size_t(residue.chain)], next);

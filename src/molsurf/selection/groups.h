@@ -21,6 +21,8 @@ struct GroupRule {
     std::string name;
     std::string select;                               ///< gemmi selections joined by '|'
     std::optional<std::array<std::uint8_t, 3>> color; ///< sRGB
+    std::string copies{}; ///< in these copies of the assembly, see parseCopies(); empty: all
+    std::vector<int> copyNumbers{}; ///< what `copies` comes to; empty: all
 };
 
 /// A group as found.
@@ -54,8 +56,9 @@ struct BallLabels {
 };
 
 /// Reads groups from a file: JSON {"groups": [{"name": "...", "select": "...", "color": "#rrggbb"},
-/// ...]}, or a table with one group a line: name, selection and (optional) colour, separated by
-/// white space; '#' at the start of a line is a comment.
+/// ...]}, an entry may also have "copies": "1,7" or "fold:5"; or a table with one group a line:
+/// name, selection and perhaps colour and copies=1,7, separated by white space; '#' at the start of
+/// a line is a comment.
 ///
 /// @throws Error(ErrorKind::Input) if the file cannot be read, is neither, has no group, or two of
 ///         one name
@@ -63,8 +66,9 @@ std::vector<GroupRule> readGroups(const std::string& path);
 
 /// Labels balls.
 ///
-/// @param[in] copyBegin  copy i is balls [copyBegin[i], copyBegin[i + 1])
-/// @param[in] rules      groups; an atom of several belongs to the last
+/// @param[in] copyBegin    copy i is balls [copyBegin[i], copyBegin[i + 1])
+/// @param[in] copyNumbers  of copy i in the whole assembly, from 1
+/// @param[in] rules        groups; an atom of several belongs to the last
 /// @param[in] by         "", "chain", "entity" (chains of the same residues), "copy" (of the
 ///                       assembly), or "residues:N" (N residues of a chain each): groups instead of
 ///                       the rules
@@ -72,6 +76,7 @@ std::vector<GroupRule> readGroups(const std::string& path);
 /// @throws Error(ErrorKind::Usage) if `by` is none of these
 BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls,
                       const std::vector<std::size_t>& copyBegin,
-                      const std::vector<GroupRule>& rules, const std::string& by);
+                      const std::vector<int>& copyNumbers, const std::vector<GroupRule>& rules,
+                      const std::string& by);
 
 } // namespace molsurf

@@ -301,6 +301,27 @@ void applyResolutions(const Structure& structure, const SelectOptions& options, 
     }
 }
 
+/// The groups, with the numbers of their copies.
+/// @param[in] balls  in the coordinates of the file
+std::vector<GroupRule> withCopies(const Structure& structure, const SelectOptions& options,
+                                  const std::vector<Ball>& balls)
+{
+    std::vector<GroupRule> groups = options.groups;
+    for (GroupRule& group : groups) {
+        if (group.copies.empty()) continue;
+        const std::string where = "group " + group.name + ": copies: ";
+        if (options.assembly == "none") {
+            throw Error(ErrorKind::Input, where + "expected an assembly [hint: --assembly]");
+        }
+        try {
+            group.copyNumbers = findCopies(structure, options.assembly, group.copies, balls);
+        } catch (const Error& e) { // the file of groups is wrong, not the call
+            throw Error(ErrorKind::Input, where + e.what());
+        }
+    }
+    return groups;
+}
+
 } // namespace
 
 BallSelection selectBalls(const Structure& structure, const SelectOptions& options,
@@ -328,6 +349,7 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
         beadAtoms = std::move(coarse.beadAtoms);
         out.warnings.insert(out.warnings.end(), coarse.warnings.begin(), coarse.warnings.end());
     }
+    const std::vector<GroupRule> groups = withCopies(structure, options, balls);
     if (options.assembly == "none") {
         out.balls = std::move(balls);
         out.copyBegin = {0, out.balls.size()};
@@ -352,8 +374,8 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
     }
     applyResolutions(structure, options, out);
     if (options.labels || !options.groups.empty() || !options.groupBy.empty()) {
-        out.labels =
-            labelBalls(structure, out.balls, out.copyBegin, options.groups, options.groupBy);
+        out.labels = labelBalls(structure, out.balls, out.copyBegin, out.copyNumbers, groups,
+                                options.groupBy);
         out.warnings.insert(out.warnings.end(), out.labels->warnings.begin(),
                             out.labels->warnings.end());
     }
