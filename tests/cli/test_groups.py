@@ -116,7 +116,7 @@ class Groups(ToolTest):
         self.assertAlmostEqual(one["area"], other["area"], delta=0.01 * one["area"])
         for text, says in (("one A copies=3\n", ["group one", "3"]),
                            ("one A copies=fold:7\n", ["group one", "7"]),
-                           ("one A copies=x\n", ["group one", "'x'"])):
+                           ("one A copies=x\n", ["group one", '"x"'])):
             (self.folder / "g").write_text(text)
             self.check(1, *DIMER, "--groups", "g", "-o", "b.json", says=says)
         self.check(1, CRAMBIN, "--groups", "g", "-o", "b.json", says="--assembly")
