@@ -34,8 +34,8 @@ struct RadiiSet {
 
 /// A built-in set, or the content of a file.
 ///
-/// Sets: "bondi", "alvarez", "gemmi", and for beads "martini2" and "martini3"; see describeRadii(). A
-/// file has one rule a line, in Å:
+/// Sets: "bondi", "alvarez", "gemmi", and for beads "martini2" and "martini3"; see describeRadii().
+/// A file has one rule a line, in Å:
 ///
 ///     C        1.70      # an element
 ///     *        1.80      # any atom that no other rule covers
