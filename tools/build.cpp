@@ -9,7 +9,7 @@
 #include "molsurf/core/error.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/io/write_mesh.h"
-#include "molsurf/io/write_picture.h"
+#include "molsurf/io/write_png.h"
 #include "molsurf/io/write_report.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/pipeline/run.h"
@@ -17,7 +17,6 @@
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 
-#include <openvdb/tools/Composite.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -115,20 +114,8 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     return map;
 }
 
-// The union of the parts, if there are any.
-openvdb::FloatGrid::ConstPtr wholeSurface(const Result& result)
-{
-    if (result.surface) return result.surface;
-    openvdb::FloatGrid::Ptr all;
-    for (const auto& field : result.fields) {
-        if (field->getName().rfind("surface_", 0) != 0) continue;
-        const auto part = openvdb::gridPtrCast<openvdb::FloatGrid>(field);
-        all = all ? openvdb::tools::csgUnionCopy(*all, *part) : part;
-    }
-    return all;
-}
-
-void writeOne(const Call& call, const Result& result, Format format, OutputFile& file)
+void writeOne(const Call& call, const Result& result, Format format, const Progress& progress,
+              OutputFile& file)
 {
     switch (format) {
     case Format::Vdb: {
@@ -148,7 +135,7 @@ void writeOne(const Call& call, const Result& result, Format format, OutputFile&
         writeStl(result.mesh, file);
         break;
     case Format::Png:
-        writePng(drawSurface(*wholeSurface(result)), file);
+        writePng(drawMesh(result.mesh, DrawOptions(), progress), file);
         break;
     case Format::Json:
         writeReport(result.report, file);
@@ -160,7 +147,7 @@ void writeAll(const Call& call, Result& result, Terminal& terminal, Clock::time_
 {
     writeOutputs(
         call, terminal,
-        [&](Format format, OutputFile& file) { writeOne(call, result, format, file); },
+        [&](Format format, OutputFile& file) { writeOne(call, result, format, terminal, file); },
         [&](double writeSeconds) {
             auto& seconds = result.report.seconds;
             seconds.emplace_back("write", writeSeconds);

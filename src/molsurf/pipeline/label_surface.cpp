@@ -168,14 +168,15 @@ openvdb::Vec3d placeIn(const Coord& cell)
             fraction(cell.z(), cell.x(), cell.y())};
 }
 
-/// One point in every cell of a lattice, if inside the surface. Cells are at most an Å wide, and
-/// smaller if the volume is small; the places in them vary, so that borders along the lattice do no
-/// harm.
+/// One point in every cell of a lattice, if inside the surface. Cells are an Å wide, smaller if
+/// the volume is small, and larger if it is very large; the places in them vary, so that borders
+/// along the lattice do no harm.
 std::vector<Vec3f> pointsInside(const openvdb::FloatGrid& surface, double volume)
 {
-    constexpr double enough = 1e5; // points
+    constexpr double enough = 1e5, plenty = 1e6; // points
     const double h = surface.voxelSize()[0];
-    const double width = std::min(1.0, std::cbrt(volume / enough)) / h;
+    const double width =
+        std::max(std::min(1.0, std::cbrt(volume / enough)), std::cbrt(volume / plenty)) / h;
     const int stride = std::max(1, int(std::floor(width + 1e-9)));     // voxels a cell, or
     const int parts = std::max(1, int(std::ceil(1.0 / width - 1e-9))); // cells a voxel
     openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::BoxSampler> phi(surface);

@@ -1,41 +1,18 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/closest_point.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/surface/ray_scene.h"
 
-#include <embree3/rtcore.h>
 #include <openvdb/math/Proximity.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <new>
 
 namespace molsurf
 {
 
 using openvdb::Vec3d;
-
-struct ClosestPoint::Scene {
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
-
-    ~Scene()
-    {
-        if (scene) rtcReleaseScene(scene);
-        if (device) rtcReleaseDevice(device);
-    }
-
-    void check() const
-    {
-        const RTCError error = rtcGetDeviceError(device);
-        if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-        if (error != RTC_ERROR_NONE)
-            throw Error(ErrorKind::Numeric,
-                        "distance: Embree failed with error " + std::to_string(int(error)));
-    }
-};
 
 namespace
 {
@@ -78,30 +55,8 @@ bool visit(RTCPointQueryFunctionArguments* arguments)
 
 } // namespace
 
-ClosestPoint::ClosestPoint(const Mesh& mesh) : mesh_(mesh), scene_(std::make_unique<Scene>())
+ClosestPoint::ClosestPoint(const Mesh& mesh) : mesh_(mesh), scene_(std::make_unique<RayScene>(mesh))
 {
-    scene_->device = rtcNewDevice(nullptr);
-    if (!scene_->device) throw std::bad_alloc();
-    scene_->scene = rtcNewScene(scene_->device);
-    const RTCGeometry geometry = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Embree reads 16 bytes at the last vertex too, so it gets buffers of its own.
-    void* positions =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                sizeof(openvdb::Vec3f), mesh.positions.size());
-    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                              3 * sizeof(std::uint32_t), mesh.triangles.size());
-    if (positions && triangles) {
-        std::memcpy(positions, mesh.positions.data(),
-                    mesh.positions.size() * sizeof(openvdb::Vec3f));
-        std::memcpy(triangles, mesh.triangles.data(),
-                    mesh.triangles.size() * 3 * sizeof(std::uint32_t));
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene_->scene, geometry);
-    }
-    rtcReleaseGeometry(geometry);
-    scene_->check();
-    rtcCommitScene(scene_->scene);
-    scene_->check();
     for (const auto& p : mesh.positions)
         for (int i = 0; i < 3; ++i) reach_ = std::max(reach_, double(std::abs(p[i])));
 }
@@ -119,7 +74,7 @@ MeshPoint ClosestPoint::at(const Vec3d& x) const
     query.radius = std::numeric_limits<float>::infinity();
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    rtcPointQuery(scene_->scene, &query, &context, visit, &search);
+    rtcPointQuery(scene_->get(), &query, &context, visit, &search);
     return search.found;
 }
 

@@ -12,6 +12,8 @@
 namespace molsurf
 {
 
+class RayScene;
+
 /// A point of a mesh.
 struct MeshPoint {
     openvdb::Vec3d point;   ///< [Å]
@@ -38,10 +40,9 @@ public:
     MeshPoint at(const openvdb::Vec3d& x) const;
 
 private:
-    struct Scene;
     const Mesh& mesh_;
     double reach_ = 0.0; ///< largest coordinate of the mesh [Å]
-    std::unique_ptr<Scene> scene_;
+    std::unique_ptr<RayScene> scene_;
 };
 
 } // namespace molsurf
