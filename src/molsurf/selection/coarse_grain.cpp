@@ -20,7 +20,8 @@ using openvdb::Vec3d;
 using std::string_view;
 using Members = std::vector<std::size_t>; // indices of balls, ascending
 
-/// Atoms of a ligand that share a bead, as in the usual four-to-one maps.
+/// Atoms of a ligand, or of what else is no residue, that share a bead, as in the usual four-to-one
+/// maps.
 constexpr int ligandAtoms = 4;
 constexpr int maxAtoms = 1'000'000;
 
@@ -36,7 +37,7 @@ bool isPrimed(const std::string& name)
 }
 
 /// Parts of a polymer's residue, one bead each.
-enum class Part : std::uint8_t { Backbone, SideChain, Phosphate, Sugar, Base, Whole };
+enum class Part : std::uint8_t { Backbone, SideChain, Phosphate, Sugar, Base };
 
 /// What a residue is, by the names of its atoms.
 enum class Kind : std::uint8_t { AminoAcid, Nucleotide, Other };
@@ -47,13 +48,10 @@ Part partOf(Kind kind, const std::string& name)
         return isOneOf(name, {"N", "CA", "C", "O", "OXT", "OT1", "OT2"}) ? Part::Backbone
                                                                          : Part::SideChain;
     }
-    if (kind == Kind::Nucleotide) {
-        if (isOneOf(name, {"P", "OP1", "OP2", "OP3", "O1P", "O2P", "O3P", "O5'", "O5*"})) {
-            return Part::Phosphate;
-        }
-        return isPrimed(name) ? Part::Sugar : Part::Base;
+    if (isOneOf(name, {"P", "OP1", "OP2", "OP3", "O1P", "O2P", "O3P", "O5'", "O5*"})) {
+        return Part::Phosphate;
     }
-    return Part::Whole;
+    return isPrimed(name) ? Part::Sugar : Part::Base;
 }
 
 /// Gathers the balls of the beads.
@@ -122,6 +120,7 @@ private:
             primed = primed || isOneOf(name, {"C1'", "C4'", "C1*", "C4*", "P"});
         }
         const Kind kind = ca && peptide ? Kind::AminoAcid : primed ? Kind::Nucleotide : Kind::Other;
+        if (kind == Kind::Other) return cut(unitsOf(chosen), ligandAtoms);
         std::map<Part, Members> parts;
         for (const Unit& unit : unitsOf(chosen)) {
             Members& part = parts[partOf(kind, atom(unit[0]).name)];

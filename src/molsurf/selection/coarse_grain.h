@@ -53,11 +53,11 @@ struct CoarseBalls {
 /// Residue: the atoms N, CA, C and O of an amino acid are one bead, its side chain another one, as
 /// in Levitt, J. Mol. Biol. 104:59-107, 1976 (simplified representation of protein conformations).
 /// A nucleotide is three: phosphate with O5', sugar, base, as in Knotts et al., J. Chem. Phys.
-/// 126:084901, 2007. Other parts of a polymer are one bead; ligands are cut into clusters of about
-/// four atoms. Cluster: the atoms of a chain are cut at the median across their longest extent,
-/// again and again; ligands are clustered each on its own. In both, hydrogens go with the nearest
-/// atom of their residue, and waters and ions are beads of their own. A rule for a part of a
-/// residue or chain makes beads of that part alone.
+/// 126:084901, 2007. Ligands, other residues and atoms without residues are cut into clusters of
+/// about four atoms. Cluster: the atoms of a chain are cut at the median across their longest
+/// extent, again and again; ligands are clustered each on its own. In both, hydrogens go with the
+/// nearest atom of their residue, and waters and ions are beads of their own. A rule for a part of
+/// a residue or chain makes beads of that part alone.
 ///
 /// The centre of a bead is that of its atoms, weighted by the volumes of their balls. Its `atom` is
 /// the one nearest to the centre. Beads stand in the order of their first atoms.

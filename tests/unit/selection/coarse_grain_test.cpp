@@ -226,6 +226,14 @@ TEST(CoarseGrain, WatersIonsAndLigands)
     EXPECT_EQ(waters, 58u);
 }
 
+TEST(CoarseGrain, AtomsWithoutResiduesAreClustered)
+{
+    std::string text;
+    for (int i = 0; i < 40; ++i) text += std::to_string(1.5 * i) + " 0 0 1.7\n";
+    const Structure s = readStructure(TempFile("row.xyzr", text).path());
+    EXPECT_EQ(beadsOf(s, {"residue"}).balls.size(), 10u);
+}
+
 TEST(CoarseGrain, ASelectionThatMatchesNothingIsAnError)
 {
     const Structure s = readStructure(dataFile("1crn.pdb"));
