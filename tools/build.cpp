@@ -135,7 +135,7 @@ void writeOne(const Call& call, const Result& result, Format format, const Progr
         writeStl(result.mesh, file);
         break;
     case Format::Png:
-        writePng(drawMesh(result.mesh, DrawOptions(), progress), file);
+        writePng(drawMesh(result.mesh, call.picture, progress), file);
         break;
     case Format::Json:
         writeReport(result.report, file);

@@ -152,6 +152,14 @@ const std::vector<Group>& groups()
            "colours of the mesh and the grid Cd: chain, group,\n"
            "element, residue, mean-curvature, gaussian-curvature",
            nameOf(preset.color)}}},
+        {"Picture",
+         {{"view", "X,Y,Z",
+           "direction toward the eye, or auto: the shortest extent\n"
+           "toward the eye, the longest across",
+           "auto"},
+          {"turn", "A", "turned by so many degrees about the upright", "0"},
+          {"size", "N", "width in pixels; the height follows the shape", "1200"},
+          {"background", "COLOR", "as #rrggbb", "#ffffff"}}},
         {"Evolution",
          {{"lambda", "L", "weight of the regulariser [Å^2 for gradient, 1 for area]",
            shortest(preset.evolution.lambda)},
@@ -204,7 +212,10 @@ std::vector<Group> groupsOf(Verb verb)
     if (verb != Verb::Compare) return groups();
     std::vector<Group> all = compareGroups();
     std::copy_if(groups().begin() + 1, groups().end(), std::back_inserter(all),
-                 [](const Group& group) { return std::string(group.title) != "Groups"; });
+                 [](const Group& group) {
+                     const std::string title = group.title;
+                     return title != "Groups" && title != "Picture";
+                 });
     return all;
 }
 
@@ -449,6 +460,35 @@ void fillGroups(const Values& values, Call& call)
     options.atoms.labels = options.color != ColorBy::Nothing || has("chain_id") || has("Cd");
 }
 
+// Toward the eye; up is y, or z when looking along y.
+void fillPicture(const Values& values, Call& call)
+{
+    DrawOptions& picture = call.picture;
+    std::string view = "auto";
+    values.get("view", view);
+    if (view != "auto") {
+        const char *from = view.data(), *end = from + view.size();
+        for (int i = 0; i < 3; ++i) {
+            const auto [stop, problem] = std::from_chars(from, end, picture.toEye[i]);
+            if (problem != std::errc() || (i < 2 ? stop == end || *stop != ',' : stop != end) ||
+                !std::isfinite(picture.toEye[i]))
+                values.wrong("view", "auto or a direction X,Y,Z");
+            from = stop + 1;
+        }
+        if (!(picture.toEye.lengthSqr() > 0.0)) values.wrong("view", "auto or a direction X,Y,Z");
+        const openvdb::Vec3d eye = picture.toEye.unit();
+        picture.up = std::abs(eye.y()) < 0.99 ? openvdb::Vec3d(0, 1, 0) : openvdb::Vec3d(0, 0, 1);
+    }
+    values.get("turn", picture.turn);
+    values.get("size", picture.width, 16, 16384);
+    std::string color;
+    values.get("background", color);
+    if (color.empty()) return;
+    const auto parsed = parseColor(color);
+    if (!parsed) values.wrong("background", "a color as #rrggbb");
+    picture.background = *parsed;
+}
+
 void fillBuild(const Values& values, Call& call)
 {
     const std::vector<std::string> inputs = values.list("input");
@@ -460,6 +500,12 @@ void fillBuild(const Values& values, Call& call)
     call.outputs = outputsOf(values);
     fillRun(values, call);
     fillGroups(values, call);
+    fillPicture(values, call);
+    const bool png = std::any_of(call.outputs.begin(), call.outputs.end(),
+                                 [](const Output& output) { return output.format == Format::Png; });
+    for (const char* name : {"view", "turn", "size", "background"})
+        if (!png && values.given(name))
+            call.warnings.push_back(std::string("--") + name + " is for .png");
 }
 
 // D or SELECTION=D, the selection ending at the last =.
@@ -590,7 +636,8 @@ std::vector<std::string> givenForStructures(const po::variables_map& map)
     std::vector<std::string> given;
     for (const Group& group : groups()) {
         const std::string title = group.title;
-        if (title == "Output" || title == "Run" || title == "Information") continue;
+        if (title == "Output" || title == "Picture" || title == "Run" || title == "Information")
+            continue;
         for (const Entry& entry : group.entries) {
             const std::string name = longName(entry);
             if (name != "voxel" && map.count(name) && !map[name].defaulted())

@@ -6,6 +6,7 @@
 /// its help text.
 
 #include "molsurf/pipeline/options.h"
+#include "molsurf/surface/draw_mesh.h"
 
 #include <string>
 #include <vector>
@@ -33,6 +34,7 @@ struct Call {
     std::vector<Output> outputs;    ///< Build: at least one
     std::vector<std::string> files; ///< Info: at least one; Compare: two
     Options options;                ///< Build, Compare
+    DrawOptions picture;            ///< Build
     bool colorBySign = false;       ///< Compare: by the signed distance
     double colorRange = 0.0;        ///< Compare: distance at the end of the colours [Å]; 0: choose
     std::vector<std::string> given; ///< Compare: options that are for structures only

@@ -2,9 +2,35 @@
 """Resolutions, groups, colours and parts, as a user asks for them."""
 
 import json
+import struct
 import unittest
+import zlib
 
 from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply
+
+
+
+def read_png(data):
+    """(width, rows of bytes) of an 8-bit RGB picture."""
+    width, at, body = struct.unpack(">I", data[16:20])[0], 8, b""
+    while at < len(data):
+        size, = struct.unpack(">I", data[at:at + 4])
+        if data[at + 4:at + 8] == b"IDAT":
+            body += data[at + 8:at + 8 + size]
+        at += size + 12
+    body = zlib.decompress(body)
+    rows, last = [], bytearray(3 * width)
+    for start in range(0, len(body), 3 * width + 1):
+        kind, row = body[start], bytearray(body[start + 1:start + 1 + 3 * width])
+        for i in range(len(row)):
+            a, b, c = row[i - 3] if i > 2 else 0, last[i], last[i - 3] if i > 2 else 0
+            guess = a + b - c
+            paeth = min((a, b, c), key=lambda x: abs(guess - x))
+            row[i] = row[i] + (0, a, b, (a + b) // 2, paeth)[kind] & 255
+        rows.append(row)
+        last = row
+    return width, rows
+
 
 DIMER = [DATA / "1a8o.cif.gz", "--assembly", "1"]
 
@@ -58,6 +84,13 @@ class Refused(ToolTest):
         self.refuse(2, "--surface-of", "a", "--group-by", "chain", says="GROUP=KIND")
         self.refuse(1, "--surface-of", "B=vdw", "--group-by", "chain", says=["'B'", "A"])
         self.refuse(2, "--groups", self.write("a A\n"), "--group-by", "chain", says="together")
+
+
+    def test_picture(self):
+        for option, value in (("--view", "up"), ("--view", "0,0,0"), ("--view", "1,2"),
+                              ("--view", "1,2,3,4"), ("--size", "0"), ("--background", "white"),
+                              ("--turn", "x")):
+            self.refuse(2, option, value, says=option)
 
 
 class Groups(ToolTest):
@@ -120,6 +153,20 @@ class Groups(ToolTest):
             (self.folder / "g").write_text(text)
             self.check(1, *DIMER, "--groups", "g", "-o", "b.json", says=says)
         self.check(1, CRAMBIN, "--groups", "g", "-o", "b.json", says="--assembly")
+
+    def test_picture_has_the_colors(self):
+        (self.folder / "g").write_text("first /1/A/1-20 #d00000\nlast /1/A/21-46 #0000d0\n")
+        for view in ("auto", "0,1,0"):
+            self.report(CRAMBIN, "--groups", "g", "--color", "group", "-o", "a.png", "--size",
+                        "200", "--view", view, "--background", "#102030")
+            width, rows = read_png((self.folder / "a.png").read_bytes())
+            self.assertEqual(width, 200)
+            pixels = [tuple(row[x:x + 3]) for row in rows for x in range(0, len(row), 3)]
+            self.assertIn((0x10, 0x20, 0x30), pixels)
+            red = sum(r > 2 * b and r > 80 for r, g, b in pixels)
+            blue = sum(b > 2 * r and b > 80 for r, g, b in pixels)
+            self.assertGreater(min(red, blue), len(pixels) / 50)
+            self.assertGreater(red + blue, len(pixels) / 3)
 
     def test_surface_of(self):
         report = self.report(*DIMER, "--group-by", "copy", "--surface-of", "copy 2=ses")

@@ -28,17 +28,11 @@ namespace
     throw Error(ErrorKind::Input, path + ": " + what);
 }
 
-std::array<std::uint8_t, 3> parseColor(const std::string& path, const std::string& text)
+std::array<std::uint8_t, 3> colorOf(const std::string& path, const std::string& text)
 {
-    std::array<std::uint8_t, 3> color{};
-    bool good = text.size() == 7 && text[0] == '#';
-    for (std::size_t k = 0; good && k < 3; ++k) {
-        const char* begin = text.data() + 1 + 2 * k;
-        const auto [end, problem] = std::from_chars(begin, begin + 2, color[k], 16);
-        good = problem == std::errc() && end == begin + 2;
-    }
-    if (!good) fail(path, "expected a colour like #d55e00, got '" + text + "'");
-    return color;
+    const auto color = parseColor(text);
+    if (!color) fail(path, "expected a colour like #d55e00, got '" + text + "'");
+    return *color;
 }
 
 std::vector<GroupRule> readJson(const std::string& path, const std::string& text)
@@ -60,7 +54,7 @@ std::vector<GroupRule> readJson(const std::string& path, const std::string& text
         GroupRule rule;
         rule.name = word("name");
         rule.select = word("select");
-        if (entry.contains("color")) rule.color = parseColor(path, word("color"));
+        if (entry.contains("color")) rule.color = colorOf(path, word("color"));
         if (entry.contains("copies")) rule.copies = word("copies");
         for (const auto& item : entry.items()) {
             if (item.key() != "name" && item.key() != "select" && item.key() != "color" &&
@@ -94,7 +88,7 @@ std::vector<GroupRule> readTable(const std::string& path, const std::string& tex
             if (columns[k].rfind("copies=", 0) == 0) {
                 rule.copies = columns[k].substr(7);
             } else {
-                rule.color = parseColor(path, columns[k]);
+                rule.color = colorOf(path, columns[k]);
             }
         }
         rules.push_back(std::move(rule));
@@ -175,6 +169,18 @@ std::vector<std::string> sequences(const Structure& structure)
 }
 
 } // namespace
+
+std::optional<std::array<std::uint8_t, 3>> parseColor(const std::string& text)
+{
+    std::array<std::uint8_t, 3> color{};
+    if (text.size() != 7 || text[0] != '#') return {};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const char* begin = text.data() + 1 + 2 * k;
+        const auto [end, problem] = std::from_chars(begin, begin + 2, color[k], 16);
+        if (problem != std::errc() || end != begin + 2) return {};
+    }
+    return color;
+}
 
 std::vector<GroupRule> readGroups(const std::string& path)
 {

@@ -55,6 +55,9 @@ struct BallLabels {
     std::vector<std::string> warnings;        ///< groups that lost atoms to later ones, ...
 };
 
+/// The colour that "#rrggbb" stands for.
+std::optional<std::array<std::uint8_t, 3>> parseColor(const std::string& text);
+
 /// Reads groups from a file: JSON {"groups": [{"name": "...", "select": "...", "color": "#rrggbb"},
 /// ...]}, an entry may also have "copies": "1,7" or "fold:5"; or a table with one group a line:
 /// name, selection and perhaps colour and copies=1,7, separated by white space; '#' at the start of
