@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MPL-2.0
-"""The commands and the C++ of README.md work as they stand."""
+"""The commands of README.md and the guides, and the C++, work as they stand."""
 
 import os
 import pathlib
@@ -10,12 +10,12 @@ import unittest
 
 from tool import ROOT, TOOL, ToolTest
 
-README = (ROOT / "README.md").read_text()
+PAGES = [ROOT / "README.md", ROOT / "docs" / "complexes.md"]
 
 
-def blocks(language):
+def blocks(language, page=PAGES[0]):
     """The fenced blocks of a language."""
-    return re.findall(rf"^```{language}\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+    return re.findall(rf"^```{language}\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL)
 
 
 def promised(block):
@@ -32,9 +32,15 @@ class Readme(ToolTest):
         (self.folder / "bin").mkdir()
         (self.folder / "bin" / "vdb_molsurf").symlink_to(pathlib.Path(TOOL).resolve())
 
-    def test_commands(self):
+    def test_commands_of_the_readme(self):
+        self.run_commands(PAGES[0])
+
+    def test_commands_of_the_guide(self):
+        self.run_commands(PAGES[1])
+
+    def run_commands(self, page):
         """In the order of the page and in one folder, since later ones use files of earlier ones."""
-        commands = blocks("sh")
+        commands = blocks("sh", page)
         self.assertGreaterEqual(len(commands), 3)
         path = f"{self.folder / 'bin'}:{os.environ['PATH']}"
         for block in commands:
@@ -53,7 +59,8 @@ class Readme(ToolTest):
         text = b"".join(self.check(0, *words, "--help").stdout for words in ([], ["compare"]))
         text = text.decode()
         known = set(re.findall(r"--[a-z][a-z-]*", text))
-        spans = re.findall(r"`(?:vdb_molsurf[^`]*|--[^`]*)`", README)
+        spans = [span for page in PAGES
+                 for span in re.findall(r"`(?:vdb_molsurf[^`]*|--[^`]*)`", page.read_text())]
         named = {option for span in spans for option in re.findall(r"--[a-z][a-z-]*", span)}
         self.assertGreater(len(named), 10)
         self.assertEqual(named - known, set())
@@ -68,8 +75,9 @@ class Readme(ToolTest):
             self.assertIn(line.strip(), compiled)
 
     def test_links(self):
-        for target in re.findall(r"\]\(([^)#]+)\)", README):
-            self.assertTrue((ROOT / target).exists(), target)
+        for page in PAGES:
+            for target in re.findall(r"\]\(([^)#]+)\)", page.read_text()):
+                self.assertTrue((page.parent / target).exists(), target)
 
 
 if __name__ == "__main__":
