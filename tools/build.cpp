@@ -206,7 +206,7 @@ void sayTimes(const Report& report)
 
 } // namespace
 
-int build(const Call& call, Clock::time_point start)
+Report buildSurface(const Call& call, Clock::time_point start)
 {
     checkOptions(call.options);
     prepareOutputs(call);
@@ -249,7 +249,13 @@ int build(const Call& call, Clock::time_point start)
     terminal.erase();
     if (call.verbose) sayTimes(result.report);
     if (!call.quiet) say(summary(result.report));
-    const auto& evolution = result.report.evolution;
+    return result.report;
+}
+
+int build(const Call& call, Clock::time_point start)
+{
+    const Report report = buildSurface(call, start);
+    const auto& evolution = report.evolution;
     if (evolution && !evolution->converged) {
         say("not converged after " + counted(std::size_t(evolution->steps), "step", "steps") +
             "; the files are written [hint: --max-steps or --tolerance]");

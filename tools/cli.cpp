@@ -206,10 +206,27 @@ const std::vector<Group>& compareGroups()
     return all;
 }
 
+// What batch has in the place of the group Output.
+const std::vector<Group>& batchGroups()
+{
+    static const std::vector<Group> all = {
+        {"Output",
+         {{"folder,O", "DIR", "where the files go, with the names of the structures", ""},
+          {"formats", "LIST", "files to write, by commas: vdb, ply, obj, stl, json, png",
+           "vdb,ply,json"},
+          {"force", nullptr, "do all again, and replace existing files", ""}}}};
+    return all;
+}
+
 // The groups of a verb, in the order of its help.
 std::vector<Group> groupsOf(Verb verb)
 {
-    if (verb != Verb::Compare) return groups();
+    if (verb == Verb::Build) return groups();
+    if (verb == Verb::Batch) {
+        std::vector<Group> all = batchGroups();
+        all.insert(all.end(), groups().begin() + 1, groups().end());
+        return all;
+    }
     std::vector<Group> all = compareGroups();
     std::copy_if(groups().begin() + 1, groups().end(), std::back_inserter(all),
                  [](const Group& group) {
@@ -679,6 +696,50 @@ void fillCompare(const Values& values, const po::variables_map& map, Call& call)
     call.given = givenForStructures(map);
 }
 
+void fillBatch(const Values& values, const po::parsed_options& parsed, Call& call)
+{
+    const std::vector<std::string> lists = values.list("input");
+    if (lists.size() != 1 || lists[0].empty())
+        misuse("batch: expected one list of structure files, got " + std::to_string(lists.size()) +
+               " [hint: vdb_molsurf batch list.txt -O surfaces]");
+    call.input = lists[0];
+    values.get("folder", call.folder);
+    if (call.folder.empty()) misuse("batch: nowhere to write to [hint: -O DIR]");
+    std::string words = "vdb,ply,json";
+    values.get("formats", words);
+    std::set<std::string> seen;
+    for (std::size_t begin = 0; begin <= words.size();) {
+        const std::size_t end = std::min(words.find(',', begin), words.size());
+        const std::string word = words.substr(begin, end - begin);
+        const auto found = formats.find(word);
+        if (found == formats.end() || !seen.insert(word).second)
+            values.wrong("formats", "some of vdb, ply, obj, stl, json, png");
+        call.outputs.push_back({"." + word, found->second});
+        begin = end + 1;
+    }
+    fillRun(values, call);
+    fillGroups(values, call);
+    fillPicture(values, call);
+
+    std::string line;
+    for (const auto& option : parsed.options) {
+        const std::string& name = option.string_key;
+        const auto isRun = [&](const Group& group) {
+            const std::string title = group.title;
+            return (title == "Run" || title == "Output") &&
+                   std::any_of(group.entries.begin(), group.entries.end(),
+                               [&](const Entry& e) { return longName(e) == name; });
+        };
+        const std::vector<Group> all = groupsOf(Verb::Batch);
+        if (name == "input" ||
+            (name != "config" && name != "formats" && std::any_of(all.begin(), all.end(), isRun)))
+            continue;
+        line += (line.empty() ? "--" : " --") + name;
+        for (const std::string& value : option.value) line += " " + value;
+    }
+    call.given = {line};
+}
+
 Call parseBuild(int argc, const char* const* argv, Verb verb)
 {
     const po::options_description all = describeOptions(verb);
@@ -699,7 +760,9 @@ Call parseBuild(int argc, const char* const* argv, Verb verb)
     Call call;
     call.verb = verb;
     if (values.on("help"))
-        call.verb = verb == Verb::Compare ? Verb::CompareHelp : Verb::Help;
+        call.verb = verb == Verb::Compare ? Verb::CompareHelp
+                    : verb == Verb::Batch ? Verb::BatchHelp
+                                          : Verb::Help;
     else if (values.on("version"))
         call.verb = Verb::Version;
     else if (values.on("list-radii"))
@@ -711,6 +774,8 @@ Call parseBuild(int argc, const char* const* argv, Verb verb)
     if (!config.empty()) readConfig(config, all, map);
     if (verb == Verb::Compare)
         fillCompare(values, map, call);
+    else if (verb == Verb::Batch)
+        fillBatch(values, parsed, call);
     else
         fillBuild(values, call);
     return call;
@@ -786,6 +851,7 @@ Call parseCall(int argc, const char* const* argv)
     try {
         const std::string first = argc > 1 ? argv[1] : "";
         Call call = first == "info"      ? parseInfo(argc, argv)
+                    : first == "batch"   ? parseBuild(argc - 1, argv + 1, Verb::Batch)
                     : first == "compare" ? parseBuild(argc - 1, argv + 1, Verb::Compare)
                                          : parseBuild(argc, argv, Verb::Build);
         call.command = command;
@@ -801,6 +867,7 @@ std::string helpText()
 {
     std::string text =
         "vdb_molsurf INPUT -o FILE [-o FILE ...] [options]\n"
+        "vdb_molsurf batch LIST -O DIR [options]\n"
         "vdb_molsurf compare A B [-o FILE ...] [options]\n"
         "vdb_molsurf info FILE ...\n"
         "\n"
@@ -813,6 +880,28 @@ std::string helpText()
     text += "\n"
             "Exit status: 0 done, 1 failed, 2 wrong usage, 3 not converged (files are written),\n"
             "130 interrupted.\n";
+    return text;
+}
+
+std::string batchHelpText()
+{
+    std::string text =
+        "vdb_molsurf batch LIST -O DIR [options]\n"
+        "\n"
+        "Builds the surfaces of many structures, one after the other. LIST has the name of a\n"
+        "structure file a line, - is standard input; empty lines and those with # do not count.\n"
+        "What fails is reported and does not stop the rest. DIR/summary.csv and summary.json have\n"
+        "a line each; the same command once more does what was not done, or failed.\n";
+    for (const Group& group : batchGroups()) {
+        text += std::string("\n") + group.title + "\n";
+        for (const Entry& entry : group.entries) text += helpLine(entry);
+    }
+    text +=
+        "\n"
+        "All other options are those of vdb_molsurf --help.\n"
+        "\n"
+        "Exit status: 0 all done, 1 some failed, 2 wrong usage, 3 some did not converge (their\n"
+        "files are written), 130 interrupted.\n";
     return text;
 }
 

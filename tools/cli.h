@@ -24,20 +24,33 @@ struct Output {
 };
 
 /// What the tool is asked to do.
-enum class Verb { Build, Compare, Info, Help, CompareHelp, InfoHelp, ListRadii, Version };
+enum class Verb {
+    Build,
+    Batch,
+    Compare,
+    Info,
+    Help,
+    BatchHelp,
+    CompareHelp,
+    InfoHelp,
+    ListRadii,
+    Version
+};
 
 /// A parsed command line.
 struct Call {
     Verb verb = Verb::Build;
-    std::string command;            ///< the command line as typed, quoted for a shell
-    std::string input;              ///< Build: a file, or "-"
-    std::vector<Output> outputs;    ///< Build: at least one
+    std::string command;         ///< the command line as typed, quoted for a shell
+    std::string input;           ///< Build: a file, or "-"; Batch: the list, likewise
+    std::string folder;          ///< Batch: where the files go
+    std::vector<Output> outputs; ///< Build: at least one; Batch: extensions in the place of paths
     std::vector<std::string> files; ///< Info: at least one; Compare: two
     Options options;                ///< Build, Compare
     DrawOptions picture;            ///< Build
     bool colorBySign = false;       ///< Compare: by the signed distance
     double colorRange = 0.0;        ///< Compare: distance at the end of the colours [Å]; 0: choose
-    std::vector<std::string> given; ///< Compare: options that are for structures only
+    std::vector<std::string> given; ///< Compare: options that are for structures only; Batch: one
+                                    ///< line, all that the surfaces depend on
     int threads = 0;                ///< 0: as many as there are
     bool force = false;
     bool quiet = false;
@@ -52,6 +65,9 @@ Call parseCall(int argc, const char* const* argv);
 
 /// The text of --help.
 std::string helpText();
+
+/// The text of `batch --help`.
+std::string batchHelpText();
 
 /// The text of `compare --help`.
 std::string compareHelpText();

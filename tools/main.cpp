@@ -42,6 +42,11 @@ int perform(const Call& call, std::chrono::steady_clock::time_point start)
         return info(call);
     case Verb::Compare:
         return molsurf::tool::compare(call, start);
+    case Verb::BatchHelp:
+        std::cout << batchHelpText();
+        return 0;
+    case Verb::Batch:
+        return batch(call);
     case Verb::Build:
         return build(call, start);
     }

@@ -89,6 +89,7 @@ void handle(int signal, void (*handler)(int))
 void handleSignals(const std::vector<std::string>& temporaries)
 {
     names = new std::vector<std::string>(temporaries);
+    deaf = false;
     for (int signal : {SIGINT, SIGTERM, SIGHUP}) handle(signal, onStop);
     handle(SIGALRM, onAlarm);
     std::set_terminate(onTerminate);

@@ -6,6 +6,8 @@
 
 #include "cli.h"
 
+#include "molsurf/core/report.h"
+
 #include <chrono>
 #include <string>
 
@@ -18,6 +20,14 @@ constexpr int notConvergedStatus = 3;
 /// Builds a surface and writes the outputs: build.cpp.
 /// @param[in] start  when the program began, for the total time
 int build(const Call& call, std::chrono::steady_clock::time_point start);
+
+/// The same without its last word on standard error, but for errors.
+/// @return the report, complete
+Report buildSurface(const Call& call, std::chrono::steady_clock::time_point start);
+
+/// Builds the surfaces of a list of structures, one after the other; a summary after each:
+/// batch.cpp.
+int batch(const Call& call);
 
 /// Compares two surfaces and writes the outputs: compare.cpp.
 /// @param[in] start  when the program began, for the total time

@@ -55,8 +55,8 @@ class Readme(ToolTest):
                     self.assertGreater((self.folder / name).stat().st_size, 0, name)
 
     def test_options_are_in_the_help(self):
-        """Every option that the page names is one that --help or compare --help names."""
-        text = b"".join(self.check(0, *words, "--help").stdout for words in ([], ["compare"]))
+        """Every option that the pages name is one that --help or a verb's --help names."""
+        text = b"".join(self.check(0, *words, "--help").stdout for words in ([], ["batch"], ["compare"]))
         text = text.decode()
         known = set(re.findall(r"--[a-z][a-z-]*", text))
         spans = [span for page in PAGES

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/batch_summary.h"
+
+#include "molsurf/core/error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace molsurf
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+void put(const std::string& text, OutputFile& file)
+{
+    file.write(text.data(), text.size());
+    file.finish();
+}
+
+std::string cell(const std::string& text)
+{
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string out = "\"";
+    for (const char letter : text) out += letter == '"' ? "\"\"" : std::string(1, letter);
+    return out + "\"";
+}
+
+template<typename T>
+std::string digits(T value)
+{
+    char text[32];
+    return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+} // namespace
+
+void writeSummaryJson(const BatchSummary& summary, OutputFile& file)
+{
+    Json structures = Json::array();
+    for (const BatchEntry& e : summary.entries) {
+        Json entry = {{"input", e.input}, {"status", e.status}};
+        if (e.status == "failed") {
+            entry["message"] = e.message;
+        } else {
+            entry.update(Json{{"atoms", e.atoms},
+                              {"area", e.area},
+                              {"volume", e.volume},
+                              {"euler_characteristic", e.eulerCharacteristic},
+                              {"components", e.components},
+                              {"cavities", e.cavities},
+                              {"seconds", e.seconds}});
+        }
+        structures.push_back(std::move(entry));
+    }
+    const Json json = {{"options", summary.options}, {"structures", std::move(structures)}};
+    put(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", file);
+}
+
+void writeSummaryCsv(const BatchSummary& summary, OutputFile& file)
+{
+    std::string text = "input,status,atoms,area,volume,euler_characteristic,components,cavities,"
+                       "seconds,message\n";
+    for (const BatchEntry& e : summary.entries) {
+        text += cell(e.input) + "," + e.status;
+        if (e.status == "failed") {
+            text += ",,,,,,,," + cell(e.message) + "\n";
+            continue;
+        }
+        text += "," + digits(e.atoms) + "," + digits(e.area) + "," + digits(e.volume) + "," +
+                digits(e.eulerCharacteristic) + "," + digits(e.components) + "," +
+                digits(e.cavities) + "," + digits(e.seconds) + ",\n";
+    }
+    put(text, file);
+}
+
+std::optional<BatchSummary> readSummary(const std::string& path)
+{
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) return {};
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    try {
+        const Json json = Json::parse(text);
+        BatchSummary summary{json.at("options"), {}};
+        for (const Json& e : json.at("structures")) {
+            BatchEntry entry;
+            entry.input = e.at("input");
+            entry.status = e.at("status");
+            if (entry.status == "failed") {
+                entry.message = e.at("message");
+            } else {
+                entry.atoms = e.at("atoms");
+                entry.area = e.at("area");
+                entry.volume = e.at("volume");
+                entry.eulerCharacteristic = e.at("euler_characteristic");
+                entry.components = e.at("components");
+                entry.cavities = e.at("cavities");
+                entry.seconds = e.at("seconds");
+            }
+            summary.entries.push_back(std::move(entry));
+        }
+        return summary;
+    } catch (const Json::exception&) {
+        throw Error(ErrorKind::Input, path + ": is no summary of a batch");
+    }
+}
+
+} // namespace molsurf

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Many structures in one call."""
+
+import csv
+import json
+import unittest
+
+from tool import CRAMBIN, DATA, FAST, ToolTest
+
+DIMER = DATA / "1a8o.cif.gz"
+
+
+class Batch(ToolTest):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "broken.pdb").write_text("not a structure\n")
+        (self.folder / "list").write_text(f"# three\n{CRAMBIN}\n\nbroken.pdb\n{DIMER}\n")
+
+    def batch(self, status, *words, says=()):
+        return self.check(status, "batch", "list", "-O", "out", *FAST, *words, says=says)
+
+    def check(self, status, *words, says=(), **options):
+        """As everywhere, but failures of structures are no errors of the call."""
+        done = self.run_tool(*words, **options)
+        error = done.stderr.decode()
+        self.assertEqual(done.returncode, status, error)
+        for word in [says] if isinstance(says, str) else says:
+            self.assertIn(str(word), error)
+        return done
+
+    def files(self):
+        return sorted(path.name for path in (self.folder / "out").iterdir())
+
+    def table(self):
+        with open(self.folder / "out" / "summary.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_failures_do_not_stop_the_rest(self):
+        self.batch(1, says=["2/3 broken.pdb: failed", "3 structures, 1 failed"])
+        self.assertEqual(self.files(),
+                         sorted(f"{name}.{kind}" for name in ("1crn", "1a8o")
+                                for kind in ("vdb", "ply", "json")) +
+                         ["summary.csv", "summary.json"])
+        rows = self.table()
+        self.assertEqual([row["status"] for row in rows], ["done", "failed", "done"])
+        self.assertIn("no atoms", rows[1]["message"])
+        summary = json.loads((self.folder / "out" / "summary.json").read_text())
+        for row, entry in zip(rows, summary["structures"]):
+            self.assertEqual(row["input"], entry["input"])
+            if row["status"] == "done":
+                self.assertEqual(float(row["area"]), entry["area"])
+        report = json.loads((self.folder / "out" / "1crn.json").read_text())
+        self.assertEqual(float(rows[0]["area"]), report["surface"]["area"])
+        self.assertEqual(int(rows[0]["atoms"]), report["atoms"])
+
+    def test_again_does_what_was_not_done(self):
+        self.batch(1)
+        made = {name: (self.folder / "out" / name).stat().st_mtime_ns
+                for name in self.files() if not name.startswith("summary")}
+        (self.folder / "broken.pdb").write_bytes(CRAMBIN.read_bytes())
+        (self.folder / "out" / "1a8o.ply").unlink()
+        (self.folder / "out" / "1a8o.vdb").unlink()
+        (self.folder / "out" / "1a8o.json").unlink()
+        self.batch(0, "-j", "1", says=["2/3 broken.pdb: done", "1 done before", "0 failed"])
+        for name, time in made.items():
+            if name.startswith("1crn"):
+                self.assertEqual((self.folder / "out" / name).stat().st_mtime_ns, time, name)
+        self.assertEqual([row["status"] for row in self.table()], ["done"] * 3)
+
+    def test_other_options_need_force_or_another_folder(self):
+        self.batch(1)
+        done = self.batch(1, "--probe", "1.5", says=["other options", "--force"])
+        self.assertEqual(done.stderr.count(b"error: "), 1)
+        self.batch(1, "--probe", "1.5", "--force", says="1 failed")
+        self.assertNotEqual(json.loads((self.folder / "out" / "1crn.json").read_text())["command"]
+                            .find("--probe"), -1)
+
+    def test_not_converged(self):
+        (self.folder / "list").write_text(f"{CRAMBIN}\n")
+        self.batch(3, "--max-steps", "1", "--formats", "json", says="1 not converged")
+        self.assertEqual(self.files(), ["1crn.json", "summary.csv", "summary.json"])
+
+    def test_wrong_calls(self):
+        self.check(2, "batch", says="one list")
+        self.check(2, "batch", "list", says="-O DIR")
+        self.check(2, "batch", "list", "-O", "out", "--formats", "vdb,glb", says="glb")
+        self.check(2, "batch", "list", "-O", "out", "-o", "a.vdb", says="-o")
+        self.check(1, "batch", "none", "-O", "out", says="none")
+        self.check(1, "batch", ".", "-O", "out", says="folder")
+        (self.folder / "list").write_text("a/x.pdb\nb/x.cif.gz\n")
+        self.check(1, "batch", "list", "-O", "out", says=["a/x.pdb", "b/x.cif.gz"])
+        (self.folder / "list").write_text("# nothing\n")
+        self.check(1, "batch", "list", "-O", "out", says="list")
+        self.assertFalse((self.folder / "out").exists())
+        (self.folder / "out").mkdir()
+        (self.folder / "out" / "summary.json").write_text("{}")
+        (self.folder / "list").write_text(f"{CRAMBIN}\n")
+        self.check(1, "batch", "list", "-O", "out", says="no summary")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "verbs.h"
+
+#include "outputs.h"
+#include "terminal.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/io/batch_summary.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <new>
+#include <optional>
+
+namespace molsurf::tool
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+// One structure of the list and the files that it gets.
+struct Task {
+    std::string input;
+    std::vector<Output> outputs;
+};
+
+std::vector<std::string> readList(const std::string& path)
+{
+    std::ifstream file;
+    std::error_code ignored;
+    if (path != "-") {
+        if (fs::is_directory(path, ignored))
+            throw Error(ErrorKind::Input, path + ": it is a folder");
+        file.open(path);
+        if (!file) throw Error(ErrorKind::Input, "cannot read " + path);
+    }
+    std::istream& in = path == "-" ? std::cin : file;
+    std::vector<std::string> inputs;
+    for (std::string line; std::getline(in, line);) {
+        const char* blank = " \t\r";
+        const std::size_t begin = line.find_first_not_of(blank);
+        if (begin == std::string::npos || line[begin] == '#') continue;
+        inputs.push_back(line.substr(begin, line.find_last_not_of(blank) + 1 - begin));
+    }
+    if (in.bad()) throw Error(ErrorKind::Input, "cannot read " + path);
+    if (inputs.empty())
+        throw Error(ErrorKind::Input, path + ": expected the name of a structure file a line");
+    return inputs;
+}
+
+// The name without folder, .gz and extension.
+std::string stemOf(const std::string& input)
+{
+    fs::path name = fs::path(input).filename();
+    if (name.extension() == ".gz") name = name.stem();
+    return name.stem().string();
+}
+
+std::vector<Task> tasksOf(const Call& call)
+{
+    std::vector<Task> tasks;
+    std::map<std::string, std::string> taken; // by stem
+    for (const std::string& input : readList(call.input)) {
+        const std::string stem = stemOf(input);
+        const auto [other, fresh] = taken.emplace(stem, input);
+        if (stem.empty() || !fresh)
+            throw Error(ErrorKind::Input, call.input + ": " + input + " and " + other->second +
+                                              " would both be written to " + stem + ".*");
+        Task task{input, {}};
+        for (const Output& kind : call.outputs)
+            task.outputs.push_back(
+                {(fs::path(call.folder) / stem).string() + kind.path, kind.format});
+        tasks.push_back(std::move(task));
+    }
+    return tasks;
+}
+
+bool allExist(const std::vector<Output>& outputs)
+{
+    return std::all_of(outputs.begin(), outputs.end(), [](const Output& output) {
+        std::error_code ignored;
+        return fs::exists(output.path, ignored);
+    });
+}
+
+BatchEntry buildEntry(const Call& call, const Task& task)
+{
+    BatchEntry entry;
+    entry.input = task.input;
+    Call one = call;
+    one.input = task.input;
+    one.outputs = task.outputs;
+    one.warnings.clear();
+    one.quiet = !call.verbose;
+    const Clock::time_point start = Clock::now();
+    try {
+        const Report report = buildSurface(one, start);
+        const bool rests = !report.evolution || report.evolution->converged;
+        entry.status = rests ? "done" : "not converged";
+        entry.atoms = report.atoms;
+        entry.area = report.surface.area;
+        entry.volume = report.surface.volume;
+        entry.eulerCharacteristic = report.surface.eulerCharacteristic;
+        entry.components = report.surface.components;
+        entry.cavities = report.surface.cavities.size();
+        entry.seconds = report.seconds.back().second;
+    } catch (const Error& e) {
+        entry.status = "failed";
+        entry.message = e.what();
+    } catch (const std::bad_alloc&) {
+        entry.status = "failed";
+        entry.message = "out of memory";
+    }
+    return entry;
+}
+
+// What is known of each task.
+using Table = std::vector<std::optional<BatchEntry>>;
+
+// Fills in what an earlier call has done.
+void takeOver(const BatchSummary& before, const std::vector<Task>& tasks, Table& table)
+{
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        if (!allExist(tasks[i].outputs)) continue;
+        for (const BatchEntry& entry : before.entries)
+            if (entry.input == tasks[i].input && entry.status != "failed") table[i] = entry;
+    }
+}
+
+void save(const std::string& options, const Table& table, const fs::path& folder)
+{
+    BatchSummary summary{options, {}};
+    for (const auto& entry : table)
+        if (entry) summary.entries.push_back(*entry);
+    OutputFile json((folder / "summary.json").string(), true);
+    writeSummaryJson(summary, json);
+    OutputFile csv((folder / "summary.csv").string(), true);
+    writeSummaryCsv(summary, csv);
+    json.commit();
+    csv.commit();
+}
+
+std::string describe(const BatchEntry& entry)
+{
+    if (entry.status == "failed") return "failed: " + entry.message;
+    char text[160];
+    std::snprintf(text, sizeof text, "%s, area %.1f Å^2, volume %.1f Å^3, %.2f s",
+                  entry.status.c_str(), entry.area, entry.volume, entry.seconds);
+    return text;
+}
+
+} // namespace
+
+int batch(const Call& call)
+{
+    const std::vector<Task> tasks = tasksOf(call);
+    std::error_code problem;
+    fs::create_directories(call.folder, problem);
+    if (problem)
+        throw Error(ErrorKind::Output, "cannot make " + call.folder + ": " + problem.message());
+    const fs::path folder = call.folder;
+    const std::optional<BatchSummary> before = readSummary((folder / "summary.json").string());
+    if (before && before->options != call.given[0] && !call.force)
+        throw Error(ErrorKind::Output, call.folder + " holds surfaces with other options (" +
+                                           before->options +
+                                           ") [hint: another folder, or --force]");
+    if (!call.quiet)
+        for (const std::string& warning : call.warnings) say("warning: " + warning);
+
+    Table table(tasks.size());
+    if (before && !call.force) takeOver(*before, tasks, table);
+    const auto kept = std::size_t(
+        std::count_if(table.begin(), table.end(), [](const auto& entry) { return bool(entry); }));
+    std::size_t failed = 0, creeping = 0;
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        const bool fresh = !table[i];
+        if (fresh) {
+            table[i] = buildEntry(call, tasks[i]);
+            save(call.given[0], table, folder);
+        }
+        failed += table[i]->status == "failed";
+        creeping += table[i]->status == "not converged";
+        if (fresh && !call.quiet)
+            say(std::to_string(i + 1) + "/" + std::to_string(tasks.size()) + " " + tasks[i].input +
+                ": " + describe(*table[i]));
+    }
+    save(call.given[0], table, folder);
+    if (!call.quiet) {
+        std::string line = counted(tasks.size(), "structure", "structures");
+        if (kept > 0) line += ", " + std::to_string(kept) + " done before";
+        if (creeping > 0) line += ", " + std::to_string(creeping) + " not converged";
+        say(line + ", " + std::to_string(failed) + " failed; the table is " +
+            (folder / "summary.csv").string());
+    }
+    return failed > 0 ? 1 : creeping > 0 ? notConvergedStatus : 0;
+}
+
+} // namespace molsurf::tool
