@@ -61,7 +61,7 @@ int main(int argc, char** argv)
     std::ios_base::sync_with_stdio(false);
     // Fields of many megabytes come and go between the stages: kept by the allocator, their pages
     // need not be mapped and cleared anew each time.
-    mallopt(M_MMAP_THRESHOLD, 1 << 30);
+    mallopt(M_MMAP_MAX, 0); // the threshold for mappings cannot be set above 32 MB
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
     try {
         const int status = perform(parseCall(argc, argv), start);

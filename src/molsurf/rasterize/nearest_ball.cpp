@@ -49,10 +49,10 @@ std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
     const BallIndex index(balls, 2.0);
 
     // Points are taken by runs that stay in a small box and share its candidates. Most lie close to
-    // their ball; the few that do not are looked at again, farther.
+    // their ball; those that do not are looked at again, farther.
     constexpr std::size_t chunk = 256;
     constexpr float runSize = 2.0f; // [Å]
-    const double close = std::min(reach, 0.5);
+    const double close = std::min(reach, 0.5), middle = std::min(reach, 1.5);
     std::vector<std::int32_t> out(points.size(), -1);
     parallelFor((points.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
         std::vector<Candidate> candidates;
@@ -66,7 +66,7 @@ std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
                 low = l;
                 high = h;
             }
-            for (const double within : {close, reach}) {
+            for (const double within : {close, middle, reach}) {
                 bool missing = false;
                 for (std::size_t p = begin; p < stop; ++p) missing = missing || out[p] < 0;
                 if (!missing) break;
