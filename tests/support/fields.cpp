@@ -234,7 +234,8 @@ LeafTable bandTable(const Function& f, const Vec3d& centre, double extent, doubl
         }
     }
     LeafTable table(origins);
-    for (std::size_t n = 0; n < table.size(); ++n) table.active(n) = masks[n];
+    for (std::size_t i = 0; i < origins.size(); ++i)
+        table.active(std::size_t(table.find(origins[i]))) = masks[i];
     return table;
 }
 

@@ -7,6 +7,8 @@
 #include <openvdb/tools/SignedFloodFill.h>
 
 #include <sys/mman.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -53,31 +55,88 @@ MOLSURF_KERNEL LeafMask within(const float* values, float limit)
     return mask;
 }
 
-LeafTable::LeafTable(std::vector<Coord> origins)
-    : origins_(std::move(origins)), active_(origins_.size()), neighbours_(origins_.size())
+namespace
 {
-    if (!std::is_sorted(origins_.begin(), origins_.end())) {
-        tbb::parallel_sort(origins_.begin(), origins_.end());
-    }
-    // The origins, all shifted alike, stay in ascending order: one merge finds the neighbours at an
-    // offset.
-    tbb::parallel_for(0, 27, [&](int k) {
-        const Coord offset(leafDim * (k / 9 - 1), leafDim * (k / 3 % 3 - 1), leafDim * (k % 3 - 1));
-        std::size_t m = 0;
-        for (std::size_t n = 0; n < origins_.size(); ++n) {
-            const Coord wanted = origins_[n] + offset;
-            while (m < origins_.size() && origins_[m] < wanted) ++m;
-            const bool found = m < origins_.size() && origins_[m] == wanted;
-            neighbours_[n][k] = found ? std::int32_t(m) : noLeaf;
-        }
-    });
+
+/// The order of leaves.
+bool before(const Coord& a, const Coord& b)
+{
+    const Coord s = a >> 6, t = b >> 6;
+    return s != t ? s < t : a < b;
 }
 
-std::int32_t LeafTable::find(const Coord& voxel) const
+} // namespace
+
+/// The slot of a tile, or the empty one where it would be.
+std::size_t LeafTable::Layout::slotOf(const Coord& place) const
 {
-    const Coord origin = voxel & ~(leafDim - 1);
-    const auto it = std::lower_bound(origins_.begin(), origins_.end(), origin);
-    return it != origins_.end() && *it == origin ? std::int32_t(it - origins_.begin()) : noLeaf;
+    const std::size_t last = slots.size() - 1;
+    std::uint64_t hash = std::uint32_t(place.x()) * 0x9e3779b97f4a7c15ull ^
+                         std::uint32_t(place.y()) * 0xc2b2ae3d27d4eb4full ^
+                         std::uint32_t(place.z()) * 0x165667b19e3779f9ull;
+    hash ^= hash >> 32;
+    std::size_t slot = std::size_t(hash) & last;
+    while (slots[slot] >= 0 && tiles[std::size_t(slots[slot])].place != place)
+        slot = (slot + 1) & last;
+    return slot;
+}
+
+std::int32_t LeafTable::Layout::find(const Coord& voxel) const
+{
+    const std::int32_t tile = slots[slotOf(voxel >> 6)];
+    if (tile < 0) return noLeaf;
+    const Coord leaf = (voxel >> 3) & 7;
+    return tiles[std::size_t(tile)].leaves[std::size_t(64 * leaf.x() + 8 * leaf.y() + leaf.z())];
+}
+
+LeafTable::LeafTable(std::vector<Coord> origins) : active_(origins.size())
+{
+    auto layout = std::make_shared<Layout>();
+    Layout& l = *layout;
+    l.origins = std::move(origins);
+    if (!std::is_sorted(l.origins.begin(), l.origins.end(), before)) {
+        tbb::parallel_sort(l.origins.begin(), l.origins.end(), before);
+    }
+    l.slots.assign(64, -1);
+    std::int32_t last = -1; // the tile of the leaf before
+    for (std::size_t n = 0; n < l.origins.size(); ++n) {
+        const Coord place = l.origins[n] >> 6, leaf = (l.origins[n] >> 3) & 7;
+        if (last < 0 || l.tiles[std::size_t(last)].place != place) {
+            last = l.slots[l.slotOf(place)];
+        }
+        if (last < 0) {
+            last = std::int32_t(l.tiles.size());
+            l.tiles.emplace_back();
+            l.tiles.back().place = place;
+            l.tiles.back().leaves.fill(noLeaf);
+            if (2 * l.tiles.size() > l.slots.size()) {
+                l.slots.assign(2 * l.slots.size(), -1);
+                for (std::size_t t = 0; t < l.tiles.size(); ++t)
+                    l.slots[l.slotOf(l.tiles[t].place)] = std::int32_t(t);
+            } else {
+                l.slots[l.slotOf(place)] = last;
+            }
+        }
+        l.tiles[std::size_t(last)].leaves[std::size_t(64 * leaf.x() + 8 * leaf.y() + leaf.z())] =
+            std::int32_t(n);
+    }
+
+    l.neighbours.resize(l.origins.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, l.origins.size(), 256), [&](auto range) {
+        for (std::size_t n = range.begin(); n != range.end(); ++n) {
+            const Coord origin = l.origins[n], leaf = (origin >> 3) & 7;
+            const Tile& tile = l.tiles[std::size_t(l.slots[l.slotOf(origin >> 6)])];
+            for (int k = 0; k < 27; ++k) {
+                const int dx = k / 9 - 1, dy = k / 3 % 3 - 1, dz = k % 3 - 1;
+                const int x = leaf.x() + dx, y = leaf.y() + dy, z = leaf.z() + dz;
+                l.neighbours[n][std::size_t(k)] =
+                    ((x | y | z) & ~7) == 0
+                        ? tile.leaves[std::size_t(64 * x + 8 * y + z)]
+                        : l.find(origin.offsetBy(leafDim * dx, leafDim * dy, leafDim * dz));
+            }
+        }
+    });
+    layout_ = std::move(layout);
 }
 
 std::size_t LeafTable::activeCount() const
@@ -89,7 +148,8 @@ std::size_t LeafTable::activeCount() const
 
 std::size_t LeafTable::bytes() const
 {
-    return size() * (sizeof(Coord) + sizeof(LeafMask) + sizeof(neighbours_[0]));
+    return size() * (sizeof(Coord) + sizeof(LeafMask) + sizeof(layout_->neighbours[0])) +
+           layout_->tiles.size() * sizeof(Tile) + layout_->slots.size() * sizeof(std::int32_t);
 }
 
 namespace
@@ -126,6 +186,41 @@ std::uint64_t spreadFull(const Planes& p)
     return alongZ[1] | alongZ[1] << 8 | alongZ[1] >> 8 | alongZ[0] >> 56 | alongZ[2] << 56;
 }
 
+/// The box of the voxels of a mask that is not empty.
+struct Extent {
+    int low[3], high[3];
+
+    explicit Extent(const LeafMask& mask)
+    {
+        std::uint64_t all = 0;
+        low[0] = high[0] = -1;
+        for (int x = 0; x < leafDim; ++x) {
+            if (mask.words[x] == 0) continue;
+            if (low[0] < 0) low[0] = x;
+            high[0] = x;
+            all |= mask.words[x];
+        }
+        std::uint64_t rows = all; // to one byte: the z of any row
+        for (const int shift : {32, 16, 8}) rows |= rows >> shift;
+        const unsigned z = unsigned(rows & 0xff);
+        low[1] = __builtin_ctzll(all) >> 3;
+        high[1] = (63 - __builtin_clzll(all)) >> 3;
+        low[2] = __builtin_ctz(z);
+        high[2] = 31 - __builtin_clz(z);
+    }
+
+    /// Whether a voxel of the leaf at an offset lies within a number of steps of the box.
+    bool reaches(int dx, int dy, int dz, int steps) const
+    {
+        const int offset[3] = {dx, dy, dz};
+        for (int a = 0; a < 3; ++a) {
+            if (offset[a] < 0 && low[a] - steps >= 0) return false;
+            if (offset[a] > 0 && high[a] + steps < leafDim) return false;
+        }
+        return true;
+    }
+};
+
 } // namespace
 
 LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks, std::size_t n,
@@ -154,26 +249,27 @@ LeafTable dilated(const LeafTable& table, int steps, Spread spread, const Progre
 {
     std::vector<Coord> added;
     for (std::size_t n = 0; n < table.size(); ++n) {
-        if (!table.active(n).any()) continue;
+        const LeafMask& active = table.active(n);
+        if (!active.any()) continue;
+        const Extent extent(active);
         for (int k = 0; k < 27; ++k) {
             if (table.neighbours(n)[k] != noLeaf) continue;
-            added.push_back(table.origin(n).offsetBy(
-                leafDim * (k / 9 - 1), leafDim * (k / 3 % 3 - 1), leafDim * (k % 3 - 1)));
+            const int dx = k / 9 - 1, dy = k / 3 % 3 - 1, dz = k % 3 - 1;
+            if (!extent.reaches(dx, dy, dz, steps)) continue;
+            added.push_back(table.origin(n).offsetBy(leafDim * dx, leafDim * dy, leafDim * dz));
         }
     }
-    tbb::parallel_sort(added.begin(), added.end());
+    tbb::parallel_sort(added.begin(), added.end(), before);
     added.erase(std::unique(added.begin(), added.end()), added.end());
     std::vector<Coord> origins;
     origins.reserve(table.size() + added.size());
     std::merge(table.origins().begin(), table.origins().end(), added.begin(), added.end(),
-               std::back_inserter(origins));
+               std::back_inserter(origins), before);
     LeafTable out(std::move(origins));
 
     std::vector<LeafMask> now(out.size()), next(out.size());
-    std::size_t m = 0;
-    for (std::size_t n = 0; n < out.size(); ++n) {
-        while (m < table.size() && table.origin(m) < out.origin(n)) ++m;
-        if (m < table.size() && table.origin(m) == out.origin(n)) now[n] = table.active(m);
+    for (std::size_t n = 0, m = 0; n < out.size() && m < table.size(); ++n) {
+        if (table.origin(m) == out.origin(n)) now[n] = table.active(m++);
     }
     for (int step = 0; step < steps; ++step) {
         const bool full = spread == Spread::Cube || step % 2 == 1;
@@ -196,7 +292,7 @@ LeafTable pruned(const LeafTable& table)
         origins.push_back(table.origin(n));
         masks.push_back(table.active(n));
     }
-    LeafTable out(std::move(origins)); // already in ascending order
+    LeafTable out(std::move(origins)); // already in order
     for (std::size_t n = 0; n < out.size(); ++n) out.active(n) = masks[n];
     return out;
 }

@@ -62,7 +62,9 @@ LeafMask lessThan(const float* values, float limit);
 /// The voxels of a leaf whose values lie between -limit and limit.
 LeafMask within(const float* values, float limit);
 
-/// Leaves in ascending order of their origins (x, then y, then z).
+/// Leaves, those of each tile of 64^3 voxels one after another, so that passes over all find most
+/// neighbours in the cache; tiles, and the leaves of a tile, in ascending order of their origins
+/// (x, then y, then z). Copies share all but the masks.
 class LeafTable
 {
 public:
@@ -70,16 +72,19 @@ public:
     /// duplicates
     explicit LeafTable(std::vector<openvdb::Coord> origins = {});
 
-    std::size_t size() const { return origins_.size(); }
-    const openvdb::Coord& origin(std::size_t n) const { return origins_[n]; }
-    const std::vector<openvdb::Coord>& origins() const { return origins_; }
+    std::size_t size() const { return active_.size(); }
+    const openvdb::Coord& origin(std::size_t n) const { return layout_->origins[n]; }
+    const std::vector<openvdb::Coord>& origins() const { return layout_->origins; }
 
     /// Index of the leaf at offset (dx, dy, dz) in {-1, 0, 1}^3 leaves from leaf n, or noLeaf;
     /// entry 9 (dx + 1) + 3 (dy + 1) + dz + 1.
-    const std::array<std::int32_t, 27>& neighbours(std::size_t n) const { return neighbours_[n]; }
+    const std::array<std::int32_t, 27>& neighbours(std::size_t n) const
+    {
+        return layout_->neighbours[n];
+    }
 
     /// Index of the leaf that holds a voxel, or noLeaf.
-    std::int32_t find(const openvdb::Coord& voxel) const;
+    std::int32_t find(const openvdb::Coord& voxel) const { return layout_->find(voxel); }
 
     LeafMask& active(std::size_t n) { return active_[n]; }
     const LeafMask& active(std::size_t n) const { return active_[n]; }
@@ -87,9 +92,25 @@ public:
     std::size_t bytes() const;
 
 private:
-    std::vector<openvdb::Coord> origins_;
+    /// The leaves of 64^3 voxels.
+    struct Tile {
+        openvdb::Coord place; ///< of its first voxel, over 64
+        std::array<std::int32_t, 512> leaves;
+    };
+
+    /// Where leaves are, and a hash table of tiles to find them.
+    struct Layout {
+        std::vector<openvdb::Coord> origins;
+        std::vector<std::array<std::int32_t, 27>> neighbours;
+        std::vector<Tile> tiles;
+        std::vector<std::int32_t> slots; ///< indices of tiles or -1; a power of two of them
+
+        std::size_t slotOf(const openvdb::Coord& place) const;
+        std::int32_t find(const openvdb::Coord& voxel) const;
+    };
+
+    std::shared_ptr<const Layout> layout_;
     std::vector<LeafMask> active_;
-    std::vector<std::array<std::int32_t, 27>> neighbours_;
 };
 
 /// How a set of voxels is dilated: by cubes of (2 n + 1)^3 voxels, or by steps that go by turns to

@@ -31,35 +31,49 @@ inline __attribute__((always_inline)) float cosPi(float t)
     return 1.0f - 2.0f * s * s;
 }
 
-/// The values of a step at each voxel of a leaf, before they are summed; rows without an active
-/// voxel stay unset.
-struct LeafStep {
-    alignas(64) float weight[leafSize];       // delta(phi) |grad phi| [1/Å]
-    alignas(64) float w[leafSize];            // metric
-    alignas(64) float displacement[leafSize]; // of the interface, outward negative [Å]
-    alignas(64) float speed[leafSize];        // F [1/Å]
-    alignas(64) float stiffness[leafSize];    // P [1/Å^2]
+/// Sums over the voxels of a leaf near the interface, by their place in the row.
+struct RowSums {
+    alignas(64) float area[8] = {};         // delta(phi) |grad phi| h^3: the weight [Å^2]
+    alignas(64) float energy[8] = {};       // weighted metric
+    alignas(64) float normal[3][8] = {};    // weighted normal
+    alignas(64) float along[8] = {};        // weighted n.(x - phi n), x from the leaf's first voxel
+    alignas(64) float displacement[8] = {}; // weighted size of the step
+    alignas(64) float speed[8] = {};        // largest F [1/Å]
+    alignas(64) float stiffness[8] = {};    // largest P [1/Å^2]
+    alignas(64) float crevices[8] = {};
 };
+
+double sumOf(const float* values)
+{
+    double sum = 0.0;
+    for (int z = 0; z < 8; ++z) sum += values[z];
+    return sum;
+}
 
 MOLSURF_KERNEL void stepRows(const float* __restrict phiBlock, const float* __restrict psiBlock,
                              const LeafCurvature& __restrict shape, const LeafMask& active, float h,
-                             const Weights weights, const StepSize size, LeafStep& __restrict out,
+                             const Weights weights, const StepSize size, RowSums& __restrict sums,
                              float* __restrict next)
 {
     using Block = LeafBlock<float, 1>;
-    const float inverse = 1.0f / h, limit = longestStep * h;
+    const float inverse = 1.0f / h, limit = longestStep * h, h3 = h * h * h;
     const float newton = size.preconditioned ? relaxation : 0.0f;
     const float time = size.preconditioned ? 0.0f : size.time;
     for (int row = 0; row < 64; ++row) {
-        if (active.row(row) == 0) continue;
+        const int bits = active.row(row);
         const int first = (row / 8 + 1) * Block::strideX + (row % 8 + 1) * Block::strideY + 1;
         const float *p = phiBlock + first, *q = psiBlock + first;
+        if (bits == 0) {
+            for (int z = 0; z < 8; ++z) next[8 * row + z] = p[z];
+            continue;
+        }
+        const float x = h * float(row / 8), y = h * float(row % 8);
         for (int z = 0; z < 8; ++z) {
             const int v = 8 * row + z;
             const float phi = p[z];
+            const float nx = shape.normal[0][v], ny = shape.normal[1][v], nz = shape.normal[2][v];
             const Derivatives d = derivatives<1>(q + z, inverse);
-            const Metric m = metricAtFoot(q[z], d, shape.normal[0][v], shape.normal[1][v],
-                                          shape.normal[2][v], phi, weights);
+            const Metric m = metricAtFoot(q[z], d, nx, ny, nz, phi, weights);
 
             // Principal curvatures k at the voxel are k/(1 - k phi) at the foot. The denominator is
             // kept positive where the level set is not resolved.
@@ -75,15 +89,24 @@ MOLSURF_KERNEL void stepRows(const float* __restrict phiBlock, const float* __re
             const float distance = std::abs(phi) * inverse;
             const float t = clamped((distance - inner) / (outer - inner), 0.0f, 1.0f);
             const float cutoff = 1.0f - t * t * (3.0f - 2.0f * t);
-            next[v] = phi + cutoff * shape.slope[v] * step;
+            const float on = bits & rowBits[z] ? 1.0f : 0.0f;
+            next[v] = phi + on * cutoff * shape.slope[v] * step;
 
             const float u = smaller(distance / 1.5f, 1.0f);
             const float delta = (1.0f + cosPi(u)) * (inverse / 3.0f) * shape.slope[v];
-            out.weight[v] = u < 1.0f ? delta : 0.0f;
-            out.w[v] = m.w;
-            out.displacement[v] = step;
-            out.speed[v] = F;
-            out.stiffness[v] = P;
+            const float near = u < 1.0f ? on : 0.0f, close = distance < 1.0f ? on : 0.0f;
+            const float weight = near * h3 * delta;
+            sums.area[z] += weight;
+            sums.energy[z] += weight * m.w;
+            sums.normal[0][z] += weight * nx;
+            sums.normal[1][z] += weight * ny;
+            sums.normal[2][z] += weight * nz;
+            const float along = x * nx + y * ny + h * float(z) * nz - phi;
+            sums.along[z] += weight * along;
+            sums.displacement[z] += weight * std::abs(step);
+            sums.speed[z] = larger(sums.speed[z], close * std::abs(F));
+            sums.stiffness[z] = larger(sums.stiffness[z], close * P);
+            sums.crevices[z] += shape.slope[v] < 0.5f ? close : 0.0f;
         }
     }
 }
@@ -106,29 +129,18 @@ StepSums flowStep(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi
                   const LeafCurvature& shape, const LeafMask& active, const openvdb::Vec3d& corner,
                   float voxel, const Weights& weights, const StepSize& size, float* next)
 {
-    LeafStep step;
-    stepRows(phi.values, psi.values, shape, active, voxel, weights, size, step, next);
-
-    (~active).forEach([&](int v) { next[v] = *phi.at(v >> 6, v >> 3 & 7, v & 7); });
-    LeafMask near;
-    active.forEach([&](int v) { near.set(v, step.weight[v] > 0.0f); });
-
+    RowSums rows;
+    stepRows(phi.values, psi.values, shape, active, voxel, weights, size, rows, next);
     StepSums sums;
-    const double h3 = double(voxel) * voxel * voxel;
-    near.forEach([&](int v) {
-        const float value = *phi.at(v >> 6, v >> 3 & 7, v & 7);
-        const double weight = h3 * step.weight[v];
-        const openvdb::Vec3d x = corner + double(voxel) * openvdb::Vec3d(v >> 6, v >> 3 & 7, v & 7);
-        const openvdb::Vec3d n(shape.normal[0][v], shape.normal[1][v], shape.normal[2][v]);
-        sums.energy += weight * step.w[v];
-        sums.area += weight;
-        sums.volume += weight * (x - double(value) * n).dot(n) / 3.0;
-        sums.displacement += weight * std::abs(step.displacement[v]);
-        if (std::abs(value) >= voxel) return;
-        sums.maxSpeed = std::max(sums.maxSpeed, std::abs(step.speed[v]));
-        sums.maxSecond = std::max(sums.maxSecond, step.stiffness[v]);
-        sums.crevices += shape.slope[v] < 0.5f;
-    });
+    sums.area = sumOf(rows.area);
+    sums.energy = sumOf(rows.energy);
+    const openvdb::Vec3d normal(sumOf(rows.normal[0]), sumOf(rows.normal[1]),
+                                sumOf(rows.normal[2]));
+    sums.volume = (corner.dot(normal) + sumOf(rows.along)) / 3.0;
+    sums.displacement = sumOf(rows.displacement);
+    sums.maxSpeed = *std::max_element(rows.speed, rows.speed + 8);
+    sums.maxSecond = *std::max_element(rows.stiffness, rows.stiffness + 8);
+    sums.crevices = std::size_t(sumOf(rows.crevices));
     return sums;
 }
 

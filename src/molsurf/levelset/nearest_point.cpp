@@ -134,28 +134,21 @@ int gatherPoints(const LeafPoints& points, const Coord& origin, double reach, Ne
     const double farthest = reach + leafRadius + LeafPoints::overhang;
     const int R = int(std::ceil((reach + LeafPoints::overhang) / leafDim));
 
-    struct Near {
-        double distance2;
-        std::size_t leaf;
-    };
-    std::vector<Near> leaves;
-    const auto& origins = points.table.origins();
+    s.leaves.clear();
     for (int dx = -R; dx <= R; ++dx) {
         for (int dy = -R; dy <= R; ++dy) {
-            const Coord first = origin.offsetBy(leafDim * dx, leafDim * dy, -leafDim * R);
-            const Coord last = first.offsetBy(0, 0, 2 * leafDim * R);
-            if (distance2ToLeaf(centre, {first.x(), first.y(), origin.z()}) > farthest * farthest) {
-                continue;
-            }
-            auto it = std::lower_bound(origins.begin(), origins.end(), first);
-            for (; it != origins.end() && !(last < *it); ++it) {
-                const std::size_t n = std::size_t(it - origins.begin());
-                if (points.begins[n] == points.begins[n + 1]) continue;
-                const double d2 = distance2ToLeaf(centre, *it);
-                if (d2 <= farthest * farthest) leaves.push_back({d2, n});
+            for (int dz = -R; dz <= R; ++dz) {
+                const Coord place = origin.offsetBy(leafDim * dx, leafDim * dy, leafDim * dz);
+                const double d2 = distance2ToLeaf(centre, place);
+                if (d2 > farthest * farthest) continue;
+                const std::int32_t n = points.table.find(place);
+                if (n == noLeaf || points.begins[n] == points.begins[n + 1]) continue;
+                s.leaves.push_back({d2, n});
             }
         }
     }
+    auto& leaves = s.leaves;
+    using Near = NearestScratch::Near;
     std::sort(leaves.begin(), leaves.end(), [](const Near& a, const Near& b) {
         return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.leaf < b.leaf);
     });
@@ -172,8 +165,9 @@ int gatherPoints(const LeafPoints& points, const Coord& origin, double reach, Ne
     float nearest2 = 1e30f;
     for (const Near& near : leaves) {
         if (near.distance2 > limit * limit) break;
+        const openvdb::Vec3f shift(points.table.origin(near.leaf).asVec3d() - centre);
         for (std::size_t i = points.begins[near.leaf]; i < points.begins[near.leaf + 1]; ++i) {
-            const openvdb::Vec3f d(points.positions[i] - centre);
+            const openvdb::Vec3f d = points.positions[i] + shift;
             nearest2 = std::min(nearest2, d.lengthSqr());
             s.x[count] = d.x();
             s.y[count] = d.y();

@@ -21,11 +21,17 @@ struct LeafPoints {
 
     const LeafTable& table;
     std::vector<std::size_t> begins;
-    std::vector<openvdb::Vec3d> positions; ///< [voxel]
+    std::vector<openvdb::Vec3f> positions; ///< from the first voxel of their leaf [voxel]
 };
 
 /// Room for one search, kept from leaf to leaf by a thread.
 struct NearestScratch {
+    /// A leaf with points.
+    struct Near {
+        double distance2; // of a place from its voxels
+        std::int32_t leaf;
+    };
+    std::vector<Near> leaves;
     std::vector<float> x, y, z;
     std::vector<std::int32_t> index;
     std::vector<float> nearX, nearY, nearZ;

@@ -4,18 +4,21 @@
 #include "molsurf/bspline/spline.h"
 #include "molsurf/core/leaf_block.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/levelset/foot_points.h"
 #include "molsurf/levelset/nearest_point.h"
 
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace molsurf
 {
 
 using openvdb::Coord;
 using openvdb::Vec3d;
+using openvdb::Vec3f;
 
 namespace
 {
@@ -23,17 +26,19 @@ namespace
 /// Index of no seed.
 constexpr std::int32_t noSeed = -1;
 
-/// A closest point on the interface, in units of voxels.
-struct Seed {
-    Vec3d y;            // the point
-    std::int32_t leaf;  // of the voxel that it is closest to
-    openvdb::Vec3f n;   // unit normal there, outward
-    float A[6];         // shape operator: xx yy zz xy yz xz
-    float kappa, gauss; // trace and tangential determinant of A
+using Lanes = FootPoints::Lanes;
+constexpr int lanes = FootPoints::lanes;
+
+/// A closest point on the interface, in units of voxels. One line of the cache.
+struct alignas(64) Seed {
+    Vec3f y;           // from the first voxel of its leaf
+    std::int32_t leaf; // of the voxel that it is closest to
+    Vec3f n;           // unit normal there, outward
+    float A[6];        // shape operator: xx yy zz xy yz xz
+    float kappa, gauss;
 
     /// A t
-    template<typename T>
-    openvdb::math::Vec3<T> bend(const openvdb::math::Vec3<T>& t) const
+    Vec3f bend(const Vec3f& t) const
     {
         return {A[0] * t.x() + A[3] * t.y() + A[5] * t.z(),
                 A[3] * t.x() + A[1] * t.y() + A[4] * t.z(),
@@ -41,104 +46,97 @@ struct Seed {
     }
 };
 
-/// Shape operator of the level set through a point: the Hessian over the gradient's length,
-/// projected to the tangent plane, with principal curvatures limited to one a voxel, which is all a
-/// grid can hold.
-Seed seedAt(const Vec3d& y, const Jet& jet)
+Seed seedOf(const FootPoints& feet, int lane, std::int32_t leaf)
 {
     Seed seed;
-    seed.y = y;
-    seed.leaf = noLeaf;
-    const double norm = std::max(jet.gradient.length(), 1e-3), scale = 1.0 / norm;
-    const Vec3d n = jet.gradient * scale;
-    const double* H = jet.hessian.asPointer();
-    const Vec3d Hn = Vec3d(H[0] * n.x() + H[1] * n.y() + H[2] * n.z(),
-                           H[3] * n.x() + H[4] * n.y() + H[5] * n.z(),
-                           H[6] * n.x() + H[7] * n.y() + H[8] * n.z()) *
-                     scale;
-    const Vec3d m = Hn - 0.5 * n.dot(Hn) * n; // A = H/norm - n m^T - m n^T
-    double A[6] = {
-        H[0] * scale - 2.0 * n.x() * m.x(),           H[4] * scale - 2.0 * n.y() * m.y(),
-        H[8] * scale - 2.0 * n.z() * m.z(),           H[1] * scale - n.x() * m.y() - n.y() * m.x(),
-        H[5] * scale - n.y() * m.z() - n.z() * m.y(), H[2] * scale - n.x() * m.z() - n.z() * m.x()};
-    double square = A[0] * A[0] + A[1] * A[1] + A[2] * A[2] + // tr A^2 = kappa^2 - 2 K
-                    2.0 * (A[3] * A[3] + A[4] * A[4] + A[5] * A[5]);
-    if (square > 1.0) {
-        const double limit = 1.0 / std::sqrt(square);
-        for (double& a : A) a *= limit;
-        square = 1.0;
+    seed.leaf = leaf;
+    for (int a = 0; a < 3; ++a) {
+        seed.y[a] = feet.y[a][lane];
+        seed.n[a] = feet.n[a][lane];
     }
-    const double kappa = A[0] + A[1] + A[2];
-    seed.n = openvdb::Vec3f(n);
-    seed.kappa = float(kappa);
-    seed.gauss = float(0.5 * (kappa * kappa - square));
-    std::copy_n(A, 6, seed.A);
+    for (int i = 0; i < 6; ++i) seed.A[i] = feet.A[i][lane];
+    seed.kappa = feet.kappa[lane];
+    seed.gauss = feet.gauss[lane];
     return seed;
 }
 
-/// The step along the surface, to second order, that brings a point of it closest to a voxel: d
-/// solves (I + s A) d = t on the tangent plane.
-Vec3d stepAlong(const Seed& seed, const Vec3d& voxel)
+/// @param[in] shift  from the first voxel of the seed's leaf to the origin of the lanes
+void setLane(const Seed& seed, const Vec3f& shift, int lane, FootPoints& feet)
 {
-    const Vec3d n(seed.n), toVoxel = voxel - seed.y;
-    const double s = n.dot(toVoxel);
-    const Vec3d t = toVoxel - s * n;
-    const Vec3d At = seed.bend(t);
-    const double determinant = std::max(1.0 + s * seed.kappa + s * s * seed.gauss, 0.2);
-    return (t + s * (double(seed.kappa) * t - At)) / determinant;
+    for (int a = 0; a < 3; ++a) {
+        feet.y[a][lane] = seed.y[a] + shift[a];
+        feet.n[a][lane] = seed.n[a];
+    }
+    for (int i = 0; i < 6; ++i) feet.A[i][lane] = seed.A[i];
+    feet.kappa[lane] = seed.kappa;
+    feet.gauss[lane] = seed.gauss;
+}
+
+Vec3f lane(const Lanes* v, int l)
+{
+    return {v[0][l], v[1][l], v[2][l]};
+}
+
+void setLane(const Vec3f& value, int l, Lanes* v)
+{
+    for (int a = 0; a < 3; ++a) v[a][l] = value[a];
+}
+
+Vec3f placeOf(int v)
+{
+    return {float(v >> 6), float(v >> 3 & 7), float(v & 7)};
 }
 
 /// The farthest that a closest point may lie from its voxel, in voxels.
-constexpr double farthestFoot = 1.45;
+constexpr float farthestFoot = 1.45f;
 
-/// The closest point of a voxel next to the interface.
-/// @param[in] c      coefficients of phi/h
-/// @param[in] x      the voxel, relative to the leaf
-Seed closestPoint(const LeafBlock<float, 3>& c, const Coord& x)
+/// The closest points of voxels next to the interface, by Newton's method.
+/// @param[in] c       coefficients of phi/h
+/// @param[in] voxels  `count` <= lanes voxels of the leaf
+void closestPoints(const LeafBlock<float, 3>& c, const std::uint16_t* voxels, int count,
+                   FootPoints& feet)
 {
-    const auto jetAt = [&](const Vec3d& p) {
-        const Coord cell = Coord::floor(p);
+    const auto jetAt = [&](const Vec3f& p) {
+        const Vec3d q(p);
+        const Coord cell = Coord::floor(q);
         return evaluateSpline(c.at(cell.x(), cell.y(), cell.z()), c.strideX, c.strideY,
-                              p - cell.asVec3d());
+                              q - cell.asVec3d());
     };
-    const Vec3d centre = x.asVec3d();
-    Vec3d y = centre;
-    Jet jet = jetAt(y);
-    for (int i = 0; i < 6; ++i) {
-        const Seed seed = seedAt(y, jet);
-        // Newton toward the zero set, and along it toward x
-        const Vec3d move = stepAlong(seed, centre) -
-                           jet.value / std::max(jet.gradient.length(), 0.2) * Vec3d(seed.n);
-        const Vec3d next = y + move;
-        if ((next - centre).lengthSqr() > farthestFoot * farthestFoot) break;
-        y = next;
-        jet = jetAt(y);
-        if (move.lengthSqr() < 1e-5) break; // the next would be its square
+    alignas(64) Lanes x[3], move[3];
+    JetLanes jets;
+    for (int l = 0; l < lanes; ++l) {
+        const int used = std::min(l, count - 1); // idle lanes repeat the last
+        setLane(placeOf(voxels[used]), l, x);
+        setLane(lane(x, l), l, feet.y);
+        jets.set(l, jetAt(lane(feet.y, l)));
     }
-    return seedAt(y, jet);
+    bool moving[lanes];
+    std::fill_n(moving, lanes, true);
+    bool any = true;
+    for (int i = 0; i < 6 && any; ++i) {
+        shapeFrom(jets, feet);
+        newtonSteps(jets, feet, x, move);
+        any = false;
+        for (int l = 0; l < count; ++l) {
+            if (!moving[l]) continue;
+            const Vec3f step = lane(move, l), next = lane(feet.y, l) + step;
+            moving[l] = (next - lane(x, l)).lengthSqr() <= farthestFoot * farthestFoot;
+            if (!moving[l]) continue;
+            setLane(next, l, feet.y);
+            jets.set(l, jetAt(next));
+            moving[l] = step.lengthSqr() >= 1e-5f; // the next would be its square
+            any = any || moving[l];
+        }
+    }
+    shapeFrom(jets, feet);
 }
 
-/// Distance of a voxel by the expansion about a closest point [voxel], positive on the side that
-/// `sign` says. It is kept to what is possible: the point is a point of the surface, and no point
-/// of the surface is farther than some 0.87 voxel from one of those known, so that with curvatures
-/// up to one a voxel the distance d and r = |x - y| satisfy  r^2 - (1 + r) 0.87^2 <= d^2 <= r^2.
-float distanceFrom(const Seed& seed, const Vec3d& x, float sign)
+/// The spline of phi/h at a point [voxel] in or beside a leaf, from the leaf's first voxel.
+Jet jetBeside(const LeafTable& table, const LeafField& coefficients, float voxel, std::int32_t leaf,
+              const Vec3f& y)
 {
-    const openvdb::Vec3f d(x - seed.y);
-    const float s = seed.n.dot(d);
-    const openvdb::Vec3f t = d - s * seed.n;
-    const float tAt = t.dot(seed.bend(t));
-    const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.02f);
-    const float distance = sign * (s + 0.5f * (tAt + s * seed.gauss * t.dot(t)) / determinant);
-    const float r2 = d.dot(d), r = std::sqrt(r2);
-    return std::min(std::max(distance, std::sqrt(std::max(r2 - 0.76f * (1.0f + r), 0.0f))), r);
-}
-
-/// The spline of phi/h at a point [voxel] in or beside a leaf.
-Jet jetBeside(const LeafTable& table, const LeafField& coefficients, double voxel,
-              std::int32_t leaf, const Vec3d& y)
-{
-    const Coord cell = Coord::floor(y), first = cell - table.origin(leaf) - Coord(1);
+    const Vec3d place(y);
+    const Coord cell = Coord::floor(place), first = cell - Coord(1);
     const auto& near = table.neighbours(leaf);
     const int z0 = first.z() & 7,
               inFirst = std::min(4, leafDim - z0); // coefficients before a border
@@ -157,60 +155,24 @@ Jet jetBeside(const LeafTable& table, const LeafField& coefficients, double voxe
             }
         }
     }
-    Jet jet = evaluateSpline(&c[1][1][1], 16, 4, y - cell.asVec3d());
-    jet.value /= voxel;
-    jet.gradient /= voxel;
-    jet.hessian *= 1.0 / voxel;
+    Jet jet = evaluateSpline(&c[1][1][1], 16, 4, place - cell.asVec3d());
+    const double inverse = 1.0 / voxel;
+    jet.value *= inverse;
+    jet.gradient *= inverse;
+    jet.hessian *= inverse;
     return jet;
 }
 
-/// A closest point moved along the surface until it is the closest to a voxel: one Newton step on
-/// the spline, which leaves an error of fourth order in the distance moved. The point as it is
-/// where that does not bring it closer to the normal through the voxel.
-/// @param[out] storage  for a point that was moved
-const Seed& polished(const Seed& seed, const Vec3d& x, const LeafTable& table,
-                     const LeafField& coefficients, double voxel, Seed& storage)
+/// Gradient of the expansion of the distance about a closest point, at x from it.
+Vec3f gradientFrom(const Seed& seed, const Vec3f& d)
 {
-    // What the expansion leaves out is of third order in the distance to the normal, and of the
-    // size of the change of curvature, at most some curvature a voxel.
-    constexpr float negligible = 2e-4f, farthest = 2.0f; // [voxel]
-    const openvdb::Vec3f offset(x - seed.y);
-    const float along = seed.n.dot(offset), aside2 = offset.lengthSqr() - along * along;
-    const float curvature2 = seed.kappa * seed.kappa - 2.0f * seed.gauss;
-    if (aside2 * aside2 * aside2 * curvature2 < negligible * negligible) return seed;
-
-    const Vec3d d = stepAlong(seed, x);
-    if (d.lengthSqr() > farthest * farthest) return seed;
-    Vec3d y = seed.y + d - 0.5 * d.dot(seed.bend(d)) * Vec3d(seed.n);
-    const Jet jet = jetBeside(table, coefficients, voxel, seed.leaf, y);
-    const double slope2 = jet.gradient.lengthSqr();
-    if (slope2 < 0.25) return seed;
-    y -= jet.value / slope2 * jet.gradient;
-    storage = seedAt(y, jet);
-    storage.leaf = seed.leaf;
-    const Vec3d moved = x - y, n(storage.n);
-    const bool nearer = moved.lengthSqr() < (x - seed.y).lengthSqr();
-    return nearer && (moved - n.dot(moved) * n).lengthSqr() < aside2 ? storage : seed;
-}
-
-/// Gradient of the same expansion.
-openvdb::Vec3f gradientFrom(const Seed& seed, const Vec3d& x)
-{
-    const openvdb::Vec3f d(x - seed.y);
     const float s = seed.n.dot(d);
-    const openvdb::Vec3f t = d - s * seed.n;
-    const openvdb::Vec3f At = seed.bend(t);
+    const Vec3f t = d - s * seed.n;
+    const Vec3f At = seed.bend(t);
     const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.02f);
-    openvdb::Vec3f gradient = seed.n + (At + s * seed.gauss * t) / determinant;
+    Vec3f gradient = seed.n + (At + s * seed.gauss * t) / determinant;
     gradient.normalize();
     return gradient;
-}
-
-/// Whether two closest points give a voxel gradients that differ by more than 20 degrees.
-bool disagree(const Seed& a, const Seed& b, const Vec3d& x)
-{
-    constexpr float cosine = 0.94f;
-    return a.n.dot(b.n) < cosine && gradientFrom(a, x).dot(gradientFrom(b, x)) < cosine;
 }
 
 using SeedIndex = LeafArray<std::int32_t>;
@@ -230,6 +192,14 @@ std::vector<LeafMask> interfaceVoxels(const LeafTable& table, const std::vector<
     return out;
 }
 
+/// The voxels of a mask, in ascending order.
+int listOf(const LeafMask& mask, std::uint16_t* voxels)
+{
+    int count = 0;
+    mask.forEach([&](int v) { voxels[count++] = std::uint16_t(v); });
+    return count;
+}
+
 /// The seeds of all interface voxels, leaf by leaf, and where those of each leaf begin.
 std::vector<Seed> findSeeds(const LeafTable& table, const LeafField& coefficients, double voxel,
                             const std::vector<LeafMask>& interface,
@@ -243,12 +213,15 @@ std::vector<Seed> findSeeds(const LeafTable& table, const LeafField& coefficient
         LeafBlock<float, 3> block;
         block.gather(table, coefficients, n);
         for (float& c : block.values) c *= float(1.0 / voxel);
-        std::size_t k = begins[n];
-        interface[n].forEach([&](int v) {
-            seeds[k] = closestPoint(block, Coord(v >> 6, v >> 3 & 7, v & 7));
-            seeds[k].leaf = std::int32_t(n);
-            seeds[k++].y += table.origin(n).asVec3d();
-        });
+        std::uint16_t voxels[leafSize];
+        const int count = listOf(interface[n], voxels);
+        for (int first = 0; first < count; first += lanes) {
+            const int used = std::min(lanes, count - first);
+            FootPoints feet;
+            closestPoints(block, voxels + first, used, feet);
+            for (int l = 0; l < used; ++l)
+                seeds[begins[n] + std::size_t(first + l)] = seedOf(feet, l, std::int32_t(n));
+        }
     });
     return seeds;
 }
@@ -265,12 +238,10 @@ LeafTable reachable(const LeafTable& table, const std::vector<LeafMask>& interfa
         const int now = std::min(steps, 4);
         steps -= now;
         out = dilated(out, now, Spread::Ball, progress);
-        std::size_t m = 0;
-        for (std::size_t n = 0; n < out.size(); ++n) {
-            while (m < table.size() && table.origin(m) < out.origin(n)) ++m;
-            if (m == table.size()) break;
-            if (table.origin(m) == out.origin(n)) out.active(n) &= ~wrong[m] | interface[m];
-        }
+        parallelFor(out.size(), progress, [&](std::size_t n) {
+            const std::int32_t m = table.find(out.origin(n));
+            if (m != noLeaf) out.active(n) &= ~wrong[m] | interface[m];
+        });
     }
     return out;
 }
@@ -278,30 +249,166 @@ LeafTable reachable(const LeafTable& table, const std::vector<LeafMask>& interfa
 /// The leaves of both tables, with the voxels of both active.
 LeafTable merged(const LeafTable& a, const LeafTable& b)
 {
-    std::vector<Coord> origins;
-    std::set_union(a.origins().begin(), a.origins().end(), b.origins().begin(), b.origins().end(),
-                   std::back_inserter(origins));
+    std::vector<Coord> origins = a.origins();
+    for (const Coord& origin : b.origins()) {
+        if (a.find(origin) == noLeaf) origins.push_back(origin);
+    }
     LeafTable out(std::move(origins));
-    for (std::size_t n = 0, i = 0, j = 0; n < out.size(); ++n) {
-        if (i < a.size() && a.origin(i) == out.origin(n)) out.active(n) |= a.active(i++);
-        if (j < b.size() && b.origin(j) == out.origin(n)) out.active(n) |= b.active(j++);
+    for (const LeafTable* table : {&a, &b}) {
+        for (std::size_t n = 0; n < table->size(); ++n)
+            out.active(out.find(table->origin(n))) |= table->active(n);
     }
     return out;
 }
 
-/// The inner voxels of a leaf that the given level set lacks, and that no interface can cross: all
-/// or none, as most of its closest points say. (Where the given leaves have a sign it stands:
-/// voxels do not change sides.)
-LeafMask sideOf(const Coord& origin, const std::int32_t* index, const std::vector<Seed>& seeds)
+/// Computes the distances of the voxels of one leaf.
+class LeafDistances
 {
-    double side = 0.0;
-    for (int v = 0; v < leafSize; ++v) {
-        if (index[v] == noSeed) continue;
-        const Seed& seed = seeds[index[v]];
-        side += Vec3d(seed.n).dot(origin.offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() - seed.y);
+public:
+    LeafDistances(const LeafTable& table, const LeafField& coefficients, double voxel,
+                  const std::vector<Seed>& seeds, const Coord& origin)
+        : table_(table), coefficients_(coefficients), voxel_(float(voxel)), seeds_(seeds),
+          origin_(origin)
+    {
     }
-    return side < 0.0 ? ~LeafMask() : LeafMask();
-}
+
+    /// From the voxel's closest point to it.
+    Vec3f offset(std::int32_t seed, int v) const
+    {
+        return placeOf(v) - seeds_[seed].y - shift(seeds_[seed]);
+    }
+
+    /// Whether two closest points give a voxel gradients that differ by more than 20 degrees.
+    bool disagree(std::int32_t a, std::int32_t b, int v) const
+    {
+        constexpr float cosine = 0.94f;
+        return seeds_[a].n.dot(seeds_[b].n) < cosine &&
+               gradientFrom(seeds_[a], offset(a, v)).dot(gradientFrom(seeds_[b], offset(b, v))) <
+                   cosine;
+    }
+
+    /// The inner voxels of a leaf that the given level set lacks, and that no interface can cross:
+    /// all or none, as most of its closest points say. (Where the given leaves have a sign it
+    /// stands: voxels do not change sides.)
+    LeafMask side(const std::int32_t* index) const
+    {
+        double sum = 0.0;
+        for (int v = 0; v < leafSize; ++v) {
+            if (index[v] != noSeed) sum += seeds_[index[v]].n.dot(offset(index[v], v));
+        }
+        return sum < 0.0 ? ~LeafMask() : LeafMask();
+    }
+
+    /// Distances without sign; those within `sharp` of the level by points that are moved to be the
+    /// closest.
+    /// @param[in]  index   the seed of each voxel of the leaf
+    /// @param[in]  voxels  `count` voxels that have one
+    /// @param[out] out     by voxel
+    void compute(const std::int32_t* index, const std::uint16_t* voxels, int count,
+                 const LeafMask& negative, float level, float* out)
+    {
+        constexpr float sharp = 2.0f;
+        waiting_ = 0;
+        FootPoints feet;
+        alignas(64) Lanes x[3], sign, distance, aside2, step[3];
+        for (int first = 0; first < count; first += lanes) {
+            const int used = std::min(lanes, count - first);
+            for (int l = 0; l < lanes; ++l) {
+                const int v = voxels[first + std::min(l, used - 1)];
+                setLane(placeOf(v), l, x);
+                sign[l] = negative.on(v) ? -1.0f : 1.0f;
+                setLane(seeds_[index[v]], shift(seeds_[index[v]]), l, feet);
+            }
+            distances(feet, x, sign, distance);
+            bool any = false;
+            for (int l = 0; l < used; ++l) {
+                out[voxels[first + l]] = distance[l];
+                any = any || std::abs(sign[l] * distance[l] - level) < sharp;
+            }
+            if (!any) continue;
+            aside(feet, x, aside2);
+            stepsAlong(feet, x, step);
+            for (int l = 0; l < used; ++l) {
+                // What the expansion leaves out is of third order in the distance to the normal,
+                // and of the size of the change of curvature, at most some curvature a voxel.
+                constexpr float negligible = 2e-4f, farthest = 2.0f;
+                const float a2 = aside2[l];
+                const float curvature2 = feet.kappa[l] * feet.kappa[l] - 2.0f * feet.gauss[l];
+                const Vec3f d = lane(step, l);
+                if (std::abs(sign[l] * distance[l] - level) >= sharp ||
+                    a2 * a2 * a2 * curvature2 < negligible * negligible ||
+                    d.lengthSqr() > farthest * farthest) {
+                    continue;
+                }
+                const int v = voxels[first + l];
+                const Seed& seed = seeds_[index[v]];
+                wait_[waiting_++] = {v, index[v], sign[l], a2,
+                                     lane(feet.y, l) + d - 0.5f * d.dot(seed.bend(d)) * seed.n};
+                if (waiting_ == lanes) polish(out);
+            }
+        }
+        if (waiting_ > 0) polish(out);
+    }
+
+private:
+    /// A voxel whose closest point has to be moved.
+    struct Waiting {
+        int v;
+        std::int32_t seed;
+        float sign, aside2;
+        Vec3f y; // where to
+    };
+
+    Vec3f shift(const Seed& seed) const
+    {
+        return Vec3f((table_.origin(seed.leaf) - origin_).asVec3s());
+    }
+
+    /// Moves closest points along the surface: one Newton step on the spline, which leaves an error
+    /// of fourth order in the distance moved. They stay where that does not bring them closer to
+    /// the normals through their voxels.
+    void polish(float* out)
+    {
+        FootPoints feet;
+        JetLanes jets;
+        alignas(64) Lanes x[3], sign, distance, aside2;
+        bool good[lanes];
+        for (int l = 0; l < lanes; ++l) {
+            const Waiting& w = wait_[std::min(l, waiting_ - 1)];
+            const Seed& seed = seeds_[w.seed];
+            setLane(placeOf(w.v), l, x);
+            sign[l] = w.sign;
+            if (l >= waiting_) { // idle
+                setLane(seed, Vec3f(0.0f), l, feet);
+                jets.set(l, Jet{0.0, Vec3d(1.0, 0.0, 0.0), openvdb::Mat3d::zero()});
+                continue;
+            }
+            const Jet jet = jetBeside(table_, coefficients_, voxel_, seed.leaf, w.y - shift(seed));
+            const double slope2 = jet.gradient.lengthSqr();
+            good[l] = slope2 >= 0.25;
+            setLane(w.y - Vec3f(jet.value / std::max(slope2, 0.25) * jet.gradient), l, feet.y);
+            jets.set(l, jet);
+        }
+        shapeFrom(jets, feet);
+        distances(feet, x, sign, distance);
+        aside(feet, x, aside2);
+        for (int l = 0; l < waiting_; ++l) {
+            const Waiting& w = wait_[l];
+            const bool nearer =
+                (lane(x, l) - lane(feet.y, l)).lengthSqr() < offset(w.seed, w.v).lengthSqr();
+            if (good[l] && nearer && aside2[l] < w.aside2) out[w.v] = distance[l];
+        }
+        waiting_ = 0;
+    }
+
+    const LeafTable& table_;
+    const LeafField& coefficients_;
+    const float voxel_;
+    const std::vector<Seed>& seeds_;
+    const Coord origin_;
+    Waiting wait_[lanes];
+    int waiting_ = 0;
+};
 
 } // namespace
 
@@ -324,7 +431,7 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     const LeafTable domain = merged(reachable(table, interface, outer, steps(inside), progress),
                                     reachable(table, interface, inner, steps(outside), progress));
 
-    LeafPoints points{table, std::move(begins), std::vector<Vec3d>(seeds.size())};
+    LeafPoints points{table, std::move(begins), std::vector<Vec3f>(seeds.size())};
     parallelFor(seeds.size(), progress, [&](std::size_t i) { points.positions[i] = seeds[i].y; });
     const double reach = std::max(inside, outside) / voxel + 1.0;
     SeedIndex index(domain.size());
@@ -341,40 +448,36 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     band.kinks.resize(domain.size());
     const float h = float(voxel);
     parallelFor(domain.size(), progress, [&](std::size_t n) {
+        const std::int32_t* own = index.leaf(n);
+        LeafDistances leaf(table, coefficients, voxel, seeds, domain.origin(n));
         const std::int32_t m = table.find(domain.origin(n));
-        const LeafMask negative =
-            m != noLeaf ? inner[m] : sideOf(domain.origin(n), index.leaf(n), seeds);
+        const LeafMask negative = m != noLeaf ? inner[std::size_t(m)] : leaf.side(own);
+        float* phi = band.phi.leaf(n);
+        LeafMask reached;
+        for (int v = 0; v < leafSize; ++v) {
+            phi[v] = negative.on(v) ? float(-inside) : float(outside);
+            reached.set(v, own[v] != noSeed);
+        }
+        std::uint16_t voxels[leafSize];
+        const int count = listOf(reached, voxels);
+        float distance[leafSize];
+        leaf.compute(own, voxels, count, negative, float(level) / h, distance);
+
         SeedBlock block;
         block.gather(domain, index, n);
         LeafMask active;
-        LeafMask reached;
-        float* phi = band.phi.leaf(n);
-        for (int v = 0; v < leafSize; ++v) {
-            phi[v] = negative.on(v) ? float(-inside) : float(outside);
-            reached.set(v, index.leaf(n)[v] != noSeed);
-        }
-        Seed storage;
-        reached.forEach([&](int v) {
-            const Coord local(v >> 6, v >> 3 & 7, v & 7);
-            const std::int32_t* p = block.at(local.x(), local.y(), local.z());
-            const Vec3d x = (domain.origin(n) + local).asVec3d();
-            const float sign = negative.on(v) ? -1.0f : 1.0f;
-            const float width = float(negative.on(v) ? inside : outside) / h;
-            float distance = distanceFrom(seeds[*p], x, sign);
-            constexpr float sharpVox = 2.0f;
-            if (std::abs(sign * distance - float(level) / h) < sharpVox) {
-                const Seed& seed = polished(seeds[*p], x, table, coefficients, voxel, storage);
-                distance = distanceFrom(seed, x, sign);
-            }
-            distance = std::max(distance, 1e-6f);
-            if (distance >= width) return;
-            phi[v] = sign * distance * h;
+        for (int k = 0; k < count; ++k) {
+            const int v = voxels[k];
+            const float d = std::max(distance[v], 1e-6f) * h;
+            if (d >= float(negative.on(v) ? inside : outside)) continue;
+            phi[v] = negative.on(v) ? -d : d;
             active.set(v);
+            const std::int32_t* p = block.at(v >> 6, v >> 3 & 7, v & 7);
             for (const int step : {block.strideX, block.strideY, block.strideZ}) {
                 if (p[step] == noSeed || p[step] == *p) continue;
-                if (disagree(seeds[*p], seeds[p[step]], x)) band.kinks[n].set(v);
+                if (leaf.disagree(*p, p[step], v)) band.kinks[n].set(v);
             }
-        });
+        }
         band.table.active(n) = active;
     });
     return band;

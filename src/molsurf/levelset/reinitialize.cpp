@@ -21,10 +21,10 @@ constexpr int X = Block::strideX, Y = Block::strideY;
 /// Time step in units of h: the scheme is stable up to 1/sqrt(3).
 constexpr float timeStep = 0.5f;
 
+/// The one of two numbers of one sign that is nearer to 0; else 0.
 inline __attribute__((always_inline)) float minmod(float a, float b)
 {
-    const float smaller = std::abs(a) < std::abs(b) ? a : b;
-    return a * b > 0.0f ? smaller : 0.0f;
+    return larger(smaller(a, b), 0.0f) + smaller(larger(a, b), 0.0f);
 }
 
 /// The square of the upwind derivative along one axis, times h^2.
@@ -37,63 +37,49 @@ inline __attribute__((always_inline)) float upwind(const float* p, int stride, f
     const float after = (p[2 * stride] - p[stride]) - above;
     const float minus = below + 0.5f * minmod(centre, before);
     const float plus = above - 0.5f * minmod(centre, after);
-    const float a = larger(sign * minus, 0.0f), b = larger(-sign * plus, 0.0f);
-    return larger(a * a, b * b);
+    const float slope = larger(larger(sign * minus, -sign * plus), 0.0f);
+    return slope * slope;
 }
 
-/// One Euler step in the rows of a leaf that have an active voxel.
-MOLSURF_KERNEL void eulerStep(const float* __restrict block, const LeafMask& active, float voxel,
+/// One Euler step where a mask is on; elsewhere the field, limited to the band.
+MOLSURF_KERNEL void eulerStep(const float* __restrict block, const LeafMask& moving, float voxel,
                               float width, float* __restrict out)
 {
     const float inverse2 = 1.0f / (voxel * voxel);
     for (int row = 0; row < 64; ++row) {
-        if (active.row(row) == 0) continue;
+        const int bits = moving.row(row);
         const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
+        if (bits == 0) {
+            for (int z = 0; z < 8; ++z) out[8 * row + z] = clamped(p[z], -width, width);
+            continue;
+        }
         for (int z = 0; z < 8; ++z) {
             const float value = p[z], sign = std::copysign(1.0f, value);
             const float slope2 = inverse2 * (upwind(p + z, X, sign) + upwind(p + z, Y, sign) +
                                              upwind(p + z, 1, sign));
             const float next = sign * value - timeStep * voxel * (std::sqrt(slope2) - 1.0f);
-            out[8 * row + z] = sign * clamped(next, 1e-6f * voxel, width);
+            const float stepped = sign * clamped(next, 1e-6f * voxel, width);
+            out[8 * row + z] = bits & rowBits[z] ? stepped : clamped(value, -width, width);
         }
     }
 }
 
-/// The least of a voxel's face neighbours, times the sign of the voxel: negative next to the
-/// interface.
-MOLSURF_KERNEL void leastNeighbour(const float* __restrict block, float* __restrict out)
+/// The voxels with a face neighbour of the other sign; 0 counts as outside.
+MOLSURF_KERNEL void nextToInterface(const float* __restrict block, LeafMask& mask)
 {
     for (int row = 0; row < 64; ++row) {
         const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
+        int bits = 0;
         for (int z = 0; z < 8; ++z) {
             const float* q = p + z;
             const float x = smaller(q[X], q[-X]), y = smaller(q[Y], q[-Y]),
                         w = smaller(q[1], q[-1]);
             const float u = larger(q[X], q[-X]), v = larger(q[Y], q[-Y]), t = larger(q[1], q[-1]);
             const float low = smaller(smaller(x, y), w), high = larger(larger(u, v), t);
-            out[8 * row + z] = q[0] < 0.0f ? -high - 1e-30f : low; // 0 counts as outside
+            const float crossing = q[0] < 0.0f ? -high - 1e-30f : low;
+            bits |= int(crossing < 0.0f) << z;
         }
-    }
-}
-
-/// out = on where the mask is on, else the field limited to the band.
-MOLSURF_KERNEL void blend(const LeafMask& mask, const float* __restrict on,
-                          const float* __restrict off, float width, float* __restrict out)
-{
-    for (int row = 0; row < 64; ++row) {
-        const int bits = mask.row(row);
-        if (bits == 0xff) {
-            for (int z = 0; z < 8; ++z) out[8 * row + z] = on[8 * row + z];
-            continue;
-        }
-        if (bits == 0) {
-            for (int z = 0; z < 8; ++z) out[8 * row + z] = clamped(off[8 * row + z], -width, width);
-            continue;
-        }
-        for (int z = 0; z < 8; ++z) {
-            const int v = 8 * row + z;
-            out[v] = bits >> z & 1 ? on[v] : clamped(off[v], -width, width);
-        }
+        mask.words[row >> 3] |= std::uint64_t(bits) << (8 * (row & 7));
     }
 }
 
@@ -101,16 +87,18 @@ MOLSURF_KERNEL void blend(const LeafMask& mask, const float* __restrict on,
 /// field's. They are suppressed: made at every step they would add up to a drift of the interface.
 constexpr float stencilError = 0.02f;
 
-/// Signed distance of the zero of the second-order Taylor polynomial along the gradient, in the
-/// rows that have a voxel of the mask; the value itself where the polynomial has no zero nearby (in
-/// crevices that the grid does not resolve).
+/// Signed distance of the zero of the second-order Taylor polynomial along the gradient, where a
+/// mask is on; the value itself where the polynomial has no zero nearby (in crevices that the grid
+/// does not resolve).
 MOLSURF_KERNEL void taylorDistance(const float* __restrict block, const LeafMask& mask,
                                    float inverse, float* __restrict out)
 {
     const float noise = stencilError / inverse;
     for (int row = 0; row < 64; ++row) {
-        if (mask.row(row) == 0) continue;
+        const int bits = mask.row(row);
+        if (bits == 0) continue;
         const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
+        alignas(32) float distance[8];
         for (int z = 0; z < 8; ++z) {
             const Derivatives d = derivatives<2>(p + z, inverse);
             const float value = p[z];
@@ -122,11 +110,13 @@ MOLSURF_KERNEL void taylorDistance(const float* __restrict block, const LeafMask
             const float discriminant = norm2 - 2.0f * second * value;
             const float root = std::sqrt(larger(discriminant, 0.0f));
             const float change = 2.0f * value / (std::sqrt(norm2) + root) - value;
-            const float damped =
-                value + change * change * change / (change * change + noise * noise);
-            const bool zero = (norm2 >= 0.25f) & (discriminant >= 0.25f * norm2);
-            out[8 * row + z] = zero ? damped : value;
+            const float damped = change * change * change / (change * change + noise * noise);
+            const float first = norm2 >= 0.25f ? 1.0f : 0.0f;
+            const float zero = discriminant >= 0.25f * norm2 ? first : 0.0f;
+            distance[z] = value + zero * damped; // a factor, since a branch does not vectorise
         }
+        for (int z = 0; z < 8; ++z)
+            out[8 * row + z] = bits & rowBits[z] ? distance[z] : out[8 * row + z];
     }
 }
 
@@ -143,21 +133,13 @@ void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double w
         parallelFor(table.size(), progress, [&](std::size_t n) {
             Block block;
             block.gather(table, phi, n);
-            alignas(64) float stepped[leafSize]; // rows without an active voxel stay unset
-            eulerStep(block.values, table.active(n), h, w, stepped);
             LeafMask& fixed = interface[n];
             if (i == 0) {
-                alignas(64) float least[leafSize];
-                leastNeighbour(block.values, least);
-                fixed = lessThan(least, 0.0f) & table.active(n);
+                nextToInterface(block.values, fixed);
+                fixed &= table.active(n);
             }
-            float* out = scratch.leaf(n);
-            blend(table.active(n) & ~fixed, stepped, phi.leaf(n), w, out);
-            if (i == 0) {
-                alignas(64) float distance[leafSize];
-                taylorDistance(block.values, fixed, 1.0f / h, distance);
-                fixed.forEach([&](int v) { out[v] = distance[v]; });
-            }
+            eulerStep(block.values, table.active(n) & ~fixed, h, w, scratch.leaf(n));
+            if (i == 0) taylorDistance(block.values, fixed, 1.0f / h, scratch.leaf(n));
         });
         std::swap(phi, scratch);
     }

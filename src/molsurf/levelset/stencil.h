@@ -2,12 +2,16 @@
 #pragma once
 
 /// @file
-/// Central differences of second order on a row of a leaf block, for loops that vectorise.
+/// Rows of a leaf block in loops that vectorise: masks, and central differences of second order.
 
 #include "molsurf/core/leaf_block.h"
 
 namespace molsurf
 {
+
+/// The bits of a row's voxels: loops that test a mask by this table vectorise, by shifts they do
+/// not.
+alignas(64) constexpr int rowBits[8] = {1, 2, 4, 8, 16, 32, 64, 128};
 
 /// Gradient and Hessian at one voxel.
 struct Derivatives {

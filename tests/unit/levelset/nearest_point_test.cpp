@@ -23,12 +23,22 @@ LeafPoints scattered(const LeafTable& table, int perLeaf)
     LeafPoints points{table, {0}, {}};
     for (std::size_t n = 0; n < table.size(); ++n) {
         for (int i = 0; i < (n % 3 == 0 ? 0 : perLeaf); ++i) {
-            points.positions.push_back(table.origin(n).asVec3d() +
-                                       Vec3d(place(random), place(random), place(random)));
+            points.positions.emplace_back(place(random), place(random), place(random));
         }
         points.begins.push_back(points.positions.size());
     }
     return points;
+}
+
+/// Where all points are [voxel].
+std::vector<Vec3d> positionsOf(const LeafPoints& points)
+{
+    std::vector<Vec3d> out;
+    for (std::size_t n = 0; n < points.table.size(); ++n) {
+        for (std::size_t i = points.begins[n]; i < points.begins[n + 1]; ++i)
+            out.push_back(points.table.origin(n).asVec3d() + Vec3d(points.positions[i]));
+    }
+    return out;
 }
 
 LeafTable someLeaves()
@@ -47,6 +57,7 @@ TEST(NearestPoints, AreTheNearestOfAll)
     NearestScratch scratch;
     for (const int perLeaf : {1, 40}) {
         const LeafPoints points = scattered(table, perLeaf);
+        const std::vector<Vec3d> positions = positionsOf(points);
         for (const Coord& origin : {Coord(0, 8, 8), Coord(-8, 0, -16), Coord(24, 8, 0)}) {
             for (const double reach : {3.0, 12.0, 40.0}) {
                 LeafMask mask;
@@ -60,13 +71,13 @@ TEST(NearestPoints, AreTheNearestOfAll)
                     }
                     const Vec3d x = origin.offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d();
                     double least = reach;
-                    for (const Vec3d& p : points.positions) {
+                    for (const Vec3d& p : positions) {
                         least = std::min(least, (p - x).length());
                     }
                     const bool within = least < reach;
                     ASSERT_EQ(found[v] >= 0, within) << least;
                     if (within) {
-                        EXPECT_NEAR((points.positions[found[v]] - x).length(), least, 1e-4);
+                        EXPECT_NEAR((positions[found[v]] - x).length(), least, 1e-4);
                     }
                 }
             }

@@ -80,7 +80,7 @@ void expectOrder(const test::Shape& shape, double inside, double outside, double
 TEST(Redistance, OfASphere)
 {
     // Floats of some 27 voxels: the order shows less at this size of error.
-    expectOrder(test::sphere(7.0), 3.4, 0.5, 1.6, 5e-6);
+    expectOrder(test::sphere(7.0), 3.4, 0.5, 1.5, 5e-6);
 }
 
 TEST(Redistance, OfATorus)

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Closest points of a surface to voxels ("feet" of the normals through them), sixteen side by side
+/// so that loops over them vectorise. Lengths in voxels.
+
+#include "molsurf/bspline/spline.h"
+
+#include <cstdint>
+
+namespace molsurf
+{
+
+/// Points of a surface with the shape of the surface there, a lane each.
+struct FootPoints {
+    static constexpr int lanes = 16;
+    using Lanes = float[lanes];
+
+    alignas(64) Lanes y[3];
+    alignas(64) Lanes n[3];  ///< unit normal, outward
+    alignas(64) Lanes A[6];  ///< shape operator: xx yy zz xy yz xz
+    alignas(64) Lanes kappa; ///< trace of A
+    alignas(64) Lanes gauss; ///< determinant of A on the tangent plane
+};
+
+/// Values, gradients and Hessians (xx yy zz xy yz xz) of a level set.
+struct JetLanes {
+    alignas(64) FootPoints::Lanes value;
+    alignas(64) FootPoints::Lanes gradient[3];
+    alignas(64) FootPoints::Lanes hessian[6];
+
+    void set(int lane, const Jet& jet);
+};
+
+/// Shape of the level set through each point from its derivatives: the normal, and the Hessian over
+/// the gradient's length projected to the tangent plane, with principal curvatures limited to one a
+/// voxel, which is all a grid can hold.
+void shapeFrom(const JetLanes& jets, FootPoints& feet);
+
+/// The steps along the surface, to second order, that bring points of it closest to voxels x: d
+/// solves (I + s A) d = t on the tangent plane, s and t being the normal and the tangential part of
+/// x - y.
+void stepsAlong(const FootPoints& feet, const FootPoints::Lanes* x, FootPoints::Lanes* d);
+
+/// One Newton step toward the zero set, and along it toward x.
+void newtonSteps(const JetLanes& jets, const FootPoints& feet, const FootPoints::Lanes* x,
+                 FootPoints::Lanes* d);
+
+/// Signed distances of voxels x by the expansion of the distance function about their feet:
+/// s + (t.A t + s K t.t) / (2 (1 + s kappa + s^2 K)), times a sign.
+///
+/// They are kept to what is possible: a foot is a point of the surface, and no point of the surface
+/// is farther than some 0.87 voxel from one of those known, so that with curvatures up to one a
+/// voxel the distance d and r = |x - y| satisfy  r^2 - (1 + r) 0.87^2 <= d^2 <= r^2.
+void distances(const FootPoints& feet, const FootPoints::Lanes* x, const float* sign, float* d);
+
+/// The squared distances of voxels x from the normals through their feet.
+void aside(const FootPoints& feet, const FootPoints::Lanes* x, float* aside2);
+
+} // namespace molsurf
