@@ -3,14 +3,17 @@
 
 #include "outputs.h"
 #include "sha256.h"
+#include "sidecar.h"
 #include "stop.h"
 #include "terminal.h"
 
 #include "molsurf/core/error.h"
 #include "molsurf/io/output_file.h"
+#include "molsurf/io/write_glb.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_png.h"
 #include "molsurf/io/write_report.h"
+#include "molsurf/io/write_usda.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/pipeline/run.h"
 #include "molsurf/pipeline/size_beads.h"
@@ -22,6 +25,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 
 namespace molsurf::tool
@@ -102,6 +106,13 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     std::string fields = "surface";
     for (const std::string& field : options.fields) fields += "," + field;
     text("option.fields", fields);
+    text("option.for", nameOf(call.scene.host));
+    yesNo("option.center", call.center);
+    number("option.min-wall", options.minWall);
+    const char* axes[] = {"scene.center_x", "scene.center_y", "scene.center_z"};
+    for (int i = 0; i < 3; ++i) number(axes[i], call.scene.center[i]);
+    number("scene.units_per_angstrom", call.scene.scale);
+    number("scene.shift_in_voxels", call.scene.host == Host::Blender ? -0.5 : 0.0);
     yesNo("option.curvature-totals", options.curvatureIntegrals);
     number("option.epsilon", options.epsilon);
     number("option.lambda", options.evolution.lambda);
@@ -114,25 +125,49 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     return map;
 }
 
-void writeOne(const Call& call, const Result& result, Format format, const Progress& progress,
-              OutputFile& file)
+openvdb::GridCPtrVec gridsOf(const Call& call, const Result& result)
 {
-    switch (format) {
-    case Format::Vdb: {
-        openvdb::GridCPtrVec grids;
-        if (result.surface) grids.push_back(result.surface);
-        grids.insert(grids.end(), result.fields.begin(), result.fields.end());
-        writeVdb(grids, vdbMetadata(call, result.report), file);
+    openvdb::GridCPtrVec grids;
+    if (result.surface) grids.push_back(result.surface);
+    grids.insert(grids.end(), result.fields.begin(), result.fields.end());
+    const Scene& scene = call.scene;
+    return scene.known() || call.center ? placeInScene(grids, scene) : grids;
+}
+
+LengthUnit printUnit(const Call& call)
+{
+    return call.printScale > 0.0 ? LengthUnit{call.printScale, "mm"} : LengthUnit{};
+}
+
+std::string stemOf(const std::string& path)
+{
+    return path == "-" ? "surface" : std::filesystem::path(path).stem().string();
+}
+
+void writeOne(const Call& call, const Result& result, const Output& output,
+              const Progress& progress, OutputFile& file)
+{
+    switch (output.format) {
+    case Format::Vdb:
+        writeVdb(gridsOf(call, result), vdbMetadata(call, result.report), file);
         break;
-    }
+    case Format::Usda:
+        writeUsda(gridsOf(call, result), usdVolume(call, output), file);
+        break;
     case Format::Ply:
         writePly(result.mesh, file);
         break;
     case Format::Obj:
-        writeObj(result.mesh, file);
+        writeObj(result.mesh, file, printUnit(call));
         break;
     case Format::Stl:
-        writeStl(result.mesh, file);
+        writeStl(result.mesh, file, printUnit(call));
+        break;
+    case Format::Off:
+        writeOff(result.mesh, file);
+        break;
+    case Format::Glb:
+        writeGlb(result.mesh, {stemOf(output.path), call.scene.scale, call.picture.plain}, file);
         break;
     case Format::Png:
         writePng(drawMesh(result.mesh, call.picture, progress), file);
@@ -147,7 +182,9 @@ void writeAll(const Call& call, Result& result, Terminal& terminal, Clock::time_
 {
     writeOutputs(
         call, terminal,
-        [&](Format format, OutputFile& file) { writeOne(call, result, format, terminal, file); },
+        [&](const Output& output, OutputFile& file) {
+            writeOne(call, result, output, terminal, file);
+        },
         [&](double writeSeconds) {
             auto& seconds = result.report.seconds;
             seconds.emplace_back("write", writeSeconds);
@@ -204,10 +241,22 @@ void sayTimes(const Report& report)
     say(text);
 }
 
+// The middle of the mesh's box comes to the origin; the grids follow when they are written.
+void centerMesh(Call& call, Result& result)
+{
+    openvdb::BBoxd box;
+    for (const openvdb::Vec3f& p : result.mesh.positions) box.expand(openvdb::Vec3d(p));
+    const openvdb::Vec3d center = box.getCenter();
+    for (openvdb::Vec3f& p : result.mesh.positions) p = openvdb::Vec3f(openvdb::Vec3d(p) - center);
+    call.scene.center = center;
+    result.report.center = {center[0], center[1], center[2]};
+}
+
 } // namespace
 
-Report buildSurface(const Call& call, Clock::time_point start)
+Report buildSurface(const Call& asked, Clock::time_point start)
 {
+    Call call = asked;
     checkOptions(call.options);
     prepareOutputs(call);
     openvdb::initialize();
@@ -245,6 +294,7 @@ Report buildSurface(const Call& call, Clock::time_point start)
     if (result.surface) result.surface->setCreator(creator);
     for (const auto& field : result.fields) field->setCreator(creator);
 
+    if (call.center) centerMesh(call, result);
     writeAll(call, result, terminal, start);
     terminal.erase();
     if (call.verbose) sayTimes(result.report);

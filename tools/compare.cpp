@@ -266,7 +266,8 @@ int compare(const Call& call, Clock::time_point start)
 
     writeOutputs(
         call, terminal,
-        [&](Format format, OutputFile& file) {
+        [&](const Output& output, OutputFile& file) {
+            const Format format = output.format;
             if (format == Format::Ply) {
                 Mesh mesh = a.operand.surface.mesh;
                 const auto& values = call.colorBySign ? both.aToB.signedDistance : shown;

@@ -2,6 +2,7 @@
 #include "molsurf/pipeline/label_surface.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/pipeline/curvature_colors.h"
 #include "molsurf/pipeline/palette.h"
 #include "molsurf/rasterize/nearest_ball.h"
 #include "molsurf/surface/color_map.h"
@@ -64,21 +65,12 @@ openvdb::GridBase::Ptr labelGrid(const openvdb::FloatGrid& surface, const char* 
     return grid;
 }
 
-/// Linear light of an 8-bit sRGB value (IEC 61966-2-1), which renderers expect.
-float linear(std::uint8_t value)
-{
-    const double s = value / 255.0;
-    return float(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-}
-
 openvdb::GridBase::Ptr colorGrid(const openvdb::FloatGrid& surface,
                                  const std::vector<Color>& colors)
 {
-    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "Cd", Vec3f(0.0f));
+    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "Cd", linearLight(neutralColor));
     std::size_t i = 0;
-    for (auto it = grid->beginValueOn(); it; ++it, ++i) {
-        it.setValue(Vec3f(linear(colors[i][0]), linear(colors[i][1]), linear(colors[i][2])));
-    }
+    for (auto it = grid->beginValueOn(); it; ++it) it.setValue(linearLight(colors[i++]));
     return grid;
 }
 
@@ -88,18 +80,6 @@ std::vector<Color> colorsOf(const Labels& nearest, const std::vector<Color>& bal
     for (std::size_t i = 0; i < nearest.size(); ++i) {
         if (nearest[i] >= 0) out[i] = ballColor[std::size_t(nearest[i])];
     }
-    return out;
-}
-
-std::vector<Color> curvatureColors(const std::vector<float>& curvature)
-{
-    std::vector<float> sizes;
-    for (const float c : curvature) sizes.push_back(std::abs(c));
-    const std::size_t place = sizes.size() * 95 / 100;
-    std::nth_element(sizes.begin(), sizes.begin() + std::ptrdiff_t(place), sizes.end());
-    const ColorScale scale = signedScale(std::max(sizes[place], 1e-6f));
-    std::vector<Color> out;
-    for (const float c : curvature) out.push_back(scale.at(c));
     return out;
 }
 
@@ -260,15 +240,6 @@ void reportGroups(const BallSelection& atoms, const Options& options, const Labe
 }
 
 } // namespace
-
-void colorByCurvature(ColorBy by, Mesh& mesh)
-{
-    if (by != ColorBy::MeanCurvature && by != ColorBy::GaussianCurvature) return;
-    const char* name = by == ColorBy::MeanCurvature ? "mean_curvature" : "gaussian_curvature";
-    for (const auto& scalar : mesh.scalars) {
-        if (scalar.name == name) mesh.colors = curvatureColors(scalar.values);
-    }
-}
 
 void labelSurface(const BallSelection& atoms, const Options& options, double reach,
                   Progress& progress, Result& result)

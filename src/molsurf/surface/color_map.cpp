@@ -7,6 +7,16 @@
 namespace molsurf
 {
 
+openvdb::Vec3f linearLight(const Color& color)
+{
+    openvdb::Vec3f light;
+    for (int k = 0; k < 3; ++k) {
+        const double s = color[k] / 255.0;
+        light[k] = float(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+    }
+    return light;
+}
+
 Color ColorScale::at(double value) const
 {
     const double range = high - low, last = double(stops.size() - 1);

@@ -127,17 +127,6 @@ struct Sample {
     float cover = 0.0f;    ///< share of the pixel
 };
 
-float linear(std::uint8_t value)
-{
-    const double s = value / 255.0;
-    return float(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-}
-
-Vec3f linear(const Color& color)
-{
-    return {linear(color[0]), linear(color[1]), linear(color[2])};
-}
-
 std::uint8_t encode(float value)
 {
     const double x = std::clamp(double(value), 0.0, 1.0);
@@ -157,7 +146,7 @@ class Tracer
 {
 public:
     Tracer(const Mesh& mesh, const View& view, const Color& plain)
-        : mesh_(mesh), view_(view), plain_(linear(plain)), scene_(mesh),
+        : mesh_(mesh), view_(view), plain_(linearLight(plain)), scene_(mesh),
           lamp_((view.toEye - 0.35 * view.right + 0.55 * view.up).unit())
     {
     }
@@ -186,9 +175,9 @@ public:
             normal.normalize();
             if (normal.dot(Vec3f(view_.toEye)) < 0.0f) normal = -normal;
             const Vec3f color = mesh_.colors.empty() ? plain_
-                                                     : w * linear(mesh_.colors[t[0]]) +
-                                                           u * linear(mesh_.colors[t[1]]) +
-                                                           v * linear(mesh_.colors[t[2]]);
+                                                     : w * linearLight(mesh_.colors[t[0]]) +
+                                                           u * linearLight(mesh_.colors[t[1]]) +
+                                                           v * linearLight(mesh_.colors[t[2]]);
             out.color += lit(color, normal);
             out.normal += normal;
             const float depth = float(view_.far + 1.0) - ray.ray.tfar;
@@ -350,7 +339,7 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
         });
     }
     const Canvas canvas(view, std::move(samples));
-    const Vec3f background = linear(options.background);
+    const Vec3f background = linearLight(options.background);
     picture.width = view.width;
     picture.height = view.height;
     picture.rgb.resize(3 * width * height);

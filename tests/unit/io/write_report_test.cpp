@@ -45,7 +45,7 @@ TEST(WriteReport, HasTheKeysOfTheContractInItsOrder)
 {
     const Json json = Json::parse(reportText(sample()));
     EXPECT_EQ(keys(json),
-              (Names{"program", "version", "command", "input", "atoms", "voxel", "surface",
+              (Names{"program", "version", "command", "input", "atoms", "voxel", "center", "surface",
                      "coarse", "resolution", "evolution", "grid", "seconds", "peak_memory_bytes",
                      "threads", "groups", "interfaces", "parts", "warnings"}));
     Names surface = keys(json["surface"]);
