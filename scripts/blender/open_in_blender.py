@@ -75,13 +75,10 @@ def load_volume(path):
         first = int(re.search(r"(\d+)\.vdb$", names[0])[1])
         data.is_sequence = True
         data.frame_duration = len(names)
-        data.frame_start = first  # the scene's frame n shows name.n.vdb
-        data.frame_offset = first - 1  # Blender counts files from the number in the first name
+        data.frame_start, data.frame_offset = first, first - 1  # frame n shows name.n.vdb
         scene = bpy.context.scene
         scene.frame_start, scene.frame_end = first, first + len(names) - 1
         scene.frame_set(first)
-        # Blender 3.4 takes the first file's number as number 1 of the sequence.
-        data.frame_offset = 0
     data.grids.load()
     if data.grids.error_message:
         sys.exit(f"{path}: {data.grids.error_message}")
@@ -95,6 +92,9 @@ def mesh_of(volume, grid):
         sys.exit(f"{volume.name}: there is no grid {grid} [hint: --grid, one of {names}]")
     mesh = bpy.data.objects.new("surface", bpy.data.meshes.new("surface"))
     bpy.context.collection.objects.link(mesh)
+    # The mesh moves with the volume. Turned apart, the modifier would be off by up to half a voxel,
+    # since Blender adds it along the axes of the mesh.
+    mesh.parent = volume
     modifier = mesh.modifiers.new("Volume to Mesh", "VOLUME_TO_MESH")
     modifier.object = volume
     modifier.grid_name = grid
@@ -203,11 +203,19 @@ def socket(node, *names):
     return None
 
 
-def surface_material(colored):
-    material = bpy.data.materials.new("surface")
+def new_material(name, kind, output):
+    """A material of one shader node: (material, shader)."""
+    material = bpy.data.materials.new(name)
     material.use_nodes = True
     nodes, links = material.node_tree.nodes, material.node_tree.links
-    shader = nodes["Principled BSDF"]
+    nodes.clear()
+    shader, end = nodes.new(kind), nodes.new("ShaderNodeOutputMaterial")
+    links.new(shader.outputs[0], end.inputs[output])
+    return material, shader
+
+
+def surface_material(colored):
+    material, shader = new_material("surface", "ShaderNodeBsdfPrincipled", "Surface")
     shader.inputs["Base Color"].default_value = PLAIN
     shader.inputs["Roughness"].default_value = 0.45
     specular = socket(shader, "Specular", "Specular IOR Level")  # the second from Blender 4.0 on
@@ -215,26 +223,20 @@ def surface_material(colored):
     subsurface = socket(shader, "Subsurface", "Subsurface Weight")
     subsurface.default_value = 0.0
     if colored:
-        attribute = nodes.new("ShaderNodeAttribute")
+        attribute = material.node_tree.nodes.new("ShaderNodeAttribute")
         attribute.attribute_name = "Cd"
-        links.new(attribute.outputs["Color"], shader.inputs["Base Color"])
+        material.node_tree.links.new(attribute.outputs["Color"], shader.inputs["Base Color"])
     return material
 
 
 def fog_material(colored, thickness):
-    """Fog that lets about a twentieth of the light through a voxel times 12."""
-    material = bpy.data.materials.new("fog")
-    material.use_nodes = True
-    nodes, links = material.node_tree.nodes, material.node_tree.links
-    nodes.clear()
-    output = nodes.new("ShaderNodeOutputMaterial")
-    shader = nodes.new("ShaderNodeVolumePrincipled")
+    """Fog of so much density in a scene unit."""
+    material, shader = new_material("fog", "ShaderNodeVolumePrincipled", "Volume")
     shader.inputs["Density Attribute"].default_value = "density"
     shader.inputs["Density"].default_value = thickness
     shader.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0) if colored else PLAIN
     shader.inputs["Color Attribute"].default_value = "Cd" if colored else ""
     shader.inputs["Anisotropy"].default_value = 0.0
-    links.new(shader.outputs["Volume"], output.inputs["Volume"])
     return material
 
 
@@ -245,6 +247,33 @@ def box_of(obj):
     low = Vector([min(c[i] for c in corners) for i in range(3)])
     high = Vector([max(c[i] for c in corners) for i in range(3)])
     return low, high
+
+
+def outline_of(obj):
+    """Points of the evaluated object in the scene, as one list of coordinates."""
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    points = [Vector(corner) for corner in evaluated.bound_box]
+    if obj.type == "MESH" and evaluated.data.vertices:
+        vertices = evaluated.data.vertices
+        step = max(1, len(vertices) // 20000)
+        points = [vertices[i].co for i in range(0, len(vertices), step)]
+    return [c for p in points for c in evaluated.matrix_world @ p]
+
+
+def set_world(world):
+    """White to the camera, a dim sky to everything else."""
+    world.use_nodes = True
+    nodes, links = world.node_tree.nodes, world.node_tree.links
+    nodes.clear()
+    output, mix = nodes.new("ShaderNodeOutputWorld"), nodes.new("ShaderNodeMixShader")
+    path = nodes.new("ShaderNodeLightPath")
+    links.new(path.outputs["Is Camera Ray"], mix.inputs[0])
+    for number, strength in ((1, 0.35), (2, 1.0)):
+        sky = nodes.new("ShaderNodeBackground")
+        sky.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+        sky.inputs["Strength"].default_value = strength
+        links.new(sky.outputs[0], mix.inputs[number])
+    links.new(mix.outputs[0], output.inputs["Surface"])
 
 
 def aim(obj, target):
@@ -262,11 +291,13 @@ def set_stage(obj, turn):
     data.lens = 85
     camera = bpy.data.objects.new("camera", data)
     scene.collection.objects.link(camera)
-    distance = 0.56 * size / math.tan(data.angle / 2)
-    camera.location = center + turned @ Vector((0.30, -1.0, 0.28)).normalized() * distance
-    data.clip_start, data.clip_end = distance / 100, distance * 100
+    camera.location = center + turned @ Vector((0.30, -1.0, 0.28)).normalized() * 2 * size
+    data.clip_start, data.clip_end = size / 100, size * 100
     aim(camera, center)
     scene.camera = camera
+    bpy.context.view_layer.update()
+    place, _ = camera.camera_fit_coords(bpy.context.evaluated_depsgraph_get(), outline_of(obj))
+    camera.location = center + 1.06 * (place - center)
 
     # Power falls with the square of the distance, which is in proportion to the size.
     for name, place, power, width in (("key", (-0.9, -1.2, 1.3), 30.0, 0.8),
@@ -281,10 +312,7 @@ def set_stage(obj, turn):
 
     if scene.world is None:
         scene.world = bpy.data.worlds.new("world")
-    scene.world.use_nodes = True
-    background = scene.world.node_tree.nodes.get("Background")
-    background.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
-    background.inputs["Strength"].default_value = 0.25
+    set_world(scene.world)
 
 
 def render(path, size, samples):
@@ -293,7 +321,7 @@ def render(path, size, samples):
     scene.cycles.device = "CPU"
     scene.cycles.samples = samples
     scene.cycles.use_denoising = False  # Debian's Blender has no denoiser
-    scene.cycles.volume_step_rate = 1.0
+    scene.cycles.volume_bounces = 4
     scene.view_settings.view_transform = "Standard"  # colours as they are in Cd
     scene.render.film_transparent = False
     scene.render.resolution_x, scene.render.resolution_y = size, size * 3 // 4
@@ -318,17 +346,19 @@ def open_surface(path, show="mesh", grid="surface", color=False, turn=0.0):
             sys.exit(f"{path}: there is no grid density [hint: vdb_molsurf --for blender]")
         voxel = min(volume.data.grids["density"].matrix_object.to_scale())
         shown = volume
-        volume.data.materials.append(fog_material("Cd" in names, 0.25 / voxel))
+        volume.data.materials.append(fog_material("Cd" in names, 4.0 / voxel))
+        outline = mesh_of(volume, grid) if grid in names else volume
+        set_stage(outline, turn)
+        if outline is not volume:
+            bpy.data.objects.remove(outline)
+        volume.hide_render = False
     else:
         shown = mesh_of(volume, grid)
         colored = color and add_colors(fixed(shown), path)
         material = surface_material(colored)
-        if shown.modifiers:  # Volume to Mesh takes the material of its own object's slot
-            shown.data.materials.append(material)
-        else:
-            shown.data.materials.clear()
-            shown.data.materials.append(material)
-    set_stage(shown, turn)
+        shown.data.materials.clear()
+        shown.data.materials.append(material)
+        set_stage(shown, turn)
     return volume, shown
 
 

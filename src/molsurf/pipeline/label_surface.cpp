@@ -8,6 +8,7 @@
 #include "molsurf/surface/color_map.h"
 
 #include <openvdb/tools/Interpolation.h>
+#include <openvdb/tools/LevelSetUtil.h>
 
 #include <algorithm>
 #include <array>
@@ -65,15 +66,6 @@ openvdb::GridBase::Ptr labelGrid(const openvdb::FloatGrid& surface, const char* 
     return grid;
 }
 
-openvdb::GridBase::Ptr colorGrid(const openvdb::FloatGrid& surface,
-                                 const std::vector<Color>& colors)
-{
-    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "Cd", linearLight(neutralColor));
-    std::size_t i = 0;
-    for (auto it = grid->beginValueOn(); it; ++it) it.setValue(linearLight(colors[i++]));
-    return grid;
-}
-
 std::vector<Color> colorsOf(const Labels& nearest, const std::vector<Color>& ballColor)
 {
     std::vector<Color> out(nearest.size(), neutralColor);
@@ -81,6 +73,27 @@ std::vector<Color> colorsOf(const Labels& nearest, const std::vector<Color>& bal
         if (nearest[i] >= 0) out[i] = ballColor[std::size_t(nearest[i])];
     }
     return out;
+}
+
+/// Colours on the band of a surface and, for fog, in all of its inside.
+openvdb::GridBase::Ptr colorGrid(const openvdb::FloatGrid& surface, bool inside,
+                                 const std::vector<Ball>& balls,
+                                 const std::vector<Color>& ballColor, double reach,
+                                 const Progress& progress)
+{
+    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "Cd", linearLight(neutralColor));
+    if (inside) {
+        grid->tree().topologyUnion(openvdb::tools::sdfInteriorMask(surface)->tree());
+        grid->tree().voxelizeActiveTiles();
+    }
+    std::vector<Vec3f> points;
+    for (auto it = grid->cbeginValueOn(); it; ++it)
+        points.emplace_back(surface.indexToWorld(it.getCoord()));
+    const std::vector<Color> colors =
+        colorsOf(nearestBalls(balls, points, reach, progress), ballColor);
+    std::size_t i = 0;
+    for (auto it = grid->beginValueOn(); it; ++it) it.setValue(linearLight(colors[i++]));
+    return grid;
 }
 
 /// The part of a triangle where a function that is linear in it is negative.
@@ -266,7 +279,12 @@ void labelSurface(const BallSelection& atoms, const Options& options, double rea
     if (grouped) reportGroups(atoms, options, nearest, reach, progress, result);
 
     const bool colors = wanted("Cd") && !ballColor.empty();
-    if (!wanted("atom_id") && !wanted("chain_id") && !wanted("group_id") && !colors) return;
+    const auto addColors = [&] {
+        if (!colors) return;
+        result.fields.push_back(
+            colorGrid(*result.surface, wanted("density"), atoms.balls, ballColor, reach, progress));
+    };
+    if (!wanted("atom_id") && !wanted("chain_id") && !wanted("group_id")) return addColors();
     std::vector<Vec3f> points;
     for (auto it = result.surface->cbeginValueOn(); it; ++it) {
         points.emplace_back(result.surface->indexToWorld(it.getCoord()));
@@ -283,7 +301,7 @@ void labelSurface(const BallSelection& atoms, const Options& options, double rea
         result.fields.push_back(
             labelGrid(*result.surface, "group_id", taken(owner, atoms.labels->groupOf)));
     }
-    if (colors) result.fields.push_back(colorGrid(*result.surface, colorsOf(owner, ballColor)));
+    addColors();
 }
 
 } // namespace molsurf

@@ -4,6 +4,7 @@
 /// @file
 /// Legends of the colours that a run gives.
 
+#include "molsurf/core/progress.h"
 #include "molsurf/pipeline/options.h"
 #include "molsurf/surface/legend.h"
 #include "molsurf/surface/mesh.h"
