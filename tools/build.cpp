@@ -8,13 +8,16 @@
 #include "terminal.h"
 
 #include "molsurf/core/error.h"
+#include "molsurf/io/draw_legend.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/io/write_glb.h"
+#include "molsurf/io/write_html.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_png.h"
 #include "molsurf/io/write_report.h"
 #include "molsurf/io/write_usda.h"
 #include "molsurf/io/write_vdb.h"
+#include "molsurf/pipeline/legends.h"
 #include "molsurf/pipeline/run.h"
 #include "molsurf/pipeline/size_beads.h"
 #include "molsurf/selection/select_balls.h"
@@ -139,13 +142,56 @@ LengthUnit printUnit(const Call& call)
     return call.printScale > 0.0 ? LengthUnit{call.printScale, "mm"} : LengthUnit{};
 }
 
+// The name of the input without folder, .gz and extension.
+std::string titleOf(const std::string& input)
+{
+    if (input == "-") return "standard input";
+    std::filesystem::path name = std::filesystem::path(input).filename();
+    if (name.extension() == ".gz") name = name.stem();
+    return name.stem().string();
+}
+
 std::string stemOf(const std::string& path)
 {
     return path == "-" ? "surface" : std::filesystem::path(path).stem().string();
 }
 
-void writeOne(const Call& call, const Result& result, const Output& output,
-              const Progress& progress, OutputFile& file)
+// What the colours can mean; the first one is what they do mean, if they were asked for.
+std::vector<Legend> legendsOf(const Call& call, const BallSelection& atoms, const Mesh& mesh,
+                              const Progress& progress)
+{
+    std::vector<ColorBy> kinds = {ColorBy::Chain, ColorBy::Group, ColorBy::MeanCurvature,
+                                  ColorBy::GaussianCurvature};
+    const ColorBy asked = call.options.color;
+    const auto found = std::find(kinds.begin(), kinds.end(), asked);
+    if (found != kinds.end()) kinds.erase(found);
+    if (asked != ColorBy::Nothing) kinds.insert(kinds.begin(), asked);
+    std::vector<Legend> legends;
+    for (const ColorBy kind : kinds)
+        if (auto legend = legendOf(kind, atoms, mesh, progress))
+            legends.push_back(std::move(*legend));
+    return legends;
+}
+
+void writePicture(const Call& call, const BallSelection& atoms, const Mesh& mesh, double turn,
+                  const Progress& progress, OutputFile& file)
+{
+    DrawOptions options = call.picture;
+    options.turn += turn;
+    const auto legend =
+        call.legend ? legendOf(call.options.color, atoms, mesh, progress) : std::optional<Legend>();
+    if (!legend) {
+        writePng(drawMesh(mesh, options, progress), file);
+        return;
+    }
+    const int width = options.width;
+    options.width = std::max(width - legendWidth(*legend, width), width / 2);
+    writePng(withLegend(drawMesh(mesh, options, progress), *legend, width, options.background),
+             file);
+}
+
+void writeOne(const Call& call, const BallSelection& atoms, const Result& result,
+              const Output& output, const Progress& progress, OutputFile& file)
 {
     switch (output.format) {
     case Format::Vdb:
@@ -170,7 +216,13 @@ void writeOne(const Call& call, const Result& result, const Output& output,
         writeGlb(result.mesh, {stemOf(output.path), call.scene.scale, call.picture.plain}, file);
         break;
     case Format::Png:
-        writePng(drawMesh(result.mesh, call.picture, progress), file);
+        writePicture(call, atoms, result.mesh, output.turn, progress, file);
+        break;
+    case Format::Html:
+        writeHtml(result.mesh,
+                  {titleOf(call.input), legendsOf(call, atoms, result.mesh, progress),
+                   call.picture.plain, viewAxes(result.mesh, call.picture)},
+                  file);
         break;
     case Format::Json:
         writeReport(result.report, file);
@@ -178,12 +230,13 @@ void writeOne(const Call& call, const Result& result, const Output& output,
     }
 }
 
-void writeAll(const Call& call, Result& result, Terminal& terminal, Clock::time_point programStart)
+void writeAll(const Call& call, const BallSelection& atoms, Result& result, Terminal& terminal,
+              Clock::time_point programStart)
 {
     writeOutputs(
         call, terminal,
         [&](const Output& output, OutputFile& file) {
-            writeOne(call, result, output, terminal, file);
+            writeOne(call, atoms, result, output, terminal, file);
         },
         [&](double writeSeconds) {
             auto& seconds = result.report.seconds;
@@ -295,7 +348,7 @@ Report buildSurface(const Call& asked, Clock::time_point start)
     for (const auto& field : result.fields) field->setCreator(creator);
 
     if (call.center) centerMesh(call, result);
-    writeAll(call, result, terminal, start);
+    writeAll(call, selection, result, terminal, start);
     terminal.erase();
     if (call.verbose) sayTimes(result.report);
     if (!call.quiet) say(summary(result.report));

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -49,9 +50,10 @@ const std::vector<std::string> knownFields = [] {
 }();
 
 const std::map<std::string, Format> formats = {
-    {"vdb", Format::Vdb}, {"ply", Format::Ply}, {"obj", Format::Obj},   {"stl", Format::Stl},
-    {"off", Format::Off}, {"glb", Format::Glb}, {"json", Format::Json}, {"png", Format::Png}};
-const char* const formatWords = "vdb, ply, obj, stl, off, glb, json or png";
+    {"vdb", Format::Vdb},   {"ply", Format::Ply}, {"obj", Format::Obj},
+    {"stl", Format::Stl},   {"off", Format::Off}, {"glb", Format::Glb},
+    {"json", Format::Json}, {"png", Format::Png}, {"html", Format::Html}};
+const char* const formatWords = "vdb, ply, obj, stl, off, glb, html, json or png";
 
 std::string join(const std::vector<std::string>& words, const char* between)
 {
@@ -91,7 +93,8 @@ const std::vector<Group>& groups()
          {{"output,o", "FILE",
            "file to write; repeats; the extension says what:\n"
            ".vdb level set and fields; .ply .obj .stl .off .glb\n"
-           "mesh; .json report; .png picture; - standard output",
+           "mesh; .html page that shows it; .json report;\n"
+           ".png picture; - is standard output",
            "", true},
           {"format", "WORD", std::string("what -o - writes: ") + formatWords, ""},
           {"force", nullptr, "replace existing files", ""}}},
@@ -171,7 +174,12 @@ const std::vector<Group>& groups()
            "auto"},
           {"turn", "A", "turned by so many degrees about the upright", "0"},
           {"size", "N", "width in pixels; the height follows the shape", "1200"},
-          {"background", "COLOR", "as #rrggbb", "#ffffff"}}},
+          {"background", "COLOR", "as #rrggbb", "#ffffff"},
+          {"legend", "WORD",
+           "on or off; auto: beside colours, if 600 pixels wide\n"
+           "or more",
+           "auto"},
+          {"turntable", "N", "N pictures round the upright: name.0001.png, ...", ""}}},
         {"Evolution",
          {{"lambda", "L", "weight of the regulariser [Å^2 for gradient, 1 for area]",
            shortest(preset.evolution.lambda)},
@@ -224,7 +232,8 @@ const std::vector<Group>& batchGroups()
     static const std::vector<Group> all = {
         {"Output",
          {{"folder,O", "DIR", "where the files go, with the names of the structures", ""},
-          {"formats", "LIST", "files to write, by commas: vdb, ply, obj, stl, off,\nglb, json, png",
+          {"formats", "LIST",
+           "files to write, by commas: vdb, ply, obj, stl, off,\nglb, html, json, png",
            "vdb,ply,json"},
           {"force", nullptr, "do all again, and replace existing files", ""}}}};
     return all;
@@ -386,7 +395,8 @@ Format formatOf(const std::string& path)
     const auto found = formats.find(extension);
     if (found == formats.end())
         misuse("-o " + path +
-               ": expected a name that ends in .vdb, .ply, .obj, .stl, .off, .glb, .json or .png");
+               ": expected a name that ends in .vdb, .ply, .obj, .stl, .off, .glb, .html, .json or "
+               ".png");
     return found->second;
 }
 
@@ -442,6 +452,13 @@ std::vector<std::string> fieldsOf(const Values& values)
 
 void fillRun(const Values& values, Call& call);
 
+bool writes(const Call& call, std::initializer_list<Format> some)
+{
+    return std::any_of(call.outputs.begin(), call.outputs.end(), [&](const Output& output) {
+        return std::count(some.begin(), some.end(), output.format) > 0;
+    });
+}
+
 constexpr SurfaceKind surfaceKinds[] = {SurfaceKind::Variational, SurfaceKind::SolventExcluded,
                                         SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals,
                                         SurfaceKind::Gaussian};
@@ -485,14 +502,8 @@ void fillGroups(const Values& values, Call& call)
         return std::count(options.fields.begin(), options.fields.end(), field) > 0;
     };
     if (has("Cd") && options.color == ColorBy::Nothing) options.color = ColorBy::Chain;
-    options.atoms.labels = options.color != ColorBy::Nothing || has("chain_id") || has("Cd");
-}
-
-bool writes(const Call& call, std::initializer_list<Format> some)
-{
-    return std::any_of(call.outputs.begin(), call.outputs.end(), [&](const Output& output) {
-        return std::count(some.begin(), some.end(), output.format) > 0;
-    });
+    options.atoms.labels = options.color != ColorBy::Nothing || has("chain_id") || has("Cd") ||
+                           writes(call, {Format::Html});
 }
 
 // The .vdb for another program, and meshes to print. To be called before fillGroups().
@@ -529,6 +540,29 @@ void fillScene(const Values& values, Call& call)
     call.options.minWall = wall / call.printScale;
 }
 
+// Puts the frames of a turntable in the place of each picture.
+void addFrames(int count, Call& call)
+{
+    std::vector<Output> outputs;
+    for (const Output& output : call.outputs) {
+        if (output.format != Format::Png) {
+            outputs.push_back(output);
+            continue;
+        }
+        if (output.path == "-") misuse("--turntable: expected a file for the pictures, got -");
+        for (int n = 0; n < count; ++n) {
+            char number[16];
+            std::snprintf(number, sizeof number, ".%04d", n + 1);
+            Output frame = output;
+            frame.path.insert(frame.path.size() - std::strlen(".png"), number);
+            frame.turn = 360.0 * n / count;
+            outputs.push_back(std::move(frame));
+        }
+    }
+    call.outputs = std::move(outputs);
+    call.picture.turnable = true;
+}
+
 // Toward the eye; up is y, or z when looking along y.
 void fillPicture(const Values& values, Call& call)
 {
@@ -550,12 +584,21 @@ void fillPicture(const Values& values, Call& call)
     }
     values.get("turn", picture.turn);
     values.get("size", picture.width, 16, 16384);
-    std::string color;
+    std::string color = "#ffffff";
     values.get("background", color);
-    if (color.empty()) return;
     const auto parsed = parseColor(color);
     if (!parsed) values.wrong("background", "a color as #rrggbb");
     picture.background = *parsed;
+
+    std::string legend = "auto";
+    values.get("legend", legend);
+    constexpr int wide = 600; // pixels; in smaller pictures letters would take too much room
+    if (legend != "auto" && legend != "on" && legend != "off")
+        values.wrong("legend", "auto, on or off");
+    call.legend = legend == "on" || (legend == "auto" && picture.width >= wide);
+    int frames = 0;
+    values.get("turntable", frames, 2, 9999);
+    if (frames > 0) addFrames(frames, call);
 }
 
 void fillBuild(const Values& values, Call& call)
@@ -571,11 +614,13 @@ void fillBuild(const Values& values, Call& call)
     fillScene(values, call);
     fillGroups(values, call);
     fillPicture(values, call);
-    const bool png = std::any_of(call.outputs.begin(), call.outputs.end(),
-                                 [](const Output& output) { return output.format == Format::Png; });
-    for (const char* name : {"view", "turn", "size", "background"})
+    const bool png = writes(call, {Format::Png});
+    for (const char* name : {"size", "background", "legend", "turntable"})
         if (!png && values.given(name))
             call.warnings.push_back(std::string("--") + name + " is for .png");
+    for (const char* name : {"view", "turn"})
+        if (!png && !writes(call, {Format::Html}) && values.given(name))
+            call.warnings.push_back(std::string("--") + name + " is for .png and .html");
 }
 
 // D or SELECTION=D, the selection ending at the last =.
@@ -767,7 +812,7 @@ void fillBatch(const Values& values, const po::parsed_options& parsed, Call& cal
         const std::string word = words.substr(begin, end - begin);
         const auto found = formats.find(word);
         if (found == formats.end() || !seen.insert(word).second)
-            values.wrong("formats", "some of vdb, ply, obj, stl, off, glb, json, png");
+            values.wrong("formats", "some of vdb, ply, obj, stl, off, glb, html, json, png");
         call.outputs.push_back({"." + word, found->second, ""});
         begin = end + 1;
     }

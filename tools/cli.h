@@ -16,13 +16,14 @@ namespace molsurf::tool
 {
 
 /// Kinds of output files.
-enum class Format { Vdb, Ply, Obj, Stl, Off, Glb, Json, Png, Usda };
+enum class Format { Vdb, Ply, Obj, Stl, Off, Glb, Json, Png, Html, Usda };
 
 /// One -o.
 struct Output {
     std::string path; ///< "-" is standard output
     Format format;
-    std::string of; ///< Usda: the .vdb beside it
+    std::string of;    ///< Usda: the .vdb beside it
+    double turn = 0.0; ///< Png: of a turntable, beside that of the picture [degree]
 };
 
 /// What the tool is asked to do.
@@ -49,6 +50,7 @@ struct Call {
     std::vector<std::string> files; ///< Info: at least one; Compare: two
     Options options;                ///< Build, Compare
     DrawOptions picture;            ///< Build
+    bool legend = true;             ///< Build: beside pictures that have colours
     Scene scene;                    ///< Build: of the .vdb and the node of the .glb
     bool center = false;            ///< Build: the middle of the surface comes to the origin
     double printScale = 0.0;        ///< Build: of .stl and .obj [mm/Å]; 0: they are in Å

@@ -77,19 +77,10 @@ std::array<Vec3d, 3> principalAxes(const Mesh& mesh)
 View chooseView(const Mesh& mesh, const DrawOptions& options)
 {
     View view;
-    if (options.toEye.lengthSqr() > 0.0) {
-        view.toEye = options.toEye.unit();
-        view.right = options.up.cross(view.toEye).unit();
-    } else {
-        const auto axes = principalAxes(mesh);
-        view.right = axes[0];
-        view.toEye = axes[0].cross(axes[1]);
-    }
-    view.up = view.toEye.cross(view.right);
-    const double angle = options.turn * M_PI / 180.0;
-    const Vec3d right = view.right;
-    view.right = std::cos(angle) * right - std::sin(angle) * view.toEye;
-    view.toEye = std::cos(angle) * view.toEye + std::sin(angle) * right;
+    const std::array<Vec3d, 3> axes = viewAxes(mesh, options);
+    view.right = axes[0];
+    view.up = axes[1];
+    view.toEye = axes[2];
 
     // A turn must not change the scale, so the extent across is that of all turns.
     Vec3d low(std::numeric_limits<double>::max()), high(-low);
@@ -102,7 +93,7 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
     }
     const Vec3d mid = 0.5 * (low + high), extent = high - low;
     view.center = mid[0] * view.right + mid[1] * view.up + mid[2] * view.toEye;
-    if (options.turn != 0.0) {
+    if (options.turn != 0.0 || options.turnable) {
         for (const Vec3f& p : mesh.positions) {
             const Vec3d d = Vec3d(p) - view.center;
             reach = std::max(reach, std::hypot(d.dot(view.right), d.dot(view.toEye)));
@@ -315,6 +306,23 @@ private:
 };
 
 } // namespace
+
+std::array<Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options)
+{
+    Vec3d right, toEye;
+    if (options.toEye.lengthSqr() > 0.0) {
+        toEye = options.toEye.unit();
+        right = options.up.cross(toEye).unit();
+    } else {
+        const auto axes = principalAxes(mesh);
+        right = axes[0];
+        toEye = axes[0].cross(axes[1]);
+    }
+    const Vec3d up = toEye.cross(right);
+    const double angle = options.turn * M_PI / 180.0;
+    return {std::cos(angle) * right - std::sin(angle) * toEye, up,
+            std::cos(angle) * toEye + std::sin(angle) * right};
+}
 
 Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& progress)
 {

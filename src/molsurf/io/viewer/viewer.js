@@ -3,9 +3,8 @@
 // viewer.min.js of this file and the parts of three.js that it uses.
 
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, Mesh,
-  MeshStandardMaterial, PerspectiveCamera, Quaternion, SRGBColorSpace, Scene, Vector3,
-  WebGLRenderer,
+  AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, Matrix4,
+  Mesh, MeshStandardMaterial, PerspectiveCamera, SRGBColorSpace, Scene, Vector3, WebGLRenderer,
 } from 'three';
 import { TrackballControls } from 'three/examples/jsm/controls/TrackballControls.js';
 
@@ -82,6 +81,9 @@ function paint(geometry, mode, arrays) {
     const table = mode.entries.map((entry) => light(entry.color));
     const values = arrays[mode.array];
     colorOf = (i) => table[values[i]];
+  } else if (mode.kind === 'colors') {
+    const values = arrays[mode.array];
+    colorOf = (i) => light(values.subarray(3 * i, 3 * i + 3));
   } else {
     const plain = light(mode.color);
     colorOf = () => plain;
@@ -110,7 +112,7 @@ function showLegend(mode) {
     unit.className = 'unit';
     unit.textContent = mode.unit;
     legend.append(bar, ends, unit);
-  } else if (mode.kind === 'names') {
+  } else if (mode.entries) {
     for (const entry of mode.entries) {
       const row = document.createElement('div');
       row.className = 'entry';
@@ -133,7 +135,8 @@ function start(header, arrays) {
   const camera = new PerspectiveCamera(30, 1, 0.1, 1000);
   const material = new MeshStandardMaterial({ vertexColors: true, roughness: 0.55 });
   const mesh = new Mesh(geometry, material);
-  mesh.quaternion.copy(new Quaternion(...header.turn)); // as pictures of the same mesh stand
+  const axes = header.axes.map((axis) => new Vector3(...axis)); // as pictures of the mesh stand
+  mesh.quaternion.setFromRotationMatrix(new Matrix4().makeBasis(...axes).transpose());
   scene.add(mesh, camera, new AmbientLight(0xffffff, 0.9));
   const lamp = new DirectionalLight(0xffffff, 2.4);
   lamp.position.set(-0.5, 0.8, 1); // over the eye's shoulder
