@@ -136,6 +136,10 @@ class Grids(ToolTest):
             self.assertAlmostEqual(min(q[i] for q in b), -max(q[i] for q in b), places=4)
             self.assertAlmostEqual(self.origin(self.grids("b.vdb")["surface"])[i], -center[i])
 
+    def test_compare_refuses_what_was_moved(self):
+        self.check(0, CRAMBIN, *FAST, "--for", "blender", "-o", "a.vdb", "-o", "a.ply")
+        self.check(1, "compare", "a.vdb", "a.ply", says=["a.vdb", "--for"])
+
     def test_metadata_tells_the_scene(self):
         self.check(0, CRAMBIN, *FAST, "--for", "blender=nm", "-o", "a.vdb")
         data = vdb.readMetadata(str(self.folder / "a.vdb"))
