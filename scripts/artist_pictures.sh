@@ -10,17 +10,18 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
-"$tool" "$data/1a8o.cif.gz" --assembly 1 --voxel 0.25 --for blender -q -o 1a8o.vdb
+"$tool" "$data/1a8o.cif.gz" --assembly 1 --voxel 0.25 --for blender -q -o mesh.vdb
+"$tool" "$data/1a8o.cif.gz" --assembly 1 --for blender -q -o fog.vdb
 for show in mesh fog; do
   words=(--show volume)
   [[ $show == mesh ]] && words=(--color)
-  blender -b --factory-startup --python-exit-code 1 --python "$script" -- 1a8o.vdb "${words[@]}" \
-    --size 560 --samples 160 --render "$out/blender_$show.png" > blender.log || cat blender.log
+  blender -b --factory-startup --python-exit-code 1 --python "$script" -- "$show.vdb" "${words[@]}" \
+    --size 480 --samples 160 --render "$out/blender_$show.png" > blender.log || cat blender.log
 done
 
 "$tool" "$data/4at1.ent.gz" --color chain --size 700 --force -q -o "$out/4at1_chains.png"
 
 "$tool" "$data/1a8o.cif.gz" --assembly 1 --color mean-curvature -q -o view.html
 chromium --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
-  --window-size=900,600 --hide-scrollbars --user-data-dir="$work/profile" \
+  --window-size=900,687 --hide-scrollbars --user-data-dir="$work/profile" \
   --virtual-time-budget=8000 --screenshot="$out/view_html.png" "file://$work/view.html" 2> browser.log

@@ -315,17 +315,22 @@ def set_stage(obj, turn):
     set_world(scene.world)
 
 
-def render(path, size, samples):
+def set_size(width):
+    """Of the picture, 4 to 3; before the camera is set, which fits it."""
+    rendered = bpy.context.scene.render
+    rendered.resolution_x, rendered.resolution_y = width, width * 3 // 4
+    rendered.resolution_percentage = 100
+
+
+def render(path, samples):
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     scene.cycles.device = "CPU"
     scene.cycles.samples = samples
     scene.cycles.use_denoising = False  # Debian's Blender has no denoiser
-    scene.cycles.volume_bounces = 4
+    scene.cycles.volume_bounces = 8
     scene.view_settings.view_transform = "Standard"  # colours as they are in Cd
     scene.render.film_transparent = False
-    scene.render.resolution_x, scene.render.resolution_y = size, size * 3 // 4
-    scene.render.resolution_percentage = 100
     scene.render.image_settings.file_format = "PNG"
     scene.render.filepath = str(pathlib.Path(path).resolve())
     bpy.ops.render.render(write_still=True)
@@ -346,7 +351,7 @@ def open_surface(path, show="mesh", grid="surface", color=False, turn=0.0):
             sys.exit(f"{path}: there is no grid density [hint: vdb_molsurf --for blender]")
         voxel = min(volume.data.grids["density"].matrix_object.to_scale())
         shown = volume
-        volume.data.materials.append(fog_material("Cd" in names, 4.0 / voxel))
+        volume.data.materials.append(fog_material("Cd" in names, 2.0 / voxel))
         outline = mesh_of(volume, grid) if grid in names else volume
         set_stage(outline, turn)
         if outline is not volume:
@@ -364,13 +369,14 @@ def open_surface(path, show="mesh", grid="surface", color=False, turn=0.0):
 
 def main():
     options = arguments()
+    set_size(options.size)
     open_surface(options.vdb, options.show, options.grid, options.color, options.turn)
     if options.frame is not None:
         bpy.context.scene.frame_set(options.frame)
     if options.save:
         bpy.ops.wm.save_as_mainfile(filepath=str(pathlib.Path(options.save).resolve()))
     if options.render:
-        render(options.render, options.size, options.samples)
+        render(options.render, options.samples)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ namespace molsurf
 namespace
 {
 
-constexpr std::size_t longestName = 28; // letters
+constexpr double widestName = 0.3; // of the picture
 
 /// Sizes in the column, all of them in proportion to the letters [pixel].
 struct Sizes {
@@ -34,12 +34,18 @@ std::string numberText(double value)
     return (value < 0.0 ? "\xE2\x88\x92" : "") + std::string(text); // a minus sign
 }
 
-std::string shortened(const std::string& name)
+/// A name that is not too wide, with an ellipsis where it was cut.
+std::string shortened(const std::string& name, const Font& font, int width)
 {
-    if (name.size() <= longestName) return name;
-    std::size_t end = longestName - 1;
-    while (end > 0 && (std::uint8_t(name[end]) & 0xC0) == 0x80) --end; // not within a letter
-    return name.substr(0, end) + "\xE2\x80\xA6";                       // an ellipsis
+    const int widest = int(widestName * width);
+    if (name.size() < 8 || font.width(name) <= widest) return name;
+    constexpr std::size_t enough = 200; // letters; more are never shown
+    for (std::size_t end = std::min(name.size(), enough); end-- > 1;) {
+        if ((std::uint8_t(name[end]) & 0xC0) == 0x80) continue; // within a letter
+        const std::string cut = name.substr(0, end) + "\xE2\x80\xA6";
+        if (font.width(cut) <= widest) return cut;
+    }
+    return "";
 }
 
 std::vector<std::string> tickTexts(const ColorScale& scale)
@@ -90,7 +96,7 @@ public:
     {
         const int indent = sizes_.patch + sizes_.gap, top = y_ + sizes_.letters - sizes_.patch + 2;
         if (patch) framed(left_, top, sizes_.patch, sizes_.patch, entry.color);
-        text(shortened(entry.name), patch ? indent : 0);
+        text(shortened(entry.name, font_, picture_.width), patch ? indent : 0);
     }
 
     void bar(const ColorScale& scale, int height)
@@ -137,7 +143,8 @@ int legendWidth(const Legend& legend, int width)
             widest = std::max(widest, sizes.bar + sizes.gap + font.width(tick));
     } else {
         for (const LegendEntry& entry : legend.entries)
-            widest = std::max(widest, sizes.patch + sizes.gap + font.width(shortened(entry.name)));
+            widest = std::max(widest, sizes.patch + sizes.gap +
+                                          font.width(shortened(entry.name, font, width)));
     }
     return widest + 3 * sizes.gap;
 }
