@@ -14,9 +14,10 @@ cd "$work"
 "$tool" "$data/1a8o.cif.gz" --assembly 1 --for blender -q -o fog.vdb
 for show in mesh fog; do
   words=(--show volume)
-  [[ $show == mesh ]] && words=(--color)
+  samples=64
+  [[ $show == mesh ]] && words=(--color) samples=160
   blender -b --factory-startup --python-exit-code 1 --python "$script" -- "$show.vdb" "${words[@]}" \
-    --size 480 --samples 160 --render "$out/blender_$show.png" > blender.log || cat blender.log
+    --size 480 --samples "$samples" --render "$out/blender_$show.png" > blender.log || cat blender.log
 done
 
 "$tool" "$data/4at1.ent.gz" --color chain --size 700 --force -q -o "$out/4at1_chains.png"

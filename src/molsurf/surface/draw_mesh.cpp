@@ -354,9 +354,12 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
     parallelFor(height, progress, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
             const Vec3f color = canvas.color(int(x), int(y), background);
-            for (int c = 0; c < 3; ++c) {
-                picture.rgb[3 * (y * width + x) + std::size_t(c)] = encode(color[c]);
+            std::uint8_t* to = &picture.rgb[3 * (y * width + x)];
+            if (color == background) { // most of them, and exact
+                std::copy(options.background.begin(), options.background.end(), to);
+                continue;
             }
+            for (int c = 0; c < 3; ++c) to[c] = encode(color[c]);
         }
     });
     return picture;
