@@ -1,5 +1,5 @@
 #!/bin/bash
-# Makes the pictures of docs/artists.md: artist_pictures.sh [FOLDER]. Needs blender and chromium.
+# Makes the pictures of docs/artists.md: artist_pictures.sh [FOLDER]. Needs blender, chromium and python3-pil.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=$(realpath "${1:-docs/pictures}")
@@ -24,5 +24,10 @@ done
 
 "$tool" "$data/1a8o.cif.gz" --assembly 1 --color mean-curvature -q -o view.html
 chromium --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
-  --window-size=900,687 --hide-scrollbars --user-data-dir="$work/profile" \
-  --virtual-time-budget=8000 --screenshot="$out/view_html.png" "file://$work/view.html" 2> browser.log
+  --window-size=900,640 --hide-scrollbars --user-data-dir="$work/profile" \
+  --virtual-time-budget=8000 --screenshot=view.png "file://$work/view.html" 2> browser.log
+# The page is lower than the window by what would be the bars of the browser.
+/usr/bin/python3 -c "
+import sys
+from PIL import Image
+Image.open('view.png').convert('RGB').crop((0, 0, 900, 553)).save(sys.argv[1], optimize=True)" "$out/view_html.png"

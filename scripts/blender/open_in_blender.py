@@ -351,7 +351,7 @@ def open_surface(path, show="mesh", grid="surface", color=False, turn=0.0):
             sys.exit(f"{path}: there is no grid density [hint: vdb_molsurf --for blender]")
         voxel = min(volume.data.grids["density"].matrix_object.to_scale())
         shown = volume
-        volume.data.materials.append(fog_material("Cd" in names, 2.0 / voxel))
+        volume.data.materials.append(fog_material("Cd" in names, 4.0 / voxel))
         outline = mesh_of(volume, grid) if grid in names else volume
         set_stage(outline, turn)
         if outline is not volume:
