@@ -31,6 +31,7 @@ LIBRARIES = {
     "gemmi/": ["src/molsurf/structure/", "src/molsurf/selection/"],
     "nlohmann/": ["src/molsurf/io/", "src/molsurf/selection/groups.cpp"],
     "png.h": ["src/molsurf/io/"],
+    "ft2build.h": ["src/molsurf/io/font.cpp"],
     "embree3/": ["src/molsurf/surface/"],
     "openssl/": ["tools/sha256.cpp"],
     "boost/program_options": ["tools/cli.cpp"],

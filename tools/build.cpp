@@ -2,16 +2,12 @@
 #include "verbs.h"
 
 #include "outputs.h"
-#include "sha256.h"
 #include "stop.h"
 #include "terminal.h"
+#include "write_result.h"
 
 #include "molsurf/core/error.h"
 #include "molsurf/io/output_file.h"
-#include "molsurf/io/write_mesh.h"
-#include "molsurf/io/write_png.h"
-#include "molsurf/io/write_report.h"
-#include "molsurf/io/write_vdb.h"
 #include "molsurf/pipeline/run.h"
 #include "molsurf/pipeline/size_beads.h"
 #include "molsurf/selection/select_balls.h"
@@ -20,7 +16,6 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <optional>
 
@@ -30,124 +25,14 @@ namespace molsurf::tool
 namespace
 {
 
-std::string shortest(double number)
-{
-    char digits[32];
-    return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
-}
-
-// Everything that is needed to make the file again.
-openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
-{
-    openvdb::MetaMap map;
-    const auto text = [&](const char* name, const std::string& value) {
-        map.insertMeta(name, openvdb::StringMetadata(value));
-    };
-    const auto number = [&](const char* name, double value) {
-        map.insertMeta(name, openvdb::DoubleMetadata(value));
-    };
-    const auto count = [&](const char* name, std::int64_t value) {
-        map.insertMeta(name, openvdb::Int64Metadata(value));
-    };
-    const auto yesNo = [&](const char* name, bool value) {
-        map.insertMeta(name, openvdb::BoolMetadata(value));
-    };
-    text("program", report.program);
-    text("version", report.version);
-    text("command", report.command);
-    text("input", report.input);
-    if (call.input != "-") text("input_sha256", sha256OfFile(call.input));
-    count("atoms", std::int64_t(report.atoms));
-    number("area", report.surface.area);
-    number("volume", report.surface.volume);
-
-    const Options& options = call.options;
-    text("option.select", options.atoms.select.empty() ? "all" : options.atoms.select);
-    text("option.model", options.atoms.model ? std::to_string(options.atoms.model) : "first");
-    text("option.assembly", options.atoms.assembly);
-    text("option.copies", options.atoms.copies.empty() ? "all" : options.atoms.copies);
-    text("option.altloc",
-         options.atoms.altloc.empty() ? "highest occupancy" : options.atoms.altloc);
-    yesNo("option.no-hydrogens", !options.atoms.hydrogens);
-    yesNo("option.no-hetero", !options.atoms.hetero);
-    yesNo("option.waters", options.atoms.waters);
-    text("option.radii", options.atoms.radii);
-    number("option.probe", options.probe);
-    text("option.surface", nameOf(options.kind));
-    number("option.blobbiness", options.blobbiness);
-    number("option.voxel", options.voxel);
-    yesNo("option.fill-cavities", options.fillCavities);
-    std::string coarse;
-    for (const CoarseRule& rule : options.atoms.coarse)
-        coarse += (coarse.empty() ? "" : ", ") + nameOf(rule);
-    text("option.coarse", coarse.empty() ? "atom" : coarse);
-    std::string resolutions;
-    for (const ResolutionRule& rule : options.atoms.resolutions) {
-        resolutions += (resolutions.empty() ? "" : ", ") +
-                       (rule.select.empty() ? "" : rule.select + "=") + shortest(rule.resolution);
-    }
-    text("option.resolution", resolutions);
-    yesNo("option.match-volume", options.matchVolume);
-    std::string groups;
-    for (const GroupRule& group : options.atoms.groups)
-        groups += (groups.empty() ? "" : ", ") + group.name + " " + group.select;
-    text("option.groups", groups);
-    text("option.group-by", options.atoms.groupBy);
-    text("option.color", nameOf(options.color));
-    text("option.split", options.split ? "group" : "none");
-    std::string surfaceOf;
-    for (const auto& [name, kind] : options.surfaceOf)
-        surfaceOf += (surfaceOf.empty() ? "" : ",") + name + "=" + nameOf(kind);
-    text("option.surface-of", surfaceOf);
-    std::string fields = "surface";
-    for (const std::string& field : options.fields) fields += "," + field;
-    text("option.fields", fields);
-    yesNo("option.curvature-totals", options.curvatureIntegrals);
-    number("option.epsilon", options.epsilon);
-    number("option.lambda", options.evolution.lambda);
-    text("option.regularizer", nameOf(options.evolution.regularizer));
-    text("option.flow", nameOf(options.evolution.flow));
-    const int steps = options.evolution.maxSteps;
-    text("option.max-steps", steps >= 0 ? std::to_string(steps) : "default of the flow");
-    number("option.tolerance", options.evolution.energyTolerance);
-    count("option.spline-level", options.splineLevel);
-    return map;
-}
-
-void writeOne(const Call& call, const Result& result, Format format, const Progress& progress,
-              OutputFile& file)
-{
-    switch (format) {
-    case Format::Vdb: {
-        openvdb::GridCPtrVec grids;
-        if (result.surface) grids.push_back(result.surface);
-        grids.insert(grids.end(), result.fields.begin(), result.fields.end());
-        writeVdb(grids, vdbMetadata(call, result.report), file);
-        break;
-    }
-    case Format::Ply:
-        writePly(result.mesh, file);
-        break;
-    case Format::Obj:
-        writeObj(result.mesh, file);
-        break;
-    case Format::Stl:
-        writeStl(result.mesh, file);
-        break;
-    case Format::Png:
-        writePng(drawMesh(result.mesh, call.picture, progress), file);
-        break;
-    case Format::Json:
-        writeReport(result.report, file);
-        break;
-    }
-}
-
-void writeAll(const Call& call, Result& result, Terminal& terminal, Clock::time_point programStart)
+void writeAll(const Call& call, const BallSelection& atoms, Result& result, Terminal& terminal,
+              Clock::time_point programStart)
 {
     writeOutputs(
         call, terminal,
-        [&](Format format, OutputFile& file) { writeOne(call, result, format, terminal, file); },
+        [&](const Output& output, OutputFile& file) {
+            writeOutput(call, atoms, result, output, terminal, file);
+        },
         [&](double writeSeconds) {
             auto& seconds = result.report.seconds;
             seconds.emplace_back("write", writeSeconds);
@@ -204,10 +89,22 @@ void sayTimes(const Report& report)
     say(text);
 }
 
+// The middle of the mesh's box comes to the origin; the grids follow when they are written.
+void centerMesh(Call& call, Result& result)
+{
+    openvdb::BBoxd box;
+    for (const openvdb::Vec3f& p : result.mesh.positions) box.expand(openvdb::Vec3d(p));
+    const openvdb::Vec3d center = box.getCenter();
+    for (openvdb::Vec3f& p : result.mesh.positions) p = openvdb::Vec3f(openvdb::Vec3d(p) - center);
+    call.scene.center = center;
+    result.report.center = {center[0], center[1], center[2]};
+}
+
 } // namespace
 
-Report buildSurface(const Call& call, Clock::time_point start)
+Report buildSurface(const Call& asked, Clock::time_point start)
 {
+    Call call = asked;
     checkOptions(call.options);
     prepareOutputs(call);
     openvdb::initialize();
@@ -245,7 +142,8 @@ Report buildSurface(const Call& call, Clock::time_point start)
     if (result.surface) result.surface->setCreator(creator);
     for (const auto& field : result.fields) field->setCreator(creator);
 
-    writeAll(call, result, terminal, start);
+    if (call.center) centerMesh(call, result);
+    writeAll(call, selection, result, terminal, start);
     terminal.erase();
     if (call.verbose) sayTimes(result.report);
     if (!call.quiet) say(summary(result.report));

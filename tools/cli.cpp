@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "cli.h"
 
+#include "sidecar.h"
+
 #include "molsurf/core/error.h"
 #include "molsurf/pipeline/fields.h"
 
@@ -10,6 +12,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -46,9 +49,11 @@ const std::vector<std::string> knownFields = [] {
     return names;
 }();
 
-const std::map<std::string, Format> formats = {{"vdb", Format::Vdb},   {"ply", Format::Ply},
-                                               {"obj", Format::Obj},   {"stl", Format::Stl},
-                                               {"json", Format::Json}, {"png", Format::Png}};
+const std::map<std::string, Format> formats = {
+    {"vdb", Format::Vdb},   {"ply", Format::Ply}, {"obj", Format::Obj},
+    {"stl", Format::Stl},   {"off", Format::Off}, {"glb", Format::Glb},
+    {"json", Format::Json}, {"png", Format::Png}, {"html", Format::Html}};
+const char* const formatWords = "vdb, ply, obj, stl, off, glb, html, json or png";
 
 std::string join(const std::vector<std::string>& words, const char* between)
 {
@@ -87,10 +92,11 @@ const std::vector<Group>& groups()
         {"Output",
          {{"output,o", "FILE",
            "file to write; repeats; the extension says what:\n"
-           ".vdb level set and fields, .ply .obj .stl mesh,\n"
-           ".json report, .png picture; - is standard output",
+           ".vdb level set and fields; .ply .obj .stl .off .glb\n"
+           "mesh; .html page that shows it; .json report;\n"
+           ".png picture; - is standard output",
            "", true},
-          {"format", "WORD", "what -o - writes: vdb, ply, obj, stl, json or png", ""},
+          {"format", "WORD", std::string("what -o - writes: ") + formatWords, ""},
           {"force", nullptr, "replace existing files", ""}}},
         {"Atoms",
          {{"select", "EXPR", "gemmi selections joined by |, e.g. \"/1/A/53-132|*;polymer\"", "all"},
@@ -152,6 +158,15 @@ const std::vector<Group>& groups()
            "colours of the mesh and the grid Cd: chain, group,\n"
            "element, residue, mean-curvature, gaussian-curvature",
            nameOf(preset.color)}}},
+        {"Scene",
+         {{"for", "PROGRAM[=SCALE]",
+           "blender, houdini or usd: a .vdb with density and Cd as\n"
+           "that program takes it; SCALE mn-0.01, mn-0.1, nm, or\n"
+           "units per Å; usd: a .usda beside the .vdb",
+           ""},
+          {"center", nullptr, "the middle of the surface comes to the origin", ""},
+          {"print-scale", "S", ".stl and .obj in mm, S of them per Å", ""},
+          {"min-wall", "W", "thicken what is thinner than W mm; with --print-scale", ""}}},
         {"Picture",
          {{"view", "X,Y,Z",
            "direction toward the eye, or auto: the shortest extent\n"
@@ -159,7 +174,12 @@ const std::vector<Group>& groups()
            "auto"},
           {"turn", "A", "turned by so many degrees about the upright", "0"},
           {"size", "N", "width in pixels; the height follows the shape", "1200"},
-          {"background", "COLOR", "as #rrggbb", "#ffffff"}}},
+          {"background", "COLOR", "as #rrggbb", "#ffffff"},
+          {"legend", "WORD",
+           "on or off; auto: beside colours, if 600 pixels wide\n"
+           "or more",
+           "auto"},
+          {"turntable", "N", "N pictures round the upright: name.0001.png, ...", ""}}},
         {"Evolution",
          {{"lambda", "L", "weight of the regulariser [Å^2 for gradient, 1 for area]",
            shortest(preset.evolution.lambda)},
@@ -212,7 +232,8 @@ const std::vector<Group>& batchGroups()
     static const std::vector<Group> all = {
         {"Output",
          {{"folder,O", "DIR", "where the files go, with the names of the structures", ""},
-          {"formats", "LIST", "files to write, by commas: vdb, ply, obj, stl, json, png",
+          {"formats", "LIST",
+           "files to write, by commas: vdb, ply, obj, stl, off,\nglb, html, json, png",
            "vdb,ply,json"},
           {"force", nullptr, "do all again, and replace existing files", ""}}}};
     return all;
@@ -231,7 +252,7 @@ std::vector<Group> groupsOf(Verb verb)
     std::copy_if(groups().begin() + 1, groups().end(), std::back_inserter(all),
                  [](const Group& group) {
                      const std::string title = group.title;
-                     return title != "Groups" && title != "Picture";
+                     return title != "Groups" && title != "Scene" && title != "Picture";
                  });
     return all;
 }
@@ -374,7 +395,8 @@ Format formatOf(const std::string& path)
     const auto found = formats.find(extension);
     if (found == formats.end())
         misuse("-o " + path +
-               ": expected a name that ends in .vdb, .ply, .obj, .stl, .json or .png");
+               ": expected a name that ends in .vdb, .ply, .obj, .stl, .off, .glb, .html, .json or "
+               ".png");
     return found->second;
 }
 
@@ -385,8 +407,7 @@ std::vector<Output> outputsOf(const Values& values)
 
     std::string word;
     values.get("format", word);
-    if (!word.empty() && !formats.count(word))
-        values.wrong("format", "vdb, ply, obj, stl, json or png");
+    if (!word.empty() && !formats.count(word)) values.wrong("format", formatWords);
     if (!word.empty() && std::count(paths.begin(), paths.end(), "-") == 0)
         misuse("--format is for -o - only; the extension of a file says what it is");
 
@@ -400,7 +421,7 @@ std::vector<Output> outputsOf(const Values& values)
             std::filesystem::weakly_canonical(std::filesystem::absolute(path), ignored).string();
         if (!seen.insert(path == "-" ? path : real).second)
             misuse("-o " + path + " is given twice");
-        outputs.push_back({path, path == "-" ? formats.at(word) : formatOf(path)});
+        outputs.push_back({path, path == "-" ? formats.at(word) : formatOf(path), ""});
     }
     return outputs;
 }
@@ -430,6 +451,13 @@ std::vector<std::string> fieldsOf(const Values& values)
 }
 
 void fillRun(const Values& values, Call& call);
+
+bool writes(const Call& call, std::initializer_list<Format> some)
+{
+    return std::any_of(call.outputs.begin(), call.outputs.end(), [&](const Output& output) {
+        return std::count(some.begin(), some.end(), output.format) > 0;
+    });
+}
 
 constexpr SurfaceKind surfaceKinds[] = {SurfaceKind::Variational, SurfaceKind::SolventExcluded,
                                         SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals,
@@ -474,7 +502,65 @@ void fillGroups(const Values& values, Call& call)
         return std::count(options.fields.begin(), options.fields.end(), field) > 0;
     };
     if (has("Cd") && options.color == ColorBy::Nothing) options.color = ColorBy::Chain;
-    options.atoms.labels = options.color != ColorBy::Nothing || has("chain_id") || has("Cd");
+    options.atoms.labels = options.color != ColorBy::Nothing || has("chain_id") || has("Cd") ||
+                           writes(call, {Format::Html});
+}
+
+// The .vdb for another program, and meshes to print. To be called before fillGroups().
+void fillScene(const Values& values, Call& call)
+{
+    std::vector<std::string>& fields = call.options.fields;
+    std::string word;
+    values.get("for", word);
+    if (!word.empty()) {
+        const auto scene = parseScene(word);
+        if (!scene)
+            values.wrong("for", "blender, houdini or usd, perhaps with =mn-0.01, =mn-0.1, =nm or "
+                                "=UNITS_PER_Å");
+        call.scene = *scene;
+        if (!writes(call, {Format::Vdb, Format::Glb}))
+            call.warnings.push_back("--for is for .vdb and .glb");
+        for (const char* field : {"density", "Cd"})
+            if (std::count(fields.begin(), fields.end(), field) == 0) fields.push_back(field);
+    }
+    if (call.scene.host == Host::Usd) addSidecars(call);
+    call.center = values.on("center");
+    values.get("print-scale", call.printScale);
+    if (values.given("print-scale")) {
+        if (!(call.printScale >= 1e-6 && call.printScale <= 1e6))
+            values.wrong("print-scale", "mm per Å, from 1e-6 to 1e6");
+        if (!writes(call, {Format::Stl, Format::Obj}))
+            call.warnings.push_back("--print-scale is for .stl and .obj");
+    }
+    double wall = 0.0;
+    values.get("min-wall", wall);
+    if (!values.given("min-wall")) return;
+    if (!values.given("print-scale")) misuse("--min-wall: expected --print-scale too");
+    if (!(wall > 0.0)) values.wrong("min-wall", "a positive number of mm");
+    call.options.minWall = wall / call.printScale;
+}
+
+// Puts the frames of a turntable in the place of each picture.
+void addFrames(int count, Call& call)
+{
+    std::vector<Output> outputs;
+    for (const Output& output : call.outputs) {
+        if (output.format != Format::Png) {
+            outputs.push_back(output);
+            continue;
+        }
+        if (output.path == "-") misuse("--turntable: expected a file for the pictures, got -");
+        for (int n = 0; n < count; ++n) {
+            char number[16];
+            std::snprintf(number, sizeof number, ".%04d", n + 1);
+            Output frame = output;
+            frame.path.insert(frame.path.size() - std::strlen(".png"), number);
+            frame.turn = 360.0 * n / count;
+            outputs.push_back(std::move(frame));
+        }
+    }
+    call.outputs = std::move(outputs);
+    call.picture.turnable = true;
 }
 
 // Toward the eye; up is y, or z when looking along y.
@@ -498,12 +584,21 @@ void fillPicture(const Values& values, Call& call)
     }
     values.get("turn", picture.turn);
     values.get("size", picture.width, 16, 16384);
-    std::string color;
+    std::string color = "#ffffff";
     values.get("background", color);
-    if (color.empty()) return;
     const auto parsed = parseColor(color);
     if (!parsed) values.wrong("background", "a color as #rrggbb");
     picture.background = *parsed;
+
+    std::string legend = "auto";
+    values.get("legend", legend);
+    constexpr int wide = 600; // pixels; in smaller pictures letters would take too much room
+    if (legend != "auto" && legend != "on" && legend != "off")
+        values.wrong("legend", "auto, on or off");
+    call.legend = legend == "on" || (legend == "auto" && picture.width >= wide);
+    int frames = 0;
+    values.get("turntable", frames, 2, 9999);
+    if (frames > 0) addFrames(frames, call);
 }
 
 void fillBuild(const Values& values, Call& call)
@@ -516,13 +611,16 @@ void fillBuild(const Values& values, Call& call)
     if (call.input.empty()) misuse("expected the name of a file as INPUT, got an empty word");
     call.outputs = outputsOf(values);
     fillRun(values, call);
+    fillScene(values, call);
     fillGroups(values, call);
     fillPicture(values, call);
-    const bool png = std::any_of(call.outputs.begin(), call.outputs.end(),
-                                 [](const Output& output) { return output.format == Format::Png; });
-    for (const char* name : {"view", "turn", "size", "background"})
+    const bool png = writes(call, {Format::Png});
+    for (const char* name : {"size", "background", "legend", "turntable"})
         if (!png && values.given(name))
             call.warnings.push_back(std::string("--") + name + " is for .png");
+    for (const char* name : {"view", "turn"})
+        if (!png && !writes(call, {Format::Html}) && values.given(name))
+            call.warnings.push_back(std::string("--") + name + " is for .png and .html");
 }
 
 // D or SELECTION=D, the selection ending at the last =.
@@ -653,7 +751,8 @@ std::vector<std::string> givenForStructures(const po::variables_map& map)
     std::vector<std::string> given;
     for (const Group& group : groups()) {
         const std::string title = group.title;
-        if (title == "Output" || title == "Picture" || title == "Run" || title == "Information")
+        if (title == "Output" || title == "Scene" || title == "Picture" || title == "Run" ||
+            title == "Information")
             continue;
         for (const Entry& entry : group.entries) {
             const std::string name = longName(entry);
@@ -713,11 +812,12 @@ void fillBatch(const Values& values, const po::parsed_options& parsed, Call& cal
         const std::string word = words.substr(begin, end - begin);
         const auto found = formats.find(word);
         if (found == formats.end() || !seen.insert(word).second)
-            values.wrong("formats", "some of vdb, ply, obj, stl, json, png");
-        call.outputs.push_back({"." + word, found->second});
+            values.wrong("formats", "some of vdb, ply, obj, stl, off, glb, html, json, png");
+        call.outputs.push_back({"." + word, found->second, ""});
         begin = end + 1;
     }
     fillRun(values, call);
+    fillScene(values, call);
     fillGroups(values, call);
     fillPicture(values, call);
 

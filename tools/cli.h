@@ -6,6 +6,7 @@
 /// its help text.
 
 #include "molsurf/pipeline/options.h"
+#include "molsurf/pipeline/scene.h"
 #include "molsurf/surface/draw_mesh.h"
 
 #include <string>
@@ -15,12 +16,14 @@ namespace molsurf::tool
 {
 
 /// Kinds of output files.
-enum class Format { Vdb, Ply, Obj, Stl, Json, Png };
+enum class Format { Vdb, Ply, Obj, Stl, Off, Glb, Json, Png, Html, Usda };
 
 /// One -o.
 struct Output {
     std::string path; ///< "-" is standard output
     Format format;
+    std::string of;    ///< Usda: the .vdb beside it
+    double turn = 0.0; ///< Png: of a turntable, beside that of the picture [degree]
 };
 
 /// What the tool is asked to do.
@@ -47,6 +50,10 @@ struct Call {
     std::vector<std::string> files; ///< Info: at least one; Compare: two
     Options options;                ///< Build, Compare
     DrawOptions picture;            ///< Build
+    bool legend = true;             ///< Build: beside pictures that have colours
+    Scene scene;                    ///< Build: of the .vdb and the node of the .glb
+    bool center = false;            ///< Build: the middle of the surface comes to the origin
+    double printScale = 0.0;        ///< Build: of .stl and .obj [mm/Å]; 0: they are in Å
     bool colorBySign = false;       ///< Compare: by the signed distance
     double colorRange = 0.0;        ///< Compare: distance at the end of the colours [Å]; 0: choose
     std::vector<std::string> given; ///< Compare: options that are for structures only; Batch: one

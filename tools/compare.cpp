@@ -51,6 +51,19 @@ auto naming(const std::string& path, const F& f)
     }
 }
 
+// Refuses grids that --for has moved or scaled: they are no longer where the mesh is, in Å.
+void refuseScene(const std::string& path, const openvdb::MetaMap& metadata)
+{
+    const auto number = [&](const char* name, double plain) {
+        const auto entry = metadata.getMetadata<openvdb::DoubleMetadata>(name);
+        return entry ? entry->value() : plain;
+    };
+    if (number("scene.units_per_angstrom", 1.0) == 1.0 && number("scene.shift_in_voxels", 0.0) == 0)
+        return;
+    throw Error(ErrorKind::Input, path + ": it was scaled or moved for another program by --for "
+                                         "[hint: write a plain .vdb]");
+}
+
 Read readOne(const Call& call, const std::string& path, Terminal& terminal,
              std::vector<std::string>& said)
 {
@@ -60,6 +73,7 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
     if (isVdbFile(path)) {
         const VdbFile file = readVdb(path);
         stopIfAsked();
+        refuseScene(path, file.metadata);
         terminal.update("surface", 0.0);
         read.operand = naming(path, [&] { return operandOf(file.grids, terminal); });
     } else if (isMeshName(path)) {
@@ -266,7 +280,8 @@ int compare(const Call& call, Clock::time_point start)
 
     writeOutputs(
         call, terminal,
-        [&](Format format, OutputFile& file) {
+        [&](const Output& output, OutputFile& file) {
+            const Format format = output.format;
             if (format == Format::Ply) {
                 Mesh mesh = a.operand.surface.mesh;
                 const auto& values = call.colorBySign ? both.aToB.signedDistance : shown;

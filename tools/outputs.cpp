@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "outputs.h"
 
+#include "sidecar.h"
 #include "stop.h"
 
 #include <sys/resource.h>
@@ -38,14 +39,14 @@ void prepareOutputs(const Call& call)
 {
     std::vector<std::string> temporaries;
     for (const Output& output : call.outputs) {
-        checkWritable(output.path, call.force);
+        checkWritable(output.path, mayReplace(call, output));
         if (output.path != "-") temporaries.push_back(temporaryName(output.path));
     }
     handleSignals(temporaries);
 }
 
 void writeOutputs(const Call& call, Terminal& terminal,
-                  const std::function<void(Format, OutputFile&)>& writeOne,
+                  const std::function<void(const Output&, OutputFile&)>& writeOne,
                   const std::function<void(double)>& timed)
 {
     std::vector<Output> outputs = call.outputs;
@@ -66,8 +67,8 @@ void writeOutputs(const Call& call, Terminal& terminal,
     for (const Output& output : outputs) {
         if (output.format == Format::Json) timeIt();
         terminal.update("write", double(files.size()) / double(outputs.size()));
-        files.push_back(std::make_unique<OutputFile>(output.path, call.force));
-        writeOne(output.format, *files.back());
+        files.push_back(std::make_unique<OutputFile>(output.path, mayReplace(call, output)));
+        writeOne(output, *files.back());
         stopIfAsked();
     }
     timeIt();

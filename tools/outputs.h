@@ -43,7 +43,7 @@ void prepareOutputs(const Call& call);
 /// @param[in] timed     is called once with the seconds that writing took, before the report is
 ///                      written or else at the end
 void writeOutputs(const Call& call, Terminal& terminal,
-                  const std::function<void(Format, OutputFile&)>& writeOne,
+                  const std::function<void(const Output&, OutputFile&)>& writeOne,
                   const std::function<void(double)>& timed);
 
 } // namespace molsurf::tool

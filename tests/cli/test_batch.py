@@ -83,7 +83,7 @@ class Batch(ToolTest):
     def test_wrong_calls(self):
         self.check(2, "batch", says="one list")
         self.check(2, "batch", "list", says="-O DIR")
-        self.check(2, "batch", "list", "-O", "out", "--formats", "vdb,glb", says="glb")
+        self.check(2, "batch", "list", "-O", "out", "--formats", "vdb,gltf", says="gltf")
         self.check(2, "batch", "list", "-O", "out", "-o", "a.vdb", says="-o")
         self.check(1, "batch", "none", "-O", "out", says="none")
         self.check(1, "batch", ".", "-O", "out", says="folder")

@@ -10,7 +10,7 @@ import unittest
 
 from tool import ROOT, TOOL, ToolTest
 
-PAGES = [ROOT / "README.md", ROOT / "docs" / "complexes.md"]
+PAGES = [ROOT / "README.md", ROOT / "docs" / "complexes.md", ROOT / "docs" / "artists.md"]
 
 
 def blocks(language, page=PAGES[0]):
@@ -37,6 +37,9 @@ class Readme(ToolTest):
 
     def test_commands_of_the_guide(self):
         self.run_commands(PAGES[1])
+
+    def test_commands_of_the_artists_guide(self):
+        self.run_commands(PAGES[2])
 
     def run_commands(self, page):
         """In the order of the page and in one folder, since later ones use files of earlier ones."""

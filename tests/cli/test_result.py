@@ -32,7 +32,7 @@ class Report(ToolTest):
     def test_keys(self):
         report = self.report(*FAST)
         self.assertLessEqual(
-            {"program", "version", "command", "input", "atoms", "voxel", "surface", "evolution",
+            {"program", "version", "command", "input", "atoms", "voxel", "center", "surface", "evolution",
              "grid", "seconds", "peak_memory_bytes", "threads", "groups"}, set(report))
         self.assertLessEqual(
             {"kind", "area", "volume", "euler_characteristic", "components", "cavities",

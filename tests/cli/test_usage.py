@@ -55,7 +55,7 @@ class WrongCalls(ToolTest):
         self.refuse(CRAMBIN, "-o", "-", "-o", "-", "--format", "ply", says="twice")
 
     def test_unknown_format(self):
-        self.refuse(CRAMBIN, "-o", "-", "--format", "glb", says="glb")
+        self.refuse(CRAMBIN, "-o", "-", "--format", "gltf", says="gltf")
 
     def test_surface_kinds(self):
         self.refuse(CRAMBIN, "-o", "a.vdb", "--surface", "round", says="round")

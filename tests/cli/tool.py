@@ -7,6 +7,7 @@ import struct
 import subprocess
 import tempfile
 import unittest
+import zlib
 
 TOOL = os.environ["VDB_MOLSURF"]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -77,3 +78,25 @@ def read_ply(data):
         assert three == 3
         triangles.append((a, b, c))
     return names, vertices, triangles
+
+
+def read_png(data):
+    """(width, rows of bytes) of an 8-bit RGB picture."""
+    width, at, body = struct.unpack(">I", data[16:20])[0], 8, b""
+    while at < len(data):
+        size, = struct.unpack(">I", data[at:at + 4])
+        if data[at + 4:at + 8] == b"IDAT":
+            body += data[at + 8:at + 8 + size]
+        at += size + 12
+    body = zlib.decompress(body)
+    rows, last = [], bytearray(3 * width)
+    for start in range(0, len(body), 3 * width + 1):
+        kind, row = body[start], bytearray(body[start + 1:start + 1 + 3 * width])
+        for i in range(len(row)):
+            a, b, c = row[i - 3] if i > 2 else 0, last[i], last[i - 3] if i > 2 else 0
+            guess = a + b - c
+            paeth = min((a, b, c), key=lambda x: abs(guess - x))
+            row[i] = row[i] + (0, a, b, (a + b) // 2, paeth)[kind] & 255
+        rows.append(row)
+        last = row
+    return width, rows

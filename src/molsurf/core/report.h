@@ -143,6 +143,8 @@ struct Report {
     std::string input;
     std::size_t atoms = 0; ///< balls used, after selection, expansion and drops
     double voxel = 0.0;    ///< [Å]
+    std::optional<std::array<double, 3>> center; ///< point of the input that was put at the origin
+                                                 ///< [Å], if any was
     SurfaceReport surface;
     std::optional<CoarseReport> coarse;        ///< with beads
     std::vector<ResolutionReport> resolutions; ///< one a rule, in their order

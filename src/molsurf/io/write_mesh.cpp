@@ -114,12 +114,12 @@ void putVectors(Buffer& buffer, const char* key, const std::vector<openvdb::Vec3
 }
 
 /// Positions, with colours from 0 to 1 behind them if there are any.
-void putVertices(Buffer& buffer, const Mesh& mesh)
+void putVertices(Buffer& buffer, const Mesh& mesh, double scale)
 {
     for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
         Line line(buffer);
         line << "v";
-        for (int i = 0; i < 3; ++i) (line << " ").number(mesh.positions[n][i]);
+        for (int i = 0; i < 3; ++i) (line << " ").number(float(scale * mesh.positions[n][i]));
         if (!mesh.colors.empty()) {
             for (const std::uint8_t c : mesh.colors[n]) {
                 (line << " ").number(float(std::round(c / 255.0 * 1e4) / 1e4));
@@ -167,10 +167,14 @@ void writePly(const Mesh& mesh, OutputFile& file, const std::vector<std::string>
     file.finish();
 }
 
-void writeObj(const Mesh& mesh, OutputFile& file)
+void writeObj(const Mesh& mesh, OutputFile& file, const LengthUnit& unit)
 {
     Buffer buffer(file);
-    putVertices(buffer, mesh);
+    if (unit.perAngstrom != 1.0) {
+        const std::string line = std::string("# lengths in ") + unit.name + "\n";
+        std::copy(line.begin(), line.end(), buffer.take(line.size()));
+    }
+    putVertices(buffer, mesh, unit.perAngstrom);
     putVectors(buffer, "vn", mesh.normals);
     auto part = mesh.parts.begin();
     for (const auto& triangle : mesh.triangles) {
@@ -191,23 +195,25 @@ void writeObj(const Mesh& mesh, OutputFile& file)
     file.finish();
 }
 
-void writeStl(const Mesh& mesh, OutputFile& file)
+void writeStl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit)
 {
     if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max())
         throw Error(ErrorKind::Output, "cannot write " + file.path() + ": .stl holds at most " +
                                            "4294967295 triangles [hint: write .ply]");
 
     // Not "solid": that is how readers know the text form.
-    char header[80] = "binary STL, lengths in Angstrom";
+    char header[80] = "binary STL, lengths in ";
+    std::strncat(header, unit.name, sizeof header - std::strlen(header) - 1);
     file.write(header, sizeof header);
     const auto count = std::uint32_t(mesh.triangles.size());
     file.write(&count, sizeof count);
 
     Buffer buffer(file);
     for (const auto& triangle : mesh.triangles) {
-        const openvdb::Vec3f& a = mesh.positions[triangle[0]];
-        const openvdb::Vec3f& b = mesh.positions[triangle[1]];
-        const openvdb::Vec3f& c = mesh.positions[triangle[2]];
+        const float scale = float(unit.perAngstrom);
+        const openvdb::Vec3f a = scale * mesh.positions[triangle[0]];
+        const openvdb::Vec3f b = scale * mesh.positions[triangle[1]];
+        const openvdb::Vec3f c = scale * mesh.positions[triangle[2]];
         openvdb::Vec3d normal = openvdb::Vec3d(b - a).cross(openvdb::Vec3d(c - a));
         const double length = normal.length();
         normal = length > 0.0 ? normal / length : openvdb::Vec3d(0.0);
@@ -217,6 +223,35 @@ void writeStl(const Mesh& mesh, OutputFile& file)
         to = put(to, b);
         to = put(to, c);
         put(to, std::uint16_t(0));
+    }
+    buffer.flush();
+    file.finish();
+}
+
+void writeOff(const Mesh& mesh, OutputFile& file)
+{
+    const std::string header = std::string(mesh.colors.empty() ? "OFF" : "COFF") + "\n" +
+                               std::to_string(mesh.positions.size()) + " " +
+                               std::to_string(mesh.triangles.size()) + " 0\n";
+    file.write(header.data(), header.size());
+    Buffer buffer(file);
+    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+        Line line(buffer);
+        const openvdb::Vec3f& p = mesh.positions[n];
+        line.number(p[0]);
+        (line << " ").number(p[1]);
+        (line << " ").number(p[2]);
+        if (!mesh.colors.empty()) {
+            for (const std::uint8_t c : mesh.colors[n]) (line << " ").number(int(c));
+            line << " 255";
+        }
+        line << "\n";
+    }
+    for (const auto& triangle : mesh.triangles) {
+        Line line(buffer);
+        line << "3";
+        for (const std::uint32_t corner : triangle) (line << " ").number(corner);
+        line << "\n";
     }
     buffer.flush();
     file.finish();

@@ -24,19 +24,31 @@ namespace molsurf
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writePly(const Mesh& mesh, OutputFile& file, const std::vector<std::string>& comments = {});
 
-/// Writes Wavefront OBJ: positions [Å], normals, faces; an object ("o NAME") for each of the mesh's
-/// parts. Numbers have the fewest digits that give the same float back. Colours, from 0 to 1, stand
-/// behind the positions, as MeshLab, Blender and others read them; the format has no place for
-/// other attributes.
+/// The unit of the formats that are printed from.
+struct LengthUnit {
+    double perAngstrom = 1.0; ///< units per Å
+    const char* name = "Angstrom";
+};
+
+/// Writes Wavefront OBJ: positions [unit], normals, faces; an object ("o NAME") for each of the
+/// mesh's parts. Numbers have the fewest digits that give the same float back. Colours, from 0 to
+/// 1, stand behind the positions, as MeshLab, Blender and others read them; the format has no place
+/// for other attributes.
 ///
 /// @throws Error(ErrorKind::Output) if the file cannot be written
-void writeObj(const Mesh& mesh, OutputFile& file);
+void writeObj(const Mesh& mesh, OutputFile& file, const LengthUnit& unit = {});
 
-/// Writes binary STL: triangles [Å] with facet normals (zero for a triangle without area). The
+/// Writes binary STL: triangles [unit] with facet normals (zero for a triangle without area). The
 /// format has no place for attributes, and no shared vertices.
 ///
 /// @throws Error(ErrorKind::Output) if the file cannot be written, or if there are more triangles
 ///         than the format can count
-void writeStl(const Mesh& mesh, OutputFile& file);
+void writeStl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit = {});
+
+/// Writes OFF as text: positions [Å] and faces; with colours it is COFF, with red, green, blue and
+/// alpha from 0 to 255 behind each position. The format has no place for other attributes.
+///
+/// @throws Error(ErrorKind::Output) if the file cannot be written
+void writeOff(const Mesh& mesh, OutputFile& file);
 
 } // namespace molsurf

@@ -134,6 +134,7 @@ std::string reportText(const Report& report)
         {"input", report.input},
         {"atoms", report.atoms},
         {"voxel", report.voxel},
+        {"center", report.center ? Json(*report.center) : Json()},
         {"surface", surfaceJson(report.surface)},
         {"coarse", report.coarse ? coarseJson(*report.coarse) : Json()},
         {"resolution", resolutionJson(report.resolutions)},

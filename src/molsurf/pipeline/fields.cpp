@@ -4,6 +4,7 @@
 #include "molsurf/bspline/curvature.h"
 #include "molsurf/core/parallel.h"
 
+#include <openvdb/tools/LevelSetUtil.h>
 #include <openvdb/tree/LeafManager.h>
 
 namespace molsurf
@@ -17,7 +18,8 @@ const std::vector<std::string>& fieldNames()
     static const std::vector<std::string> names = [] {
         std::vector<std::string> all = {"sas", "spline"};
         for (const CurvatureField& field : curvatureFields()) all.push_back(field.name);
-        for (const char* name : {"atom_id", "chain_id", "group_id", "Cd"}) all.push_back(name);
+        for (const char* name : {"density", "atom_id", "chain_id", "group_id", "Cd"})
+            all.push_back(name);
         return all;
     }();
     return names;
@@ -38,6 +40,14 @@ openvdb::FloatGrid::Ptr splineGrid(const Spline& spline)
         grid->tree().addLeaf(leaf);
     }
     return grid;
+}
+
+openvdb::FloatGrid::Ptr densityGrid(const openvdb::FloatGrid& surface)
+{
+    auto fog = surface.deepCopy();
+    openvdb::tools::sdfToFogVolume(*fog);
+    fog->setName("density");
+    return fog;
 }
 
 namespace

@@ -17,11 +17,14 @@ namespace molsurf
 {
 
 /// The names that Options::fields takes: "sas", "spline", those of curvatureFields(),
-/// "atom_id", "chain_id", "group_id", "Cd".
+/// "density", "atom_id", "chain_id", "group_id", "Cd".
 const std::vector<std::string>& fieldNames();
 
 /// The coefficients of a spline, as they are.
 openvdb::FloatGrid::Ptr splineGrid(const Spline& spline);
+
+/// A level set as fog: 1 inside, from the surface to the depth of the band rising from 0 to 1.
+openvdb::FloatGrid::Ptr densityGrid(const openvdb::FloatGrid& surface);
 
 /// Curvatures of the surface on the active voxels of `surface`, 0 elsewhere. A voxel has the value
 /// of the point of S = 0 that is reached from it along the gradient of S: the closest one. So the

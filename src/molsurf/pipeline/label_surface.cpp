@@ -2,11 +2,13 @@
 #include "molsurf/pipeline/label_surface.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/pipeline/curvature_colors.h"
 #include "molsurf/pipeline/palette.h"
 #include "molsurf/rasterize/nearest_ball.h"
 #include "molsurf/surface/color_map.h"
 
 #include <openvdb/tools/Interpolation.h>
+#include <openvdb/tools/LevelSetUtil.h>
 
 #include <algorithm>
 #include <array>
@@ -64,24 +66,6 @@ openvdb::GridBase::Ptr labelGrid(const openvdb::FloatGrid& surface, const char* 
     return grid;
 }
 
-/// Linear light of an 8-bit sRGB value (IEC 61966-2-1), which renderers expect.
-float linear(std::uint8_t value)
-{
-    const double s = value / 255.0;
-    return float(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-}
-
-openvdb::GridBase::Ptr colorGrid(const openvdb::FloatGrid& surface,
-                                 const std::vector<Color>& colors)
-{
-    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "Cd", Vec3f(0.0f));
-    std::size_t i = 0;
-    for (auto it = grid->beginValueOn(); it; ++it, ++i) {
-        it.setValue(Vec3f(linear(colors[i][0]), linear(colors[i][1]), linear(colors[i][2])));
-    }
-    return grid;
-}
-
 std::vector<Color> colorsOf(const Labels& nearest, const std::vector<Color>& ballColor)
 {
     std::vector<Color> out(nearest.size(), neutralColor);
@@ -91,16 +75,25 @@ std::vector<Color> colorsOf(const Labels& nearest, const std::vector<Color>& bal
     return out;
 }
 
-std::vector<Color> curvatureColors(const std::vector<float>& curvature)
+/// Colours on the band of a surface and, for fog, in all of its inside.
+openvdb::GridBase::Ptr colorGrid(const openvdb::FloatGrid& surface, bool inside,
+                                 const std::vector<Ball>& balls,
+                                 const std::vector<Color>& ballColor, double reach,
+                                 const Progress& progress)
 {
-    std::vector<float> sizes;
-    for (const float c : curvature) sizes.push_back(std::abs(c));
-    const std::size_t place = sizes.size() * 95 / 100;
-    std::nth_element(sizes.begin(), sizes.begin() + std::ptrdiff_t(place), sizes.end());
-    const ColorScale scale = signedScale(std::max(sizes[place], 1e-6f));
-    std::vector<Color> out;
-    for (const float c : curvature) out.push_back(scale.at(c));
-    return out;
+    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "Cd", linearLight(neutralColor));
+    if (inside) {
+        grid->tree().topologyUnion(openvdb::tools::sdfInteriorMask(surface)->tree());
+        grid->tree().voxelizeActiveTiles();
+    }
+    std::vector<Vec3f> points;
+    for (auto it = grid->cbeginValueOn(); it; ++it)
+        points.emplace_back(surface.indexToWorld(it.getCoord()));
+    const std::vector<Color> colors =
+        colorsOf(nearestBalls(balls, points, reach, progress), ballColor);
+    std::size_t i = 0;
+    for (auto it = grid->beginValueOn(); it; ++it) it.setValue(linearLight(colors[i++]));
+    return grid;
 }
 
 /// The part of a triangle where a function that is linear in it is negative.
@@ -261,15 +254,6 @@ void reportGroups(const BallSelection& atoms, const Options& options, const Labe
 
 } // namespace
 
-void colorByCurvature(ColorBy by, Mesh& mesh)
-{
-    if (by != ColorBy::MeanCurvature && by != ColorBy::GaussianCurvature) return;
-    const char* name = by == ColorBy::MeanCurvature ? "mean_curvature" : "gaussian_curvature";
-    for (const auto& scalar : mesh.scalars) {
-        if (scalar.name == name) mesh.colors = curvatureColors(scalar.values);
-    }
-}
-
 void labelSurface(const BallSelection& atoms, const Options& options, double reach,
                   Progress& progress, Result& result)
 {
@@ -295,7 +279,12 @@ void labelSurface(const BallSelection& atoms, const Options& options, double rea
     if (grouped) reportGroups(atoms, options, nearest, reach, progress, result);
 
     const bool colors = wanted("Cd") && !ballColor.empty();
-    if (!wanted("atom_id") && !wanted("chain_id") && !wanted("group_id") && !colors) return;
+    const auto addColors = [&] {
+        if (!colors) return;
+        result.fields.push_back(
+            colorGrid(*result.surface, wanted("density"), atoms.balls, ballColor, reach, progress));
+    };
+    if (!wanted("atom_id") && !wanted("chain_id") && !wanted("group_id")) return addColors();
     std::vector<Vec3f> points;
     for (auto it = result.surface->cbeginValueOn(); it; ++it) {
         points.emplace_back(result.surface->indexToWorld(it.getCoord()));
@@ -312,7 +301,7 @@ void labelSurface(const BallSelection& atoms, const Options& options, double rea
         result.fields.push_back(
             labelGrid(*result.surface, "group_id", taken(owner, atoms.labels->groupOf)));
     }
-    if (colors) result.fields.push_back(colorGrid(*result.surface, colorsOf(owner, ballColor)));
+    addColors();
 }
 
 } // namespace molsurf

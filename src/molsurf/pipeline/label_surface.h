@@ -22,8 +22,4 @@ namespace molsurf
 void labelSurface(const BallSelection& atoms, const Options& options, double reach,
                   Progress& progress, Result& result);
 
-/// Colours a mesh by one of its curvatures, if `by` is one: red where it is positive, blue where it
-/// is negative, full at the 95th percentile of its size.
-void colorByCurvature(ColorBy by, Mesh& mesh);
-
 } // namespace molsurf

@@ -43,6 +43,7 @@ struct Options {
     EvolveOptions evolution;   ///< lambda, regulariser, flow, stopping rule
     int splineLevel = 0;       ///< the spline lives on voxels of edge 2^level h; 0, 1 or 2
     bool fillCavities = false; ///< drop the inner walls
+    double minWall = 0.0;      ///< thicken what is thinner [Å], see thickenWalls(); 0: nothing
     /// Further grids to keep, of fieldNames(); curvatures are then vertex attributes, too.
     std::vector<std::string> fields;
     bool curvatureIntegrals = false; ///< integrate curvature over the surface, for the report

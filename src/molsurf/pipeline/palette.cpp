@@ -139,6 +139,14 @@ std::vector<Color> distinctColors(const std::vector<std::vector<std::int32_t>>& 
     return out;
 }
 
+std::vector<Color> chainColors(const BallSelection& atoms, const Progress& progress)
+{
+    if (!atoms.labels) return {};
+    const BallLabels& labels = *atoms.labels;
+    return distinctColors(
+        contacts(atoms.balls, labels.chainOf, labels.chains.size(), visibleGap, progress));
+}
+
 std::vector<Color> groupColors(const BallSelection& atoms, const Progress& progress)
 {
     if (!atoms.labels || atoms.labels->groups.empty()) return {};
@@ -158,9 +166,7 @@ std::vector<Color> ballColors(const BallSelection& atoms, ColorBy by, const Prog
     const BallLabels& labels = *atoms.labels;
     switch (by) {
     case ColorBy::Chain:
-        return spread(distinctColors(contacts(atoms.balls, labels.chainOf, labels.chains.size(),
-                                              visibleGap, progress)),
-                      labels.chainOf);
+        return spread(chainColors(atoms, progress), labels.chainOf);
     case ColorBy::Group:
         if (labels.groups.empty()) return out;
         return spread(groupColors(atoms, progress), labels.groupOf);

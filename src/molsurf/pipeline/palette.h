@@ -31,6 +31,9 @@ std::vector<Color> distinctColors(const std::vector<std::vector<std::int32_t>>& 
 /// @return one colour a ball; all neutral without labels
 std::vector<Color> ballColors(const BallSelection& atoms, ColorBy by, const Progress& progress);
 
+/// The colours of the chains themselves, as ballColors() gives them.
+std::vector<Color> chainColors(const BallSelection& atoms, const Progress& progress);
+
 /// The colours of the groups themselves, as ballColors() gives them.
 std::vector<Color> groupColors(const BallSelection& atoms, const Progress& progress);
 

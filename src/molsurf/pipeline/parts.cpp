@@ -2,7 +2,7 @@
 #include "molsurf/pipeline/parts.h"
 
 #include "molsurf/core/error.h"
-#include "molsurf/pipeline/label_surface.h"
+#include "molsurf/pipeline/curvature_colors.h"
 #include "molsurf/pipeline/palette.h"
 #include "molsurf/surface/statistics.h"
 

@@ -9,6 +9,8 @@
 #include "molsurf/levelset/initial_surface.h"
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
+#include "molsurf/levelset/thicken.h"
+#include "molsurf/pipeline/curvature_colors.h"
 #include "molsurf/pipeline/fields.h"
 #include "molsurf/pipeline/interfaces.h"
 #include "molsurf/pipeline/label_surface.h"
@@ -161,7 +163,8 @@ DistanceBand distanceBand(const std::vector<Ball>& balls, const NarrowBand& band
 {
     const double h = options.voxel, width = splineWidthVox * h * (1 << options.splineLevel);
     const double offset = offsetOf(options);
-    const double inside = offset + width, outside = std::max(width - offset, h);
+    const double grown = 0.5 * options.minWall;
+    const double inside = offset + width + grown, outside = std::max(width - offset, h) + grown;
     DistanceBand S;
     if (options.kind == SurfaceKind::Variational || options.kind == SurfaceKind::Gaussian) {
         S = redistance(band.table, band.phi, h, inside, outside, -offset, progress);
@@ -175,6 +178,7 @@ DistanceBand distanceBand(const std::vector<Ball>& balls, const NarrowBand& band
             for (int v = 0; v < leafSize; ++v) S.phi.leaf(n)[v] += float(offset);
         });
     }
+    if (options.minWall > 0.0) thickenWalls(S, h, options.minWall, width, progress);
     return S;
 }
 
@@ -432,12 +436,13 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
         report.surface = measure(result.mesh, progress);
     }
     report.surface.kind = nameOf(options.kind);
-    if (unionOfBalls && offsetOf(options) == 0.0) measureExactly(balls, options, progress, report);
+    if (unionOfBalls && offsetOf(options) == 0.0 && options.minWall == 0.0)
+        measureExactly(balls, options, progress, report);
     report.surface.maxResidual = stats.maxResidual;
     checkGradient(result.mesh, stats.slopes, S, options.voxel, progress, report.surface);
     // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
-    const double labelReach =
-        2.0 * options.probe + 4.0 * largestTolerance(atoms, options) + 4.0 * options.voxel;
+    const double labelReach = 2.0 * options.probe + 4.0 * largestTolerance(atoms, options) +
+                              4.0 * options.voxel + options.minWall;
     addCurvature(spline, options.fields, result.mesh, progress);
     describeCurvature(result.mesh, spline, options, progress, report.surface);
     watch.stop("mesh");
@@ -458,6 +463,7 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
     if (wanted("spline")) result.fields.push_back(splineGrid(spline));
     for (auto& grid : curvatureGrids(*result.surface, spline, options.fields, progress))
         result.fields.push_back(std::move(grid));
+    if (wanted("density")) result.fields.push_back(densityGrid(*result.surface));
     progress.update("color", 0.0);
     labelSurface(atoms, options, labelReach, progress, result);
     watch.stop("color");
@@ -503,7 +509,16 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
     if ((!whole || options.interfaces) && (!atoms.labels || atoms.labels->groups.empty())) {
         throw Error(ErrorKind::Input, "there are no groups to surface alone");
     }
-    Result result = whole ? runWhole(atoms, options, progress) : runParts(atoms, options, progress);
+    const auto asked = [&](const char* field) {
+        return std::find(options.fields.begin(), options.fields.end(), field) !=
+               options.fields.end();
+    };
+    const char* shown = asked("Cd") ? curvatureNameOf(options.color) : nullptr;
+    const bool helps = shown && !asked(shown);
+    Options wanted = options;
+    if (helps) wanted.fields.push_back(shown);
+    Result result = whole ? runWhole(atoms, wanted, progress) : runParts(atoms, wanted, progress);
+    if (shown) addCurvatureColors(options.color, !helps, result);
     Report& report = result.report;
     report.atoms = atoms.balls.size();
     report.voxel = options.voxel;

@@ -7,6 +7,20 @@
 namespace molsurf
 {
 
+openvdb::Vec3f linearLight(const Color& color)
+{
+    // A table, since pictures and meshes ask for millions of them.
+    static const std::array<float, 256> light = [] {
+        std::array<float, 256> all;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const double s = double(i) / 255.0;
+            all[i] = float(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+        }
+        return all;
+    }();
+    return {light[color[0]], light[color[1]], light[color[2]]};
+}
+
 Color ColorScale::at(double value) const
 {
     const double range = high - low, last = double(stops.size() - 1);

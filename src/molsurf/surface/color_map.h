@@ -4,6 +4,8 @@
 /// @file
 /// Colours for values.
 
+#include <openvdb/Types.h>
+
 #include <array>
 #include <cstdint>
 #include <string>
@@ -14,6 +16,9 @@ namespace molsurf
 
 /// Red, green, blue; sRGB, 8 bits.
 using Color = std::array<std::uint8_t, 3>;
+
+/// Linear light of a colour (IEC 61966-2-1), which renderers compute in.
+openvdb::Vec3f linearLight(const Color& color);
 
 /// A range of values and the colours that it runs through.
 struct ColorScale {

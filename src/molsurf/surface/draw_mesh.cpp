@@ -77,19 +77,10 @@ std::array<Vec3d, 3> principalAxes(const Mesh& mesh)
 View chooseView(const Mesh& mesh, const DrawOptions& options)
 {
     View view;
-    if (options.toEye.lengthSqr() > 0.0) {
-        view.toEye = options.toEye.unit();
-        view.right = options.up.cross(view.toEye).unit();
-    } else {
-        const auto axes = principalAxes(mesh);
-        view.right = axes[0];
-        view.toEye = axes[0].cross(axes[1]);
-    }
-    view.up = view.toEye.cross(view.right);
-    const double angle = options.turn * M_PI / 180.0;
-    const Vec3d right = view.right;
-    view.right = std::cos(angle) * right - std::sin(angle) * view.toEye;
-    view.toEye = std::cos(angle) * view.toEye + std::sin(angle) * right;
+    const std::array<Vec3d, 3> axes = viewAxes(mesh, options);
+    view.right = axes[0];
+    view.up = axes[1];
+    view.toEye = axes[2];
 
     // A turn must not change the scale, so the extent across is that of all turns.
     Vec3d low(std::numeric_limits<double>::max()), high(-low);
@@ -102,7 +93,7 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
     }
     const Vec3d mid = 0.5 * (low + high), extent = high - low;
     view.center = mid[0] * view.right + mid[1] * view.up + mid[2] * view.toEye;
-    if (options.turn != 0.0) {
+    if (options.turn != 0.0 || options.turnable) {
         for (const Vec3f& p : mesh.positions) {
             const Vec3d d = Vec3d(p) - view.center;
             reach = std::max(reach, std::hypot(d.dot(view.right), d.dot(view.toEye)));
@@ -127,17 +118,6 @@ struct Sample {
     float cover = 0.0f;    ///< share of the pixel
 };
 
-float linear(std::uint8_t value)
-{
-    const double s = value / 255.0;
-    return float(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-}
-
-Vec3f linear(const Color& color)
-{
-    return {linear(color[0]), linear(color[1]), linear(color[2])};
-}
-
 std::uint8_t encode(float value)
 {
     const double x = std::clamp(double(value), 0.0, 1.0);
@@ -157,7 +137,7 @@ class Tracer
 {
 public:
     Tracer(const Mesh& mesh, const View& view, const Color& plain)
-        : mesh_(mesh), view_(view), plain_(linear(plain)), scene_(mesh),
+        : mesh_(mesh), view_(view), plain_(linearLight(plain)), scene_(mesh),
           lamp_((view.toEye - 0.35 * view.right + 0.55 * view.up).unit())
     {
     }
@@ -186,9 +166,9 @@ public:
             normal.normalize();
             if (normal.dot(Vec3f(view_.toEye)) < 0.0f) normal = -normal;
             const Vec3f color = mesh_.colors.empty() ? plain_
-                                                     : w * linear(mesh_.colors[t[0]]) +
-                                                           u * linear(mesh_.colors[t[1]]) +
-                                                           v * linear(mesh_.colors[t[2]]);
+                                                     : w * linearLight(mesh_.colors[t[0]]) +
+                                                           u * linearLight(mesh_.colors[t[1]]) +
+                                                           v * linearLight(mesh_.colors[t[2]]);
             out.color += lit(color, normal);
             out.normal += normal;
             const float depth = float(view_.far + 1.0) - ray.ray.tfar;
@@ -327,6 +307,23 @@ private:
 
 } // namespace
 
+std::array<Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options)
+{
+    Vec3d right, toEye;
+    if (options.toEye.lengthSqr() > 0.0) {
+        toEye = options.toEye.unit();
+        right = options.up.cross(toEye).unit();
+    } else {
+        const auto axes = principalAxes(mesh);
+        right = axes[0];
+        toEye = axes[0].cross(axes[1]);
+    }
+    const Vec3d up = toEye.cross(right);
+    const double angle = options.turn * M_PI / 180.0;
+    return {std::cos(angle) * right - std::sin(angle) * toEye, up,
+            std::cos(angle) * toEye + std::sin(angle) * right};
+}
+
 Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& progress)
 {
     Picture picture;
@@ -350,16 +347,19 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
         });
     }
     const Canvas canvas(view, std::move(samples));
-    const Vec3f background = linear(options.background);
+    const Vec3f background = linearLight(options.background);
     picture.width = view.width;
     picture.height = view.height;
     picture.rgb.resize(3 * width * height);
     parallelFor(height, progress, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
             const Vec3f color = canvas.color(int(x), int(y), background);
-            for (int c = 0; c < 3; ++c) {
-                picture.rgb[3 * (y * width + x) + std::size_t(c)] = encode(color[c]);
+            std::uint8_t* to = &picture.rgb[3 * (y * width + x)];
+            if (color == background) { // most of them, and exact
+                std::copy(options.background.begin(), options.background.end(), to);
+                continue;
             }
+            for (int c = 0; c < 3; ++c) to[c] = encode(color[c]);
         }
     });
     return picture;

@@ -8,6 +8,7 @@
 #include "molsurf/surface/color_map.h"
 #include "molsurf/surface/mesh.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,10 +27,15 @@ struct DrawOptions {
     /// Toward the eye, and what is up; zero: the shortest principal axis of the vertices toward the
     /// eye, the longest one across the picture.
     openvdb::Vec3d toEye{0.0}, up{0.0};
-    double turn = 0.0; ///< about `up` [degree]
+    double turn = 0.0;     ///< about `up` [degree]
+    bool turnable = false; ///< the scale is the same for every turn, also for 0
     Color background = {255, 255, 255};
     Color plain = {140, 181, 222}; ///< of a mesh without colours
 };
+
+/// What is right, up and toward the eye in a picture: unit vectors, right-handed.
+/// @param[in] mesh  with at least one vertex
+std::array<openvdb::Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options);
 
 /// Draws a mesh: orthographic, shaded by ambient occlusion and a lamp over the eye's shoulder,
 /// paler with distance, with dark outlines where one part stands before another. Rays by Embree.

@@ -1,0 +1,20 @@
+# Makes a C++ file of text files:
+#   cmake -DOUTPUT=x.cpp -DFOLDER=dir -P embed_text.cmake
+# A literal has 16,000 letters at most, since more need not be taken by a compiler.
+set(text "// Made of the files of viewer/ by cmake/embed_text.cmake.\n#include \"molsurf/io/viewer_text.h\"\n\nnamespace molsurf\n{\n")
+foreach(entry "viewerPage=page.html" "viewerScript=viewer.min.js")
+  string(REGEX REPLACE "=.*" "" name "${entry}")
+  string(REGEX REPLACE ".*=" "" file "${entry}")
+  file(READ "${FOLDER}/${file}" content)
+  string(LENGTH "${content}" length)
+  string(APPEND text "const char* const ${name} =\n")
+  set(begin 0)
+  while(begin LESS length)
+    string(SUBSTRING "${content}" ${begin} 16000 piece)
+    string(APPEND text "R\"~~~~(${piece})~~~~\"\n")
+    math(EXPR begin "${begin} + 16000")
+  endwhile()
+  string(APPEND text ";\n")
+endforeach()
+string(APPEND text "} // namespace molsurf\n")
+file(WRITE "${OUTPUT}" "${text}")

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The files of viewer/, as text; made by the build. For write_html.cpp alone.
+
+namespace molsurf
+{
+
+extern const char* const viewerPage;   ///< page.html
+extern const char* const viewerScript; ///< viewer.min.js
+
+} // namespace molsurf

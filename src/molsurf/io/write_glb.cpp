@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/write_glb.h"
+
+#include "molsurf/core/error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace molsurf
+{
+
+namespace
+{
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "glTF is written as it lies");
+
+using Json = nlohmann::ordered_json;
+using openvdb::Vec3f;
+
+// Numbers that the specification gives to types.
+constexpr int floatType = 5126, shortType = 5123, indexType = 5125;
+constexpr int vertexTarget = 34962, indexTarget = 34963;
+
+/// Vertices and triangles of one part.
+struct Range {
+    std::string name;
+    std::size_t firstVertex, vertexEnd, firstTriangle, triangleEnd;
+};
+
+/// A part's vertices are neighbours in the list.
+std::vector<Range> rangesOf(const Mesh& mesh, const std::string& name)
+{
+    if (mesh.parts.empty()) return {{name, 0, mesh.positions.size(), 0, mesh.triangles.size()}};
+    std::vector<Range> ranges;
+    for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
+        Range range{mesh.parts[p].name, mesh.positions.size(), 0, mesh.parts[p].firstTriangle,
+                    p + 1 < mesh.parts.size() ? mesh.parts[p + 1].firstTriangle
+                                              : mesh.triangles.size()};
+        for (std::size_t t = range.firstTriangle; t < range.triangleEnd; ++t) {
+            for (const std::uint32_t corner : mesh.triangles[t]) {
+                range.firstVertex = std::min<std::size_t>(range.firstVertex, corner);
+                range.vertexEnd = std::max<std::size_t>(range.vertexEnd, corner + 1ull);
+            }
+        }
+        if (range.firstTriangle < range.triangleEnd) ranges.push_back(range);
+    }
+    return ranges;
+}
+
+std::string attributeName(const std::string& name)
+{
+    std::string capitals = "_";
+    for (const char letter : name)
+        capitals += char(std::toupper(static_cast<unsigned char>(letter)));
+    return capitals;
+}
+
+/// The tables of the file and the bytes that they speak of.
+class Document
+{
+public:
+    Document(const Mesh& mesh, const GlbOptions& options) : mesh_(mesh)
+    {
+        json_["asset"] = {{"version", "2.0"}, {"generator", "vdb_molsurf"}};
+        json_["scene"] = 0;
+        json_["scenes"] = Json::array({Json{{"nodes", {0}}}});
+        const double half = std::sqrt(0.5), scale = options.scale;
+        Json root = {{"name", options.name}, {"rotation", {-half, 0.0, 0.0, half}}};
+        if (scale != 1.0) root["scale"] = {scale, scale, scale};
+        json_["nodes"] = Json::array({root});
+        addMaterial(options.plain);
+        const std::vector<Range> ranges = rangesOf(mesh, options.name);
+        for (const Range& range : ranges) addPart(range, ranges.size() > 1);
+        json_["buffers"] = Json::array({Json{{"byteLength", bytes_.size()}}});
+    }
+
+    std::string header() const
+    {
+        return json_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+    const std::vector<char>& bytes() const { return bytes_; }
+
+private:
+    void addMaterial(const Color& plain)
+    {
+        Json base = {1.0, 1.0, 1.0, 1.0};
+        if (mesh_.colors.empty()) {
+            const Vec3f light = linearLight(plain);
+            for (int i = 0; i < 3; ++i) base[std::size_t(i)] = light[i];
+        }
+        json_["materials"] = Json::array({Json{
+            {"name", "surface"},
+            {"pbrMetallicRoughness",
+             {{"baseColorFactor", base}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.5}}}}});
+    }
+
+    void addPart(const Range& range, bool several)
+    {
+        Json attributes = Json::object();
+        attributes["POSITION"] = addPositions(range);
+        attributes["NORMAL"] = addNormals(range);
+        if (!mesh_.colors.empty()) attributes["COLOR_0"] = addColors(range);
+        for (const auto& scalar : mesh_.scalars)
+            attributes[attributeName(scalar.name)] = addNumbers(range, scalar.values);
+        for (const auto& label : mesh_.labels)
+            attributes[attributeName(label.name)] = addNumbers(range, label.values);
+        const std::size_t number = json_["meshes"].size(); // null counts as none
+        json_["meshes"].push_back(
+            {{"name", range.name},
+             {"primitives", Json::array({Json{{"attributes", attributes},
+                                              {"indices", addTriangles(range)},
+                                              {"material", 0}}})}});
+        if (!several) {
+            json_["nodes"][0]["mesh"] = number;
+            return;
+        }
+        json_["nodes"][0]["children"].push_back(json_["nodes"].size());
+        json_["nodes"].push_back({{"name", range.name}, {"mesh", number}});
+    }
+
+    template<typename T>
+    void append(const T& value)
+    {
+        const auto* begin = reinterpret_cast<const char*>(&value);
+        bytes_.insert(bytes_.end(), begin, begin + sizeof value);
+    }
+
+    /// The accessor of what was appended since `begin`.
+    std::size_t close(std::size_t begin, std::size_t count, int type, const char* shape, int target)
+    {
+        json_["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes_.size() - begin}});
+        Json& view = json_["bufferViews"].back();
+        view["target"] = target;
+        json_["accessors"].push_back({{"bufferView", json_["bufferViews"].size() - 1},
+                                      {"componentType", type},
+                                      {"count", count},
+                                      {"type", shape}});
+        return json_["accessors"].size() - 1;
+    }
+
+    std::size_t addPositions(const Range& range)
+    {
+        const std::size_t begin = bytes_.size();
+        std::array<float, 3> low, high;
+        low.fill(std::numeric_limits<float>::max());
+        high.fill(std::numeric_limits<float>::lowest());
+        for (std::size_t v = range.firstVertex; v < range.vertexEnd; ++v) {
+            const Vec3f& p = mesh_.positions[v];
+            for (int i = 0; i < 3; ++i) {
+                append(p[i]);
+                low[std::size_t(i)] = std::min(low[std::size_t(i)], p[i]);
+                high[std::size_t(i)] = std::max(high[std::size_t(i)], p[i]);
+            }
+        }
+        const std::size_t number =
+            close(begin, range.vertexEnd - range.firstVertex, floatType, "VEC3", vertexTarget);
+        json_["accessors"][number]["min"] = low;
+        json_["accessors"][number]["max"] = high;
+        return number;
+    }
+
+    std::size_t addNormals(const Range& range)
+    {
+        const std::size_t begin = bytes_.size();
+        for (std::size_t v = range.firstVertex; v < range.vertexEnd; ++v) {
+            openvdb::Vec3d normal(mesh_.normals[v]);
+            if (!(normal.length() > 0.0)) normal = openvdb::Vec3d(0.0, 0.0, 1.0);
+            normal.normalize();
+            for (int i = 0; i < 3; ++i) append(float(normal[i]));
+        }
+        return close(begin, range.vertexEnd - range.firstVertex, floatType, "VEC3", vertexTarget);
+    }
+
+    std::size_t addColors(const Range& range)
+    {
+        constexpr double full = std::numeric_limits<std::uint16_t>::max();
+        const std::size_t begin = bytes_.size();
+        for (std::size_t v = range.firstVertex; v < range.vertexEnd; ++v) {
+            const Vec3f light = linearLight(mesh_.colors[v]);
+            for (int i = 0; i < 3; ++i) append(std::uint16_t(std::lround(full * double(light[i]))));
+            append(std::uint16_t(full)); // opaque; an element is a multiple of four bytes
+        }
+        const std::size_t number =
+            close(begin, range.vertexEnd - range.firstVertex, shortType, "VEC4", vertexTarget);
+        json_["accessors"][number]["normalized"] = true;
+        return number;
+    }
+
+    template<typename T>
+    std::size_t addNumbers(const Range& range, const std::vector<T>& values)
+    {
+        const std::size_t begin = bytes_.size();
+        for (std::size_t v = range.firstVertex; v < range.vertexEnd; ++v) append(float(values[v]));
+        return close(begin, range.vertexEnd - range.firstVertex, floatType, "SCALAR", vertexTarget);
+    }
+
+    std::size_t addTriangles(const Range& range)
+    {
+        const std::size_t begin = bytes_.size();
+        for (std::size_t t = range.firstTriangle; t < range.triangleEnd; ++t)
+            for (const std::uint32_t corner : mesh_.triangles[t])
+                append(std::uint32_t(corner - range.firstVertex));
+        return close(begin, 3 * (range.triangleEnd - range.firstTriangle), indexType, "SCALAR",
+                     indexTarget);
+    }
+
+    const Mesh& mesh_;
+    Json json_;
+    std::vector<char> bytes_;
+};
+
+} // namespace
+
+void writeGlb(const Mesh& mesh, const GlbOptions& options, OutputFile& file)
+{
+    const Document document(mesh, options);
+    std::string header = document.header();
+    header.resize((header.size() + 3) / 4 * 4, ' ');
+    const std::vector<char>& bytes = document.bytes(); // all of its elements are of four bytes
+    const std::uint64_t size = 12 + 8 + header.size() + 8 + bytes.size();
+    if (size > std::numeric_limits<std::uint32_t>::max())
+        throw Error(ErrorKind::Output, "cannot write " + file.path() +
+                                           ": .glb holds at most 4 GiB, "
+                                           "got " +
+                                           std::to_string(size) + " bytes [hint: write .ply]");
+    const auto word = [&](std::uint32_t value) { file.write(&value, sizeof value); };
+    file.write("glTF", 4);
+    word(2);
+    word(std::uint32_t(size));
+    word(std::uint32_t(header.size()));
+    file.write("JSON", 4);
+    file.write(header.data(), header.size());
+    word(std::uint32_t(bytes.size()));
+    file.write("BIN\0", 4);
+    file.write(bytes.data(), bytes.size());
+    file.finish();
+}
+
+} // namespace molsurf

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Binary glTF 2.0.
+
+#include "molsurf/io/output_file.h"
+#include "molsurf/surface/color_map.h"
+#include "molsurf/surface/mesh.h"
+
+#include <string>
+
+namespace molsurf
+{
+
+/// How the mesh stands in the scene of the file.
+struct GlbOptions {
+    std::string name = "surface";  ///< of the node
+    double scale = 1.0;            ///< scene units per Å, in the node
+    Color plain = {140, 181, 222}; ///< of a mesh without colours
+};
+
+/// Writes a .glb: a node that turns z up into glTF's y up and scales, below it one with a mesh for
+/// each of the mesh's parts. The vertices themselves stay as they are [Å].
+///
+/// Attributes: POSITION, NORMAL, COLOR_0 (linear light, 16 bits) if there are colours, and each of
+/// Mesh::scalars and Mesh::labels as a float under its name in capitals after an underscore
+/// (_MEAN_CURVATURE, _ATOM_ID); glTF has no 32-bit integers at vertices.
+///
+/// @throws Error(ErrorKind::Output) if the file cannot be written, or if it had 4 GiB or more
+void writeGlb(const Mesh& mesh, const GlbOptions& options, OutputFile& file);
+
+} // namespace molsurf

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/write_usda.h"
+
+#include <cctype>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace molsurf
+{
+
+namespace
+{
+
+constexpr const char* firstLine = "#usda 1.0";
+constexpr const char* creator = "        string creator = \"vdb_molsurf\"";
+
+std::string identifier(const std::string& name)
+{
+    std::string word;
+    for (const char letter : name)
+        word += std::isalnum(static_cast<unsigned char>(letter)) ? letter : '_';
+    if (word.empty() || std::isdigit(static_cast<unsigned char>(word[0]))) word = "_" + word;
+    return word;
+}
+
+// A string of USD.
+std::string quoted(const std::string& text)
+{
+    std::string all = "\"";
+    for (const char letter : text) {
+        if (letter == '"' || letter == '\\') all += '\\';
+        all += letter == '\n' || letter == '\r' ? ' ' : letter;
+    }
+    return all + "\"";
+}
+
+// A path of USD; one with an @ takes three of them on each side.
+std::string asset(const std::string& path)
+{
+    const char* mark = path.find('@') == std::string::npos ? "@" : "@@@";
+    return mark + ("./" + path) + mark;
+}
+
+const char* classOf(const openvdb::GridBase& grid)
+{
+    switch (grid.getGridClass()) {
+    case openvdb::GRID_LEVEL_SET:
+        return "levelSet";
+    case openvdb::GRID_FOG_VOLUME:
+        return "fogVolume";
+    default:
+        return "unknown";
+    }
+}
+
+const char* typeOf(const openvdb::GridBase& grid)
+{
+    if (grid.valueType() == "vec3s") return "float3";
+    return grid.valueType() == "int32" ? "int" : "float";
+}
+
+// The box of the active voxels of all grids.
+openvdb::BBoxd extentOf(const openvdb::GridCPtrVec& grids)
+{
+    openvdb::BBoxd box;
+    for (const auto& grid : grids) {
+        const openvdb::CoordBBox voxels = grid->evalActiveVoxelBoundingBox();
+        if (voxels.empty()) continue;
+        box.expand(grid->indexToWorld(voxels.min()));
+        box.expand(grid->indexToWorld(voxels.max()));
+    }
+    return box.empty() ? openvdb::BBoxd(openvdb::Vec3d(0.0), openvdb::Vec3d(0.0)) : box;
+}
+
+void writeField(const openvdb::GridBase& grid, const UsdVolume& volume, std::ostream& out)
+{
+    out << "\n        def OpenVDBAsset \"" << identifier(grid.getName()) << "\"\n        {\n"
+        << "            token fieldName = " << quoted(grid.getName()) << "\n"
+        << "            token fieldClass = \"" << classOf(grid) << "\"\n"
+        << "            token fieldDataType = \"" << typeOf(grid) << "\"\n";
+    if (grid.valueType() == "vec3s")
+        out << "            token vectorDataRoleHint = \""
+            << (grid.getName().rfind("Cd", 0) == 0 ? "Color" : "Vector") << "\"\n";
+    if (volume.frames.empty()) {
+        out << "            asset filePath = " << asset(volume.file) << "\n";
+    } else {
+        out << "            asset filePath.timeSamples = {\n";
+        for (const auto& [frame, file] : volume.frames)
+            out << "                " << frame << ": " << asset(file) << ",\n";
+        out << "            }\n";
+    }
+    out << "        }\n";
+}
+
+std::string usdaText(const openvdb::GridCPtrVec& grids, const UsdVolume& volume)
+{
+    std::ostringstream out;
+    out.precision(std::numeric_limits<float>::max_digits10);
+    const std::string name = identifier(volume.name);
+    out << firstLine << "\n(\n    customLayerData = {\n"
+        << creator << "\n    }\n    defaultPrim = \"" << name << "\"\n";
+    if (!volume.frames.empty()) out << "    endTimeCode = " << volume.frames.back().first << "\n";
+    out << "    metersPerUnit = " << volume.metersPerUnit << "\n";
+    if (!volume.frames.empty())
+        out << "    startTimeCode = " << volume.frames.front().first
+            << "\n    timeCodesPerSecond = 24\n";
+    out << "    upAxis = \"Z\"\n)\n\ndef Xform \"" << name
+        << "\" (\n    kind = \"component\"\n)\n{\n    def Volume \"volume\"\n    {\n";
+    const openvdb::BBoxd box = extentOf(grids);
+    const auto point = [&](const openvdb::Vec3d& p) {
+        out << "(" << p[0] << ", " << p[1] << ", " << p[2] << ")";
+    };
+    out << "        float3[] extent = [";
+    point(box.min());
+    out << ", ";
+    point(box.max());
+    out << "]\n";
+    for (const auto& grid : grids) {
+        const std::string field = identifier(grid->getName());
+        out << "        rel field:" << field << " = </" << name << "/volume/" << field << ">\n";
+    }
+    for (const auto& grid : grids) writeField(*grid, volume, out);
+    out << "    }\n}\n";
+    return out.str();
+}
+
+} // namespace
+
+void writeUsda(const openvdb::GridCPtrVec& grids, const UsdVolume& volume, OutputFile& file)
+{
+    const std::string text = usdaText(grids, volume);
+    file.write(text.data(), text.size());
+    file.finish();
+}
+
+bool isOwnUsda(const std::string& path)
+{
+    std::ifstream file(path);
+    std::string line;
+    if (!std::getline(file, line) || line != firstLine) return false;
+    for (int n = 0; n < 3 && std::getline(file, line); ++n)
+        if (line == creator) return true;
+    return false;
+}
+
+} // namespace molsurf

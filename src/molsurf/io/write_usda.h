@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// A .vdb file, or a numbered sequence of them, as a volume of OpenUSD.
+
+#include "molsurf/io/output_file.h"
+
+#include <openvdb/openvdb.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace molsurf
+{
+
+/// What a .usda file refers to.
+struct UsdVolume {
+    std::string name;             ///< of the prim; letters that USD does not take become _
+    double metersPerUnit = 1e-10; ///< of the grids' transforms
+    std::string file;             ///< the .vdb, relative to the .usda
+    /// Frames of a sequence and their files, the first one first; empty: no sequence.
+    std::vector<std::pair<int, std::string>> frames;
+};
+
+/// Writes USD as text: a Volume with an OpenVDBAsset for each grid, whose field class, type and
+/// vector role are the grid's. Up is z, as in the other files.
+///
+/// @param[in] grids  as they are in the .vdb; of a sequence those of one frame
+/// @throws Error(ErrorKind::Output) if the file cannot be written
+void writeUsda(const openvdb::GridCPtrVec& grids, const UsdVolume& volume, OutputFile& file);
+
+/// Whether a file is one that writeUsda() has made.
+bool isOwnUsda(const std::string& path);
+
+} // namespace molsurf

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/thicken.h"
+
+#include "molsurf/core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+
+namespace
+{
+
+/// Slope of the distance below which a voxel is in the middle. At a wall's own middle it is 0, at
+/// the nearest voxel 0.5 at most, by central differences.
+constexpr float middleSlope = 0.7f;
+
+float valueAt(const DistanceBand& S, std::size_t n, const Coord& voxel)
+{
+    const Coord at = voxel - S.table.origin(n);
+    const auto side = [](int i) { return i < 0 ? -1 : i >= leafDim ? 1 : 0; };
+    const int d = 9 * (side(at[0]) + 1) + 3 * (side(at[1]) + 1) + side(at[2]) + 1;
+    const std::int32_t m = S.table.neighbours(n)[std::size_t(d)];
+    const auto v = openvdb::FloatTree::LeafNodeType::coordToOffset(voxel);
+    // Beyond the band the value does not count: no voxel there is thin.
+    return m == noLeaf ? 1e6f : S.phi.leaf(std::size_t(m))[v];
+}
+
+/// Voxels in the middle of what is thinner than a wall.
+std::vector<Coord> middleOf(const DistanceBand& S, std::size_t n, double voxel, double wall)
+{
+    std::vector<Coord> out;
+    S.table.active(n).forEach([&](int v) {
+        const float depth = -S.phi.leaf(n)[v];
+        if (depth <= 0.0f || depth >= float(0.5 * wall)) return;
+        const Coord at = S.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+        float slope = 0.0f;
+        for (int axis = 0; axis < 3; ++axis) {
+            Coord low = at, high = at;
+            --low[axis];
+            ++high[axis];
+            const float d = (valueAt(S, n, high) - valueAt(S, n, low)) / float(2.0 * voxel);
+            slope += d * d;
+        }
+        if (slope < middleSlope * middleSlope) out.push_back(at);
+    });
+    return out;
+}
+
+} // namespace
+
+void thickenWalls(DistanceBand& S, double voxel, double wall, double width,
+                  const Progress& progress)
+{
+    std::vector<std::vector<Coord>> middle(S.table.size());
+    parallelFor(S.table.size(), progress,
+                [&](std::size_t n) { middle[n] = middleOf(S, n, voxel, wall); });
+
+    const double radius = 0.5 * wall / voxel, reach = radius + width / voxel; // [voxel]
+    const int leaves = int(std::ceil(reach / leafDim));
+    parallelFor(S.table.size(), progress, [&](std::size_t n) {
+        const Coord origin = S.table.origin(n);
+        const openvdb::Vec3d mid = origin.asVec3d() + 0.5 * (leafDim - 1);
+        const double leafReach = 0.5 * std::sqrt(3.0) * (leafDim - 1) + reach;
+        std::vector<openvdb::Vec3f> near; // from the origin [voxel]
+        const int w = 2 * leaves + 1;
+        for (int k = 0; k < w * w * w; ++k) {
+            const auto step = [&](int i) { return leafDim * (i % w - leaves); };
+            const std::int32_t m =
+                S.table.find(origin.offsetBy(step(k / w / w), step(k / w), step(k)));
+            if (m == noLeaf) continue;
+            for (const Coord& c : middle[std::size_t(m)]) {
+                if ((c.asVec3d() - mid).lengthSqr() < leafReach * leafReach)
+                    near.emplace_back((c - origin).asVec3s());
+            }
+        }
+        float* phi = S.phi.leaf(n);
+        if (!near.empty()) {
+            S.table.active(n).forEach([&](int v) {
+                const openvdb::Vec3f at(float(v >> 6), float(v >> 3 & 7), float(v & 7));
+                float least = float(reach * reach);
+                for (const openvdb::Vec3f& c : near) least = std::min(least, (at - c).lengthSqr());
+                const float ball = float(voxel) * (std::sqrt(least) - float(radius));
+                if (ball >= phi[v]) return;
+                phi[v] = ball;
+                S.kinks[n].set(v);
+            });
+        }
+        S.table.active(n) &= within(phi, float(width));
+    });
+}
+
+} // namespace molsurf

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// A least thickness for what is thin.
+
+#include "molsurf/core/distance_band.h"
+#include "molsurf/core/progress.h"
+
+namespace molsurf
+{
+
+/// Thickens what is thinner than a wall, and nothing else: the result is the union of the solid and
+/// of balls of that diameter, about every voxel in the middle of a part that is thinner. The middle
+/// is where the distance has no slope (less than 0.7 where it is 1 elsewhere), that is, where the
+/// nearest points of the surface lie on opposite sides. Necks, threads and sheets come to the
+/// thickness of the wall; gaps narrower than what is added to both sides close.
+///
+/// @param[in,out] S   signed distance, at least wall/2 deep and wall/2 + width high; on return the
+///                    active voxels are those with |S| < width
+/// @param[in] voxel   voxel edge h [Å]
+/// @param[in] wall    [Å], > 0
+/// @param[in] width   [Å]
+void thickenWalls(DistanceBand& S, double voxel, double wall, double width,
+                  const Progress& progress);
+
+} // namespace molsurf

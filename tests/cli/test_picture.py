@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Pictures: the legend, turntables, and that 4AT1 by chain is one."""
+
+import time
+import unittest
+
+from tool import CRAMBIN, DATA, FAST, ToolTest, read_png
+
+WHITE = (255, 255, 255)
+
+
+class Refused(ToolTest):
+    def test_words(self):
+        for option, value in (("--legend", "yes"), ("--turntable", "1"), ("--turntable", "x"),
+                              ("--turntable", "10000")):
+            self.check(2, CRAMBIN, "-o", "a.png", option, value, says=option)
+        self.check(2, CRAMBIN, "-o", "-", "--format", "png", "--turntable", "3", says="--turntable")
+        self.assertEqual(self.names(), [])
+
+
+class Pictures(ToolTest):
+    def picture(self, *words):
+        self.check(0, *words, "-o", "a.png", "--force")
+        width, rows = read_png((self.folder / "a.png").read_bytes())
+        return width, [[tuple(row[3 * x:3 * x + 3]) for x in range(width)] for row in rows]
+
+    def has(self, rows, color):
+        return any(color in row for row in rows)
+
+    def test_4at1_by_chain(self):
+        start = time.monotonic()
+        width, rows = self.picture(DATA / "4at1.ent.gz", "--color", "chain", "--no-progress")
+        self.assertLess(time.monotonic() - start, 30)  # 3 s on a machine of its own
+        self.assertEqual(width, 1200)
+        shown = sum(pixel != WHITE for row in rows for pixel in row) / (width * len(rows))
+        self.assertGreater(shown, 0.3)
+        self.assertLess(shown, 0.9)
+        # The legend has the chains' colours as they are.
+        for color in ((86, 180, 233), (230, 159, 0)):
+            self.assertTrue(self.has(rows, color), color)
+
+    def test_legend_of_groups(self):
+        (self.folder / "g").write_text("first /1/A/1-20 #d00000\nlast /1/A/21-46 #0000d0\n")
+        words = [CRAMBIN, *FAST, "--groups", "g", "--color", "group", "--size", "400"]
+        sizes = {}
+        for legend in ("on", "off", "auto"):
+            width, rows = self.picture(*words, "--legend", legend)
+            self.assertEqual(width, 400)
+            column = [row[x] for row in rows for x in range(330, 400)]
+            sizes[legend] = sum(pixel != WHITE for pixel in column)
+            exact = all(self.has(rows, color) for color in ((0xD0, 0, 0), (0, 0, 0xD0)))
+            self.assertEqual(exact, legend == "on", legend)
+        self.assertEqual(sizes["off"], sizes["auto"])  # too small for one unasked
+
+    def test_legend_of_curvature(self):
+        _, rows = self.picture(CRAMBIN, *FAST, "--color", "mean-curvature", "--size", "700")
+        bar = {pixel for row in rows for pixel in row}
+        for color in ((178, 24, 43), (33, 102, 172), (247, 247, 247)):  # the ends and the middle
+            near = min(max(abs(a - b) for a, b in zip(pixel, color)) for pixel in bar)
+            self.assertLess(near, 4, color)
+
+    def test_dark_background_has_light_letters(self):
+        _, rows = self.picture(CRAMBIN, *FAST, "--color", "chain", "--legend", "on", "--size", "300",
+                               "--background", "#000000")
+        right = [pixel for row in rows for pixel in row[230:]]
+        self.assertGreater(max(min(pixel) for pixel in right), 200)
+
+    def test_turntable(self):
+        self.check(0, CRAMBIN, *FAST, "-o", "a.png", "-o", "a.ply", "--turntable", "4", "--size",
+                   "120")
+        self.assertEqual(self.names(), ["a.0001.png", "a.0002.png", "a.0003.png", "a.0004.png",
+                                        "a.ply"])
+        frames = [read_png((self.folder / f"a.000{n}.png").read_bytes()) for n in range(1, 5)]
+        self.assertEqual(len({(width, len(rows)) for width, rows in frames}), 1)
+        self.assertEqual(len({b"".join(map(bytes, rows)) for _, rows in frames}), 4)
+        # The height of the molecule does not change, since it turns about the upright.
+        heights = [sum(any(byte != 255 for byte in row) for row in rows) for _, rows in frames]
+        self.assertLessEqual(max(heights) - min(heights), 2)
+        # Half a turn later the outline is the mirror image.
+        first, third = (rows for _, rows in (frames[0], frames[2]))
+        outline = [[row[3 * x] != 255 for x in range(120)] for row in first]
+        mirrored = [[row[3 * x] != 255 for x in reversed(range(120))] for row in third]
+        wrong = sum(a != b for p, q in zip(outline, mirrored) for a, b in zip(p, q))
+        self.assertLess(wrong, 0.03 * 120 * len(first))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The .usda files that stand beside .vdb files.
+
+#include "cli.h"
+
+#include "molsurf/io/write_usda.h"
+
+namespace molsurf::tool
+{
+
+/// Adds an output .usda for every .vdb: of name.vdb it is name.usda, of a frame name.0001.vdb, too.
+/// @throws Error(ErrorKind::Usage) for a .vdb on standard output
+void addSidecars(Call& call);
+
+/// Whether an output may replace a file: with --force, or if it is the .usda of a sequence that
+/// this program has made, which gets one frame more.
+bool mayReplace(const Call& call, const Output& output);
+
+/// What a .usda says. The frames of a sequence are those in its folder, and the one that is being
+/// written.
+UsdVolume usdVolume(const Call& call, const Output& output);
+
+} // namespace molsurf::tool

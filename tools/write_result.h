@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The files of a run.
+
+#include "cli.h"
+
+#include "molsurf/io/output_file.h"
+#include "molsurf/pipeline/run.h"
+
+namespace molsurf::tool
+{
+
+/// Writes one output. The report must be complete but for what is timed by writing.
+/// @throws Error(ErrorKind::Output) if the file cannot be written
+void writeOutput(const Call& call, const BallSelection& atoms, const Result& result,
+                 const Output& output, const Progress& progress, OutputFile& file);
+
+} // namespace molsurf::tool
