@@ -146,7 +146,7 @@ void closestPoints(benchmark::State& state)
     std::size_t voxels = 0;
     for (auto _ : state) {
         const DistanceBand band =
-            redistance(shell().table, shell().phi, voxel, 3.4, 0.6, -1.4, progress);
+            redistance(shell().table, copied(shell().phi), voxel, 3.4, 0.6, -1.4, progress);
         voxels = band.table.activeCount();
     }
     state.counters["voxels/s"] = benchmark::Counter(double(state.iterations()) * double(voxels),

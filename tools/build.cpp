@@ -15,6 +15,8 @@
 
 #include <tbb/global_control.h>
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -124,6 +126,7 @@ Report buildSurface(const Call& asked, Clock::time_point start)
         selection = selectBalls(structure, call.options.atoms, beadSizer(call.options, terminal));
         description = describeSelection(structure, selection);
     }
+    malloc_trim(0); // what the parser has left is in pieces too small for the fields
     const double readSeconds = secondsSince(readStart);
     warnings.insert(warnings.end(), selection.warnings.begin(), selection.warnings.end());
     terminal.erase();

@@ -6,6 +6,9 @@
 
 #include <sys/resource.h>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <memory>
 #include <vector>
@@ -64,11 +67,27 @@ void writeOutputs(const Call& call, Terminal& terminal,
         if (!done) timed(secondsSince(start));
         done = true;
     };
+    // Files are written side by side; standard output and the report, which tells the time of the
+    // others, after them.
+    const auto apart = [](const Output& o) { return o.format != Format::Json && o.path != "-"; };
+    terminal.update("write", 0.0);
     for (const Output& output : outputs) {
-        if (output.format == Format::Json) timeIt();
-        terminal.update("write", double(files.size()) / double(outputs.size()));
+        if (!apart(output)) break;
         files.push_back(std::make_unique<OutputFile>(output.path, mayReplace(call, output)));
-        writeOne(output, *files.back());
+    }
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, files.size()),
+        [&](const auto& range) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i)
+                writeOne(outputs[i], *files[i]);
+        },
+        tbb::simple_partitioner());
+    stopIfAsked();
+    for (std::size_t i = files.size(); i < outputs.size(); ++i) {
+        if (outputs[i].format == Format::Json) timeIt();
+        files.push_back(
+            std::make_unique<OutputFile>(outputs[i].path, mayReplace(call, outputs[i])));
+        writeOne(outputs[i], *files.back());
         stopIfAsked();
     }
     timeIt();

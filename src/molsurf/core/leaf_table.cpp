@@ -33,6 +33,13 @@ void* allocateLeaves(std::size_t bytes)
     return memory;
 }
 
+LeafField copied(const LeafField& field)
+{
+    LeafField copy(field.leafCount());
+    std::copy_n(field.leaf(0), field.leafCount() * leafSize, copy.leaf(0));
+    return copy;
+}
+
 MOLSURF_KERNEL LeafMask lessThan(const float* values, float limit)
 {
     LeafMask mask;

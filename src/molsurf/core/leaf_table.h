@@ -56,6 +56,8 @@ private:
 
 using LeafField = LeafArray<float>;
 
+LeafField copied(const LeafField& field);
+
 /// The voxels of a leaf whose values are below a limit.
 LeafMask lessThan(const float* values, float limit);
 

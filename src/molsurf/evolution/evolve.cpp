@@ -44,7 +44,7 @@ void curvatureFromSpline(const Spline& spline, const openvdb::Coord& origin, dou
 Spline coarseSpline(const NarrowBand& band, double voxel, int level, const Progress& progress)
 {
     const double width = (flowWidthVox + 3.5 * (1 << level)) * voxel;
-    const DistanceBand wide = redistance(band.table, band.phi, voxel, width, width, 0.0, progress);
+    const DistanceBand wide = redistance(band.table, copied(band.phi), voxel, width, width, 0.0, progress);
     return fitSpline(wide.table, wide.phi, voxel, level, progress);
 }
 

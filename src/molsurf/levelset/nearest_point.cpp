@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 namespace molsurf
 {
@@ -113,15 +114,55 @@ MOLSURF_KERNEL void nearestInCube(const float* x, const float* y, const float* z
     }
 }
 
-/// The squared distance of a place from a leaf's voxels.
-double distance2ToLeaf(const Vec3d& p, const Coord& origin)
+constexpr double leafRadius = 3.5 * 1.7320508; // of the voxels' centres
+const Vec3d leafCentre(3.5);
+
+/// The squared distance of the centre of a leaf from the voxels of the one at an offset.
+double distance2ToLeaf(const Coord& offset)
 {
     double sum = 0.0;
     for (int k = 0; k < 3; ++k) {
-        const double d = std::abs(p[k] - (origin[k] + 3.5)) - 3.5;
-        if (d > 0.0) sum += d * d;
+        const double d = std::max(std::abs(offset[k]) - 3.5, 0.0);
+        sum += d * d;
     }
     return sum;
+}
+
+/// The leaves that may hold points within reach of a voxel of a leaf, nearest first.
+void prepare(double reach, NearestScratch& s)
+{
+    const double farthest = reach + leafRadius + LeafPoints::overhang;
+    const int R = int(std::ceil((reach + LeafPoints::overhang) / leafDim));
+    s.reach = reach;
+    s.offsets.clear();
+    for (int dx = -R; dx <= R; ++dx) {
+        for (int dy = -R; dy <= R; ++dy) {
+            for (int dz = -R; dz <= R; ++dz) {
+                const Coord offset(leafDim * dx, leafDim * dy, leafDim * dz);
+                const double d2 = distance2ToLeaf(offset);
+                if (d2 <= farthest * farthest) s.offsets.push_back({d2, offset});
+            }
+        }
+    }
+    std::stable_sort(s.offsets.begin(), s.offsets.end(),
+                     [](const auto& a, const auto& b) { return a.distance2 < b.distance2; });
+}
+
+/// out = in + shift; the least of the squared lengths of the results.
+MOLSURF_KERNEL float shifted(const float* const* in, const float* shift, std::size_t count,
+                             float* const* out)
+{
+    const float *a = in[0], *b = in[1], *c = in[2];
+    float* __restrict x = out[0], * __restrict y = out[1], * __restrict z = out[2];
+    float least = 1e30f;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float u = a[i] + shift[0], v = b[i] + shift[1], w = c[i] + shift[2];
+        x[i] = u;
+        y[i] = v;
+        z[i] = w;
+        least = smaller(least, u * u + v * v + w * w);
+    }
+    return least;
 }
 
 /// Gathers the points that may be nearest to a voxel of a leaf, relative to its centre, padded to a
@@ -129,51 +170,31 @@ double distance2ToLeaf(const Vec3d& p, const Coord& origin)
 /// @return their number with the padding
 int gatherPoints(const LeafPoints& points, const Coord& origin, double reach, NearestScratch& s)
 {
-    const double leafRadius = 3.5 * std::sqrt(3.0);
-    const Vec3d centre = origin.asVec3d() + Vec3d(3.5);
-    const double farthest = reach + leafRadius + LeafPoints::overhang;
-    const int R = int(std::ceil((reach + LeafPoints::overhang) / leafDim));
-
-    s.leaves.clear();
-    for (int dx = -R; dx <= R; ++dx) {
-        for (int dy = -R; dy <= R; ++dy) {
-            for (int dz = -R; dz <= R; ++dz) {
-                const Coord place = origin.offsetBy(leafDim * dx, leafDim * dy, leafDim * dz);
-                const double d2 = distance2ToLeaf(centre, place);
-                if (d2 > farthest * farthest) continue;
-                const std::int32_t n = points.table.find(place);
-                if (n == noLeaf || points.begins[n] == points.begins[n + 1]) continue;
-                s.leaves.push_back({d2, n});
-            }
-        }
-    }
-    auto& leaves = s.leaves;
-    using Near = NearestScratch::Near;
-    std::sort(leaves.begin(), leaves.end(), [](const Near& a, const Near& b) {
-        return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.leaf < b.leaf);
-    });
-
-    std::size_t most = 0;
-    for (const Near& near : leaves) most += points.begins[near.leaf + 1] - points.begins[near.leaf];
-    most = (most + lanes - 1) / lanes * lanes;
-    s.x.resize(most);
-    s.y.resize(most);
-    s.z.resize(most);
-    s.index.resize(most);
-    std::size_t count = 0;
-    double limit = farthest;
+    if (s.reach != reach) prepare(reach, s);
+    double limit = reach + leafRadius + LeafPoints::overhang;
+    const double farthest = limit;
     float nearest2 = 1e30f;
-    for (const Near& near : leaves) {
-        if (near.distance2 > limit * limit) break;
-        const openvdb::Vec3f shift(points.table.origin(near.leaf).asVec3d() - centre);
-        for (std::size_t i = points.begins[near.leaf]; i < points.begins[near.leaf + 1]; ++i) {
-            const openvdb::Vec3f d = points.positions[i] + shift;
-            nearest2 = std::min(nearest2, d.lengthSqr());
-            s.x[count] = d.x();
-            s.y[count] = d.y();
-            s.z[count] = d.z();
-            s.index[count++] = std::int32_t(i);
+    std::size_t count = 0;
+    for (const auto& [distance2, offset] : s.offsets) {
+        if (distance2 > limit * limit) break;
+        const std::int32_t n = points.table.find(origin + offset);
+        if (n == noLeaf) continue;
+        const std::size_t begin = points.begins[n], more = points.begins[n + 1] - begin;
+        if (more == 0) continue;
+        if (count + more + lanes > s.x.size()) {
+            const std::size_t room = 2 * (count + more + lanes);
+            for (auto* v : {&s.x, &s.y, &s.z}) v->resize(room);
+            s.index.resize(room);
         }
+        const Vec3d from = offset.asVec3d() - leafCentre;
+        const float shift[3] = {float(from.x()), float(from.y()), float(from.z())};
+        const float* in[3] = {points.x.data() + begin, points.y.data() + begin,
+                              points.z.data() + begin};
+        float* out[3] = {s.x.data() + count, s.y.data() + count, s.z.data() + count};
+        nearest2 = std::min(nearest2, shifted(in, shift, more, out));
+        std::iota(s.index.begin() + std::ptrdiff_t(count),
+                  s.index.begin() + std::ptrdiff_t(count + more), std::int32_t(begin));
+        count += more;
         // No voxel is farther from its nearest point than the centre from its own plus the radius.
         limit = std::min(farthest,
                          std::sqrt(double(nearest2)) + 2.0 * leafRadius + LeafPoints::overhang);

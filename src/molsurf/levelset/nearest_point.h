@@ -21,17 +21,19 @@ struct LeafPoints {
 
     const LeafTable& table;
     std::vector<std::size_t> begins;
-    std::vector<openvdb::Vec3f> positions; ///< from the first voxel of their leaf [voxel]
+    std::vector<float> x, y, z; ///< from the first voxel of their leaf [voxel]
 };
 
 /// Room for one search, kept from leaf to leaf by a thread.
 struct NearestScratch {
-    /// A leaf with points.
-    struct Near {
-        double distance2; // of a place from its voxels
-        std::int32_t leaf;
+    /// Where a leaf may lie that holds the nearest point, nearest first.
+    struct Offset {
+        double
+            distance2; // of the centre of the leaf that is searched for from its voxels [voxel^2]
+        openvdb::Coord offset;
     };
-    std::vector<Near> leaves;
+    std::vector<Offset> offsets;
+    double reach = -1.0; // that they are for [voxel]
     std::vector<float> x, y, z;
     std::vector<std::int32_t> index;
     std::vector<float> nearX, nearY, nearZ;

@@ -412,7 +412,7 @@ private:
 
 } // namespace
 
-DistanceBand redistance(const LeafTable& table, const LeafField& phi, double voxel, double inside,
+DistanceBand redistance(const LeafTable& table, LeafField phi, double voxel, double inside,
                         double outside, double level, const Progress& progress)
 {
     std::vector<LeafMask> inner(table.size()), outer(table.size());
@@ -423,6 +423,7 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     const std::vector<LeafMask> interface = interfaceVoxels(table, inner, progress);
     std::vector<std::size_t> begins;
     const LeafField coefficients = prefilter(table, phi, progress);
+    phi = LeafField();
     const std::vector<Seed> seeds =
         findSeeds(table, coefficients, voxel, interface, begins, progress);
     if (seeds.empty()) return DistanceBand();
@@ -431,8 +432,15 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     const LeafTable domain = merged(reachable(table, interface, outer, steps(inside), progress),
                                     reachable(table, interface, inner, steps(outside), progress));
 
-    LeafPoints points{table, std::move(begins), std::vector<Vec3f>(seeds.size())};
-    parallelFor(seeds.size(), progress, [&](std::size_t i) { points.positions[i] = seeds[i].y; });
+    LeafPoints points{table, std::move(begins), {}, {}, {}};
+    for (auto* v : {&points.x, &points.y, &points.z}) v->resize(seeds.size());
+    parallelFor(table.size(), progress, [&](std::size_t n) {
+        for (std::size_t i = points.begins[n]; i < points.begins[n + 1]; ++i) {
+            points.x[i] = seeds[i].y.x();
+            points.y[i] = seeds[i].y.y();
+            points.z[i] = seeds[i].y.z();
+        }
+    });
     const double reach = std::max(inside, outside) / voxel + 1.0;
     SeedIndex index(domain.size());
     tbb::enumerable_thread_specific<NearestScratch> scratches;

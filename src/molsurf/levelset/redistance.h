@@ -25,11 +25,11 @@ namespace molsurf
 ///    kappa = tr A, K = det A on the tangent plane.
 ///
 /// @param[in] table    active voxels: a band of at least three voxels on each side of the interface
-/// @param[in] phi      near its zero set a smooth signed distance [Å]
+/// @param[in] phi      near its zero set a smooth signed distance [Å]; freed when it has been read
 /// @param[in] voxel    voxel edge h [Å]
 /// @param[in] inside,outside  depth and height of the result [Å]
 /// @param[in] level    the level set of the result that is wanted, which gets the best distances
-DistanceBand redistance(const LeafTable& table, const LeafField& phi, double voxel, double inside,
+DistanceBand redistance(const LeafTable& table, LeafField phi, double voxel, double inside,
                         double outside, double level, const Progress& progress);
 
 } // namespace molsurf

@@ -122,7 +122,7 @@ Spline fitted(const FloatGrid& grid, const Progress& progress)
     const float full = std::abs(grid.background()) * (1.0f - 1e-6f);
     for (std::size_t n = 0; n < given.size(); ++n) given.active(n) &= within(values.leaf(n), full);
     const double width = splineWidthVox * voxel;
-    DistanceBand band = redistance(given, values, voxel, width, width, 0.0, progress);
+    DistanceBand band = redistance(given, std::move(values), voxel, width, width, 0.0, progress);
     parallelFor(band.table.size(), progress, [&](std::size_t n) {
         const std::int32_t m = given.find(band.table.origin(n));
         if (m == noLeaf) return;

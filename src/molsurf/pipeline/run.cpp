@@ -25,6 +25,8 @@
 #include "molsurf/surface/statistics.h"
 #include "molsurf/surface/topology.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -158,7 +160,8 @@ double grownBy(const Options& options)
 }
 
 /// S = Phi + r_b on a band that holds the coefficients of every point of the surface.
-DistanceBand distanceBand(const std::vector<Ball>& balls, const NarrowBand& band,
+/// @param[in] table,phi  the level set that a smooth surface is offset from
+DistanceBand distanceBand(const std::vector<Ball>& balls, const LeafTable& table, LeafField phi,
                           const Options& options, Progress& progress)
 {
     const double h = options.voxel, width = splineWidthVox * h * (1 << options.splineLevel);
@@ -167,7 +170,7 @@ DistanceBand distanceBand(const std::vector<Ball>& balls, const NarrowBand& band
     const double inside = offset + width + grown, outside = std::max(width - offset, h) + grown;
     DistanceBand S;
     if (options.kind == SurfaceKind::Variational || options.kind == SurfaceKind::Gaussian) {
-        S = redistance(band.table, band.phi, h, inside, outside, -offset, progress);
+        S = redistance(table, std::move(phi), h, inside, outside, -offset, progress);
     } else {
         const double probe = grownBy(options);
         const BallBoundary boundary = ballBoundary(balls, probe, progress);
@@ -210,26 +213,32 @@ std::vector<LeafMask> cavityVoxels(const Mesh& mesh, const DistanceBand& S, doub
     const std::vector<std::uint32_t> pieces = connectedPieces(mesh, count);
     const std::vector<double> volumes = pieceVolumes(mesh, pieces, count);
 
-    // Outer voxels of S about the walls, then all that hang together with them.
-    std::vector<LeafMask> positive(S.table.size()), seeds(S.table.size());
+    // Outer voxels of S in front of the walls, then all that hang together with them. Those that
+    // hang together with the outer surface, where a wall is thinner than a voxel, are no cavity.
+    std::vector<LeafMask> positive(S.table.size()), within(S.table.size()), without(S.table.size());
     for (std::size_t n = 0; n < S.table.size(); ++n) {
         positive[n] = ~lessThan(S.phi.leaf(n), 0.0f);
     }
     bool any = false;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        if (volumes[pieces[i]] >= 0.0) continue;
-        any = true;
-        const openvdb::Coord cell =
-            openvdb::Coord::floor(openvdb::Vec3d(mesh.positions[i]) / voxel);
+        const bool cavity = volumes[pieces[i]] < 0.0;
+        any = any || cavity;
+        const openvdb::Vec3d x = openvdb::Vec3d(mesh.positions[i]) / voxel;
+        const openvdb::Coord cell = openvdb::Coord::floor(x);
         for (int k = 0; k < 8; ++k) {
             const openvdb::Coord corner = cell.offsetBy(k >> 2, k >> 1 & 1, k & 1);
+            if ((corner.asVec3d() - x).dot(openvdb::Vec3d(mesh.normals[i])) <= 0.0) continue;
             const std::int32_t n = S.table.find(corner);
             if (n != noLeaf)
-                seeds[n].set(int(openvdb::FloatTree::LeafNodeType::coordToOffset(corner)));
+                (cavity ? within : without)[std::size_t(n)].set(
+                    int(openvdb::FloatTree::LeafNodeType::coordToOffset(corner)));
         }
     }
     if (!any) return {};
-    return connectedTo(S.table, positive, seeds);
+    std::vector<LeafMask> cavities = connectedTo(S.table, positive, within);
+    const std::vector<LeafMask> exterior = connectedTo(S.table, positive, without);
+    for (std::size_t n = 0; n < cavities.size(); ++n) cavities[n] &= ~exterior[n];
+    return cavities;
 }
 
 /// Makes voxels inner ones, and the level set a distance again.
@@ -276,15 +285,12 @@ void fillCavities(const std::vector<LeafMask>& cavities, double voxel, DistanceB
 }
 
 /// The level set grid: S made a distance on both sides.
-openvdb::FloatGrid::Ptr surfaceGrid(const DistanceBand& S, double voxel, Progress& progress)
+openvdb::FloatGrid::Ptr surfaceGrid(LeafTable table, LeafField phi, double voxel,
+                                    Progress& progress)
 {
     const double width = surfaceWidthVox * voxel;
-    LeafTable table = S.table;
-    LeafField phi(table.size());
-    parallelFor(table.size(), progress, [&](std::size_t n) {
-        std::copy_n(S.phi.leaf(n), leafSize, phi.leaf(n));
-        table.active(n) &= within(phi.leaf(n), float(width));
-    });
+    parallelFor(table.size(), progress,
+                [&](std::size_t n) { table.active(n) &= within(phi.leaf(n), float(width)); });
     // Two voxels outward from where sheets of S meet: farther out few of them are still wrong.
     LeafField scratch;
     reinitialize(table, phi, voxel, width, 4, scratch, progress);
@@ -371,8 +377,9 @@ void describeCurvature(const Mesh& mesh, const Spline& spline, const Options& op
                        Progress& progress, SurfaceReport& report)
 {
     const std::vector<float> areas = vertexAreas(mesh);
-    report.meanCurvature = statistics(mesh.scalars[0].values, areas);
-    report.gaussianCurvature = statistics(mesh.scalars[1].values, areas);
+    tbb::parallel_invoke(
+        [&] { report.meanCurvature = statistics(mesh.scalars[0].values, areas); },
+        [&] { report.gaussianCurvature = statistics(mesh.scalars[1].values, areas); });
     if (!options.curvatureIntegrals) return;
     constexpr double tolerance = 5.0; // for each unit of the Euler characteristic [sr]
     const int chi = std::max(std::abs(report.eulerCharacteristic), 2);
@@ -399,8 +406,12 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
     ExtractStats stats;
     for (bool filled = false;; filled = true) {
         progress.update("redistance", 0.0);
-        if (!filled || !unionOfBalls) S = distanceBand(balls, band, options, progress);
-        if (!options.fillCavities && !wanted("sas")) band = NarrowBand();
+        if (!filled || !unionOfBalls) {
+            const bool kept = options.fillCavities || wanted("sas");
+            S = distanceBand(balls, band.table, kept ? copied(band.phi) : std::move(band.phi),
+                             options, progress);
+            if (!kept) band = NarrowBand();
+        }
         watch.stop("redistance");
 
         progress.update("spline", 0.0);
@@ -409,7 +420,9 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
         watch.stop("spline");
 
         progress.update("redistance", 0.6);
-        result.surface = surfaceGrid(S, options.voxel, progress);
+        result.surface =
+            surfaceGrid(S.table, options.fillCavities ? copied(S.phi) : std::move(S.phi),
+                        options.voxel, progress);
         watch.stop("redistance");
 
         progress.update("mesh", 0.0);

@@ -20,12 +20,12 @@ LeafPoints scattered(const LeafTable& table, int perLeaf)
 {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> place(-0.9, 7.9);
-    LeafPoints points{table, {0}, {}};
+    LeafPoints points{table, {0}, {}, {}, {}};
     for (std::size_t n = 0; n < table.size(); ++n) {
         for (int i = 0; i < (n % 3 == 0 ? 0 : perLeaf); ++i) {
-            points.positions.emplace_back(place(random), place(random), place(random));
+            for (auto* v : {&points.x, &points.y, &points.z}) v->push_back(float(place(random)));
         }
-        points.begins.push_back(points.positions.size());
+        points.begins.push_back(points.x.size());
     }
     return points;
 }
@@ -36,7 +36,8 @@ std::vector<Vec3d> positionsOf(const LeafPoints& points)
     std::vector<Vec3d> out;
     for (std::size_t n = 0; n < points.table.size(); ++n) {
         for (std::size_t i = points.begins[n]; i < points.begins[n + 1]; ++i)
-            out.push_back(points.table.origin(n).asVec3d() + Vec3d(points.positions[i]));
+            out.push_back(points.table.origin(n).asVec3d() +
+                          Vec3d(points.x[i], points.y[i], points.z[i]));
     }
     return out;
 }
@@ -88,7 +89,7 @@ TEST(NearestPoints, AreTheNearestOfAll)
 TEST(NearestPoints, OfNoPoints)
 {
     const LeafTable table = someLeaves();
-    const LeafPoints points{table, std::vector<std::size_t>(table.size() + 1, 0), {}};
+    const LeafPoints points{table, std::vector<std::size_t>(table.size() + 1, 0), {}, {}, {}};
     NearestScratch scratch;
     std::vector<std::int32_t> found(leafSize, 5);
     nearestPoints(points, Coord(0), ~LeafMask(), 10.0, scratch, found.data());

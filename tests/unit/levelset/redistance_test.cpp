@@ -21,8 +21,8 @@ DistanceBand redistanced(const test::Function& distance, const Vec3d& centre, do
                          double voxel, double inside, double outside)
 {
     const LeafTable table = test::bandTable(distance, centre, extent, voxel, 4.0 * voxel);
-    const LeafField phi = test::filled(table, voxel, distance);
-    return redistance(table, phi, voxel, inside, outside, -0.5 * inside, Progress());
+    LeafField phi = test::filled(table, voxel, distance);
+    return redistance(table, std::move(phi), voxel, inside, outside, -0.5 * inside, Progress());
 }
 
 /// Largest error at the active voxels for which `counts` holds; checks that the active voxels are
