@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
+#include "bricks.h"
 #include "outputs.h"
 #include "sha256.h"
 #include "stop.h"
@@ -36,7 +37,8 @@ std::string shortest(double number)
     return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
 }
 
-// Everything that is needed to make the file again.
+} // namespace
+
 openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
 {
     openvdb::MetaMap map;
@@ -108,11 +110,16 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     text("option.regularizer", nameOf(options.evolution.regularizer));
     text("option.flow", nameOf(options.evolution.flow));
     const int steps = options.evolution.maxSteps;
+    text("option.steps", options.evolution.steps >= 0 ? std::to_string(options.evolution.steps)
+                                                      : "by the stopping rule");
     text("option.max-steps", steps >= 0 ? std::to_string(steps) : "default of the flow");
     number("option.tolerance", options.evolution.energyTolerance);
     count("option.spline-level", options.splineLevel);
     return map;
 }
+
+namespace
+{
 
 void writeOne(const Call& call, const Result& result, Format format, const Progress& progress,
               OutputFile& file)
@@ -177,6 +184,8 @@ void completeReport(const Call& call, std::size_t atoms, double readSeconds,
     seconds.insert(seconds.begin(), {"read", readSeconds});
 }
 
+} // namespace
+
 std::string summary(const Report& report)
 {
     char text[128];
@@ -190,6 +199,9 @@ std::string summary(const Report& report)
     std::snprintf(text, sizeof text, ", %.2f s", report.seconds.back().second);
     return line + text;
 }
+
+namespace
+{
 
 void sayTimes(const Report& report)
 {
@@ -254,7 +266,12 @@ Report buildSurface(const Call& call, Clock::time_point start)
 
 int build(const Call& call, Clock::time_point start)
 {
-    const Report report = buildSurface(call, start);
+    if (call.memory > 0 || call.dryRun) return buildInBricks(call, start);
+    return endOf(buildSurface(call, start));
+}
+
+int endOf(const Report& report)
+{
     const auto& evolution = report.evolution;
     if (evolution && !evolution->converged) {
         say("not converged after " + counted(std::size_t(evolution->steps), "step", "steps") +

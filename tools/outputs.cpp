@@ -34,9 +34,9 @@ std::string counted(std::size_t count, const std::string& one, const std::string
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-void prepareOutputs(const Call& call)
+void prepareOutputs(const Call& call, const std::vector<std::string>& more)
 {
-    std::vector<std::string> temporaries;
+    std::vector<std::string> temporaries = more;
     for (const Output& output : call.outputs) {
         checkWritable(output.path, call.force);
         if (output.path != "-") temporaries.push_back(temporaryName(output.path));

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace molsurf::tool
 {
@@ -33,7 +34,8 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 /// Finds out whether all outputs can be written, and has them cleaned up after a signal. To be
 /// called before any work.
 /// @throws Error(ErrorKind::Output) as checkWritable()
-void prepareOutputs(const Call& call);
+/// @param[in] more  further files and folders to be removed then
+void prepareOutputs(const Call& call, const std::vector<std::string>& more = {});
 
 /// Writes all files, and only when every one is complete puts them in their place. The report comes
 /// last, because it tells how long the others took; standard output, which cannot be taken back,

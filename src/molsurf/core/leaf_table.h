@@ -78,6 +78,10 @@ public:
     /// entry 9 (dx + 1) + 3 (dy + 1) + dz + 1.
     const std::array<std::int32_t, 27>& neighbours(std::size_t n) const { return neighbours_[n]; }
 
+    /// Makes a leaf invisible to its neighbours, as if it were not in the table.
+    void detach(std::size_t n);
+    bool detached(std::size_t n) const { return neighbours_[n][centreNeighbour] == noLeaf; }
+
     /// Index of the leaf that holds a voxel, or noLeaf.
     std::int32_t find(const openvdb::Coord& voxel) const;
 
@@ -109,6 +113,13 @@ LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks,
 
 /// The table without the leaves that have no active voxel.
 LeafTable pruned(const LeafTable& table);
+
+/// The leaves of a table that lie in a box of whole leaves, with their active voxels.
+LeafTable clipped(const LeafTable& table, const openvdb::CoordBBox& box);
+
+/// The values of a field at the leaves of another table, which are all leaves of the first.
+LeafField restricted(const LeafTable& table, const LeafField& field, const LeafTable& to,
+                     const Progress& progress);
 
 /// A level set grid from a field. Active values are copied; inactive ones become plus or minus
 /// background, by the sign of the field in leaves, by flood fill elsewhere.

@@ -306,7 +306,8 @@ LeafMask sideOf(const Coord& origin, const std::int32_t* index, const std::vecto
 } // namespace
 
 DistanceBand redistance(const LeafTable& table, const LeafField& phi, double voxel, double inside,
-                        double outside, double level, const Progress& progress)
+                        double outside, double level, const Progress& progress,
+                        const openvdb::CoordBBox& box)
 {
     std::vector<LeafMask> inner(table.size()), outer(table.size());
     parallelFor(table.size(), progress, [&](std::size_t n) {
@@ -321,8 +322,10 @@ DistanceBand redistance(const LeafTable& table, const LeafField& phi, double vox
     if (seeds.empty()) return DistanceBand();
 
     const auto steps = [&](double width) { return int(std::ceil(width / voxel)); };
-    const LeafTable domain = merged(reachable(table, interface, outer, steps(inside), progress),
-                                    reachable(table, interface, inner, steps(outside), progress));
+    const LeafTable domain =
+        clipped(merged(reachable(table, interface, outer, steps(inside), progress),
+                       reachable(table, interface, inner, steps(outside), progress)),
+                box);
 
     LeafPoints points{table, std::move(begins), std::vector<Vec3d>(seeds.size())};
     parallelFor(seeds.size(), progress, [&](std::size_t i) { points.positions[i] = seeds[i].y; });

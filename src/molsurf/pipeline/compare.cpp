@@ -195,7 +195,7 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
     if (mesh.triangles.empty())
         refuse(gridName(*stored) + ": expected values of both signs, got no surface");
     SurfaceReport report = measure(mesh, progress);
-    if (!report.manifold && splitNonManifold(mesh) > 0) report = measure(mesh, progress);
+    if (!report.manifold && !splitNonManifold(mesh).empty()) report = measure(mesh, progress);
     surface.closed = report.closed;
     operand.size.area = report.area;
     if (report.closed) operand.size.volume = report.volume;

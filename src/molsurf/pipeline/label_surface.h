@@ -22,6 +22,11 @@ namespace molsurf
 void labelSurface(const BallSelection& atoms, const Options& options, double reach,
                   Progress& progress, Result& result);
 
+/// The same for a part of a surface, without the report.
+/// @return area of every group, and at last of no group, on the mesh [Å^2]; empty without groups
+std::vector<double> labelPart(const BallSelection& atoms, const Options& options, double reach,
+                              Progress& progress, Result& result);
+
 /// Colours a mesh by one of its curvatures, if `by` is one: red where it is positive, blue where it
 /// is negative, full at the 95th percentile of its size.
 void colorByCurvature(ColorBy by, Mesh& mesh);

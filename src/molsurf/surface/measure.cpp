@@ -15,16 +15,7 @@ using openvdb::Vec3d;
 namespace
 {
 
-struct Sums {
-    double area = 0.0, volume = 0.0;
-
-    Sums& operator+=(const Sums& other)
-    {
-        area += other.area;
-        volume += other.volume;
-        return *this;
-    }
-};
+using Sums = PieceMeasure;
 
 /// Midpoint of the arc between two points with normals.
 Vec3d arcMidpoint(const Vec3d& p, const Vec3d& m, const Vec3d& q, const Vec3d& n)
@@ -74,6 +65,48 @@ Sums measurePatch(const Mesh& mesh, const std::array<std::uint32_t, 3>& t, const
 
 } // namespace
 
+std::vector<PieceMeasure> measurePieces(const Mesh& mesh, const std::vector<std::uint32_t>& pieces,
+                                        std::size_t count, const Vec3d& origin, std::size_t& flat,
+                                        const Progress& progress)
+{
+    constexpr std::size_t chunk = 2048;
+    const std::size_t chunks = (mesh.triangles.size() + chunk - 1) / chunk;
+    std::vector<std::map<std::uint32_t, Sums>> partial(chunks);
+    std::vector<std::size_t> flats(chunks, 0);
+    parallelFor(chunks, progress, [&](std::size_t c) {
+        const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * chunk);
+        for (std::size_t i = c * chunk; i < end; ++i) {
+            const auto& t = mesh.triangles[i];
+            partial[c][pieces[t[0]]] += measurePatch(mesh, t, origin);
+            const Vec3d a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), d(mesh.positions[t[2]]);
+            flats[c] += (b - a).cross(d - a).lengthSqr() == 0.0;
+        }
+    });
+    std::vector<Sums> sums(count);
+    for (std::size_t c = 0; c < chunks; ++c) {
+        for (const auto& [piece, s] : partial[c]) sums[piece] += s;
+        flat += flats[c];
+    }
+    return sums;
+}
+
+void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report)
+{
+    for (const PieceMeasure& s : pieces) {
+        report.area += s.area;
+        report.volume += s.volume;
+        if (s.volume < 0.0) {
+            report.cavities.push_back({s.area, -s.volume});
+        } else {
+            ++report.components;
+            report.outerArea += s.area;
+            report.outerVolume += s.volume;
+        }
+    }
+    std::stable_sort(report.cavities.begin(), report.cavities.end(),
+                     [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
+}
+
 SurfaceReport measure(const Mesh& mesh, const Progress& progress)
 {
     SurfaceReport report;
@@ -91,38 +124,9 @@ SurfaceReport measure(const Mesh& mesh, const Progress& progress)
     const std::vector<std::uint32_t> pieces = connectedPieces(mesh, count);
 
     // Volumes are taken about a vertex, so that they do not cancel far from the origin.
-    const Vec3d origin(mesh.positions[0]);
-    constexpr std::size_t chunk = 2048;
-    const std::size_t chunks = (mesh.triangles.size() + chunk - 1) / chunk;
-    std::vector<std::map<std::uint32_t, Sums>> partial(chunks);
-    std::vector<std::size_t> flat(chunks, 0);
-    parallelFor(chunks, progress, [&](std::size_t c) {
-        const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * chunk);
-        for (std::size_t i = c * chunk; i < end; ++i) {
-            const auto& t = mesh.triangles[i];
-            partial[c][pieces[t[0]]] += measurePatch(mesh, t, origin);
-            const Vec3d a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), d(mesh.positions[t[2]]);
-            flat[c] += (b - a).cross(d - a).lengthSqr() == 0.0;
-        }
-    });
-    std::vector<Sums> sums(count);
-    for (std::size_t c = 0; c < chunks; ++c) {
-        for (const auto& [piece, s] : partial[c]) sums[piece] += s;
-        report.degenerateTriangles += flat[c];
-    }
-    for (const Sums& s : sums) {
-        report.area += s.area;
-        report.volume += s.volume;
-        if (s.volume < 0.0) {
-            report.cavities.push_back({s.area, -s.volume});
-        } else {
-            ++report.components;
-            report.outerArea += s.area;
-            report.outerVolume += s.volume;
-        }
-    }
-    std::stable_sort(report.cavities.begin(), report.cavities.end(),
-                     [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
+    const std::vector<Sums> sums = measurePieces(mesh, pieces, count, Vec3d(mesh.positions[0]),
+                                                 report.degenerateTriangles, progress);
+    countPieces(sums, report);
     return report;
 }
 
