@@ -166,14 +166,10 @@ Scope brickScope(const Options& options, const Region& region, const GaussianExt
     const auto [inside, outside] = depthOf(options);
     constexpr double overhang = 2.5; // [voxel]
     scope.distanceHalo =
-        scope.splineHalo + leavesFor(std::max(inside, outside) / options.voxel + overhang) + 1;
+        scope.splineHalo + leavesFor(std::max(inside, outside) / options.voxel + overhang);
     // What a step does at a voxel depends on the three voxels about it, and less by some orders of
     // magnitude on those of earlier steps, farther out (docs/adr/0013-bricks.md).
-    scope.flowHalo = scope.distanceHalo + 1;
-    if (options.kind == SurfaceKind::Variational) scope.flowHalo += flowLeaves;
-    if (getenv("FH")) scope.flowHalo = atoi(getenv("FH"));
-    if (getenv("DH")) scope.distanceHalo = atoi(getenv("DH"));
-    if (getenv("SH")) scope.splineHalo = atoi(getenv("SH"));
+    scope.flowHalo = scope.distanceHalo + flowLeaves;
     return scope;
 }
 

@@ -29,7 +29,8 @@ constexpr double surfaceWidthVox = 3.0;
 /// point are up to 2 sqrt(3) away.
 constexpr double splineWidthVox = 4.0;
 
-/// Leaves of the halo for the way that information takes along the interface during the flow.
+/// Leaves of the halo for the initial level set and for the way that information takes along the
+/// interface during the flow.
 constexpr int flowLeaves = 2;
 
 /// What a run computes of a molecule: everything, or a brick. The halos, in leaves about the brick,
