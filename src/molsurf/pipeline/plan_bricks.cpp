@@ -19,15 +19,16 @@ using openvdb::Vec3d;
 namespace
 {
 
-// Measured on capsids (docs/adr/0013-bricks.md): peaks of the resident memory against the leaves
-// that hold atoms or lie beside them, rounded up.
-constexpr double processBytes = 80e6;  // program, libraries, buffers
-constexpr double bytesPerAtom = 48.0;  // of the whole molecule: balls, and what reading them takes
-constexpr double bytesPerNear = 120.0; // of the balls near a brick: cell lists, copies
-constexpr double bytesPerFlowLeaf = 9e3; // within the halo of the flow
-constexpr double bytesPerOwnLeaf = 24e3; // within the halo of the spline
-constexpr double secondsPerLeaf = 1.2e-3, secondsPerFlowLeaf = 0.8e-3; // one core
-constexpr double voxelsPerLeaf = 150.0; // active ones of the grid `surface`
+// Measured on 1F2N and 1M4X at 0.5 to 2 Å and on small proteins: peaks of the resident memory
+// against the leaves that hold atoms or lie beside them. No peak was above 0.9 of what these give,
+// since not all such leaves have a part of the surface.
+constexpr double processBytes = 70e6;      // program, libraries, buffers
+constexpr double bytesPerAtom = 40.0;      // of the whole molecule: balls, and reading them
+constexpr double bytesPerNear = 85.0;      // of the balls near a brick: cell lists, copies
+constexpr double bytesPerFlowLeaf = 6.3e3; // within the halo of the flow
+constexpr double bytesPerOwnLeaf = 17e3;   // within the halo of the spline
+constexpr double secondsPerLeaf = 0.5e-3, secondsPerFlowLeaf = 0.35e-3; // one core
+constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
 constexpr int smallest = 4;             // leaves along the shortest edge of a brick that is cut
 
 /// Leaves that may have a part of the surface, with the number of balls whose centres are in each.
