@@ -275,7 +275,7 @@ int endOf(const Report& report)
     const auto& evolution = report.evolution;
     if (evolution && !evolution->converged) {
         say("not converged after " + counted(std::size_t(evolution->steps), "step", "steps") +
-            "; the files are written [hint: --max-steps or --tolerance]");
+            "; the files are written [hint: --max-steps (with bricks --steps) or --tolerance]");
         return notConvergedStatus;
     }
     return 0;

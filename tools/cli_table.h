@@ -4,6 +4,7 @@
 /// @file
 /// Options as the help shows them, and the tables of the verbs that work brick by brick.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 

@@ -57,7 +57,11 @@ PlyLayout commonLayout(const std::vector<BrickFile>& bricks)
 /// Statistics of the float at a place of each vertex record.
 Statistics statisticsOf(const std::vector<BrickFile>& bricks, std::size_t place)
 {
+    std::size_t vertices = 0;
+    for (const BrickFile& brick : bricks) vertices += brick.header().vertices.count;
     std::vector<float> values, areas;
+    values.reserve(vertices);
+    areas.reserve(vertices);
     for (const BrickFile& brick : bricks) {
         const BrickHeader& h = brick.header();
         const std::size_t size = h.layout.vertexSize();

@@ -97,6 +97,9 @@ struct Skeleton {
     std::size_t bytes = 0;     // of the grid, once it is loaded
 };
 
+// What a leaf without values knows: the signs of its ends, and its number in a list of places.
+constexpr int signBits = 2;
+
 template<typename T>
 T valueFrom(const std::vector<double>& numbers)
 {
@@ -119,7 +122,7 @@ Skeleton skeletonOf(const std::vector<BrickFile>& bricks, std::size_t g, double 
     grid->setGridClass(openvdb::GridBase::stringToGridClass(first.gridClass));
     grid->setName(first.name);
 
-    std::map<Coord, Place> places;
+    std::vector<Place> places;
     for (std::size_t b = 0; b < bricks.size(); ++b) {
         const auto leaves = bricks[b].read<StoredLeaf>(bricks[b].header().grids[g].leaves);
         for (const StoredLeaf& stored : leaves) {
@@ -129,17 +132,18 @@ Skeleton skeletonOf(const std::vector<BrickFile>& bricks, std::size_t g, double 
             for (int x = 0; x < 8; ++x)
                 mask.template getWord<openvdb::Index64>(x) = stored.mask[std::size_t(x)];
             leaf->setValueMask(mask);
-            leaf->setTransientData(stored.negative);
+            leaf->setTransientData(openvdb::Index32(places.size()) << signBits | stored.negative);
             grid->tree().addLeaf(leaf);
-            places.emplace(origin, Place{std::uint32_t(b), stored.offset, stored.size});
+            places.push_back({std::uint32_t(b), stored.offset, stored.size});
         }
     }
     if constexpr (std::is_same_v<Value, float>) {
         if (grid->getGridClass() == openvdb::GRID_LEVEL_SET) floodRoot(grid->tree());
     }
     Skeleton out{grid, {}, 0};
+    out.leaves.reserve(places.size());
     for (auto leaf = grid->tree().cbeginLeaf(); leaf; ++leaf)
-        out.leaves.push_back(places.at(leaf->origin()));
+        out.leaves.push_back(places[leaf->transientData() >> signBits]);
     out.bytes = std::size_t(grid->tree().memUsage()) + out.leaves.size() * 512 * sizeof(Value);
     return out;
 }

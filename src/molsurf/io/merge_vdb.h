@@ -21,7 +21,7 @@ struct MergedSize {
 };
 
 /// Writes grids with the bricks' leaves: what writeVdb() writes of the grids of the whole. The
-/// trees are held without values, some 150 bytes a leaf.
+/// trees are held without values, some 200 bytes a leaf.
 ///
 /// @param[in] bricks    all of a plan
 /// @param[in] voxel     voxel edge [Å]

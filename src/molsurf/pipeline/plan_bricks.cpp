@@ -28,6 +28,8 @@ constexpr double bytesPerNear = 85.0;      // of the balls near a brick: cell li
 constexpr double bytesPerFlowLeaf = 6.3e3; // within the halo of the flow
 constexpr double bytesPerOwnLeaf = 17e3;   // within the halo of the spline
 constexpr double secondsPerLeaf = 0.5e-3, secondsPerFlowLeaf = 0.35e-3; // one core
+constexpr double bytesToMerge =
+    7.0; // an active voxel: leaves without values, statistics of vertices
 constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
 constexpr int smallest = 4;             // leaves along the shortest edge of a brick that is cut
 
@@ -187,14 +189,18 @@ public:
             cutToFit(memory, first, out);
             cutToFit(memory, second, out);
         } else {
-            char text[160];
-            std::snprintf(text, sizeof text,
-                          "--memory: the smallest brick needs %.2f GB, and there are %.2f [hint: "
-                          "--memory %.1fG, or a larger --voxel]",
-                          double(brick.bytes) / 1e9, double(memory) / 1e9,
-                          std::ceil(1.1e-8 * double(brick.bytes)) / 10.0);
-            throw Error(ErrorKind::Input, text);
+            tooLittle("the smallest brick", double(brick.bytes), memory);
         }
+    }
+
+    [[noreturn]] static void tooLittle(const char* what, double bytes, std::size_t memory)
+    {
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "--memory: %s needs %.2f GB, and there are %.2f [hint: --memory %.1fG, or a "
+                      "larger --voxel]",
+                      what, bytes / 1e9, double(memory) / 1e9, std::ceil(1.1e-8 * bytes) / 10.0);
+        throw Error(ErrorKind::Input, text);
     }
 
 private:
@@ -236,6 +242,10 @@ BrickPlan makePlan(const BallSelection& atoms, const Options& options, const Bri
     const CoordBBox& box = planner.box();
     if (limits.memory > 0) {
         planner.cutToFit(limits.memory, box, plan.bricks);
+        double voxels = 0.0;
+        for (const PlannedBrick& brick : plan.bricks) voxels += double(brick.voxels);
+        const double merge = processBytes + bytesToMerge * voxels;
+        if (merge > double(limits.memory)) Planner::tooLittle("the merge", merge, limits.memory);
     } else {
         planner.cutInto(std::max<std::size_t>(limits.bricks, 1), box, plan.bricks);
     }
