@@ -73,15 +73,6 @@ LeafTable::LeafTable(std::vector<Coord> origins)
     });
 }
 
-void LeafTable::detach(std::size_t n)
-{
-    for (int k = 0; k < 27; ++k) {
-        const std::int32_t m = neighbours_[n][k];
-        if (m != noLeaf) neighbours_[std::size_t(m)][26 - k] = noLeaf;
-        neighbours_[n][k] = noLeaf;
-    }
-}
-
 std::int32_t LeafTable::find(const Coord& voxel) const
 {
     const Coord origin = voxel & ~(leafDim - 1);
@@ -174,8 +165,8 @@ LeafTable dilated(const LeafTable& table, int steps, Spread spread, const Progre
     added.erase(std::unique(added.begin(), added.end()), added.end());
     std::vector<Coord> origins;
     origins.reserve(table.size() + added.size());
-    std::set_union(table.origins().begin(), table.origins().end(), added.begin(), added.end(),
-                   std::back_inserter(origins)); // detached leaves may be in both
+    std::merge(table.origins().begin(), table.origins().end(), added.begin(), added.end(),
+               std::back_inserter(origins));
     LeafTable out(std::move(origins));
 
     std::vector<LeafMask> now(out.size()), next(out.size());
@@ -212,11 +203,17 @@ LeafTable pruned(const LeafTable& table)
 
 LeafTable clipped(const LeafTable& table, const openvdb::CoordBBox& box)
 {
-    LeafTable kept = table;
-    for (std::size_t n = 0; n < kept.size(); ++n) {
-        if (!box.isInside(kept.origin(n))) kept.active(n) = LeafMask();
+    if (box == openvdb::CoordBBox::inf()) return table;
+    std::vector<Coord> origins;
+    std::vector<LeafMask> masks;
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        if (!box.isInside(table.origin(n))) continue;
+        origins.push_back(table.origin(n));
+        masks.push_back(table.active(n));
     }
-    return pruned(kept);
+    LeafTable out(std::move(origins)); // already in ascending order
+    for (std::size_t n = 0; n < out.size(); ++n) out.active(n) = masks[n];
+    return out;
 }
 
 LeafField restricted(const LeafTable& table, const LeafField& field, const LeafTable& to,

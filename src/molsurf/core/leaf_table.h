@@ -78,10 +78,6 @@ public:
     /// entry 9 (dx + 1) + 3 (dy + 1) + dz + 1.
     const std::array<std::int32_t, 27>& neighbours(std::size_t n) const { return neighbours_[n]; }
 
-    /// Makes a leaf invisible to its neighbours, as if it were not in the table.
-    void detach(std::size_t n);
-    bool detached(std::size_t n) const { return neighbours_[n][centreNeighbour] == noLeaf; }
-
     /// Index of the leaf that holds a voxel, or noLeaf.
     std::int32_t find(const openvdb::Coord& voxel) const;
 

@@ -9,7 +9,9 @@
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -83,7 +85,6 @@ void fillFromNeighbours(const NarrowBand& old, const LeafTable& table, std::size
     std::array<std::int32_t, 27> known;
     for (int k = 0; k < 27; ++k) {
         known[k] = near[k] == noLeaf ? noLeaf : old.table.find(table.origin(near[k]));
-        if (known[k] != noLeaf && old.table.detached(known[k])) known[k] = noLeaf;
     }
     for (int v = 0; v < leafSize; ++v) {
         const int x = v >> 6, y = v >> 3 & 7, z = v & 7;
@@ -103,8 +104,22 @@ void fillFromNeighbours(const NarrowBand& old, const LeafTable& table, std::size
     }
 }
 
-/// Makes the active voxels those within the band of the interface; adds and drops leaves as needed.
-/// What happens to a leaf depends on the leaves about it alone.
+/// A table with the leaves of another one, too, where these have no active voxel.
+LeafTable withLeavesOf(const LeafTable& table, const LeafTable& other)
+{
+    std::vector<openvdb::Coord> origins;
+    std::set_union(table.origins().begin(), table.origins().end(), other.origins().begin(),
+                   other.origins().end(), std::back_inserter(origins));
+    LeafTable out(std::move(origins));
+    for (std::size_t n = 0, m = 0; n < out.size() && m < table.size(); ++n) {
+        if (table.origin(m) == out.origin(n)) out.active(n) = table.active(m++);
+    }
+    return out;
+}
+
+/// Makes the active voxels those within the band of the interface; adds leaves as needed. None is
+/// dropped: that would change what stencils beside it see, and what happens at a voxel would depend
+/// on whether any leaf, anywhere, has to be added in the same step.
 /// @param[in] domain  where leaves may be
 void track(NarrowBand& band, const PsiSource& source, double voxel, double width,
            const openvdb::CoordBBox& domain, Progress& progress)
@@ -138,19 +153,17 @@ void track(NarrowBand& band, const PsiSource& source, double voxel, double width
     if (complete) {
         parallelFor(band.table.size(), progress,
                     [&](std::size_t n) { wanted[n] = dilatedMask(band.table, inside, n, false); });
-        for (std::size_t n = 0; n < band.table.size(); ++n) {
-            band.table.active(n) = wanted[n];
-            if (!wanted[n].any() && !band.table.detached(n)) band.table.detach(n);
-        }
+        for (std::size_t n = 0; n < band.table.size(); ++n) band.table.active(n) = wanted[n];
         return;
     }
     NarrowBand grown;
-    grown.table = clipped(dilated(band.table, 1, Spread::Ball, progress), domain);
+    grown.table =
+        withLeavesOf(clipped(dilated(band.table, 1, Spread::Ball, progress), domain), band.table);
     grown.phi = LeafField(grown.table.size());
     grown.psi = LeafField(grown.table.size());
     parallelFor(grown.table.size(), progress, [&](std::size_t n) {
         const std::int32_t m = band.table.find(grown.table.origin(n));
-        if (m != noLeaf && !band.table.detached(m)) {
+        if (m != noLeaf) {
             std::copy_n(band.phi.leaf(m), leafSize, grown.phi.leaf(n));
             std::copy_n(band.psi.leaf(m), leafSize, grown.psi.leaf(n));
         } else {

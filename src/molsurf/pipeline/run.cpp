@@ -4,10 +4,7 @@
 #include "molsurf/bspline/fit.h"
 #include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/evolution/evolve.h"
 #include "molsurf/levelset/cavities.h"
-#include "molsurf/levelset/initial_surface.h"
-#include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/pipeline/fields.h"
 #include "molsurf/pipeline/interfaces.h"
@@ -16,7 +13,6 @@
 #include "molsurf/pipeline/parts.h"
 #include "molsurf/pipeline/stages.h"
 #include "molsurf/rasterize/boundary_measure.h"
-#include "molsurf/rasterize/gaussian_sum.h"
 #include "molsurf/rasterize/union_distance.h"
 #include "molsurf/surface/extract.h"
 #include "molsurf/surface/integrate.h"
@@ -25,7 +21,6 @@
 #include "molsurf/surface/topology.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace molsurf
