@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
+#include "bricks.h"
 #include "outputs.h"
 #include "stop.h"
 #include "terminal.h"
@@ -64,6 +65,8 @@ void completeReport(const Call& call, std::size_t atoms, double readSeconds,
     seconds.insert(seconds.begin(), {"read", readSeconds});
 }
 
+} // namespace
+
 std::string summary(const Report& report)
 {
     char text[128];
@@ -77,6 +80,9 @@ std::string summary(const Report& report)
     std::snprintf(text, sizeof text, ", %.2f s", report.seconds.back().second);
     return line + text;
 }
+
+namespace
+{
 
 void sayTimes(const Report& report)
 {
@@ -155,11 +161,16 @@ Report buildSurface(const Call& asked, Clock::time_point start)
 
 int build(const Call& call, Clock::time_point start)
 {
-    const Report report = buildSurface(call, start);
+    if (call.memory > 0 || call.dryRun) return buildInBricks(call, start);
+    return endOf(buildSurface(call, start));
+}
+
+int endOf(const Report& report)
+{
     const auto& evolution = report.evolution;
     if (evolution && !evolution->converged) {
         say("not converged after " + counted(std::size_t(evolution->steps), "step", "steps") +
-            "; the files are written [hint: --max-steps or --tolerance]");
+            "; the files are written [hint: --max-steps (with bricks --steps) or --tolerance]");
         return notConvergedStatus;
     }
     return 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "cli.h"
 
+#include "cli_table.h"
 #include "sidecar.h"
 
 #include "molsurf/core/error.h"
@@ -27,20 +28,6 @@ namespace po = boost::program_options;
 
 namespace
 {
-
-// One option: how it is parsed and what --help says of it.
-struct Entry {
-    const char* name;   // "output,o": long name, and short name if there is one
-    const char* value;  // what follows the option; nullptr for a switch
-    std::string text;   // '\n' starts a new line
-    std::string preset; // the default as --help shows it; empty for none
-    bool repeats = false;
-};
-
-struct Group {
-    const char* title;
-    std::vector<Entry> entries;
-};
 
 // What --fields takes, `surface` first.
 const std::vector<std::string> knownFields = [] {
@@ -186,6 +173,7 @@ const std::vector<Group>& groups()
           {"regularizer", "KIND", "gradient or area", nameOf(preset.evolution.regularizer)},
           {"flow", "KIND", "preconditioned or plain", nameOf(preset.evolution.flow)},
           {"max-steps", "N", "steps at most", "50; plain: 2000"},
+          {"steps", "N", "so many steps, converged or not", ""},
           {"tolerance", "T",
            "converged when the energy changes by less, relative\n"
            "(and the mean displacement is below sqrt(T) voxels)",
@@ -193,7 +181,12 @@ const std::vector<Group>& groups()
           {"spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2",
            std::to_string(preset.splineLevel)}}},
         {"Run",
-         {{"threads,j", "N", "threads at most", "all"},
+         {{"memory", "SIZE",
+           "memory at most, such as 4G: in bricks, one by one, if\n"
+           "the whole takes more; then --steps is fixed [16]",
+           ""},
+          {"dry-run", nullptr, "say what it takes, and stop", ""},
+          {"threads,j", "N", "threads at most", "all"},
           {"quiet,q", nullptr, "print errors only", ""},
           {"verbose,v", nullptr, "print the time of every stage", ""},
           {"no-progress", nullptr, "no progress bar", ""},
@@ -239,33 +232,46 @@ const std::vector<Group>& batchGroups()
     return all;
 }
 
+std::string longName(const Entry& entry)
+{
+    const std::string name = entry.name;
+    return name.substr(0, name.find(','));
+}
+
 // The groups of a verb, in the order of its help.
 std::vector<Group> groupsOf(Verb verb)
 {
     if (verb == Verb::Build) return groups();
-    if (verb == Verb::Batch) {
-        std::vector<Group> all = batchGroups();
-        all.insert(all.end(), groups().begin() + 1, groups().end());
-        return all;
+    const bool partial =
+        verb == Verb::Brick || verb == Verb::Merge; // of a plan, which has the rest
+    std::vector<Group> all = verb == Verb::Batch   ? batchGroups()
+                             : verb == Verb::Plan  ? planGroups()
+                             : verb == Verb::Brick ? brickGroups()
+                             : verb == Verb::Merge ? mergeGroups()
+                                                   : compareGroups();
+    for (Group group : groups()) {
+        const std::string title = group.title;
+        const bool process = title == "Run" || title == "Information";
+        if (title == "Output" || (partial && !process)) continue;
+        if ((title == "Picture" || title == "Scene") && verb != Verb::Batch) continue;
+        if (title == "Groups" && verb == Verb::Compare) continue;
+        if (title == "Run") {
+            const auto elsewhere = [&](const Entry& entry) {
+                const std::string name = longName(entry);
+                return name == "memory" || name == "dry-run" || (partial && name == "config");
+            };
+            group.entries.erase(
+                std::remove_if(group.entries.begin(), group.entries.end(), elsewhere),
+                group.entries.end());
+        }
+        all.push_back(group);
     }
-    std::vector<Group> all = compareGroups();
-    std::copy_if(groups().begin() + 1, groups().end(), std::back_inserter(all),
-                 [](const Group& group) {
-                     const std::string title = group.title;
-                     return title != "Groups" && title != "Scene" && title != "Picture";
-                 });
     return all;
 }
 
 [[noreturn]] void misuse(const std::string& message)
 {
     throw Error(ErrorKind::Usage, message);
-}
-
-std::string longName(const Entry& entry)
-{
-    const std::string name = entry.name;
-    return name.substr(0, name.find(','));
 }
 
 po::options_description describeOptions(Verb verb)
@@ -303,7 +309,7 @@ public:
         return 0;
     }
 
-    bool on(const char* name) const { return map_[name].as<bool>(); }
+    bool on(const char* name) const { return map_.count(name) && map_[name].as<bool>(); }
     bool given(const char* name) const { return map_.count(name) && !map_[name].defaulted(); }
 
     // Leaves `value` alone if the option was not given.
@@ -601,6 +607,15 @@ void fillPicture(const Values& values, Call& call)
     if (frames > 0) addFrames(frames, call);
 }
 
+std::size_t memoryOf(const Values& values)
+{
+    std::string text;
+    values.get("memory", text);
+    const std::size_t bytes = text.empty() ? 0 : parseSize(text);
+    if (!text.empty() && bytes == 0) values.wrong("memory", "a size such as 500M or 4G");
+    return bytes;
+}
+
 void fillBuild(const Values& values, Call& call)
 {
     const std::vector<std::string> inputs = values.list("input");
@@ -609,7 +624,9 @@ void fillBuild(const Values& values, Call& call)
         misuse("expected one INPUT, got '" + inputs[0] + "' and '" + inputs[1] + "'");
     call.input = inputs[0];
     if (call.input.empty()) misuse("expected the name of a file as INPUT, got an empty word");
-    call.outputs = outputsOf(values);
+    call.dryRun = values.on("dry-run");
+    call.memory = memoryOf(values);
+    if (!call.dryRun || !values.list("output").empty()) call.outputs = outputsOf(values);
     fillRun(values, call);
     fillScene(values, call);
     fillGroups(values, call);
@@ -665,8 +682,8 @@ void fillResolutions(const Values& values, Call& call)
         call.warnings.push_back("--match-volume is for --resolution");
 }
 
-// What all verbs that build a surface take.
-void fillRun(const Values& values, Call& call)
+// What all verbs but info take.
+void fillProcess(const Values& values, Call& call)
 {
     call.force = values.on("force");
     call.quiet = values.on("quiet");
@@ -674,7 +691,12 @@ void fillRun(const Values& values, Call& call)
     call.progress = !values.on("no-progress") && !call.quiet;
     if (call.quiet && call.verbose) misuse("--quiet and --verbose together");
     values.get("threads", call.threads, 1, 4096);
+}
 
+// What all verbs that build a surface take.
+void fillRun(const Values& values, Call& call)
+{
+    fillProcess(values, call);
     Options& options = call.options;
     values.get("select", options.atoms.select);
     values.get("model", options.atoms.model, 1, 1000000000);
@@ -704,6 +726,9 @@ void fillRun(const Values& values, Call& call)
     values.get("regularizer", evolution.regularizer, {Regularizer::Gradient, Regularizer::Area});
     values.get("flow", evolution.flow, {Flow::Preconditioned, Flow::Plain});
     values.get("max-steps", evolution.maxSteps, 0, 1000000);
+    values.get("steps", evolution.steps, 0, 1000000);
+    if (values.given("steps") && values.given("max-steps"))
+        misuse("--steps and --max-steps together");
     values.get("tolerance", evolution.energyTolerance);
     // Near its minimum the energy is quadratic in the displacement.
     evolution.displacementTolerance = std::sqrt(evolution.energyTolerance);
@@ -716,7 +741,7 @@ void fillRun(const Values& values, Call& call)
     };
     if (!builds(SurfaceKind::Variational)) {
         for (const char* name : {"epsilon", "resolution", "match-volume", "lambda", "regularizer",
-                                 "flow", "max-steps", "tolerance"}) {
+                                 "flow", "max-steps", "steps", "tolerance"}) {
             if (values.given(name))
                 call.warnings.push_back(std::string("--") + name + " is for --surface variational");
         }
@@ -840,6 +865,94 @@ void fillBatch(const Values& values, const po::parsed_options& parsed, Call& cal
     call.given = {line};
 }
 
+// The words of a command line that say what surface is wanted.
+std::vector<std::string> surfaceWords(const po::parsed_options& parsed)
+{
+    std::vector<std::string> words;
+    for (const auto& option : parsed.options) {
+        const std::string& name = option.string_key;
+        const auto has = [&](const Group& group) {
+            const std::string title = group.title;
+            return title != "Output" && title != "Bricks" && title != "Run" &&
+                   std::any_of(group.entries.begin(), group.entries.end(),
+                               [&](const Entry& e) { return longName(e) == name; });
+        };
+        const std::vector<Group> all = groupsOf(Verb::Plan);
+        if (name != "config" && std::none_of(all.begin(), all.end(), has)) continue;
+        if (option.value.empty()) words.push_back("--" + name);
+        for (const std::string& value : option.value) words.push_back("--" + name + "=" + value);
+    }
+    return words;
+}
+
+// Files that options were read from.
+std::vector<std::string> filesRead(const Values& values, const Call& call)
+{
+    std::vector<std::string> files;
+    for (const char* name : {"config", "groups"}) {
+        std::string file;
+        values.get(name, file);
+        if (!file.empty()) files.push_back(file);
+    }
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(call.options.atoms.radii, ignored))
+        files.push_back(call.options.atoms.radii);
+    return files;
+}
+
+void fillPlan(const Values& values, const po::parsed_options& parsed, Call& call)
+{
+    const std::vector<std::string> inputs = values.list("input");
+    if (inputs.size() != 1 || inputs[0].empty() || inputs[0] == "-")
+        misuse("plan: expected one structure file, got " + std::to_string(inputs.size()) +
+               " [hint: vdb_molsurf plan molecule.cif -o plan.json --bricks 8]");
+    call.input = inputs[0];
+    std::string path;
+    values.get("output", path);
+    if (path.empty()) misuse("plan: nothing to write [hint: -o plan.json]");
+    if (path == "-" || formatOf(path) != Format::Json)
+        misuse("-o " + path + ": expected a name that ends in .json");
+    call.outputs = {{path, Format::Json, "", 0.0}};
+    int bricks = 0;
+    values.get("bricks", bricks, 1, 1000000);
+    call.bricks = std::size_t(bricks);
+    call.memory = memoryOf(values);
+    if ((bricks > 0) == (call.memory > 0))
+        misuse("plan: expected either --bricks N or --memory SIZE");
+    fillRun(values, call);
+    fillGroups(values, call);
+    call.given = surfaceWords(parsed);
+    call.read = filesRead(values, call);
+}
+
+void fillBrick(const Values& values, Call& call)
+{
+    const std::vector<std::string> words = values.list("input");
+    if (words.size() != 2)
+        misuse("brick: expected a plan and the number of a brick [hint: vdb_molsurf brick "
+               "plan.json 1]");
+    call.input = words[0];
+    const char *begin = words[1].data(), *end = begin + words[1].size();
+    const auto [stop, problem] = std::from_chars(begin, end, call.bricks);
+    if (problem != std::errc() || stop != end || call.bricks == 0)
+        misuse("brick: expected a number from 1 on, got '" + words[1] + "'");
+    fillProcess(values, call);
+}
+
+void fillMerge(const Values& values, Call& call)
+{
+    const std::vector<std::string> words = values.list("input");
+    if (words.size() != 1 || words[0].empty())
+        misuse("merge: expected one plan [hint: vdb_molsurf merge plan.json -o surface.vdb]");
+    call.input = words[0];
+    call.outputs = outputsOf(values);
+    for (const Output& output : call.outputs)
+        if (output.format != Format::Vdb && output.format != Format::Ply &&
+            output.format != Format::Json)
+            misuse("-o " + output.path + ": merge writes .vdb, .ply or .json");
+    fillProcess(values, call);
+}
+
 Call parseBuild(int argc, const char* const* argv, Verb verb)
 {
     const po::options_description all = describeOptions(verb);
@@ -862,6 +975,9 @@ Call parseBuild(int argc, const char* const* argv, Verb verb)
     if (values.on("help"))
         call.verb = verb == Verb::Compare ? Verb::CompareHelp
                     : verb == Verb::Batch ? Verb::BatchHelp
+                    : verb == Verb::Plan  ? Verb::PlanHelp
+                    : verb == Verb::Brick ? Verb::BrickHelp
+                    : verb == Verb::Merge ? Verb::MergeHelp
                                           : Verb::Help;
     else if (values.on("version"))
         call.verb = Verb::Version;
@@ -876,6 +992,12 @@ Call parseBuild(int argc, const char* const* argv, Verb verb)
         fillCompare(values, map, call);
     else if (verb == Verb::Batch)
         fillBatch(values, parsed, call);
+    else if (verb == Verb::Plan)
+        fillPlan(values, parsed, call);
+    else if (verb == Verb::Brick)
+        fillBrick(values, call);
+    else if (verb == Verb::Merge)
+        fillMerge(values, call);
     else
         fillBuild(values, call);
     return call;
@@ -912,6 +1034,8 @@ std::string quoted(const std::string& word)
     return all + "'";
 }
 
+} // namespace
+
 std::string helpLine(const Entry& entry)
 {
     const std::string name = entry.name;
@@ -932,8 +1056,6 @@ std::string helpLine(const Entry& entry)
     return line + "\n";
 }
 
-} // namespace
-
 const char* nameOf(Regularizer regularizer)
 {
     return regularizer == Regularizer::Gradient ? "gradient" : "area";
@@ -953,6 +1075,9 @@ Call parseCall(int argc, const char* const* argv)
         Call call = first == "info"      ? parseInfo(argc, argv)
                     : first == "batch"   ? parseBuild(argc - 1, argv + 1, Verb::Batch)
                     : first == "compare" ? parseBuild(argc - 1, argv + 1, Verb::Compare)
+                    : first == "plan"    ? parseBuild(argc - 1, argv + 1, Verb::Plan)
+                    : first == "brick"   ? parseBuild(argc - 1, argv + 1, Verb::Brick)
+                    : first == "merge"   ? parseBuild(argc - 1, argv + 1, Verb::Merge)
                                          : parseBuild(argc, argv, Verb::Build);
         call.command = command;
         return call;
@@ -969,6 +1094,7 @@ std::string helpText()
         "vdb_molsurf INPUT -o FILE [-o FILE ...] [options]\n"
         "vdb_molsurf batch LIST -O DIR [options]\n"
         "vdb_molsurf compare A B [-o FILE ...] [options]\n"
+        "vdb_molsurf plan INPUT -o plan.json, brick plan.json K, merge plan.json -o FILE\n"
         "vdb_molsurf info FILE ...\n"
         "\n"
         "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .pqr .xyzr,\n"

@@ -32,10 +32,16 @@ enum class Verb {
     Batch,
     Compare,
     Info,
+    Plan,
+    Brick,
+    Merge,
     Help,
     BatchHelp,
     CompareHelp,
     InfoHelp,
+    PlanHelp,
+    BrickHelp,
+    MergeHelp,
     ListRadii,
     Version
 };
@@ -44,7 +50,8 @@ enum class Verb {
 struct Call {
     Verb verb = Verb::Build;
     std::string command;         ///< the command line as typed, quoted for a shell
-    std::string input;           ///< Build: a file, or "-"; Batch: the list, likewise
+    std::string input;           ///< Build, Plan: a file, or "-"; Batch: the list, likewise; Brick,
+                                 ///< Merge: the manifest of a plan
     std::string folder;          ///< Batch: where the files go
     std::vector<Output> outputs; ///< Build: at least one; Batch: extensions in the place of paths
     std::vector<std::string> files; ///< Info: at least one; Compare: two
@@ -57,7 +64,12 @@ struct Call {
     bool colorBySign = false;       ///< Compare: by the signed distance
     double colorRange = 0.0;        ///< Compare: distance at the end of the colours [Å]; 0: choose
     std::vector<std::string> given; ///< Compare: options that are for structures only; Batch: one
-                                    ///< line, all that the surfaces depend on
+                                    ///< line, all that the surfaces depend on; Plan: the words
+                                    ///< that make the options
+    std::vector<std::string> read;  ///< Plan: files that the options were read from
+    std::size_t bricks = 0;         ///< Plan: how many; 0: by `memory`. Brick: the number of one
+    std::size_t memory = 0;         ///< Plan, Build: bytes at most; 0: no limit
+    bool dryRun = false;            ///< Build: only say what it takes
     int threads = 0;                ///< 0: as many as there are
     bool force = false;
     bool quiet = false;
@@ -81,6 +93,11 @@ std::string compareHelpText();
 
 /// The text of `info --help`.
 std::string infoHelpText();
+
+/// The texts of `plan --help`, `brick --help` and `merge --help`: cli_bricks.cpp.
+std::string planHelpText();
+std::string brickHelpText();
+std::string mergeHelpText();
 
 /// The words the options use for these values.
 const char* nameOf(Regularizer regularizer);

@@ -47,6 +47,21 @@ int perform(const Call& call, std::chrono::steady_clock::time_point start)
         return 0;
     case Verb::Batch:
         return batch(call);
+    case Verb::PlanHelp:
+        std::cout << planHelpText();
+        return 0;
+    case Verb::BrickHelp:
+        std::cout << brickHelpText();
+        return 0;
+    case Verb::MergeHelp:
+        std::cout << mergeHelpText();
+        return 0;
+    case Verb::Plan:
+        return plan(call);
+    case Verb::Brick:
+        return brick(call);
+    case Verb::Merge:
+        return merge(call, start);
     case Verb::Build:
         return build(call, start);
     }

@@ -38,9 +38,9 @@ std::string counted(std::size_t count, const std::string& one, const std::string
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-void prepareOutputs(const Call& call)
+void prepareOutputs(const Call& call, const std::vector<std::string>& more)
 {
-    std::vector<std::string> temporaries;
+    std::vector<std::string> temporaries = more;
     for (const Output& output : call.outputs) {
         checkWritable(output.path, mayReplace(call, output));
         if (output.path != "-") temporaries.push_back(temporaryName(output.path));
@@ -50,7 +50,7 @@ void prepareOutputs(const Call& call)
 
 void writeOutputs(const Call& call, Terminal& terminal,
                   const std::function<void(const Output&, OutputFile&)>& writeOne,
-                  const std::function<void(double)>& timed)
+                  const std::function<void(double)>& timed, bool sideBySide)
 {
     std::vector<Output> outputs = call.outputs;
     std::stable_sort(outputs.begin(), outputs.end(), [](const Output& a, const Output& b) {
@@ -69,7 +69,9 @@ void writeOutputs(const Call& call, Terminal& terminal,
     };
     // Files are written side by side; standard output and the report, which tells the time of the
     // others, after them.
-    const auto apart = [](const Output& o) { return o.format != Format::Json && o.path != "-"; };
+    const auto apart = [&](const Output& o) {
+        return sideBySide && o.format != Format::Json && o.path != "-";
+    };
     terminal.update("write", 0.0);
     for (const Output& output : outputs) {
         if (!apart(output)) break;

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace molsurf::tool
 {
@@ -33,7 +34,8 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 /// Finds out whether all outputs can be written, and has them cleaned up after a signal. To be
 /// called before any work.
 /// @throws Error(ErrorKind::Output) as checkWritable()
-void prepareOutputs(const Call& call);
+/// @param[in] more  further files and folders to be removed then
+void prepareOutputs(const Call& call, const std::vector<std::string>& more = {});
 
 /// Writes all files, and only when every one is complete puts them in their place. The report comes
 /// last, because it tells how long the others took; standard output, which cannot be taken back,
@@ -42,8 +44,9 @@ void prepareOutputs(const Call& call);
 /// @param[in] writeOne  writes one of them
 /// @param[in] timed     is called once with the seconds that writing took, before the report is
 ///                      written or else at the end
+/// @param[in] sideBySide  files other than reports are written at the same time
 void writeOutputs(const Call& call, Terminal& terminal,
                   const std::function<void(const Output&, OutputFile&)>& writeOne,
-                  const std::function<void(double)>& timed);
+                  const std::function<void(double)>& timed, bool sideBySide = true);
 
 } // namespace molsurf::tool

@@ -28,7 +28,9 @@ static_assert(std::atomic<bool>::is_always_lock_free, "used in signal handlers")
 // Only what a signal handler may do.
 [[noreturn]] void leave(const char* text, int status)
 {
-    for (const std::string& name : *names) unlink(name.c_str());
+    for (const std::string& name : *names) {
+        if (unlink(name.c_str()) != 0) rmdir(name.c_str());
+    }
     const auto print = [](const char* words) {
         const ssize_t printed = write(STDERR_FILENO, words, std::strlen(words));
         static_cast<void>(printed); // there is nobody left to tell

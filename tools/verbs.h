@@ -33,6 +33,19 @@ int batch(const Call& call);
 /// @param[in] start  when the program began, for the total time
 int compare(const Call& call, std::chrono::steady_clock::time_point start);
 
+/// Cuts the space about a molecule into bricks and writes a manifest: plan.cpp.
+int plan(const Call& call);
+
+/// Computes one brick of a plan: brick.cpp.
+int brick(const Call& call);
+
+/// Joins the bricks of a plan: merge.cpp.
+/// @param[in] start  when the program began, for the total time
+int merge(const Call& call, std::chrono::steady_clock::time_point start);
+
+/// Builds a surface within --memory, or only says what it takes (--dry-run): build_in_bricks.cpp.
+int buildInBricks(const Call& call, std::chrono::steady_clock::time_point start);
+
 /// Prints what files hold: info.cpp.
 int info(const Call& call);
 

@@ -31,7 +31,8 @@ std::string shortest(double number)
     return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
 }
 
-// Everything that is needed to make the file again.
+} // namespace
+
 openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
 {
     openvdb::MetaMap map;
@@ -110,11 +111,16 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     text("option.regularizer", nameOf(options.evolution.regularizer));
     text("option.flow", nameOf(options.evolution.flow));
     const int steps = options.evolution.maxSteps;
+    text("option.steps", options.evolution.steps >= 0 ? std::to_string(options.evolution.steps)
+                                                      : "by the stopping rule");
     text("option.max-steps", steps >= 0 ? std::to_string(steps) : "default of the flow");
     number("option.tolerance", options.evolution.energyTolerance);
     count("option.spline-level", options.splineLevel);
     return map;
 }
+
+namespace
+{
 
 openvdb::GridCPtrVec gridsOf(const Call& call, const Result& result)
 {

@@ -10,7 +10,7 @@ import unittest
 
 from tool import ROOT, TOOL, ToolTest
 
-PAGES = [ROOT / "README.md", ROOT / "docs" / "complexes.md", ROOT / "docs" / "artists.md"]
+PAGES = [ROOT / "README.md", *(ROOT / "docs" / name for name in ("complexes.md", "artists.md", "pipelines.md"))]
 
 
 def blocks(language, page=PAGES[0]):
@@ -41,10 +41,13 @@ class Readme(ToolTest):
     def test_commands_of_the_artists_guide(self):
         self.run_commands(PAGES[2])
 
+    def test_commands_of_the_pipelines(self):
+        self.run_commands(PAGES[3])
+
     def run_commands(self, page):
         """In the order of the page and in one folder, since later ones use files of earlier ones."""
         commands = blocks("sh", page)
-        self.assertGreaterEqual(len(commands), 3)
+        self.assertGreaterEqual(len(commands), 2)
         path = f"{self.folder / 'bin'}:{os.environ['PATH']}"
         for block in commands:
             with self.subTest(block):
@@ -59,7 +62,7 @@ class Readme(ToolTest):
 
     def test_options_are_in_the_help(self):
         """Every option that the pages name is one that --help or a verb's --help names."""
-        text = b"".join(self.check(0, *words, "--help").stdout for words in ([], ["batch"], ["compare"]))
+        text = b"".join(self.check(0, *words, "--help").stdout for words in ([], ["batch"], ["compare"], ["plan"], ["brick"], ["merge"]))
         text = text.decode()
         known = set(re.findall(r"--[a-z][a-z-]*", text))
         spans = [span for page in PAGES

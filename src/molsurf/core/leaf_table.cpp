@@ -304,6 +304,32 @@ LeafTable pruned(const LeafTable& table)
     return out;
 }
 
+LeafTable clipped(const LeafTable& table, const openvdb::CoordBBox& box)
+{
+    if (box == openvdb::CoordBBox::inf()) return table;
+    std::vector<Coord> origins;
+    std::vector<LeafMask> masks;
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        if (!box.isInside(table.origin(n))) continue;
+        origins.push_back(table.origin(n));
+        masks.push_back(table.active(n));
+    }
+    LeafTable out(std::move(origins)); // already in ascending order
+    for (std::size_t n = 0; n < out.size(); ++n) out.active(n) = masks[n];
+    return out;
+}
+
+LeafField restricted(const LeafTable& table, const LeafField& field, const LeafTable& to,
+                     const Progress& progress)
+{
+    LeafField out(to.size());
+    parallelFor(to.size(), progress, [&](std::size_t n) {
+        const std::int32_t m = table.find(to.origin(n));
+        std::copy_n(field.leaf(std::size_t(m)), leafSize, out.leaf(n));
+    });
+    return out;
+}
+
 openvdb::FloatGrid::Ptr toLevelSet(const LeafTable& table, const LeafField& field, double halfWidth,
                                    double voxel, const Progress& progress)
 {

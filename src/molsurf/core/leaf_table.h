@@ -133,6 +133,13 @@ LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks,
 /// The table without the leaves that have no active voxel.
 LeafTable pruned(const LeafTable& table);
 
+/// The leaves of a table that lie in a box of whole leaves, with their active voxels.
+LeafTable clipped(const LeafTable& table, const openvdb::CoordBBox& box);
+
+/// The values of a field at the leaves of another table, which are all leaves of the first.
+LeafField restricted(const LeafTable& table, const LeafField& field, const LeafTable& to,
+                     const Progress& progress);
+
 /// A level set grid from a field. Active values are copied; inactive ones become plus or minus
 /// background, by the sign of the field in leaves, by flood fill elsewhere.
 ///

@@ -44,7 +44,8 @@ void curvatureFromSpline(const Spline& spline, const openvdb::Coord& origin, dou
 Spline coarseSpline(const NarrowBand& band, double voxel, int level, const Progress& progress)
 {
     const double width = (flowWidthVox + 3.5 * (1 << level)) * voxel;
-    const DistanceBand wide = redistance(band.table, copied(band.phi), voxel, width, width, 0.0, progress);
+    const DistanceBand wide =
+        redistance(band.table, copied(band.phi), voxel, width, width, 0.0, progress);
     return fitSpline(wide.table, wide.phi, voxel, level, progress);
 }
 
@@ -52,10 +53,12 @@ Spline coarseSpline(const NarrowBand& band, double voxel, int level, const Progr
 /// @param[in]  coarse  the spline that gives the curvature, or null for differences
 /// @param[out] next    phi after it
 StepSums step(const NarrowBand& band, double voxel, const Spline* coarse, const Weights& weights,
-              const StepSize& size, LeafField& next, const Progress& progress)
+              const StepSize& size, LeafField& next, const Region& region, const Progress& progress)
 {
     // Positions are taken from the first leaf: volumes then do not cancel far from the origin.
-    const openvdb::Coord first = band.table.size() ? band.table.origin(0) : openvdb::Coord();
+    const openvdb::Coord first = !region.whole()     ? region.anchor
+                                 : band.table.size() ? band.table.origin(0)
+                                                     : openvdb::Coord();
     return parallelSum<StepSums>(band.table.size(), progress, [&](std::size_t n) {
         LeafBlock<float, 1> phi, psi;
         phi.gather(band.table, band.phi, n);
@@ -66,9 +69,10 @@ StepSums step(const NarrowBand& band, double voxel, const Spline* coarse, const 
             curvatureFromSpline(*coarse, band.table.origin(n), voxel, band.table.active(n),
                                 band.phi.leaf(n), shape);
         }
-        return flowStep(phi, psi, shape, band.table.active(n),
-                        (band.table.origin(n) - first).asVec3d() * voxel, float(voxel), weights,
-                        size, next.leaf(n));
+        const StepSums sums = flowStep(phi, psi, shape, band.table.active(n),
+                                       (band.table.origin(n) - first).asVec3d() * voxel,
+                                       float(voxel), weights, size, next.leaf(n));
+        return region.owned.isInside(band.table.origin(n)) ? sums : StepSums();
     });
 }
 
@@ -99,9 +103,25 @@ void fillFromNeighbours(const NarrowBand& old, const LeafTable& table, std::size
     }
 }
 
-/// Makes the active voxels those within the band of the interface; adds and drops leaves as needed.
+/// A table with the leaves of another one, too, where these have no active voxel.
+LeafTable withLeavesOf(const LeafTable& table, const LeafTable& other)
+{
+    std::vector<openvdb::Coord> origins = table.origins();
+    for (const openvdb::Coord& origin : other.origins()) {
+        if (table.find(origin) == noLeaf) origins.push_back(origin);
+    }
+    LeafTable out(std::move(origins));
+    for (std::size_t n = 0; n < table.size(); ++n)
+        out.active(std::size_t(out.find(table.origin(n)))) = table.active(n);
+    return out;
+}
+
+/// Makes the active voxels those within the band of the interface; adds leaves as needed. None is
+/// dropped: that would change what stencils beside it see, and what happens at a voxel would depend
+/// on whether any leaf, anywhere, has to be added in the same step.
+/// @param[in] domain  where leaves may be
 void track(NarrowBand& band, const PsiSource& source, double voxel, double width,
-           Progress& progress)
+           const openvdb::CoordBBox& domain, Progress& progress)
 {
     // The voxels that are certainly within the band, and one step around them.
     const float core = float(width - voxel);
@@ -119,10 +139,15 @@ void track(NarrowBand& band, const PsiSource& source, double voxel, double width
         const auto& w = inside[n].words;
         std::uint64_t all = 0;
         for (const std::uint64_t word : w) all |= word;
-        complete = complete && !(w[0] && near[4] == noLeaf) && !(w[7] && near[22] == noLeaf) &&
-                   !((all & 0xff) && near[10] == noLeaf) && !((all >> 56) && near[16] == noLeaf) &&
-                   !((all & 0x0101010101010101ull) && near[12] == noLeaf) &&
-                   !((all & 0x8080808080808080ull) && near[14] == noLeaf);
+        const auto lacks = [&](int k) {
+            return near[k] == noLeaf &&
+                   domain.isInside(band.table.origin(n).offsetBy(
+                       leafDim * (k / 9 - 1), leafDim * (k / 3 % 3 - 1), leafDim * (k % 3 - 1)));
+        };
+        complete = complete && !(w[0] && lacks(4)) && !(w[7] && lacks(22)) &&
+                   !((all & 0xff) && lacks(10)) && !((all >> 56) && lacks(16)) &&
+                   !((all & 0x0101010101010101ull) && lacks(12)) &&
+                   !((all & 0x8080808080808080ull) && lacks(14));
     }
     if (complete) {
         parallelFor(band.table.size(), progress,
@@ -131,7 +156,8 @@ void track(NarrowBand& band, const PsiSource& source, double voxel, double width
         return;
     }
     NarrowBand grown;
-    grown.table = dilated(band.table, 1, Spread::Ball, progress);
+    grown.table =
+        withLeavesOf(clipped(dilated(band.table, 1, Spread::Ball, progress), domain), band.table);
     grown.phi = LeafField(grown.table.size());
     grown.psi = LeafField(grown.table.size());
     parallelFor(grown.table.size(), progress, [&](std::size_t n) {
@@ -161,11 +187,16 @@ double remainingWay(const std::vector<double>& displacement)
 } // namespace
 
 EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
-                       const EvolveOptions& options, Progress& progress)
+                       const EvolveOptions& options, Progress& progress, const Region& region,
+                       int halo)
 {
     const bool preconditioned = options.flow == Flow::Preconditioned;
     const bool gradient = options.regularizer == Regularizer::Gradient;
-    const int maxSteps = options.maxSteps >= 0 ? options.maxSteps : preconditioned ? 50 : 2000;
+    const bool fixed = options.steps >= 0;
+    const int maxSteps = fixed                   ? options.steps
+                         : options.maxSteps >= 0 ? options.maxSteps
+                         : preconditioned        ? 50
+                                                 : 2000;
     const Weights weights{gradient ? float(options.lambda) : 0.0f,
                           gradient ? 0.0f : float(options.lambda)};
     const double width = bandWidthVox * voxel;
@@ -184,20 +215,20 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
             // Explicit Euler for a stiffness P is stable up to 2/P; the longest step is limited
             // anyway.
             const StepSums before =
-                step(band, voxel, spline, weights, {true, 0.0f}, next, progress);
+                step(band, voxel, spline, weights, {true, 0.0f}, next, region, progress);
             size = {false, 0.8f / before.maxSecond};
         }
-        const StepSums sums = step(band, voxel, spline, weights, size, next, progress);
+        const StepSums sums = step(band, voxel, spline, weights, size, next, region, progress);
         if (!std::isfinite(sums.energy) || !std::isfinite(sums.displacement)) {
             throw Error(ErrorKind::Numeric, "evolve: step " + std::to_string(report.steps) +
                                                 ": the energy is not a number");
         }
-        if (sums.area == 0.0) {
+        if (sums.area == 0.0 && region.whole()) {
             throw Error(ErrorKind::Numeric,
                         "evolve: step " + std::to_string(report.steps) +
                             ": nothing is left of the surface [hint: a smaller --lambda]");
         }
-        if (!report.energy.empty()) {
+        if (!report.energy.empty() && sums.energy > 0.0) {
             const double change = std::abs(sums.energy - report.energy.back()) / sums.energy;
             report.converged = change < options.energyTolerance &&
                                lastDisplacement < options.displacementTolerance * voxel;
@@ -207,19 +238,29 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
         report.volume.push_back(sums.volume);
         report.creviceVoxels = sums.crevices;
         report.remainingWay = remainingWay(report.meanDisplacement);
-        if (report.converged || report.steps == maxSteps) break;
+        if ((report.converged && !fixed) || report.steps == maxSteps) break;
 
-        lastDisplacement = sums.displacement / sums.area;
+        lastDisplacement = sums.area > 0.0 ? sums.displacement / sums.area : 0.0;
         report.meanDisplacement.push_back(lastDisplacement);
         report.maxSpeed.push_back(sums.maxSpeed);
         ++report.steps;
         progress.update("evolve", double(report.steps) / maxSteps);
         std::swap(band.phi, next);
         reinitialize(band.table, band.phi, voxel, width, reinitializations, next, progress);
-        track(band, source, voxel, width, progress);
+        track(band, source, voxel, width, region.grown(halo), progress);
         if (next.leafCount() != band.table.size()) next = LeafField(band.table.size());
     }
     return report;
+}
+
+void judge(const EvolveOptions& options, double voxel, EvolutionReport& report)
+{
+    report.remainingWay = remainingWay(report.meanDisplacement);
+    const std::size_t n = report.energy.size();
+    if (n < 2) return;
+    const double change = std::abs(report.energy[n - 1] - report.energy[n - 2]);
+    report.converged = change < options.energyTolerance * report.energy[n - 1] &&
+                       report.meanDisplacement[n - 2] < options.displacementTolerance * voxel;
 }
 
 } // namespace molsurf

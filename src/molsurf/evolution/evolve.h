@@ -6,6 +6,7 @@
 
 #include "molsurf/core/leaf_table.h"
 #include "molsurf/core/progress.h"
+#include "molsurf/core/region.h"
 #include "molsurf/core/report.h"
 #include "molsurf/evolution/options.h"
 
@@ -33,15 +34,22 @@ using PsiSource = std::function<void(const openvdb::Coord& origin, float* psi)>;
 /// again by reinitialize(); leaves are added and dropped as the interface moves.
 ///
 /// Stops when in a step the energy changes by less than options.energyTolerance and the mean
-/// displacement is below options.displacementTolerance; or after options.maxSteps. Where steps are
-/// small because the voxels are (the bound of explicit diffusion), that can be far from rest:
-/// EvolutionReport::remainingWay tells how far.
+/// displacement is below options.displacementTolerance; or after options.maxSteps; with
+/// options.steps after just so many. Where steps are small because the voxels are (the bound of
+/// explicit diffusion), that can be far from rest: EvolutionReport::remainingWay tells how far.
 ///
 /// @param[in,out] band    as initialSurface() makes it
 /// @param[in]     source  psi for leaves that are added
 /// @param[in]     voxel   voxel edge h [Å]
+/// @param[in]     region  where leaves may be added: those that the band has must lie there, too;
+///                        the report's sums are of its own voxels only, and may be empty
+/// @param[in]     halo    of the region, in leaves
 /// @throws Error(ErrorKind::Numeric) if a value is not finite, or if nothing is left of the surface
 EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
-                       const EvolveOptions& options, Progress& progress);
+                       const EvolveOptions& options, Progress& progress, const Region& region = {},
+                       int halo = 0);
+
+/// Whether the last step of a history meets the stopping rule, and how far it has yet to go.
+void judge(const EvolveOptions& options, double voxel, EvolutionReport& report);
 
 } // namespace molsurf

@@ -21,6 +21,7 @@ struct EvolveOptions {
     Regularizer regularizer = Regularizer::Gradient;
     Flow flow = Flow::Preconditioned;
     int maxSteps = -1; ///< < 0: 50 for the preconditioned flow, 2000 for the plain one
+    int steps = -1;    ///< >= 0: so many, whether it has converged or not
     int splineLevel =
         0; ///< curvature by the spline on voxels of edge 2^level h; 0: on h, by differences
     double energyTolerance = 1e-4;       ///< relative change of the energy in a step

@@ -2,6 +2,8 @@
 #include "molsurf/io/write_mesh.h"
 
 #include "molsurf/core/error.h"
+#include "molsurf/io/output_buffer.h"
+#include "molsurf/io/ply_layout.h"
 
 #include <algorithm>
 #include <charconv>
@@ -16,62 +18,13 @@ namespace molsurf
 namespace
 {
 
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "PLY and STL are written as they lie");
-static_assert(sizeof(openvdb::Vec3f) == 3 * sizeof(float), "a position is three floats");
-
-// Collects small pieces and hands them on in large ones.
-class Buffer
-{
-public:
-    explicit Buffer(OutputFile& file) : file_(file), bytes_(capacity) {}
-
-    // A place for `size` bytes, which is at most a few hundred.
-    char* take(std::size_t size)
-    {
-        if (used_ + size > capacity) flush();
-        char* place = bytes_.data() + used_;
-        used_ += size;
-        return place;
-    }
-
-    // Gives back what the last take() asked too much.
-    void untake(std::size_t size) { used_ -= size; }
-
-    void flush()
-    {
-        file_.write(bytes_.data(), used_);
-        used_ = 0;
-    }
-
-private:
-    static constexpr std::size_t capacity = std::size_t(1) << 20;
-    OutputFile& file_;
-    std::vector<char> bytes_;
-    std::size_t used_ = 0;
-};
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "STL is written as it lies");
 
 template<typename T>
 char* put(char* to, const T& value)
 {
     std::memcpy(to, &value, sizeof(T));
     return to + sizeof(T);
-}
-
-std::string plyHeader(const Mesh& mesh, const std::vector<std::string>& comments)
-{
-    std::string header = "ply\nformat binary_little_endian 1.0\n";
-    for (const std::string& comment : comments) header += "comment " + comment + "\n";
-    header += "element vertex " + std::to_string(mesh.positions.size()) + "\n";
-    for (const char* name : {"x", "y", "z", "nx", "ny", "nz"})
-        header += std::string("property float ") + name + "\n";
-    for (const auto& scalar : mesh.scalars) header += "property float " + scalar.name + "\n";
-    for (const auto& label : mesh.labels) header += "property int " + label.name + "\n";
-    if (!mesh.colors.empty())
-        for (const char* name : {"red", "green", "blue"})
-            header += std::string("property uchar ") + name + "\n";
-    header += "element face " + std::to_string(mesh.triangles.size()) + "\n";
-    header += "property list uchar int vertex_indices\nend_header\n";
-    return header;
 }
 
 // Appends the letters of a line: "v 1.5 2 3\n", "f 1//1 2//2 3//3\n".
@@ -143,26 +96,16 @@ std::string inOneWord(std::string name)
 
 void writePly(const Mesh& mesh, OutputFile& file, const std::vector<std::string>& comments)
 {
-    const std::string header = plyHeader(mesh, comments);
+    const PlyLayout layout = layoutOf(mesh);
+    const std::string header =
+        plyHeader(layout, mesh.positions.size(), mesh.triangles.size(), comments);
     file.write(header.data(), header.size());
 
     Buffer buffer(file);
-    const std::size_t vertexSize = 2 * sizeof(openvdb::Vec3f) +
-                                   4 * (mesh.scalars.size() + mesh.labels.size()) +
-                                   (mesh.colors.empty() ? 0 : 3);
-    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
-        char* to = buffer.take(vertexSize);
-        to = put(to, mesh.positions[n]);
-        to = put(to, mesh.normals[n]);
-        for (const auto& scalar : mesh.scalars) to = put(to, scalar.values[n]);
-        for (const auto& label : mesh.labels) to = put(to, label.values[n]);
-        if (!mesh.colors.empty()) to = put(to, mesh.colors[n]);
-    }
-    for (const auto& triangle : mesh.triangles) {
-        char* to = buffer.take(1 + sizeof triangle);
-        *to = 3;
-        put(to + 1, triangle);
-    }
+    const std::size_t size = layout.vertexSize();
+    for (std::size_t n = 0; n < mesh.positions.size(); ++n)
+        encodeVertex(mesh, n, buffer.take(size));
+    for (const auto& triangle : mesh.triangles) encodeTriangle(triangle, buffer.take(13));
     buffer.flush();
     file.finish();
 }

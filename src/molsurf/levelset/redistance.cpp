@@ -413,7 +413,8 @@ private:
 } // namespace
 
 DistanceBand redistance(const LeafTable& table, LeafField phi, double voxel, double inside,
-                        double outside, double level, const Progress& progress)
+                        double outside, double level, const Progress& progress,
+                        const openvdb::CoordBBox& box)
 {
     std::vector<LeafMask> inner(table.size()), outer(table.size());
     parallelFor(table.size(), progress, [&](std::size_t n) {
@@ -429,8 +430,10 @@ DistanceBand redistance(const LeafTable& table, LeafField phi, double voxel, dou
     if (seeds.empty()) return DistanceBand();
 
     const auto steps = [&](double width) { return int(std::ceil(width / voxel)); };
-    const LeafTable domain = merged(reachable(table, interface, outer, steps(inside), progress),
-                                    reachable(table, interface, inner, steps(outside), progress));
+    const LeafTable domain =
+        clipped(merged(reachable(table, interface, outer, steps(inside), progress),
+                       reachable(table, interface, inner, steps(outside), progress)),
+                box);
 
     LeafPoints points{table, std::move(begins), {}, {}, {}};
     for (auto* v : {&points.x, &points.y, &points.z}) v->resize(seeds.size());

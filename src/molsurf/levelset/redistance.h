@@ -28,8 +28,10 @@ namespace molsurf
 /// @param[in] phi      near its zero set a smooth signed distance [Å]; freed when it has been read
 /// @param[in] voxel    voxel edge h [Å]
 /// @param[in] inside,outside  depth and height of the result [Å]
+/// @param[in] box      of whole leaves, outside of which no result is wanted
 /// @param[in] level    the level set of the result that is wanted, which gets the best distances
 DistanceBand redistance(const LeafTable& table, LeafField phi, double voxel, double inside,
-                        double outside, double level, const Progress& progress);
+                        double outside, double level, const Progress& progress,
+                        const openvdb::CoordBBox& box = openvdb::CoordBBox::inf());
 
 } // namespace molsurf

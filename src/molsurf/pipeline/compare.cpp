@@ -122,7 +122,7 @@ Spline fitted(const FloatGrid& grid, const Progress& progress)
     const float full = std::abs(grid.background()) * (1.0f - 1e-6f);
     for (std::size_t n = 0; n < given.size(); ++n) given.active(n) &= within(values.leaf(n), full);
     const double width = splineWidthVox * voxel;
-    DistanceBand band = redistance(given, std::move(values), voxel, width, width, 0.0, progress);
+    DistanceBand band = redistance(given, copied(values), voxel, width, width, 0.0, progress);
     parallelFor(band.table.size(), progress, [&](std::size_t n) {
         const std::int32_t m = given.find(band.table.origin(n));
         if (m == noLeaf) return;
@@ -195,7 +195,7 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
     if (mesh.triangles.empty())
         refuse(gridName(*stored) + ": expected values of both signs, got no surface");
     SurfaceReport report = measure(mesh, progress);
-    if (!report.manifold && splitNonManifold(mesh) > 0) report = measure(mesh, progress);
+    if (!report.manifold && !splitNonManifold(mesh).empty()) report = measure(mesh, progress);
     surface.closed = report.closed;
     operand.size.area = report.area;
     if (report.closed) operand.size.volume = report.volume;

@@ -254,8 +254,12 @@ void reportGroups(const BallSelection& atoms, const Options& options, const Labe
 
 } // namespace
 
-void labelSurface(const BallSelection& atoms, const Options& options, double reach,
-                  Progress& progress, Result& result)
+namespace
+{
+
+/// Labels and colours. @return the ball of each vertex
+Labels label(const BallSelection& atoms, const Options& options, double reach, Progress& progress,
+             Result& result)
 {
     const auto wanted = [&](const char* field) {
         return std::find(options.fields.begin(), options.fields.end(), field) !=
@@ -263,7 +267,7 @@ void labelSurface(const BallSelection& atoms, const Options& options, double rea
     };
     Mesh& mesh = result.mesh;
     const Labels atomOf = atomsOf(atoms.balls);
-    const Labels nearest = nearestBalls(atoms.balls, mesh.positions, reach, progress);
+    Labels nearest = nearestBalls(atoms.balls, mesh.positions, reach, progress);
     mesh.labels.push_back({"atom_id", taken(nearest, atomOf)});
     const bool grouped = atoms.labels && !atoms.labels->groups.empty();
     if (atoms.labels) mesh.labels.push_back({"chain_id", taken(nearest, atoms.labels->chainOf)});
@@ -276,7 +280,6 @@ void labelSurface(const BallSelection& atoms, const Options& options, double rea
             atoms.colors.empty() ? ballColors(atoms, options.color, progress) : atoms.colors;
         mesh.colors = colorsOf(nearest, ballColor);
     }
-    if (grouped) reportGroups(atoms, options, nearest, reach, progress, result);
 
     const bool colors = wanted("Cd") && !ballColor.empty();
     const auto addColors = [&] {
@@ -284,7 +287,10 @@ void labelSurface(const BallSelection& atoms, const Options& options, double rea
         result.fields.push_back(
             colorGrid(*result.surface, wanted("density"), atoms.balls, ballColor, reach, progress));
     };
-    if (!wanted("atom_id") && !wanted("chain_id") && !wanted("group_id")) return addColors();
+    if (!wanted("atom_id") && !wanted("chain_id") && !wanted("group_id")) {
+        addColors();
+        return nearest;
+    }
     std::vector<Vec3f> points;
     for (auto it = result.surface->cbeginValueOn(); it; ++it) {
         points.emplace_back(result.surface->indexToWorld(it.getCoord()));
@@ -302,6 +308,25 @@ void labelSurface(const BallSelection& atoms, const Options& options, double rea
             labelGrid(*result.surface, "group_id", taken(owner, atoms.labels->groupOf)));
     }
     addColors();
+    return nearest;
+}
+
+} // namespace
+
+void labelSurface(const BallSelection& atoms, const Options& options, double reach,
+                  Progress& progress, Result& result)
+{
+    const Labels nearest = label(atoms, options, reach, progress, result);
+    if (atoms.labels && !atoms.labels->groups.empty())
+        reportGroups(atoms, options, nearest, reach, progress, result);
+}
+
+std::vector<double> labelPart(const BallSelection& atoms, const Options& options, double reach,
+                              Progress& progress, Result& result)
+{
+    const Labels nearest = label(atoms, options, reach, progress, result);
+    if (!atoms.labels || atoms.labels->groups.empty()) return {};
+    return groupAreas(atoms.balls, *atoms.labels, nearest, result.mesh);
 }
 
 } // namespace molsurf

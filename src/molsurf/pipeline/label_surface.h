@@ -22,4 +22,9 @@ namespace molsurf
 void labelSurface(const BallSelection& atoms, const Options& options, double reach,
                   Progress& progress, Result& result);
 
+/// The same for a part of a surface, without the report.
+/// @return area of every group, and at last of no group, on the mesh [Å^2]; empty without groups
+std::vector<double> labelPart(const BallSelection& atoms, const Options& options, double reach,
+                              Progress& progress, Result& result);
+
 } // namespace molsurf

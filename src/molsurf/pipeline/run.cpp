@@ -4,10 +4,7 @@
 #include "molsurf/bspline/fit.h"
 #include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/evolution/evolve.h"
 #include "molsurf/levelset/cavities.h"
-#include "molsurf/levelset/initial_surface.h"
-#include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/levelset/thicken.h"
 #include "molsurf/pipeline/curvature_colors.h"
@@ -16,8 +13,8 @@
 #include "molsurf/pipeline/label_surface.h"
 #include "molsurf/pipeline/match_volume.h"
 #include "molsurf/pipeline/parts.h"
+#include "molsurf/pipeline/stages.h"
 #include "molsurf/rasterize/boundary_measure.h"
-#include "molsurf/rasterize/gaussian_sum.h"
 #include "molsurf/rasterize/union_distance.h"
 #include "molsurf/surface/extract.h"
 #include "molsurf/surface/integrate.h"
@@ -28,7 +25,6 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace molsurf
@@ -36,173 +32,6 @@ namespace molsurf
 
 namespace
 {
-
-/// Half width of the grid `surface` [voxel].
-constexpr double surfaceWidthVox = 3.0;
-
-/// How far from S = 0 the spline needs samples [voxel]: the corners of the 4^3 coefficients about a
-/// point are up to 2 sqrt(3) away.
-constexpr double splineWidthVox = 4.0;
-
-/// Wall seconds of the stages, in their order; a stage may come more than once.
-class Stopwatch
-{
-public:
-    explicit Stopwatch(Report& report) : report_(report) {}
-    void stop(const char* stage)
-    {
-        const auto now = Clock::now();
-        const double seconds = std::chrono::duration<double>(now - start_).count();
-        start_ = now;
-        for (auto& [name, sum] : report_.seconds) {
-            if (name != stage) continue;
-            sum += seconds;
-            return;
-        }
-        report_.seconds.emplace_back(stage, seconds);
-    }
-
-private:
-    using Clock = std::chrono::steady_clock;
-    Report& report_;
-    Clock::time_point start_ = Clock::now();
-};
-
-/// psi and the level set of psi = 0.
-NarrowBand gaussianBand(const GaussianSum& field, double voxel, Progress& progress,
-                        Stopwatch& watch)
-{
-    progress.update("density", 0.0);
-    NarrowBand band;
-    band.table = field.band(bandWidthVox, progress);
-    if (band.table.size() == 0) {
-        throw Error(ErrorKind::Numeric,
-                    "density: no voxel lies inside the surface [hint: a smaller "
-                    "--voxel]");
-    }
-    progress.update("density", 0.6);
-    band.psi = field.evaluate(band.table, progress);
-    watch.stop("density");
-
-    progress.update("initial", 0.0);
-    band.phi = initialSurface(band.table, band.psi, voxel, bandWidthVox * voxel, progress);
-    watch.stop("initial");
-    return band;
-}
-
-/// How far from the balls of a sum psi is wanted [Å]: stencils reach a voxel beyond the band, along
-/// diagonals.
-double gaussianReach(double voxel)
-{
-    return (bandWidthVox + 1.5) * voxel;
-}
-
-/// The initial level set and the flow.
-NarrowBand evolveSurface(const BallSelection& atoms, const Options& options, Progress& progress,
-                         Report& report, Stopwatch& watch)
-{
-    const double h = options.voxel, reach = gaussianReach(h);
-    const GaussianSum field(atoms.balls, {options.probe, options.epsilon, 0.0, h, reach},
-                            atoms.decays);
-    NarrowBand band = gaussianBand(field, h, progress, watch);
-
-    progress.update("evolve", 0.0);
-    const auto source = [&](const openvdb::Coord& origin, float* psi) {
-        field.evaluate(origin, reach, psi);
-    };
-    EvolveOptions evolution = options.evolution;
-    evolution.splineLevel = options.splineLevel;
-    report.evolution = evolve(band, source, h, evolution, progress);
-    watch.stop("evolve");
-    constexpr double noticeable = 0.1; // [voxel]
-    if (report.evolution->converged && report.evolution->remainingWay > noticeable * h) {
-        report.warnings.push_back(
-            "evolve: the steps are small, but the interface still creeps [hint: a "
-            "smaller --tolerance and more --max-steps]");
-    }
-    return band;
-}
-
-/// The level set that a smooth surface is offset from; empty for surfaces of a union of balls.
-NarrowBand makeBand(const BallSelection& atoms, const Options& options, Progress& progress,
-                    Report& report, Stopwatch& watch)
-{
-    switch (options.kind) {
-    case SurfaceKind::Variational: {
-        NarrowBand band = evolveSurface(atoms, options, progress, report, watch);
-        band.psi = LeafField();
-        return band;
-    }
-    case SurfaceKind::Gaussian: {
-        const double h = options.voxel;
-        const GaussianSum field(atoms.balls, {0.0, 0.0, options.blobbiness, h, gaussianReach(h)});
-        NarrowBand band = gaussianBand(field, h, progress, watch);
-        band.psi = LeafField();
-        return band;
-    }
-    default:
-        return NarrowBand();
-    }
-}
-
-/// How far the surface lies inside the set whose distance is known [Å].
-double offsetOf(const Options& options)
-{
-    return options.kind == SurfaceKind::Variational || options.kind == SurfaceKind::SolventExcluded
-               ? options.probe
-               : 0.0;
-}
-
-/// The probe that the balls of a union surface are grown by [Å].
-double grownBy(const Options& options)
-{
-    return options.kind == SurfaceKind::VanDerWaals ? 0.0 : options.probe;
-}
-
-/// S = Phi + r_b on a band that holds the coefficients of every point of the surface.
-/// @param[in] table,phi  the level set that a smooth surface is offset from
-DistanceBand distanceBand(const std::vector<Ball>& balls, const LeafTable& table, LeafField phi,
-                          const Options& options, Progress& progress)
-{
-    const double h = options.voxel, width = splineWidthVox * h * (1 << options.splineLevel);
-    const double offset = offsetOf(options);
-    const double grown = 0.5 * options.minWall;
-    const double inside = offset + width + grown, outside = std::max(width - offset, h) + grown;
-    DistanceBand S;
-    if (options.kind == SurfaceKind::Variational || options.kind == SurfaceKind::Gaussian) {
-        S = redistance(table, std::move(phi), h, inside, outside, -offset, progress);
-    } else {
-        const double probe = grownBy(options);
-        const BallBoundary boundary = ballBoundary(balls, probe, progress);
-        S = distanceToUnion(balls, probe, boundary, h, inside, outside, progress);
-    }
-    if (offset > 0.0) {
-        parallelFor(S.table.size(), progress, [&](std::size_t n) {
-            for (int v = 0; v < leafSize; ++v) S.phi.leaf(n)[v] += float(offset);
-        });
-    }
-    if (options.minWall > 0.0) thickenWalls(S, h, options.minWall, width, progress);
-    return S;
-}
-
-/// Replaces S near its zero set by the values of a coarser spline, so that signs and values agree
-/// with it.
-void resample(DistanceBand& S, const Spline& spline, double voxel, Progress& progress)
-{
-    const float width = float(splineWidthVox * voxel);
-    parallelFor(S.table.size(), progress, [&](std::size_t n) {
-        SplineSampler sampler(spline);
-        LeafMask near;
-        S.table.active(n).forEach([&](int v) {
-            float& value = S.phi.leaf(n)[v];
-            if (std::abs(value) >= width) return;
-            const openvdb::Coord ijk = S.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
-            value = float(sampler.at(ijk.asVec3d() * voxel).value);
-            near.set(v);
-        });
-        S.table.active(n) = near;
-    });
-}
 
 /// The voxels of the cavities of a surface.
 /// @param[in] mesh  of S = 0
@@ -284,21 +113,6 @@ void fillCavities(const std::vector<LeafMask>& cavities, double voxel, DistanceB
     });
 }
 
-/// The level set grid: S made a distance on both sides.
-openvdb::FloatGrid::Ptr surfaceGrid(LeafTable table, LeafField phi, double voxel,
-                                    Progress& progress)
-{
-    const double width = surfaceWidthVox * voxel;
-    parallelFor(table.size(), progress,
-                [&](std::size_t n) { table.active(n) &= within(phi.leaf(n), float(width)); });
-    // Two voxels outward from where sheets of S meet: farther out few of them are still wrong.
-    LeafField scratch;
-    reinitialize(table, phi, voxel, width, 4, scratch, progress);
-    auto grid = toLevelSet(table, phi, width, voxel, progress);
-    grid->setName("surface");
-    return grid;
-}
-
 /// Replaces area, volume and pieces by those of the union of balls itself. A mesh bridges what is
 /// narrower than a voxel: creases and small cavities.
 void measureExactly(const std::vector<Ball>& balls, const Options& options, Progress& progress,
@@ -332,46 +146,6 @@ void measureExactly(const std::vector<Ball>& balls, const Options& options, Prog
     }
 }
 
-/// Shares of the vertices near kinks, and of the others with a unit gradient.
-void checkGradient(const Mesh& mesh, const std::vector<float>& slopes, const DistanceBand& S,
-                   double voxel, Progress& progress, SurfaceReport& report)
-{
-    constexpr int kinkVox = 2;
-    constexpr double gradientTolerance = 0.03;
-    LeafTable kinks = S.table;
-    for (std::size_t n = 0; n < kinks.size(); ++n) kinks.active(n) = S.kinks[n];
-    kinks = dilated(kinks, kinkVox, Spread::Ball, progress);
-
-    struct Counts {
-        std::size_t kink = 0, unit = 0;
-        Counts& operator+=(const Counts& o)
-        {
-            kink += o.kink;
-            unit += o.unit;
-            return *this;
-        }
-    };
-    constexpr std::size_t chunk = 512;
-    const std::size_t vertices = mesh.positions.size();
-    const Counts counts =
-        parallelSum<Counts>((vertices + chunk - 1) / chunk, progress, [&](std::size_t c) {
-            Counts sum;
-            for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v) {
-                const openvdb::Vec3d x(mesh.positions[v]);
-                const openvdb::Coord near = openvdb::Coord::round(x / voxel);
-                const std::int32_t n = kinks.find(near);
-                const bool kink =
-                    n != noLeaf &&
-                    kinks.active(n).on(int(openvdb::FloatTree::LeafNodeType::coordToOffset(near)));
-                sum += {std::size_t(kink),
-                        std::size_t(!kink && std::abs(slopes[v] - 1.0f) < gradientTolerance)};
-            }
-            return sum;
-        });
-    report.kinkShare = vertices ? double(counts.kink) / vertices : 0.0;
-    report.gradientShare = double(counts.unit) / double(vertices - counts.kink); // may be 0/0
-}
-
 /// Statistics and integrals of the curvatures.
 void describeCurvature(const Mesh& mesh, const Spline& spline, const Options& options,
                        Progress& progress, SurfaceReport& report)
@@ -394,8 +168,9 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
     Report& report = result.report;
     Stopwatch watch(report);
 
-    NarrowBand band = makeBand(atoms, options, progress, report, watch);
-    const bool unionOfBalls = band.table.size() == 0;
+    const Scope everything;
+    NarrowBand band = makeBand(atoms, options, everything, progress, report, watch);
+    const bool unionOfBalls = isUnion(options.kind);
     const auto wanted = [&](const char* field) {
         return std::find(options.fields.begin(), options.fields.end(), field) !=
                options.fields.end();
@@ -409,7 +184,7 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
         if (!filled || !unionOfBalls) {
             const bool kept = options.fillCavities || wanted("sas");
             S = distanceBand(balls, band.table, kept ? copied(band.phi) : std::move(band.phi),
-                             options, progress);
+                             options, everything, progress);
             if (!kept) band = NarrowBand();
         }
         watch.stop("redistance");
@@ -422,7 +197,7 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
         progress.update("redistance", 0.6);
         result.surface =
             surfaceGrid(S.table, options.fillCavities ? copied(S.phi) : std::move(S.phi),
-                        options.voxel, progress);
+                        options.voxel, everything, progress);
         watch.stop("redistance");
 
         progress.update("mesh", 0.0);
@@ -445,17 +220,18 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
 
     progress.update("mesh", 0.7);
     report.surface = measure(result.mesh, progress);
-    if (!report.surface.manifold && splitNonManifold(result.mesh) > 0) {
+    if (!report.surface.manifold && !splitNonManifold(result.mesh).empty()) {
         report.surface = measure(result.mesh, progress);
     }
     report.surface.kind = nameOf(options.kind);
     if (unionOfBalls && offsetOf(options) == 0.0 && options.minWall == 0.0)
         measureExactly(balls, options, progress, report);
     report.surface.maxResidual = stats.maxResidual;
-    checkGradient(result.mesh, stats.slopes, S, options.voxel, progress, report.surface);
-    // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
-    const double labelReach = 2.0 * options.probe + 4.0 * largestTolerance(atoms, options) +
-                              4.0 * options.voxel + options.minWall;
+    const std::size_t vertices = stats.slopes.size();
+    const GradientCounts counts =
+        countGradients(result.mesh, stats.slopes, vertices, S, options.voxel, progress);
+    report.surface.kinkShare = vertices ? double(counts.kink) / vertices : 0.0;
+    report.surface.gradientShare = double(counts.unit) / double(vertices - counts.kink); // or 0/0
     addCurvature(spline, options.fields, result.mesh, progress);
     describeCurvature(result.mesh, spline, options, progress, report.surface);
     watch.stop("mesh");
@@ -478,7 +254,7 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
         result.fields.push_back(std::move(grid));
     if (wanted("density")) result.fields.push_back(densityGrid(*result.surface));
     progress.update("color", 0.0);
-    labelSurface(atoms, options, labelReach, progress, result);
+    labelSurface(atoms, options, labelReach(atoms, options), progress, result);
     watch.stop("color");
 
     report.activeVoxels = result.surface->activeVoxelCount();
@@ -487,17 +263,6 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
 }
 
 } // namespace
-
-double largestTolerance(const BallSelection& atoms, const Options& options)
-{
-    double largest = options.epsilon;
-    for (std::size_t i = 0; i < atoms.decays.size(); ++i) {
-        if (atoms.decays[i].rate <= 0.0f) continue;
-        const double R = atoms.balls[i].radius + options.probe;
-        largest = std::max(largest, M_LN2 / (atoms.decays[i].rate * R));
-    }
-    return largest;
-}
 
 Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress)
 {

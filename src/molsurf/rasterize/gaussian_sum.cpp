@@ -88,41 +88,62 @@ float distanceToLeaf(float centre)
 
 } // namespace
 
+GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& options,
+                        const std::vector<Decay>& decays)
+{
+    float largest = 0.0f;
+    for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
+    GaussianExtent extent{largest, largest + options.probe, options.epsilon};
+    if (options.blobbiness > 0.0) extent.tolerance = M_LN2 * extent.swollen / options.blobbiness;
+    double slowest = 1e30;
+    for (std::size_t i = 0; i < decays.size(); ++i) {
+        const double R = balls[i].radius + options.probe;
+        const double rate = decays[i].rate > 0.0f      ? double(decays[i].rate)
+                            : options.blobbiness > 0.0 ? options.blobbiness / (R * R)
+                                                       : M_LN2 / (options.epsilon * R);
+        if (decays[i].rate > 0.0f) slowest = std::min(slowest, rate);
+        const double square = R * R + decays[i].level / rate;
+        extent.swollen = std::max(extent.swollen, std::sqrt(std::max(square, 0.0)));
+    }
+    if (slowest < 1e30) {
+        extent.tolerance = std::max(extent.tolerance, M_LN2 / (slowest * extent.swollen));
+    }
+    return extent;
+}
+
+namespace
+{
+
+/// Beyond this distance a term is negligible where psi = 0, and hardly felt at the rim of the band.
+double cutoff2(double R, double C, double level, double reach, double tolerance)
+{
+    const double rim = R + reach + 2.0 * tolerance;
+    return std::max(rim * rim, R * R + (negligible + level) / C);
+}
+
+} // namespace
+
+double cutoff(const GaussianExtent& extent, double reach)
+{
+    const double slowest = M_LN2 / (extent.tolerance * extent.swollen);
+    return std::sqrt(cutoff2(extent.swollen, slowest, 0.0, reach, extent.tolerance));
+}
+
 GaussianSum::GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& options,
                          std::vector<Decay> decays)
     : balls_(balls), options_(options), decays_(std::move(decays)), epsilon_(options.epsilon),
-      largest_([&] {
-          float largest = 0.0f;
-          for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
-          return largest + options.probe;
-      }()),
-      index_(balls, std::max(2.0, largest_ / 1.5))
+      extent_(options.extent ? *options.extent : extentOf(balls, options, decays_)),
+      largest_(extent_.swollen),
+      index_(balls, std::max(2.0, (extent_.largest + options.probe) / 1.5))
 {
-    if (options_.blobbiness > 0.0) options_.epsilon = M_LN2 * largest_ / options_.blobbiness;
-    double slowest = 1e30;
-    for (std::size_t i = 0; i < decays_.size(); ++i) {
-        const double R = balls[i].radius + options_.probe;
-        if (decays_[i].rate > 0.0f) slowest = std::min(slowest, double(decays_[i].rate));
-        const double square = R * R + decays_[i].level / rate(i, R);
-        largest_ = std::max(largest_, std::sqrt(std::max(square, 0.0)));
-    }
-    if (slowest < 1e30) {
-        options_.epsilon = std::max(options_.epsilon, M_LN2 / (slowest * largest_));
-    }
+    options_.epsilon = extent_.tolerance;
 }
 
 void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Term>& terms) const
 {
     const double h = options_.voxel;
     const Vec3d low = origin.asVec3d() * h;
-    // Beyond this distance a term is negligible where psi = 0, and hardly felt at the rim of the
-    // band.
-    const auto cutoff2 = [&](double R, double C, double level) {
-        const double rim = R + reach + 2.0 * options_.epsilon;
-        return std::max(rim * rim, R * R + (negligible + level) / C);
-    };
-    const double slowest = M_LN2 / (options_.epsilon * largest_);
-    const double farthest = std::sqrt(cutoff2(largest_, slowest, 0.0));
+    const double farthest = cutoff(extent_, reach);
 
     // The smallest value of each term in the leaf bounds psi from below, its largest from above.
     terms.clear();
@@ -140,7 +161,7 @@ void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Ter
             farthest2 += f * f;
         }
         t.exponent = t.level - t.decay * nearest2;
-        if (nearest2 * h * h > cutoff2(R, C, level)) return;
+        if (nearest2 * h * h > cutoff2(R, C, level, reach, options_.epsilon)) return;
         floor = std::max(floor, t.level - t.decay * farthest2);
         terms.push_back(t);
     });
@@ -205,7 +226,8 @@ LeafField GaussianSum::evaluate(const LeafTable& table, const Progress& progress
     return psi;
 }
 
-LeafTable GaussianSum::band(int steps, const Progress& progress) const
+LeafTable GaussianSum::band(int steps, const Progress& progress,
+                            const openvdb::CoordBBox& box) const
 {
     // Leaves that may hold a voxel with psi >= 0: those near a ball. In a table whose voxels stand
     // for leaves, they are the leaves of the centres, dilated. Where k terms meet, psi = 0 lies at
@@ -216,7 +238,11 @@ LeafTable GaussianSum::band(int steps, const Progress& progress) const
         centres[i] = Coord::floor(Vec3d(balls_[i].center) / edge);
     }
     const int reach = int(std::ceil((largest_ + 3.0 * options_.epsilon + options_.voxel) / edge));
-    LeafTable table(leavesWithin(centres, reach, progress));
+    std::vector<Coord> origins = leavesWithin(centres, reach, progress);
+    origins.erase(std::remove_if(origins.begin(), origins.end(),
+                                 [&](const Coord& origin) { return !box.isInside(origin); }),
+                  origins.end());
+    LeafTable table(std::move(origins));
 
     std::vector<LeafMask> inside(table.size());
     parallelFor(table.size(), progress, [&](std::size_t n) {
@@ -230,7 +256,7 @@ LeafTable GaussianSum::band(int steps, const Progress& progress) const
     parallelFor(table.size(), progress, [&](std::size_t n) {
         table.active(n) = inside[n] & dilatedMask(table, outside, n, true);
     });
-    return dilated(pruned(table), steps, Spread::Ball, progress);
+    return clipped(dilated(pruned(table), steps, Spread::Ball, progress), box);
 }
 
 } // namespace molsurf

@@ -13,10 +13,18 @@
 #include "molsurf/rasterize/ball_index.h"
 #include "molsurf/selection/ball.h"
 
+#include <optional>
 #include <vector>
 
 namespace molsurf
 {
+
+/// What psi near a leaf depends on besides the balls near it.
+struct GaussianExtent {
+    double largest;   ///< largest r_i [Å]
+    double swollen;   ///< largest R_i, swollen by the level of its Gaussian [Å]
+    double tolerance; ///< largest tolerance of all balls [Å]
+};
 
 /// Parameters of psi.
 struct GaussianOptions {
@@ -25,7 +33,16 @@ struct GaussianOptions {
     double blobbiness = 0.0; ///< d > 0: C_i = d / R_i^2 instead, the Gaussian surface of Blinn
     double voxel = 0.5;      ///< voxel edge h [Å]
     double reach = 3.0;      ///< how far outside the balls of radius R_i psi is wanted [Å]
+    /// Of all balls, where the sum is made of some: near these it is then the same.
+    std::optional<GaussianExtent> extent{};
 };
+
+/// @param[in] decays  one a ball, or none
+GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& options,
+                        const std::vector<Decay>& decays);
+
+/// How far from a leaf the balls may lie whose terms count there [Å].
+double cutoff(const GaussianExtent& extent, double reach);
 
 /// psi of a set of balls, evaluated leaf by leaf. The balls must outlive it.
 class GaussianSum
@@ -40,8 +57,10 @@ public:
     double tolerance() const { return options_.epsilon; }
 
     /// The voxels within `steps` voxels (see dilated()) of those next to psi = 0.
+    /// @param[in] box  of whole leaves: no others are looked at
     /// @return an empty table if psi is negative at all voxels
-    LeafTable band(int steps, const Progress& progress) const;
+    LeafTable band(int steps, const Progress& progress,
+                   const openvdb::CoordBBox& box = openvdb::CoordBBox::inf()) const;
 
     /// psi at all voxels of a leaf. Balls whose terms are below e^-12 of the sum throughout the
     /// leaf are left out, and so are those that are farther than R_i + reach + 2 eps from it and
@@ -75,6 +94,7 @@ private:
     GaussianOptions options_; // with the largest tolerance of all balls
     std::vector<Decay> decays_;
     double epsilon_; // of balls without a rate of their own [Å]
+    GaussianExtent extent_;
     double largest_; // largest R_i, swollen [Å]
     BallIndex index_;
 };

@@ -216,7 +216,7 @@ public:
     }
 
     /// The leaves that may have a voxel of the band.
-    std::vector<Coord> leaves(const Progress& progress) const
+    std::vector<Coord> leaves(const openvdb::CoordBBox& box, const Progress& progress) const
     {
         const double edge = leafDim * voxel_;
         std::vector<std::vector<Coord>> found(boundary_.patches.size());
@@ -236,7 +236,8 @@ public:
                             least2 += n * n;
                             most2 += std::max(a * a, b * b);
                         }
-                        if (least2 <= far * far && (near <= 0.0 || most2 >= near * near)) {
+                        if (least2 <= far * far && (near <= 0.0 || most2 >= near * near) &&
+                            box.isInside(Coord(leafDim * x, leafDim * y, leafDim * z))) {
                             found[i].emplace_back(leafDim * x, leafDim * y, leafDim * z);
                         }
                     }
@@ -455,12 +456,13 @@ bool isKink(const Vec3d& x, const Vec3d& foot, const Vec3d& nextFoot, double vox
 
 DistanceBand distanceToUnion(const std::vector<Ball>& balls, double probe,
                              const BallBoundary& boundary, double voxel, double inside,
-                             double outside, const Progress& progress)
+                             double outside, const Progress& progress,
+                             const openvdb::CoordBBox& box)
 {
     DistanceBand band;
     if (boundary.patches.empty()) return band;
     const Evaluator evaluator(balls, probe, boundary, voxel, inside, outside);
-    LeafTable table(evaluator.leaves(progress));
+    LeafTable table(evaluator.leaves(box, progress));
     LeafField phi(table.size());
     LeafArray<std::int32_t> part(table.size());
     tbb::enumerable_thread_specific<Near> scratch;

@@ -240,6 +240,10 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
 
     Mesh mesh;
     mesh.positions = std::move(points);
+    if (stats.keepStarts) {
+        stats.starts = mesh.positions;
+        stats.residuals.resize(mesh.positions.size());
+    }
     mesh.normals.resize(mesh.positions.size());
     stats.slopes.resize(mesh.positions.size());
     for (const char* name : {"mean_curvature", "gaussian_curvature"})
@@ -264,6 +268,7 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
             }
             vertices.set(v, x, jet);
             residual[c] = std::max(residual[c], std::abs(jet.value));
+            if (stats.keepStarts) stats.residuals[v] = float(std::abs(jet.value));
         }
     });
     for (std::size_t c = 0; c < chunks; ++c) {

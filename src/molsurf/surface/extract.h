@@ -22,6 +22,9 @@ struct ExtractStats {
     std::size_t relaxed = 0;   ///< vertices moved along the surface, out of folds and slivers
     double maxResidual = 0.0;  ///< largest |S| at a vertex [Å]
     std::vector<float> slopes; ///< |grad S| at each vertex
+    bool keepStarts = false;   ///< whether `starts` is wanted
+    std::vector<openvdb::Vec3f> starts; ///< where the mesher had put each vertex [Å]
+    std::vector<float> residuals;       ///< |S| at each vertex [Å], kept along with them
 };
 
 /// Meshes {S = 0}.

@@ -19,16 +19,7 @@ using openvdb::Vec3d;
 namespace
 {
 
-struct Sums {
-    double area = 0.0, volume = 0.0;
-
-    Sums& operator+=(const Sums& other)
-    {
-        area += other.area;
-        volume += other.volume;
-        return *this;
-    }
-};
+using Sums = PieceMeasure;
 
 /// Six points of a triangle with weights, exact for polynomials of degree 4 (Dunavant, High degree
 /// efficient symmetrical Gaussian quadrature rules for the triangle, Int. J. Numer. Methods Eng.
@@ -132,6 +123,54 @@ void load(const Mesh& mesh, const std::array<std::uint32_t, 3>& t, const Vec3d& 
 
 } // namespace
 
+std::vector<PieceMeasure> measurePieces(const Mesh& mesh, const std::vector<std::uint32_t>& pieces,
+                                        std::size_t count, const Vec3d& origin, std::size_t& flat,
+                                        const Progress& progress)
+{
+    constexpr std::size_t chunk = 2048;
+    const std::size_t chunks = (mesh.triangles.size() + chunk - 1) / chunk;
+    std::vector<std::map<std::uint32_t, Sums>> partial(chunks);
+    std::vector<std::size_t> flats(chunks, 0);
+    parallelFor(chunks, progress, [&](std::size_t c) {
+        const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * chunk);
+        Patches patches{};
+        for (std::size_t first = c * chunk; first < end; first += Patches::lanes) {
+            const int used = int(std::min<std::size_t>(Patches::lanes, end - first));
+            for (int l = 0; l < used; ++l)
+                load(mesh, mesh.triangles[first + l], origin, l, patches);
+            measurePatches(patches);
+            for (int l = 0; l < used; ++l) {
+                partial[c][pieces[mesh.triangles[first + l][0]]] +=
+                    {patches.area[l], patches.volume[l]};
+                flats[c] += patches.flat[l] == 0.0;
+            }
+        }
+    });
+    std::vector<Sums> sums(count);
+    for (std::size_t c = 0; c < chunks; ++c) {
+        for (const auto& [piece, s] : partial[c]) sums[piece] += s;
+        flat += flats[c];
+    }
+    return sums;
+}
+
+void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report)
+{
+    for (const PieceMeasure& s : pieces) {
+        report.area += s.area;
+        report.volume += s.volume;
+        if (s.volume < 0.0) {
+            report.cavities.push_back({s.area, -s.volume});
+        } else {
+            ++report.components;
+            report.outerArea += s.area;
+            report.outerVolume += s.volume;
+        }
+    }
+    std::stable_sort(report.cavities.begin(), report.cavities.end(),
+                     [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
+}
+
 SurfaceReport measure(const Mesh& mesh, const Progress& progress)
 {
     SurfaceReport report;
@@ -151,44 +190,9 @@ SurfaceReport measure(const Mesh& mesh, const Progress& progress)
             std::int64_t(mesh.triangles.size()));
 
     // Volumes are taken about a vertex, so that they do not cancel far from the origin.
-    const Vec3d origin(mesh.positions[0]);
-    constexpr std::size_t chunk = 2048;
-    const std::size_t chunks = (mesh.triangles.size() + chunk - 1) / chunk;
-    std::vector<std::map<std::uint32_t, Sums>> partial(chunks);
-    std::vector<std::size_t> flat(chunks, 0);
-    parallelFor(chunks, progress, [&](std::size_t c) {
-        const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * chunk);
-        Patches patches{};
-        for (std::size_t first = c * chunk; first < end; first += Patches::lanes) {
-            const int used = int(std::min<std::size_t>(Patches::lanes, end - first));
-            for (int l = 0; l < used; ++l)
-                load(mesh, mesh.triangles[first + l], origin, l, patches);
-            measurePatches(patches);
-            for (int l = 0; l < used; ++l) {
-                partial[c][pieces[mesh.triangles[first + l][0]]] +=
-                    {patches.area[l], patches.volume[l]};
-                flat[c] += patches.flat[l] == 0.0;
-            }
-        }
-    });
-    std::vector<Sums> sums(count);
-    for (std::size_t c = 0; c < chunks; ++c) {
-        for (const auto& [piece, s] : partial[c]) sums[piece] += s;
-        report.degenerateTriangles += flat[c];
-    }
-    for (const Sums& s : sums) {
-        report.area += s.area;
-        report.volume += s.volume;
-        if (s.volume < 0.0) {
-            report.cavities.push_back({s.area, -s.volume});
-        } else {
-            ++report.components;
-            report.outerArea += s.area;
-            report.outerVolume += s.volume;
-        }
-    }
-    std::stable_sort(report.cavities.begin(), report.cavities.end(),
-                     [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
+    const std::vector<Sums> sums = measurePieces(mesh, pieces, count, Vec3d(mesh.positions[0]),
+                                                 report.degenerateTriangles, progress);
+    countPieces(sums, report);
     return report;
 }
 

@@ -92,13 +92,20 @@ struct Verdict {
 
 Topology checkTopology(const Mesh& mesh, const VertexTriangles& around, const Progress& progress)
 {
+    return checkTopology(mesh, around, {}, progress);
+}
+
+Topology checkTopology(const Mesh& mesh, const VertexTriangles& around,
+                       const std::vector<std::uint32_t>& some, const Progress& progress)
+{
     constexpr std::size_t chunk = 1024;
-    const std::size_t vertices = mesh.positions.size();
+    const std::size_t vertices = some.empty() ? mesh.positions.size() : some.size();
     const Verdict all =
         parallelSum<Verdict>((vertices + chunk - 1) / chunk, progress, [&](std::size_t c) {
             Verdict sum;
             for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v) {
-                const Topology t = checkVertex(mesh, around, std::uint32_t(v));
+                const Topology t =
+                    checkVertex(mesh, around, some.empty() ? std::uint32_t(v) : some[v]);
                 sum += {!t.closed, !t.oriented, !t.manifold};
             }
             return sum;
@@ -147,50 +154,79 @@ std::vector<double> pieceVolumes(const Mesh& mesh, const std::vector<std::uint32
     return volumes;
 }
 
-std::size_t splitNonManifold(Mesh& mesh)
+namespace
 {
-    // Half edges (a, b) of triangles, by undirected edge; those of one edge are paired in order.
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<std::vector<std::uint32_t>, 2>>
-        edges;
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t a = mesh.triangles[i][k], b = mesh.triangles[i][(k + 1) % 3];
-            edges[std::minmax(a, b)][a < b].push_back(3 * i + k);
-        }
-    }
-    // Corners joined across paired edges are one vertex.
-    std::vector<std::uint32_t> parent(3 * mesh.triangles.size());
+
+/// The fans of triangles about a vertex: for each of its triangles, in their order, the first one
+/// of the same fan. Of an edge that more than two triangles share, the first that runs out along it
+/// is paired with the first that runs in, and so on.
+std::vector<std::uint32_t> fansOf(const Mesh& mesh, const VertexTriangles& around, std::uint32_t v)
+{
+    const std::uint32_t begin = around.begins[v], n = around.begins[v + 1] - begin;
+    std::vector<std::uint32_t> parent(n);
     std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t c) {
-        while (parent[c] != c) c = parent[c] = parent[parent[c]];
-        return c;
+    const auto root = [&](std::uint32_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
     };
-    const auto join = [&](std::uint32_t a, std::uint32_t b) { parent[root(a)] = root(b); };
-    for (const auto& [edge, sides] : edges) {
-        for (std::size_t i = 0; i < std::min(sides[0].size(), sides[1].size()); ++i) {
-            const std::uint32_t p = sides[0][i], q = sides[1][i];
-            join(p, q / 3 * 3 + (q + 1) % 3);
-            join(p / 3 * 3 + (p + 1) % 3, q);
+    std::map<std::uint32_t, std::array<std::vector<std::uint32_t>, 2>> edges; // by the other end
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const auto& t = mesh.triangles[around.triangles[begin + i]];
+        const int c = cornerOf(t, v);
+        edges[t[(c + 1) % 3]][0].push_back(i);
+        edges[t[(c + 2) % 3]][1].push_back(i);
+    }
+    for (const auto& [end, sides] : edges) {
+        for (std::size_t k = 0; k < std::min(sides[0].size(), sides[1].size()); ++k) {
+            const std::uint32_t a = root(sides[0][k]), b = root(sides[1][k]);
+            parent[std::max(a, b)] = std::min(a, b);
         }
     }
-    const std::size_t before = mesh.positions.size();
-    std::vector<std::int64_t> owner(before, -1);
-    std::map<std::uint32_t, std::uint32_t> copies; // of the corners' roots that need a new vertex
-    for (std::uint32_t c = 0; c < parent.size(); ++c) {
-        std::uint32_t& v = mesh.triangles[c / 3][c % 3];
-        const std::uint32_t r = root(c);
-        if (owner[v] < 0) owner[v] = r;
-        if (owner[v] == r) continue;
-        const auto [it, added] = copies.try_emplace(r, std::uint32_t(mesh.positions.size()));
-        if (added) {
-            mesh.positions.push_back(openvdb::Vec3f(mesh.positions[v]));
-            if (!mesh.normals.empty()) mesh.normals.push_back(openvdb::Vec3f(mesh.normals[v]));
-            for (auto& a : mesh.scalars) a.values.push_back(float(a.values[v]));
-            for (auto& a : mesh.labels) a.values.push_back(std::int32_t(a.values[v]));
+    for (std::uint32_t i = 0; i < n; ++i) parent[i] = root(i);
+    return parent;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> splitNonManifold(Mesh& mesh)
+{
+    const VertexTriangles around = vertexTriangles(mesh);
+    struct Fan {
+        std::uint32_t triangle, vertex; // its first triangle, and what it turns about
+        std::vector<std::uint32_t> triangles;
+    };
+    std::vector<Fan> fans; // that need a vertex of their own
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        if (checkVertex(mesh, around, v).manifold) continue;
+        const std::vector<std::uint32_t> first = fansOf(mesh, around, v);
+        for (std::uint32_t i = 1; i < first.size(); ++i) {
+            if (first[i] != i) continue;
+            Fan fan{around.triangles[around.begins[v] + i], v, {}};
+            for (std::uint32_t j = i; j < first.size(); ++j) {
+                if (first[j] == i) fan.triangles.push_back(around.triangles[around.begins[v] + j]);
+            }
+            fans.push_back(std::move(fan));
         }
-        v = it->second;
     }
-    return mesh.positions.size() - before;
+    const auto place = [&](const Fan& fan) {
+        return std::pair(fan.triangle, cornerOf(mesh.triangles[fan.triangle], fan.vertex));
+    };
+    std::sort(fans.begin(), fans.end(),
+              [&](const Fan& a, const Fan& b) { return place(a) < place(b); });
+    std::vector<std::uint32_t> sources;
+    std::vector<std::array<std::uint32_t, 3>> triangles = mesh.triangles;
+    for (const Fan& fan : fans) {
+        const std::uint32_t v = fan.vertex, copy = std::uint32_t(mesh.positions.size());
+        for (const std::uint32_t t : fan.triangles)
+            triangles[t][cornerOf(mesh.triangles[t], v)] = copy;
+        mesh.positions.push_back(openvdb::Vec3f(mesh.positions[v]));
+        if (!mesh.normals.empty()) mesh.normals.push_back(openvdb::Vec3f(mesh.normals[v]));
+        for (auto& a : mesh.scalars) a.values.push_back(float(a.values[v]));
+        for (auto& a : mesh.labels) a.values.push_back(std::int32_t(a.values[v]));
+        sources.push_back(v);
+    }
+    mesh.triangles = std::move(triangles);
+    return sources;
 }
 
 } // namespace molsurf

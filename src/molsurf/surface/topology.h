@@ -32,6 +32,10 @@ struct Topology {
 /// Checks every edge and every vertex.
 Topology checkTopology(const Mesh& mesh, const VertexTriangles& around, const Progress& progress);
 
+/// The same of some vertices; of all if there are none.
+Topology checkTopology(const Mesh& mesh, const VertexTriangles& around,
+                       const std::vector<std::uint32_t>& some, const Progress& progress);
+
 /// The connected piece of each vertex: numbers from 0 in the order of the pieces' first vertices.
 /// @param[out] count  number of pieces
 std::vector<std::uint32_t> connectedPieces(const Mesh& mesh, std::size_t& count);
@@ -42,8 +46,8 @@ std::vector<double> pieceVolumes(const Mesh& mesh, const std::vector<std::uint32
 
 /// Gives every fan of triangles about a vertex a vertex of its own, after pairing the triangles at
 /// edges that more than two share. Makes any closed, oriented mesh 2-manifold without moving a
-/// point.
-/// @return number of vertices added
-std::size_t splitNonManifold(Mesh& mesh);
+/// point. What happens at a vertex depends on the triangles about it and their order alone.
+/// @return for each vertex added, in order, the one that it was split from
+std::vector<std::uint32_t> splitNonManifold(Mesh& mesh);
 
 } // namespace molsurf

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/pipeline/plan_bricks.h"
+
+#include "molsurf/core/error.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+using openvdb::CoordBBox;
+using openvdb::Vec3d;
+
+namespace
+{
+
+// Measured on 1F2N and 1M4X at 0.5 to 2 Å and on small proteins: peaks of the resident memory
+// against the leaves that hold atoms or lie beside them. No peak was above 0.9 of what these give,
+// since not all such leaves have a part of the surface.
+constexpr double processBytes = 70e6;      // program, libraries, buffers
+constexpr double bytesPerAtom = 40.0;      // of the whole molecule: balls, and reading them
+constexpr double bytesPerNear = 85.0;      // of the balls near a brick: cell lists, copies
+constexpr double bytesPerFlowLeaf = 6.3e3; // within the halo of the flow
+constexpr double bytesPerOwnLeaf = 17e3;   // within the halo of the spline
+constexpr double secondsPerLeaf = 0.5e-3, secondsPerFlowLeaf = 0.35e-3; // one core
+constexpr double bytesToMerge =
+    7.0; // an active voxel: leaves without values, statistics of vertices
+constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
+constexpr int smallest = 4;             // leaves along the shortest edge of a brick that is cut
+
+/// Leaves that may have a part of the surface, with the number of balls whose centres are in each.
+struct Occupancy {
+    std::vector<Coord> leaves; ///< places among leaves, ascending
+    std::vector<std::uint32_t> atoms;
+    CoordBBox box; ///< of the places
+};
+
+Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach,
+                      const Progress& progress)
+{
+    const double edge = leafDim * voxel;
+    std::vector<Coord> places(balls.size());
+    for (std::size_t i = 0; i < balls.size(); ++i)
+        places[i] = Coord::floor(Vec3d(balls[i].center) / edge);
+    tbb::parallel_sort(places.begin(), places.end());
+    std::vector<Coord> own;
+    std::vector<std::uint32_t> counts;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (i == 0 || places[i] != places[i - 1]) {
+            own.push_back(places[i]);
+            counts.push_back(0);
+        }
+        ++counts.back();
+    }
+    // Voxels of this table stand for leaves.
+    std::vector<Coord> blocks;
+    for (const Coord& place : own) blocks.push_back(place & ~(leafDim - 1));
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    LeafTable table(std::move(blocks));
+    using Leaf = openvdb::FloatTree::LeafNodeType;
+    for (const Coord& place : own) {
+        table.active(std::size_t(table.find(place))).set(int(Leaf::coordToOffset(place)));
+    }
+    for (int steps = int(std::ceil(reach / edge)); steps > 0; steps -= leafDim)
+        table = dilated(table, std::min(steps, leafDim), Spread::Cube, progress);
+
+    Occupancy out;
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        table.active(n).forEach([&](int v) {
+            out.leaves.push_back(table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7));
+        });
+    }
+    tbb::parallel_sort(out.leaves.begin(), out.leaves.end());
+    for (std::size_t n = 0, m = 0; n < out.leaves.size(); ++n) {
+        out.box.expand(out.leaves[n]);
+        const bool found = m < own.size() && own[m] == out.leaves[n];
+        out.atoms.push_back(found ? counts[m++] : 0);
+    }
+    // The band about the outermost surface may reach into the next leaf.
+    out.box.expand(1);
+    return out;
+}
+
+class Planner
+{
+public:
+    Planner(const BallSelection& atoms, const Options& options, const GaussianExtent& extent,
+            const Progress& progress)
+        : options_(options), extent_(extent), atoms_(atoms.balls.size()),
+          occupancy_(
+              occupancyOf(atoms.balls, options.voxel, extent.swollen + extent.tolerance, progress))
+    {
+    }
+
+    const CoordBBox& box() const { return occupancy_.box; }
+
+    /// @param[in] box  of places
+    PlannedBrick estimate(const CoordBBox& box) const
+    {
+        PlannedBrick brick;
+        brick.box = CoordBBox(box.min() << 3, (box.max() << 3).offsetBy(leafDim - 1));
+        Region region;
+        region.owned = brick.box;
+        const Scope scope = brickScope(options_, region, extent_);
+        const int reach = int(std::ceil(ballReach(options_, extent_) / leafDim / options_.voxel));
+        const int widest = std::max(scope.flowHalo, scope.splineHalo);
+        CoordBBox splined = box, flowed = box, near = box;
+        splined.expand(scope.splineHalo);
+        flowed.expand(widest);
+        near.expand(widest + reach);
+        std::size_t own = 0, inSpline = 0, inFlow = 0, balls = 0;
+        for (std::size_t n = 0; n < occupancy_.leaves.size(); ++n) {
+            const Coord& place = occupancy_.leaves[n];
+            if (!near.isInside(place)) continue;
+            balls += occupancy_.atoms[n];
+            inFlow += flowed.isInside(place);
+            inSpline += splined.isInside(place);
+            if (!box.isInside(place)) continue;
+            brick.atoms += occupancy_.atoms[n];
+            ++own;
+        }
+        // Grids with wider bands may have leaves in a box that holds no other.
+        brick.voxels =
+            std::max(std::size_t(voxelsPerLeaf * double(own)), std::min<std::size_t>(inSpline, 1));
+        brick.bytes = std::size_t(processBytes + bytesPerAtom * double(atoms_) +
+                                  bytesPerNear * double(balls) + bytesPerFlowLeaf * double(inFlow) +
+                                  bytesPerOwnLeaf * double(inSpline));
+        brick.seconds = secondsPerLeaf * double(inSpline) + secondsPerFlowLeaf * double(inFlow);
+        return brick;
+    }
+
+    /// Cuts a box in two, `share` of the surface in the first. False if it is too small.
+    bool cut(const CoordBBox& box, double share, CoordBBox& first, CoordBBox& second) const
+    {
+        const int axis = int(box.extents().maxIndex());
+        const int length = box.dim()[axis];
+        if (length < 2 * smallest) return false;
+        std::vector<std::size_t> counts(std::size_t(length), 0);
+        std::size_t total = 0;
+        for (const Coord& place : occupancy_.leaves) {
+            if (!box.isInside(place)) continue;
+            ++counts[std::size_t(place[axis] - box.min()[axis])];
+            ++total;
+        }
+        int best = smallest;
+        double least = 1e300;
+        std::size_t below = 0;
+        for (int i = 0; i < length; ++i) {
+            if (i >= smallest && i <= length - smallest) {
+                const double off = std::abs(double(below) - share * double(total));
+                if (off < least) {
+                    least = off;
+                    best = i;
+                }
+            }
+            below += counts[std::size_t(i)];
+        }
+        first = second = box;
+        first.max()[axis] = box.min()[axis] + best - 1;
+        second.min()[axis] = box.min()[axis] + best;
+        return true;
+    }
+
+    void cutInto(std::size_t parts, const CoordBBox& box, std::vector<PlannedBrick>& out) const
+    {
+        CoordBBox first, second;
+        const std::size_t half = parts / 2;
+        if (parts < 2 || !cut(box, double(half) / double(parts), first, second)) {
+            keep(estimate(box), out);
+            return;
+        }
+        cutInto(half, first, out);
+        cutInto(parts - half, second, out);
+    }
+
+    void cutToFit(std::size_t memory, const CoordBBox& box, std::vector<PlannedBrick>& out) const
+    {
+        const PlannedBrick brick = estimate(box);
+        CoordBBox first, second;
+        if (brick.bytes <= memory) {
+            keep(brick, out);
+        } else if (cut(box, 0.5, first, second)) {
+            cutToFit(memory, first, out);
+            cutToFit(memory, second, out);
+        } else {
+            tooLittle("the smallest brick", double(brick.bytes), memory);
+        }
+    }
+
+    [[noreturn]] static void tooLittle(const char* what, double bytes, std::size_t memory)
+    {
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "--memory: %s needs %.2f GB, and there are %.2f [hint: --memory %.1fG, or a "
+                      "larger --voxel]",
+                      what, bytes / 1e9, double(memory) / 1e9, std::ceil(1.1e-8 * bytes) / 10.0);
+        throw Error(ErrorKind::Input, text);
+    }
+
+private:
+    static void keep(const PlannedBrick& brick, std::vector<PlannedBrick>& out)
+    {
+        if (brick.voxels > 0) out.push_back(brick);
+    }
+
+    const Options& options_;
+    const GaussianExtent& extent_;
+    std::size_t atoms_;
+    Occupancy occupancy_;
+};
+
+GaussianExtent extentFor(const BallSelection& atoms, const Options& options)
+{
+    return extentOf(atoms.balls, gaussianOptions(options),
+                    options.kind == SurfaceKind::Variational ? atoms.decays : std::vector<Decay>());
+}
+
+} // namespace
+
+namespace
+{
+
+/// Cuts by the limits; without any the whole is one brick.
+BrickPlan makePlan(const BallSelection& atoms, const Options& options, const BrickLimits& limits,
+                   const Progress& progress)
+{
+    if (atoms.balls.empty()) throw Error(ErrorKind::Input, "no atoms");
+    BrickPlan plan;
+    const GaussianExtent extent = extentFor(atoms, options);
+    plan.largest = extent.largest;
+    plan.swollen = extent.swollen;
+    plan.tolerance = extent.tolerance;
+    plan.atoms = atoms.balls.size();
+    plan.steps = options.evolution.steps >= 0 ? options.evolution.steps : defaultBrickSteps;
+    const Planner planner(atoms, options, extent, progress);
+    const CoordBBox& box = planner.box();
+    if (limits.memory > 0) {
+        planner.cutToFit(limits.memory, box, plan.bricks);
+        double voxels = 0.0;
+        for (const PlannedBrick& brick : plan.bricks) voxels += double(brick.voxels);
+        const double merge = processBytes + bytesToMerge * voxels;
+        if (merge > double(limits.memory)) Planner::tooLittle("the merge", merge, limits.memory);
+    } else {
+        planner.cutInto(std::max<std::size_t>(limits.bricks, 1), box, plan.bricks);
+    }
+    plan.anchor = Coord::floor(0.5 * leafDim * (box.min() + box.max()).asVec3d());
+    return plan;
+}
+
+} // namespace
+
+BrickPlan planBricks(const BallSelection& atoms, const Options& options, const BrickLimits& limits,
+                     const Progress& progress)
+{
+    checkBrickOptions(options);
+    return makePlan(atoms, options, limits, progress);
+}
+
+BrickPlan planWhole(const BallSelection& atoms, const Options& options, const Progress& progress)
+{
+    return makePlan(atoms, options, {1, 0}, progress);
+}
+
+GaussianExtent extentOf(const BrickPlan& plan)
+{
+    return {plan.largest, plan.swollen, plan.tolerance};
+}
+
+Scope scopeOf(const BrickPlan& plan, std::size_t k, const Options& options)
+{
+    return brickScope(options, {plan.bricks[k].box, plan.anchor}, extentOf(plan));
+}
+
+} // namespace molsurf

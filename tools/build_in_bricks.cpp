@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "bricks.h"
+#include "stop.h"
+#include "verbs.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/pipeline/plan_bricks.h"
+
+#include <tbb/global_control.h>
+
+#include <malloc.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+
+namespace molsurf::tool
+{
+
+namespace
+{
+
+// A hidden folder beside the first output, where the bricks wait for the merge. It goes when the
+// program ends, whatever the reason.
+class BrickFolder
+{
+public:
+    explicit BrickFolder(const std::string& output)
+        : path_((output == "-" ? std::filesystem::temp_directory_path().string() + "/vdb_molsurf." +
+                                     std::to_string(getpid())
+                               : temporaryName(output)) +
+                ".bricks")
+    {
+    }
+    ~BrickFolder()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    BrickFolder(const BrickFolder&) = delete;
+    BrickFolder& operator=(const BrickFolder&) = delete;
+
+    void make() const
+    {
+        if (mkdir(path_.c_str(), 0700) != 0)
+            throw Error(ErrorKind::Output, "cannot make " + path_ + ": " + std::strerror(errno));
+    }
+    std::string brick(std::size_t number) const
+    {
+        return path_ + "/" + std::to_string(number) + ".brick";
+    }
+    // The folder and all that may lie in it, in the order in which it can be removed.
+    std::vector<std::string> content(std::size_t bricks) const
+    {
+        std::vector<std::string> names;
+        for (std::size_t k = 1; k <= bricks; ++k) {
+            names.push_back(brick(k));
+            names.push_back(temporaryName(brick(k)));
+        }
+        names.push_back(path_);
+        return names;
+    }
+
+private:
+    std::string path_;
+};
+
+void checkOutputs(const Call& call)
+{
+    if (call.scene.known() || call.center)
+        throw Error(ErrorKind::Usage, "--for and --center need the whole molecule at once [hint: "
+                                      "without --memory]");
+    for (const Output& output : call.outputs)
+        if (output.format != Format::Vdb && output.format != Format::Ply &&
+            output.format != Format::Json)
+            throw Error(ErrorKind::Usage,
+                        "-o " + output.path + ": with bricks expected .vdb, .ply or .json");
+}
+
+std::string sizeText(std::size_t bytes)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g GB", double(bytes) / 1e9);
+    return text;
+}
+
+} // namespace
+
+int buildInBricks(const Call& call, Clock::time_point start)
+{
+    checkOptions(call.options);
+    prepareOutputs(call);
+    openvdb::initialize();
+    std::optional<tbb::global_control> limit;
+    if (call.threads)
+        limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(call.threads));
+    // What a brick has freed must not count against the next one.
+    mallopt(M_MMAP_MAX, 65536);
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    mallopt(M_TRIM_THRESHOLD, 1 << 20);
+
+    Terminal terminal(call.progress);
+    Report report;
+    BallSelection atoms = readBalls(call, terminal, report);
+    const BrickPlan one = planWhole(atoms, call.options, terminal);
+    const std::size_t whole = one.bricks[0].bytes;
+    if (call.memory == 0 || whole <= call.memory) {
+        if (!call.dryRun) {
+            atoms = BallSelection();
+            return endOf(buildSurface(call, start));
+        }
+        terminal.erase();
+        for (const std::string& line : describePlan(one)) say(line);
+        return 0;
+    }
+    checkBrickOptions(call.options);
+    checkOutputs(call);
+    const BrickPlan plan = planBricks(atoms, call.options, {0, call.memory}, terminal);
+    terminal.erase();
+    if (call.dryRun || !call.quiet) {
+        say("the whole takes about " + sizeText(whole) + "; in bricks:");
+        for (const std::string& line : describePlan(plan)) say(line);
+    }
+    if (call.dryRun) return 0;
+
+    const BrickFolder folder(call.outputs[0].path);
+    prepareOutputs(call, folder.content(plan.bricks.size()));
+    folder.make();
+    std::vector<std::string> paths;
+    for (std::size_t k = 1; k <= plan.bricks.size(); ++k) {
+        stopIfAsked();
+        paths.push_back(folder.brick(k));
+        computeBrick(atoms, call.options, plan, k, "one process", paths.back(), terminal);
+        malloc_trim(0);
+        if (!call.verbose) continue;
+        terminal.erase();
+        char text[160];
+        std::snprintf(text, sizeof text, "brick %zu of %zu, %.2f s, %.3f GB at most", k,
+                      plan.bricks.size(), secondsSince(start), double(peakMemory()) / 1e9);
+        say(text);
+    }
+    atoms = BallSelection();
+    mergeBricks(call, plan, paths, "one process", terminal, start, report);
+    if (!call.quiet) say(summary(report));
+    return endOf(report);
+}
+
+} // namespace molsurf::tool
