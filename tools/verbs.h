@@ -5,11 +5,15 @@
 /// The verbs of the tool, one file each. They return the exit status.
 
 #include "cli.h"
+#include "terminal.h"
 
 #include "molsurf/core/report.h"
+#include "molsurf/pipeline/run.h"
 
 #include <chrono>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace molsurf::tool
 {
@@ -25,6 +29,24 @@ int build(const Call& call, std::chrono::steady_clock::time_point start);
 /// @return the report, complete
 Report buildSurface(const Call& call, std::chrono::steady_clock::time_point start);
 
+/// What surfaceOf() needs besides the call.
+struct Atoms {
+    const BallSelection& selection;
+    double readSeconds = 0.0;          ///< that it took to read them
+    std::vector<std::string> warnings; ///< for the report
+};
+
+/// The part of it behind the atoms: runs and writes. prepareOutputs() has been called.
+/// @param[in]     call    with --center and a frame the centre of the scene is taken, else chosen
+/// @param[in,out] warm    as run() takes it
+/// @param[in]     extend  changes the result before it is written; may be empty
+Report surfaceOf(Call call, const Atoms& atoms, Terminal& terminal,
+                 std::chrono::steady_clock::time_point start, WarmStart* warm = nullptr,
+                 const std::function<void(Result&)>& extend = nullptr);
+
+/// Builds the surfaces of frames: frames.cpp.
+int frames(const Call& call, std::chrono::steady_clock::time_point start);
+
 /// Builds the surfaces of a list of structures, one after the other; a summary after each:
 /// batch.cpp.
 int batch(const Call& call);
@@ -32,6 +54,10 @@ int batch(const Call& call);
 /// Compares two surfaces and writes the outputs: compare.cpp.
 /// @param[in] start  when the program began, for the total time
 int compare(const Call& call, std::chrono::steady_clock::time_point start);
+
+/// Meshes, colours and pictures of a stored surface: stored.cpp.
+/// @param[in] start  when the program began, for the total time
+int stored(const Call& call, std::chrono::steady_clock::time_point start);
 
 /// Prints what files hold: info.cpp.
 int info(const Call& call);

@@ -95,14 +95,59 @@ double gaussianReach(double voxel)
     return (bandWidthVox + 1.5) * voxel;
 }
 
+/// Adds to the surface of psi = 0 what the flow of the frame before added to its own, and keeps it
+/// as it was in `cold`.
+void addCorrection(const WarmStart& warm, double voxel, NarrowBand& band, LeafField& cold,
+                   Progress& progress)
+{
+    constexpr int repairs = 2; // the sum is nearly a distance
+    const float width = float(bandWidthVox * voxel);
+    cold = LeafField(band.table.size());
+    parallelFor(band.table.size(), progress, [&](std::size_t n) {
+        float* phi = band.phi.leaf(n);
+        std::copy_n(phi, leafSize, cold.leaf(n));
+        const std::int32_t m = warm.table.find(band.table.origin(n));
+        if (m == noLeaf) return;
+        const float* correction = warm.correction.leaf(m);
+        for (int v = 0; v < leafSize; ++v)
+            phi[v] = std::clamp(phi[v] + correction[v], -width, width);
+    });
+    if (warm.table.size() == 0) return;
+    LeafField scratch;
+    reinitialize(band.table, band.phi, voxel, width, repairs, scratch, progress);
+}
+
+/// What the next frame wants: how far the flow went from `cold`, where both are known.
+WarmStart correctionOf(const LeafTable& before, const LeafField& cold, const NarrowBand& band,
+                       double voxel, Progress& progress)
+{
+    const float width = float(bandWidthVox * voxel) * 0.999f;
+    WarmStart warm;
+    warm.table = band.table;
+    warm.correction = LeafField(band.table.size());
+    parallelFor(band.table.size(), progress, [&](std::size_t n) {
+        float* out = warm.correction.leaf(n);
+        std::fill_n(out, leafSize, 0.0f);
+        const std::int32_t m = before.find(band.table.origin(n));
+        if (m == noLeaf) return;
+        const float *from = cold.leaf(m), *to = band.phi.leaf(n);
+        for (int v = 0; v < leafSize; ++v)
+            if (std::abs(from[v]) < width && std::abs(to[v]) < width) out[v] = to[v] - from[v];
+    });
+    return warm;
+}
+
 /// The initial level set and the flow.
 NarrowBand evolveSurface(const BallSelection& atoms, const Options& options, Progress& progress,
-                         Report& report, Stopwatch& watch)
+                         Report& report, Stopwatch& watch, WarmStart* warm)
 {
     const double h = options.voxel, reach = gaussianReach(h);
     const GaussianSum field(atoms.balls, {options.probe, options.epsilon, 0.0, h, reach},
                             atoms.decays);
     NarrowBand band = gaussianBand(field, h, progress, watch);
+    const LeafTable before = band.table;
+    LeafField cold;
+    if (warm) addCorrection(*warm, h, band, cold, progress);
 
     progress.update("evolve", 0.0);
     const auto source = [&](const openvdb::Coord& origin, float* psi) {
@@ -111,6 +156,7 @@ NarrowBand evolveSurface(const BallSelection& atoms, const Options& options, Pro
     EvolveOptions evolution = options.evolution;
     evolution.splineLevel = options.splineLevel;
     report.evolution = evolve(band, source, h, evolution, progress);
+    if (warm) *warm = correctionOf(before, cold, band, h, progress);
     watch.stop("evolve");
     constexpr double noticeable = 0.1; // [voxel]
     if (report.evolution->converged && report.evolution->remainingWay > noticeable * h) {
@@ -123,11 +169,11 @@ NarrowBand evolveSurface(const BallSelection& atoms, const Options& options, Pro
 
 /// The level set that a smooth surface is offset from; empty for surfaces of a union of balls.
 NarrowBand makeBand(const BallSelection& atoms, const Options& options, Progress& progress,
-                    Report& report, Stopwatch& watch)
+                    Report& report, Stopwatch& watch, WarmStart* warm)
 {
     switch (options.kind) {
     case SurfaceKind::Variational: {
-        NarrowBand band = evolveSurface(atoms, options, progress, report, watch);
+        NarrowBand band = evolveSurface(atoms, options, progress, report, watch, warm);
         band.psi = LeafField();
         return band;
     }
@@ -380,14 +426,15 @@ void describeCurvature(const Mesh& mesh, const Spline& spline, const Options& op
 }
 
 /// The surface of all balls.
-Result runWhole(const BallSelection& atoms, const Options& options, Progress& progress)
+Result runWhole(const BallSelection& atoms, const Options& options, Progress& progress,
+                WarmStart* warm)
 {
     const std::vector<Ball>& balls = atoms.balls;
     Result result;
     Report& report = result.report;
     Stopwatch watch(report);
 
-    NarrowBand band = makeBand(atoms, options, progress, report, watch);
+    NarrowBand band = makeBand(atoms, options, progress, report, watch, warm);
     const bool unionOfBalls = band.table.size() == 0;
     const auto wanted = [&](const char* field) {
         return std::find(options.fields.begin(), options.fields.end(), field) !=
@@ -440,9 +487,6 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
         measureExactly(balls, options, progress, report);
     report.surface.maxResidual = stats.maxResidual;
     checkGradient(result.mesh, stats.slopes, S, options.voxel, progress, report.surface);
-    // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
-    const double labelReach = 2.0 * options.probe + 4.0 * largestTolerance(atoms, options) +
-                              4.0 * options.voxel + options.minWall;
     addCurvature(spline, options.fields, result.mesh, progress);
     describeCurvature(result.mesh, spline, options, progress, report.surface);
     watch.stop("mesh");
@@ -465,7 +509,7 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
         result.fields.push_back(std::move(grid));
     if (wanted("density")) result.fields.push_back(densityGrid(*result.surface));
     progress.update("color", 0.0);
-    labelSurface(atoms, options, labelReach, progress, result);
+    labelSurface(atoms, options, labelReach(atoms, options), progress, result);
     watch.stop("color");
 
     report.activeVoxels = result.surface->activeVoxelCount();
@@ -486,6 +530,13 @@ double largestTolerance(const BallSelection& atoms, const Options& options)
     return largest;
 }
 
+double labelReach(const BallSelection& atoms, const Options& options)
+{
+    // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
+    return 2.0 * options.probe + 4.0 * largestTolerance(atoms, options) + 4.0 * options.voxel +
+           options.minWall;
+}
+
 Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress)
 {
     BallSelection atoms;
@@ -493,7 +544,7 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
     return run(atoms, options, progress);
 }
 
-Result run(const BallSelection& atoms, const Options& options, Progress& progress)
+Result run(const BallSelection& atoms, const Options& options, Progress& progress, WarmStart* warm)
 {
     checkOptions(options);
     if (options.matchVolume && !atoms.resolutions.empty()) {
@@ -502,7 +553,7 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
         once.matchVolume = false;
         progress.update("match", 0.0);
         matchVolumes(matched, once, progress);
-        return run(matched, once, progress);
+        return run(matched, once, progress, warm);
     }
     if (atoms.balls.empty()) throw Error(ErrorKind::Input, "no atoms");
     const bool whole = !options.split && options.surfaceOf.empty();
@@ -517,7 +568,8 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
     const bool helps = shown && !asked(shown);
     Options wanted = options;
     if (helps) wanted.fields.push_back(shown);
-    Result result = whole ? runWhole(atoms, wanted, progress) : runParts(atoms, wanted, progress);
+    Result result =
+        whole ? runWhole(atoms, wanted, progress, warm) : runParts(atoms, wanted, progress);
     if (shown) addCurvatureColors(options.color, !helps, result);
     Report& report = result.report;
     report.atoms = atoms.balls.size();
