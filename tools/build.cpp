@@ -102,7 +102,7 @@ void centerMesh(Call& call, Result& result)
 {
     openvdb::BBoxd box;
     for (const openvdb::Vec3f& p : result.mesh.positions) box.expand(openvdb::Vec3d(p));
-    const openvdb::Vec3d center = box.getCenter();
+    const openvdb::Vec3d center = call.frame > 0 ? call.scene.center : box.getCenter();
     for (openvdb::Vec3f& p : result.mesh.positions) p = openvdb::Vec3f(openvdb::Vec3d(p) - center);
     call.scene.center = center;
     result.report.center = {center[0], center[1], center[2]};
@@ -110,9 +110,29 @@ void centerMesh(Call& call, Result& result)
 
 } // namespace
 
-Report buildSurface(const Call& asked, Clock::time_point start)
+Report surfaceOf(Call call, const Atoms& atoms, Terminal& terminal, Clock::time_point start,
+                 WarmStart* warm, const std::function<void(Result&)>& extend)
 {
-    Call call = asked;
+    stopIfAsked();
+    const BallSelection& selection = atoms.selection;
+    Result result = run(selection, call.options, terminal, warm);
+    terminal.erase();
+    if (!call.quiet)
+        for (const std::string& warning : result.report.warnings) say("warning: " + warning);
+    completeReport(call, selection.balls.size(), atoms.readSeconds, atoms.warnings, result.report);
+    if (extend) extend(result);
+    const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
+    if (result.surface) result.surface->setCreator(creator);
+    for (const auto& field : result.fields) field->setCreator(creator);
+
+    if (call.center) centerMesh(call, result);
+    writeAll(call, selection, result, terminal, start);
+    terminal.erase();
+    return result.report;
+}
+
+Report buildSurface(const Call& call, Clock::time_point start)
+{
     checkOptions(call.options);
     prepareOutputs(call);
     openvdb::initialize();
@@ -141,22 +161,10 @@ Report buildSurface(const Call& asked, Clock::time_point start)
         for (const std::string& warning : warnings) say("warning: " + warning);
     }
 
-    stopIfAsked();
-    Result result = run(selection, call.options, terminal);
-    terminal.erase();
-    if (!call.quiet)
-        for (const std::string& warning : result.report.warnings) say("warning: " + warning);
-    completeReport(call, selection.balls.size(), readSeconds, warnings, result.report);
-    const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
-    if (result.surface) result.surface->setCreator(creator);
-    for (const auto& field : result.fields) field->setCreator(creator);
-
-    if (call.center) centerMesh(call, result);
-    writeAll(call, selection, result, terminal, start);
-    terminal.erase();
-    if (call.verbose) sayTimes(result.report);
-    if (!call.quiet) say(summary(result.report));
-    return result.report;
+    const Report report = surfaceOf(call, {selection, readSeconds, warnings}, terminal, start);
+    if (call.verbose) sayTimes(report);
+    if (!call.quiet) say(summary(report));
+    return report;
 }
 
 int build(const Call& call, Clock::time_point start)

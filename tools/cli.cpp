@@ -2,6 +2,7 @@
 #include "cli.h"
 
 #include "cli_table.h"
+#include "frame_source.h"
 #include "sidecar.h"
 
 #include "molsurf/core/error.h"
@@ -37,9 +38,9 @@ const std::vector<std::string> knownFields = [] {
 }();
 
 const std::map<std::string, Format> formats = {
-    {"vdb", Format::Vdb},   {"ply", Format::Ply}, {"obj", Format::Obj},
-    {"stl", Format::Stl},   {"off", Format::Off}, {"glb", Format::Glb},
-    {"json", Format::Json}, {"png", Format::Png}, {"html", Format::Html}};
+    {"vdb", Format::Vdb},   {"ply", Format::Ply}, {"obj", Format::Obj},   {"stl", Format::Stl},
+    {"off", Format::Off},   {"glb", Format::Glb}, {"json", Format::Json}, {"png", Format::Png},
+    {"html", Format::Html}, {"csv", Format::Csv}};
 const char* const formatWords = "vdb, ply, obj, stl, off, glb, html, json or png";
 
 std::string join(const std::vector<std::string>& words, const char* between)
@@ -103,6 +104,18 @@ const std::vector<Group>& groups()
           {"radii", "SET", "van der Waals radii: a name of --list-radii, or a file",
            preset.atoms.radii},
           {"probe", "R", "probe radius [Å]", shortest(preset.probe)}}},
+        {"Frames",
+         {{"frames", "A-B:S",
+           "a surface for every S-th frame from A to B: models of\n"
+           "INPUT by their numbers, or frames of --trajectory; also\n"
+           "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
+           "name.csv: a table of all",
+           ""},
+          {"trajectory", "FILE", ".dcd with the frames, its atoms those of INPUT", ""},
+          {"start", "WORD",
+           "cold: each frame as a run of its own; warm: its flow\n"
+           "begins at the surface of the one before",
+           "cold"}}},
         {"Surface",
          {{"surface", "KIND",
            "variational; ses, sas: solvent-excluded, -accessible;\n"
@@ -238,10 +251,42 @@ std::string longName(const Entry& entry)
     return name.substr(0, name.find(','));
 }
 
+// What mesh and color have in the place of the groups before Picture.
+const std::vector<Group>& storedGroups()
+{
+    static const std::vector<Group> all = {
+        {"Output",
+         {{"output,o", "FILE",
+           "file to write; repeats; the extension says what:\n"
+           ".ply .obj .stl .off .glb mesh; .html page; .json\n"
+           "report; .png picture; color: .vdb, the grids with\n"
+           "Cd anew; - is standard output",
+           "", true},
+          {"format", "WORD", std::string("what -o - writes: ") + formatWords, ""},
+          {"force", nullptr, "replace existing files", ""},
+          {"color", "WORD",
+           "chain, group (of grids chain_id, group_id), element,\n"
+           "residue (of Cd so coloured), mean-curvature,\n"
+           "gaussian-curvature; mesh: those of Cd unless given",
+           ""},
+          {"fields", "LIST", "curvatures for the vertices, as of vdb_molsurf --help", ""},
+          {"print-scale", "S", ".stl and .obj in mm, S of them per Å", ""}}}};
+    return all;
+}
+
 // The groups of a verb, in the order of its help.
 std::vector<Group> groupsOf(Verb verb)
 {
     if (verb == Verb::Build) return groups();
+    if (verb == Verb::Mesh || verb == Verb::Color) {
+        std::vector<Group> all = storedGroups();
+        std::copy_if(groups().begin() + 1, groups().end(), std::back_inserter(all),
+                     [](const Group& group) {
+                         const std::string title = group.title;
+                         return title == "Picture" || title == "Run" || title == "Information";
+                     });
+        return all;
+    }
     const bool partial =
         verb == Verb::Brick || verb == Verb::Merge; // of a plan, which has the rest
     std::vector<Group> all = verb == Verb::Batch   ? batchGroups()
@@ -253,6 +298,7 @@ std::vector<Group> groupsOf(Verb verb)
         const std::string title = group.title;
         const bool process = title == "Run" || title == "Information";
         if (title == "Output" || (partial && !process)) continue;
+        if (title == "Frames") continue;
         if ((title == "Picture" || title == "Scene") && verb != Verb::Batch) continue;
         if (title == "Groups" && verb == Verb::Compare) continue;
         if (title == "Run") {
@@ -457,6 +503,7 @@ std::vector<std::string> fieldsOf(const Values& values)
 }
 
 void fillRun(const Values& values, Call& call);
+void fillFrames(const Values& values, Call& call);
 
 bool writes(const Call& call, std::initializer_list<Format> some)
 {
@@ -628,6 +675,7 @@ void fillBuild(const Values& values, Call& call)
     call.memory = memoryOf(values);
     if (!call.dryRun || !values.list("output").empty()) call.outputs = outputsOf(values);
     fillRun(values, call);
+    fillFrames(values, call);
     fillScene(values, call);
     fillGroups(values, call);
     fillPicture(values, call);
@@ -638,6 +686,38 @@ void fillBuild(const Values& values, Call& call)
     for (const char* name : {"view", "turn"})
         if (!png && !writes(call, {Format::Html}) && values.given(name))
             call.warnings.push_back(std::string("--") + name + " is for .png and .html");
+}
+
+// Frames and what only they have.
+void fillFrames(const Values& values, Call& call)
+{
+    values.get("frames", call.frames);
+    values.get("trajectory", call.trajectory);
+    if (call.frames.empty() && !call.trajectory.empty()) call.frames = "all";
+    std::string start = "cold";
+    values.get("start", start);
+    if (start != "warm" && start != "cold") values.wrong("start", "warm or cold");
+    call.warm = start == "warm";
+    std::vector<std::string>& fields = call.options.fields;
+    if (call.frames.empty()) {
+        if (writes(call, {Format::Csv})) misuse("-o .csv is for --frames");
+        if (values.given("start")) call.warnings.push_back("--start is for --frames");
+        std::string list;
+        values.get("fields", list);
+        if (("," + list + ",").find(",v,") != std::string::npos)
+            misuse("--fields v: a surface moves from frame to frame [hint: --frames]");
+        fields.erase(std::remove(fields.begin(), fields.end(), "v"), fields.end());
+        return;
+    }
+    parseFrames(call.frames);
+    if (call.memory > 0 || call.dryRun) misuse("--frames and --memory or --dry-run together");
+    if (call.trajectory.empty() && values.given("model"))
+        misuse("--model and --frames together: frames are models [hint: --trajectory]");
+    if (values.given("turntable")) misuse("--turntable and --frames together");
+    if (call.input == "-" && call.trajectory == "-")
+        misuse("--trajectory -: expected a file, it is read at random");
+    for (const Output& output : call.outputs)
+        if (output.path == "-") misuse("--frames: expected files to write, got -");
 }
 
 // D or SELECTION=D, the selection ending at the last =.
@@ -836,12 +916,14 @@ void fillBatch(const Values& values, const po::parsed_options& parsed, Call& cal
         const std::size_t end = std::min(words.find(',', begin), words.size());
         const std::string word = words.substr(begin, end - begin);
         const auto found = formats.find(word);
-        if (found == formats.end() || !seen.insert(word).second)
+        if (found == formats.end() || found->second == Format::Csv || !seen.insert(word).second)
             values.wrong("formats", "some of vdb, ply, obj, stl, off, glb, html, json, png");
         call.outputs.push_back({"." + word, found->second, ""});
         begin = end + 1;
     }
     fillRun(values, call);
+    std::vector<std::string>& fields = call.options.fields;
+    fields.erase(std::remove(fields.begin(), fields.end(), "v"), fields.end());
     fillScene(values, call);
     fillGroups(values, call);
     fillPicture(values, call);
@@ -953,6 +1035,32 @@ void fillMerge(const Values& values, Call& call)
     fillProcess(values, call);
 }
 
+// mesh and color.
+void fillStored(const Values& values, Call& call)
+{
+    const bool recolor = call.verb == Verb::Color;
+    const std::string verb = recolor ? "color" : "mesh";
+    const std::vector<std::string> inputs = values.list("input");
+    if (inputs.size() != 1 || inputs[0].empty())
+        misuse(verb + ": expected one .vdb file, got " + std::to_string(inputs.size()) +
+               " [hint: vdb_molsurf " + verb + " surface.vdb -o surface.ply]");
+    call.input = inputs[0];
+    call.outputs = outputsOf(values);
+    if (writes(call, {Format::Csv})) misuse("-o .csv is for --frames");
+    if (!recolor && writes(call, {Format::Vdb}))
+        misuse("mesh: it does not write .vdb [hint: vdb_molsurf color]");
+    fillProcess(values, call);
+    values.get("color", call.options.color,
+               {ColorBy::Nothing, ColorBy::Chain, ColorBy::Group, ColorBy::Element,
+                ColorBy::Residue, ColorBy::MeanCurvature, ColorBy::GaussianCurvature});
+    if (recolor && call.options.color == ColorBy::Nothing) misuse("color: expected --color WORD");
+    call.options.fields = fieldsOf(values);
+    values.get("print-scale", call.printScale);
+    if (values.given("print-scale") && !(call.printScale >= 1e-6 && call.printScale <= 1e6))
+        values.wrong("print-scale", "mm per Å, from 1e-6 to 1e6");
+    fillPicture(values, call);
+}
+
 Call parseBuild(int argc, const char* const* argv, Verb verb)
 {
     const po::options_description all = describeOptions(verb);
@@ -974,6 +1082,8 @@ Call parseBuild(int argc, const char* const* argv, Verb verb)
     call.verb = verb;
     if (values.on("help"))
         call.verb = verb == Verb::Compare ? Verb::CompareHelp
+                    : verb == Verb::Mesh  ? Verb::MeshHelp
+                    : verb == Verb::Color ? Verb::ColorHelp
                     : verb == Verb::Batch ? Verb::BatchHelp
                     : verb == Verb::Plan  ? Verb::PlanHelp
                     : verb == Verb::Brick ? Verb::BrickHelp
@@ -998,6 +1108,8 @@ Call parseBuild(int argc, const char* const* argv, Verb verb)
         fillBrick(values, call);
     else if (verb == Verb::Merge)
         fillMerge(values, call);
+    else if (verb == Verb::Mesh || verb == Verb::Color)
+        fillStored(values, call);
     else
         fillBuild(values, call);
     return call;
@@ -1072,12 +1184,19 @@ Call parseCall(int argc, const char* const* argv)
     for (int i = 0; i < argc; ++i) command += (i ? " " : "") + quoted(argv[i]);
     try {
         const std::string first = argc > 1 ? argv[1] : "";
+        if (argc == 2 && (first == "--man" || first == "--bash-completion")) {
+            Call call;
+            call.verb = first == "--man" ? Verb::Man : Verb::Completion;
+            return call;
+        }
         Call call = first == "info"      ? parseInfo(argc, argv)
                     : first == "batch"   ? parseBuild(argc - 1, argv + 1, Verb::Batch)
                     : first == "compare" ? parseBuild(argc - 1, argv + 1, Verb::Compare)
                     : first == "plan"    ? parseBuild(argc - 1, argv + 1, Verb::Plan)
                     : first == "brick"   ? parseBuild(argc - 1, argv + 1, Verb::Brick)
                     : first == "merge"   ? parseBuild(argc - 1, argv + 1, Verb::Merge)
+                    : first == "mesh"    ? parseBuild(argc - 1, argv + 1, Verb::Mesh)
+                    : first == "color"   ? parseBuild(argc - 1, argv + 1, Verb::Color)
                                          : parseBuild(argc, argv, Verb::Build);
         call.command = command;
         return call;
@@ -1095,6 +1214,7 @@ std::string helpText()
         "vdb_molsurf batch LIST -O DIR [options]\n"
         "vdb_molsurf compare A B [-o FILE ...] [options]\n"
         "vdb_molsurf plan INPUT -o plan.json, brick plan.json K, merge plan.json -o FILE\n"
+        "vdb_molsurf mesh|color FILE.vdb -o FILE [-o FILE ...] [options]\n"
         "vdb_molsurf info FILE ...\n"
         "\n"
         "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .pqr .xyzr,\n"
@@ -1153,6 +1273,44 @@ std::string compareHelpText()
         "\n"
         "Exit status: 0 done, 1 failed, 2 wrong usage, 3 not converged (files are written),\n"
         "130 interrupted.\n";
+    return text;
+}
+
+std::vector<OptionText> optionTexts(Verb verb)
+{
+    std::vector<OptionText> all;
+    for (const Group& group : groupsOf(verb)) {
+        for (const Entry& entry : group.entries) {
+            const std::string name = entry.name, whole = longName(entry);
+            if (verb == Verb::Compare && (whole == "fields" || whole == "curvature-totals"))
+                continue;
+            all.push_back({group.title, whole,
+                           whole.size() < name.size() ? name.substr(whole.size() + 1) : "",
+                           entry.value ? entry.value : "", entry.text, entry.preset});
+        }
+    }
+    return all;
+}
+
+std::string storedHelpText(Verb verb)
+{
+    std::string text =
+        verb == Verb::ColorHelp
+            ? "vdb_molsurf color FILE.vdb --color WORD -o FILE [-o FILE ...] [options]\n"
+              "\n"
+              "Colours a stored surface anew, without the atoms: the grids of FILE.vdb with\n"
+              "another Cd, meshes, pictures.\n"
+            : "vdb_molsurf mesh FILE.vdb -o FILE [-o FILE ...] [options]\n"
+              "\n"
+              "Meshes and pictures of a stored surface, without computing it again.\n";
+    text += "The mesh is that of the grid spline; without it a spline is fitted to the grid\n"
+            "surface. The grids atom_id, chain_id and group_id label the vertices.\n";
+    for (const Group& group : groupsOf(verb == Verb::ColorHelp ? Verb::Color : Verb::Mesh)) {
+        text += std::string("\n") + group.title + "\n";
+        for (const Entry& entry : group.entries) text += helpLine(entry);
+    }
+    text += "\n"
+            "Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted.\n";
     return text;
 }
 

@@ -16,7 +16,7 @@ namespace molsurf::tool
 {
 
 /// Kinds of output files.
-enum class Format { Vdb, Ply, Obj, Stl, Off, Glb, Json, Png, Html, Usda };
+enum class Format { Vdb, Ply, Obj, Stl, Off, Glb, Json, Png, Html, Usda, Csv };
 
 /// One -o.
 struct Output {
@@ -35,6 +35,8 @@ enum class Verb {
     Plan,
     Brick,
     Merge,
+    Mesh,
+    Color,
     Help,
     BatchHelp,
     CompareHelp,
@@ -42,8 +44,12 @@ enum class Verb {
     PlanHelp,
     BrickHelp,
     MergeHelp,
+    MeshHelp,
+    ColorHelp,
     ListRadii,
-    Version
+    Version,
+    Man,       ///< `--man`, for the build
+    Completion ///< `--bash-completion`, for the build
 };
 
 /// A parsed command line.
@@ -51,7 +57,11 @@ struct Call {
     Verb verb = Verb::Build;
     std::string command;         ///< the command line as typed, quoted for a shell
     std::string input;           ///< Build, Plan: a file, or "-"; Batch: the list, likewise; Brick,
-                                 ///< Merge: the manifest of a plan
+                                 ///< Merge: the manifest of a plan; Mesh, Color: a .vdb
+    std::string frames;          ///< Build: of --frames; empty: none
+    std::string trajectory;      ///< Build: a .dcd with the frames; empty: models are
+    bool warm = false;           ///< Build: a frame begins at the surface of the one before
+    int frame = 0;               ///< Build: the number of the one that is built; 0: none is
     std::string folder;          ///< Batch: where the files go
     std::vector<Output> outputs; ///< Build: at least one; Batch: extensions in the place of paths
     std::vector<std::string> files; ///< Info: at least one; Compare: two
@@ -90,6 +100,22 @@ std::string batchHelpText();
 
 /// The text of `compare --help`.
 std::string compareHelpText();
+
+/// The text of `mesh --help`, or of `color --help`.
+std::string storedHelpText(Verb verb);
+
+/// One line of the table of options.
+struct OptionText {
+    std::string group;  ///< title
+    std::string name;   ///< "output"
+    std::string letter; ///< "o", or empty
+    std::string value;  ///< "FILE"; empty for a switch
+    std::string text;   ///< what --help says of it
+    std::string preset; ///< default; empty: none
+};
+
+/// All options of Build, Batch, Compare, Mesh or Color, in the order of their help.
+std::vector<OptionText> optionTexts(Verb verb);
 
 /// The text of `info --help`.
 std::string infoHelpText();

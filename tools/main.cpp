@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "cli.h"
+#include "manual.h"
 #include "stop.h"
 #include "terminal.h"
 #include "verbs.h"
@@ -62,7 +63,21 @@ int perform(const Call& call, std::chrono::steady_clock::time_point start)
         return brick(call);
     case Verb::Merge:
         return merge(call, start);
+    case Verb::Man:
+        std::cout << manPage();
+        return 0;
+    case Verb::Completion:
+        std::cout << bashCompletion();
+        return 0;
+    case Verb::MeshHelp:
+    case Verb::ColorHelp:
+        std::cout << storedHelpText(call.verb);
+        return 0;
+    case Verb::Mesh:
+    case Verb::Color:
+        return stored(call, start);
     case Verb::Build:
+        if (!call.frames.empty()) return frames(call, start);
         return build(call, start);
     }
     return 1;

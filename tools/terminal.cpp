@@ -65,8 +65,8 @@ void Terminal::update(const char* stage, double fraction)
     std::string line = "\r\033[K[" + std::string(std::size_t(full), '#') +
                        std::string(std::size_t(width - full), '.') + "]";
     char text[64];
-    std::snprintf(text, sizeof text, " %3.0f %%  %s", 100.0 * done, stage);
-    line += text;
+    std::snprintf(text, sizeof text, " %3.0f %%  ", 100.0 * done);
+    line += text + prefix_ + stage;
     const double spent = std::chrono::duration<double>(now - stageStart_).count();
     if (done > 0.02 && done < 1.0 && spent > 0.5)
         line += ", " + duration(spent * (1.0 - done) / done) + " left";

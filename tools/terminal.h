@@ -27,6 +27,9 @@ public:
     void update(const char* stage, double fraction) override;
     bool cancelled() const override;
 
+    /// What is put before the names of stages from now on: "frame 3/38: ".
+    void setPrefix(const std::string& prefix) { prefix_ = prefix; }
+
     /// Takes the bar away, so that a line can be printed.
     void erase();
 
@@ -34,7 +37,7 @@ private:
     using Clock = std::chrono::steady_clock;
     bool bar_;
     bool drawn_ = false;
-    std::string stage_;
+    std::string stage_, prefix_;
     Clock::time_point stageStart_, lastDrawn_;
 };
 

@@ -5,11 +5,15 @@
 /// The verbs of the tool, one file each. They return the exit status.
 
 #include "cli.h"
+#include "terminal.h"
 
 #include "molsurf/core/report.h"
+#include "molsurf/pipeline/run.h"
 
 #include <chrono>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace molsurf::tool
 {
@@ -24,6 +28,24 @@ int build(const Call& call, std::chrono::steady_clock::time_point start);
 /// The same without its last word on standard error, but for errors.
 /// @return the report, complete
 Report buildSurface(const Call& call, std::chrono::steady_clock::time_point start);
+
+/// What surfaceOf() needs besides the call.
+struct Atoms {
+    const BallSelection& selection;
+    double readSeconds = 0.0;          ///< that it took to read them
+    std::vector<std::string> warnings; ///< for the report
+};
+
+/// The part of it behind the atoms: runs and writes. prepareOutputs() has been called.
+/// @param[in]     call    with --center and a frame the centre of the scene is taken, else chosen
+/// @param[in,out] warm    as run() takes it
+/// @param[in]     extend  changes the result before it is written; may be empty
+Report surfaceOf(Call call, const Atoms& atoms, Terminal& terminal,
+                 std::chrono::steady_clock::time_point start, WarmStart* warm = nullptr,
+                 const std::function<void(Result&)>& extend = nullptr);
+
+/// Builds the surfaces of frames: frames.cpp.
+int frames(const Call& call, std::chrono::steady_clock::time_point start);
 
 /// Builds the surfaces of a list of structures, one after the other; a summary after each:
 /// batch.cpp.
@@ -45,6 +67,10 @@ int merge(const Call& call, std::chrono::steady_clock::time_point start);
 
 /// Builds a surface within --memory, or only says what it takes (--dry-run): build_in_bricks.cpp.
 int buildInBricks(const Call& call, std::chrono::steady_clock::time_point start);
+
+/// Meshes, colours and pictures of a stored surface: stored.cpp.
+/// @param[in] start  when the program began, for the total time
+int stored(const Call& call, std::chrono::steady_clock::time_point start);
 
 /// Prints what files hold: info.cpp.
 int info(const Call& call);

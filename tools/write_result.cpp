@@ -13,9 +13,11 @@
 #include "molsurf/io/write_usda.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/pipeline/legends.h"
+#include "molsurf/pipeline/stored_surface.h"
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 
@@ -31,91 +33,109 @@ std::string shortest(double number)
     return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
 }
 
-} // namespace
-
-openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
-{
-    openvdb::MetaMap map;
-    const auto text = [&](const char* name, const std::string& value) {
+// Adds values of metadata by name.
+struct Metadata {
+    openvdb::MetaMap& map;
+    void text(const char* name, const std::string& value)
+    {
         map.insertMeta(name, openvdb::StringMetadata(value));
-    };
-    const auto number = [&](const char* name, double value) {
+    }
+    void number(const char* name, double value)
+    {
         map.insertMeta(name, openvdb::DoubleMetadata(value));
-    };
-    const auto count = [&](const char* name, std::int64_t value) {
+    }
+    void count(const char* name, std::int64_t value)
+    {
         map.insertMeta(name, openvdb::Int64Metadata(value));
-    };
-    const auto yesNo = [&](const char* name, bool value) {
-        map.insertMeta(name, openvdb::BoolMetadata(value));
-    };
-    text("program", report.program);
-    text("version", report.version);
-    text("command", report.command);
-    text("input", report.input);
-    if (call.input != "-") text("input_sha256", sha256OfFile(call.input));
-    count("atoms", std::int64_t(report.atoms));
-    number("area", report.surface.area);
-    number("volume", report.surface.volume);
+    }
+    void yesNo(const char* name, bool value) { map.insertMeta(name, openvdb::BoolMetadata(value)); }
+};
 
+void addOptions(const Call& call, openvdb::MetaMap& map)
+{
+    Metadata to{map};
     const Options& options = call.options;
-    text("option.select", options.atoms.select.empty() ? "all" : options.atoms.select);
-    text("option.model", options.atoms.model ? std::to_string(options.atoms.model) : "first");
-    text("option.assembly", options.atoms.assembly);
-    text("option.copies", options.atoms.copies.empty() ? "all" : options.atoms.copies);
-    text("option.altloc",
-         options.atoms.altloc.empty() ? "highest occupancy" : options.atoms.altloc);
-    yesNo("option.no-hydrogens", !options.atoms.hydrogens);
-    yesNo("option.no-hetero", !options.atoms.hetero);
-    yesNo("option.waters", options.atoms.waters);
-    text("option.radii", options.atoms.radii);
-    number("option.probe", options.probe);
-    text("option.surface", nameOf(options.kind));
-    number("option.blobbiness", options.blobbiness);
-    number("option.voxel", options.voxel);
-    yesNo("option.fill-cavities", options.fillCavities);
+    to.text("option.select", options.atoms.select.empty() ? "all" : options.atoms.select);
+    to.text("option.model", options.atoms.model ? std::to_string(options.atoms.model) : "first");
+    to.text("option.assembly", options.atoms.assembly);
+    to.text("option.copies", options.atoms.copies.empty() ? "all" : options.atoms.copies);
+    to.text("option.altloc",
+            options.atoms.altloc.empty() ? "highest occupancy" : options.atoms.altloc);
+    to.yesNo("option.no-hydrogens", !options.atoms.hydrogens);
+    to.yesNo("option.no-hetero", !options.atoms.hetero);
+    to.yesNo("option.waters", options.atoms.waters);
+    to.text("option.radii", options.atoms.radii);
+    to.number("option.probe", options.probe);
+    to.text("option.surface", nameOf(options.kind));
+    to.number("option.blobbiness", options.blobbiness);
+    to.number("option.voxel", options.voxel);
+    to.yesNo("option.fill-cavities", options.fillCavities);
     std::string coarse;
     for (const CoarseRule& rule : options.atoms.coarse)
         coarse += (coarse.empty() ? "" : ", ") + nameOf(rule);
-    text("option.coarse", coarse.empty() ? "atom" : coarse);
+    to.text("option.coarse", coarse.empty() ? "atom" : coarse);
     std::string resolutions;
     for (const ResolutionRule& rule : options.atoms.resolutions) {
         resolutions += (resolutions.empty() ? "" : ", ") +
                        (rule.select.empty() ? "" : rule.select + "=") + shortest(rule.resolution);
     }
-    text("option.resolution", resolutions);
-    yesNo("option.match-volume", options.matchVolume);
+    to.text("option.resolution", resolutions);
+    to.yesNo("option.match-volume", options.matchVolume);
     std::string groups;
     for (const GroupRule& group : options.atoms.groups)
         groups += (groups.empty() ? "" : ", ") + group.name + " " + group.select;
-    text("option.groups", groups);
-    text("option.group-by", options.atoms.groupBy);
-    text("option.color", nameOf(options.color));
-    text("option.split", options.split ? "group" : "none");
+    to.text("option.groups", groups);
+    to.text("option.group-by", options.atoms.groupBy);
+    to.text("option.color", nameOf(options.color));
+    to.text("option.split", options.split ? "group" : "none");
     std::string surfaceOf;
     for (const auto& [name, kind] : options.surfaceOf)
         surfaceOf += (surfaceOf.empty() ? "" : ",") + name + "=" + nameOf(kind);
-    text("option.surface-of", surfaceOf);
+    to.text("option.surface-of", surfaceOf);
     std::string fields = "surface";
     for (const std::string& field : options.fields) fields += "," + field;
-    text("option.fields", fields);
-    text("option.for", nameOf(call.scene.host));
-    yesNo("option.center", call.center);
-    number("option.min-wall", options.minWall);
+    to.text("option.fields", fields);
+    to.text("option.for", nameOf(call.scene.host));
+    to.yesNo("option.center", call.center);
+    to.number("option.min-wall", options.minWall);
     const char* axes[] = {"scene.center_x", "scene.center_y", "scene.center_z"};
-    for (int i = 0; i < 3; ++i) number(axes[i], call.scene.center[i]);
-    number("scene.units_per_angstrom", call.scene.scale);
-    number("scene.shift_in_voxels", call.scene.host == Host::Blender ? -0.5 : 0.0);
-    yesNo("option.curvature-totals", options.curvatureIntegrals);
-    number("option.epsilon", options.epsilon);
-    number("option.lambda", options.evolution.lambda);
-    text("option.regularizer", nameOf(options.evolution.regularizer));
-    text("option.flow", nameOf(options.evolution.flow));
+    for (int i = 0; i < 3; ++i) to.number(axes[i], call.scene.center[i]);
+    to.number("scene.units_per_angstrom", call.scene.scale);
+    to.number("scene.shift_in_voxels", call.scene.host == Host::Blender ? -0.5 : 0.0);
+    to.yesNo("option.curvature-totals", options.curvatureIntegrals);
+    to.number("option.epsilon", options.epsilon);
+    to.number("option.lambda", options.evolution.lambda);
+    to.text("option.regularizer", nameOf(options.evolution.regularizer));
+    to.text("option.flow", nameOf(options.evolution.flow));
     const int steps = options.evolution.maxSteps;
-    text("option.steps", options.evolution.steps >= 0 ? std::to_string(options.evolution.steps)
-                                                      : "by the stopping rule");
-    text("option.max-steps", steps >= 0 ? std::to_string(steps) : "default of the flow");
-    number("option.tolerance", options.evolution.energyTolerance);
-    count("option.spline-level", options.splineLevel);
+    to.text("option.steps", options.evolution.steps >= 0 ? std::to_string(options.evolution.steps)
+                                                         : "by the stopping rule");
+    to.text("option.max-steps", steps >= 0 ? std::to_string(steps) : "default of the flow");
+    to.number("option.tolerance", options.evolution.energyTolerance);
+    to.count("option.spline-level", options.splineLevel);
+}
+
+} // namespace
+
+openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
+{
+    openvdb::MetaMap map;
+    Metadata to{map};
+    to.text("program", report.program);
+    to.text("version", report.version);
+    to.text("command", report.command);
+    to.text("input", report.input);
+    if (call.input != "-") to.text("input_sha256", sha256OfFile(call.input));
+    to.count("atoms", std::int64_t(report.atoms));
+    to.number("area", report.surface.area);
+    to.number("volume", report.surface.volume);
+
+    if (call.frame > 0) {
+        to.count("frame", call.frame);
+        to.text("trajectory", call.trajectory.empty() ? call.input : call.trajectory);
+        to.text("frames.options", optionsDigest(call));
+    }
+    addOptions(call, map);
     return map;
 }
 
@@ -186,13 +206,32 @@ void writePicture(const Call& call, const BallSelection& atoms, const Mesh& mesh
 
 } // namespace
 
+std::string optionsDigest(const Call& call)
+{
+    openvdb::MetaMap map;
+    addOptions(call, map);
+    std::string all = call.trajectory + "\n" + shortest(call.scene.scale) +
+                      (call.input == "-" ? "" : sha256OfFile(call.input));
+    for (auto meta = map.beginMeta(); meta != map.endMeta(); ++meta)
+        if (meta->first.rfind("option.", 0) == 0 && meta->first != "option.model")
+            all += "\n" + meta->first + "=" + meta->second->str();
+    std::uint64_t hash = 14695981039346656037u; // FNV-1a
+    for (const char letter : all) hash = (hash ^ std::uint8_t(letter)) * 1099511628211u;
+    char digits[24];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+    return digits;
+}
+
 void writeOutput(const Call& call, const BallSelection& atoms, const Result& result,
                  const Output& output, const Progress& progress, OutputFile& file)
 {
     switch (output.format) {
-    case Format::Vdb:
-        writeVdb(gridsOf(call, result), vdbMetadata(call, result.report), file);
+    case Format::Vdb: {
+        openvdb::MetaMap metadata = vdbMetadata(call, result.report);
+        addLabelMetadata(atoms, call.options.fields, progress, metadata);
+        writeVdb(gridsOf(call, result), metadata, file);
         break;
+    }
     case Format::Usda:
         writeUsda(gridsOf(call, result), usdVolume(call, output), file);
         break;
@@ -222,6 +261,8 @@ void writeOutput(const Call& call, const BallSelection& atoms, const Result& res
         break;
     case Format::Json:
         writeReport(result.report, file);
+        break;
+    case Format::Csv: // of all frames: frames.cpp
         break;
     }
 }

@@ -15,6 +15,9 @@ namespace molsurf::tool
 /// Everything that is needed to make a .vdb again.
 openvdb::MetaMap vdbMetadata(const Call& call, const Report& report);
 
+/// What a surface depends on but its atoms: 16 hexadecimal digits that change with any option.
+std::string optionsDigest(const Call& call);
+
 /// Writes one output. The report must be complete but for what is timed by writing.
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeOutput(const Call& call, const BallSelection& atoms, const Result& result,

@@ -10,7 +10,8 @@ import unittest
 
 from tool import ROOT, TOOL, ToolTest
 
-PAGES = [ROOT / "README.md", *(ROOT / "docs" / name for name in ("complexes.md", "artists.md", "pipelines.md"))]
+PAGES = [ROOT / "README.md", *(ROOT / "docs" / f"{name}.md" for name in
+                               ("complexes", "artists", "pipelines", "trajectories"))]
 
 
 def blocks(language, page=PAGES[0]):
@@ -19,9 +20,11 @@ def blocks(language, page=PAGES[0]):
 
 
 def promised(block):
-    """The files that a block writes."""
+    """The files that a block writes; of frames the first."""
     words = shlex.split(block, comments=True)
     files = [after for word, after in zip(words, words[1:]) if word in ("-o", ">")]
+    if "--frames" in words:
+        files = [re.sub(r"\.(?!csv$)(\w+)$", r".0001.\1", name) for name in files]
     return [name for name in files if name != "-"]
 
 
@@ -44,6 +47,9 @@ class Readme(ToolTest):
     def test_commands_of_the_pipelines(self):
         self.run_commands(PAGES[3])
 
+    def test_commands_of_the_guide_to_frames(self):
+        self.run_commands(PAGES[4])
+
     def run_commands(self, page):
         """In the order of the page and in one folder, since later ones use files of earlier ones."""
         commands = blocks("sh", page)
@@ -62,7 +68,8 @@ class Readme(ToolTest):
 
     def test_options_are_in_the_help(self):
         """Every option that the pages name is one that --help or a verb's --help names."""
-        text = b"".join(self.check(0, *words, "--help").stdout for words in ([], ["batch"], ["compare"], ["plan"], ["brick"], ["merge"]))
+        text = b"".join(self.check(0, *words, "--help").stdout for words in
+                        ([], ["batch"], ["compare"], ["plan"], ["brick"], ["merge"], ["mesh"], ["color"]))
         text = text.decode()
         known = set(re.findall(r"--[a-z][a-z-]*", text))
         spans = [span for page in PAGES

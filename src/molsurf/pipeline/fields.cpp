@@ -18,7 +18,7 @@ const std::vector<std::string>& fieldNames()
     static const std::vector<std::string> names = [] {
         std::vector<std::string> all = {"sas", "spline"};
         for (const CurvatureField& field : curvatureFields()) all.push_back(field.name);
-        for (const char* name : {"density", "atom_id", "chain_id", "group_id", "Cd"})
+        for (const char* name : {"density", "atom_id", "chain_id", "group_id", "Cd", "v"})
             all.push_back(name);
         return all;
     }();

@@ -17,7 +17,8 @@ namespace molsurf
 {
 
 /// The names that Options::fields takes: "sas", "spline", those of curvatureFields(),
-/// "density", "atom_id", "chain_id", "group_id", "Cd".
+/// "density", "atom_id", "chain_id", "group_id", "Cd", and for frames "v", see velocityGrid(),
+/// which run() leaves to its caller.
 const std::vector<std::string>& fieldNames();
 
 /// The coefficients of a spline, as they are.

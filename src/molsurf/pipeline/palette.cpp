@@ -143,6 +143,7 @@ std::vector<Color> chainColors(const BallSelection& atoms, const Progress& progr
 {
     if (!atoms.labels) return {};
     const BallLabels& labels = *atoms.labels;
+    if (!labels.chainColors.empty()) return labels.chainColors;
     return distinctColors(
         contacts(atoms.balls, labels.chainOf, labels.chains.size(), visibleGap, progress));
 }

@@ -161,7 +161,8 @@ void describeCurvature(const Mesh& mesh, const Spline& spline, const Options& op
 }
 
 /// The surface of all balls.
-Result runWhole(const BallSelection& atoms, const Options& options, Progress& progress)
+Result runWhole(const BallSelection& atoms, const Options& options, Progress& progress,
+                WarmStart* warm)
 {
     const std::vector<Ball>& balls = atoms.balls;
     Result result;
@@ -169,7 +170,7 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
     Stopwatch watch(report);
 
     const Scope everything;
-    NarrowBand band = makeBand(atoms, options, everything, progress, report, watch);
+    NarrowBand band = makeBand(atoms, options, everything, progress, report, watch, warm);
     const bool unionOfBalls = isUnion(options.kind);
     const auto wanted = [&](const char* field) {
         return std::find(options.fields.begin(), options.fields.end(), field) !=
@@ -271,7 +272,7 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
     return run(atoms, options, progress);
 }
 
-Result run(const BallSelection& atoms, const Options& options, Progress& progress)
+Result run(const BallSelection& atoms, const Options& options, Progress& progress, WarmStart* warm)
 {
     checkOptions(options);
     if (options.matchVolume && !atoms.resolutions.empty()) {
@@ -280,7 +281,7 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
         once.matchVolume = false;
         progress.update("match", 0.0);
         matchVolumes(matched, once, progress);
-        return run(matched, once, progress);
+        return run(matched, once, progress, warm);
     }
     if (atoms.balls.empty()) throw Error(ErrorKind::Input, "no atoms");
     const bool whole = !options.split && options.surfaceOf.empty();
@@ -295,7 +296,8 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
     const bool helps = shown && !asked(shown);
     Options wanted = options;
     if (helps) wanted.fields.push_back(shown);
-    Result result = whole ? runWhole(atoms, wanted, progress) : runParts(atoms, wanted, progress);
+    Result result =
+        whole ? runWhole(atoms, wanted, progress, warm) : runParts(atoms, wanted, progress);
     if (shown) addCurvatureColors(options.color, !helps, result);
     Report& report = result.report;
     report.atoms = atoms.balls.size();

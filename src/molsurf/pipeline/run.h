@@ -4,6 +4,7 @@
 /// @file
 /// The stages in their order: balls in, surface out.
 
+#include "molsurf/core/leaf_table.h"
 #include "molsurf/core/progress.h"
 #include "molsurf/core/report.h"
 #include "molsurf/pipeline/options.h"
@@ -16,6 +17,13 @@
 
 namespace molsurf
 {
+
+/// What the flow of one frame leaves for the next: how far the surface at rest lies from the one
+/// that it began at, in the band.
+struct WarmStart {
+    LeafTable table;
+    LeafField correction; ///< phi at rest minus that of psi = 0 [Å]
+};
 
 /// What a run leaves.
 struct Result {
@@ -36,9 +44,17 @@ struct Result {
 Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress);
 
 /// The same with what else is known of the balls: resolutions, groups, colours.
-Result run(const BallSelection& atoms, const Options& options, Progress& progress);
+///
+/// @param[in,out] warm  null, or what a run with nearly the same balls and the same options left,
+///                      or empty: the flow begins nearer to its rest. Afterwards that of this run;
+///                      left alone by surfaces of parts and those that do not flow.
+Result run(const BallSelection& atoms, const Options& options, Progress& progress,
+           WarmStart* warm = nullptr);
 
 /// The largest tolerance that the Gaussians of the balls have [Å].
 double largestTolerance(const BallSelection& atoms, const Options& options);
+
+/// How far a point of the surface, or of its grid's band, may lie from its ball [Å].
+double labelReach(const BallSelection& atoms, const Options& options);
 
 } // namespace molsurf

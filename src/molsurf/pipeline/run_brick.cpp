@@ -6,6 +6,7 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/pipeline/fields.h"
 #include "molsurf/pipeline/label_surface.h"
+#include "molsurf/pipeline/run.h"
 #include "molsurf/rasterize/union_distance.h"
 #include "molsurf/surface/extract.h"
 

@@ -62,17 +62,63 @@ double gaussianReach(double voxel)
     return (bandWidthVox + 1.5) * voxel;
 }
 
+/// Adds to the surface of psi = 0 what the flow of the frame before added to its own, and keeps it
+/// as it was in `cold`.
+void addCorrection(const WarmStart& warm, double voxel, NarrowBand& band, LeafField& cold,
+                   Progress& progress)
+{
+    constexpr int repairs = 2; // the sum is nearly a distance
+    const float width = float(bandWidthVox * voxel);
+    cold = LeafField(band.table.size());
+    parallelFor(band.table.size(), progress, [&](std::size_t n) {
+        float* phi = band.phi.leaf(n);
+        std::copy_n(phi, leafSize, cold.leaf(n));
+        const std::int32_t m = warm.table.find(band.table.origin(n));
+        if (m == noLeaf) return;
+        const float* correction = warm.correction.leaf(m);
+        for (int v = 0; v < leafSize; ++v)
+            phi[v] = std::clamp(phi[v] + correction[v], -width, width);
+    });
+    if (warm.table.size() == 0) return;
+    LeafField scratch;
+    reinitialize(band.table, band.phi, voxel, width, repairs, scratch, progress);
+}
+
+/// What the next frame wants: how far the flow went from `cold`, where both are known.
+WarmStart correctionOf(const LeafTable& before, const LeafField& cold, const NarrowBand& band,
+                       double voxel, Progress& progress)
+{
+    const float width = float(bandWidthVox * voxel) * 0.999f;
+    WarmStart warm;
+    warm.table = band.table;
+    warm.correction = LeafField(band.table.size());
+    parallelFor(band.table.size(), progress, [&](std::size_t n) {
+        float* out = warm.correction.leaf(n);
+        std::fill_n(out, leafSize, 0.0f);
+        const std::int32_t m = before.find(band.table.origin(n));
+        if (m == noLeaf) return;
+        const float *from = cold.leaf(m), *to = band.phi.leaf(n);
+        for (int v = 0; v < leafSize; ++v)
+            if (std::abs(from[v]) < width && std::abs(to[v]) < width) out[v] = to[v] - from[v];
+    });
+    return warm;
+}
+
 /// The flow.
 void evolveBand(const GaussianSum& field, const Options& options, const Scope& scope,
-                NarrowBand& band, Progress& progress, Report& report)
+                NarrowBand& band, Progress& progress, Report& report, WarmStart* warm)
 {
     const double h = options.voxel, reach = gaussianReach(h);
+    const LeafTable before = band.table;
+    LeafField cold;
+    if (warm) addCorrection(*warm, h, band, cold, progress);
     const auto source = [&](const openvdb::Coord& origin, float* psi) {
         field.evaluate(origin, reach, psi);
     };
     EvolveOptions evolution = options.evolution;
     evolution.splineLevel = options.splineLevel;
     report.evolution = evolve(band, source, h, evolution, progress, scope.region, scope.flowHalo);
+    if (warm) *warm = correctionOf(before, cold, band, h, progress);
     constexpr double noticeable = 0.1; // [voxel]
     if (report.evolution->converged && report.evolution->remainingWay > noticeable * h) {
         report.warnings.push_back(
@@ -92,7 +138,7 @@ GaussianOptions gaussianOptions(const Options& options)
 }
 
 NarrowBand makeBand(const BallSelection& atoms, const Options& options, const Scope& scope,
-                    Progress& progress, Report& report, Stopwatch& watch)
+                    Progress& progress, Report& report, Stopwatch& watch, WarmStart* warm)
 {
     if (isUnion(options.kind)) return NarrowBand();
     const bool evolves = options.kind == SurfaceKind::Variational;
@@ -102,7 +148,7 @@ NarrowBand makeBand(const BallSelection& atoms, const Options& options, const Sc
     NarrowBand band = gaussianBand(field, options.voxel, scope, progress, watch);
     if (evolves) {
         progress.update("evolve", 0.0);
-        evolveBand(field, options, scope, band, progress, report);
+        evolveBand(field, options, scope, band, progress, report, warm);
         watch.stop("evolve");
     }
     band.psi = LeafField();

@@ -33,6 +33,8 @@ constexpr double splineWidthVox = 4.0;
 /// interface during the flow.
 constexpr int flowLeaves = 2;
 
+struct WarmStart;
+
 /// What a run computes of a molecule: everything, or a brick. The halos, in leaves about the brick,
 /// shrink from stage to stage: each stage needs the one before it farther out.
 struct Scope {
@@ -62,7 +64,8 @@ GaussianOptions gaussianOptions(const Options& options);
 /// The level set that a smooth surface is offset from; empty for surfaces of a union of balls, and
 /// in a region that has none of it.
 NarrowBand makeBand(const BallSelection& atoms, const Options& options, const Scope& scope,
-                    Progress& progress, Report& report, Stopwatch& watch);
+                    Progress& progress, Report& report, Stopwatch& watch,
+                    WarmStart* warm = nullptr);
 
 /// Whether a surface is that of a union of balls.
 bool isUnion(SurfaceKind kind);
@@ -109,8 +112,5 @@ struct GradientCounts {
 GradientCounts countGradients(const Mesh& mesh, const std::vector<float>& slopes,
                               std::size_t vertices, const DistanceBand& S, double voxel,
                               Progress& progress);
-
-/// How far from their atom points of the surface may lie [Å].
-double labelReach(const BallSelection& atoms, const Options& options);
 
 } // namespace molsurf

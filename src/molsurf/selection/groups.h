@@ -53,6 +53,8 @@ struct BallLabels {
     std::vector<std::uint8_t> elementOf;      ///< atomic number; 0: unknown
     std::vector<ResidueClass> residueClassOf; ///< by the residue's name
     std::vector<std::string> warnings;        ///< groups that lost atoms to later ones, ...
+    /// sRGB, one a chain; empty: chosen by contacts, see chainColors().
+    std::vector<std::array<std::uint8_t, 3>> chainColors{};
 };
 
 /// The colour that "#rrggbb" stands for.

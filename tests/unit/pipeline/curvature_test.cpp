@@ -37,8 +37,8 @@ TEST(CurvatureGrids, HaveTheValueOfTheSurfaceThroughoutTheBand)
     options.voxel = 0.25;
     options.fields = fieldNames();
     const Result result = test::runOn(atom(), options);
-    // Atoms without chains and groups have no labels of these and no colours.
-    ASSERT_EQ(result.fields.size(), options.fields.size() - 3);
+    // Atoms without chains and groups have no labels of these and no colours, and do not move.
+    ASSERT_EQ(result.fields.size(), options.fields.size() - 4);
     const double k = 1.0 / radius;
     for (const auto& [name, expected] : {std::pair("mean_curvature", k),
                                          {"gaussian_curvature", k * k},

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/structure/read_dcd.h"
+
+#include "molsurf/core/error.h"
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+namespace molsurf
+{
+
+namespace
+{
+
+constexpr std::size_t headerSize = 84;      // "CORD" and 20 words
+constexpr std::uint32_t largest = 1u << 30; // of a record [byte]
+constexpr std::uint64_t marks = 8;          // two markers of a record [byte]
+
+std::uint32_t turned(std::uint32_t w)
+{
+    return w >> 24 | (w >> 8 & 0xff00) | (w << 8 & 0xff0000) | w << 24;
+}
+
+} // namespace
+
+void DcdFile::fail(const std::string& message) const
+{
+    throw Error(ErrorKind::Input, path_ + ": " + message);
+}
+
+std::uint32_t DcdFile::word(const char* bytes) const
+{
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes, sizeof value);
+    return swapped_ ? turned(value) : value;
+}
+
+std::vector<char> DcdFile::record()
+{
+    char mark[4];
+    if (!file_.read(mark, 4)) fail("cut short");
+    const std::uint32_t size = word(mark);
+    if (size > largest)
+        fail("expected a record of DCD, got one of " + std::to_string(size) + " bytes");
+    std::vector<char> content(size);
+    if (!file_.read(content.data(), size) || !file_.read(mark, 4)) fail("cut short");
+    if (word(mark) != size) fail("a record of DCD ends with another length than it begins with");
+    return content;
+}
+
+DcdFile::DcdFile(const std::string& path) : path_(path)
+{
+    std::error_code problem;
+    if (std::filesystem::is_directory(path, problem)) fail("it is a folder");
+    file_.open(path, std::ios::binary);
+    if (!file_) fail("cannot be opened");
+    size_ = std::filesystem::file_size(path, problem);
+    if (problem) fail("cannot be read: " + problem.message());
+    readHeader();
+}
+
+void DcdFile::readHeader()
+{
+    char first[8] = {};
+    file_.read(first, 8);
+    const bool known = file_ && std::memcmp(first + 4, "CORD", 4) == 0;
+    swapped_ = known && word(first) != headerSize;
+    if (!known || word(first) != headerSize)
+        fail("expected a trajectory in the DCD format, with record markers of 4 bytes");
+    file_.seekg(0);
+    const std::vector<char> header = record();
+    const auto control = [&](std::size_t i) { return word(&header[4 + 4 * i]); };
+    const bool charmm = control(19) != 0;
+    cell_ = charmm && control(10) != 0;
+    fourth_ = charmm && control(11) != 0;
+    const std::uint32_t promised = control(0), fixed = control(8);
+    record(); // titles
+    const std::vector<char> count = record();
+    if (count.size() != 4)
+        fail("expected the number of atoms in 4 bytes, got " + std::to_string(count.size()));
+    atoms_ = word(count.data());
+    if (atoms_ == 0 || atoms_ > largest / 4 || fixed >= atoms_)
+        fail("expected atoms that move, got " + std::to_string(atoms_) + " of which " +
+             std::to_string(fixed) + " are fixed");
+    if (fixed > 0) {
+        const std::vector<char> list = record();
+        if (list.size() != 4 * (atoms_ - fixed)) fail("the list of atoms that move is damaged");
+        for (std::size_t i = 0; i < atoms_ - fixed; ++i) {
+            const std::size_t atom = word(&list[4 * i]);
+            if (atom < 1 || atom > atoms_) fail("the list of atoms that move is damaged");
+            free_.push_back(atom - 1);
+        }
+    }
+    begin_ = std::uint64_t(file_.tellg());
+    const std::uint64_t rest = size_ - begin_, one = frameSize(true), more = frameSize(false);
+    frames_ = rest < one ? 0 : std::size_t(1 + (rest - one) / more);
+    const bool whole = rest == 0 || (rest >= one && (rest - one) % more == 0);
+    if (!whole || frames_ < promised)
+        fail("cut short: its header tells of " + std::to_string(promised) + " frames, " +
+             std::to_string(frames_) + " are whole");
+    if (frames_ == 0) fail("it has no frame");
+}
+
+std::uint64_t DcdFile::frameSize(bool first) const
+{
+    const std::uint64_t count = first || free_.empty() ? atoms_ : free_.size();
+    constexpr std::uint64_t cellBytes = 48;
+    return (cell_ ? cellBytes + marks : 0) + (fourth_ ? 4u : 3u) * (4 * count + marks);
+}
+
+std::vector<float> DcdFile::axis(std::size_t count)
+{
+    const std::vector<char> content = record();
+    if (content.size() != 4 * count)
+        fail("expected " + std::to_string(count) + " coordinates in a record, got " +
+             std::to_string(content.size() / 4));
+    std::vector<float> out(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t bits = word(&content[4 * i]);
+        std::memcpy(&out[i], &bits, sizeof bits);
+    }
+    return out;
+}
+
+std::vector<openvdb::Vec3f> DcdFile::read(std::size_t frame)
+{
+    std::vector<openvdb::Vec3f> out;
+    if (frame > 0 && !free_.empty()) out = read(0); // where the fixed atoms are
+    file_.clear();
+    file_.seekg(std::streamoff(begin_ +
+                               (frame > 0 ? frameSize(true) + (frame - 1) * frameSize(false) : 0)));
+    if (cell_) record();
+    const bool all = frame == 0 || free_.empty();
+    out.resize(atoms_);
+    for (int a = 0; a < 3; ++a) {
+        const std::vector<float> values = axis(all ? atoms_ : free_.size());
+        for (std::size_t i = 0; i < values.size(); ++i) out[all ? i : free_[i]][a] = values[i];
+    }
+    for (std::size_t i = 0; i < atoms_; ++i)
+        for (int a = 0; a < 3; ++a)
+            if (!(std::abs(out[i][a]) <= 1e6f))
+                fail("frame " + std::to_string(frame + 1) + ": atom " + std::to_string(i + 1) +
+                     ": expected coordinates from -1e6 to 1e6 Å");
+    return out;
+}
+
+} // namespace molsurf

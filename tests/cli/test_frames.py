@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Frames: models of a structure, or a trajectory beside it."""
+
+import csv
+import gzip
+import json
+import struct
+import unittest
+
+from tool import CRAMBIN, DATA, FAST, ToolTest
+
+try:
+    import numpy
+    import pyopenvdb
+except ImportError:
+    pyopenvdb = None
+
+NMR = DATA / "1d3z.pdb.gz"  # 10 models
+
+
+def positions(path):
+    """The coordinates of a PDB file's atoms."""
+    return [tuple(float(line[i:i + 8]) for i in (30, 38, 46)) for line in
+            path.read_text().splitlines() if line.startswith(("ATOM", "HETATM"))]
+
+
+def dcd(frames, order="<", cell=False, fixed=(), promised=None):
+    """A DCD file as CHARMM writes it."""
+    def record(content):
+        mark = struct.pack(order + "i", len(content))
+        return mark + content + mark
+
+    atoms = len(frames[0])
+    control = [0] * 20
+    control[0] = len(frames) if promised is None else promised
+    control[8], control[10], control[19] = len(fixed), int(cell), 24
+    data = record(b"CORD" + struct.pack(order + "20i", *control))
+    data += record(struct.pack(order + "i", 1) + b"made by a test".ljust(80))
+    data += record(struct.pack(order + "i", atoms))
+    free = [i for i in range(atoms) if i not in fixed]
+    if fixed:
+        data += record(struct.pack(f"{order}{len(free)}i", *(i + 1 for i in free)))
+    for n, frame in enumerate(frames):
+        some = frame if n == 0 or not fixed else [frame[i] for i in free]
+        if cell:
+            data += record(struct.pack(order + "6d", 50, 90, 50, 90, 90, 50))
+        for axis in range(3):
+            data += record(struct.pack(f"{order}{len(some)}f", *(x[axis] for x in some)))
+    return data
+
+
+class Frames(ToolTest):
+    def table(self, name="a.csv"):
+        with open(self.folder / name, newline="") as file:
+            return list(csv.DictReader(file))
+
+    def moved(self, count, step=0.5):
+        """Crambin that moves along x."""
+        atoms = positions(CRAMBIN)
+        return [[(x + step * n, y, z) for x, y, z in atoms] for n in range(count)]
+
+    def times(self):
+        return {path.name: path.stat().st_mtime_ns for path in self.folder.iterdir()
+                if path.suffix != ".csv"}
+
+    def test_models(self):
+        self.check(0, NMR, *FAST, "--frames", "2-10:4", "--start", "warm", "-o", "a.vdb",
+                   "-o", "a.ply", "-o", "a.csv", says=["3 frames", "frame 6: area"])
+        self.assertEqual(self.names(), ["a.0001.ply", "a.0001.vdb", "a.0002.ply", "a.0002.vdb",
+                                        "a.0003.ply", "a.0003.vdb", "a.csv"])
+        rows = self.table()
+        self.assertEqual([(row["file"], row["frame"], row["start"]) for row in rows],
+                         [("1", "2", "cold"), ("2", "6", "warm"), ("3", "10", "warm")])
+        # Each is the surface of its model, as a run of its own makes it.
+        for row in rows:
+            self.check(0, NMR, *FAST, "--model", row["frame"], "-o", "b.json", "--force")
+            self.check(0, "info", f"a.000{row['file']}.vdb")
+            report = json.loads((self.folder / "b.json").read_text())["surface"]
+            self.assertAlmostEqual(float(row["volume"]) / report["volume"], 1, delta=0.001)
+            self.assertAlmostEqual(float(row["area"]) / report["area"], 1, delta=0.003)
+
+    def test_warm_is_cold(self):
+        """The surfaces are within 0.02 voxel on the mean, the volumes within 0.1 %."""
+        for start in ("warm", "cold"):
+            self.check(0, NMR, "--frames", "1-3", "--start", start, "--fields", "spline",
+                       "-o", f"{start}.vdb", "-o", f"{start}.csv")
+        for warm, cold in zip(self.table("warm.csv"), self.table("cold.csv")):
+            self.assertAlmostEqual(float(warm["volume"]) / float(cold["volume"]), 1, delta=0.001)
+            self.assertEqual(warm["euler_characteristic"], cold["euler_characteristic"])
+        for file in (2, 3):
+            self.check(0, "compare", f"warm.000{file}.vdb", f"cold.000{file}.vdb", "-o", "d.json",
+                       "--force")
+            both = json.loads((self.folder / "d.json").read_text())
+            self.assertLess(both["a_to_b"]["mean"], 0.02 * 0.5)
+            self.assertGreater(both["a_to_b"]["max"], 0)  # or nothing was warm
+
+    def test_cold_frames_are_the_runs(self):
+        """Bit for bit, meshes and numbers."""
+        self.check(0, NMR, *FAST, "--frames", "2-3", "-o", "a.ply")
+        for file, model in ((1, 2), (2, 3)):
+            self.check(0, NMR, *FAST, "--model", model, "-o", "b.ply", "--force")
+            self.assertEqual((self.folder / f"a.000{file}.ply").read_bytes(),
+                             (self.folder / "b.ply").read_bytes())
+
+    def test_trajectory(self):
+        """Of every kind the same surfaces, which move along."""
+        frames = self.moved(3)
+        fixed = [[frame[0]] + [p for p in frame[1:]] for frame in frames]
+        for frame in fixed:
+            frame[0] = frames[0][0]
+        kinds = {"little": dcd(frames), "big": dcd(frames, ">"), "cell": dcd(frames, cell=True)}
+        meshes = {}
+        for kind, data in kinds.items():
+            (self.folder / "t.dcd").write_bytes(data)
+            self.check(0, CRAMBIN, *FAST, "--trajectory", "t.dcd", "-o", f"{kind}.stl",
+                       says="3 frames")
+            meshes[kind] = [(self.folder / f"{kind}.000{n}.stl").read_bytes() for n in (1, 2, 3)]
+        self.assertEqual(meshes["little"], meshes["big"])
+        self.assertEqual(meshes["little"], meshes["cell"])
+        self.assertEqual(len(set(meshes["little"])), 3)
+        self.check(0, CRAMBIN, *FAST, "-o", "one.stl")
+        (self.folder / "t.dcd").write_bytes(dcd(fixed, fixed=(0,)))
+        self.check(0, CRAMBIN, *FAST, "--trajectory", "t.dcd", "--frames", "3", "-o", "a.json")
+        (self.folder / "t.dcd").write_bytes(dcd(fixed))
+        self.check(0, CRAMBIN, *FAST, "--trajectory", "t.dcd", "--frames", "3", "-o", "b.json")
+        a, b = (json.loads((self.folder / f"{name}.0001.json").read_text())["surface"]
+                for name in "ab")
+        self.assertEqual((a["area"], a["volume"]), (b["area"], b["volume"]))
+
+    @unittest.skipUnless(pyopenvdb, "no python3-openvdb")
+    def test_one_transform_and_velocity(self):
+        (self.folder / "t.dcd").write_bytes(dcd(self.moved(3)))
+        self.check(0, CRAMBIN, *FAST, "--trajectory", "t.dcd", "--center", "--fields", "v,Cd",
+                   "-o", "a.vdb")
+        seen = set()
+        for n in (1, 2, 3):
+            name = str(self.folder / f"a.000{n}.vdb")
+            surface, v = pyopenvdb.read(name, "surface"), pyopenvdb.read(name, "v")
+            place = surface.transform
+            seen.add((place.voxelSize(), place.indexToWorld((0, 0, 0)), surface.background))
+            self.assertEqual(v.activeVoxelCount(), surface.activeVoxelCount())
+            worst = max(max(abs(a - b) for a, b in zip(item.value, (0.5, 0, 0)))
+                        for item in v.citerOnValues())
+            self.assertLess(worst, 1e-4)
+        self.assertEqual(len(seen), 1)
+
+    def test_again_does_what_was_not_done(self):
+        words = (NMR, *FAST, "-o", "a.vdb", "-o", "a.ply", "-o", "a.csv")
+        self.check(0, *words, "--frames", "1-2")
+        before, rows = self.times(), self.table()
+        self.check(0, *words, "--frames", "1-3", says="2 done before")
+        after = self.times()
+        self.assertEqual({name: after[name] for name in before}, before)
+        self.assertEqual(self.table()[:2], rows)
+        self.assertEqual(len(self.table()), 3)
+        for file in ("a.0002.vdb", "a.0002.ply"):
+            (self.folder / file).unlink()
+        self.check(0, *words, "--frames", "1-3", says="2 done before")
+        self.assertEqual(self.times()["a.0003.vdb"], after["a.0003.vdb"])
+        # As if it had been done at once.
+        self.check(0, NMR, *FAST, "-o", "b.ply", "--frames", "1-3")
+        for file in (1, 2, 3):
+            self.assertEqual((self.folder / f"a.000{file}.ply").read_bytes(),
+                             (self.folder / f"b.000{file}.ply").read_bytes())
+        # What is there is never taken for something else.
+        self.check(1, *words, "--frames", "1-3", "--probe", "1.5", says=["a.0001.vdb", "--force"])
+        self.check(1, *words, "--frames", "2-3", says=["a.0001.vdb", "--force"])
+        data = (self.folder / "a.0001.vdb").read_bytes()
+        (self.folder / "a.0001.vdb").write_bytes(data[:len(data) // 2])
+        self.check(1, *words, "--frames", "1-3", says="a.0001.vdb")
+        self.check(0, *words, "--frames", "1", "--force")
+        self.check(0, "info", "a.0001.vdb")
+
+    def test_only_meshes_are_not_replaced(self):
+        self.check(0, NMR, *FAST, "-o", "a.ply", "--frames", "1")
+        self.check(1, NMR, *FAST, "-o", "a.ply", "--frames", "1", says=["a.0001.ply", "--force"])
+        (self.folder / "a.csv").write_text("mine\n")
+        self.check(1, NMR, *FAST, "-o", "a.csv", "--frames", "1", says=["a.csv", "--force"])
+        self.assertEqual((self.folder / "a.csv").read_text(), "mine\n")
+
+    def test_not_converged(self):
+        self.check(3, NMR, *FAST, "--frames", "1", "--max-steps", "1", "-o", "a.csv",
+                   says="not converged: 1 frame")
+        self.assertEqual(self.table()[0]["converged"], "no")
+
+    def test_wrong_calls(self):
+        out = ("-o", "a.vdb")
+        for text in ("0", "5-2", "1-3:0", "a", "1-2-3", "1:", "-3", "1-3:x"):
+            self.check(2, NMR, f"--frames={text}", *out, says=["--frames", text])
+        self.check(2, NMR, "--frames", "1", "--model", "2", *out, says="--model")
+        self.check(2, NMR, "--frames", "1", "--turntable", "4", "-o", "a.png", says="--turntable")
+        self.check(2, NMR, "--frames", "1", "-o", "-", "--format", "ply", says="-")
+        self.check(2, NMR, "-o", "a.csv", says="--frames")
+        self.check(2, NMR, "--fields", "v", *out, says="--frames")
+        self.check(2, "batch", "list", "-O", "o", "--formats", "csv", says="csv")
+        self.check(1, NMR, "--frames", "1-11", *out, says=["has no frame 11", "1-10"])
+        self.check(1, NMR, "--frames", "20-", *out, says="has no frame 20")
+        text = gzip.decompress(NMR.read_bytes()).decode()
+        (self.folder / "hole.pdb").write_text(text.replace("MODEL        4", "MODEL       40"))
+        self.check(1, "hole.pdb", "--frames", "1-6", *out, says=["no frame 4", "1-3,40,5-10"])
+        lines = text.splitlines(keepends=True)
+        place = next(i for i, line in enumerate(lines) if line.startswith("MODEL        3"))
+        (self.folder / "few.pdb").write_text("".join(lines[:place + 5] + lines[place + 6:]))
+        self.check(1, "few.pdb", *FAST, "--frames", "3-4", *out, says="frame 4: expected 1230")
+        self.assertLessEqual(set(self.names()), {"hole.pdb", "few.pdb", "a.0001.vdb"})
+
+    def test_bad_trajectories(self):
+        def refuse(data, says, *words):
+            (self.folder / "t.dcd").write_bytes(data)
+            self.check(1, CRAMBIN, "--trajectory", "t.dcd", "-o", "a.vdb", *words,
+                       says=["t.dcd", says])
+
+        whole = dcd(self.moved(3))
+        refuse(whole[:-100], "cut short: its header tells of 3 frames, 2 are whole")
+        refuse(dcd(self.moved(3), promised=5), "cut short")
+        refuse(whole[:50], "cut short")
+        refuse(b"nothing", "DCD")
+        refuse(b"", "DCD")
+        refuse(whole, "no frame 4, only 1-3", "--frames", "2-4")
+        refuse(dcd([frame[:-1] for frame in self.moved(2)]), "expected the 327 atoms")
+        broken = [list(frame) for frame in self.moved(1)]
+        broken[0][4] = (float("nan"), 0, 0)
+        refuse(dcd(broken), "atom 5")
+        self.check(1, CRAMBIN, "--trajectory", "none.dcd", "-o", "a.vdb", says="none.dcd")
+        self.check(1, CRAMBIN, "--trajectory", ".", "-o", "a.vdb", says="folder")
+        self.assertEqual(self.names(), ["t.dcd"])
+
+
+if __name__ == "__main__":
+    unittest.main()

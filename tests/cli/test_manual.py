@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: MPL-2.0
+"""The manual page and the completion of bash, which the build makes, tell of every option."""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import unittest
+
+from tool import TOOL, ToolTest
+
+VERBS = ["", "batch", "compare", "plan", "brick", "merge", "mesh", "color"]
+PARTIAL = ["batch", "plan", "brick", "merge"]  # their help refers to the main one
+BUILT = pathlib.Path(TOOL).resolve().parent
+
+
+class Manual(ToolTest):
+    def options(self, verb):
+        text = self.check(0, *([verb] if verb else []), "--help").stdout.decode()
+        return re.findall(r"^  (?:-\w, |    )(--[a-z-]+)", text, re.MULTILINE)
+
+    def complete(self, *words):
+        """What bash offers for the last word."""
+        script = (f"source {BUILT / 'vdb_molsurf.bash'}; COMP_WORDS=(\"$@\"); "
+                  "COMP_CWORD=$(($# - 1)); _vdb_molsurf; printf '%s\\n' \"${COMPREPLY[@]}\"")
+        done = subprocess.run(["bash", "-c", script, "bash", "vdb_molsurf", *words],
+                              cwd=self.folder, capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout.split()
+
+    def test_page_has_every_option(self):
+        page = self.check(0, "--man").stdout.decode()
+        self.assertEqual(page, (BUILT / "vdb_molsurf.1").read_text())
+        plain = page.replace("\\-", "-")
+        for verb in VERBS:
+            self.assertGreater(len(self.options(verb)), 0)
+            for option in self.options(verb):
+                self.assertIn(f"\\fB{option}\\fR", plain, f"{verb} {option}")
+
+    @unittest.skipUnless(shutil.which("groff"), "no groff")
+    def test_page_is_clean(self):
+        done = subprocess.run(["groff", "-man", "-ww", "-K", "utf8", "-T", "utf8", "-z",
+                               BUILT / "vdb_molsurf.1"], capture_output=True, text=True, timeout=60)
+        if "preconv" in done.stderr:
+            self.skipTest("no preconv")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_completion_has_every_option(self):
+        script = self.check(0, "--bash-completion").stdout.decode()
+        self.assertEqual(script, (BUILT / "vdb_molsurf.bash").read_text())
+        for verb in VERBS:
+            offered = self.complete(*([verb] if verb else ["a.pdb"]), "--")
+            self.assertLessEqual(set(self.options(verb)), set(offered), verb)
+            if verb not in PARTIAL:
+                self.assertEqual(sorted(offered), sorted(self.options(verb)), verb)
+            for option in offered:
+                self.assertNotIn(b"unknown option", self.run_tool(verb or "a.pdb", option).stderr)
+
+    def test_completion_of_words(self):
+        self.assertEqual(self.complete("a.pdb", "--surface", "va"), ["variational"])
+        self.assertEqual(self.complete("compare", "--color", "si"), ["signed-distance"])
+        self.assertEqual(self.complete("inf"), ["info"])
+        (self.folder / "abc.pdb").write_text("")
+        self.assertEqual(self.complete("ab"), ["abc.pdb"])
+        for word in self.complete("a.pdb", "--surface", ""):
+            self.check(2, "a.pdb", "--surface", word, says="-o FILE")
+        for word in self.complete("a.pdb", "--fields", ""):
+            self.check(1, "none.pdb", "-o", "a.vdb", "--fields", word, "--frames", "1",
+                       says="none.pdb")
+
+
+if __name__ == "__main__":
+    unittest.main()

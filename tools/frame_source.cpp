@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "frame_source.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/pipeline/palette.h"
+#include "molsurf/pipeline/size_beads.h"
+#include "molsurf/structure/read_structure.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace molsurf::tool
+{
+
+FrameRange parseFrames(const std::string& text)
+{
+    FrameRange range;
+    if (text == "all") return range;
+    const auto wrong = [&]() -> void {
+        throw Error(ErrorKind::Usage, "--frames: expected all, or FIRST-LAST:STEP with whole "
+                                      "numbers from 1, FIRST not above LAST, got '" +
+                                          text + "'");
+    };
+    const char *at = text.data(), *end = at + text.size();
+    const auto number = [&](int& value) {
+        const auto [stop, problem] = std::from_chars(at, end, value);
+        if (problem != std::errc() || value < 1) wrong();
+        at = stop;
+    };
+    number(range.first);
+    range.last = range.first;
+    if (at != end && *at == '-') {
+        range.last = 0;
+        if (++at != end && *at != ':') number(range.last);
+    }
+    if (at != end && *at == ':') {
+        ++at;
+        number(range.step);
+    }
+    if (at != end || (range.last > 0 && range.last < range.first)) wrong();
+    return range;
+}
+
+FrameSource::FrameSource(const Call& call, Progress& progress) : call_(call), progress_(progress)
+{
+    const FrameRange range = parseFrames(call.frames.empty() ? "all" : call.frames);
+    structure_ = readStructure(call.input);
+    if (call.trajectory.empty()) {
+        chooseModels(range);
+    } else {
+        const int wanted = call.options.atoms.model;
+        const auto& models = structure_.models;
+        const auto model = std::find_if(models.begin(), models.end(), [&](const Model& m) {
+            return wanted == 0 || m.number == wanted;
+        });
+        if (model == models.end())
+            throw Error(ErrorKind::Input, call.input + ": has no model " + std::to_string(wanted));
+        model_ = std::size_t(model - models.begin());
+        trajectory_.emplace(call.trajectory);
+        const std::size_t atoms = model->end - model->begin;
+        if (trajectory_->atoms() != atoms)
+            throw Error(ErrorKind::Input,
+                        call.trajectory + ": expected the " + std::to_string(atoms) + " atoms of " +
+                            call.input + ", got " + std::to_string(trajectory_->atoms()) +
+                            " [hint: the structure has to hold the atoms of the trajectory, in "
+                            "their order]");
+        const int count = int(trajectory_->frames());
+        if (range.first > count || range.last > count)
+            missing(std::max(range.first, range.last), "1-" + std::to_string(count));
+        for (int i = range.first; i <= (range.last ? range.last : count); i += range.step)
+            numbers_.push_back(i);
+    }
+    first_ = load(0);
+    if (first_.labels) {
+        BallLabels& labels = *first_.labels;
+        labels.chainColors = chainColors(first_, progress);
+        const std::vector<Color> colors = groupColors(first_, progress);
+        for (std::size_t g = 0; g < colors.size(); ++g) labels.groups[g].color = colors[g];
+    }
+}
+
+void FrameSource::missing(int number, const std::string& there) const
+{
+    throw Error(ErrorKind::Input, (trajectory_ ? call_.trajectory : call_.input) +
+                                      ": has no frame " + std::to_string(number) + ", only " +
+                                      there + " [hint: --frames FIRST- goes to the end]");
+}
+
+void FrameSource::chooseModels(const FrameRange& range)
+{
+    std::string there; // "1-4,6-38"
+    const auto& models = structure_.models;
+    for (std::size_t begin = 0, end; begin < models.size(); begin = end) {
+        for (end = begin + 1;
+             end < models.size() && models[end].number == models[end - 1].number + 1; ++end) {
+        }
+        there += (there.empty() ? "" : ",") + std::to_string(models[begin].number);
+        if (end > begin + 1) there += "-" + std::to_string(models[end - 1].number);
+    }
+    const auto has = [&](int number) {
+        return std::any_of(models.begin(), models.end(),
+                           [=](const Model& m) { return m.number == number; });
+    };
+    if (range.last == 0) {
+        if (range.first > 1 && !has(range.first)) missing(range.first, there);
+        int passed = 0;
+        for (const Model& model : models)
+            if (model.number >= range.first && passed++ % range.step == 0)
+                numbers_.push_back(model.number);
+        return;
+    }
+    for (int i = range.first; i <= range.last; i += range.step) {
+        if (!has(i)) missing(i, there);
+        numbers_.push_back(i);
+    }
+    if (!has(range.last)) missing(range.last, there);
+}
+
+BallSelection FrameSource::load(std::size_t i)
+{
+    SelectOptions options = call_.options.atoms;
+    const Model& model = structure_.models[model_];
+    if (trajectory_) {
+        const std::vector<openvdb::Vec3f> positions = trajectory_->read(std::size_t(number(i)) - 1);
+        for (std::size_t a = 0; a < positions.size(); ++a)
+            structure_.atoms[model.begin + a].position = openvdb::Vec3d(positions[a]);
+        options.model = model.number;
+    } else {
+        options.model = number(i);
+    }
+    return selectBalls(structure_, options, beadSizer(call_.options, progress_));
+}
+
+void FrameSource::keepColors(BallSelection& selection)
+{
+    if (!selection.labels || !first_.labels) return;
+    selection.labels->chainColors = first_.labels->chainColors;
+    for (std::size_t g = 0; g < selection.labels->groups.size(); ++g)
+        selection.labels->groups[g].color = first_.labels->groups[g].color;
+}
+
+const BallSelection& FrameSource::balls(std::size_t i)
+{
+    if (i == 0) return first_;
+    const auto known = loaded_.find(i);
+    if (known != loaded_.end()) return known->second;
+    BallSelection selection = load(i);
+    if (selection.balls.size() != first_.balls.size())
+        throw Error(ErrorKind::Input, "frame " + std::to_string(number(i)) + ": expected " +
+                                          std::to_string(first_.balls.size()) +
+                                          " atoms as in frame " + std::to_string(number(0)) +
+                                          ", got " + std::to_string(selection.balls.size()));
+    keepColors(selection);
+    loaded_.erase(loaded_.begin(), loaded_.lower_bound(i > 2 ? i - 2 : 0));
+    return loaded_.emplace(i, std::move(selection)).first->second;
+}
+
+std::vector<openvdb::Vec3f> FrameSource::displacement(std::size_t i)
+{
+    const std::size_t from = i + 1 < size() ? i : i > 0 ? i - 1 : 0;
+    const std::size_t to = std::min(from + 1, size() - 1);
+    const std::vector<Ball> before = balls(from).balls;
+    const std::vector<Ball>& after = balls(to).balls;
+    std::vector<openvdb::Vec3f> out;
+    for (std::size_t b = 0; b < before.size(); ++b)
+        out.push_back(after[b].center - before[b].center);
+    return out;
+}
+
+std::string FrameSource::description()
+{
+    return describeSelection(structure_, first_);
+}
+
+} // namespace molsurf::tool

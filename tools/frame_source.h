@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The atoms of frames: models of a structure, or a trajectory beside it.
+
+#include "cli.h"
+
+#include "molsurf/structure/read_dcd.h"
+#include "molsurf/structure/structure.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace molsurf::tool
+{
+
+/// Some frames, by their numbers: "1-100:5", "7", "20-" or "all".
+struct FrameRange {
+    int first = 1, last = 0; ///< last 0: the last one there is
+    int step = 1;
+};
+
+/// @throws Error(ErrorKind::Usage) if the text is none of these, or empty from first to last
+FrameRange parseFrames(const std::string& text);
+
+/// Frames of a call, loaded when they are asked for; all have the same atoms.
+class FrameSource
+{
+public:
+    /// Reads the structure and finds the frames.
+    /// @throws Error(ErrorKind::Input) if a file cannot be read, a frame of the range is not there,
+    ///         or the trajectory has another number of atoms than the structure
+    FrameSource(const Call& call, Progress& progress);
+
+    std::size_t size() const { return numbers_.size(); }
+
+    /// The number of frame i in the file.
+    int number(std::size_t i) const { return numbers_[i]; }
+
+    /// The balls of frame i, with the colours of chains and groups that frame 0 has.
+    /// @throws Error(ErrorKind::Input) if it cannot be read, or has other balls than frame 0
+    const BallSelection& balls(std::size_t i);
+
+    /// Displacement of each ball from frame i to the next, of the last one from the one before [Å].
+    std::vector<openvdb::Vec3f> displacement(std::size_t i);
+
+    /// One line on the structure and what was used of it.
+    std::string description();
+
+private:
+    BallSelection load(std::size_t i);
+    void keepColors(BallSelection& selection);
+    [[noreturn]] void missing(int number, const std::string& there) const;
+    void chooseModels(const FrameRange& range);
+
+    const Call& call_;
+    Progress& progress_;
+    Structure structure_;
+    std::optional<DcdFile> trajectory_;
+    std::size_t model_ = 0; ///< of the structure, for a trajectory
+    std::vector<int> numbers_;
+    std::map<std::size_t, BallSelection> loaded_;
+    BallSelection first_;
+};
+
+} // namespace molsurf::tool

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "frame_table.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/io/output_file.h"
+
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+namespace molsurf::tool
+{
+
+namespace
+{
+
+constexpr const char* title = "file,frame,start,converged,steps,atoms,area,volume,"
+                              "euler_characteristic,components,cavities,seconds,options";
+
+template<typename T>
+std::string digits(T value)
+{
+    char text[32];
+    return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+// Parses one line; false if it is none of a table.
+bool parse(const std::string& line, FrameTable& table)
+{
+    std::vector<std::string> cells;
+    for (std::size_t begin = 0; begin <= line.size();) {
+        const std::size_t end = std::min(line.find(',', begin), line.size());
+        cells.push_back(line.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    const auto number = [](const std::string& text, auto& value) {
+        const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+        return problem == std::errc() && stop == text.data() + text.size();
+    };
+    std::size_t file = 0;
+    FrameRow row;
+    if (cells.size() != 13 || !number(cells[0], file) || !number(cells[1], row.frame) ||
+        !number(cells[8], row.euler))
+        return false;
+    row.rests = cells[3] != "no";
+    row.options = cells[12];
+    row.line = line;
+    table[file] = row;
+    return true;
+}
+
+} // namespace
+
+FrameRow rowOf(std::size_t file, int frame, bool warm, const std::string& options,
+               const Report& report)
+{
+    const SurfaceReport& s = report.surface;
+    FrameRow row{frame, s.eulerCharacteristic, !report.evolution || report.evolution->converged,
+                 options, ""};
+    row.line = digits(file) + "," + digits(frame) + "," + (warm ? "warm" : "cold") + "," +
+               (row.rests ? "yes" : "no") + "," +
+               digits(report.evolution ? report.evolution->steps : 0) + "," + digits(report.atoms) +
+               "," + digits(s.area) + "," + digits(s.volume) + "," + digits(s.eulerCharacteristic) +
+               "," + digits(s.components) + "," + digits(s.cavities.size()) + "," +
+               digits(report.seconds.back().second) + "," + options;
+    return row;
+}
+
+FrameTable readTable(const std::string& path)
+{
+    FrameTable table;
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) return table;
+    std::ifstream file(path);
+    std::string line;
+    bool known = bool(std::getline(file, line)) && line == title;
+    while (known && std::getline(file, line)) known = parse(line, table);
+    if (!known)
+        throw Error(ErrorKind::Output,
+                    path + ": exists, and is no table of frames [hint: --force]");
+    return table;
+}
+
+void saveTable(const FrameTable& table, const std::string& path)
+{
+    std::string text = std::string(title) + "\n";
+    for (const auto& [file, row] : table) text += row.line + "\n";
+    OutputFile file(path, true);
+    file.write(text.data(), text.size());
+    file.commit();
+}
+
+} // namespace molsurf::tool

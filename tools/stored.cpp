@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "verbs.h"
+
+#include "outputs.h"
+#include "terminal.h"
+#include "write_result.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/io/read_vdb.h"
+#include "molsurf/io/write_vdb.h"
+#include "molsurf/pipeline/stored_surface.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+namespace molsurf::tool
+{
+
+namespace
+{
+
+StoredSurface restore(const Call& call, const VdbFile& file, Terminal& terminal)
+{
+    try {
+        return storedSurface(file.grids, file.metadata, call.options, terminal);
+    } catch (const Error& e) {
+        throw Error(e.kind(), call.input + ": " + e.what());
+    }
+}
+
+// The file's grids with the new colours in the place of the old ones, or at the end.
+void writeRecolored(const Call& call, const VdbFile& file, const StoredSurface& surface,
+                    OutputFile& out)
+{
+    openvdb::GridCPtrVec grids;
+    const openvdb::GridBase::Ptr colors = surface.result.fields.at(0);
+    bool placed = false;
+    for (const auto& grid : file.grids) {
+        const bool old = grid->getName() == "Cd";
+        if (!old || !placed) grids.push_back(old ? colors : grid);
+        placed = placed || old;
+    }
+    if (!placed) grids.push_back(colors);
+    openvdb::MetaMap metadata = file.metadata;
+    for (const char* name : {"option.color", "command"}) metadata.removeMeta(name);
+    metadata.insertMeta("option.color", openvdb::StringMetadata(nameOf(call.options.color)));
+    metadata.insertMeta("command", openvdb::StringMetadata(call.command));
+    writeVdb(grids, metadata, out);
+}
+
+} // namespace
+
+int stored(const Call& asked, Clock::time_point start)
+{
+    prepareOutputs(asked);
+    openvdb::initialize();
+    std::optional<tbb::global_control> limit;
+    if (asked.threads)
+        limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(asked.threads));
+    Terminal terminal(asked.progress);
+    Clock::time_point lapStart = Clock::now();
+    terminal.update("read", 0.0);
+    const VdbFile file = readVdb(asked.input);
+    const double readSeconds = secondsSince(lapStart);
+    stopIfAsked();
+
+    lapStart = Clock::now();
+    StoredSurface surface = restore(asked, file, terminal);
+    terminal.erase();
+    Call call = asked;
+    call.options.color = surface.options.color;
+    call.scene.scale = surface.scale;
+    Report& report = surface.result.report;
+    report.version = MOLSURF_VERSION;
+    report.command = call.command;
+    report.input = call.input;
+    report.threads =
+        int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    report.warnings = call.warnings;
+    report.warnings.insert(report.warnings.end(), surface.warnings.begin(), surface.warnings.end());
+    report.seconds = {{"read", readSeconds}, {"mesh", secondsSince(lapStart)}};
+    if (!call.quiet)
+        for (const std::string& warning : report.warnings) say("warning: " + warning);
+
+    writeOutputs(
+        call, terminal,
+        [&](const Output& output, OutputFile& out) {
+            if (output.format == Format::Vdb)
+                writeRecolored(call, file, surface, out);
+            else
+                writeOutput(call, surface.names, surface.result, output, terminal, out);
+        },
+        [&](double seconds) {
+            report.seconds.emplace_back("write", seconds);
+            report.seconds.emplace_back("total", secondsSince(start));
+            report.peakMemoryBytes = peakMemory();
+        });
+    terminal.erase();
+    if (!call.quiet) {
+        char text[160];
+        std::snprintf(text, sizeof text, "area %.1f Å^2, volume %.1f Å^3, %zu triangles, %.2f s",
+                      report.surface.area, report.surface.volume, report.surface.triangles,
+                      report.seconds.back().second);
+        say(text);
+    }
+    return 0;
+}
+
+} // namespace molsurf::tool
