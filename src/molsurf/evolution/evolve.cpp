@@ -107,13 +107,12 @@ void fillFromNeighbours(const NarrowBand& old, const LeafTable& table, std::size
 /// A table with the leaves of another one, too, where these have no active voxel.
 LeafTable withLeavesOf(const LeafTable& table, const LeafTable& other)
 {
-    std::vector<openvdb::Coord> origins;
-    std::set_union(table.origins().begin(), table.origins().end(), other.origins().begin(),
-                   other.origins().end(), std::back_inserter(origins));
+    std::vector<openvdb::Coord> origins = table.origins();
+    std::copy_if(other.origins().begin(), other.origins().end(), std::back_inserter(origins),
+                 [&](const openvdb::Coord& origin) { return table.find(origin) == noLeaf; });
     LeafTable out(std::move(origins));
-    for (std::size_t n = 0, m = 0; n < out.size() && m < table.size(); ++n) {
-        if (table.origin(m) == out.origin(n)) out.active(n) = table.active(m++);
-    }
+    for (std::size_t m = 0; m < table.size(); ++m)
+        out.active(std::size_t(out.find(table.origin(m)))) = table.active(m);
     return out;
 }
 
