@@ -314,8 +314,9 @@ LeafTable clipped(const LeafTable& table, const openvdb::CoordBBox& box)
         origins.push_back(table.origin(n));
         masks.push_back(table.active(n));
     }
-    LeafTable out(std::move(origins)); // already in ascending order
-    for (std::size_t n = 0; n < out.size(); ++n) out.active(n) = masks[n];
+    LeafTable out(origins);
+    for (std::size_t i = 0; i < origins.size(); ++i)
+        out.active(std::size_t(out.find(origins[i]))) = masks[i];
     return out;
 }
 
