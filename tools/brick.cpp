@@ -9,11 +9,8 @@
 #include "molsurf/io/plan_file.h"
 #include "molsurf/pipeline/plan_bricks.h"
 
-#include <tbb/global_control.h>
-
 #include <cstdio>
 #include <filesystem>
-#include <optional>
 
 namespace molsurf::tool
 {
@@ -95,13 +92,12 @@ int brick(const Call& call)
     build.quiet = call.quiet;
     prepareOutputs(build);
     openvdb::initialize();
-    std::optional<tbb::global_control> limit;
-    if (call.threads)
-        limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(call.threads));
+    const auto limit = limitThreads(call);
     Terminal terminal(call.progress);
     const Clock::time_point start = Clock::now();
     Report report;
-    const BallSelection atoms = readBalls(build, terminal, report);
+    BallSelection atoms = readBalls(build, terminal, report);
+    colorBalls(build.options, terminal, atoms);
     computeBrick(atoms, build.options, manifest.plan, call.bricks, id, path, terminal);
     terminal.erase();
     if (!call.quiet) {

@@ -20,10 +20,6 @@
 namespace molsurf::tool
 {
 
-/// Reads the structure of a call and chooses its balls, coloured if the options want colours.
-/// @param[in,out] report  gets the seconds that it took, and warnings
-BallSelection readBalls(const Call& call, Terminal& terminal, Report& report);
-
 /// What a plan comes to, a line each.
 std::vector<std::string> describePlan(const BrickPlan& plan);
 
@@ -31,6 +27,7 @@ std::vector<std::string> describePlan(const BrickPlan& plan);
 std::string brickPath(const std::string& planPath, std::size_t number);
 
 /// Computes a brick and writes its file.
+/// @param[in] atoms  of the whole molecule, coloured if the options want colours
 void computeBrick(const BallSelection& atoms, const Options& options, const BrickPlan& plan,
                   std::size_t number, const std::string& id, const std::string& path,
                   Terminal& terminal);

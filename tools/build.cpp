@@ -7,20 +7,10 @@
 #include "terminal.h"
 #include "write_result.h"
 
-#include "molsurf/core/error.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/pipeline/run.h"
-#include "molsurf/pipeline/size_beads.h"
-#include "molsurf/selection/select_balls.h"
-#include "molsurf/structure/read_structure.h"
 
-#include <tbb/global_control.h>
-
-#include <malloc.h>
-
-#include <algorithm>
 #include <cstdio>
-#include <optional>
 
 namespace molsurf::tool
 {
@@ -44,25 +34,14 @@ void writeAll(const Call& call, const BallSelection& atoms, Result& result, Term
         });
 }
 
-void completeReport(const Call& call, std::size_t atoms, double readSeconds,
-                    const std::vector<std::string>& warnings, Report& report)
+// What run() reports, behind what was read.
+void completeReport(const Call& call, std::size_t atoms, const Report& read, Report& report)
 {
-    report.version = MOLSURF_VERSION;
-    report.command = call.command;
-    report.input = call.input;
+    beginReport(call, report);
     report.atoms = atoms;
     report.voxel = call.options.voxel;
-    report.threads =
-        int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-    report.warnings.insert(report.warnings.begin(), warnings.begin(), warnings.end());
-    auto& seconds = report.seconds;
-    seconds.erase(std::remove_if(seconds.begin(), seconds.end(),
-                                 [](const auto& stage) {
-                                     return stage.first == "read" || stage.first == "write" ||
-                                            stage.first == "total";
-                                 }),
-                  seconds.end());
-    seconds.insert(seconds.begin(), {"read", readSeconds});
+    report.warnings.insert(report.warnings.begin(), read.warnings.begin(), read.warnings.end());
+    report.seconds.insert(report.seconds.begin(), read.seconds.begin(), read.seconds.end());
 }
 
 } // namespace
@@ -110,25 +89,34 @@ void centerMesh(Call& call, Result& result)
 
 } // namespace
 
-Report surfaceOf(Call call, const Atoms& atoms, Terminal& terminal, Clock::time_point start,
-                 WarmStart* warm, const std::function<void(Result&)>& extend)
+Report surfaceOf(Call call, const BallSelection& balls, const Report& read, Terminal& terminal,
+                 Clock::time_point start, WarmStart* warm,
+                 const std::function<void(Result&)>& extend)
 {
     stopIfAsked();
-    const BallSelection& selection = atoms.selection;
-    Result result = run(selection, call.options, terminal, warm);
+    Result result = run(balls, call.options, terminal, warm);
     terminal.erase();
     if (!call.quiet)
         for (const std::string& warning : result.report.warnings) say("warning: " + warning);
-    completeReport(call, selection.balls.size(), atoms.readSeconds, atoms.warnings, result.report);
+    completeReport(call, balls.balls.size(), read, result.report);
     if (extend) extend(result);
     const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
     if (result.surface) result.surface->setCreator(creator);
     for (const auto& field : result.fields) field->setCreator(creator);
 
     if (call.center) centerMesh(call, result);
-    writeAll(call, selection, result, terminal, start);
+    writeAll(call, balls, result, terminal, start);
     terminal.erase();
     return result.report;
+}
+
+Report buildSurface(const Call& call, const BallSelection& balls, const Report& read,
+                    Terminal& terminal, Clock::time_point start)
+{
+    const Report report = surfaceOf(call, balls, read, terminal, start);
+    if (call.verbose) sayTimes(report);
+    if (!call.quiet) say(summary(report));
+    return report;
 }
 
 Report buildSurface(const Call& call, Clock::time_point start)
@@ -136,35 +124,11 @@ Report buildSurface(const Call& call, Clock::time_point start)
     checkOptions(call.options);
     prepareOutputs(call);
     openvdb::initialize();
-    std::optional<tbb::global_control> limit;
-    if (call.threads)
-        limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(call.threads));
-
+    const auto limit = limitThreads(call);
     Terminal terminal(call.progress);
-    std::vector<std::string> warnings = call.warnings;
-    const Clock::time_point readStart = Clock::now();
-    terminal.update("read", 0.0);
-    BallSelection selection;
-    std::string description;
-    {
-        const Structure structure = readStructure(call.input);
-        stopIfAsked();
-        selection = selectBalls(structure, call.options.atoms, beadSizer(call.options, terminal));
-        description = describeSelection(structure, selection);
-    }
-    malloc_trim(0); // what the parser has left is in pieces too small for the fields
-    const double readSeconds = secondsSince(readStart);
-    warnings.insert(warnings.end(), selection.warnings.begin(), selection.warnings.end());
-    terminal.erase();
-    if (!call.quiet) {
-        say(description);
-        for (const std::string& warning : warnings) say("warning: " + warning);
-    }
-
-    const Report report = surfaceOf(call, {selection, readSeconds, warnings}, terminal, start);
-    if (call.verbose) sayTimes(report);
-    if (!call.quiet) say(summary(report));
-    return report;
+    Report read;
+    const BallSelection balls = readBalls(call, terminal, read);
+    return buildSurface(call, balls, read, terminal, start);
 }
 
 int build(const Call& call, Clock::time_point start)

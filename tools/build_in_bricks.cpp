@@ -6,8 +6,6 @@
 #include "molsurf/core/error.h"
 #include "molsurf/pipeline/plan_bricks.h"
 
-#include <tbb/global_control.h>
-
 #include <malloc.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -16,7 +14,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <optional>
 
 namespace molsurf::tool
 {
@@ -95,9 +92,7 @@ int buildInBricks(const Call& call, Clock::time_point start)
     checkOptions(call.options);
     prepareOutputs(call);
     openvdb::initialize();
-    std::optional<tbb::global_control> limit;
-    if (call.threads)
-        limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(call.threads));
+    const auto limit = limitThreads(call);
     // What a brick has freed must not count against the next one.
     mallopt(M_MMAP_MAX, 65536);
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
@@ -109,10 +104,7 @@ int buildInBricks(const Call& call, Clock::time_point start)
     const BrickPlan one = planWhole(atoms, call.options, terminal);
     const std::size_t whole = one.bricks[0].bytes;
     if (call.memory == 0 || whole <= call.memory) {
-        if (!call.dryRun) {
-            atoms = BallSelection();
-            return endOf(buildSurface(call, start));
-        }
+        if (!call.dryRun) return endOf(buildSurface(call, atoms, report, terminal, start));
         terminal.erase();
         for (const std::string& line : describePlan(one)) say(line);
         return 0;
@@ -130,6 +122,7 @@ int buildInBricks(const Call& call, Clock::time_point start)
     const BrickFolder folder(call.outputs[0].path);
     prepareOutputs(call, folder.content(plan.bricks.size()));
     folder.make();
+    colorBalls(call.options, terminal, atoms);
     std::vector<std::string> paths;
     for (std::size_t k = 1; k <= plan.bricks.size(); ++k) {
         stopIfAsked();

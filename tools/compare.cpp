@@ -13,18 +13,12 @@
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/pipeline/compare.h"
 #include "molsurf/pipeline/run.h"
-#include "molsurf/pipeline/size_beads.h"
-#include "molsurf/selection/select_balls.h"
-#include "molsurf/structure/read_structure.h"
 #include "molsurf/surface/color_map.h"
-
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iostream>
-#include <optional>
 
 namespace molsurf::tool
 {
@@ -81,14 +75,8 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
         stopIfAsked();
         read.operand = operandOf(std::move(mesh), terminal);
     } else {
-        BallSelection selection;
-        {
-            const Structure structure = readStructure(path);
-            stopIfAsked();
-            selection =
-                selectBalls(structure, call.options.atoms, beadSizer(call.options, terminal));
-            said.push_back(describeSelection(structure, selection));
-        }
+        const auto [selection, description] = readBalls(path, call.options, terminal);
+        said.push_back(description);
         Options options = call.options;
         options.fields = {"spline"};
         Result result = run(selection, options, terminal);
@@ -226,9 +214,7 @@ int compare(const Call& call, Clock::time_point start)
     checkOptions(call.options);
     prepareOutputs(call);
     openvdb::initialize();
-    std::optional<tbb::global_control> limit;
-    if (call.threads)
-        limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(call.threads));
+    const auto limit = limitThreads(call);
     const auto wanted = [&](Format format) {
         return std::any_of(call.outputs.begin(), call.outputs.end(),
                            [&](const Output& output) { return output.format == format; });

@@ -11,8 +11,6 @@
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/pipeline/velocity.h"
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -128,9 +126,7 @@ int frames(const Call& asked, Clock::time_point start)
     Call call = asked;
     checkOptions(call.options);
     openvdb::initialize();
-    std::optional<tbb::global_control> limit;
-    if (call.threads)
-        limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(call.threads));
+    const auto limit = limitThreads(call);
     Terminal terminal(call.progress);
     terminal.update("read", 0.0);
     FrameSource source(call, terminal);
@@ -188,9 +184,12 @@ int frames(const Call& asked, Clock::time_point start)
         if (wants("v")) displacement = source.displacement(i);
         const BallSelection& selection = source.balls(i);
         const bool begun = call.warm && warm.table.size() > 0;
+        Report read;
+        read.warnings = call.warnings;
+        read.seconds = {{"read", secondsSince(frameStart)}};
         const Report report =
-            surfaceOf(calls[i], {selection, secondsSince(frameStart), call.warnings}, terminal,
-                      frameStart, call.warm ? &warm : nullptr, [&](Result& result) {
+            surfaceOf(calls[i], selection, read, terminal, frameStart, call.warm ? &warm : nullptr,
+                      [&](Result& result) {
                           if (wants("v"))
                               addVelocity(call, selection, displacement, terminal, result);
                       });

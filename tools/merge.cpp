@@ -14,8 +14,6 @@
 #include "molsurf/io/plan_file.h"
 #include "molsurf/io/write_report.h"
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <limits>
@@ -129,13 +127,9 @@ void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std:
     const MergedSize size = sizeOfMerged(bricks);
     report.activeVoxels = size.activeVoxels;
     report.gridBytes = size.bytes;
-    report.version = MOLSURF_VERSION;
-    report.command = call.command;
-    report.input = call.input;
+    beginReport(call, report);
     report.atoms = plan.atoms;
     report.voxel = call.options.voxel;
-    report.threads =
-        int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
     for (const BrickFile& brick : bricks) {
         for (const auto& [stage, time] : brick.header().sums.seconds) {
             auto found = std::find_if(report.seconds.begin(), report.seconds.end(),
@@ -178,9 +172,7 @@ int merge(const Call& call, Clock::time_point start)
     build.command = call.command;
     prepareOutputs(build);
     openvdb::initialize();
-    std::optional<tbb::global_control> limit;
-    if (call.threads)
-        limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(call.threads));
+    const auto limit = limitThreads(call);
     Terminal terminal(call.progress);
     std::vector<std::string> paths;
     for (std::size_t k = 1; k <= manifest.plan.bricks.size(); ++k)

@@ -33,6 +33,22 @@ void stopIfAsked()
     if (stopRequested()) throw Cancelled();
 }
 
+std::unique_ptr<tbb::global_control> limitThreads(const Call& call)
+{
+    if (call.threads == 0) return nullptr;
+    return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                 std::size_t(call.threads));
+}
+
+void beginReport(const Call& call, Report& report)
+{
+    report.version = MOLSURF_VERSION;
+    report.command = call.command;
+    report.input = call.input;
+    report.threads =
+        int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
 std::string counted(std::size_t count, const std::string& one, const std::string& many)
 {
     return std::to_string(count) + " " + (count == 1 ? one : many);

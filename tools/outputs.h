@@ -7,11 +7,15 @@
 #include "cli.h"
 #include "terminal.h"
 
+#include "molsurf/core/report.h"
 #include "molsurf/io/output_file.h"
+
+#include <tbb/global_control.h>
 
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,6 +31,12 @@ std::size_t peakMemory();
 
 /// @throws Cancelled after a signal
 void stopIfAsked();
+
+/// Holds TBB to the threads of a call, while it lives; null without --threads.
+std::unique_ptr<tbb::global_control> limitThreads(const Call& call);
+
+/// Fills in what every report begins with: version, command, input and threads.
+void beginReport(const Call& call, Report& report);
 
 /// "1 step", "2 steps".
 std::string counted(std::size_t count, const std::string& one, const std::string& many);

@@ -6,47 +6,13 @@
 
 #include "molsurf/core/error.h"
 #include "molsurf/io/plan_file.h"
-#include "molsurf/pipeline/palette.h"
 #include "molsurf/pipeline/plan_bricks.h"
-#include "molsurf/pipeline/size_beads.h"
-#include "molsurf/structure/read_structure.h"
-
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <optional>
 
 namespace molsurf::tool
 {
-
-BallSelection readBalls(const Call& call, Terminal& terminal, Report& report)
-{
-    const Clock::time_point start = Clock::now();
-    terminal.update("read", 0.0);
-    BallSelection selection;
-    std::string description;
-    {
-        const Structure structure = readStructure(call.input);
-        stopIfAsked();
-        selection = selectBalls(structure, call.options.atoms, beadSizer(call.options, terminal));
-        description = describeSelection(structure, selection);
-    }
-    // Colours depend on what touches what, in the whole molecule.
-    if (call.options.color != ColorBy::Nothing)
-        selection.colors = ballColors(selection, call.options.color, terminal);
-    terminal.erase();
-    report.warnings = call.warnings;
-    report.warnings.insert(report.warnings.end(), selection.warnings.begin(),
-                           selection.warnings.end());
-    report.seconds.emplace_back("read", secondsSince(start));
-    if (!call.quiet) {
-        say(description);
-        for (const std::string& warning : report.warnings) say("warning: " + warning);
-    }
-    stopIfAsked();
-    return selection;
-}
 
 std::vector<std::string> describePlan(const BrickPlan& plan)
 {
@@ -71,9 +37,7 @@ int plan(const Call& call)
     checkBrickOptions(call.options);
     prepareOutputs(call);
     openvdb::initialize();
-    std::optional<tbb::global_control> limit;
-    if (call.threads)
-        limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(call.threads));
+    const auto limit = limitThreads(call);
     Terminal terminal(call.progress);
     Report report;
     PlanManifest manifest;

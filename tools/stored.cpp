@@ -10,11 +10,8 @@
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/pipeline/stored_surface.h"
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <optional>
 
 namespace molsurf::tool
 {
@@ -57,9 +54,7 @@ int stored(const Call& asked, Clock::time_point start)
 {
     prepareOutputs(asked);
     openvdb::initialize();
-    std::optional<tbb::global_control> limit;
-    if (asked.threads)
-        limit.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(asked.threads));
+    const auto limit = limitThreads(asked);
     Terminal terminal(asked.progress);
     Clock::time_point lapStart = Clock::now();
     terminal.update("read", 0.0);
@@ -74,11 +69,7 @@ int stored(const Call& asked, Clock::time_point start)
     call.options.color = surface.options.color;
     call.scene.scale = surface.scale;
     Report& report = surface.result.report;
-    report.version = MOLSURF_VERSION;
-    report.command = call.command;
-    report.input = call.input;
-    report.threads =
-        int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    beginReport(call, report);
     report.warnings = call.warnings;
     report.warnings.insert(report.warnings.end(), surface.warnings.begin(), surface.warnings.end());
     report.seconds = {{"read", readSeconds}, {"mesh", secondsSince(lapStart)}};

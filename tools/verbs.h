@@ -29,20 +29,32 @@ int build(const Call& call, std::chrono::steady_clock::time_point start);
 /// @return the report, complete
 Report buildSurface(const Call& call, std::chrono::steady_clock::time_point start);
 
-/// What surfaceOf() needs besides the call.
-struct Atoms {
-    const BallSelection& selection;
-    double readSeconds = 0.0;          ///< that it took to read them
-    std::vector<std::string> warnings; ///< for the report
-};
+/// The part of it behind the atoms.
+/// @param[in] read  what readBalls() has put in the report
+Report buildSurface(const Call& call, const BallSelection& balls, const Report& read,
+                    Terminal& terminal, std::chrono::steady_clock::time_point start);
 
-/// The part of it behind the atoms: runs and writes. prepareOutputs() has been called.
+/// The part of that which says little: runs and writes. prepareOutputs() has been called.
 /// @param[in]     call    with --center and a frame the centre of the scene is taken, else chosen
 /// @param[in,out] warm    as run() takes it
 /// @param[in]     extend  changes the result before it is written; may be empty
-Report surfaceOf(Call call, const Atoms& atoms, Terminal& terminal,
+Report surfaceOf(Call call, const BallSelection& balls, const Report& read, Terminal& terminal,
                  std::chrono::steady_clock::time_point start, WarmStart* warm = nullptr,
                  const std::function<void(Result&)>& extend = nullptr);
+
+/// What is read of a structure file: read_balls.cpp.
+struct DescribedBalls {
+    BallSelection balls;
+    std::string description; ///< one line
+};
+DescribedBalls readBalls(const std::string& path, const Options& options, Terminal& terminal);
+
+/// The balls of a call, described on standard error.
+/// @param[in,out] report  gets the seconds that it took, and warnings
+BallSelection readBalls(const Call& call, Terminal& terminal, Report& report);
+
+/// Colours each ball, if the options want colours, by what touches what in the whole molecule.
+void colorBalls(const Options& options, Terminal& terminal, BallSelection& balls);
 
 /// Builds the surfaces of frames: frames.cpp.
 int frames(const Call& call, std::chrono::steady_clock::time_point start);

@@ -165,9 +165,13 @@ class Memory(ToolTest):
         self.assertEqual(self.names(), [])
 
     def test_a_small_molecule_is_done_in_one_piece(self):
-        self.check(0, CRAMBIN, *FAST, "--memory", "4G", "-o", "a.ply")
+        done = self.check(0, CRAMBIN, *FAST, "--memory", "4G", "-o", "a.ply")
+        self.assertEqual(done.stderr.count(b"atoms"), 1)
         self.check(0, CRAMBIN, *FAST, "-o", "b.ply")
-        self.assertEqual((self.folder / "a.ply").read_bytes(), (self.folder / "b.ply").read_bytes())
+        self.assertEqual(*((self.folder / name).read_bytes() for name in ("a.ply", "b.ply")))
+
+    def test_standard_input_is_read_once(self):
+        self.check(0, "-", *FAST, "--memory", "4G", "-o", "a.ply", input=CRAMBIN.read_bytes())
 
     def test_too_little(self):
         self.check(1, CRAMBIN, *FAST, "--memory", "20M", "-o", "a.ply", says="[hint: --memory")
