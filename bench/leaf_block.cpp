@@ -90,7 +90,8 @@ void memoryCopy(benchmark::State& state)
     const std::size_t bytes = shell().phi.bytes();
     LeafField copy(shell().table.size());
     for (auto _ : state) {
-        std::memcpy(copy.leaf(0), shell().phi.leaf(0), bytes);
+        for (std::size_t n = 0; n < copy.leafCount(); ++n)
+            std::memcpy(copy.leaf(n), shell().phi.leaf(n), leafSize * sizeof(float));
         benchmark::ClobberMemory();
     }
     state.SetBytesProcessed(std::int64_t(state.iterations()) * 2 * std::int64_t(bytes));
@@ -127,8 +128,7 @@ BENCHMARK(curvaturePass);
 /// One iteration of reinitialize().
 void redistancingPass(benchmark::State& state)
 {
-    LeafField phi(shell().table.size()), scratch;
-    std::memcpy(phi.leaf(0), shell().phi.leaf(0), phi.bytes());
+    LeafField phi = copied(shell().phi), scratch;
     Progress progress;
     for (auto _ : state) reinitialize(shell().table, phi, voxel, width, 1, scratch, progress);
     const std::size_t n = shell().table.size() / 2;

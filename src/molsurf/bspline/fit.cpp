@@ -26,7 +26,8 @@ Spline fitSpline(const LeafTable& table, const LeafField& field, double voxel, i
     origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
     spline.table = LeafTable(std::move(origins));
     LeafField samples(spline.table.size());
-    std::fill_n(samples.leaf(0), samples.leafCount() * leafSize, 0.0f);
+    for (std::size_t n = 0; n < samples.leafCount(); ++n)
+        std::fill_n(samples.leaf(n), leafSize, 0.0f);
     const int stride = 1 << level;
     for (std::size_t n = 0; n < table.size(); ++n) {
         const Coord coarse = table.origin(n) >> level;

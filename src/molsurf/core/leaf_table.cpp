@@ -6,37 +6,23 @@
 
 #include <openvdb/tools/SignedFloodFill.h>
 
-#include <sys/mman.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 
 namespace molsurf
 {
 
 using openvdb::Coord;
 
-void* allocateLeaves(std::size_t bytes)
-{
-    constexpr std::size_t hugePage = 1 << 21, line = 64;
-    const bool large = bytes >= 2 * hugePage;
-    const std::size_t alignment = large ? hugePage : line;
-    void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-    if (!memory && bytes > 0) throw std::bad_alloc();
-#ifdef MADV_HUGEPAGE
-    if (large) madvise(memory, bytes, MADV_HUGEPAGE); // a hint; refusing it is no error
-#endif
-    return memory;
-}
-
 LeafField copied(const LeafField& field)
 {
     LeafField copy(field.leafCount());
-    std::copy_n(field.leaf(0), field.leafCount() * leafSize, copy.leaf(0));
+    for (std::size_t n = 0; n < field.leafCount(); ++n)
+        std::copy_n(field.leaf(n), leafSize, copy.leaf(n));
     return copy;
 }
 
@@ -288,14 +274,19 @@ LeafTable dilated(const LeafTable& table, int steps, Spread spread, const Progre
     return pruned(out);
 }
 
-LeafTable pruned(const LeafTable& table)
+namespace
+{
+
+/// The leaves of a table that keep(n) names, with their active voxels.
+template<typename F>
+LeafTable filtered(const LeafTable& table, const F& keep)
 {
     std::vector<Coord> origins;
     std::vector<LeafMask> masks;
     origins.reserve(table.size());
     masks.reserve(table.size());
     for (std::size_t n = 0; n < table.size(); ++n) {
-        if (!table.active(n).any()) continue;
+        if (!keep(n)) continue;
         origins.push_back(table.origin(n));
         masks.push_back(table.active(n));
     }
@@ -304,20 +295,31 @@ LeafTable pruned(const LeafTable& table)
     return out;
 }
 
+} // namespace
+
+LeafTable pruned(const LeafTable& table)
+{
+    return filtered(table, [&](std::size_t n) { return table.active(n).any(); });
+}
+
+LeafTable joined(const LeafTable& a, const LeafTable& b)
+{
+    std::vector<Coord> origins = a.origins();
+    for (const Coord& origin : b.origins()) {
+        if (a.find(origin) == noLeaf) origins.push_back(origin);
+    }
+    LeafTable out(std::move(origins));
+    for (const LeafTable* table : {&a, &b}) {
+        for (std::size_t n = 0; n < table->size(); ++n)
+            out.active(std::size_t(out.find(table->origin(n)))) |= table->active(n);
+    }
+    return out;
+}
+
 LeafTable clipped(const LeafTable& table, const openvdb::CoordBBox& box)
 {
     if (box == openvdb::CoordBBox::inf()) return table;
-    std::vector<Coord> origins;
-    std::vector<LeafMask> masks;
-    for (std::size_t n = 0; n < table.size(); ++n) {
-        if (!box.isInside(table.origin(n))) continue;
-        origins.push_back(table.origin(n));
-        masks.push_back(table.active(n));
-    }
-    LeafTable out(origins);
-    for (std::size_t i = 0; i < origins.size(); ++i)
-        out.active(std::size_t(out.find(origins[i]))) = masks[i];
-    return out;
+    return filtered(table, [&](std::size_t n) { return box.isInside(table.origin(n)); });
 }
 
 LeafField restricted(const LeafTable& table, const LeafField& field, const LeafTable& to,

@@ -7,13 +7,13 @@
 /// on it is one array of 512 values a leaf. docs/adr/0002-leaf-table.md tells why.
 
 #include "molsurf/core/leaf_mask.h"
+#include "molsurf/core/paged_array.h"
 #include "molsurf/core/progress.h"
 
 #include <openvdb/openvdb.h>
 
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -25,33 +25,37 @@ constexpr int leafSize = 512;       ///< voxels of a leaf
 constexpr std::int32_t noLeaf = -1; ///< in the table of neighbours: there is none
 constexpr int centreNeighbour = 13; ///< index of the leaf itself among its 27 neighbours
 
-/// Memory for large arrays, in huge pages where the system offers them: passes over leaf blocks
-/// jump from leaf to leaf, and would else wait for the page tables.
-/// @throws std::bad_alloc
-void* allocateLeaves(std::size_t bytes);
-
 /// 512 values a leaf, uninitialised when made.
 template<typename T>
 class LeafArray
 {
+    static_assert(PagedMemory::pageBytes % (leafSize * sizeof(T)) == 0, "leaves are in one piece");
+
 public:
     LeafArray() = default;
-    explicit LeafArray(std::size_t leaves)
-        : leaves_(leaves), data_(static_cast<T*>(allocateLeaves(leaves * leafSize * sizeof(T))))
+    explicit LeafArray(std::size_t leaves) : values_(leaves * leafSize) {}
+
+    T* leaf(std::size_t n) { return &values_[n * leafSize]; }
+    const T* leaf(std::size_t n) const { return &values_[n * leafSize]; }
+    std::size_t leafCount() const { return values_.size() / leafSize; }
+    std::size_t bytes() const { return values_.size() * sizeof(T); }
+
+    /// The same memory for values of another type of this size. What it holds are the bytes of the
+    /// old ones.
+    template<typename U>
+    LeafArray<U> reused() &&
     {
+        static_assert(sizeof(U) == sizeof(T));
+        LeafArray<U> out;
+        out.values_ = std::move(values_).template reused<U>();
+        return out;
     }
 
-    T* leaf(std::size_t n) { return data_.get() + n * leafSize; }
-    const T* leaf(std::size_t n) const { return data_.get() + n * leafSize; }
-    std::size_t leafCount() const { return leaves_; }
-    std::size_t bytes() const { return leaves_ * leafSize * sizeof(T); }
-
 private:
-    std::size_t leaves_ = 0;
-    struct Free {
-        void operator()(T* data) const { std::free(data); }
-    };
-    std::unique_ptr<T[], Free> data_;
+    template<typename>
+    friend class LeafArray;
+
+    PagedArray<T> values_;
 };
 
 using LeafField = LeafArray<float>;
@@ -132,6 +136,9 @@ LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks,
 
 /// The table without the leaves that have no active voxel.
 LeafTable pruned(const LeafTable& table);
+
+/// The leaves of both tables, with the active voxels of both.
+LeafTable joined(const LeafTable& a, const LeafTable& b);
 
 /// The leaves of a table that lie in a box of whole leaves, with their active voxels.
 LeafTable clipped(const LeafTable& table, const openvdb::CoordBBox& box);

@@ -103,25 +103,13 @@ void fillFromNeighbours(const NarrowBand& old, const LeafTable& table, std::size
     }
 }
 
-/// A table with the leaves of another one, too, where these have no active voxel.
-LeafTable withLeavesOf(const LeafTable& table, const LeafTable& other)
-{
-    std::vector<openvdb::Coord> origins = table.origins();
-    for (const openvdb::Coord& origin : other.origins()) {
-        if (table.find(origin) == noLeaf) origins.push_back(origin);
-    }
-    LeafTable out(std::move(origins));
-    for (std::size_t n = 0; n < table.size(); ++n)
-        out.active(std::size_t(out.find(table.origin(n)))) = table.active(n);
-    return out;
-}
-
 /// Makes the active voxels those within the band of the interface; adds leaves as needed. None is
 /// dropped: that would change what stencils beside it see, and what happens at a voxel would depend
 /// on whether any leaf, anywhere, has to be added in the same step.
-/// @param[in] domain  where leaves may be
+/// @param[in]     domain   where leaves may be
+/// @param[in,out] scratch  a field that grows with the band; its values are lost
 void track(NarrowBand& band, const PsiSource& source, double voxel, double width,
-           const openvdb::CoordBBox& domain, Progress& progress)
+           const openvdb::CoordBBox& domain, LeafField& scratch, Progress& progress)
 {
     // The voxels that are certainly within the band, and one step around them.
     const float core = float(width - voxel);
@@ -155,22 +143,29 @@ void track(NarrowBand& band, const PsiSource& source, double voxel, double width
         for (std::size_t n = 0; n < band.table.size(); ++n) band.table.active(n) = wanted[n];
         return;
     }
-    NarrowBand grown;
-    grown.table =
-        withLeavesOf(clipped(dilated(band.table, 1, Spread::Ball, progress), domain), band.table);
-    grown.phi = LeafField(grown.table.size());
-    grown.psi = LeafField(grown.table.size());
-    parallelFor(grown.table.size(), progress, [&](std::size_t n) {
-        const std::int32_t m = band.table.find(grown.table.origin(n));
-        if (m != noLeaf) {
-            std::copy_n(band.phi.leaf(m), leafSize, grown.phi.leaf(n));
-            std::copy_n(band.psi.leaf(m), leafSize, grown.psi.leaf(n));
-        } else {
-            fillFromNeighbours(band, grown.table, n, float(width), grown.phi.leaf(n));
-            source(grown.table.origin(n), grown.psi.leaf(n));
-        }
+    // The leaves of the band stay, where none of their voxels is active, too.
+    LeafTable table =
+        joined(clipped(dilated(band.table, 1, Spread::Ball, progress), domain), band.table);
+    // One field after the other: at no time are there both twice.
+    scratch = LeafField();
+    const auto extend = [&](LeafField& field, const auto& fill) {
+        LeafField out(table.size());
+        parallelFor(table.size(), progress, [&](std::size_t n) {
+            const std::int32_t m = band.table.find(table.origin(n));
+            if (m != noLeaf) {
+                std::copy_n(field.leaf(std::size_t(m)), leafSize, out.leaf(n));
+            } else {
+                fill(n, out.leaf(n));
+            }
+        });
+        field = std::move(out);
+    };
+    extend(band.psi, [&](std::size_t n, float* psi) { source(table.origin(n), psi); });
+    extend(band.phi, [&](std::size_t n, float* phi) {
+        fillFromNeighbours(band, table, n, float(width), phi);
     });
-    band = std::move(grown);
+    scratch = LeafField(table.size());
+    band.table = std::move(table);
 }
 
 /// How far the interface has yet to go if the displacements of the last two steps go on to shrink
@@ -247,8 +242,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
         progress.update("evolve", double(report.steps) / maxSteps);
         std::swap(band.phi, next);
         reinitialize(band.table, band.phi, voxel, width, reinitializations, next, progress);
-        track(band, source, voxel, width, region.grown(halo), progress);
-        if (next.leafCount() != band.table.size()) next = LeafField(band.table.size());
+        track(band, source, voxel, width, region.grown(halo), next, progress);
     }
     return report;
 }

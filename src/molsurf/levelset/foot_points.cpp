@@ -107,7 +107,8 @@ MOLSURF_KERNEL void newtonSteps(const JetLanes& jets, const FootPoints& feet, co
     std::copy_n(&out[0][0], 3 * lanes, &d[0][0]);
 }
 
-MOLSURF_KERNEL void distances(const FootPoints& feet, const Lanes* x, const float* sign, float* d)
+MOLSURF_KERNEL void distances(const FootPoints& feet, const Lanes* x, const float* sign,
+                              float* __restrict d, float* __restrict aside2)
 {
     for (int l = 0; l < lanes; ++l) {
         const Offset o = offsetOf(feet, x, l);
@@ -119,14 +120,7 @@ MOLSURF_KERNEL void distances(const FootPoints& feet, const Lanes* x, const floa
         const float r2 = s * s + t2, r = std::sqrt(r2);
         const float least = std::sqrt(larger(r2 - 0.76f * (1.0f + r), 0.0f));
         d[l] = smaller(larger(expanded, least), r);
-    }
-}
-
-MOLSURF_KERNEL void aside(const FootPoints& feet, const Lanes* x, float* aside2)
-{
-    for (int l = 0; l < lanes; ++l) {
-        const Offset o = offsetOf(feet, x, l);
-        aside2[l] = o.t[0] * o.t[0] + o.t[1] * o.t[1] + o.t[2] * o.t[2];
+        aside2[l] = t2;
     }
 }
 

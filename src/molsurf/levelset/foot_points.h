@@ -53,9 +53,8 @@ void newtonSteps(const JetLanes& jets, const FootPoints& feet, const FootPoints:
 /// They are kept to what is possible: a foot is a point of the surface, and no point of the surface
 /// is farther than some 0.87 voxel from one of those known, so that with curvatures up to one a
 /// voxel the distance d and r = |x - y| satisfy  r^2 - (1 + r) 0.87^2 <= d^2 <= r^2.
-void distances(const FootPoints& feet, const FootPoints::Lanes* x, const float* sign, float* d);
-
-/// The squared distances of voxels x from the normals through their feet.
-void aside(const FootPoints& feet, const FootPoints::Lanes* x, float* aside2);
+/// @param[out] aside2  the squared distances of the voxels from the normals through their feet
+void distances(const FootPoints& feet, const FootPoints::Lanes* x, const float* sign, float* d,
+               float* aside2);
 
 } // namespace molsurf

@@ -4,6 +4,7 @@
 #include "molsurf/bspline/spline.h"
 #include "molsurf/core/leaf_block.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/simd.h"
 #include "molsurf/levelset/foot_points.h"
 #include "molsurf/levelset/nearest_point.h"
 
@@ -12,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <limits>
 
 namespace molsurf
 {
@@ -178,6 +181,33 @@ Vec3f gradientFrom(const Seed& seed, const Vec3f& d)
 using SeedIndex = LeafArray<std::int32_t>;
 using SeedBlock = LeafBlock<std::int32_t, 1>;
 
+/// Cosine of the angle by which the gradient turns beside a kink: 20 degrees.
+constexpr float kinkCosine = 0.94f;
+
+/// Normals at the closest points of the voxels of a leaf and of those one step on; not a number
+/// where there is none.
+struct Normals {
+    static constexpr int dim = leafDim + 1;
+    static constexpr int strides[3] = {dim * dim, dim, 1};
+    float n[3][dim * dim * dim];
+};
+
+/// The voxels of a leaf whose normal turns by more than that of a kink to the next voxel along an
+/// axis.
+MOLSURF_KERNEL void turning(const Normals& normals, int stride, LeafMask& mask)
+{
+    const float *nx = normals.n[0], *ny = normals.n[1], *nz = normals.n[2];
+    for (int row = 0; row < 64; ++row) {
+        const int at = row / 8 * Normals::strides[0] + row % 8 * Normals::strides[1];
+        int bits = 0;
+        for (int i = at; i < at + 8; ++i) {
+            const int j = i + stride;
+            bits |= int(nx[i] * nx[j] + ny[i] * ny[j] + nz[i] * nz[j] < kinkCosine) << (i - at);
+        }
+        mask.words[row >> 3] |= std::uint64_t(bits) << (8 * (row & 7));
+    }
+}
+
 /// The voxels with a face neighbour of the other sign, among the active ones.
 std::vector<LeafMask> interfaceVoxels(const LeafTable& table, const std::vector<LeafMask>& inside,
                                       const Progress& progress)
@@ -201,13 +231,13 @@ int listOf(const LeafMask& mask, std::uint16_t* voxels)
 }
 
 /// The seeds of all interface voxels, leaf by leaf, and where those of each leaf begin.
-std::vector<Seed> findSeeds(const LeafTable& table, const LeafField& coefficients, double voxel,
-                            const std::vector<LeafMask>& interface,
-                            std::vector<std::size_t>& begins, const Progress& progress)
+PagedArray<Seed> findSeeds(const LeafTable& table, const LeafField& coefficients, double voxel,
+                           const std::vector<LeafMask>& interface, std::vector<std::size_t>& begins,
+                           const Progress& progress)
 {
     begins.assign(table.size() + 1, 0);
     for (std::size_t n = 0; n < table.size(); ++n) begins[n + 1] = begins[n] + interface[n].count();
-    std::vector<Seed> seeds(begins.back());
+    PagedArray<Seed> seeds(begins.back());
     parallelFor(table.size(), progress, [&](std::size_t n) {
         if (!interface[n].any()) return;
         LeafBlock<float, 3> block;
@@ -246,27 +276,12 @@ LeafTable reachable(const LeafTable& table, const std::vector<LeafMask>& interfa
     return out;
 }
 
-/// The leaves of both tables, with the voxels of both active.
-LeafTable merged(const LeafTable& a, const LeafTable& b)
-{
-    std::vector<Coord> origins = a.origins();
-    for (const Coord& origin : b.origins()) {
-        if (a.find(origin) == noLeaf) origins.push_back(origin);
-    }
-    LeafTable out(std::move(origins));
-    for (const LeafTable* table : {&a, &b}) {
-        for (std::size_t n = 0; n < table->size(); ++n)
-            out.active(out.find(table->origin(n))) |= table->active(n);
-    }
-    return out;
-}
-
 /// Computes the distances of the voxels of one leaf.
 class LeafDistances
 {
 public:
     LeafDistances(const LeafTable& table, const LeafField& coefficients, double voxel,
-                  const std::vector<Seed>& seeds, const Coord& origin)
+                  const PagedArray<Seed>& seeds, const Coord& origin)
         : table_(table), coefficients_(coefficients), voxel_(float(voxel)), seeds_(seeds),
           origin_(origin)
     {
@@ -281,10 +296,33 @@ public:
     /// Whether two closest points give a voxel gradients that differ by more than 20 degrees.
     bool disagree(std::int32_t a, std::int32_t b, int v) const
     {
-        constexpr float cosine = 0.94f;
-        return seeds_[a].n.dot(seeds_[b].n) < cosine &&
-               gradientFrom(seeds_[a], offset(a, v)).dot(gradientFrom(seeds_[b], offset(b, v))) <
-                   cosine;
+        return gradientFrom(seeds_[a], offset(a, v)).dot(gradientFrom(seeds_[b], offset(b, v))) <
+               kinkCosine;
+    }
+
+    /// The voxels that a closest point and that of the next voxel along an axis give gradients that
+    /// differ by more than 20 degrees. Their normals then differ as much, which sorts most out.
+    LeafMask kinks(const SeedBlock& index) const
+    {
+        Normals normals;
+        for (int i = 0; i < Normals::dim * Normals::dim * Normals::dim; ++i) {
+            const std::int32_t seed = *index.at(i / Normals::strides[0],
+                                                i / Normals::dim % Normals::dim, i % Normals::dim);
+            for (int a = 0; a < 3; ++a)
+                normals.n[a][i] = seed == noSeed ? std::numeric_limits<float>::quiet_NaN()
+                                                 : seeds_[std::size_t(seed)].n[a];
+        }
+        constexpr int strides[3] = {SeedBlock::strideX, SeedBlock::strideY, SeedBlock::strideZ};
+        LeafMask out;
+        for (int axis = 0; axis < 3; ++axis) {
+            LeafMask turns;
+            turning(normals, Normals::strides[axis], turns);
+            turns.forEach([&](int v) {
+                const std::int32_t* p = index.at(v >> 6, v >> 3 & 7, v & 7);
+                if (disagree(*p, p[strides[axis]], v)) out.set(v);
+            });
+        }
+        return out;
     }
 
     /// The inner voxels of a leaf that the given level set lacks, and that no interface can cross:
@@ -319,14 +357,13 @@ public:
                 sign[l] = negative.on(v) ? -1.0f : 1.0f;
                 setLane(seeds_[index[v]], shift(seeds_[index[v]]), l, feet);
             }
-            distances(feet, x, sign, distance);
+            distances(feet, x, sign, distance, aside2);
             bool any = false;
             for (int l = 0; l < used; ++l) {
                 out[voxels[first + l]] = distance[l];
                 any = any || std::abs(sign[l] * distance[l] - level) < sharp;
             }
             if (!any) continue;
-            aside(feet, x, aside2);
             stepsAlong(feet, x, step);
             for (int l = 0; l < used; ++l) {
                 // What the expansion leaves out is of third order in the distance to the normal,
@@ -390,8 +427,7 @@ private:
             jets.set(l, jet);
         }
         shapeFrom(jets, feet);
-        distances(feet, x, sign, distance);
-        aside(feet, x, aside2);
+        distances(feet, x, sign, distance, aside2);
         for (int l = 0; l < waiting_; ++l) {
             const Waiting& w = wait_[l];
             const bool nearer =
@@ -404,7 +440,7 @@ private:
     const LeafTable& table_;
     const LeafField& coefficients_;
     const float voxel_;
-    const std::vector<Seed>& seeds_;
+    const PagedArray<Seed>& seeds_;
     const Coord origin_;
     Waiting wait_[lanes];
     int waiting_ = 0;
@@ -425,13 +461,13 @@ DistanceBand redistance(const LeafTable& table, LeafField phi, double voxel, dou
     std::vector<std::size_t> begins;
     const LeafField coefficients = prefilter(table, phi, progress);
     phi = LeafField();
-    const std::vector<Seed> seeds =
+    const PagedArray<Seed> seeds =
         findSeeds(table, coefficients, voxel, interface, begins, progress);
     if (seeds.empty()) return DistanceBand();
 
     const auto steps = [&](double width) { return int(std::ceil(width / voxel)); };
     const LeafTable domain =
-        clipped(merged(reachable(table, interface, outer, steps(inside), progress),
+        clipped(joined(reachable(table, interface, outer, steps(inside), progress),
                        reachable(table, interface, inner, steps(outside), progress)),
                 box);
 
@@ -455,15 +491,23 @@ DistanceBand redistance(const LeafTable& table, LeafField phi, double voxel, dou
 
     DistanceBand band;
     band.table = domain;
-    band.phi = LeafField(domain.size());
     band.kinks.resize(domain.size());
+    parallelFor(domain.size(), progress, [&](std::size_t n) {
+        const LeafDistances leaf(table, coefficients, voxel, seeds, domain.origin(n));
+        SeedBlock block;
+        block.gather(domain, index, n);
+        band.kinks[n] = leaf.kinks(block);
+    });
+
+    band.phi = std::move(index).reused<float>();
     const float h = float(voxel);
     parallelFor(domain.size(), progress, [&](std::size_t n) {
-        const std::int32_t* own = index.leaf(n);
+        float* phi = band.phi.leaf(n);
+        std::int32_t own[leafSize];
+        std::memcpy(own, phi, sizeof own);
         LeafDistances leaf(table, coefficients, voxel, seeds, domain.origin(n));
         const std::int32_t m = table.find(domain.origin(n));
         const LeafMask negative = m != noLeaf ? inner[std::size_t(m)] : leaf.side(own);
-        float* phi = band.phi.leaf(n);
         LeafMask reached;
         for (int v = 0; v < leafSize; ++v) {
             phi[v] = negative.on(v) ? float(-inside) : float(outside);
@@ -473,9 +517,6 @@ DistanceBand redistance(const LeafTable& table, LeafField phi, double voxel, dou
         const int count = listOf(reached, voxels);
         float distance[leafSize];
         leaf.compute(own, voxels, count, negative, float(level) / h, distance);
-
-        SeedBlock block;
-        block.gather(domain, index, n);
         LeafMask active;
         for (int k = 0; k < count; ++k) {
             const int v = voxels[k];
@@ -483,13 +524,9 @@ DistanceBand redistance(const LeafTable& table, LeafField phi, double voxel, dou
             if (d >= float(negative.on(v) ? inside : outside)) continue;
             phi[v] = negative.on(v) ? -d : d;
             active.set(v);
-            const std::int32_t* p = block.at(v >> 6, v >> 3 & 7, v & 7);
-            for (const int step : {block.strideX, block.strideY, block.strideZ}) {
-                if (p[step] == noSeed || p[step] == *p) continue;
-                if (leaf.disagree(*p, p[step], v)) band.kinks[n].set(v);
-            }
         }
         band.table.active(n) = active;
+        band.kinks[n] &= active;
     });
     return band;
 }

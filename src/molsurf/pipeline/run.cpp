@@ -44,7 +44,7 @@ std::vector<LeafMask> cavityVoxels(const Mesh& mesh, const DistanceBand& S, doub
 
     // Outer voxels of S in front of the walls, then all that hang together with them. Those that
     // hang together with the outer surface, where a wall is thinner than a voxel, are no cavity.
-    std::vector<LeafMask> positive(S.table.size()), within(S.table.size()), without(S.table.size());
+    std::vector<LeafMask> positive(S.table.size()), walls(S.table.size()), skin(S.table.size());
     for (std::size_t n = 0; n < S.table.size(); ++n) {
         positive[n] = ~lessThan(S.phi.leaf(n), 0.0f);
     }
@@ -59,13 +59,13 @@ std::vector<LeafMask> cavityVoxels(const Mesh& mesh, const DistanceBand& S, doub
             if ((corner.asVec3d() - x).dot(openvdb::Vec3d(mesh.normals[i])) <= 0.0) continue;
             const std::int32_t n = S.table.find(corner);
             if (n != noLeaf)
-                (cavity ? within : without)[std::size_t(n)].set(
+                (cavity ? walls : skin)[std::size_t(n)].set(
                     int(openvdb::FloatTree::LeafNodeType::coordToOffset(corner)));
         }
     }
     if (!any) return {};
-    std::vector<LeafMask> cavities = connectedTo(S.table, positive, within);
-    const std::vector<LeafMask> exterior = connectedTo(S.table, positive, without);
+    std::vector<LeafMask> cavities = connectedTo(S.table, positive, walls);
+    const std::vector<LeafMask> exterior = connectedTo(S.table, positive, skin);
     for (std::size_t n = 0; n < cavities.size(); ++n) cavities[n] &= ~exterior[n];
     return cavities;
 }
@@ -99,9 +99,7 @@ void fillCavities(const std::vector<LeafMask>& cavities, const DistanceBand& S, 
 void fillCavities(const std::vector<LeafMask>& cavities, double voxel, DistanceBand& S,
                   Progress& progress)
 {
-    LeafField filled(S.table.size());
-    parallelFor(S.table.size(), progress,
-                [&](std::size_t n) { std::copy_n(S.phi.leaf(n), leafSize, filled.leaf(n)); });
+    LeafField filled = copied(S.phi);
     turnInside(S.table, cavities, voxel, splineWidthVox * voxel, filled, progress);
     LeafTable about = S.table;
     for (std::size_t n = 0; n < about.size(); ++n) about.active(n) = cavities[n];
@@ -199,6 +197,7 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
         result.surface =
             surfaceGrid(S.table, options.fillCavities ? copied(S.phi) : std::move(S.phi),
                         options.voxel, everything, progress);
+        releasePages(); // grids and meshes have memory of their own
         watch.stop("redistance");
 
         progress.update("mesh", 0.0);
@@ -254,6 +253,9 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
     for (auto& grid : curvatureGrids(*result.surface, spline, options.fields, progress))
         result.fields.push_back(std::move(grid));
     if (wanted("density")) result.fields.push_back(densityGrid(*result.surface));
+    spline = Spline();
+    S = DistanceBand();
+    releasePages();
     progress.update("color", 0.0);
     labelSurface(atoms, options, labelReach(atoms, options), progress, result);
     watch.stop("color");

@@ -102,6 +102,7 @@ void finish(const BallSelection& atoms, const Options& options, const Scope& sco
     const auto surface = surfaceGrid(S.table, std::move(S.phi), options.voxel, scope, progress);
     const auto part = owned(surface, box);
     closeSides(*surface);
+    releasePages();
     watch.stop("redistance");
 
     progress.update("mesh", 0.0);
