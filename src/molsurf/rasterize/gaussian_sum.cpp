@@ -54,6 +54,15 @@ MOLSURF_KERNEL void exponentials(float decay, float centre, float nearest2, floa
     }
 }
 
+/// psi = top + ln sum, no lower than the lowest that matters.
+MOLSURF_KERNEL void takeLogarithms(float top, float* sum)
+{
+    for (int v = 0; v < leafSize; ++v) {
+        const float psi = top + fastLog(larger(sum[v], smallestSum));
+        sum[v] = larger(psi, lowestPsi);
+    }
+}
+
 /// The origins of all leaves within a number of leaves of those given by their place among leaves.
 std::vector<Coord> leavesWithin(std::vector<Coord> places, int reach, const Progress& progress)
 {
@@ -200,11 +209,10 @@ void GaussianSum::evaluate(const Coord& origin, double reach, float* psi) const
         }
         accumulate(ex, ey, ez, psi);
     }
-    for (int v = 0; v < leafSize; ++v) {
-        if (psi[v] >= smallestSum) {
-            psi[v] = top + std::log(psi[v]);
-            continue;
-        }
+    LeafMask lost;
+    if (top + std::log(smallestSum) > lowestPsi) lost = lessThan(psi, smallestSum);
+    takeLogarithms(top, psi);
+    lost.forEach([&](int v) {
         // The products underflowed here: the largest exponent of the voxel itself is the scale.
         const float x = float(v >> 6), y = float(v >> 3 & 7), z = float(v & 7);
         const auto exponent = [&](const Term& t) {
@@ -214,8 +222,8 @@ void GaussianSum::evaluate(const Coord& origin, double reach, float* psi) const
         float largest = exponent(terms[0]), sum = 0.0f;
         for (const Term& t : terms) largest = std::max(largest, exponent(t));
         for (const Term& t : terms) sum += std::exp(exponent(t) - largest);
-        psi[v] = largest + std::log(sum);
-    }
+        psi[v] = std::max(largest + std::log(sum), lowestPsi);
+    });
 }
 
 LeafField GaussianSum::evaluate(const LeafTable& table, const Progress& progress) const

@@ -29,5 +29,17 @@ TEST(FastExp, ClampsBeyondItsRange)
     EXPECT_GT(fastExp(-87.0f), 0.0f);
 }
 
+TEST(FastLog, IsAsExactAsFloatAllows)
+{
+    double worst = 0.0;
+    for (double x = 1.2e-38; x < 3e38; x *= 1.0007) {
+        const double exact = std::log(double(float(x)));
+        worst =
+            std::max(worst, std::abs(double(fastLog(float(x))) - exact) / (1.0 + std::abs(exact)));
+    }
+    EXPECT_LT(worst, 2e-7);
+    EXPECT_EQ(fastLog(1.0f), 0.0f);
+}
+
 } // namespace
 } // namespace molsurf
