@@ -99,6 +99,22 @@ void memoryCopy(benchmark::State& state)
 }
 BENCHMARK(memoryCopy);
 
+/// What every pass begins with: a leaf and its rim, by halos of one and two voxels.
+template<int Halo>
+void gatherPass(benchmark::State& state)
+{
+    LeafBlock<float, Halo> block;
+    for (auto _ : state) {
+        for (std::size_t n = 0; n < shell().table.size(); ++n) {
+            block.gather(shell().table, shell().phi, n);
+            benchmark::ClobberMemory();
+        }
+    }
+    countVoxels(state);
+}
+BENCHMARK(gatherPass<1>);
+BENCHMARK(gatherPass<2>);
+
 /// Mean and Gaussian curvature by 19 points of the 27 around each voxel.
 void curvaturePass(benchmark::State& state)
 {
@@ -162,7 +178,7 @@ void prefilterPass(benchmark::State& state)
 }
 BENCHMARK(prefilterPass)->Unit(benchmark::kMillisecond);
 
-/// psi of a lattice of atoms: terms are voxels times the balls within reach of their leaf.
+/// psi of a lattice of atoms. A term is a voxel times a ball that is not left out of its leaf.
 void rasterize(benchmark::State& state)
 {
     std::vector<Ball> balls;
@@ -170,7 +186,7 @@ void rasterize(benchmark::State& state)
         const openvdb::Vec3f c(2.2f * (i & 15), 2.2f * (i >> 4 & 15), 2.2f * (i >> 8 & 15));
         balls.push_back({c, 1.7f, i});
     }
-    const GaussianSum sum(balls, {1.4, 0.5, voxel, 2.75});
+    const GaussianSum sum(balls, {1.4, 0.5, 0.0, voxel, 2.75});
     alignas(64) float psi[leafSize];
     std::size_t leaves = 0;
     for (auto _ : state) {
@@ -180,6 +196,12 @@ void rasterize(benchmark::State& state)
             ++leaves;
         }
     }
+    std::size_t terms = 0;
+    for (int x = 0; x < 64; x += leafDim)
+        terms += leafSize * sum.termCount(openvdb::Coord(x, 32, 32), 2.75);
+    state.counters["terms/s"] =
+        benchmark::Counter(double(leaves / 8) * double(terms), benchmark::Counter::kIsRate);
+    state.counters["terms/leaf"] = double(terms / leafSize) / 8.0;
     state.counters["leaves/s"] = benchmark::Counter(double(leaves), benchmark::Counter::kIsRate);
 }
 BENCHMARK(rasterize);

@@ -10,11 +10,13 @@
 /// Put before a hot function with plain loops: the compiler makes one version of it for each
 /// instruction set, and the loader picks the widest that the machine has. A macro, since an
 /// attribute cannot be had otherwise; off under sanitizers, whose run time is not ready when the
-/// loader picks.
+/// loader picks. (Defined as nothing by the build it gives the portable path.)
+#ifndef MOLSURF_KERNEL
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define MOLSURF_KERNEL __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else
 #define MOLSURF_KERNEL
+#endif
 #endif
 
 namespace molsurf

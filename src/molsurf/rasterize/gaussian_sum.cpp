@@ -179,6 +179,13 @@ void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Ter
                 terms.end());
 }
 
+std::size_t GaussianSum::termCount(const Coord& origin, double reach) const
+{
+    std::vector<Term> terms;
+    gatherTerms(origin, reach, terms);
+    return terms.size();
+}
+
 void GaussianSum::evaluate(const Coord& origin, double reach, float* psi) const
 {
     thread_local std::vector<Term> terms;

@@ -70,6 +70,9 @@ public:
     /// @param[out] psi     512 values; always finite
     void evaluate(const openvdb::Coord& origin, double reach, float* psi) const;
 
+    /// How many balls are not left out of a leaf by evaluate().
+    std::size_t termCount(const openvdb::Coord& origin, double reach) const;
+
     /// psi at all voxels of all leaves, with the reach of the options.
     LeafField evaluate(const LeafTable& table, const Progress& progress) const;
 
