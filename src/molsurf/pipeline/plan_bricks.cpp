@@ -25,9 +25,9 @@ namespace
 constexpr double processBytes = 70e6;      // program, libraries, buffers
 constexpr double bytesPerAtom = 40.0;      // of the whole molecule: balls, and reading them
 constexpr double bytesPerNear = 85.0;      // of the balls near a brick: cell lists, copies
-constexpr double bytesPerFlowLeaf = 6.3e3; // within the halo of the flow
-constexpr double bytesPerOwnLeaf = 17e3;   // within the halo of the spline
-constexpr double secondsPerLeaf = 0.5e-3, secondsPerFlowLeaf = 0.35e-3; // one core
+constexpr double bytesPerFlowLeaf = 4.4e3; // within the halo of the flow
+constexpr double bytesPerOwnLeaf = 11.8e3; // within the halo of the spline
+constexpr double secondsPerLeaf = 0.2e-3, secondsPerFlowLeaf = 0.14e-3; // one core
 constexpr double bytesToMerge =
     7.0; // an active voxel: leaves without values, statistics of vertices
 constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`

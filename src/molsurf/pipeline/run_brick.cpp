@@ -92,27 +92,41 @@ openvdb::GridBase::Ptr sasGrid(const BallSelection& atoms, const Options& option
 
 /// The mesh, what is known at its vertices, and the grids.
 void finish(const BallSelection& atoms, const Options& options, const Scope& scope,
-            const NarrowBand& band, DistanceBand& S, Progress& progress, Stopwatch& watch,
-            Brick& brick)
+            NarrowBand& band, DistanceBand& S, Progress& progress, Stopwatch& watch, Brick& brick)
 {
     const CoordBBox& box = scope.region.owned;
     progress.update("spline", 0.0);
-    const Spline spline = fitSpline(S.table, S.phi, options.voxel, 0, progress);
+    Spline spline = fitSpline(S.table, S.phi, options.voxel, 0, progress);
     watch.stop("spline");
-    const auto surface = surfaceGrid(S.table, std::move(S.phi), options.voxel, scope, progress);
-    const auto part = owned(surface, box);
+    auto surface = surfaceGrid(S.table, std::move(S.phi), options.voxel, scope, progress);
+    Result result;
+    result.surface = openvdb::gridPtrCast<openvdb::FloatGrid>(owned(surface, box));
     closeSides(*surface);
-    releasePages();
+    releasePages(); // grids and meshes have memory of their own
     watch.stop("redistance");
 
     progress.update("mesh", 0.0);
     ExtractStats stats;
     stats.keepStarts = true;
     Mesh whole = extractMesh(*surface, spline, progress, stats);
+    surface.reset();
+    addCurvature(spline, options.fields, whole, progress);
+    brick.grids = {result.surface};
+    const auto wanted = [&](const char* field) {
+        return std::find(options.fields.begin(), options.fields.end(), field) !=
+               options.fields.end();
+    };
+    if (wanted("sas")) brick.grids.push_back(sasGrid(atoms, options, band, scope, progress));
+    if (wanted("spline")) brick.grids.push_back(owned(splineGrid(spline), box));
+    for (auto& grid : curvatureGrids(*result.surface, spline, options.fields, progress))
+        brick.grids.push_back(std::move(grid));
+    band = NarrowBand();
+    spline = Spline();
+    releasePages();
+
     std::vector<std::uint32_t> sources;
     brick.mesh = cutBrick(whole, std::move(stats.starts), box, options.voxel,
                           scope.region.anchor.asVec3d() * options.voxel, sources, progress);
-    Result result;
     result.mesh = std::move(brick.mesh.mesh);
     whole = Mesh();
     std::vector<float> slopes;
@@ -123,19 +137,8 @@ void finish(const BallSelection& atoms, const Options& options, const Scope& sco
     brick.unitVertices = counts.unit;
     for (std::size_t v = 0; v < brick.mesh.owned; ++v)
         brick.maxResidual = std::max(brick.maxResidual, double(stats.residuals[sources[v]]));
-    addCurvature(spline, options.fields, result.mesh, progress);
     watch.stop("mesh");
 
-    result.surface = openvdb::gridPtrCast<openvdb::FloatGrid>(part);
-    brick.grids = {part};
-    const auto wanted = [&](const char* field) {
-        return std::find(options.fields.begin(), options.fields.end(), field) !=
-               options.fields.end();
-    };
-    if (wanted("sas")) brick.grids.push_back(sasGrid(atoms, options, band, scope, progress));
-    if (wanted("spline")) brick.grids.push_back(owned(splineGrid(spline), box));
-    for (auto& grid : curvatureGrids(*result.surface, spline, options.fields, progress))
-        brick.grids.push_back(std::move(grid));
     progress.update("color", 0.0);
     const std::vector<double> areas =
         labelPart(atoms, options, labelReach(atoms, options), progress, result);
@@ -263,8 +266,11 @@ Brick runBrick(const BallSelection& atoms, const Options& options, const Scope& 
             band.table = near;
         }
         progress.update("redistance", 0.0);
+        const auto& fields = options.fields;
+        const bool kept = std::find(fields.begin(), fields.end(), "sas") != fields.end();
         if (isUnion(options.kind) || band.table.size() > 0)
-            S = distanceBand(atoms.balls, band.table, copied(band.phi), options, scope, progress);
+            S = distanceBand(atoms.balls, band.table, kept ? copied(band.phi) : std::move(band.phi),
+                             options, scope, progress);
         watch.stop("redistance");
     }
     brick.evolution = report.evolution;
