@@ -81,22 +81,26 @@ def read_ply(data):
 
 
 def read_png(data):
-    """(width, rows of bytes) of an 8-bit RGB picture."""
+    """(width, rows of bytes, three a pixel) of an 8-bit picture with or without alpha."""
+    channels = {2: 3, 6: 4}[data[25]]
     width, at, body = struct.unpack(">I", data[16:20])[0], 8, b""
     while at < len(data):
         size, = struct.unpack(">I", data[at:at + 4])
         if data[at + 4:at + 8] == b"IDAT":
             body += data[at + 8:at + 8 + size]
         at += size + 12
-    body = zlib.decompress(body)
-    rows, last = [], bytearray(3 * width)
-    for start in range(0, len(body), 3 * width + 1):
-        kind, row = body[start], bytearray(body[start + 1:start + 1 + 3 * width])
-        for i in range(len(row)):
-            a, b, c = row[i - 3] if i > 2 else 0, last[i], last[i - 3] if i > 2 else 0
+    body, stride = zlib.decompress(body), channels * width
+    rows, last = [], bytearray(stride)
+    for start in range(0, len(body), stride + 1):
+        kind, row = body[start], bytearray(body[start + 1:start + 1 + stride])
+        for i in range(stride):
+            a, c = (row[i - channels], last[i - channels]) if i >= channels else (0, 0)
+            b = last[i]
             guess = a + b - c
             paeth = min((a, b, c), key=lambda x: abs(guess - x))
             row[i] = row[i] + (0, a, b, (a + b) // 2, paeth)[kind] & 255
-        rows.append(row)
         last = row
+        if channels == 4:
+            row = bytearray(v for i, v in enumerate(row) if i % 4 < 3)
+        rows.append(row)
     return width, rows

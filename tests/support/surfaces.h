@@ -7,6 +7,8 @@
 #include "molsurf/surface/extract.h"
 #include "support/fields.h"
 
+#include <openvdb/tools/LevelSetSphere.h>
+
 namespace molsurf::test
 {
 
@@ -25,6 +27,16 @@ inline Mesh meshOf(const Shape& shape, double voxel)
 {
     ExtractStats stats;
     return meshOf(shape.distance, shape.centre, shape.extent, voxel, stats);
+}
+
+/// A grid `surface` of a ball of radius 5 about (0.3, 1.2, -0.7), voxels of 0.4.
+inline openvdb::FloatGrid::Ptr ballGrid()
+{
+    openvdb::initialize();
+    auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(
+        5.0f, openvdb::Vec3f(0.3f, 1.2f, -0.7f), 0.4f);
+    grid->setName("surface");
+    return grid;
 }
 
 } // namespace molsurf::test

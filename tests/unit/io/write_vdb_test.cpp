@@ -4,9 +4,9 @@
 #include "folder.h"
 #include "molsurf/core/error.h"
 #include "molsurf/io/read_vdb.h"
+#include "support/surfaces.h"
 
 #include <openvdb/io/Stream.h>
-#include <openvdb/tools/LevelSetSphere.h>
 
 #include <gtest/gtest.h>
 
@@ -16,15 +16,6 @@ namespace molsurf
 {
 namespace
 {
-
-openvdb::FloatGrid::Ptr sphere()
-{
-    openvdb::initialize();
-    auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(
-        5.0f, openvdb::Vec3f(0.3f, 1.2f, -0.7f), 0.4f);
-    grid->setName("surface");
-    return grid;
-}
 
 // Same values, same active voxels.
 void expectSame(const openvdb::FloatGrid& a, const openvdb::FloatGrid& b)
@@ -39,7 +30,7 @@ void expectSame(const openvdb::FloatGrid& a, const openvdb::FloatGrid& b)
 TEST(WriteVdb, ReadsBackAsItWas)
 {
     const test::Folder folder;
-    const auto grid = sphere();
+    const auto grid = test::ballGrid();
     openvdb::MetaMap metadata;
     metadata.insertMeta("program", openvdb::StringMetadata("test"));
     metadata.insertMeta("area", openvdb::DoubleMetadata(1.0 / 3.0));
@@ -67,7 +58,7 @@ TEST(WriteVdb, ErrorIfTheDiskIsFull)
     if (!full) GTEST_SKIP() << "no /dev/full";
     std::streambuf* before = file.stream().rdbuf(full.rdbuf());
     try {
-        writeVdb({sphere()}, openvdb::MetaMap(), file);
+        writeVdb({test::ballGrid()}, openvdb::MetaMap(), file);
         ADD_FAILURE() << "expected an Error";
     } catch (const Error& e) {
         EXPECT_EQ(e.kind(), ErrorKind::Output);
@@ -85,7 +76,7 @@ TEST(ReadVdb, RefusesWhatIsNoVdbFile)
     std::ofstream(folder / "empty.vdb");
     {
         OutputFile file(folder / "good.vdb", false);
-        writeVdb({sphere()}, openvdb::MetaMap(), file);
+        writeVdb({test::ballGrid()}, openvdb::MetaMap(), file);
         file.commit();
     }
     const std::string good = test::contentOf(folder / "good.vdb");

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pipeline/scene.h"
 
+#include "support/surfaces.h"
+
 #include <openvdb/tools/LevelSetMeasure.h>
-#include <openvdb/tools/LevelSetSphere.h>
 
 #include <gtest/gtest.h>
 
@@ -10,15 +11,6 @@ namespace molsurf
 {
 namespace
 {
-
-openvdb::FloatGrid::Ptr sphere()
-{
-    openvdb::initialize();
-    auto grid = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(
-        5.0f, openvdb::Vec3f(0.3f, 1.2f, -0.7f), 0.4f);
-    grid->setName("surface");
-    return grid;
-}
 
 TEST(ParseScene, TakesProgramsAndScales)
 {
@@ -35,7 +27,7 @@ TEST(ParseScene, TakesProgramsAndScales)
 
 TEST(PlaceInScene, MovesScalesAndShifts)
 {
-    const auto grid = sphere();
+    const auto grid = test::ballGrid();
     Scene scene;
     scene.host = Host::Blender;
     scene.scale = 0.1;
@@ -60,7 +52,7 @@ TEST(PlaceInScene, MovesScalesAndShifts)
 
 TEST(PlaceInScene, ValuesWithoutALengthStay)
 {
-    const auto grid = sphere();
+    const auto grid = test::ballGrid();
     auto fog = grid->deepCopy();
     fog->setGridClass(openvdb::GRID_FOG_VOLUME);
     fog->setName("density");
