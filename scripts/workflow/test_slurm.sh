@@ -1,7 +1,7 @@
 #!/bin/bash
 # Runs the workflow on a real Slurm of this machine and checks what comes out:
 #     scripts/workflow/test_slurm.sh [INPUT OPTIONS]
-# 8 bricks of INPUT, one of them killed on the way, and 20 structures, one of them broken. Takes some three
+# 8 bricks of INPUT, one of them killed on the way, and 20 structures, one of them broken. Takes some four
 # minutes, most of them waiting, since Snakemake looks after its jobs every ten seconds. BUILD names the
 # build folder. Exits with 1 at the first thing that is not as it should be.
 set -euo pipefail
