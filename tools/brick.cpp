@@ -27,6 +27,10 @@ Call callOf(const PlanManifest& manifest)
         throw Error(ErrorKind::Input, "the plan was made by version " + manifest.version +
                                           ", this is " MOLSURF_VERSION);
     for (const PlanInput& file : manifest.files) {
+        if (!std::filesystem::exists(file.path))
+            throw Error(ErrorKind::Input, "cannot find " + file.path +
+                                              ", which the plan was made of [hint: run where plan "
+                                              "was run, or make the plan with an absolute path]");
         if (sha256OfFile(file.path) != file.sha256)
             throw Error(ErrorKind::Input, file.path + " has changed since the plan was made "
                                                       "[hint: make a new one]");

@@ -55,8 +55,11 @@ int plan(const Call& call)
     writeManifest(manifest, file);
     ignoreSignals();
     file.commit();
-    if (!call.quiet)
+    if (!call.quiet) {
         for (const std::string& line : describePlan(manifest.plan)) say(line);
+        if (manifest.plan.bricks.size() < call.bricks)
+            say("fewer bricks than asked for: smaller ones would be little but overlap");
+    }
     return 0;
 }
 

@@ -122,6 +122,15 @@ class Bricks(ToolTest):
         self.check(1, "brick", "plan.json", 1, says="belongs to another plan")
         self.assertNotIn("m.ply", self.names())
 
+    def test_a_missing_input_is_named(self):
+        self.plan()
+        self.input.unlink()
+        self.check(1, "brick", "plan.json", 1, says="cannot find dimer.cif.gz")
+
+    def test_fewer_bricks_than_asked_for_are_told(self):
+        self.check(0, "plan", "dimer.cif.gz", "-o", "plan.json", "--bricks", 500, *FAST, *STEPS,
+                   says="fewer bricks than asked for")
+
     def test_a_changed_input_is_refused(self):
         self.plan(2)
         shutil.copy(DATA / "1a8o.pdb.gz", self.input)

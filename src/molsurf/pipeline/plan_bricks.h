@@ -12,7 +12,7 @@ namespace molsurf
 
 /// Steps of the flow where the plan has to fix them. At the default tolerance a run of a whole
 /// molecule stops after 5 to 15.
-constexpr int defaultBrickSteps = 16;
+constexpr int defaultBrickSteps = 12;
 
 /// What the bricks have to keep to: one of the two is 0.
 struct BrickLimits {
