@@ -93,10 +93,6 @@ int buildInBricks(const Call& call, Clock::time_point start)
     prepareOutputs(call);
     openvdb::initialize();
     const auto limit = limitThreads(call);
-    // What a brick has freed must not count against the next one.
-    mallopt(M_MMAP_MAX, 65536);
-    mallopt(M_MMAP_THRESHOLD, 1 << 20);
-    mallopt(M_TRIM_THRESHOLD, 1 << 20);
 
     Terminal terminal(call.progress);
     Report report;

@@ -179,15 +179,32 @@ public:
         cutInto(parts - half, second, out);
     }
 
-    void cutToFit(std::size_t memory, const CoordBBox& box, std::vector<PlannedBrick>& out) const
+    /// As few bricks as fit: they overlap.
+    std::vector<PlannedBrick> cutToFit(std::size_t memory, const CoordBBox& box) const
+    {
+        std::vector<PlannedBrick> out;
+        const std::size_t least = estimate(box).bytes / memory + 1;
+        for (std::size_t parts = least; parts <= 2 * least + 1; ++parts) {
+            out.clear();
+            cutInto(parts, box, out);
+            if (std::all_of(out.begin(), out.end(),
+                            [&](const PlannedBrick& b) { return b.bytes <= memory; }))
+                return out;
+        }
+        out.clear();
+        halve(memory, box, out);
+        return out;
+    }
+
+    void halve(std::size_t memory, const CoordBBox& box, std::vector<PlannedBrick>& out) const
     {
         const PlannedBrick brick = estimate(box);
         CoordBBox first, second;
         if (brick.bytes <= memory) {
             keep(brick, out);
         } else if (cut(box, 0.5, first, second)) {
-            cutToFit(memory, first, out);
-            cutToFit(memory, second, out);
+            halve(memory, first, out);
+            halve(memory, second, out);
         } else {
             tooLittle("the smallest brick", double(brick.bytes), memory);
         }
@@ -241,7 +258,7 @@ BrickPlan makePlan(const BallSelection& atoms, const Options& options, const Bri
     const Planner planner(atoms, options, extent, progress);
     const CoordBBox& box = planner.box();
     if (limits.memory > 0) {
-        planner.cutToFit(limits.memory, box, plan.bricks);
+        plan.bricks = planner.cutToFit(limits.memory, box);
         double voxels = 0.0;
         for (const PlannedBrick& brick : plan.bricks) voxels += double(brick.voxels);
         const double merge = processBytes + bytesToMerge * voxels;

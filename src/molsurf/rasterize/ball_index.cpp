@@ -17,7 +17,8 @@ BallIndex::BallIndex(const std::vector<Ball>& balls, double cell) : cell_(cell)
     tbb::parallel_sort(keyed.begin(), keyed.end());
 
     const auto sameColumn = [&](std::size_t i, std::size_t j) {
-        return keyed[i].first.x() == keyed[j].first.x() && keyed[i].first.y() == keyed[j].first.y();
+        const Coord &a = keyed[i].first, &b = keyed[j].first;
+        return a.x() == b.x() && a.y() == b.y() && a.z() >> blockBits == b.z() >> blockBits;
     };
     std::size_t count = 0;
     balls_.resize(balls.size());
@@ -35,7 +36,7 @@ BallIndex::BallIndex(const std::vector<Ball>& balls, double cell) : cell_(cell)
         for (end = begin; end < keyed.size() && sameColumn(begin, end);) ++end;
         const Coord first = keyed[begin].first;
         const int cells = keyed[end - 1].first.z() - first.z() + 1;
-        const std::uint64_t key = columnKey(first.x(), first.y());
+        const std::uint64_t key = columnKey(first.x(), first.y(), first.z() >> blockBits);
         columns_[position(key)] = {key, std::int64_t(begins_.size()), first.z(), cells};
         std::size_t i = begin;
         for (int z = first.z(); z < first.z() + cells; ++z) {

@@ -35,18 +35,22 @@ public:
         const openvdb::Coord to = cellOf(high + openvdb::Vec3d(reach));
         for (int x = from.x(); x <= to.x(); ++x) {
             for (int y = from.y(); y <= to.y(); ++y) {
-                const Column& c = columns_[position(columnKey(x, y))];
-                const int first = std::max(from.z() - c.z, 0);
-                const int last = std::min(to.z() - c.z, c.cells - 1);
-                if (first > last) continue;
-                const std::int32_t end = begins_[c.cell + last + 1];
-                for (std::int32_t i = begins_[c.cell + first]; i < end; ++i)
-                    f(balls_[i], order_[i]);
+                for (int block = from.z() >> blockBits; block <= to.z() >> blockBits; ++block) {
+                    const Column& c = columns_[position(columnKey(x, y, block))];
+                    const int first = std::max(from.z() - c.z, 0);
+                    const int last = std::min(to.z() - c.z, c.cells - 1);
+                    if (first > last) continue;
+                    const std::int32_t end = begins_[c.cell + last + 1];
+                    for (std::int32_t i = begins_[c.cell + first]; i < end; ++i)
+                        f(balls_[i], order_[i]);
+                }
             }
         }
     }
 
 private:
+    /// Cells above each other, from the first that has a ball to the last in a block of 32: a
+    /// shell is hollow, and cells without balls take memory too.
     struct Column {
         std::uint64_t key;
         std::int64_t cell; // of the first cell in begins_
@@ -57,9 +61,12 @@ private:
     {
         return openvdb::Coord::floor(x / cell_);
     }
-    static std::uint64_t columnKey(int x, int y)
+    static constexpr int blockBits = 5;
+    static std::uint64_t columnKey(int x, int y, int block)
     {
-        return std::uint64_t(std::uint32_t(x)) << 32 | std::uint32_t(y);
+        constexpr std::uint64_t mask = (1 << 21) - 1;
+        return (std::uint64_t(x) & mask) << 42 | (std::uint64_t(y) & mask) << 21 |
+               (std::uint64_t(block) & mask);
     }
     /// The place of a column in the table, or the free one where it would stand.
     std::size_t position(std::uint64_t key) const

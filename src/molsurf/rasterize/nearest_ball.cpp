@@ -49,10 +49,10 @@ std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
     const BallIndex index(balls, 2.0);
 
     // Points are taken by runs that stay in a small box and share its candidates. Most lie close to
-    // their ball; those that do not are looked at again, farther.
+    // their ball; for those that do not the search goes on twice as far.
     constexpr std::size_t chunk = 256;
     constexpr float runSize = 2.0f; // [Å]
-    const double close = std::min(reach, 0.5), middle = std::min(reach, 1.5);
+    constexpr double close = 0.5;   // [Å]
     std::vector<std::int32_t> out(points.size(), -1);
     parallelFor((points.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
         std::vector<Candidate> candidates;
@@ -66,18 +66,20 @@ std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
                 low = l;
                 high = h;
             }
-            for (const double within : {close, middle, reach}) {
-                bool missing = false;
-                for (std::size_t p = begin; p < stop; ++p) missing = missing || out[p] < 0;
-                if (!missing) break;
+            bool missing = true;
+            for (double tried = 0.0, within = close; missing && tried < reach; within *= 2.0) {
+                within = std::min(within, reach);
                 candidates.clear();
                 index.forEachNear(Vec3d(low), Vec3d(high), largest + within,
                                   [&](const Ball& ball, std::int32_t i) {
                                       candidates.push_back({ball.center, ball.radius, i});
                                   });
+                missing = false;
                 for (std::size_t p = begin; p < stop; ++p) {
                     if (out[p] < 0) out[p] = nearest(points[p], candidates, float(within));
+                    missing = missing || out[p] < 0;
                 }
+                tried = within;
             }
         }
     });
