@@ -111,7 +111,7 @@ const std::vector<Group>& groups()
            "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
            "name.csv: a table of all",
            ""},
-          {"trajectory", "FILE", ".dcd with the frames, its atoms those of INPUT", ""},
+          {"trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT", ""},
           {"start", "WORD",
            "cold: each frame as a run of its own; warm: its flow\n"
            "begins at the surface of the one before",
