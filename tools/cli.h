@@ -16,7 +16,7 @@ namespace molsurf::tool
 {
 
 /// Kinds of output files.
-enum class Format { Vdb, Ply, Obj, Stl, Off, Glb, Json, Png, Html, Usda, Csv };
+enum class Format { Vdb, Ply, Obj, Stl, Off, Glb, Json, Png, Html, Usda, Csv, ThreeMf };
 
 /// One -o.
 struct Output {
