@@ -31,6 +31,8 @@ LIBRARIES = {
     "gemmi/": ["src/molsurf/structure/", "src/molsurf/selection/"],
     "nlohmann/": ["src/molsurf/io/", "src/molsurf/selection/groups.cpp"],
     "png.h": ["src/molsurf/io/"],
+    "Model/COM/": ["src/molsurf/io/write_3mf.cpp"],
+    "dlfcn.h": ["src/molsurf/io/write_3mf.cpp"],
     "ft2build.h": ["src/molsurf/io/font.cpp"],
     "embree3/": ["src/molsurf/surface/"],
     "openssl/": ["tools/sha256.cpp"],

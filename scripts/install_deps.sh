@@ -11,6 +11,7 @@ packages=(
   libboost-dev libboost-iostreams-dev libboost-program-options-dev
   gemmi-dev tao-pegtl-dev libstb-dev # gemmi's headers include the other two without saying so
   nlohmann-json3-dev libpng-dev libfreetype-dev fonts-dejavu-core zlib1g-dev libssl-dev libembree-dev
+  lib3mf-dev
   # tests and benchmarks
   libgtest-dev libbenchmark-dev python3 python3-openvdb python3-numpy libopenvdb-tools libcgal-dev
   "$@"

@@ -38,10 +38,10 @@ const std::vector<std::string> knownFields = [] {
 }();
 
 const std::map<std::string, Format> formats = {
-    {"vdb", Format::Vdb},   {"ply", Format::Ply}, {"obj", Format::Obj},   {"stl", Format::Stl},
-    {"off", Format::Off},   {"glb", Format::Glb}, {"json", Format::Json}, {"png", Format::Png},
-    {"html", Format::Html}, {"csv", Format::Csv}};
-const char* const formatWords = "vdb, ply, obj, stl, off, glb, html, json or png";
+    {"vdb", Format::Vdb},   {"ply", Format::Ply}, {"obj", Format::Obj},    {"stl", Format::Stl},
+    {"off", Format::Off},   {"glb", Format::Glb}, {"json", Format::Json},  {"png", Format::Png},
+    {"html", Format::Html}, {"csv", Format::Csv}, {"3mf", Format::ThreeMf}};
+const char* const formatWords = "vdb, ply, obj, stl, off, glb, 3mf, html, json or png";
 
 std::string join(const std::vector<std::string>& words, const char* between)
 {
@@ -81,7 +81,7 @@ const std::vector<Group>& groups()
          {{"output,o", "FILE",
            "file to write; repeats; the extension says what:\n"
            ".vdb level set and fields; .ply .obj .stl .off .glb\n"
-           "mesh; .html page that shows it; .json report;\n"
+           ".3mf mesh; .html page that shows it; .json report;\n"
            ".png picture; - is standard output",
            "", true},
           {"format", "WORD", std::string("what -o - writes: ") + formatWords, ""},
@@ -111,7 +111,7 @@ const std::vector<Group>& groups()
            "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
            "name.csv: a table of all",
            ""},
-          {"trajectory", "FILE", ".dcd with the frames, its atoms those of INPUT", ""},
+          {"trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT", ""},
           {"start", "WORD",
            "cold: each frame as a run of its own; warm: its flow\n"
            "begins at the surface of the one before",
@@ -165,7 +165,7 @@ const std::vector<Group>& groups()
            "units per Å; usd: a .usda beside the .vdb",
            ""},
           {"center", nullptr, "the middle of the surface comes to the origin", ""},
-          {"print-scale", "S", ".stl and .obj in mm, S of them per Å", ""},
+          {"print-scale", "S", ".stl, .obj, .3mf in mm, S of them per Å", ""},
           {"min-wall", "W", "thicken what is thinner than W mm; with --print-scale", ""}}},
         {"Picture",
          {{"view", "X,Y,Z",
@@ -239,7 +239,7 @@ const std::vector<Group>& batchGroups()
         {"Output",
          {{"folder,O", "DIR", "where the files go, with the names of the structures", ""},
           {"formats", "LIST",
-           "files to write, by commas: vdb, ply, obj, stl, off,\nglb, html, json, png",
+           "files to write, by commas: vdb, ply, obj, stl, off,\nglb, 3mf, html, json, png",
            "vdb,ply,json"},
           {"force", nullptr, "do all again, and replace existing files", ""}}}};
     return all;
@@ -258,9 +258,9 @@ const std::vector<Group>& storedGroups()
         {"Output",
          {{"output,o", "FILE",
            "file to write; repeats; the extension says what:\n"
-           ".ply .obj .stl .off .glb mesh; .html page; .json\n"
-           "report; .png picture; color: .vdb, the grids with\n"
-           "Cd anew; - is standard output",
+           ".ply .obj .stl .off .glb .3mf mesh; .html page;\n"
+           ".json report; .png picture; color: .vdb, the grids\n"
+           "with Cd anew; - is standard output",
            "", true},
           {"format", "WORD", std::string("what -o - writes: ") + formatWords, ""},
           {"force", nullptr, "replace existing files", ""},
@@ -270,7 +270,7 @@ const std::vector<Group>& storedGroups()
            "gaussian-curvature; mesh: those of Cd unless given",
            ""},
           {"fields", "LIST", "curvatures for the vertices, as of vdb_molsurf --help", ""},
-          {"print-scale", "S", ".stl and .obj in mm, S of them per Å", ""}}}};
+          {"print-scale", "S", ".stl, .obj, .3mf in mm, S of them per Å", ""}}}};
     return all;
 }
 
@@ -447,7 +447,8 @@ Format formatOf(const std::string& path)
     const auto found = formats.find(extension);
     if (found == formats.end())
         misuse("-o " + path +
-               ": expected a name that ends in .vdb, .ply, .obj, .stl, .off, .glb, .html, .json or "
+               ": expected a name that ends in .vdb, .ply, .obj, .stl, .off, .glb, .3mf, .html, "
+               ".json or "
                ".png");
     return found->second;
 }
@@ -582,8 +583,8 @@ void fillScene(const Values& values, Call& call)
     if (values.given("print-scale")) {
         if (!(call.printScale >= 1e-6 && call.printScale <= 1e6))
             values.wrong("print-scale", "mm per Å, from 1e-6 to 1e6");
-        if (!writes(call, {Format::Stl, Format::Obj}))
-            call.warnings.push_back("--print-scale is for .stl and .obj");
+        if (!writes(call, {Format::Stl, Format::Obj, Format::ThreeMf}))
+            call.warnings.push_back("--print-scale is for .stl, .obj and .3mf");
     }
     double wall = 0.0;
     values.get("min-wall", wall);
@@ -917,7 +918,7 @@ void fillBatch(const Values& values, const po::parsed_options& parsed, Call& cal
         const std::string word = words.substr(begin, end - begin);
         const auto found = formats.find(word);
         if (found == formats.end() || found->second == Format::Csv || !seen.insert(word).second)
-            values.wrong("formats", "some of vdb, ply, obj, stl, off, glb, html, json, png");
+            values.wrong("formats", "some of vdb, ply, obj, stl, off, glb, 3mf, html, json, png");
         call.outputs.push_back({"." + word, found->second, ""});
         begin = end + 1;
     }

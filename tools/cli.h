@@ -16,7 +16,7 @@ namespace molsurf::tool
 {
 
 /// Kinds of output files.
-enum class Format { Vdb, Ply, Obj, Stl, Off, Glb, Json, Png, Html, Usda, Csv };
+enum class Format { Vdb, Ply, Obj, Stl, Off, Glb, Json, Png, Html, Usda, Csv, ThreeMf };
 
 /// One -o.
 struct Output {
@@ -59,7 +59,7 @@ struct Call {
     std::string input;           ///< Build, Plan: a file, or "-"; Batch: the list, likewise; Brick,
                                  ///< Merge: the manifest of a plan; Mesh, Color: a .vdb
     std::string frames;          ///< Build: of --frames; empty: none
-    std::string trajectory;      ///< Build: a .dcd with the frames; empty: models are
+    std::string trajectory;      ///< Build: a .dcd or .xtc with the frames; empty: models are
     bool warm = false;           ///< Build: a frame begins at the surface of the one before
     int frame = 0;               ///< Build: the number of the one that is built; 0: none is
     std::string folder;          ///< Batch: where the files go

@@ -56,7 +56,7 @@ FrameSource::FrameSource(const Call& call, Progress& progress) : call_(call), pr
         if (model == models.end())
             throw Error(ErrorKind::Input, call.input + ": has no model " + std::to_string(wanted));
         model_ = std::size_t(model - models.begin());
-        trajectory_.emplace(call.trajectory);
+        trajectory_ = openTrajectory(call.trajectory);
         const std::size_t atoms = model->end - model->begin;
         if (trajectory_->atoms() != atoms)
             throw Error(ErrorKind::Input,

@@ -6,11 +6,11 @@
 
 #include "cli.h"
 
-#include "molsurf/structure/read_dcd.h"
 #include "molsurf/structure/structure.h"
+#include "molsurf/structure/trajectory.h"
 
 #include <map>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -59,7 +59,7 @@ private:
     const Call& call_;
     Progress& progress_;
     Structure structure_;
-    std::optional<DcdFile> trajectory_;
+    std::unique_ptr<Trajectory> trajectory_;
     std::size_t model_ = 0; ///< of the structure, for a trajectory
     std::vector<int> numbers_;
     std::map<std::size_t, BallSelection> loaded_;

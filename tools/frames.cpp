@@ -150,8 +150,7 @@ int frames(const Call& asked, Clock::time_point start)
         done.push_back(!call.force && isDone(calls[i], options, table, tableName, i + 1));
         kept += done[i];
         if (done[i]) continue;
-        for (const Output& output : calls[i].outputs)
-            checkWritable(output.path, mayReplace(call, output));
+        for (const Output& output : calls[i].outputs) checkOutput(call, output);
     }
     if (!call.quiet) {
         say(source.description());

@@ -100,7 +100,7 @@ std::string wordsOf(Verb verb, const std::string& option)
         for (const std::string& field : fieldNames()) all += " " + field;
         return all;
     }
-    if (option == "format") return "vdb ply obj stl off glb html json png";
+    if (option == "format") return "vdb ply obj stl off glb 3mf html json png";
     if (option == "regularizer") return "gradient area";
     if (option == "flow") return "preconditioned plain";
     if (option == "for") return "blender houdini usd";

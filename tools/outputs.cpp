@@ -4,6 +4,8 @@
 #include "sidecar.h"
 #include "stop.h"
 
+#include "molsurf/io/write_3mf.h"
+
 #include <sys/resource.h>
 
 #include <tbb/blocked_range.h>
@@ -54,11 +56,17 @@ std::string counted(std::size_t count, const std::string& one, const std::string
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
+void checkOutput(const Call& call, const Output& output)
+{
+    checkWritable(output.path, mayReplace(call, output));
+    if (output.format == Format::ThreeMf) load3mf();
+}
+
 void prepareOutputs(const Call& call, const std::vector<std::string>& more)
 {
     std::vector<std::string> temporaries = more;
     for (const Output& output : call.outputs) {
-        checkWritable(output.path, mayReplace(call, output));
+        checkOutput(call, output);
         if (output.path != "-") temporaries.push_back(temporaryName(output.path));
     }
     handleSignals(temporaries);

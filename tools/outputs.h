@@ -41,9 +41,13 @@ void beginReport(const Call& call, Report& report);
 /// "1 step", "2 steps".
 std::string counted(std::size_t count, const std::string& one, const std::string& many);
 
+/// Finds out whether an output can be written.
+/// @throws Error(ErrorKind::Output) as checkWritable(), or if a library is missing
+void checkOutput(const Call& call, const Output& output);
+
 /// Finds out whether all outputs can be written, and has them cleaned up after a signal. To be
 /// called before any work.
-/// @throws Error(ErrorKind::Output) as checkWritable()
+/// @throws Error(ErrorKind::Output) as checkOutput()
 /// @param[in] more  further files and folders to be removed then
 void prepareOutputs(const Call& call, const std::vector<std::string>& more = {});
 

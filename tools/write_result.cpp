@@ -5,6 +5,7 @@
 #include "sidecar.h"
 
 #include "molsurf/io/draw_legend.h"
+#include "molsurf/io/write_3mf.h"
 #include "molsurf/io/write_glb.h"
 #include "molsurf/io/write_html.h"
 #include "molsurf/io/write_mesh.h"
@@ -249,6 +250,9 @@ void writeOutput(const Call& call, const BallSelection& atoms, const Result& res
         break;
     case Format::Glb:
         writeGlb(result.mesh, {stemOf(output.path), call.scene.scale, call.picture.plain}, file);
+        break;
+    case Format::ThreeMf:
+        write3mf(result.mesh, stemOf(output.path), printUnit(call).perAngstrom, file);
         break;
     case Format::Png:
         writePicture(call, atoms, result.mesh, output.turn, progress, file);

@@ -50,11 +50,13 @@ def main():
         volume, mesh = open_in_blender.open_surface(name)
         result[name] = measured(mesh)
         result[name]["grids"] = {g.name: g.data_type for g in volume.data.grids}
-        if name == "angstrom.vdb":
-            volume.rotation_euler = Euler((math.radians(30), math.radians(-50), math.radians(110)))
-            bpy.context.view_layer.update()
-            result["turned"] = measured(mesh)
-            result["turned"]["matrix"] = [list(row) for row in volume.matrix_world.to_3x3()]
+        # Turned, moved and enlarged as an object.
+        volume.rotation_euler = Euler((math.radians(30), math.radians(-50), math.radians(110)))
+        volume.location = (3, -1, 2)
+        volume.scale = (1.5, 1.5, 1.5)
+        bpy.context.view_layer.update()
+        result[name]["placed"] = {**measured(mesh),
+                                  "matrix": [list(row) for row in volume.matrix_world]}
 
     fresh()
     volume, mesh = open_in_blender.open_surface("angstrom.vdb", color=True)

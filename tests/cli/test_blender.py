@@ -69,11 +69,13 @@ class Blender(ToolTest):
             self.assertLess(abs(seen["volume"] / scale ** 3 / volume - 1), 0.01, name)
             self.assert_near([c / scale for c in seen["centroid"]], centroid, 0.02 * VOXEL, name)
 
-        turned = result["turned"]
-        self.assertEqual(turned["open_edges"], 0)
-        self.assertLess(abs(turned["volume"] / volume - 1), 0.01)
-        where = [sum(m * c for m, c in zip(row, centroid)) for row in turned["matrix"]]
-        self.assert_near(turned["centroid"], where, 0.02 * VOXEL, "turned")
+            placed = seen["placed"]
+            self.assertEqual(placed["open_edges"], 0, name)
+            self.assertLess(abs(placed["volume"] / (1.5 * scale) ** 3 / volume - 1), 0.01, name)
+            where = [sum(m * scale * c for m, c in zip(row, centroid)) + row[3]
+                     for row in placed["matrix"][:3]]
+            self.assert_near([x / scale for x in placed["centroid"]], [x / scale for x in where],
+                             0.02 * 1.5 * VOXEL, f"{name} placed")
 
         # Two chains, their colours in linear light.
         if result["colored"]["colors"]:

@@ -16,6 +16,7 @@ except ImportError:
     pyopenvdb = None
 
 NMR = DATA / "1d3z.pdb.gz"  # 10 models
+XTC = DATA / "1d3z.xtc"  # the first 3 of them
 
 
 def positions(path):
@@ -127,6 +128,21 @@ class Frames(ToolTest):
                 for name in "ab")
         self.assertEqual((a["area"], a["volume"]), (b["area"], b["volume"]))
 
+    def test_xtc(self):
+        """Its frames, which GROMACS made of the models, have the surfaces of the models."""
+        (self.folder / "by another name").write_bytes(XTC.read_bytes())
+        self.check(0, NMR, *FAST, "--trajectory", "by another name", "--frames", "2-3",
+                   "-o", "a.csv", says="2 frames")
+        self.check(0, NMR, *FAST, "--frames", "2-3", "-o", "b.csv")
+        for xtc, model in zip(self.table("a.csv"), self.table("b.csv")):
+            self.assertEqual(xtc["atoms"], "1231")
+            for what in ("area", "volume"):
+                # The coordinates are rounded to 0.01 Å.
+                self.assertAlmostEqual(float(xtc[what]) / float(model[what]), 1, delta=2e-4)
+                self.assertNotEqual(xtc[what], model[what])
+        self.assertNotAlmostEqual(float(self.table("a.csv")[0]["volume"]) /
+                                  float(self.table("a.csv")[1]["volume"]), 1, delta=4e-4)
+
     @unittest.skipUnless(pyopenvdb, "no python3-openvdb")
     def test_one_transform_and_velocity(self):
         (self.folder / "t.dcd").write_bytes(dcd(self.moved(3)))
@@ -221,6 +237,17 @@ class Frames(ToolTest):
         broken = [list(frame) for frame in self.moved(1)]
         broken[0][4] = (float("nan"), 0, 0)
         refuse(dcd(broken), "atom 5")
+        frames = XTC.read_bytes()
+        refuse(frames[:-100], "cut short within frame 3")
+        refuse(frames, "expected the 327 atoms of")
+        out = ("-o", "a.vdb")
+        self.check(1, NMR, "--trajectory", XTC, "--frames", "2-4", *out,
+                   says=["1d3z.xtc", "no frame 4, only 1-3"])
+        self.check(1, NMR, "--trajectory", XTC, "--frames", "4-", *out, says="no frame 4")
+        damaged = bytearray(frames)
+        damaged[60:64] = b"\x7f\xff\xff\xff"  # the least x above the greatest
+        (self.folder / "t.dcd").write_bytes(damaged)
+        self.check(1, NMR, "--trajectory", "t.dcd", *out, says=["t.dcd", "frame 1: is damaged"])
         self.check(1, CRAMBIN, "--trajectory", "none.dcd", "-o", "a.vdb", says="none.dcd")
         self.check(1, CRAMBIN, "--trajectory", ".", "-o", "a.vdb", says="folder")
         self.assertEqual(self.names(), ["t.dcd"])

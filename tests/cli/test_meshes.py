@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: MPL-2.0
-""".glb and .off hold the mesh of the .ply."""
+""".glb, .off and .3mf hold the mesh of the .ply."""
 
 import json
 import math
 import os
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
 import unittest
+import xml.etree.ElementTree
+import zipfile
 
 from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply
 
@@ -140,6 +143,124 @@ class Off(ToolTest):
                     self.assertEqual(numbers[3:], [*map(str, vertex[red:red + 3]), "255"])
             for line, corners in zip(lines[2 + len(vertices):], triangles):
                 self.assertEqual(line, "3 " + " ".join(map(str, corners)))
+
+
+CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+MATERIAL = "{http://schemas.microsoft.com/3dmanufacturing/material/2015/02}"
+
+
+def read_3mf(path):
+    """(unit, objects in their order); an object has a name, vertices, triangles and colours, three
+    a triangle, or none."""
+    with zipfile.ZipFile(path) as archive:
+        assert archive.testzip() is None
+        assert {"[Content_Types].xml", "_rels/.rels"} <= set(archive.namelist())
+        relations = xml.etree.ElementTree.fromstring(archive.read("_rels/.rels"))
+        target, = (r.get("Target") for r in relations if r.get("Type").endswith("/3dmodel"))
+        model = xml.etree.ElementTree.fromstring(archive.read(target.lstrip("/")))
+    assert model.tag == CORE + "model"
+    resources = model.find(CORE + "resources")
+    palettes = {group.get("id"): [color.get("color") for color in group]
+                for group in resources.iter(MATERIAL + "colorgroup")}
+    objects = {}
+    for item in resources.iter(CORE + "object"):
+        mesh = item.find(CORE + "mesh")
+        vertices = [tuple(float(v.get(axis)) for axis in "xyz") for v in mesh[0]]
+        triangles = [tuple(int(t.get(f"v{k}")) for k in (1, 2, 3)) for t in mesh[1]]
+        colors = [tuple(palettes[t.get("pid")][int(t.get(f"p{k}", t.get("p1")))] for k in (1, 2, 3))
+                  for t in mesh[1] if t.get("pid")]
+        assert all(0 <= corner < len(vertices) for t in triangles for corner in t)
+        objects[item.get("id")] = (item.get("name"), vertices, triangles, colors)
+    built = [item.get("objectid") for item in model.find(CORE + "build")]
+    assert sorted(built) == sorted(objects)
+    return model.get("unit"), [objects[name] for name in built]
+
+
+def mesh_volume(vertices, triangles):
+    """The determinant of the three corners of each triangle, summed over 6."""
+    total = 0.0
+    for a, b, c in ([vertices[corner] for corner in t] for t in triangles):
+        total += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                  a[2] * (b[0] * c[1] - b[1] * c[0]))
+    return total / 6
+
+
+class ThreeMf(ToolTest):
+    def test_holds_the_mesh(self):
+        scale = 0.25
+        for words, colored in (([], False), (["--color", "element"], True)):
+            self.check(0, CRAMBIN, *FAST, "--print-scale", scale, *words, "-o", "a.3mf", "-o",
+                       "a.ply", "--force")
+            unit, ((name, vertices, triangles, colors),) = read_3mf(self.folder / "a.3mf")
+            self.assertEqual((unit, name), ("millimeter", "a"))
+            names, expected, corners = read_ply((self.folder / "a.ply").read_bytes())
+            self.assertEqual(triangles, corners)
+            self.assertEqual(len(vertices), len(expected))
+            for x, y in zip(vertices, expected):
+                self.assertLess(math.dist(x, [scale * t for t in y[:3]]), 2e-6)
+            self.assertAlmostEqual(mesh_volume(vertices, triangles) /
+                                   (scale ** 3 * mesh_volume(expected, corners)), 1, places=6)
+            # Closed, manifold and the same way round: each edge once in either direction.
+            edges = [(t[k], t[(k + 1) % 3]) for t in triangles for k in range(3)]
+            self.assertEqual(len(set(edges)), len(edges))
+            self.assertEqual({(b, a) for a, b in edges}, set(edges))
+            self.assertEqual(len(colors), len(triangles) if colored else 0)
+            if colored:
+                red = names.index("red")
+                wanted = ["#%02X%02X%02XFF" % v[red:red + 3] for v in expected]
+                self.assertEqual(colors, [tuple(wanted[c] for c in t) for t in triangles])
+                self.assertGreater(len(set(wanted)), 3)
+
+    def test_without_a_scale(self):
+        """An Å is a millimetre, as slicers take those of an .stl."""
+        self.check(0, CRAMBIN, *FAST, "-o", "a.3mf", "-o", "a.ply")
+        unit, ((_, vertices, _, _),) = read_3mf(self.folder / "a.3mf")
+        _, expected, _ = read_ply((self.folder / "a.ply").read_bytes())
+        self.assertEqual(unit, "millimeter")
+        self.assertLess(math.dist(vertices[0], expected[0][:3]), 2e-6)
+
+    def test_parts_are_objects(self):
+        self.check(0, DATA / "1a8o.cif.gz", "--assembly", "1", *FAST, "--group-by", "copy",
+                   "--split", "group", "--color", "group", "-o", "a.3mf", "-o", "a.json")
+        _, objects = read_3mf(self.folder / "a.3mf")
+        report = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual([item[0] for item in objects], ["copy 1", "copy 2"])
+        for (_, vertices, triangles, colors), part in zip(objects, report["parts"]):
+            self.assertEqual(len(vertices), part["surface"]["vertices"])
+            self.assertEqual(len(triangles), part["surface"]["triangles"])
+            self.assertEqual(len(set(colors)), 1)
+        self.assertNotEqual(objects[0][3][0], objects[1][3][0])
+
+    def test_same_mesh_same_bytes(self):
+        """Also the identifiers; another mesh has others."""
+        texts = []
+        for name, words in (("a", ["-j", "1"]), ("b", ["-j", "2"]), ("c", ["--probe", "1.5"])):
+            (self.folder / name).mkdir()
+            self.check(0, CRAMBIN, *FAST, *words, "-o", f"{name}/a.3mf")
+            texts.append((self.folder / name / "a.3mf").read_bytes())
+        self.assertEqual(texts[0], texts[1])
+        found = []
+        for name in "ac":
+            with zipfile.ZipFile(self.folder / name / "a.3mf") as archive:
+                model = archive.read("3D/3dmodel.model").decode()
+            found.append(re.findall(r'p:UUID="([^"]*)"', model))
+        self.assertEqual(len(set(found[0] + found[1])), 6)
+        for identifier in found[0]:
+            self.assertRegex(identifier, r"^[0-9a-f]{8}-[0-9a-f]{4}-8[0-9a-f]{3}-[89ab][0-9a-f]{3}-"
+                                         r"[0-9a-f]{12}$")
+        done = self.check(0, CRAMBIN, *FAST, "-o", "-", "--format", "3mf")
+        self.assertEqual(done.stdout[:4], texts[0][:4])
+
+    def test_without_the_library(self):
+        """It is missed before anything is computed."""
+        (self.folder / "lib3MF.so.1").write_bytes(b"")
+        here = {**os.environ, "LD_LIBRARY_PATH": str(self.folder)}
+        for words in ([], ["--frames", "1"]):
+            done = self.check(1, CRAMBIN, *words, *FAST, "-o", "a.3mf", "-o", "a.ply", env=here,
+                              says=["lib3mf", "hint"])
+            self.assertNotIn(b"area", done.stderr)
+        self.check(0, CRAMBIN, *FAST, "-o", "a.stl", env=here)
+        self.assertEqual(self.names(), ["a.stl", "lib3MF.so.1"])
 
 
 if __name__ == "__main__":

@@ -104,7 +104,7 @@ class Memory(ToolTest):
 class StandardOutput(ToolTest):
     def test_every_format(self):
         starts = {"ply": b"ply\n", "obj": b"v ", "stl": b"binary STL", "json": b"{\n",
-                  "png": b"\x89PNG", "vdb": b" BDV"}
+                  "png": b"\x89PNG", "vdb": b" BDV", "3mf": b"PK\3\4"}
         for form, start in starts.items():
             done = self.check(0, CRAMBIN, "-o", "-", "--format", form, *FAST)
             self.assertEqual(done.stdout[: len(start)], start, form)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """The commands of README.md and the guides, and the C++, work as they stand."""
 
+import json
 import os
 import pathlib
 import re
@@ -10,8 +11,10 @@ import unittest
 
 from tool import ROOT, TOOL, ToolTest
 
-PAGES = [ROOT / "README.md", *(ROOT / "docs" / f"{name}.md" for name in
-                               ("complexes", "artists", "pipelines", "trajectories"))]
+# Guides; the other pages of docs/ have no commands to run, which test_every_page_is_here checks.
+GUIDES = {name: ROOT / "docs" / f"{name}.md" for name in
+          ("complexes", "artists", "pipelines", "trajectories", "structural_biology")}
+PAGES = [ROOT / "README.md", *GUIDES.values()]
 
 
 def blocks(language, page=PAGES[0]):
@@ -38,17 +41,48 @@ class Readme(ToolTest):
     def test_commands_of_the_readme(self):
         self.run_commands(PAGES[0])
 
-    def test_commands_of_the_guide(self):
-        self.run_commands(PAGES[1])
+    def test_commands_of_the_guide_to_complexes(self):
+        self.run_commands(GUIDES["complexes"])
 
     def test_commands_of_the_artists_guide(self):
-        self.run_commands(PAGES[2])
+        self.run_commands(GUIDES["artists"])
 
     def test_commands_of_the_pipelines(self):
-        self.run_commands(PAGES[3])
+        self.run_commands(GUIDES["pipelines"])
 
     def test_commands_of_the_guide_to_frames(self):
-        self.run_commands(PAGES[4])
+        self.run_commands(GUIDES["trajectories"])
+
+    def test_commands_of_the_biologists_guide(self):
+        self.run_commands(GUIDES["structural_biology"])
+
+    def test_numbers_of_the_biologists_guide(self):
+        """Its table of areas and volumes, and what it says of cavities and of the interface."""
+        text = GUIDES["structural_biology"].read_text()
+        rows = re.findall(r"^\|.*?`(?:--surface )?(sas|ses|vdw|variational)`.*\| ([\d,]+), ([\d,]+) \|$",
+                          text, re.MULTILINE)
+        self.assertEqual(sorted(row[0] for row in rows), ["sas", "ses", "variational", "vdw"])
+        for kind, area, volume in rows:
+            self.check(0, ROOT / "tests/data/1ubq.pdb", "--surface", kind, "-o", f"{kind}.json")
+            report = json.loads((self.folder / f"{kind}.json").read_text())["surface"]
+            for found, said in ((report["area"], area), (report["volume"], volume)):
+                self.assertAlmostEqual(found / int(said.replace(",", "")), 1, delta=3e-4, msg=kind)
+        self.check(0, ROOT / "tests/data/1a8o.cif.gz", "--assembly", "1", "--group-by", "copy",
+                   "--surface", "sas", "--interfaces", "-o", "buried.json")
+        pair, = json.loads((self.folder / "buried.json").read_text())["interfaces"]
+        self.assertIn(f"{pair['buried_area']:.0f} Å² for this dimer", text)
+        self.check(0, ROOT / "tests/data/4at1.ent.gz", "--surface", "ses", "-o", "cavities.json")
+        holes = json.loads((self.folder / "cavities.json").read_text())["surface"]["cavity_list"]
+        self.assertIn(f"in 4AT1 {len(holes)}, the largest {holes[0]['volume']:.0f} Å³", text)
+
+    def test_every_page_is_here(self):
+        """A page with commands to run is one of those whose commands are run."""
+        found = {*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")}
+        self.assertLessEqual(set(PAGES), found)
+        for page in found - set(PAGES):
+            self.assertEqual(blocks("sh", page), [], page)
+        self.assertEqual({page for page in GUIDES.values()
+                          if f"docs/{page.name}" not in PAGES[0].read_text()}, set())
 
     def run_commands(self, page):
         """In the order of the page and in one folder, since later ones use files of earlier ones."""

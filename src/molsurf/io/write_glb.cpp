@@ -2,6 +2,7 @@
 #include "molsurf/io/write_glb.h"
 
 #include "molsurf/core/error.h"
+#include "molsurf/io/part_ranges.h"
 
 #include <nlohmann/json.hpp>
 
@@ -28,32 +29,6 @@ using openvdb::Vec3f;
 constexpr int floatType = 5126, shortType = 5123, indexType = 5125;
 constexpr int vertexTarget = 34962, indexTarget = 34963;
 
-/// Vertices and triangles of one part.
-struct Range {
-    std::string name;
-    std::size_t firstVertex, vertexEnd, firstTriangle, triangleEnd;
-};
-
-/// A part's vertices are neighbours in the list.
-std::vector<Range> rangesOf(const Mesh& mesh, const std::string& name)
-{
-    if (mesh.parts.empty()) return {{name, 0, mesh.positions.size(), 0, mesh.triangles.size()}};
-    std::vector<Range> ranges;
-    for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
-        Range range{mesh.parts[p].name, mesh.positions.size(), 0, mesh.parts[p].firstTriangle,
-                    p + 1 < mesh.parts.size() ? mesh.parts[p + 1].firstTriangle
-                                              : mesh.triangles.size()};
-        for (std::size_t t = range.firstTriangle; t < range.triangleEnd; ++t) {
-            for (const std::uint32_t corner : mesh.triangles[t]) {
-                range.firstVertex = std::min<std::size_t>(range.firstVertex, corner);
-                range.vertexEnd = std::max<std::size_t>(range.vertexEnd, corner + 1ull);
-            }
-        }
-        if (range.firstTriangle < range.triangleEnd) ranges.push_back(range);
-    }
-    return ranges;
-}
-
 std::string attributeName(const std::string& name)
 {
     std::string capitals = "_";
@@ -76,8 +51,8 @@ public:
         if (scale != 1.0) root["scale"] = {scale, scale, scale};
         json_["nodes"] = Json::array({root});
         addMaterial(options.plain);
-        const std::vector<Range> ranges = rangesOf(mesh, options.name);
-        for (const Range& range : ranges) addPart(range, ranges.size() > 1);
+        const std::vector<PartRange> ranges = partRanges(mesh, options.name);
+        for (const PartRange& range : ranges) addPart(range, ranges.size() > 1);
         json_["buffers"] = Json::array({Json{{"byteLength", bytes_.size()}}});
     }
 
@@ -101,7 +76,7 @@ private:
              {{"baseColorFactor", base}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.5}}}}});
     }
 
-    void addPart(const Range& range, bool several)
+    void addPart(const PartRange& range, bool several)
     {
         Json attributes = Json::object();
         attributes["POSITION"] = addPositions(range);
@@ -146,7 +121,7 @@ private:
         return json_["accessors"].size() - 1;
     }
 
-    std::size_t addPositions(const Range& range)
+    std::size_t addPositions(const PartRange& range)
     {
         const std::size_t begin = bytes_.size();
         std::array<float, 3> low, high;
@@ -167,7 +142,7 @@ private:
         return number;
     }
 
-    std::size_t addNormals(const Range& range)
+    std::size_t addNormals(const PartRange& range)
     {
         const std::size_t begin = bytes_.size();
         for (std::size_t v = range.firstVertex; v < range.vertexEnd; ++v) {
@@ -179,7 +154,7 @@ private:
         return close(begin, range.vertexEnd - range.firstVertex, floatType, "VEC3", vertexTarget);
     }
 
-    std::size_t addColors(const Range& range)
+    std::size_t addColors(const PartRange& range)
     {
         constexpr double full = std::numeric_limits<std::uint16_t>::max();
         const std::size_t begin = bytes_.size();
@@ -195,14 +170,14 @@ private:
     }
 
     template<typename T>
-    std::size_t addNumbers(const Range& range, const std::vector<T>& values)
+    std::size_t addNumbers(const PartRange& range, const std::vector<T>& values)
     {
         const std::size_t begin = bytes_.size();
         for (std::size_t v = range.firstVertex; v < range.vertexEnd; ++v) append(float(values[v]));
         return close(begin, range.vertexEnd - range.firstVertex, floatType, "SCALAR", vertexTarget);
     }
 
-    std::size_t addTriangles(const Range& range)
+    std::size_t addTriangles(const PartRange& range)
     {
         const std::size_t begin = bytes_.size();
         for (std::size_t t = range.firstTriangle; t < range.triangleEnd; ++t)

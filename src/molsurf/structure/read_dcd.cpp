@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/read_dcd.h"
 
-#include "molsurf/core/error.h"
-
-#include <cmath>
 #include <cstring>
-#include <filesystem>
 
 namespace molsurf
 {
@@ -23,11 +19,6 @@ std::uint32_t turned(std::uint32_t w)
 }
 
 } // namespace
-
-void DcdFile::fail(const std::string& message) const
-{
-    throw Error(ErrorKind::Input, path_ + ": " + message);
-}
 
 std::uint32_t DcdFile::word(const char* bytes) const
 {
@@ -49,14 +40,8 @@ std::vector<char> DcdFile::record()
     return content;
 }
 
-DcdFile::DcdFile(const std::string& path) : path_(path)
+DcdFile::DcdFile(const std::string& path) : Trajectory(path)
 {
-    std::error_code problem;
-    if (std::filesystem::is_directory(path, problem)) fail("it is a folder");
-    file_.open(path, std::ios::binary);
-    if (!file_) fail("cannot be opened");
-    size_ = std::filesystem::file_size(path, problem);
-    if (problem) fail("cannot be read: " + problem.message());
     readHeader();
 }
 
@@ -67,7 +52,7 @@ void DcdFile::readHeader()
     const bool known = file_ && std::memcmp(first + 4, "CORD", 4) == 0;
     swapped_ = known && word(first) != headerSize;
     if (!known || word(first) != headerSize)
-        fail("expected a trajectory in the DCD format, with record markers of 4 bytes");
+        fail("expected a trajectory in the DCD format, with record markers of 4 bytes, or in XTC");
     file_.seekg(0);
     const std::vector<char> header = record();
     const auto control = [&](std::size_t i) { return word(&header[4 + 4 * i]); };
@@ -123,10 +108,10 @@ std::vector<float> DcdFile::axis(std::size_t count)
     return out;
 }
 
-std::vector<openvdb::Vec3f> DcdFile::read(std::size_t frame)
+std::vector<openvdb::Vec3f> DcdFile::load(std::size_t frame)
 {
     std::vector<openvdb::Vec3f> out;
-    if (frame > 0 && !free_.empty()) out = read(0); // where the fixed atoms are
+    if (frame > 0 && !free_.empty()) out = load(0); // where the fixed atoms are
     file_.clear();
     file_.seekg(std::streamoff(begin_ +
                                (frame > 0 ? frameSize(true) + (frame - 1) * frameSize(false) : 0)));
@@ -137,11 +122,6 @@ std::vector<openvdb::Vec3f> DcdFile::read(std::size_t frame)
         const std::vector<float> values = axis(all ? atoms_ : free_.size());
         for (std::size_t i = 0; i < values.size(); ++i) out[all ? i : free_[i]][a] = values[i];
     }
-    for (std::size_t i = 0; i < atoms_; ++i)
-        for (int a = 0; a < 3; ++a)
-            if (!(std::abs(out[i][a]) <= 1e6f))
-                fail("frame " + std::to_string(frame + 1) + ": atom " + std::to_string(i + 1) +
-                     ": expected coordinates from -1e6 to 1e6 Å");
     return out;
 }
 

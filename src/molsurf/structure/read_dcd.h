@@ -4,20 +4,14 @@
 /// @file
 /// Trajectories in the DCD format of CHARMM, X-PLOR and NAMD.
 
-#include <openvdb/Types.h>
-
-#include <cstddef>
-#include <cstdint>
-#include <fstream>
-#include <string>
-#include <vector>
+#include "molsurf/structure/trajectory.h"
 
 namespace molsurf
 {
 
 /// A .dcd file, read frame by frame. Of either byte order, with or without unit cells, fixed atoms
 /// and a fourth dimension (which is passed over); record markers of 4 bytes.
-class DcdFile
+class DcdFile : public Trajectory
 {
 public:
     /// Reads the header.
@@ -25,28 +19,22 @@ public:
     ///         cut short: it ends within a frame, or holds fewer than its header says
     explicit DcdFile(const std::string& path);
 
-    std::size_t atoms() const { return atoms_; }
-    std::size_t frames() const { return frames_; }
+    std::size_t frames() const override { return frames_; }
 
-    /// The coordinates of all atoms in a frame [Å].
-    /// @param[in] frame  from 0, below frames()
-    /// @throws Error(ErrorKind::Input) if it cannot be read
-    std::vector<openvdb::Vec3f> read(std::size_t frame);
+protected:
+    std::vector<openvdb::Vec3f> load(std::size_t frame) override;
 
 private:
-    [[noreturn]] void fail(const std::string& message) const;
     std::uint32_t word(const char* bytes) const;
     std::vector<char> record(); ///< the content of the record that comes next
     std::uint64_t frameSize(bool first) const;
     std::vector<float> axis(std::size_t count);
     void readHeader();
 
-    std::string path_;
-    std::ifstream file_;
     bool swapped_ = false, cell_ = false, fourth_ = false;
-    std::size_t atoms_ = 0, frames_ = 0;
+    std::size_t frames_ = 0;
     std::vector<std::size_t> free_; ///< atoms that move; empty: all
-    std::uint64_t begin_ = 0, size_ = 0;
+    std::uint64_t begin_ = 0;
 };
 
 } // namespace molsurf

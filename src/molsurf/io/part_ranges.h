@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The parts of a mesh as ranges of its vertices and triangles.
+
+#include "molsurf/surface/mesh.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// Vertices and triangles of one part.
+struct PartRange {
+    std::string name;
+    std::size_t firstVertex, vertexEnd, firstTriangle, triangleEnd;
+};
+
+/// The parts that have triangles, of which each one's vertices are neighbours in the list; the
+/// whole mesh under the name if it has no parts.
+std::vector<PartRange> partRanges(const Mesh& mesh, const std::string& name);
+
+} // namespace molsurf

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Trajectories: files with the coordinates of the same atoms in many frames.
+
+#include <openvdb/Types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// A trajectory, read frame by frame.
+class Trajectory
+{
+public:
+    virtual ~Trajectory() = default;
+    Trajectory(const Trajectory&) = delete;
+    Trajectory& operator=(const Trajectory&) = delete;
+
+    std::size_t atoms() const { return atoms_; }
+    virtual std::size_t frames() const = 0;
+
+    /// The coordinates of all atoms in a frame [Å].
+    /// @param[in] frame  from 0, below frames()
+    /// @throws Error(ErrorKind::Input) if it cannot be read, or if a coordinate is no number or
+    ///         beyond 1e6 Å
+    std::vector<openvdb::Vec3f> read(std::size_t frame);
+
+protected:
+    /// Opens the file.
+    /// @throws Error(ErrorKind::Input) if that cannot be
+    explicit Trajectory(const std::string& path);
+
+    /// @throws Error(ErrorKind::Input) with the name of the file and the message
+    [[noreturn]] void fail(const std::string& message) const;
+
+    /// What read() checks.
+    virtual std::vector<openvdb::Vec3f> load(std::size_t frame) = 0;
+
+    std::ifstream file_;
+    std::uint64_t size_ = 0; ///< of the file [byte]
+    std::size_t atoms_ = 0;
+
+private:
+    std::string path_;
+};
+
+/// Opens a trajectory: a DcdFile or an XtcFile, by what the file begins with, not by its name.
+/// @throws Error(ErrorKind::Input) if the file cannot be opened, is neither of them or is cut short
+std::unique_ptr<Trajectory> openTrajectory(const std::string& path);
+
+} // namespace molsurf
