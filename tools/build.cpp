@@ -10,6 +10,7 @@
 #include "molsurf/io/output_file.h"
 #include "molsurf/pipeline/run.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace molsurf::tool
@@ -76,6 +77,15 @@ void sayTimes(const Report& report)
     say(text);
 }
 
+// Whether a file holds the mesh or a picture of it.
+bool showsMesh(const std::vector<Output>& outputs)
+{
+    return std::any_of(outputs.begin(), outputs.end(), [](const Output& output) {
+        const Format f = output.format;
+        return f != Format::Vdb && f != Format::Json && f != Format::Usda && f != Format::Csv;
+    });
+}
+
 // The middle of the mesh's box comes to the origin; the grids follow when they are written.
 void centerMesh(Call& call, Result& result)
 {
@@ -94,6 +104,7 @@ Report surfaceOf(Call call, const BallSelection& balls, const Report& read, Term
                  const std::function<void(Result&)>& extend)
 {
     stopIfAsked();
+    call.options.meshLabels = showsMesh(call.outputs);
     Result result = run(balls, call.options, terminal, warm);
     terminal.erase();
     if (!call.quiet)

@@ -257,7 +257,7 @@ void reportGroups(const BallSelection& atoms, const Options& options, const Labe
 namespace
 {
 
-/// Labels and colours. @return the ball of each vertex
+/// Labels and colours. @return the ball of each vertex, if anything depends on it
 Labels label(const BallSelection& atoms, const Options& options, double reach, Progress& progress,
              Result& result)
 {
@@ -267,15 +267,20 @@ Labels label(const BallSelection& atoms, const Options& options, double reach, P
     };
     Mesh& mesh = result.mesh;
     const Labels atomOf = atomsOf(atoms.balls);
-    Labels nearest = nearestBalls(atoms.balls, mesh.positions, reach, progress);
-    mesh.labels.push_back({"atom_id", taken(nearest, atomOf)});
     const bool grouped = atoms.labels && !atoms.labels->groups.empty();
-    if (atoms.labels) mesh.labels.push_back({"chain_id", taken(nearest, atoms.labels->chainOf)});
-    if (grouped) mesh.labels.push_back({"group_id", taken(nearest, atoms.labels->groupOf)});
-
     colorByCurvature(options.color, mesh);
+    const bool colored = options.color != ColorBy::Nothing && mesh.colors.empty();
+    Labels nearest;
+    if (options.meshLabels || grouped || colored)
+        nearest = nearestBalls(atoms.balls, mesh.positions, reach, progress);
+    if (options.meshLabels) {
+        mesh.labels.push_back({"atom_id", taken(nearest, atomOf)});
+        if (atoms.labels)
+            mesh.labels.push_back({"chain_id", taken(nearest, atoms.labels->chainOf)});
+        if (grouped) mesh.labels.push_back({"group_id", taken(nearest, atoms.labels->groupOf)});
+    }
     std::vector<Color> ballColor;
-    if (options.color != ColorBy::Nothing && mesh.colors.empty()) {
+    if (colored) {
         ballColor =
             atoms.colors.empty() ? ballColors(atoms, options.color, progress) : atoms.colors;
         mesh.colors = colorsOf(nearest, ballColor);

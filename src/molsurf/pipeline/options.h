@@ -46,6 +46,7 @@ struct Options {
     double minWall = 0.0;      ///< thicken what is thinner [Å], see thickenWalls(); 0: nothing
     /// Further grids to keep, of fieldNames(); curvatures are then vertex attributes, too.
     std::vector<std::string> fields;
+    bool meshLabels = true;          ///< tell atom, chain and group of the mesh's vertices
     bool curvatureIntegrals = false; ///< integrate curvature over the surface, for the report
 };
 
