@@ -9,7 +9,7 @@ Each program that is installed makes the solvent-excluded surface of the same ba
 what else goes on on the machine hits all alike; times are medians of whole processes, ratios are
 medians of the ratios within a turn. Every answer is checked: its area and volume against those of
 the exact surface (vdb_molsurf --surface ses at a quarter of the voxel, or --reference), and whether
-its mesh is closed. Needs python3-numpy. Debian has EDTSurf (edtsurf), PyMOL (pymol) and FreeSASA
+its mesh is closed. Needs python3-numpy and time. Debian has EDTSurf (edtsurf), PyMOL (pymol) and FreeSASA
 (freesasa); NanoShaper is used if it is on PATH.
 """
 import argparse
@@ -18,6 +18,7 @@ import os
 import platform
 import re
 import shutil
+import signal
 import statistics
 import subprocess
 import sys
@@ -224,16 +225,19 @@ class Case:
 
 def run_once(program, case, folder, limit):
     """Seconds, peak memory [MB] and output of a whole process."""
+    # What wait4() says counts the memory of this script, too; time(1) is small.
+    used = os.path.join(folder, "memory.txt")
     with tempfile.TemporaryFile() as output:
         start = time.monotonic()
-        process = subprocess.Popen(program.command(case, folder), cwd=folder, stdout=output, stderr=subprocess.STDOUT)
+        process = subprocess.Popen([shutil.which("time"), "-f", "%M", "-o", used, *program.command(case, folder)],
+                                   cwd=folder, stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
         killed = False
         while True:
-            pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+            pid, status = os.waitpid(process.pid, os.WNOHANG)
             if pid:
                 break
             if time.monotonic() - start > limit and not killed:
-                process.kill()
+                os.killpg(process.pid, signal.SIGKILL)
                 killed = True
             time.sleep(0.002)
         seconds = time.monotonic() - start
@@ -244,7 +248,7 @@ def run_once(program, case, folder, limit):
         raise RuntimeError(f"stopped after {limit} s")
     if process.returncode != 0:
         raise RuntimeError(f"status {process.returncode}: {text.strip().splitlines()[-1:]}")
-    return seconds, usage.ru_maxrss / 1024.0, text
+    return seconds, float(open(used).read().split()[-1]) / 1024.0, text
 
 
 def reference(tool, case, kind, threads):

@@ -56,7 +56,7 @@ def plot(rows, voxel, path):
     for axes, key, unit in ((left, "seconds", "s"), (right, "megabytes", "MB")):
         axes.loglog(atoms, [row[key] for row in rows], "o-", color="#1f6fb2")
         slope = statistics.median(row[key] / row["atoms"] for row in large)
-        axes.loglog(atoms, [slope * n for n in atoms], "--", color="0.6", label=f"{slope * 1e6:.3g} {unit} a million atoms")
+        axes.loglog(atoms, [slope * n for n in atoms], "--", color="0.6", label=f"{slope * 1e6:,.4g} {unit} a million atoms")
         axes.set_xlabel("atoms")
         axes.set_ylabel(f"{key} ({unit})" if key == "megabytes" else "seconds")
         axes.set_ylim(min(row[key] for row in rows) / 2, max(row[key] for row in rows) * 2)
