@@ -40,6 +40,51 @@ void frame(const Vec3d& axis, Vec3d& e1, Vec3d& e2)
     e2 = axis.cross(e1);
 }
 
+/// A cap as a circle meets it: the direction (cos a, sin a) of the circle's plane is covered where
+/// x cos a + y sin a > length cosine.
+struct Cover {
+    double x, y, length; // of (x, y)
+    double cosine;       // of half the angle that is covered
+    std::int32_t other;
+};
+
+/// Whether covers overlap all around a circle, found by going from the end of one to the farthest
+/// end of those that hold it. False where they may do no more than touch: those who need to know
+/// have to look closer.
+bool surround(const std::vector<Cover>& covers)
+{
+    constexpr double margin = 1e-9;
+    if (covers.size() < 2) return false;
+    const auto endOf = [](const Cover& c, double& ex, double& ey) {
+        const double sine = std::sqrt(1.0 - c.cosine * c.cosine);
+        ex = (c.x * c.cosine - c.y * sine) / c.length;
+        ey = (c.y * c.cosine + c.x * sine) / c.length;
+    };
+    double x, y, turned = 0.0; // where we are, and how far from the start
+    endOf(covers[0], x, y);
+    for (std::size_t step = 0; step <= covers.size(); ++step) {
+        double farthest = 0.0, nextX = x, nextY = y; // farthest: between 0 and 4, as the angle
+        for (const Cover& c : covers) {
+            if (c.x * x + c.y * y <= c.length * (c.cosine + margin)) continue;
+            double ex, ey;
+            endOf(c, ex, ey);
+            const double along = ex * x + ey * y, ahead = x * ey - y * ex;
+            const double quarters = ahead >= 0.0 ? 1.0 - along : 3.0 + along;
+            if (quarters <= farthest) continue;
+            farthest = quarters;
+            nextX = ex;
+            nextY = ey;
+        }
+        if (farthest <= margin) return false;
+        const double ahead = std::atan2(x * nextY - y * nextX, x * nextX + y * nextY);
+        turned += ahead > 0.0 ? ahead : ahead + 2.0 * M_PI;
+        if (turned > 2.0 * M_PI + margin) return true;
+        x = nextX;
+        y = nextY;
+    }
+    return false;
+}
+
 /// A range of angles of a circle that a cap covers.
 struct Interval {
     double begin, end;           // end > begin
@@ -56,27 +101,33 @@ struct BallParts {
 /// The uncovered arcs of the circle at the rim of a cap, with the corners at their ends.
 /// @return whether there is any
 bool addArcs(const Vec3d& centre, double radius, std::int32_t ball, const Cap& cap,
-             const std::vector<Cap>& caps, std::vector<Interval>& covered, BallParts& parts)
+             const std::vector<Cap>& caps, std::vector<Cover>& covers,
+             std::vector<Interval>& covered, BallParts& parts)
 {
     const double sine = std::sqrt(1.0 - cap.cosine * cap.cosine);
     Vec3d e1, e2;
     frame(cap.axis, e1, e2);
-    covered.clear();
+    covers.clear();
     for (const Cap& other : caps) {
         if (other.other == cap.other) continue;
         // u(a) = cosine axis + sine (cos a e1 + sin a e2) is covered where u.axis' > cosine'.
         const double along = cap.cosine * cap.axis.dot(other.axis);
         const double x = e1.dot(other.axis), y = e2.dot(other.axis);
-        const double reach = sine * std::sqrt(x * x + y * y), gap = other.cosine - along;
+        const double length = std::sqrt(x * x + y * y);
+        const double reach = sine * length, gap = other.cosine - along;
         if (gap >= reach) continue;
         if (gap <= -reach) return false;
-        const double middle = std::atan2(y, x), half = std::acos(gap / reach);
+        covers.push_back({x, y, length, gap / reach, other.other});
+    }
+    if (surround(covers)) return false;
+    covered.clear();
+    for (const Cover& c : covers) {
+        const double middle = std::atan2(c.y, c.x), half = std::acos(c.cosine);
         double begin = middle - half;
         if (begin < -M_PI) begin += 2.0 * M_PI;
-        covered.push_back({begin, begin + 2.0 * half, other.other, other.other});
+        covered.push_back({begin, begin + 2.0 * half, c.other, c.other});
         if (begin + 2.0 * half > M_PI) { // the part that runs into the next turn
-            covered.push_back(
-                {begin - 2.0 * M_PI, begin + 2.0 * (half - M_PI), other.other, other.other});
+            covered.push_back({begin - 2.0 * M_PI, begin + 2.0 * (half - M_PI), c.other, c.other});
         }
     }
     std::sort(covered.begin(), covered.end(), [](const Interval& a, const Interval& b) {
@@ -176,9 +227,10 @@ BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Pr
             if (!inside) parts.caps.push_back(cap);
         }
         parts.exposed = parts.caps.empty();
+        std::vector<Cover> covers;
         std::vector<Interval> covered;
         for (const Cap& cap : parts.caps) {
-            parts.exposed |= addArcs(centre, R, i, cap, parts.caps, covered, parts);
+            parts.exposed |= addArcs(centre, R, i, cap, parts.caps, covers, covered, parts);
         }
         if (!parts.exposed) parts = BallParts();
     });
