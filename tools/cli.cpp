@@ -552,9 +552,7 @@ void fillGroups(const Values& values, Call& call)
     }
     if (options.color == ColorBy::Group && !groups)
         misuse("--color group: expected --groups or --group-by too");
-    const auto has = [&](const char* field) {
-        return std::count(options.fields.begin(), options.fields.end(), field) > 0;
-    };
+    const auto has = [&](const char* field) { return hasField(options.fields, field); };
     if (has("Cd") && options.color == ColorBy::Nothing) options.color = ColorBy::Chain;
     options.atoms.labels = options.color != ColorBy::Nothing || has("chain_id") || has("Cd") ||
                            writes(call, {Format::Html});
@@ -575,7 +573,7 @@ void fillScene(const Values& values, Call& call)
         if (!writes(call, {Format::Vdb, Format::Glb}))
             call.warnings.push_back("--for is for .vdb and .glb");
         for (const char* field : {"density", "Cd"})
-            if (std::count(fields.begin(), fields.end(), field) == 0) fields.push_back(field);
+            if (!hasField(fields, field)) fields.push_back(field);
     }
     if (call.scene.host == Host::Usd) addSidecars(call);
     call.center = values.on("center");

@@ -9,6 +9,7 @@
 
 #include "molsurf/core/error.h"
 #include "molsurf/io/read_vdb.h"
+#include "molsurf/pipeline/fields.h"
 #include "molsurf/pipeline/velocity.h"
 
 #include <algorithm>
@@ -138,10 +139,7 @@ int frames(const Call& asked, Clock::time_point start)
     FrameTable table;
     if (!tableName.empty() && !call.force) table = readTable(tableName);
 
-    const auto wants = [&](const char* field) {
-        const auto& fields = call.options.fields;
-        return std::find(fields.begin(), fields.end(), field) != fields.end();
-    };
+    const bool moves = hasField(call.options.fields, "v");
     std::vector<Call> calls;
     std::vector<bool> done;
     std::size_t kept = 0;
@@ -157,7 +155,7 @@ int frames(const Call& asked, Clock::time_point start)
         std::vector<std::string> warnings = call.warnings;
         warnings.insert(warnings.end(), first.warnings.begin(), first.warnings.end());
         const bool parts = call.options.split || !call.options.surfaceOf.empty();
-        if (wants("v") && parts) warnings.push_back("no grid v: groups have surfaces of their own");
+        if (moves && parts) warnings.push_back("no grid v: groups have surfaces of their own");
         for (const std::string& warning : warnings) say("warning: " + warning);
         say(counted(source.size(), "frame", "frames") +
             (kept > 0 ? ", " + std::to_string(kept) + " done before" : ""));
@@ -180,7 +178,7 @@ int frames(const Call& asked, Clock::time_point start)
         terminal.setPrefix("frame " + std::to_string(i + 1) + "/" + std::to_string(source.size()) +
                            ": ");
         std::vector<openvdb::Vec3f> displacement;
-        if (wants("v")) displacement = source.displacement(i);
+        if (moves) displacement = source.displacement(i);
         const BallSelection& selection = source.balls(i);
         const bool begun = call.warm && warm.table.size() > 0;
         Report read;
@@ -189,8 +187,7 @@ int frames(const Call& asked, Clock::time_point start)
         const Report report =
             surfaceOf(calls[i], selection, read, terminal, frameStart, call.warm ? &warm : nullptr,
                       [&](Result& result) {
-                          if (wants("v"))
-                              addVelocity(call, selection, displacement, terminal, result);
+                          if (moves) addVelocity(call, selection, displacement, terminal, result);
                       });
         const FrameRow row = rowOf(i + 1, source.number(i), begun, options, report);
         table[i + 1] = row;

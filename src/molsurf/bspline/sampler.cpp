@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bspline/spline.h"
 
-#include "molsurf/core/simd.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>

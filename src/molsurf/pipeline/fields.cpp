@@ -7,6 +7,8 @@
 #include <openvdb/tools/LevelSetUtil.h>
 #include <openvdb/tree/LeafManager.h>
 
+#include <algorithm>
+
 namespace molsurf
 {
 
@@ -23,6 +25,11 @@ const std::vector<std::string>& fieldNames()
         return all;
     }();
     return names;
+}
+
+bool hasField(const std::vector<std::string>& fields, const std::string& name)
+{
+    return std::find(fields.begin(), fields.end(), name) != fields.end();
 }
 
 openvdb::FloatGrid::Ptr splineGrid(const Spline& spline)

@@ -21,6 +21,9 @@ namespace molsurf
 /// which run() leaves to its caller.
 const std::vector<std::string>& fieldNames();
 
+/// Whether a list of fields names one.
+bool hasField(const std::vector<std::string>& fields, const std::string& name);
+
 /// The coefficients of a spline, as they are.
 openvdb::FloatGrid::Ptr splineGrid(const Spline& spline);
 

@@ -3,6 +3,7 @@
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/pipeline/curvature_colors.h"
+#include "molsurf/pipeline/fields.h"
 #include "molsurf/pipeline/palette.h"
 #include "molsurf/rasterize/nearest_ball.h"
 #include "molsurf/surface/color_map.h"
@@ -261,10 +262,6 @@ namespace
 Labels label(const BallSelection& atoms, const Options& options, double reach, Progress& progress,
              Result& result)
 {
-    const auto wanted = [&](const char* field) {
-        return std::find(options.fields.begin(), options.fields.end(), field) !=
-               options.fields.end();
-    };
     Mesh& mesh = result.mesh;
     const Labels atomOf = atomsOf(atoms.balls);
     const bool grouped = atoms.labels && !atoms.labels->groups.empty();
@@ -286,13 +283,14 @@ Labels label(const BallSelection& atoms, const Options& options, double reach, P
         mesh.colors = colorsOf(nearest, ballColor);
     }
 
-    const bool colors = wanted("Cd") && !ballColor.empty();
+    const bool colors = hasField(options.fields, "Cd") && !ballColor.empty();
     const auto addColors = [&] {
         if (!colors) return;
-        result.fields.push_back(
-            colorGrid(*result.surface, wanted("density"), atoms.balls, ballColor, reach, progress));
+        result.fields.push_back(colorGrid(*result.surface, hasField(options.fields, "density"),
+                                          atoms.balls, ballColor, reach, progress));
     };
-    if (!wanted("atom_id") && !wanted("chain_id") && !wanted("group_id")) {
+    if (!hasField(options.fields, "atom_id") && !hasField(options.fields, "chain_id") &&
+        !hasField(options.fields, "group_id")) {
         addColors();
         return nearest;
     }
@@ -301,14 +299,14 @@ Labels label(const BallSelection& atoms, const Options& options, double reach, P
         points.emplace_back(result.surface->indexToWorld(it.getCoord()));
     }
     const Labels owner = nearestBalls(atoms.balls, points, reach, progress);
-    if (wanted("atom_id")) {
+    if (hasField(options.fields, "atom_id")) {
         result.fields.push_back(labelGrid(*result.surface, "atom_id", taken(owner, atomOf)));
     }
-    if (wanted("chain_id") && atoms.labels) {
+    if (hasField(options.fields, "chain_id") && atoms.labels) {
         result.fields.push_back(
             labelGrid(*result.surface, "chain_id", taken(owner, atoms.labels->chainOf)));
     }
-    if (wanted("group_id") && grouped) {
+    if (hasField(options.fields, "group_id") && grouped) {
         result.fields.push_back(
             labelGrid(*result.surface, "group_id", taken(owner, atoms.labels->groupOf)));
     }

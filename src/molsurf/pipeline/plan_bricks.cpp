@@ -20,7 +20,7 @@ namespace
 {
 
 // Measured on 1F2N and 1M4X at 0.5 to 2 Å and on small proteins: peaks of the resident memory
-// against the leaves that hold atoms or lie beside them. No peak was above 0.9 of what these give,
+// against the leaves that hold atoms or lie beside them. No peak was above 0.96 of what these give,
 // since not all such leaves have a part of the surface.
 constexpr double processBytes = 70e6;      // program, libraries, buffers
 constexpr double bytesPerAtom = 40.0;      // of the whole molecule: balls, and reading them

@@ -170,10 +170,6 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
     const Scope everything;
     NarrowBand band = makeBand(atoms, options, everything, progress, report, watch, warm);
     const bool unionOfBalls = isUnion(options.kind);
-    const auto wanted = [&](const char* field) {
-        return std::find(options.fields.begin(), options.fields.end(), field) !=
-               options.fields.end();
-    };
 
     DistanceBand S;
     Spline spline;
@@ -181,7 +177,7 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
     for (bool filled = false;; filled = true) {
         progress.update("redistance", 0.0);
         if (!filled || !unionOfBalls) {
-            const bool kept = options.fillCavities || wanted("sas");
+            const bool kept = options.fillCavities || hasField(options.fields, "sas");
             S = distanceBand(balls, band.table, kept ? copied(band.phi) : std::move(band.phi),
                              options, everything, progress);
             if (!kept) band = NarrowBand();
@@ -236,7 +232,7 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
     describeCurvature(result.mesh, spline, options, progress, report.surface);
     watch.stop("mesh");
 
-    if (wanted("sas")) {
+    if (hasField(options.fields, "sas")) {
         const double width = surfaceWidthVox * options.voxel;
         if (options.kind != SurfaceKind::Variational) {
             DistanceBand exact =
@@ -249,10 +245,10 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
         sas->setName("sas");
         result.fields.push_back(sas);
     }
-    if (wanted("spline")) result.fields.push_back(splineGrid(spline));
+    if (hasField(options.fields, "spline")) result.fields.push_back(splineGrid(spline));
     for (auto& grid : curvatureGrids(*result.surface, spline, options.fields, progress))
         result.fields.push_back(std::move(grid));
-    if (wanted("density")) result.fields.push_back(densityGrid(*result.surface));
+    if (hasField(options.fields, "density")) result.fields.push_back(densityGrid(*result.surface));
     spline = Spline();
     S = DistanceBand();
     releasePages();
@@ -290,12 +286,8 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
     if ((!whole || options.interfaces) && (!atoms.labels || atoms.labels->groups.empty())) {
         throw Error(ErrorKind::Input, "there are no groups to surface alone");
     }
-    const auto asked = [&](const char* field) {
-        return std::find(options.fields.begin(), options.fields.end(), field) !=
-               options.fields.end();
-    };
-    const char* shown = asked("Cd") ? curvatureNameOf(options.color) : nullptr;
-    const bool helps = shown && !asked(shown);
+    const char* shown = hasField(options.fields, "Cd") ? curvatureNameOf(options.color) : nullptr;
+    const bool helps = shown && !hasField(options.fields, shown);
     Options wanted = options;
     if (helps) wanted.fields.push_back(shown);
     Result result =

@@ -112,12 +112,9 @@ void finish(const BallSelection& atoms, const Options& options, const Scope& sco
     surface.reset();
     addCurvature(spline, options.fields, whole, progress);
     brick.grids = {result.surface};
-    const auto wanted = [&](const char* field) {
-        return std::find(options.fields.begin(), options.fields.end(), field) !=
-               options.fields.end();
-    };
-    if (wanted("sas")) brick.grids.push_back(sasGrid(atoms, options, band, scope, progress));
-    if (wanted("spline")) brick.grids.push_back(owned(splineGrid(spline), box));
+    if (hasField(options.fields, "sas"))
+        brick.grids.push_back(sasGrid(atoms, options, band, scope, progress));
+    if (hasField(options.fields, "spline")) brick.grids.push_back(owned(splineGrid(spline), box));
     for (auto& grid : curvatureGrids(*result.surface, spline, options.fields, progress))
         brick.grids.push_back(std::move(grid));
     band = NarrowBand();
@@ -240,8 +237,7 @@ void checkBrickOptions(const Options& options)
     if (options.matchVolume && !options.atoms.resolutions.empty()) refuse("--match-volume");
     if (options.fillCavities) refuse("--fill-cavities");
     if (options.minWall > 0.0) refuse("--min-wall");
-    if (std::find(options.fields.begin(), options.fields.end(), "density") != options.fields.end())
-        refuse("--fields density");
+    if (hasField(options.fields, "density")) refuse("--fields density");
     if (options.curvatureIntegrals) refuse("--curvature-totals");
     if (options.splineLevel > 0) refuse("--spline-level");
     if (options.kind == SurfaceKind::Variational && options.evolution.flow == Flow::Plain)
@@ -266,8 +262,7 @@ Brick runBrick(const BallSelection& atoms, const Options& options, const Scope& 
             band.table = near;
         }
         progress.update("redistance", 0.0);
-        const auto& fields = options.fields;
-        const bool kept = std::find(fields.begin(), fields.end(), "sas") != fields.end();
+        const bool kept = hasField(options.fields, "sas");
         if (isUnion(options.kind) || band.table.size() > 0)
             S = distanceBand(atoms.balls, band.table, kept ? copied(band.phi) : std::move(band.phi),
                              options, scope, progress);

@@ -192,7 +192,7 @@ void addLabelMetadata(const BallSelection& atoms, const std::vector<std::string>
     if (!atoms.labels) return;
     const auto add = [&](const char* field, std::size_t count, const auto& nameOfLabel,
                          const std::vector<Color>& colors) {
-        if (std::count(fields.begin(), fields.end(), field) == 0 || count == 0) return;
+        if (!hasField(fields, field) || count == 0) return;
         std::string text;
         for (std::size_t i = 0; i < count; ++i) {
             char color[16];

@@ -67,8 +67,8 @@ std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
                 high = h;
             }
             bool missing = true;
-            for (double tried = 0.0, within = close; missing && tried < reach; within *= 2.0) {
-                within = std::min(within, reach);
+            for (double within = std::min(close, reach); missing;
+                 within = std::min(2.0 * within, reach)) {
                 candidates.clear();
                 index.forEachNear(Vec3d(low), Vec3d(high), largest + within,
                                   [&](const Ball& ball, std::int32_t i) {
@@ -79,7 +79,7 @@ std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
                     if (out[p] < 0) out[p] = nearest(points[p], candidates, float(within));
                     missing = missing || out[p] < 0;
                 }
-                tried = within;
+                if (within == reach) break;
             }
         }
     });
