@@ -36,10 +36,11 @@ namespace
 /// The voxels of the cavities of a surface.
 /// @param[in] mesh  of S = 0
 /// @return one mask a leaf of S; empty if there are none
-std::vector<LeafMask> cavityVoxels(const Mesh& mesh, const DistanceBand& S, double voxel)
+std::vector<LeafMask> cavityVoxels(const Mesh& mesh, const DistanceBand& S, double voxel,
+                                   const Progress& progress)
 {
     std::size_t count = 0;
-    const std::vector<std::uint32_t> pieces = connectedPieces(mesh, count);
+    const std::vector<std::uint32_t> pieces = connectedPieces(mesh, count, progress);
     const std::vector<double> volumes = pieceVolumes(mesh, pieces, count);
 
     // Outer voxels of S in front of the walls, then all that hang together with them. Those that
@@ -205,7 +206,8 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
                         "--voxel, --lambda or --epsilon]");
         }
         if (filled || !options.fillCavities) break;
-        const std::vector<LeafMask> cavities = cavityVoxels(result.mesh, S, options.voxel);
+        const std::vector<LeafMask> cavities =
+            cavityVoxels(result.mesh, S, options.voxel, progress);
         if (cavities.empty()) break;
         if (unionOfBalls) {
             fillCavities(cavities, options.voxel, S, progress);

@@ -36,7 +36,7 @@ void splitPinched(Mesh& mesh, std::vector<Vec3f>& starts, std::vector<std::uint3
 {
     origins.resize(mesh.positions.size());
     std::iota(origins.begin(), origins.end(), 0u);
-    if (some.empty() || checkTopology(mesh, vertexTriangles(mesh), some, progress).manifold) return;
+    if (some.empty() || checkTopology(mesh, some, progress).manifold) return;
     for (const std::uint32_t v : splitNonManifold(mesh)) {
         starts.push_back(Vec3f(starts[v]));
         origins.push_back(v);
@@ -143,13 +143,13 @@ BrickMesh cutBrick(Mesh& mesh, std::vector<Vec3f> starts, const CoordBBox& box, 
                                           indices.begin() + std::ptrdiff_t(out.owned));
     out.areas = chosen(vertexAreas(mesh), mine);
     if (!mine.empty()) {
-        const Topology topology = checkTopology(mesh, vertexTriangles(mesh), mine, progress);
+        const Topology topology = checkTopology(mesh, mine, progress);
         out.closed = topology.closed;
         out.manifold = topology.manifold && topology.oriented;
     }
 
     std::size_t count = 0;
-    const std::vector<std::uint32_t> pieces = connectedPieces(out.mesh, count);
+    const std::vector<std::uint32_t> pieces = connectedPieces(out.mesh, count, progress);
     out.pieces = measurePieces(out.mesh, pieces, count, anchor, out.flat, progress);
     std::vector<std::uint32_t> keyed;
     const std::vector<VertexKey> keys = keysOf(cells, box, keyed);

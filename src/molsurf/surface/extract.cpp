@@ -7,6 +7,8 @@
 
 #include <openvdb/tools/VolumeToMesh.h>
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -140,16 +142,16 @@ std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel,
     });
     std::vector<std::uint32_t> bad;
     for (const auto& f : found) bad.insert(bad.end(), f.begin(), f.end());
-    if (bad.empty()) return 0;
-    const VertexTriangles around = vertexTriangles(mesh);
     std::size_t moved = 0;
     for (int round = 0; round < rounds && !bad.empty(); ++round) {
         std::sort(bad.begin(), bad.end());
         bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+        const VertexTriangles around = vertexTriangles(mesh, bad, progress);
         std::vector<std::uint32_t> still;
-        for (const std::uint32_t v : bad) {
-            const auto begin = around.triangles.begin() + around.begins[v];
-            const auto end = around.triangles.begin() + around.begins[v + 1];
+        for (std::size_t k = 0; k < bad.size(); ++k) {
+            const std::uint32_t v = bad[k];
+            const auto begin = around.triangles.begin() + around.begins[k];
+            const auto end = around.triangles.begin() + around.begins[k + 1];
             const auto worst = [&] {
                 double least = 1.0;
                 for (auto i = begin; i != end; ++i) {
@@ -244,20 +246,22 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
         stats.starts = mesh.positions;
         stats.residuals.resize(mesh.positions.size());
     }
-    mesh.normals.resize(mesh.positions.size());
-    stats.slopes.resize(mesh.positions.size());
+    const std::size_t count = mesh.positions.size();
     for (const char* name : {"mean_curvature", "gaussian_curvature"})
-        mesh.scalars.push_back({name, std::vector<float>(mesh.positions.size())});
+        mesh.scalars.push_back({name, {}});
+    // The first touch of memory takes long: none of these waits for another.
+    tbb::parallel_invoke([&] { mesh.normals.resize(count); }, [&] { stats.slopes.resize(count); },
+                         [&] { mesh.scalars[0].values.resize(count); },
+                         [&] { mesh.scalars[1].values.resize(count); });
     Vertices vertices{mesh, stats.slopes};
     const double voxel = surface.voxelSize()[0];
 
-    const std::size_t chunks = (mesh.positions.size() + chunk - 1) / chunk;
+    const std::size_t chunks = (count + chunk - 1) / chunk;
     std::vector<std::size_t> bisected(chunks, 0);
     std::vector<double> residual(chunks, 0.0);
-    parallelFor(chunks, progress, [&](std::size_t c) {
+    const auto project = [&](std::size_t c) {
         SplineSampler sampler(spline);
-        const std::size_t end = std::min(mesh.positions.size(), (c + 1) * chunk);
-        for (std::size_t v = c * chunk; v < end; ++v) {
+        for (std::size_t v = c * chunk; v < std::min(count, (c + 1) * chunk); ++v) {
             const Vec3d start(mesh.positions[v]);
             Vec3d x = start;
             Jet jet;
@@ -270,14 +274,15 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
             residual[c] = std::max(residual[c], std::abs(jet.value));
             if (stats.keepStarts) stats.residuals[v] = float(std::abs(jet.value));
         }
-    });
+    };
+    tbb::parallel_invoke([&] { mesh.triangles.resize(triangles.size() + 2 * quads.size()); },
+                         [&] { parallelFor(chunks, progress, project); });
     for (std::size_t c = 0; c < chunks; ++c) {
         stats.bisected += bisected[c];
         stats.maxResidual = std::max(stats.maxResidual, residual[c]);
     }
 
     // OpenVDB's polygons run clockwise seen from outside.
-    mesh.triangles.resize(triangles.size() + 2 * quads.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         mesh.triangles[i] = {triangles[i][2], triangles[i][1], triangles[i][0]};
     }
@@ -287,6 +292,7 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
             splitQuad(mesh, q[3], q[2], q[1], q[0], &mesh.triangles[triangles.size() + 2 * i]);
         }
     });
+    quads = std::vector<openvdb::Vec4I>();
 
     SplineSampler sampler(spline);
     stats.relaxed = relax(vertices, sampler, voxel, progress);

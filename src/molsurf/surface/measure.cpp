@@ -5,8 +5,6 @@
 #include "molsurf/core/simd.h"
 #include "molsurf/surface/topology.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -178,11 +176,9 @@ SurfaceReport measure(const Mesh& mesh, const Progress& progress)
     report.triangles = mesh.triangles.size();
     if (mesh.triangles.empty()) return report;
 
-    Topology topology;
+    const Topology topology = checkTopology(mesh, progress);
     std::size_t count = 0;
-    std::vector<std::uint32_t> pieces;
-    tbb::parallel_invoke([&] { topology = checkTopology(mesh, vertexTriangles(mesh), progress); },
-                         [&] { pieces = connectedPieces(mesh, count); });
+    const std::vector<std::uint32_t> pieces = connectedPieces(mesh, count, progress);
     report.closed = topology.closed;
     report.manifold = topology.manifold && topology.oriented;
     report.eulerCharacteristic =

@@ -4,6 +4,7 @@
 #include "molsurf/core/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -11,19 +12,91 @@
 namespace molsurf
 {
 
-VertexTriangles vertexTriangles(const Mesh& mesh)
+namespace
 {
+
+/// The lowest and the highest vertex of some triangles.
+struct VertexSpan {
+    std::uint32_t first = ~std::uint32_t(0), last = 0;
+};
+
+constexpr std::size_t block = 1024; // triangles that share a span
+
+std::vector<VertexSpan> spansOf(const Mesh& mesh, const Progress& progress)
+{
+    std::vector<VertexSpan> spans((mesh.triangles.size() + block - 1) / block);
+    parallelFor(spans.size(), progress, [&](std::size_t b) {
+        VertexSpan span;
+        const std::size_t end = std::min(mesh.triangles.size(), (b + 1) * block);
+        for (std::size_t i = b * block; i < end; ++i) {
+            for (const std::uint32_t v : mesh.triangles[i])
+                span = {std::min(span.first, v), std::max(span.last, v)};
+        }
+        spans[b] = span;
+    });
+    return spans;
+}
+
+/// The triangles at the vertices from `first` to `last`: those of v are triangles[begins[v -
+/// first]] and so on.
+VertexTriangles trianglesAt(const Mesh& mesh, const std::vector<VertexSpan>& spans,
+                            std::uint32_t first, std::uint32_t last)
+{
+    const auto visit = [&](const auto& take) {
+        for (std::size_t b = 0; b < spans.size(); ++b) {
+            if (spans[b].last < first || spans[b].first > last) continue;
+            const std::size_t end = std::min(mesh.triangles.size(), (b + 1) * block);
+            for (std::size_t i = b * block; i < end; ++i) {
+                for (const std::uint32_t v : mesh.triangles[i])
+                    if (v - first <= last - first) take(v - first, std::uint32_t(i));
+            }
+        }
+    };
     VertexTriangles out;
-    out.begins.assign(mesh.positions.size() + 1, 0);
-    for (const auto& t : mesh.triangles) {
-        for (const std::uint32_t v : t) ++out.begins[v + 1];
-    }
+    out.begins.assign(std::size_t(last - first) + 2, 0);
+    visit([&](std::uint32_t v, std::uint32_t) { ++out.begins[v + 1]; });
     std::partial_sum(out.begins.begin(), out.begins.end(), out.begins.begin());
     out.triangles.resize(out.begins.back());
     std::vector<std::uint32_t> next(out.begins.begin(), out.begins.end() - 1);
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        for (const std::uint32_t v : mesh.triangles[i]) out.triangles[next[v]++] = i;
-    }
+    visit([&](std::uint32_t v, std::uint32_t i) { out.triangles[next[v]++] = i; });
+    return out;
+}
+
+} // namespace
+
+VertexTriangles vertexTriangles(const Mesh& mesh)
+{
+    if (mesh.positions.empty()) return {{0}, {}};
+    return trianglesAt(mesh, spansOf(mesh, Progress()), 0,
+                       std::uint32_t(mesh.positions.size() - 1));
+}
+
+VertexTriangles vertexTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& some,
+                                const Progress& progress)
+{
+    constexpr std::uint32_t none = ~std::uint32_t(0);
+    std::vector<std::uint32_t> place(mesh.positions.size(), none);
+    for (std::uint32_t i = 0; i < some.size(); ++i) place[some[i]] = i;
+    struct Corner {
+        std::uint32_t place, triangle;
+    };
+    std::vector<std::vector<Corner>> found((mesh.triangles.size() + block - 1) / block);
+    parallelFor(found.size(), progress, [&](std::size_t b) {
+        const std::size_t end = std::min(mesh.triangles.size(), (b + 1) * block);
+        for (std::size_t i = b * block; i < end; ++i) {
+            for (const std::uint32_t v : mesh.triangles[i])
+                if (place[v] != none) found[b].push_back({place[v], std::uint32_t(i)});
+        }
+    });
+    VertexTriangles out;
+    out.begins.assign(some.size() + 1, 0);
+    for (const auto& corners : found)
+        for (const Corner& c : corners) ++out.begins[c.place + 1];
+    std::partial_sum(out.begins.begin(), out.begins.end(), out.begins.begin());
+    out.triangles.resize(out.begins.back());
+    std::vector<std::uint32_t> next(out.begins.begin(), out.begins.end() - 1);
+    for (const auto& corners : found)
+        for (const Corner& c : corners) out.triangles[next[c.place]++] = c.triangle;
     return out;
 }
 
@@ -36,22 +109,35 @@ int cornerOf(const std::array<std::uint32_t, 3>& t, std::uint32_t v)
     return t[0] == v ? 0 : t[1] == v ? 1 : 2;
 }
 
-Topology checkVertex(const Mesh& mesh, const VertexTriangles& around, std::uint32_t v)
+/// @param[in] begin,end  of the triangles at v
+Topology checkVertex(const Mesh& mesh, const std::uint32_t* begin, const std::uint32_t* end,
+                     std::uint32_t v)
 {
     // Each triangle at v leads from the edge to `out` to the edge to `in`: v -> out -> in -> v.
     std::pair<std::uint32_t, std::uint32_t> wedges[64];
     Topology result;
-    const std::uint32_t begin = around.begins[v], end = around.begins[v + 1];
-    const std::size_t n = end - begin;
+    const std::size_t n = std::size_t(end - begin);
     if (n == 0 || n > 64) {
         result.manifold = n == 0;
         return result;
     }
-    for (std::uint32_t i = begin; i < end; ++i) {
-        const auto& t = mesh.triangles[around.triangles[i]];
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto& t = mesh.triangles[begin[i]];
         const int c = cornerOf(t, v);
-        wedges[i - begin] = {t[(c + 1) % 3], t[(c + 2) % 3]};
+        wedges[i] = {t[(c + 1) % 3], t[(c + 2) % 3]};
     }
+    // One turn about v. If it comes back after n triangles, each of these was met once.
+    std::size_t steps = 0;
+    std::uint32_t at = wedges[0].first;
+    do {
+        const auto* wedge =
+            std::find_if(wedges, wedges + n, [at](const auto& w) { return w.first == at; });
+        if (wedge == wedges + n) break;
+        at = wedge->second;
+        ++steps;
+    } while (at != wedges[0].first && steps < n);
+    if (steps == n && at == wedges[0].first) return result;
+    result.manifold = false;
     for (std::size_t i = 0; i < n; ++i) {
         std::size_t outs = 0, ins = 0, sameOut = 0;
         for (std::size_t j = 0; j < n; ++j) {
@@ -62,17 +148,6 @@ Topology checkVertex(const Mesh& mesh, const VertexTriangles& around, std::uint3
         if (ins + sameOut != 2) result.closed = false;
         if (ins != 1 || outs != 1 || sameOut != 1) result.oriented = false;
     }
-    result.manifold = result.closed && result.oriented;
-    if (!result.manifold) return result;
-    std::size_t steps = 0;
-    std::uint32_t at = wedges[0].first;
-    do {
-        const auto* wedge =
-            std::find_if(wedges, wedges + n, [at](const auto& w) { return w.first == at; });
-        at = wedge->second;
-        ++steps;
-    } while (at != wedges[0].first && steps < n);
-    result.manifold = steps == n && at == wedges[0].first;
     return result;
 }
 
@@ -90,22 +165,27 @@ struct Verdict {
 
 } // namespace
 
-Topology checkTopology(const Mesh& mesh, const VertexTriangles& around, const Progress& progress)
+namespace
 {
-    return checkTopology(mesh, around, {}, progress);
-}
 
-Topology checkTopology(const Mesh& mesh, const VertexTriangles& around,
-                       const std::vector<std::uint32_t>& some, const Progress& progress)
+/// @param[in] wanted  tells of a vertex whether to check it
+template<typename F>
+Topology checkVertices(const Mesh& mesh, const F& wanted, const Progress& progress)
 {
-    constexpr std::size_t chunk = 1024;
-    const std::size_t vertices = some.empty() ? mesh.positions.size() : some.size();
+    constexpr std::size_t slice = 32768; // their triangles stay in the cache
+    const std::size_t vertices = mesh.positions.size();
+    const std::vector<VertexSpan> spans = spansOf(mesh, progress);
     const Verdict all =
-        parallelSum<Verdict>((vertices + chunk - 1) / chunk, progress, [&](std::size_t c) {
+        parallelSum<Verdict>((vertices + slice - 1) / slice, progress, [&](std::size_t s) {
+            const auto first = std::uint32_t(s * slice);
+            const auto last = std::uint32_t(std::min(vertices, (s + 1) * slice) - 1);
+            const VertexTriangles around = trianglesAt(mesh, spans, first, last);
             Verdict sum;
-            for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v) {
-                const Topology t =
-                    checkVertex(mesh, around, some.empty() ? std::uint32_t(v) : some[v]);
+            for (std::uint32_t v = first; v <= last; ++v) {
+                if (!wanted(v)) continue;
+                const std::uint32_t* at = around.triangles.data();
+                const Topology t = checkVertex(mesh, at + around.begins[v - first],
+                                               at + around.begins[v - first + 1], v);
                 sum += {!t.closed, !t.oriented, !t.manifold};
             }
             return sum;
@@ -113,26 +193,61 @@ Topology checkTopology(const Mesh& mesh, const VertexTriangles& around,
     return {!all.open, !all.twisted, !all.pinched};
 }
 
-std::vector<std::uint32_t> connectedPieces(const Mesh& mesh, std::size_t& count)
+} // namespace
+
+Topology checkTopology(const Mesh& mesh, const Progress& progress)
 {
-    std::vector<std::uint32_t> parent(mesh.positions.size());
-    std::iota(parent.begin(), parent.end(), 0u);
+    return checkVertices(
+        mesh, [](std::uint32_t) { return true; }, progress);
+}
+
+Topology checkTopology(const Mesh& mesh, const std::vector<std::uint32_t>& some,
+                       const Progress& progress)
+{
+    std::vector<char> wanted(mesh.positions.size());
+    for (const std::uint32_t v : some) wanted[v] = 1;
+    return checkVertices(
+        mesh, [&](std::uint32_t v) { return wanted[v] != 0; }, progress);
+}
+
+std::vector<std::uint32_t> connectedPieces(const Mesh& mesh, std::size_t& count,
+                                           const Progress& progress)
+{
+    // Union-find without locks: roots are only ever hung under smaller ones, so that in the end
+    // they are the smallest vertices of their pieces, whatever the order.
+    using Parent = std::atomic<std::uint32_t>;
+    constexpr auto relaxed = std::memory_order_relaxed;
+    const std::size_t vertices = mesh.positions.size();
+    std::vector<Parent> parent(vertices);
+    for (std::uint32_t v = 0; v < vertices; ++v) parent[v].store(v, relaxed);
     const auto root = [&](std::uint32_t v) {
-        while (parent[v] != v) v = parent[v] = parent[parent[v]];
-        return v;
-    };
-    for (const auto& t : mesh.triangles) {
-        std::uint32_t a = root(t[0]);
-        for (const std::uint32_t v : {t[1], t[2]}) {
-            const std::uint32_t b = root(v);
-            parent[std::max(a, b)] = std::min(a, b);
-            a = std::min(a, b);
+        for (;;) {
+            std::uint32_t up = parent[v].load(relaxed);
+            if (up == v) return v;
+            const std::uint32_t next = parent[up].load(relaxed);
+            if (next != up) parent[v].compare_exchange_weak(up, next, relaxed);
+            v = next;
         }
-    }
-    // Roots are the smallest vertices of their pieces, so they come first.
+    };
+    const auto unite = [&](std::uint32_t a, std::uint32_t b) {
+        for (;;) {
+            a = root(a);
+            b = root(b);
+            if (a == b) return;
+            std::uint32_t larger = std::max(a, b);
+            if (parent[larger].compare_exchange_strong(larger, std::min(a, b), relaxed)) return;
+        }
+    };
+    parallelFor((mesh.triangles.size() + block - 1) / block, progress, [&](std::size_t c) {
+        const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * block);
+        for (std::size_t i = c * block; i < end; ++i) {
+            unite(mesh.triangles[i][0], mesh.triangles[i][1]);
+            unite(mesh.triangles[i][1], mesh.triangles[i][2]);
+        }
+    });
     count = 0;
-    std::vector<std::uint32_t> piece(parent.size());
-    for (std::uint32_t v = 0; v < parent.size(); ++v) {
+    std::vector<std::uint32_t> piece(vertices);
+    for (std::uint32_t v = 0; v < vertices; ++v) {
         const std::uint32_t r = root(v);
         piece[v] = r == v ? std::uint32_t(count++) : piece[r];
     }
@@ -197,7 +312,9 @@ std::vector<std::uint32_t> splitNonManifold(Mesh& mesh)
     };
     std::vector<Fan> fans; // that need a vertex of their own
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-        if (checkVertex(mesh, around, v).manifold) continue;
+        const std::uint32_t* at = around.triangles.data();
+        if (checkVertex(mesh, at + around.begins[v], at + around.begins[v + 1], v).manifold)
+            continue;
         const std::vector<std::uint32_t> first = fansOf(mesh, around, v);
         for (std::uint32_t i = 1; i < first.size(); ++i) {
             if (first[i] != i) continue;

@@ -22,6 +22,11 @@ struct VertexTriangles {
 
 VertexTriangles vertexTriangles(const Mesh& mesh);
 
+/// The same of some vertices alone: those of some[i] are triangles[begins[i]] and so on.
+/// @param[in] some  in ascending order
+VertexTriangles vertexTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& some,
+                                const Progress& progress);
+
 /// What holds of a mesh as a surface.
 struct Topology {
     bool closed = true;   ///< every edge belongs to exactly two triangles
@@ -30,15 +35,16 @@ struct Topology {
 };
 
 /// Checks every edge and every vertex.
-Topology checkTopology(const Mesh& mesh, const VertexTriangles& around, const Progress& progress);
+Topology checkTopology(const Mesh& mesh, const Progress& progress);
 
-/// The same of some vertices; of all if there are none.
-Topology checkTopology(const Mesh& mesh, const VertexTriangles& around,
-                       const std::vector<std::uint32_t>& some, const Progress& progress);
+/// The same of some vertices, in ascending order, and the edges at them.
+Topology checkTopology(const Mesh& mesh, const std::vector<std::uint32_t>& some,
+                       const Progress& progress);
 
 /// The connected piece of each vertex: numbers from 0 in the order of the pieces' first vertices.
 /// @param[out] count  number of pieces
-std::vector<std::uint32_t> connectedPieces(const Mesh& mesh, std::size_t& count);
+std::vector<std::uint32_t> connectedPieces(const Mesh& mesh, std::size_t& count,
+                                           const Progress& progress);
 
 /// The volume inside the triangles of each piece [Å^3]; < 0 for the wall of a cavity.
 std::vector<double> pieceVolumes(const Mesh& mesh, const std::vector<std::uint32_t>& pieces,

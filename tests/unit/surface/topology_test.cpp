@@ -60,7 +60,7 @@ Mesh sharedEdge()
 
 Topology check(const Mesh& mesh)
 {
-    return checkTopology(mesh, vertexTriangles(mesh), Progress());
+    return checkTopology(mesh, Progress());
 }
 
 double volume(const Mesh& mesh)
@@ -141,7 +141,7 @@ void expectSplit(Mesh mesh, std::size_t added, std::size_t pieces)
     EXPECT_EQ(mesh.scalars[0].values, std::vector<float>(mesh.positions.size(), 1.5f));
     EXPECT_EQ(mesh.labels[0].values, std::vector<std::int32_t>(mesh.positions.size(), 7));
     std::size_t count = 0;
-    connectedPieces(mesh, count);
+    connectedPieces(mesh, count, Progress());
     EXPECT_EQ(count, pieces);
     EXPECT_EQ(splitNonManifold(mesh).size(), 0u);
 }
@@ -170,7 +170,8 @@ TEST(ConnectedPieces, NumbersThemInTheOrderOfTheirVertices)
     addTetrahedron(mesh, 1, 3, 5, 7);
     addTetrahedron(mesh, 0, 2, 4, 6);
     std::size_t count = 0;
-    EXPECT_EQ(connectedPieces(mesh, count), (std::vector<std::uint32_t>{0, 1, 0, 1, 0, 1, 0, 1}));
+    EXPECT_EQ(connectedPieces(mesh, count, Progress()),
+              (std::vector<std::uint32_t>{0, 1, 0, 1, 0, 1, 0, 1}));
     EXPECT_EQ(count, 2u);
 }
 
@@ -190,6 +191,61 @@ TEST(VertexTriangles, ListsThemAllInOrder)
                                              around.triangles.begin() + around.begins[v + 1]),
                   expected);
     }
+}
+
+TEST(VertexTriangles, ListsThoseOfSomeVertices)
+{
+    const Mesh mesh = sharedEdge();
+    const VertexTriangles all = vertexTriangles(mesh);
+    const std::vector<std::uint32_t> some = {1, 2, 5};
+    const VertexTriangles part = vertexTriangles(mesh, some, Progress());
+    ASSERT_EQ(part.begins.size(), some.size() + 1);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        const auto of = [](const VertexTriangles& t, std::size_t v) {
+            return std::vector<std::uint32_t>(t.triangles.begin() + t.begins[v],
+                                              t.triangles.begin() + t.begins[v + 1]);
+        };
+        EXPECT_EQ(of(part, i), of(all, some[i]));
+    }
+}
+
+/// Many tetrahedra, whose vertices and triangles lie far apart in their lists.
+Mesh manyTetrahedra(std::uint32_t count)
+{
+    Mesh mesh;
+    mesh.positions.resize(4 * count);
+    for (std::uint32_t i = 0; i < count; ++i)
+        addTetrahedron(mesh, i, count + i, 2 * count + i, 3 * count + i);
+    return mesh;
+}
+
+TEST(CheckTopology, FindsOneFaultAmongMany)
+{
+    constexpr std::uint32_t count = 50000;
+    const Mesh whole = manyTetrahedra(count);
+    Topology t = check(whole);
+    EXPECT_TRUE(t.closed && t.oriented && t.manifold);
+
+    Mesh torn = whole;
+    torn.triangles.erase(torn.triangles.begin() + 4 * 40000 + 1);
+    EXPECT_FALSE(check(torn).closed);
+    EXPECT_TRUE(checkTopology(torn, {1, 39999, 40001, count + 7}, Progress()).closed);
+    EXPECT_FALSE(checkTopology(torn, {1, 40000, count + 40000}, Progress()).closed);
+    t = checkTopology(torn, {39999}, Progress());
+    EXPECT_TRUE(t.closed && t.oriented && t.manifold);
+}
+
+TEST(ConnectedPieces, CountsMany)
+{
+    constexpr std::uint32_t count = 50000;
+    Mesh mesh = manyTetrahedra(count);
+    addTetrahedron(mesh, 7, 3 * count + 9, 11, 2 * count + 13); // joins four
+    std::size_t pieces = 0;
+    const std::vector<std::uint32_t> piece = connectedPieces(mesh, pieces, Progress());
+    EXPECT_EQ(pieces, count - 3);
+    EXPECT_EQ(piece[count + 8], 8u);
+    EXPECT_EQ(piece[3 * count + 9], 7u);
+    EXPECT_EQ(piece[2 * count + 14], 11u); // 9, 11 and 13 are no pieces of their own
 }
 
 } // namespace
