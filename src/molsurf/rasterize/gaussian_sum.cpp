@@ -143,7 +143,7 @@ GaussianSum::GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& 
     : balls_(balls), options_(options), decays_(std::move(decays)), epsilon_(options.epsilon),
       extent_(options.extent ? *options.extent : extentOf(balls, options, decays_)),
       largest_(extent_.swollen),
-      index_(balls, std::max(2.0, (extent_.largest + options.probe) / 1.5))
+      index_(balls, std::max(2.0, 1.25 * (extent_.largest + options.probe)))
 {
     options_.epsilon = extent_.tolerance;
 }
@@ -152,26 +152,36 @@ void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Ter
 {
     const double h = options_.voxel;
     const Vec3d low = origin.asVec3d() * h;
-    const double farthest = cutoff(extent_, reach);
+    const openvdb::Vec3f first(low), last(low + Vec3d(7.0 * h));
+    const double inverse = 1.0 / h, farthest = cutoff(extent_, reach);
+    // A quarter more than rounding at 10^6 Å: the exact test follows.
+    const float farthest2 = float((farthest + 0.25) * (farthest + 0.25));
 
     // The smallest value of each term in the leaf bounds psi from below, its largest from above.
     terms.clear();
     float floor = 2.0f * lowestPsi;
     index_.forEachNear(low, low + Vec3d(7.0 * h), farthest, [&](const Ball& ball, int i) {
-        const openvdb::Vec3f c = openvdb::Vec3f((Vec3d(ball.center) - low) / h);
+        float apart2 = 0.0f;
+        for (int a = 0; a < 3; ++a) {
+            const float d =
+                larger(larger(first[a] - ball.center[a], ball.center[a] - last[a]), 0.0f);
+            apart2 += d * d;
+        }
+        if (apart2 > farthest2) return;
+        const openvdb::Vec3f c = openvdb::Vec3f((Vec3d(ball.center) - low) * inverse);
         const float R = ball.radius + float(options_.probe);
         const float C = float(rate(std::size_t(i), R));
         const float level = decays_.empty() ? 0.0f : decays_[std::size_t(i)].level;
         Term t{c.x(), c.y(), c.z(), C * float(h * h), C * R * R + level, 0.0f};
-        float nearest2 = 0.0f, farthest2 = 0.0f;
+        float nearest2 = 0.0f, most2 = 0.0f;
         for (const float x : {t.x, t.y, t.z}) {
             const float n = distanceToLeaf(x), f = std::max(std::abs(x), std::abs(x - 7.0f));
             nearest2 += n * n;
-            farthest2 += f * f;
+            most2 += f * f;
         }
         t.exponent = t.level - t.decay * nearest2;
         if (nearest2 * h * h > cutoff2(R, C, level, reach, options_.epsilon)) return;
-        floor = std::max(floor, t.level - t.decay * farthest2);
+        floor = std::max(floor, t.level - t.decay * most2);
         terms.push_back(t);
     });
     terms.erase(std::remove_if(terms.begin(), terms.end(),
