@@ -9,6 +9,7 @@
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -23,16 +24,12 @@ namespace
 /// carries the distance half a voxel.
 constexpr int reinitializations = 1;
 
-/// Where the flow acts [voxel]: curvature is wanted there.
-constexpr double flowWidthVox = 2.25;
-
 /// Takes the curvatures of a leaf from a spline.
 void curvatureFromSpline(const Spline& spline, const openvdb::Coord& origin, double voxel,
-                         const LeafMask& active, const float* phi, LeafCurvature& shape)
+                         const LeafMask& active, LeafCurvature& shape)
 {
     SplineSampler sampler(spline);
     active.forEach([&](int v) {
-        if (std::abs(phi[v]) >= flowWidthVox * voxel) return;
         const Jet jet = sampler.at(origin.offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() * voxel);
         if (jet.gradient.lengthSqr() < 1e-6) return;
         shape.mean[v] = float(2.0 * meanCurvature(jet));
@@ -60,18 +57,21 @@ StepSums step(const NarrowBand& band, double voxel, const Spline* coarse, const 
                                  : band.table.size() ? band.table.origin(0)
                                                      : openvdb::Coord();
     return parallelSum<StepSums>(band.table.size(), progress, [&](std::size_t n) {
+        const LeafMask active =
+            band.table.active(n) & within(band.phi.leaf(n), float(flowWidthVox * voxel));
+        if (!active.any()) {
+            std::copy_n(band.phi.leaf(n), leafSize, next.leaf(n));
+            return StepSums();
+        }
         LeafBlock<float, 1> phi, psi;
         phi.gather(band.table, band.phi, n);
         psi.gather(band.table, band.psi, n);
         LeafCurvature shape;
-        curvature(phi, band.table.active(n), float(voxel), shape);
-        if (coarse) {
-            curvatureFromSpline(*coarse, band.table.origin(n), voxel, band.table.active(n),
-                                band.phi.leaf(n), shape);
-        }
-        const StepSums sums = flowStep(phi, psi, shape, band.table.active(n),
-                                       (band.table.origin(n) - first).asVec3d() * voxel,
-                                       float(voxel), weights, size, next.leaf(n));
+        curvature(phi, active, float(voxel), shape);
+        if (coarse) curvatureFromSpline(*coarse, band.table.origin(n), voxel, active, shape);
+        const StepSums sums =
+            flowStep(phi, psi, shape, active, (band.table.origin(n) - first).asVec3d() * voxel,
+                     float(voxel), weights, size, next.leaf(n));
         return region.owned.isInside(band.table.origin(n)) ? sums : StepSums();
     });
 }
@@ -179,6 +179,19 @@ double remainingWay(const std::vector<double>& displacement)
     return ratio < 1.0 ? last * ratio / (1.0 - ratio) : std::numeric_limits<double>::infinity();
 }
 
+/// Whether the steps, though small, will not meet the tolerance, since they no longer fall: on
+/// voxels that are too large for the metric's valley the discretisation keeps the flow moving for
+/// ever.
+bool stalled(const EvolutionReport& report, const EvolveOptions& options, double voxel)
+{
+    constexpr std::size_t steps = 5; // over which they are compared
+    const std::vector<double>&d = report.meanDisplacement, &E = report.energy;
+    const std::size_t n = d.size();
+    return n > steps && d[n - 1] >= options.displacementTolerance * voxel &&
+           d[n - 1] < 0.05 * voxel && d[n - 1] > 0.99 * d[n - 1 - steps] &&
+           std::abs(E[n] - E[n - steps]) < 0.01 * E[n];
+}
+
 } // namespace
 
 EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
@@ -234,6 +247,9 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
         report.creviceVoxels = sums.crevices;
         report.remainingWay = remainingWay(report.meanDisplacement);
         if ((report.converged && !fixed) || report.steps == maxSteps) break;
+        if (options.steps < 0 && options.maxSteps < 0 && preconditioned &&
+            stalled(report, options, voxel))
+            break;
 
         lastDisplacement = sums.area > 0.0 ? sums.displacement / sums.area : 0.0;
         report.meanDisplacement.push_back(lastDisplacement);

@@ -34,9 +34,11 @@ using PsiSource = std::function<void(const openvdb::Coord& origin, float* psi)>;
 /// again by reinitialize(); leaves are added and dropped as the interface moves.
 ///
 /// Stops when in a step the energy changes by less than options.energyTolerance and the mean
-/// displacement is below options.displacementTolerance; or after options.maxSteps; with
-/// options.steps after just so many. Where steps are small because the voxels are (the bound of
-/// explicit diffusion), that can be far from rest: EvolutionReport::remainingWay tells how far.
+/// displacement is below options.displacementTolerance; or after options.maxSteps; or, if these are
+/// not given, when the mean displacement of the preconditioned flow is small, but above its
+/// tolerance, and has not fallen by a hundredth in five steps; with options.steps after just so
+/// many. Where steps are small because the voxels are (the bound of explicit diffusion), that can
+/// be far from rest: EvolutionReport::remainingWay tells how far.
 ///
 /// @param[in,out] band    as initialSurface() makes it
 /// @param[in]     source  psi for leaves that are added

@@ -20,7 +20,8 @@ struct EvolveOptions {
     double lambda = 0.01; ///< weight of the regulariser; [Å^2] for Gradient, no unit for Area; >= 0
     Regularizer regularizer = Regularizer::Gradient;
     Flow flow = Flow::Preconditioned;
-    int maxSteps = -1; ///< < 0: 50 for the preconditioned flow, 2000 for the plain one
+    int maxSteps = -1; ///< < 0: 50 for the preconditioned flow, fewer where it stalls; 2000 for the
+                       ///< plain one
     int steps = -1;    ///< >= 0: so many, whether it has converged or not
     int splineLevel =
         0; ///< curvature by the spline on voxels of edge 2^level h; 0: on h, by differences

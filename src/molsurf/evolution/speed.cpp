@@ -11,7 +11,7 @@ namespace
 {
 
 // Where the speed acts, in voxels: fully up to `inner`, not at all beyond `outer`.
-constexpr float inner = 1.5f, outer = 2.25f;
+constexpr float inner = 1.5f, outer = float(flowWidthVox);
 
 // Fraction of a Newton step, and the longest step in voxels: an interface that moves less than half
 // a voxel cannot jump over a voxel.

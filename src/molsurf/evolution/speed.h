@@ -10,6 +10,9 @@
 namespace molsurf
 {
 
+/// The flow acts at voxels that are less than this from the interface [voxel].
+constexpr double flowWidthVox = 2.25;
+
 /// What a step adds up over the voxels of the interface.
 struct StepSums {
     double energy = 0.0;       ///< integral of w over the interface [Å^2]
@@ -34,8 +37,8 @@ struct StepSize {
 /// New values of the 512 voxels of a leaf, and the sums before the step.
 ///
 /// @param[in]  phi, psi   the leaf and its rim
-/// @param[in]  shape      curvature() of phi
-/// @param[in]  active     the band
+/// @param[in]  shape      curvature() of phi at the active voxels
+/// @param[in]  active     where the flow acts: voxels of the band within flowWidthVox
 /// @param[in]  corner     position of the leaf's first voxel [Å]
 /// @param[in]  voxel      voxel edge h [Å]
 /// @param[out] next       phi after the step [Å]

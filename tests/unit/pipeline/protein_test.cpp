@@ -59,6 +59,23 @@ TEST(PipelineSlow, DimerOf1A8OAgreesWithHalfTheVoxel)
     EXPECT_NEAR(fine.report.surface.volume, 19350.0, 0.02 * 19350.0);
 }
 
+TEST(Pipeline, GivesUpOnVoxelsThatAreTooLargeForTheFlowToRest)
+{
+    Options options;
+    options.voxel = 2.0;
+    const std::vector<Ball> balls = test::balls("1crn.pdb", "none");
+    const Result early = test::runOn(balls, options);
+    const EvolutionReport& flow = *early.report.evolution;
+    EXPECT_FALSE(flow.converged);
+    EXPECT_LT(flow.steps, 20);
+    EXPECT_GT(flow.meanDisplacement.back(), 0.01 * options.voxel);
+    options.evolution.maxSteps = 50; // who asks for steps gets them
+    const Result late = test::runOn(balls, options);
+    EXPECT_FALSE(late.report.evolution->converged);
+    EXPECT_EQ(late.report.evolution->steps, 50);
+    EXPECT_NEAR(late.report.surface.volume / early.report.surface.volume, 1.0, 0.01);
+}
+
 TEST(Pipeline, DimerOf1A8OWithALargeLambda)
 {
     Options options;
