@@ -36,7 +36,7 @@ LIBRARIES = {
     "ft2build.h": ["src/molsurf/io/font.cpp"],
     "embree3/": ["src/molsurf/surface/"],
     "openssl/": ["tools/sha256.cpp"],
-    "boost/program_options": ["tools/cli.cpp"],
+    "boost/program_options": ["tools/cli.cpp", "tools/cli_values.h"],
 }
 
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -2,6 +2,7 @@
 #include "cli.h"
 
 #include "cli_table.h"
+#include "cli_values.h"
 #include "frame_source.h"
 #include "sidecar.h"
 
@@ -18,7 +19,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 
@@ -30,295 +30,10 @@ namespace po = boost::program_options;
 namespace
 {
 
-// What --fields takes, `surface` first.
-const std::vector<std::string> knownFields = [] {
-    std::vector<std::string> names = fieldNames();
-    names.insert(names.begin(), "surface");
-    return names;
-}();
-
 const std::map<std::string, Format> formats = {
     {"vdb", Format::Vdb},   {"ply", Format::Ply}, {"obj", Format::Obj},    {"stl", Format::Stl},
     {"off", Format::Off},   {"glb", Format::Glb}, {"json", Format::Json},  {"png", Format::Png},
     {"html", Format::Html}, {"csv", Format::Csv}, {"3mf", Format::ThreeMf}};
-const char* const formatWords = "vdb, ply, obj, stl, off, glb, 3mf, html, json or png";
-
-std::string join(const std::vector<std::string>& words, const char* between)
-{
-    std::string all;
-    for (const std::string& word : words) all += (all.empty() ? "" : between) + word;
-    return all;
-}
-
-// Words with commas between, in lines for the help text.
-std::string lines(const std::vector<std::string>& words)
-{
-    constexpr std::size_t width = 62;
-    std::string all, line;
-    for (const std::string& word : words) {
-        if (!line.empty() && line.size() + word.size() > width) {
-            all += line + "\n";
-            line.clear();
-        }
-        line += word + ",";
-    }
-    all += line;
-    all.pop_back();
-    return all;
-}
-
-std::string shortest(double number)
-{
-    char digits[32];
-    return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
-}
-
-const std::vector<Group>& groups()
-{
-    static const Options preset;
-    static const std::vector<Group> all = {
-        {"Output",
-         {{"output,o", "FILE",
-           "file to write; repeats; the extension says what:\n"
-           ".vdb level set and fields; .ply .obj .stl .off .glb\n"
-           ".3mf mesh; .html page that shows it; .json report;\n"
-           ".png picture; - is standard output",
-           "", true},
-          {"format", "WORD", std::string("what -o - writes: ") + formatWords, ""},
-          {"force", nullptr, "replace existing files", ""}}},
-        {"Atoms",
-         {{"select", "EXPR", "gemmi selections joined by |, e.g. \"/1/A/53-132|*;polymer\"", "all"},
-          {"model", "N", "number of the model in the file", "the first"},
-          {"assembly", "ID",
-           "biological assembly to build; none: as in the file;\n"
-           "ncs: with the copies of MTRIX records or struct_ncs_oper",
-           preset.atoms.assembly},
-          {"copies", "LIST",
-           "copies of the assembly: numbers such as 1,7,20-25, or\n"
-           "fold:N, those about the nearest N-fold axis, with copy 1",
-           "all"},
-          {"altloc", "A", "alternate location to take, or all", "highest occupancy"},
-          {"no-hydrogens", nullptr, "drop hydrogens", ""},
-          {"no-hetero", nullptr, "drop ligands and ions", ""},
-          {"waters", nullptr, "keep waters", ""},
-          {"radii", "SET", "van der Waals radii: a name of --list-radii, or a file",
-           preset.atoms.radii},
-          {"probe", "R", "probe radius [Å]", shortest(preset.probe)}}},
-        {"Frames",
-         {{"frames", "A-B:S",
-           "a surface for every S-th frame from A to B: models of\n"
-           "INPUT by their numbers, or frames of --trajectory; also\n"
-           "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
-           "name.csv: a table of all",
-           ""},
-          {"trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT", ""},
-          {"start", "WORD",
-           "cold: each frame as a run of its own; warm: its flow\n"
-           "begins at the surface of the one before",
-           "cold"}}},
-        {"Surface",
-         {{"surface", "KIND",
-           "variational; ses, sas: solvent-excluded, -accessible;\n"
-           "vdw: van der Waals; gaussian",
-           nameOf(preset.kind)},
-          {"voxel", "H", "edge of a voxel [Å], 0.05 to 10", shortest(preset.voxel)},
-          {"blobbiness", "D", "decay of the Gaussians of --surface gaussian",
-           shortest(preset.blobbiness)},
-          {"fill-cavities", nullptr, "drop the inner walls", ""},
-          {"fields", "LIST",
-           "grids of the .vdb, by commas, or all of\n" + lines(knownFields) +
-               ";\ncurvatures also at the vertices of a .ply; positive\n"
-               "where convex, 1/R on a ball; shape_index 1: a cap",
-           "surface"},
-          {"curvature-totals", nullptr, "integrate curvature over the surface, for the report",
-           ""}}},
-        {"Resolution",
-         {{"epsilon", "E", "tolerance of the Gaussian sum [Å]; larger is smoother",
-           shortest(preset.epsilon)},
-          {"resolution", "[SEL=]D",
-           "blur to D [Å], 1 to 50, all atoms or those of a\n"
-           "selection; repeats, later ones win",
-           "", true},
-          {"coarse", "[SEL=]WORD",
-           "beads in the place of atoms: residue (its backbone and\n"
-           "side chain), N (about N atoms each) or atom; all or\n"
-           "those of a selection; repeats, later ones win",
-           "atom", true},
-          {"match-volume", nullptr, "resolutions keep the volume of the fine surface", ""}}},
-        {"Groups",
-         {{"groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]", ""},
-          {"group-by", "WORD", "groups by chain, entity, copy or residues:N instead", ""},
-          {"split", "group", "a level set and a closed mesh for every group, alone", ""},
-          {"surface-of", "GROUP=KIND",
-           "this group alone, by another --surface; repeats; the\n"
-           "other atoms together",
-           "", true},
-          {"interfaces", nullptr, "buried areas between groups, for the report", ""},
-          {"color", "WORD",
-           "colours of the mesh and the grid Cd: chain, group,\n"
-           "element, residue, mean-curvature, gaussian-curvature",
-           nameOf(preset.color)}}},
-        {"Scene",
-         {{"for", "PROGRAM[=SCALE]",
-           "blender, houdini or usd: a .vdb with density and Cd as\n"
-           "that program takes it; SCALE mn-0.01, mn-0.1, nm, or\n"
-           "units per Å; usd: a .usda beside the .vdb",
-           ""},
-          {"center", nullptr, "the middle of the surface comes to the origin", ""},
-          {"print-scale", "S", ".stl, .obj, .3mf in mm, S of them per Å", ""},
-          {"min-wall", "W", "thicken what is thinner than W mm; with --print-scale", ""}}},
-        {"Picture",
-         {{"view", "X,Y,Z",
-           "direction toward the eye, or auto: the shortest extent\n"
-           "toward the eye, the longest across",
-           "auto"},
-          {"turn", "A", "turned by so many degrees about the upright", "0"},
-          {"size", "N", "width in pixels; the height follows the shape", "1200"},
-          {"background", "COLOR", "as #rrggbb", "#ffffff"},
-          {"legend", "WORD",
-           "on or off; auto: beside colours, if 600 pixels wide\n"
-           "or more",
-           "auto"},
-          {"turntable", "N", "N pictures round the upright: name.0001.png, ...", ""}}},
-        {"Evolution",
-         {{"lambda", "L", "weight of the regulariser [Å^2 for gradient, 1 for area]",
-           shortest(preset.evolution.lambda)},
-          {"regularizer", "KIND", "gradient or area", nameOf(preset.evolution.regularizer)},
-          {"flow", "KIND", "preconditioned or plain", nameOf(preset.evolution.flow)},
-          {"max-steps", "N", "steps at most", "50; plain: 2000"},
-          {"steps", "N", "so many steps, converged or not", ""},
-          {"tolerance", "T",
-           "converged when the energy changes by less, relative\n"
-           "(and the mean displacement is below sqrt(T) voxels)",
-           shortest(preset.evolution.energyTolerance)},
-          {"spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2",
-           std::to_string(preset.splineLevel)}}},
-        {"Run",
-         {{"memory", "SIZE",
-           "memory at most, such as 4G: in bricks, one by one, if\n"
-           "the whole takes more; then --steps is fixed [16]",
-           ""},
-          {"dry-run", nullptr, "say what it takes, and stop", ""},
-          {"threads,j", "N", "threads at most", "all"},
-          {"quiet,q", nullptr, "print errors only", ""},
-          {"verbose,v", nullptr, "print the time of every stage", ""},
-          {"no-progress", nullptr, "no progress bar", ""},
-          {"config", "FILE", "options as lines \"name = value\"; the command line wins", ""}}},
-        {"Information",
-         {{"list-radii", nullptr, "print the radii sets and stop", ""},
-          {"version", nullptr, "print the version and stop", ""},
-          {"help", nullptr, "print this text and stop", ""}}}};
-    return all;
-}
-
-// What compare has in the place of the group Output.
-const std::vector<Group>& compareGroups()
-{
-    static const std::vector<Group> all = {
-        {"Output (without -o the numbers are printed)",
-         {{"output,o", "FILE",
-           "file to write; repeats; the extension says what:\n"
-           ".ply mesh of A with distances and colours,\n"
-           ".vdb distances on the band of A, .json report;\n"
-           "- is standard output",
-           "", true},
-          {"format", "WORD", "what -o - writes: ply, vdb or json", ""},
-          {"force", nullptr, "replace existing files", ""},
-          {"color", "WORD",
-           "distance (viridis) or signed-distance (blue: A is\ninside B, red: outside)",
-           "distance"},
-          {"range", "D", "distance at the end of the colours [Å]",
-           "that of 99 % of the vertices"}}}};
-    return all;
-}
-
-// What batch has in the place of the group Output.
-const std::vector<Group>& batchGroups()
-{
-    static const std::vector<Group> all = {
-        {"Output",
-         {{"folder,O", "DIR", "where the files go, with the names of the structures", ""},
-          {"formats", "LIST",
-           "files to write, by commas: vdb, ply, obj, stl, off,\nglb, 3mf, html, json, png",
-           "vdb,ply,json"},
-          {"force", nullptr, "do all again, and replace existing files", ""}}}};
-    return all;
-}
-
-std::string longName(const Entry& entry)
-{
-    const std::string name = entry.name;
-    return name.substr(0, name.find(','));
-}
-
-// What mesh and color have in the place of the groups before Picture.
-const std::vector<Group>& storedGroups()
-{
-    static const std::vector<Group> all = {
-        {"Output",
-         {{"output,o", "FILE",
-           "file to write; repeats; the extension says what:\n"
-           ".ply .obj .stl .off .glb .3mf mesh; .html page;\n"
-           ".json report; .png picture; color: .vdb, the grids\n"
-           "with Cd anew; - is standard output",
-           "", true},
-          {"format", "WORD", std::string("what -o - writes: ") + formatWords, ""},
-          {"force", nullptr, "replace existing files", ""},
-          {"color", "WORD",
-           "chain, group (of grids chain_id, group_id), element,\n"
-           "residue (of Cd so coloured), mean-curvature,\n"
-           "gaussian-curvature; mesh: those of Cd unless given",
-           ""},
-          {"fields", "LIST", "curvatures for the vertices, as of vdb_molsurf --help", ""},
-          {"print-scale", "S", ".stl, .obj, .3mf in mm, S of them per Å", ""}}}};
-    return all;
-}
-
-// The groups of a verb, in the order of its help.
-std::vector<Group> groupsOf(Verb verb)
-{
-    if (verb == Verb::Build) return groups();
-    if (verb == Verb::Mesh || verb == Verb::Color) {
-        std::vector<Group> all = storedGroups();
-        std::copy_if(groups().begin() + 1, groups().end(), std::back_inserter(all),
-                     [](const Group& group) {
-                         const std::string title = group.title;
-                         return title == "Picture" || title == "Run" || title == "Information";
-                     });
-        return all;
-    }
-    const bool partial =
-        verb == Verb::Brick || verb == Verb::Merge; // of a plan, which has the rest
-    std::vector<Group> all = verb == Verb::Batch   ? batchGroups()
-                             : verb == Verb::Plan  ? planGroups()
-                             : verb == Verb::Brick ? brickGroups()
-                             : verb == Verb::Merge ? mergeGroups()
-                                                   : compareGroups();
-    for (Group group : groups()) {
-        const std::string title = group.title;
-        const bool process = title == "Run" || title == "Information";
-        if (title == "Output" || (partial && !process)) continue;
-        if (title == "Frames") continue;
-        if ((title == "Picture" || title == "Scene") && verb != Verb::Batch) continue;
-        if (title == "Groups" && verb == Verb::Compare) continue;
-        if (title == "Run") {
-            const auto elsewhere = [&](const Entry& entry) {
-                const std::string name = longName(entry);
-                return name == "memory" || name == "dry-run" || (partial && name == "config");
-            };
-            group.entries.erase(
-                std::remove_if(group.entries.begin(), group.entries.end(), elsewhere),
-                group.entries.end());
-        }
-        all.push_back(group);
-    }
-    return all;
-}
-
-[[noreturn]] void misuse(const std::string& message)
-{
-    throw Error(ErrorKind::Usage, message);
-}
 
 po::options_description describeOptions(Verb verb)
 {
@@ -336,107 +51,6 @@ po::options_description describeOptions(Verb verb)
     all.add_options()("input", po::value<std::vector<std::string>>());
     return all;
 }
-
-// The values of the options, by name. Numbers are read strictly: all of the word, and finite.
-class Values
-{
-public:
-    Values(const po::variables_map& map, std::vector<std::string> order)
-        : map_(map), order_(std::move(order))
-    {
-    }
-
-    // Where the command line has the n-th value of an option; 0 if it came from elsewhere.
-    std::size_t position(const std::string& name, std::size_t n = 0) const
-    {
-        for (std::size_t i = 0; i < order_.size(); ++i) {
-            if (order_[i] == name && n-- == 0) return i + 1;
-        }
-        return 0;
-    }
-
-    bool on(const char* name) const { return map_.count(name) && map_[name].as<bool>(); }
-    bool given(const char* name) const { return map_.count(name) && !map_[name].defaulted(); }
-
-    // Leaves `value` alone if the option was not given.
-    void get(const char* name, std::string& value) const
-    {
-        if (!map_.count(name)) return;
-        value = map_[name].as<std::string>();
-        if (value.empty()) misuse("--" + std::string(name) + ": expected a value, got none");
-    }
-
-    void get(const char* name, double& value) const
-    {
-        if (map_.count(name)) value = number<double>(name, "a number");
-    }
-
-    void get(const char* name, int& value, int least, int most) const
-    {
-        if (!map_.count(name)) return;
-        const std::string range =
-            "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
-        value = number<int>(name, range);
-        if (value < least || value > most) wrong(name, range);
-    }
-
-    // One of a few words.
-    template<typename Enum>
-    void get(const char* name, Enum& value, std::initializer_list<Enum> choices) const
-    {
-        pick(name, value, choices);
-    }
-
-    template<typename Enum, std::size_t n>
-    void get(const char* name, Enum& value, const Enum (&choices)[n]) const
-    {
-        pick(name, value, choices);
-    }
-
-    std::vector<std::string> list(const char* name) const
-    {
-        if (!map_.count(name)) return {};
-        return map_[name].as<std::vector<std::string>>();
-    }
-
-    [[noreturn]] void wrong(const char* name, const std::string& expected) const
-    {
-        misuse("--" + std::string(name) + ": expected " + expected + ", got '" +
-               map_[name].as<std::string>() + "'");
-    }
-
-private:
-    template<typename Enum, typename Choices>
-    void pick(const char* name, Enum& value, const Choices& choices) const
-    {
-        if (!map_.count(name)) return;
-        const std::string word = map_[name].as<std::string>();
-        std::vector<std::string> words;
-        for (Enum choice : choices) {
-            if (word == nameOf(choice)) {
-                value = choice;
-                return;
-            }
-            words.push_back(nameOf(choice));
-        }
-        wrong(name, join(words, " or "));
-    }
-
-    template<typename T>
-    T number(const char* name, const std::string& expected) const
-    {
-        const std::string& word = map_[name].as<std::string>();
-        T value{};
-        const char* end = word.data() + word.size();
-        const auto [stop, failure] = std::from_chars(word.data(), end, value);
-        if (failure != std::errc() || stop != end || !std::isfinite(double(value)))
-            wrong(name, expected);
-        return value;
-    }
-
-    const po::variables_map& map_;
-    std::vector<std::string> order_; // names of the options on the command line
-};
 
 Format formatOf(const std::string& path)
 {
@@ -489,16 +103,16 @@ std::vector<std::string> fieldsOf(const Values& values)
         const std::size_t end = std::min(list.find(',', begin), list.size());
         const std::string word = list.substr(begin, end - begin);
         if (word == "all")
-            wanted.insert(knownFields.begin(), knownFields.end());
-        else if (std::count(knownFields.begin(), knownFields.end(), word))
+            wanted.insert(knownFields().begin(), knownFields().end());
+        else if (std::count(knownFields().begin(), knownFields().end(), word))
             wanted.insert(word);
         else
             misuse("--fields: unknown field '" + word + "' [hint: all, or some of " +
-                   join(knownFields, ",") + "]");
+                   join(knownFields(), ",") + "]");
         begin = end + 1;
     }
     std::vector<std::string> fields;
-    for (const std::string& field : knownFields)
+    for (const std::string& field : knownFields())
         if (field != "surface" && wanted.count(field)) fields.push_back(field);
     return fields;
 }
@@ -1147,26 +761,6 @@ std::string quoted(const std::string& word)
 
 } // namespace
 
-std::string helpLine(const Entry& entry)
-{
-    const std::string name = entry.name;
-    const std::size_t comma = name.find(',');
-    std::string line =
-        comma == std::string::npos ? "      --" : "  -" + name.substr(comma + 1) + ", --";
-    line += longName(entry);
-    if (entry.value) line += std::string(" ") + entry.value;
-
-    const std::size_t column = 26;
-    std::string text = entry.text;
-    if (!entry.preset.empty()) text += " [" + entry.preset + "]";
-    line.resize(std::max(line.size() + 1, column), ' ');
-    for (char letter : text) {
-        line += letter;
-        if (letter == '\n') line.append(column, ' ');
-    }
-    return line + "\n";
-}
-
 const char* nameOf(Regularizer regularizer)
 {
     return regularizer == Regularizer::Gradient ? "gradient" : "area";
@@ -1204,125 +798,6 @@ Call parseCall(int argc, const char* const* argv)
     } catch (const po::error& e) {
         misuse(std::string(e.what()) + " [hint: vdb_molsurf --help]");
     }
-}
-
-std::string helpText()
-{
-    std::string text =
-        "vdb_molsurf INPUT -o FILE [-o FILE ...] [options]\n"
-        "vdb_molsurf batch LIST -O DIR [options]\n"
-        "vdb_molsurf compare A B [-o FILE ...] [options]\n"
-        "vdb_molsurf plan INPUT -o plan.json, brick plan.json K, merge plan.json -o FILE\n"
-        "vdb_molsurf mesh|color FILE.vdb -o FILE [-o FILE ...] [options]\n"
-        "vdb_molsurf info FILE ...\n"
-        "\n"
-        "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .pqr .xyzr,\n"
-        "each also .gz, or - for standard input). Lengths are in Å. Defaults are in brackets.\n";
-    for (const Group& group : groups()) {
-        text += std::string("\n") + group.title + "\n";
-        for (const Entry& entry : group.entries) text += helpLine(entry);
-    }
-    text += "\n"
-            "Exit status: 0 done, 1 failed, 2 wrong usage, 3 not converged (files are written),\n"
-            "130 interrupted.\n";
-    return text;
-}
-
-std::string batchHelpText()
-{
-    std::string text =
-        "vdb_molsurf batch LIST -O DIR [options]\n"
-        "\n"
-        "Builds the surfaces of many structures, one after the other. LIST has the name of a\n"
-        "structure file a line, - is standard input; empty lines and those with # do not count.\n"
-        "What fails is reported and does not stop the rest. DIR/summary.csv and summary.json have\n"
-        "a line each; the same command once more does what was not done, or failed.\n";
-    for (const Group& group : batchGroups()) {
-        text += std::string("\n") + group.title + "\n";
-        for (const Entry& entry : group.entries) text += helpLine(entry);
-    }
-    text +=
-        "\n"
-        "All other options are those of vdb_molsurf --help.\n"
-        "\n"
-        "Exit status: 0 all done, 1 some failed, 2 wrong usage, 3 some did not converge (their\n"
-        "files are written), 130 interrupted.\n";
-    return text;
-}
-
-std::string compareHelpText()
-{
-    std::string text =
-        "vdb_molsurf compare A B [-o FILE ...] [options]\n"
-        "\n"
-        "Distances of surface A from surface B and back, areas and volumes. A and B are each a\n"
-        ".vdb file (the grid surface, or the only level set), a mesh (.ply .obj .stl), or a\n"
-        "structure, whose surface is built with the options below. Lengths are in Å.\n";
-    for (const Group& group : groupsOf(Verb::Compare)) {
-        text += std::string("\n") + group.title + "\n";
-        for (const Entry& entry : group.entries)
-            if (longName(entry) != "fields" && longName(entry) != "curvature-totals")
-                text += helpLine(entry);
-    }
-    text +=
-        "\n"
-        "Distances are Euclidean, from the vertices of one surface to the closest point of the\n"
-        "other; signed ones are negative inside it. Means are weighted by area. On .vdb files\n"
-        "and structures both are smooth surfaces, meshes are their triangles.\n"
-        "\n"
-        "Exit status: 0 done, 1 failed, 2 wrong usage, 3 not converged (files are written),\n"
-        "130 interrupted.\n";
-    return text;
-}
-
-std::vector<OptionText> optionTexts(Verb verb)
-{
-    std::vector<OptionText> all;
-    for (const Group& group : groupsOf(verb)) {
-        for (const Entry& entry : group.entries) {
-            const std::string name = entry.name, whole = longName(entry);
-            if (verb == Verb::Compare && (whole == "fields" || whole == "curvature-totals"))
-                continue;
-            all.push_back({group.title, whole,
-                           whole.size() < name.size() ? name.substr(whole.size() + 1) : "",
-                           entry.value ? entry.value : "", entry.text, entry.preset});
-        }
-    }
-    return all;
-}
-
-std::string storedHelpText(Verb verb)
-{
-    std::string text =
-        verb == Verb::ColorHelp
-            ? "vdb_molsurf color FILE.vdb --color WORD -o FILE [-o FILE ...] [options]\n"
-              "\n"
-              "Colours a stored surface anew, without the atoms: the grids of FILE.vdb with\n"
-              "another Cd, meshes, pictures.\n"
-            : "vdb_molsurf mesh FILE.vdb -o FILE [-o FILE ...] [options]\n"
-              "\n"
-              "Meshes and pictures of a stored surface, without computing it again.\n";
-    text += "The mesh is that of the grid spline; without it a spline is fitted to the grid\n"
-            "surface. The grids atom_id, chain_id and group_id label the vertices.\n";
-    for (const Group& group : groupsOf(verb == Verb::ColorHelp ? Verb::Color : Verb::Mesh)) {
-        text += std::string("\n") + group.title + "\n";
-        for (const Entry& entry : group.entries) text += helpLine(entry);
-    }
-    text += "\n"
-            "Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted.\n";
-    return text;
-}
-
-std::string infoHelpText()
-{
-    return "vdb_molsurf info FILE ...\n"
-           "\n"
-           "Prints what files hold. OpenVDB files: metadata, grids with type, class, voxel size,\n"
-           "background, active voxels, memory and bounding box, and the area and volume of level\n"
-           "sets. Structures: models, chains, atoms, and assemblies with their copies, point "
-           "group\n"
-           "and rotation axes; for every fold the copies that --copies fold:N takes. The content\n"
-           "says which it is, not the name.\n";
 }
 
 } // namespace molsurf::tool

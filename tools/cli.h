@@ -120,7 +120,7 @@ std::vector<OptionText> optionTexts(Verb verb);
 /// The text of `info --help`.
 std::string infoHelpText();
 
-/// The texts of `plan --help`, `brick --help` and `merge --help`: cli_bricks.cpp.
+/// The texts of `plan --help`, `brick --help` and `merge --help`.
 std::string planHelpText();
 std::string brickHelpText();
 std::string mergeHelpText();

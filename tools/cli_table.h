@@ -2,7 +2,9 @@
 #pragma once
 
 /// @file
-/// Options as the help shows them, and the tables of the verbs that work brick by brick.
+/// The options of every verb as tables, which the parser, the help texts and the manual read.
+
+#include "cli.h"
 
 #include <cstddef>
 #include <string>
@@ -20,18 +22,35 @@ struct Entry {
     bool repeats = false;
 };
 
+/// Options under a title.
 struct Group {
     const char* title;
     std::vector<Entry> entries;
 };
 
-/// The lines of an option in a help text.
-std::string helpLine(const Entry& entry);
+/// The groups of Build.
+const std::vector<Group>& groups();
 
-/// What plan, brick and merge have in the place of the group Output.
+/// What batch, plan, brick and merge have in the place of the group Output.
+const std::vector<Group>& batchGroups();
 const std::vector<Group>& planGroups();
 const std::vector<Group>& brickGroups();
 const std::vector<Group>& mergeGroups();
+
+/// The groups of a verb, in the order of its help.
+std::vector<Group> groupsOf(Verb verb);
+
+/// "output" of "output,o".
+std::string longName(const Entry& entry);
+
+/// What --fields takes, `surface` first.
+const std::vector<std::string>& knownFields();
+
+/// What --format takes.
+extern const char* const formatWords;
+
+/// A number with the fewest digits that give it back.
+std::string shortest(double number);
 
 /// "4G", "500M": bytes; 0 if it is neither. K, M, G and T are powers of 1024.
 std::size_t parseSize(const std::string& text);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "write_result.h"
 
+#include "cli_table.h"
 #include "sha256.h"
 #include "sidecar.h"
 
@@ -17,7 +18,6 @@
 #include "molsurf/pipeline/stored_surface.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -27,12 +27,6 @@ namespace molsurf::tool
 
 namespace
 {
-
-std::string shortest(double number)
-{
-    char digits[32];
-    return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
-}
 
 // Adds values of metadata by name.
 struct Metadata {
