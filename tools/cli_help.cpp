@@ -94,12 +94,7 @@ std::string compareHelpText()
         "Distances of surface A from surface B and back, areas and volumes. A and B are each a\n"
         ".vdb file (the grid surface, or the only level set), a mesh (.ply .obj .stl), or a\n"
         "structure, whose surface is built with the options below. Lengths are in Å.\n";
-    for (const Group& group : groupsOf(Verb::Compare)) {
-        text += std::string("\n") + group.title + "\n";
-        for (const Entry& entry : group.entries)
-            if (longName(entry) != "fields" && longName(entry) != "curvature-totals")
-                text += helpLine(entry);
-    }
+    text += tableOf(shownGroups(Verb::Compare));
     text +=
         "\n"
         "Distances are Euclidean, from the vertices of one surface to the closest point of the\n"

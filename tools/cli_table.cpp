@@ -332,14 +332,27 @@ std::vector<Group> groupsOf(Verb verb)
     return all;
 }
 
+std::vector<Group> shownGroups(Verb verb)
+{
+    std::vector<Group> all = groupsOf(verb);
+    if (verb != Verb::Compare) return all;
+    const auto hidden = [](const Entry& entry) {
+        const std::string name = longName(entry);
+        return name == "fields" || name == "curvature-totals";
+    };
+    for (Group& group : all) {
+        group.entries.erase(std::remove_if(group.entries.begin(), group.entries.end(), hidden),
+                            group.entries.end());
+    }
+    return all;
+}
+
 std::vector<OptionText> optionTexts(Verb verb)
 {
     std::vector<OptionText> all;
-    for (const Group& group : groupsOf(verb)) {
+    for (const Group& group : shownGroups(verb)) {
         for (const Entry& entry : group.entries) {
             const std::string name = entry.name, whole = longName(entry);
-            if (verb == Verb::Compare && (whole == "fields" || whole == "curvature-totals"))
-                continue;
             all.push_back({group.title, whole,
                            whole.size() < name.size() ? name.substr(whole.size() + 1) : "",
                            entry.value ? entry.value : "", entry.text, entry.preset});

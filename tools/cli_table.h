@@ -40,6 +40,9 @@ const std::vector<Group>& mergeGroups();
 /// The groups of a verb, in the order of its help.
 std::vector<Group> groupsOf(Verb verb);
 
+/// The same without what the help does not show.
+std::vector<Group> shownGroups(Verb verb);
+
 /// "output" of "output,o".
 std::string longName(const Entry& entry);
 

@@ -205,6 +205,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
                          : options.maxSteps >= 0 ? options.maxSteps
                          : preconditioned        ? 50
                                                  : 2000;
+    const bool mayGiveUp = preconditioned && !fixed && options.maxSteps < 0;
     const Weights weights{gradient ? float(options.lambda) : 0.0f,
                           gradient ? 0.0f : float(options.lambda)};
     const double width = bandWidthVox * voxel;
@@ -247,9 +248,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
         report.creviceVoxels = sums.crevices;
         report.remainingWay = remainingWay(report.meanDisplacement);
         if ((report.converged && !fixed) || report.steps == maxSteps) break;
-        if (options.steps < 0 && options.maxSteps < 0 && preconditioned &&
-            stalled(report, options, voxel))
-            break;
+        if (mayGiveUp && stalled(report, options, voxel)) break;
 
         lastDisplacement = sums.area > 0.0 ? sums.displacement / sums.area : 0.0;
         report.meanDisplacement.push_back(lastDisplacement);

@@ -154,7 +154,7 @@ void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Ter
     const Vec3d low = origin.asVec3d() * h;
     const openvdb::Vec3f first(low), last(low + Vec3d(7.0 * h));
     const double inverse = 1.0 / h, farthest = cutoff(extent_, reach);
-    // A quarter more than rounding at 10^6 Å: the exact test follows.
+    // More than rounding at 10^6 Å takes; the exact test follows.
     const float farthest2 = float((farthest + 0.25) * (farthest + 0.25));
 
     // The smallest value of each term in the leaf bounds psi from below, its largest from above.

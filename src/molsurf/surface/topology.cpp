@@ -37,12 +37,27 @@ std::vector<VertexSpan> spansOf(const Mesh& mesh, const Progress& progress)
     return spans;
 }
 
+/// Triangles listed by the places of their corners.
+/// @param[in] visit  calls its argument with the place and the triangle of each corner, in order
+template<typename F>
+VertexTriangles listed(std::size_t places, const F& visit)
+{
+    VertexTriangles out;
+    out.begins.assign(places + 1, 0);
+    visit([&](std::uint32_t place, std::uint32_t) { ++out.begins[place + 1]; });
+    std::partial_sum(out.begins.begin(), out.begins.end(), out.begins.begin());
+    out.triangles.resize(out.begins.back());
+    std::vector<std::uint32_t> next(out.begins.begin(), out.begins.end() - 1);
+    visit([&](std::uint32_t place, std::uint32_t i) { out.triangles[next[place]++] = i; });
+    return out;
+}
+
 /// The triangles at the vertices from `first` to `last`: those of v are triangles[begins[v -
 /// first]] and so on.
 VertexTriangles trianglesAt(const Mesh& mesh, const std::vector<VertexSpan>& spans,
                             std::uint32_t first, std::uint32_t last)
 {
-    const auto visit = [&](const auto& take) {
+    return listed(std::size_t(last - first) + 1, [&](const auto& take) {
         for (std::size_t b = 0; b < spans.size(); ++b) {
             if (spans[b].last < first || spans[b].first > last) continue;
             const std::size_t end = std::min(mesh.triangles.size(), (b + 1) * block);
@@ -51,15 +66,7 @@ VertexTriangles trianglesAt(const Mesh& mesh, const std::vector<VertexSpan>& spa
                     if (v - first <= last - first) take(v - first, std::uint32_t(i));
             }
         }
-    };
-    VertexTriangles out;
-    out.begins.assign(std::size_t(last - first) + 2, 0);
-    visit([&](std::uint32_t v, std::uint32_t) { ++out.begins[v + 1]; });
-    std::partial_sum(out.begins.begin(), out.begins.end(), out.begins.begin());
-    out.triangles.resize(out.begins.back());
-    std::vector<std::uint32_t> next(out.begins.begin(), out.begins.end() - 1);
-    visit([&](std::uint32_t v, std::uint32_t i) { out.triangles[next[v]++] = i; });
-    return out;
+    });
 }
 
 } // namespace
@@ -88,16 +95,10 @@ VertexTriangles vertexTriangles(const Mesh& mesh, const std::vector<std::uint32_
                 if (place[v] != none) found[b].push_back({place[v], std::uint32_t(i)});
         }
     });
-    VertexTriangles out;
-    out.begins.assign(some.size() + 1, 0);
-    for (const auto& corners : found)
-        for (const Corner& c : corners) ++out.begins[c.place + 1];
-    std::partial_sum(out.begins.begin(), out.begins.end(), out.begins.begin());
-    out.triangles.resize(out.begins.back());
-    std::vector<std::uint32_t> next(out.begins.begin(), out.begins.end() - 1);
-    for (const auto& corners : found)
-        for (const Corner& c : corners) out.triangles[next[c.place]++] = c.triangle;
-    return out;
+    return listed(some.size(), [&](const auto& take) {
+        for (const auto& corners : found)
+            for (const Corner& c : corners) take(c.place, c.triangle);
+    });
 }
 
 namespace
@@ -162,11 +163,6 @@ struct Verdict {
         return *this;
     }
 };
-
-} // namespace
-
-namespace
-{
 
 /// @param[in] wanted  tells of a vertex whether to check it
 template<typename F>
