@@ -165,6 +165,17 @@ MOLSURF_KERNEL float shifted(const float* const* in, const float* shift, std::si
     return least;
 }
 
+/// Adds points farther than any, up to a multiple of `lanes`.
+/// @return the number of all
+int padded(NearestScratch& s, std::size_t count)
+{
+    for (; count % lanes != 0; ++count) {
+        s.x[count] = s.y[count] = s.z[count] = 1e15f;
+        s.index[count] = -1;
+    }
+    return int(count);
+}
+
 /// Gathers the points that may be nearest to a voxel of a leaf, relative to its centre, padded to a
 /// multiple of `lanes`.
 /// @return their number with the padding
@@ -199,11 +210,27 @@ int gatherPoints(const LeafPoints& points, const Coord& origin, double reach, Ne
         limit = std::min(farthest,
                          std::sqrt(double(nearest2)) + 2.0 * leafRadius + LeafPoints::overhang);
     }
-    for (; count % lanes != 0; ++count) {
-        s.x[count] = s.y[count] = s.z[count] = 1e15f; // farther than any
-        s.index[count] = -1;
+    return padded(s, count);
+}
+
+/// Keeps the points that may be nearest to a voxel of the leaf.
+/// @return their number with the padding
+int keepCandidates(int count, NearestScratch& s)
+{
+    s.nearIndex.resize(std::size_t(count) + lanes);
+    float distance2;
+    const int y0 =
+        nearestOf(s.x.data(), s.y.data(), s.z.data(), count, 0.0f, 0.0f, 0.0f, distance2);
+    const int near = candidates(s.x.data(), s.y.data(), s.z.data(), count, 0.0f, 0.0f, 0.0f, y0,
+                                float(leafRadius), s.nearIndex.data());
+    for (int k = 0; k < near; ++k) {
+        const auto i = std::size_t(s.nearIndex[std::size_t(k)]);
+        s.x[std::size_t(k)] = s.x[i];
+        s.y[std::size_t(k)] = s.y[i];
+        s.z[std::size_t(k)] = s.z[i];
+        s.index[std::size_t(k)] = s.index[i];
     }
-    return int(count);
+    return padded(s, std::size_t(near));
 }
 
 } // namespace
@@ -211,12 +238,12 @@ int gatherPoints(const LeafPoints& points, const Coord& origin, double reach, Ne
 void nearestPoints(const LeafPoints& points, const Coord& origin, const LeafMask& mask,
                    double reach, NearestScratch& s, std::int32_t* out)
 {
-    const int count = gatherPoints(points, origin, reach, s);
-    if (count == 0) {
+    const int gathered = gatherPoints(points, origin, reach, s);
+    if (gathered == 0) {
         mask.forEach([&](int v) { out[v] = -1; });
         return;
     }
-    s.nearIndex.resize(std::size_t(count) + lanes);
+    const int count = keepCandidates(gathered, s);
     s.nearX.resize(std::size_t(count));
     s.nearY.resize(std::size_t(count));
     s.nearZ.resize(std::size_t(count));
