@@ -47,7 +47,7 @@ Call callOf(const PlanManifest& manifest)
 }
 
 void computeBrick(const BallSelection& atoms, const Options& options, const BrickPlan& plan,
-                  std::size_t number, const std::string& id, const std::string& path,
+                  std::size_t number, const std::string& id, const std::string& path, bool meshed,
                   Terminal& terminal)
 {
     Options fixed = options;
@@ -56,7 +56,7 @@ void computeBrick(const BallSelection& atoms, const Options& options, const Bric
     const Brick brick = runBrick(ballsNear(atoms, fixed, scope), fixed, scope, terminal);
     terminal.update("write", 0.0);
     OutputFile file(path, true);
-    writeBrick(brick, id, number, file, terminal);
+    writeBrick(brick, id, number, meshed, file, terminal);
     file.commit();
 }
 
@@ -102,7 +102,7 @@ int brick(const Call& call)
     Report report;
     BallSelection atoms = readBalls(build, terminal, report);
     colorBalls(build.options, terminal, atoms);
-    computeBrick(atoms, build.options, manifest.plan, call.bricks, id, path, terminal);
+    computeBrick(atoms, build.options, manifest.plan, call.bricks, id, path, true, terminal);
     terminal.erase();
     if (!call.quiet) {
         const PlannedBrick& planned = manifest.plan.bricks[call.bricks - 1];

@@ -27,9 +27,10 @@ std::vector<std::string> describePlan(const BrickPlan& plan);
 std::string brickPath(const std::string& planPath, std::size_t number);
 
 /// Computes a brick and writes its file.
-/// @param[in] atoms  of the whole molecule, coloured if the options want colours
+/// @param[in] atoms   of the whole molecule, coloured if the options want colours
+/// @param[in] meshed  whether a mesh will be wanted
 void computeBrick(const BallSelection& atoms, const Options& options, const BrickPlan& plan,
-                  std::size_t number, const std::string& id, const std::string& path,
+                  std::size_t number, const std::string& id, const std::string& path, bool meshed,
                   Terminal& terminal);
 
 /// The call that a plan was made with, as a build.

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -119,11 +120,13 @@ int buildInBricks(const Call& call, Clock::time_point start)
     prepareOutputs(call, folder.content(plan.bricks.size()));
     folder.make();
     colorBalls(call.options, terminal, atoms);
+    const bool meshed = std::any_of(call.outputs.begin(), call.outputs.end(),
+                                    [](const Output& o) { return o.format == Format::Ply; });
     std::vector<std::string> paths;
     for (std::size_t k = 1; k <= plan.bricks.size(); ++k) {
         stopIfAsked();
         paths.push_back(folder.brick(k));
-        computeBrick(atoms, call.options, plan, k, "one process", paths.back(), terminal);
+        computeBrick(atoms, call.options, plan, k, "one process", paths.back(), meshed, terminal);
         malloc_trim(0);
         if (!call.verbose) continue;
         terminal.erase();

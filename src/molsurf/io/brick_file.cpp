@@ -24,7 +24,7 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<char, 8> magic = {'M', 'O', 'L', 'B', 'R', 'K', '0', '1'};
+constexpr std::array<char, 8> magic = {'M', 'O', 'L', 'B', 'R', 'K', '0', '2'};
 
 // Appends sections, and knows where it is.
 class Writer
@@ -125,6 +125,21 @@ StoredGrid addAnyGrid(const openvdb::GridBase::Ptr& grid, Writer& writer, const 
     return addGrid(*openvdb::gridPtrCast<openvdb::Vec3SGrid>(grid), writer, progress);
 }
 
+void writeVertices(const Mesh& mesh, std::size_t count, const PlyLayout& layout, Writer& writer,
+                   const Progress& progress)
+{
+    constexpr std::size_t run = 1 << 16;
+    const std::size_t size = layout.vertexSize();
+    std::vector<char> records(run * size);
+    for (std::size_t begin = 0; begin < count; begin += run) {
+        const std::size_t some = std::min(run, count - begin);
+        parallelFor(some, progress, [&](std::size_t i) {
+            encodeVertex(mesh, begin + i, records.data() + i * size);
+        });
+        writer.bytes(records.data(), some * size);
+    }
+}
+
 Json json(const Section& section)
 {
     return {section.offset, section.count};
@@ -181,6 +196,7 @@ std::string headerText(const BrickHeader& h)
                        {"colors", h.layout.colors},
                        {"vertices", json(h.vertices)},
                        {"areas", json(h.areas)},
+                       {"curvatures", json(h.curvatures)},
                        {"triangles", json(h.triangles)},
                        {"border", json(h.border)},
                        {"open_edges", json(h.openEdges)},
@@ -212,6 +228,7 @@ BrickHeader parseHeader(const std::string& text)
     h.layout.colors = j.at("colors");
     h.vertices = section(j.at("vertices"));
     h.areas = section(j.at("areas"));
+    h.curvatures = section(j.at("curvatures"));
     h.triangles = section(j.at("triangles"));
     h.border = section(j.at("border"));
     h.openEdges = section(j.at("open_edges"));
@@ -236,8 +253,8 @@ BrickHeader parseHeader(const std::string& text)
 
 } // namespace
 
-void writeBrick(const Brick& brick, const std::string& plan, std::size_t number, OutputFile& file,
-                const Progress& progress)
+void writeBrick(const Brick& brick, const std::string& plan, std::size_t number, bool meshed,
+                OutputFile& file, const Progress& progress)
 {
     BrickHeader header;
     header.plan = plan;
@@ -259,13 +276,19 @@ void writeBrick(const Brick& brick, const std::string& plan, std::size_t number,
     for (const auto& grid : brick.grids) header.grids.push_back(addAnyGrid(grid, writer, progress));
     const Mesh& mesh = brick.mesh.mesh;
     header.layout = layoutOf(mesh);
-    std::vector<char> records(brick.mesh.owned * header.layout.vertexSize());
-    for (std::size_t n = 0; n < brick.mesh.owned; ++n)
-        encodeVertex(mesh, n, records.data() + n * header.layout.vertexSize());
-    header.vertices = {writer.at(), brick.mesh.owned};
-    writer.bytes(records.data(), records.size());
+    const std::size_t owned = brick.mesh.owned;
+    header.vertices = {writer.at(), owned};
+    header.triangles = {0, mesh.triangles.size()};
+    if (meshed) {
+        writeVertices(mesh, owned, header.layout, writer, progress);
+        header.triangles = writer.add(mesh.triangles);
+    }
     header.areas = writer.add(brick.mesh.areas);
-    header.triangles = writer.add(mesh.triangles);
+    std::vector<std::array<float, 2>> curvatures(owned);
+    parallelFor(owned, progress, [&](std::size_t n) {
+        curvatures[n] = {mesh.scalars[0].values[n], mesh.scalars[1].values[n]};
+    });
+    header.curvatures = writer.add(curvatures);
     header.border = writer.add(brick.mesh.border);
     header.openEdges = writer.add(brick.mesh.openEdges);
     header.pieces = writer.add(brick.mesh.pieces);

@@ -45,19 +45,22 @@ struct BrickHeader {
     std::size_t number = 0; ///< from 1
     std::vector<StoredGrid> grids;
     PlyLayout layout;
-    Section vertices;  ///< the owned ones, records of layout.vertexSize() bytes
-    Section areas;     ///< floats, one an owned vertex
-    Section triangles; ///< three 32-bit indices
-    Section border;    ///< of BorderVertex
-    Section openEdges; ///< of OpenEdge
-    Section pieces;    ///< of PieceMeasure
+    Section vertices;   ///< the owned ones, records of layout.vertexSize() bytes, if meshed
+    Section triangles;  ///< three 32-bit indices, if meshed
+    Section areas;      ///< floats, one an owned vertex
+    Section curvatures; ///< two floats an owned vertex: mean [1/Å] and Gaussian [1/Å^2]
+    Section border;     ///< of BorderVertex
+    Section openEdges;  ///< of OpenEdge
+    Section pieces;     ///< of PieceMeasure
     /// What does not lie in sections: mesh.mesh and grids stay empty.
     Brick sums;
 };
 
 /// Writes what a brick leaves. The file must be one that can be written out of order.
-void writeBrick(const Brick& brick, const std::string& plan, std::size_t number, OutputFile& file,
-                const Progress& progress);
+/// @param[in] meshed  whether MergedMesh::writePly() is to be possible; else vertices and triangles
+///                    are counted but left out
+void writeBrick(const Brick& brick, const std::string& plan, std::size_t number, bool meshed,
+                OutputFile& file, const Progress& progress);
 
 /// A brick that lies on disk. Reads nothing that is not asked for.
 class BrickFile

@@ -4,7 +4,10 @@
 #include "molsurf/core/error.h"
 #include "molsurf/surface/statistics.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 #include <numeric>
@@ -54,28 +57,31 @@ PlyLayout commonLayout(const std::vector<BrickFile>& bricks)
     return layout;
 }
 
-/// Statistics of the float at a place of each vertex record.
-Statistics statisticsOf(const std::vector<BrickFile>& bricks, std::size_t place)
+/// Statistics of the mean and the Gaussian curvature.
+std::array<Statistics, 2> curvatureStatistics(const std::vector<BrickFile>& bricks)
 {
     std::size_t vertices = 0;
     for (const BrickFile& brick : bricks) vertices += brick.header().vertices.count;
-    std::vector<float> values, areas;
-    values.reserve(vertices);
-    areas.reserve(vertices);
+    std::array<std::vector<float>, 2> values;
+    std::vector<float> areas;
+    for (auto* v : {&values[0], &values[1], &areas}) v->reserve(vertices);
     for (const BrickFile& brick : bricks) {
-        const BrickHeader& h = brick.header();
-        const std::size_t size = h.layout.vertexSize();
-        inRuns(brick, h.vertices, size, [&](const char* records, std::size_t count) {
-            for (std::size_t i = 0; i < count; ++i) {
-                float value;
-                std::memcpy(&value, records + i * size + place, sizeof value);
-                values.push_back(value);
-            }
-        });
-        const std::vector<float> more = brick.read<float>(h.areas);
+        using Pair = std::array<float, 2>;
+        inRuns(brick, brick.header().curvatures, sizeof(Pair),
+               [&](const char* records, std::size_t count) {
+                   for (std::size_t i = 0; i < count; ++i) {
+                       Pair pair;
+                       std::memcpy(&pair, records + i * sizeof pair, sizeof pair);
+                       for (int k = 0; k < 2; ++k) values[k].push_back(pair[k]);
+                   }
+               });
+        const std::vector<float> more = brick.read<float>(brick.header().areas);
         areas.insert(areas.end(), more.begin(), more.end());
     }
-    return statistics(values, areas);
+    std::array<Statistics, 2> out;
+    tbb::parallel_invoke([&] { out[0] = statistics(values[0], areas); },
+                         [&] { out[1] = statistics(values[1], areas); });
+    return out;
 }
 
 } // namespace
@@ -230,9 +236,9 @@ SurfaceReport MergedMesh::report() const
 
     report.kinkShare = double(kinks) / double(vertices());
     report.gradientShare = double(units) / double(vertices() - kinks);
-    constexpr std::size_t curvatures = 24; // bytes before them in a record
-    report.meanCurvature = statisticsOf(bricks_, curvatures);
-    report.gaussianCurvature = statisticsOf(bricks_, curvatures + 4);
+    const auto [mean, gaussian] = curvatureStatistics(bricks_);
+    report.meanCurvature = mean;
+    report.gaussianCurvature = gaussian;
     return report;
 }
 

@@ -199,11 +199,20 @@ public:
         grid.writeTransform(stream);
         grid.writeTopology(stream);
         if (seekable) descriptor.setBlockPos(stream.tellp());
+        // Leaves that lie one after another in a brick's file are copied at once.
+        constexpr std::size_t most = 1 << 20;
         std::vector<char> values;
-        for (const Place& place : skeleton.leaves) {
-            values.resize(place.size);
-            bricks[place.brick].read(place.offset, values.data(), values.size());
-            stream.write(values.data(), std::streamsize(values.size()));
+        for (std::size_t i = 0; i < skeleton.leaves.size();) {
+            const Place& first = skeleton.leaves[i];
+            std::size_t size = 0;
+            for (; i < skeleton.leaves.size() && size < most; ++i) {
+                const Place& next = skeleton.leaves[i];
+                if (next.brick != first.brick || next.offset != first.offset + size) break;
+                size += next.size;
+            }
+            values.resize(size);
+            bricks[first.brick].read(first.offset, values.data(), size);
+            stream.write(values.data(), std::streamsize(size));
             if (progress.cancelled()) throw Cancelled();
         }
         if (!seekable) return;

@@ -69,7 +69,7 @@ protected:
                 runBrick(ballsNear(atoms, options, scope), options, scope, progress);
             const std::string name = path(std::to_string(k) + ".brick");
             OutputFile file(name, true);
-            writeBrick(brick, "test", k + 1, file, progress);
+            writeBrick(brick, "test", k + 1, true, file, progress);
             file.commit();
             files.emplace_back(name);
         }
