@@ -9,6 +9,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <vector>
@@ -43,6 +44,25 @@ T parallelSum(std::size_t n, const Progress& progress, const F& f)
     T sum{};
     for (const T& slot : slots) sum += slot;
     return sum;
+}
+
+/// What f(i, out) appends to `out` for i in [0, n): collected in parallel, in ascending order.
+template<typename T, typename F>
+std::vector<T> parallelCollect(std::size_t n, const Progress& progress, const F& f)
+{
+    constexpr std::size_t chunk = 4096;
+    std::vector<std::vector<T>> parts((n + chunk - 1) / chunk);
+    parallelFor(parts.size(), progress, [&](std::size_t c) {
+        for (std::size_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) f(i, parts[c]);
+    });
+    std::vector<std::size_t> begins(parts.size() + 1, 0);
+    for (std::size_t c = 0; c < parts.size(); ++c) begins[c + 1] = begins[c] + parts[c].size();
+    std::vector<T> out(begins.back());
+    parallelFor(parts.size(), progress, [&](std::size_t c) {
+        std::copy(parts[c].begin(), parts[c].end(), out.begin() + std::ptrdiff_t(begins[c]));
+        parts[c] = std::vector<T>();
+    });
+    return out;
 }
 
 } // namespace molsurf

@@ -284,7 +284,7 @@ Result runParts(const BallSelection& atoms, const Options& options, Progress& pr
     std::vector<Cavity>& cavities = whole.report.surface.cavities;
     std::stable_sort(cavities.begin(), cavities.end(),
                      [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
-    const std::vector<float> areas = vertexAreas(whole.mesh);
+    const std::vector<float> areas = vertexAreas(whole.mesh, progress);
     SurfaceReport& surface = whole.report.surface;
     surface.meanCurvature = statistics(whole.mesh.scalars[0].values, areas);
     surface.gaussianCurvature = statistics(whole.mesh.scalars[1].values, areas);

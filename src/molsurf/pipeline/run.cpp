@@ -149,7 +149,7 @@ void measureExactly(const std::vector<Ball>& balls, const Options& options, Prog
 void describeCurvature(const Mesh& mesh, const Spline& spline, const Options& options,
                        Progress& progress, SurfaceReport& report)
 {
-    const std::vector<float> areas = vertexAreas(mesh);
+    const std::vector<float> areas = vertexAreas(mesh, progress);
     tbb::parallel_invoke(
         [&] { report.meanCurvature = statistics(mesh.scalars[0].values, areas); },
         [&] { report.gaussianCurvature = statistics(mesh.scalars[1].values, areas); });

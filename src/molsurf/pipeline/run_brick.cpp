@@ -53,14 +53,20 @@ void closeSides(openvdb::FloatGrid& surface)
         tree.addTile(1, origin, inside ? -outside : outside, false);
 }
 
-/// The leaves of a grid that lie in a box.
+/// Takes the leaves in a box out of a grid, which is lost.
 template<typename GridT>
-openvdb::GridBase::Ptr ownedPart(const GridT& grid, const CoordBBox& box)
+openvdb::GridBase::Ptr ownedPart(GridT& grid, const CoordBBox& box)
 {
     using Leaf = typename GridT::TreeType::LeafNodeType;
+    std::vector<Leaf*> leaves;
+    grid.tree().stealNodes(leaves);
     auto out = grid.copyWithNewTree();
-    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
-        if (box.isInside(leaf->origin())) out->tree().addLeaf(new Leaf(*leaf));
+    for (Leaf* leaf : leaves) {
+        if (box.isInside(leaf->origin())) {
+            out->tree().addLeaf(leaf);
+        } else {
+            delete leaf;
+        }
     }
     return out;
 }
@@ -99,18 +105,18 @@ void finish(const BallSelection& atoms, const Options& options, const Scope& sco
     Spline spline = fitSpline(S.table, S.phi, options.voxel, 0, progress);
     watch.stop("spline");
     auto surface = surfaceGrid(S.table, std::move(S.phi), options.voxel, scope, progress);
-    Result result;
-    result.surface = openvdb::gridPtrCast<openvdb::FloatGrid>(owned(surface, box));
     closeSides(*surface);
     releasePages(); // grids and meshes have memory of their own
     watch.stop("redistance");
 
     progress.update("mesh", 0.0);
     ExtractStats stats;
-    stats.keepStarts = true;
+    stats.keepCells = true;
     Mesh whole = extractMesh(*surface, spline, progress, stats);
-    surface.reset();
     addCurvature(spline, options.fields, whole, progress);
+    Result result;
+    result.surface = openvdb::gridPtrCast<openvdb::FloatGrid>(owned(surface, box));
+    surface.reset();
     brick.grids = {result.surface};
     if (hasField(options.fields, "sas"))
         brick.grids.push_back(sasGrid(atoms, options, band, scope, progress));
@@ -122,11 +128,11 @@ void finish(const BallSelection& atoms, const Options& options, const Scope& sco
     releasePages();
 
     std::vector<std::uint32_t> sources;
-    brick.mesh = cutBrick(whole, std::move(stats.starts), box, options.voxel,
+    brick.mesh = cutBrick(std::move(whole), std::move(stats.cells), box,
                           scope.region.anchor.asVec3d() * options.voxel, sources, progress);
     result.mesh = std::move(brick.mesh.mesh);
-    whole = Mesh();
     std::vector<float> slopes;
+    slopes.reserve(sources.size());
     for (const std::uint32_t v : sources) slopes.push_back(stats.slopes[v]);
     const GradientCounts counts =
         countGradients(result.mesh, slopes, brick.mesh.owned, S, options.voxel, progress);

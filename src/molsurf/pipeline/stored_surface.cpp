@@ -240,7 +240,7 @@ StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::Met
     report.surface.kind = kind.empty() ? "level set" : kind;
     report.surface.maxResidual = report.surface.gradientShare = report.surface.kinkShare =
         std::numeric_limits<double>::quiet_NaN();
-    const std::vector<float> areas = vertexAreas(mesh);
+    const std::vector<float> areas = vertexAreas(mesh, progress);
     report.surface.meanCurvature = statistics(mesh.scalars[0].values, areas);
     report.surface.gaussianCurvature = statistics(mesh.scalars[1].values, areas);
     report.voxel = operand.voxel;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/brick_mesh.h"
 
+#include "molsurf/core/parallel.h"
 #include "molsurf/surface/statistics.h"
 #include "molsurf/surface/topology.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace molsurf
 {
@@ -13,7 +13,6 @@ namespace molsurf
 using openvdb::Coord;
 using openvdb::CoordBBox;
 using openvdb::Vec3d;
-using openvdb::Vec3f;
 
 namespace
 {
@@ -22,62 +21,50 @@ constexpr std::uint32_t none = ~std::uint32_t(0);
 
 /// Some elements of an array, in the order of their indices.
 template<typename T>
-std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::uint32_t>& indices)
+std::vector<T> chosen(std::vector<T> all, const std::vector<std::uint32_t>& indices,
+                      std::size_t count, const Progress& progress)
 {
-    std::vector<T> out;
-    out.reserve(indices.size());
-    for (const std::uint32_t i : indices) out.push_back(T(all[i]));
+    std::vector<T> out(count);
+    parallelFor(count, progress, [&](std::size_t i) { out[i] = all[indices[i]]; });
     return out;
-}
-
-/// Splits pinched vertices among some; their starts and sources go along.
-void splitPinched(Mesh& mesh, std::vector<Vec3f>& starts, std::vector<std::uint32_t>& origins,
-                  const std::vector<std::uint32_t>& some, const Progress& progress)
-{
-    origins.resize(mesh.positions.size());
-    std::iota(origins.begin(), origins.end(), 0u);
-    if (some.empty() || checkTopology(mesh, some, progress).manifold) return;
-    for (const std::uint32_t v : splitNonManifold(mesh)) {
-        starts.push_back(Vec3f(starts[v]));
-        origins.push_back(v);
-    }
 }
 
 /// The key of each vertex of the cells on either side of the brick's border; the others have none.
 /// @param[out] keyed  the vertices that have a key
+/// @return one key for each of them
 std::vector<VertexKey> keysOf(const std::vector<Coord>& cells, const CoordBBox& box,
-                              std::vector<std::uint32_t>& keyed)
+                              std::vector<std::uint32_t>& keyed, const Progress& progress)
 {
     // The four cells about an edge of a voxel are its own and those below it.
     const CoordBBox reach(box.min().offsetBy(-1), box.max());
     const CoordBBox inner(box.min(), box.max().offsetBy(-1));
-    for (std::uint32_t v = 0; v < cells.size(); ++v) {
-        if (reach.isInside(cells[v]) && !inner.isInside(cells[v])) keyed.push_back(v);
-    }
-    std::vector<std::uint32_t> order = keyed;
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return cells[a] != cells[b] ? cells[a] < cells[b] : a < b;
+    keyed = parallelCollect<std::uint32_t>(cells.size(), progress, [&](std::size_t v, auto& out) {
+        if (reach.isInside(cells[v]) && !inner.isInside(cells[v])) out.push_back(std::uint32_t(v));
     });
-    std::vector<VertexKey> keys(cells.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const Coord& cell = cells[order[i]];
-        const bool again = i > 0 && cell == cells[order[i - 1]];
-        keys[order[i]] = {cell.x(), cell.y(), cell.z(), again ? keys[order[i - 1]][3] + 1 : 0};
+    std::stable_sort(keyed.begin(), keyed.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return cells[a] < cells[b]; });
+    std::vector<VertexKey> keys(keyed.size());
+    for (std::size_t i = 0; i < keyed.size(); ++i) {
+        const Coord& cell = cells[keyed[i]];
+        const bool again = i > 0 && cell == cells[keyed[i - 1]];
+        keys[i] = {cell.x(), cell.y(), cell.z(), again ? keys[i - 1][3] + 1 : 0};
     }
     return keys;
 }
 
 /// Edges of border vertices whose triangles are not paired.
-std::vector<OpenEdge> openEdges(const Mesh& mesh, const std::vector<char>& isBorder)
+std::vector<OpenEdge> openEdges(const Mesh& mesh, const std::vector<char>& isBorder,
+                                const Progress& progress)
 {
-    std::vector<OpenEdge> edges;
-    for (const auto& t : mesh.triangles) {
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-            if (isBorder[a] && isBorder[b])
-                edges.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
-        }
-    }
+    auto edges =
+        parallelCollect<OpenEdge>(mesh.triangles.size(), progress, [&](std::size_t i, auto& out) {
+            const auto& t = mesh.triangles[i];
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+                if (isBorder[a] && isBorder[b])
+                    out.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
+            }
+        });
     std::sort(edges.begin(), edges.end(), [](const OpenEdge& a, const OpenEdge& b) {
         return a.from != b.from ? a.from < b.from : a.to < b.to;
     });
@@ -93,73 +80,83 @@ std::vector<OpenEdge> openEdges(const Mesh& mesh, const std::vector<char>& isBor
 
 } // namespace
 
-BrickMesh cutBrick(Mesh& mesh, std::vector<Vec3f> starts, const CoordBBox& box, double voxel,
-                   const Vec3d& anchor, std::vector<std::uint32_t>& sources,
-                   const Progress& progress)
+BrickMesh cutBrick(Mesh mesh, std::vector<Coord> cells, const CoordBBox& box, const Vec3d& anchor,
+                   std::vector<std::uint32_t>& sources, const Progress& progress)
 {
-    const auto cellsOf = [&] {
-        std::vector<Coord> cells(starts.size());
-        for (std::size_t v = 0; v < cells.size(); ++v)
-            cells[v] = Coord::floor(Vec3d(starts[v]) / voxel);
-        return cells;
+    const auto verticesIn = [&](const CoordBBox& region) {
+        std::vector<char> in(cells.size());
+        parallelFor(in.size(), progress, [&](std::size_t v) { in[v] = region.isInside(cells[v]); });
+        return in;
     };
-    std::vector<Coord> cells = cellsOf();
-    std::vector<std::uint32_t> near; // vertices whose fans decide what the brick gets
+    // The fans that decide what the brick gets.
     const CoordBBox beside(box.min().offsetBy(-2), box.max().offsetBy(2));
-    for (std::uint32_t v = 0; v < cells.size(); ++v) {
-        if (beside.isInside(cells[v])) near.push_back(v);
-    }
-    std::vector<std::uint32_t> origins;
-    splitPinched(mesh, starts, origins, near, progress);
-    cells = cellsOf();
-
-    const auto owns = [&](const std::array<std::uint32_t, 3>& t) {
-        return box.isInside(
-            Coord::maxComponent(cells[t[0]], Coord::maxComponent(cells[t[1]], cells[t[2]])));
-    };
+    Topology topology = checkTopology(mesh, verticesIn(beside), progress);
+    const std::size_t before = cells.size();
+    std::vector<std::uint32_t> split;
+    if (!topology.manifold) split = splitNonManifold(mesh);
+    for (const std::uint32_t v : split) cells.push_back(Coord(cells[v]));
+    if (!topology.closed || !topology.oriented || !topology.manifold)
+        topology = checkTopology(mesh, verticesIn(box), progress);
     BrickMesh out;
-    std::vector<std::uint32_t> place(starts.size(), none), indices;
-    for (std::uint32_t v = 0; v < cells.size(); ++v) {
-        if (!box.isInside(cells[v])) continue;
+    out.closed = topology.closed;
+    out.manifold = topology.manifold && topology.oriented;
+
+    auto indices =
+        parallelCollect<std::uint32_t>(cells.size(), progress, [&](std::size_t v, auto& mine) {
+            if (box.isInside(cells[v])) mine.push_back(std::uint32_t(v));
+        });
+    out.owned = indices.size();
+    std::vector<std::uint32_t> place(cells.size(), none);
+    parallelFor(indices.size(), progress,
+                [&](std::size_t i) { place[indices[i]] = std::uint32_t(i); });
+    out.areas = chosen(vertexAreas(mesh, progress), indices, out.owned, progress);
+
+    using Triangle = std::array<std::uint32_t, 3>;
+    auto& triangles = out.mesh.triangles;
+    triangles =
+        parallelCollect<Triangle>(mesh.triangles.size(), progress, [&](std::size_t i, auto& mine) {
+            const Triangle& t = mesh.triangles[i];
+            const Coord highest =
+                Coord::maxComponent(cells[t[0]], Coord::maxComponent(cells[t[1]], cells[t[2]]));
+            if (box.isInside(highest)) mine.push_back(t);
+        });
+    mesh.triangles = {};
+    const auto foreign =
+        parallelCollect<std::uint32_t>(triangles.size(), progress, [&](std::size_t i, auto& some) {
+            for (const std::uint32_t v : triangles[i])
+                if (place[v] == none) some.push_back(v);
+        });
+    for (const std::uint32_t v : foreign) {
+        if (place[v] != none) continue;
         place[v] = std::uint32_t(indices.size());
         indices.push_back(v);
     }
-    out.owned = indices.size();
-    for (const auto& t : mesh.triangles) {
-        if (!owns(t)) continue;
-        for (const std::uint32_t v : t) {
-            if (place[v] != none) continue;
-            place[v] = std::uint32_t(indices.size());
-            indices.push_back(v);
-        }
-        out.mesh.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
-    }
-    out.mesh.positions = chosen(mesh.positions, indices);
-    out.mesh.normals = chosen(mesh.normals, indices);
-    for (const auto& a : mesh.scalars)
-        out.mesh.scalars.push_back({a.name, chosen(a.values, indices)});
-    sources = chosen(origins, indices);
-    const std::vector<std::uint32_t> mine(indices.begin(),
-                                          indices.begin() + std::ptrdiff_t(out.owned));
-    out.areas = chosen(vertexAreas(mesh), mine);
-    if (!mine.empty()) {
-        const Topology topology = checkTopology(mesh, mine, progress);
-        out.closed = topology.closed;
-        out.manifold = topology.manifold && topology.oriented;
-    }
+    parallelFor(triangles.size(), progress, [&](std::size_t i) {
+        for (std::uint32_t& v : triangles[i]) v = place[v];
+    });
+    const std::size_t count = indices.size();
+    out.mesh.positions = chosen(std::move(mesh.positions), indices, count, progress);
+    out.mesh.normals = chosen(std::move(mesh.normals), indices, count, progress);
+    for (auto& a : mesh.scalars)
+        out.mesh.scalars.push_back({a.name, chosen(std::move(a.values), indices, count, progress)});
+    sources = std::move(indices);
+    for (std::uint32_t& v : sources)
+        if (v >= before) v = split[v - before];
 
-    std::size_t count = 0;
-    const std::vector<std::uint32_t> pieces = connectedPieces(out.mesh, count, progress);
-    out.pieces = measurePieces(out.mesh, pieces, count, anchor, out.flat, progress);
     std::vector<std::uint32_t> keyed;
-    const std::vector<VertexKey> keys = keysOf(cells, box, keyed);
-    std::vector<char> isBorder(indices.size());
-    for (const std::uint32_t v : keyed) {
-        if (place[v] == none) continue;
-        out.border.push_back({keys[v], place[v], pieces[place[v]]});
-        isBorder[place[v]] = 1;
+    const std::vector<VertexKey> keys = keysOf(cells, box, keyed, progress);
+    cells = {};
+    std::size_t pieceCount = 0;
+    const std::vector<std::uint32_t> pieces = connectedPieces(out.mesh, pieceCount, progress);
+    out.pieces = measurePieces(out.mesh, pieces, pieceCount, anchor, out.flat, progress);
+    std::vector<char> isBorder(count);
+    for (std::size_t i = 0; i < keyed.size(); ++i) {
+        const std::uint32_t v = place[keyed[i]];
+        if (v == none) continue;
+        out.border.push_back({keys[i], v, pieces[v]});
+        isBorder[v] = 1;
     }
-    out.openEdges = openEdges(out.mesh, isBorder);
+    out.openEdges = openEdges(out.mesh, isBorder, progress);
     return out;
 }
 

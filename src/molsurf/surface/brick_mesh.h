@@ -50,14 +50,13 @@ struct BrickMesh {
 /// mesher had put it, a triangle to the brick of the voxel whose edge it was made for. Pinched
 /// vertices are split first, as in a mesh of the whole.
 ///
-/// @param[in,out] mesh    with normals; pinched vertices are split
-/// @param[in]     starts  where the mesher had put the vertices [Å]
-/// @param[in]     box     the voxels that the brick owns
-/// @param[in]     voxel   voxel edge [Å]
-/// @param[in]     anchor  origin of the volumes [Å]
-/// @param[out]    sources for each vertex of the result its index in `mesh` before the split
-BrickMesh cutBrick(Mesh& mesh, std::vector<openvdb::Vec3f> starts, const openvdb::CoordBBox& box,
-                   double voxel, const openvdb::Vec3d& anchor, std::vector<std::uint32_t>& sources,
+/// @param[in]  mesh    with normals
+/// @param[in]  cells   in which the mesher had put the vertices
+/// @param[in]  box     the voxels that the brick owns
+/// @param[in]  anchor  origin of the volumes [Å]
+/// @param[out] sources for each vertex of the result its index in `mesh`
+BrickMesh cutBrick(Mesh mesh, std::vector<openvdb::Coord> cells, const openvdb::CoordBBox& box,
+                   const openvdb::Vec3d& anchor, std::vector<std::uint32_t>& sources,
                    const Progress& progress);
 
 } // namespace molsurf

@@ -234,25 +234,26 @@ void addCurvature(const Spline& spline, const std::vector<std::string>& names, M
 Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const Progress& progress,
                  ExtractStats& stats)
 {
-    std::vector<openvdb::Vec3s> points;
-    std::vector<openvdb::Vec3I> triangles;
-    std::vector<openvdb::Vec4I> quads;
-    openvdb::tools::volumeToMesh(surface, points, triangles, quads, 0.0, 0.0);
+    openvdb::tools::VolumeToMesh mesher;
+    mesher(surface);
     if (progress.cancelled()) throw Cancelled();
+    const openvdb::Vec3s* starts = mesher.pointList().get();
+    openvdb::tools::PolygonPoolList& pools = mesher.polygonPoolList(); // quads alone, by leaf
+    std::vector<std::size_t> begins(mesher.polygonPoolListSize() + 1, 0);
+    for (std::size_t n = 0; n + 1 < begins.size(); ++n)
+        begins[n + 1] = begins[n] + pools[n].numQuads();
 
     Mesh mesh;
-    mesh.positions = std::move(points);
-    if (stats.keepStarts) {
-        stats.starts = mesh.positions;
-        stats.residuals.resize(mesh.positions.size());
-    }
-    const std::size_t count = mesh.positions.size();
+    const std::size_t count = mesher.pointListSize();
     for (const char* name : {"mean_curvature", "gaussian_curvature"})
         mesh.scalars.push_back({name, {}});
     // The first touch of memory takes long: none of these waits for another.
-    tbb::parallel_invoke([&] { mesh.normals.resize(count); }, [&] { stats.slopes.resize(count); },
+    tbb::parallel_invoke([&] { mesh.positions.resize(count); }, [&] { mesh.normals.resize(count); },
+                         [&] { stats.slopes.resize(count); },
                          [&] { mesh.scalars[0].values.resize(count); },
-                         [&] { mesh.scalars[1].values.resize(count); });
+                         [&] { mesh.scalars[1].values.resize(count); },
+                         [&] { stats.cells.resize(stats.keepCells ? count : 0); },
+                         [&] { stats.residuals.resize(stats.keepCells ? count : 0); });
     Vertices vertices{mesh, stats.slopes};
     const double voxel = surface.voxelSize()[0];
 
@@ -262,7 +263,7 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
     const auto project = [&](std::size_t c) {
         SplineSampler sampler(spline);
         for (std::size_t v = c * chunk; v < std::min(count, (c + 1) * chunk); ++v) {
-            const Vec3d start(mesh.positions[v]);
+            const Vec3d start(starts[v]);
             Vec3d x = start;
             Jet jet;
             if (!moveToSurface(sampler, voxel, 1.0, x, jet)) {
@@ -272,27 +273,27 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
             }
             vertices.set(v, x, jet);
             residual[c] = std::max(residual[c], std::abs(jet.value));
-            if (stats.keepStarts) stats.residuals[v] = float(std::abs(jet.value));
+            if (!stats.keepCells) continue;
+            stats.cells[v] = Coord::floor(start / voxel);
+            stats.residuals[v] = float(std::abs(jet.value));
         }
     };
-    tbb::parallel_invoke([&] { mesh.triangles.resize(triangles.size() + 2 * quads.size()); },
+    tbb::parallel_invoke([&] { mesh.triangles.resize(2 * begins.back()); },
                          [&] { parallelFor(chunks, progress, project); });
+    mesher.pointList().reset();
     for (std::size_t c = 0; c < chunks; ++c) {
         stats.bisected += bisected[c];
         stats.maxResidual = std::max(stats.maxResidual, residual[c]);
     }
 
-    // OpenVDB's polygons run clockwise seen from outside.
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        mesh.triangles[i] = {triangles[i][2], triangles[i][1], triangles[i][0]};
-    }
-    parallelFor((quads.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
-        for (std::size_t i = c * chunk; i < std::min(quads.size(), (c + 1) * chunk); ++i) {
-            const auto& q = quads[i];
-            splitQuad(mesh, q[3], q[2], q[1], q[0], &mesh.triangles[triangles.size() + 2 * i]);
+    parallelFor(begins.size() - 1, progress, [&](std::size_t n) {
+        for (std::size_t i = 0; i < pools[n].numQuads(); ++i) {
+            // OpenVDB's polygons run clockwise seen from outside.
+            const auto& q = pools[n].quad(i);
+            splitQuad(mesh, q[3], q[2], q[1], q[0], &mesh.triangles[2 * (begins[n] + i)]);
         }
+        pools[n].clearQuads();
     });
-    quads = std::vector<openvdb::Vec4I>();
 
     SplineSampler sampler(spline);
     stats.relaxed = relax(vertices, sampler, voxel, progress);

@@ -22,9 +22,9 @@ struct ExtractStats {
     std::size_t relaxed = 0;   ///< vertices moved along the surface, out of folds and slivers
     double maxResidual = 0.0;  ///< largest |S| at a vertex [Å]
     std::vector<float> slopes; ///< |grad S| at each vertex
-    bool keepStarts = false;   ///< whether `starts` is wanted
-    std::vector<openvdb::Vec3f> starts; ///< where the mesher had put each vertex [Å]
-    std::vector<float> residuals;       ///< |S| at each vertex [Å], kept along with them
+    bool keepCells = false;    ///< whether the next two are wanted
+    std::vector<openvdb::Coord> cells; ///< in which the mesher had put each vertex
+    std::vector<float> residuals;      ///< |S| at each vertex [Å]
 };
 
 /// Meshes {S = 0}.

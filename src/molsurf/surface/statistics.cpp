@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/statistics.h"
 
+#include "molsurf/core/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -91,15 +93,21 @@ Statistics statistics(const std::vector<float>& values, const std::vector<float>
     return out;
 }
 
-std::vector<float> vertexAreas(const Mesh& mesh)
+std::vector<float> vertexAreas(const Mesh& mesh, const Progress& progress)
 {
-    std::vector<float> areas(mesh.positions.size(), 0.0f);
-    for (const auto& t : mesh.triangles) {
-        const Vec3d p(mesh.positions[t[0]]);
-        const Vec3d normal =
-            (Vec3d(mesh.positions[t[1]]) - p).cross(Vec3d(mesh.positions[t[2]]) - p);
-        const float third = float(normal.length() / 6.0);
-        for (const std::uint32_t v : t) areas[v] += third;
+    constexpr std::size_t run = 1 << 18; // triangles whose thirds stay in the cache
+    std::vector<float> areas(mesh.positions.size(), 0.0f), thirds(run);
+    for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += run) {
+        const std::size_t count = std::min(run, mesh.triangles.size() - begin);
+        parallelFor(count, progress, [&](std::size_t i) {
+            const auto& t = mesh.triangles[begin + i];
+            const Vec3d p(mesh.positions[t[0]]);
+            const Vec3d normal =
+                (Vec3d(mesh.positions[t[1]]) - p).cross(Vec3d(mesh.positions[t[2]]) - p);
+            thirds[i] = float(normal.length() / 6.0);
+        });
+        for (std::size_t i = 0; i < count; ++i)
+            for (const std::uint32_t v : mesh.triangles[begin + i]) areas[v] += thirds[i];
     }
     return areas;
 }

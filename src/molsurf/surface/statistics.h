@@ -4,6 +4,7 @@
 /// @file
 /// How a quantity is distributed over a surface.
 
+#include "molsurf/core/progress.h"
 #include "molsurf/core/report.h"
 #include "molsurf/surface/mesh.h"
 
@@ -23,6 +24,6 @@ namespace molsurf
 Statistics statistics(const std::vector<float>& values, const std::vector<float>& weights);
 
 /// The part of the mesh's area that belongs to each vertex: a third of each triangle at it [Å^2].
-std::vector<float> vertexAreas(const Mesh& mesh);
+std::vector<float> vertexAreas(const Mesh& mesh, const Progress& progress);
 
 } // namespace molsurf

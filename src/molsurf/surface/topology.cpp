@@ -197,11 +197,8 @@ Topology checkTopology(const Mesh& mesh, const Progress& progress)
         mesh, [](std::uint32_t) { return true; }, progress);
 }
 
-Topology checkTopology(const Mesh& mesh, const std::vector<std::uint32_t>& some,
-                       const Progress& progress)
+Topology checkTopology(const Mesh& mesh, const std::vector<char>& wanted, const Progress& progress)
 {
-    std::vector<char> wanted(mesh.positions.size());
-    for (const std::uint32_t v : some) wanted[v] = 1;
     return checkVertices(
         mesh, [&](std::uint32_t v) { return wanted[v] != 0; }, progress);
 }

@@ -37,9 +37,9 @@ struct Topology {
 /// Checks every edge and every vertex.
 Topology checkTopology(const Mesh& mesh, const Progress& progress);
 
-/// The same of some vertices, in ascending order, and the edges at them.
-Topology checkTopology(const Mesh& mesh, const std::vector<std::uint32_t>& some,
-                       const Progress& progress);
+/// The same of some vertices and the edges at them.
+/// @param[in] wanted  of each vertex, whether to check it
+Topology checkTopology(const Mesh& mesh, const std::vector<char>& wanted, const Progress& progress);
 
 /// The connected piece of each vertex: numbers from 0 in the order of the pieces' first vertices.
 /// @param[out] count  number of pieces

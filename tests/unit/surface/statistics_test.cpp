@@ -51,7 +51,7 @@ TEST(Statistics, VertexAreasAddUpToTheMesh)
 {
     const test::Shape ball = test::sphere(2.3);
     const Mesh mesh = test::meshOf(ball, 0.25);
-    const std::vector<float> areas = vertexAreas(mesh);
+    const std::vector<float> areas = vertexAreas(mesh, Progress());
     EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), ball.area, 0.01 * ball.area);
     const Statistics s = statistics(mesh.scalars[0].values, areas);
     EXPECT_NEAR(s.mean, 1.0 / 2.3, 1e-3);
