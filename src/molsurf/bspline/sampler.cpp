@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bspline/spline.h"
 
+#include "molsurf/core/simd.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -15,49 +17,50 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// The four cubic B-splines that overlap a cell, at t, and their derivatives.
-struct Weights {
-    float value[4], first[4], second[4];
-
-    explicit Weights(double td)
-    {
-        const float t = float(td), s = 1.0f - t;
-        value[0] = s * s * s / 6.0f;
-        value[1] = (4.0f + t * t * (3.0f * t - 6.0f)) / 6.0f;
-        value[2] = (4.0f + s * s * (3.0f * s - 6.0f)) / 6.0f;
-        value[3] = t * t * t / 6.0f;
-        first[0] = -0.5f * s * s;
-        first[1] = t * (1.5f * t - 2.0f);
-        first[2] = -s * (1.5f * s - 2.0f);
-        first[3] = 0.5f * t * t;
-        second[0] = s;
-        second[1] = 3.0f * t - 2.0f;
-        second[2] = 3.0f * s - 2.0f;
-        second[3] = t;
-    }
-};
-
 /// Four floats that are added and multiplied at once (a compiler extension of GCC and Clang).
 using Four = float __attribute__((vector_size(16)));
 
-Four load(const float* p)
+/// The four cubic B-splines that overlap a cell, at t, and their derivatives.
+struct Weights {
+    Four value, first, second;
+};
+
+inline __attribute__((always_inline)) void weightsAt(float t, Weights& w)
+{
+    constexpr float sixth = 1.0f / 6.0f;
+    const Four a = {-sixth, 0.5f, -0.5f, sixth}, b = {0.5f, -1.0f, 0.5f, 0.0f};
+    const Four c = {-0.5f, 0.0f, 0.5f, 0.0f}, d = {sixth, 4.0f * sixth, sixth, 0.0f};
+    w.value = ((a * t + b) * t + c) * t + d;
+    w.first = (3.0f * a * t + 2.0f * b) * t + c;
+    w.second = 6.0f * a * t + 2.0f * b;
+}
+
+inline __attribute__((always_inline)) Four load(const float* p)
 {
     Four v;
     std::memcpy(&v, p, sizeof v);
     return v;
 }
 
-double sum(const Four& v)
+/// The sums of the elements of four vectors: of a transposed matrix.
+inline __attribute__((always_inline)) Four sums(Four a, Four b, Four c, Four d)
 {
-    return double((v[0] + v[1]) + (v[2] + v[3]));
+    const Four x =
+        __builtin_shufflevector(a, b, 0, 4, 1, 5) + __builtin_shufflevector(a, b, 2, 6, 3, 7);
+    const Four y =
+        __builtin_shufflevector(c, d, 0, 4, 1, 5) + __builtin_shufflevector(c, d, 2, 6, 3, 7);
+    return __builtin_shufflevector(x, y, 0, 1, 4, 5) + __builtin_shufflevector(x, y, 2, 3, 6, 7);
 }
 
-} // namespace
-
-Jet evaluateSpline(const float* c, int strideX, int strideY, const Vec3d& t)
+/// @param[out] out  value, derivatives along x, y, z, xx, yy, zz, xy, xz, yz
+MOLSURF_KERNEL void evaluate(const float* c, int strideX, int strideY, const float* t,
+                             float* __restrict out)
 {
-    const Weights x(t.x()), y(t.y()), z(t.z());
-    // Contracted along x, then y, four z at a time; `ab` is the derivative of order a along x, b
+    Weights x, y, z;
+    weightsAt(t[0], x);
+    weightsAt(t[1], y);
+    weightsAt(t[2], z);
+    // Contracted along x, then y, four z at a time; `sab` is the derivative of order a along x, b
     // along y.
     Four s00{}, s01{}, s02{}, s10{}, s11{}, s20{};
     for (int j = 0; j < 4; ++j) {
@@ -76,13 +79,25 @@ Jet evaluateSpline(const float* c, int strideX, int strideY, const Vec3d& t)
         s11 += y.first[j] * q;
         s20 += y.value[j] * r;
     }
-    const Four value = load(z.value), first = load(z.first), second = load(z.second);
+    const Four first = sums(s00 * z.value, s10 * z.value, s01 * z.value, s00 * z.first);
+    const Four second = sums(s20 * z.value, s02 * z.value, s00 * z.second, s11 * z.value);
+    const Four mixed = sums(s10 * z.first, s01 * z.first, Four{}, Four{});
+    std::memcpy(out, &first, sizeof first);
+    std::memcpy(out + 4, &second, sizeof second);
+    std::memcpy(out + 8, &mixed, 2 * sizeof(float));
+}
+
+} // namespace
+
+Jet evaluateSpline(const float* c, int strideX, int strideY, const Vec3d& t)
+{
+    const float place[3] = {float(t.x()), float(t.y()), float(t.z())};
+    float d[10];
+    evaluate(c, strideX, strideY, place, d);
     Jet jet;
-    jet.value = sum(s00 * value);
-    jet.gradient = Vec3d(sum(s10 * value), sum(s01 * value), sum(s00 * first));
-    const double xx = sum(s20 * value), yy = sum(s02 * value), zz = sum(s00 * second);
-    const double xy = sum(s11 * value), xz = sum(s10 * first), yz = sum(s01 * first);
-    jet.hessian = Mat3d(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    jet.value = d[0];
+    jet.gradient = Vec3d(d[1], d[2], d[3]);
+    jet.hessian = Mat3d(d[4], d[7], d[8], d[7], d[5], d[9], d[8], d[9], d[6]);
     return jet;
 }
 

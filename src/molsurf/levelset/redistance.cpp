@@ -141,21 +141,23 @@ Jet jetBeside(const LeafTable& table, const LeafField& coefficients, float voxel
     const Vec3d place(y);
     const Coord cell = Coord::floor(place), first = cell - Coord(1);
     const auto& near = table.neighbours(leaf);
-    const int z0 = first.z() & 7,
-              inFirst = std::min(4, leafDim - z0); // coefficients before a border
-    float c[4][4][4] = {};
+    const int z0 = first.z() & 7, below = (first.z() >> 3) + 1; // where the four along z begin
+    float c[4][4][4];
     for (int i = 0; i < 4; ++i) {
+        const int x = first.x() + i, sideX = 9 * ((x >> 3) + 1) + below, rowX = 64 * (x & 7);
         for (int j = 0; j < 4; ++j) {
-            const int x = first.x() + i, w = first.y() + j;
-            const int side = 9 * ((x >> 3) + 1) + 3 * ((w >> 3) + 1) + (first.z() >> 3) + 1;
-            const int row = 64 * (x & 7) + 8 * (w & 7);
-            if (near[side] != noLeaf) {
-                std::copy_n(coefficients.leaf(near[side]) + row + z0, inFirst, c[i][j]);
+            const int w = first.y() + j;
+            const std::int32_t* side = &near[std::size_t(sideX + 3 * ((w >> 3) + 1))];
+            const auto value = [&](std::int32_t m, int z) {
+                return m == noLeaf ? 0.0f : coefficients.leaf(m)[rowX + 8 * (w & 7) + z];
+            };
+            if (z0 <= 4 && side[0] != noLeaf) {
+                std::memcpy(c[i][j], coefficients.leaf(side[0]) + rowX + 8 * (w & 7) + z0,
+                            sizeof c[i][j]);
+                continue;
             }
-            if (inFirst < 4 && near[side + 1] != noLeaf) {
-                std::copy_n(coefficients.leaf(near[side + 1]) + row, 4 - inFirst,
-                            c[i][j] + inFirst);
-            }
+            for (int k = 0; k < 4; ++k)
+                c[i][j][k] = value(side[(z0 + k) >> 3], (z0 + k) & 7);
         }
     }
     Jet jet = evaluateSpline(&c[1][1][1], 16, 4, place - cell.asVec3d());
@@ -293,35 +295,42 @@ public:
         return placeOf(v) - seeds_[seed].y - shift(seeds_[seed]);
     }
 
-    /// Whether two closest points give a voxel gradients that differ by more than 20 degrees.
-    bool disagree(std::int32_t a, std::int32_t b, int v) const
+    /// The gradient that a closest point gives a voxel.
+    Vec3f gradientAt(std::int32_t seed, int v) const
     {
-        return gradientFrom(seeds_[a], offset(a, v)).dot(gradientFrom(seeds_[b], offset(b, v))) <
-               kinkCosine;
+        return gradientFrom(seeds_[seed], offset(seed, v));
     }
 
     /// The voxels that a closest point and that of the next voxel along an axis give gradients that
     /// differ by more than 20 degrees. Their normals then differ as much, which sorts most out.
     LeafMask kinks(const SeedBlock& index) const
     {
+        constexpr int dim = Normals::dim, count = dim * dim * dim;
+        std::int32_t own[count];
+        for (int row = 0; row < dim * dim; ++row)
+            std::copy_n(index.at(row / dim, row % dim, 0), dim, own + dim * row);
         Normals normals;
-        for (int i = 0; i < Normals::dim * Normals::dim * Normals::dim; ++i) {
-            const std::int32_t seed = *index.at(i / Normals::strides[0],
-                                                i / Normals::dim % Normals::dim, i % Normals::dim);
+        for (int i = 0; i < count; ++i) {
+            prefetch(own[std::min(i + ahead, count - 1)]);
             for (int a = 0; a < 3; ++a)
-                normals.n[a][i] = seed == noSeed ? std::numeric_limits<float>::quiet_NaN()
-                                                 : seeds_[std::size_t(seed)].n[a];
+                normals.n[a][i] = own[i] == noSeed ? std::numeric_limits<float>::quiet_NaN()
+                                                   : seeds_[std::size_t(own[i])].n[a];
         }
         constexpr int strides[3] = {SeedBlock::strideX, SeedBlock::strideY, SeedBlock::strideZ};
+        LeafMask turns[3];
+        for (int axis = 0; axis < 3; ++axis)
+            turning(normals, Normals::strides[axis], turns[axis]);
         LeafMask out;
-        for (int axis = 0; axis < 3; ++axis) {
-            LeafMask turns;
-            turning(normals, Normals::strides[axis], turns);
-            turns.forEach([&](int v) {
-                const std::int32_t* p = index.at(v >> 6, v >> 3 & 7, v & 7);
-                if (disagree(*p, p[strides[axis]], v)) out.set(v);
-            });
-        }
+        (turns[0] | turns[1] | turns[2]).forEach([&](int v) {
+            const std::int32_t* p = index.at(v >> 6, v >> 3 & 7, v & 7);
+            const Vec3f gradient = gradientAt(*p, v);
+            for (int axis = 0; axis < 3; ++axis) {
+                if (!turns[axis].on(v)) continue;
+                if (gradient.dot(gradientAt(p[strides[axis]], v)) >= kinkCosine) continue;
+                out.set(v);
+                return;
+            }
+        });
         return out;
     }
 
@@ -388,6 +397,14 @@ public:
     }
 
 private:
+    static constexpr int ahead = 24; // of reading a seed, to ask for it
+
+    /// Closest points lie scattered in memory.
+    void prefetch(std::int32_t seed) const
+    {
+        if (seed != noSeed) __builtin_prefetch(&seeds_[std::size_t(seed)]);
+    }
+
     /// A voxel whose closest point has to be moved.
     struct Waiting {
         int v;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pipeline/plan_bricks.h"
 
+#include "molsurf/bspline/curvature.h"
 #include "molsurf/core/error.h"
 
 #include <tbb/parallel_sort.h>
@@ -19,14 +20,19 @@ using openvdb::Vec3d;
 namespace
 {
 
-// Measured on 1F2N and 1M4X at 0.5 to 2 Å and on small proteins: peaks of the resident memory
-// against the leaves that hold atoms or lie beside them. No peak was above 0.96 of what these give,
-// since not all such leaves have a part of the surface.
-constexpr double processBytes = 70e6;      // program, libraries, buffers
-constexpr double bytesPerAtom = 40.0;      // of the whole molecule: balls, and reading them
-constexpr double bytesPerNear = 85.0;      // of the balls near a brick: cell lists, copies
-constexpr double bytesPerFlowLeaf = 4.4e3; // within the halo of the flow
-constexpr double bytesPerOwnLeaf = 11.8e3; // within the halo of the spline
+// Measured on 1F2N, 1K4R, 6ZU5 and 1M4X at 0.5 to 2 Å and on small proteins: peaks of the resident
+// memory against the leaves that hold atoms or lie beside them. No peak was above 0.96 of what
+// these give, since not all such leaves have a part of the surface. It is either that of the flow
+// and the distances, or that of the mesh.
+constexpr double processBytes = 70e6; // program, libraries, buffers
+constexpr double bytesPerAtom = 40.0; // of the whole molecule: balls, and reading them
+constexpr double bytesPerNear = 85.0; // of the balls near a brick: cell lists, copies
+constexpr double bytesPerBoundaryBall =
+    2.2e3;                                    // of those, where the boundary of their union is made
+constexpr double bytesPerFlowLeaf = 8.5e3;    // within the halo of the flow
+constexpr double bytesPerMeshLeaf = 12.5e3;   // within the halo of the spline
+constexpr double bytesPerFineLeaf = 25e3;     // the same of a surface that runs between atoms
+constexpr double bytesPerValueOfLeaf = 2.5e3; // of a grid that goes along with the surface
 constexpr double secondsPerLeaf = 0.2e-3, secondsPerFlowLeaf = 0.14e-3; // one core
 constexpr double bytesToMerge =
     7.0; // an active voxel: leaves without values, statistics of vertices
@@ -87,6 +93,17 @@ Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach
     return out;
 }
 
+/// How many numbers a voxel has in the grids that go along with the surface.
+int valuesAlong(const Options& options)
+{
+    int values = 0;
+    for (const std::string& name : options.fields) {
+        const CurvatureField* curvature = findCurvatureField(name);
+        values += curvature ? curvature->components : name == "Cd" ? 3 : name == "surface" ? 0 : 1;
+    }
+    return values;
+}
+
 class Planner
 {
 public:
@@ -128,9 +145,14 @@ public:
         // Grids with wider bands may have leaves in a box that holds no other.
         brick.voxels =
             std::max(std::size_t(voxelsPerLeaf * double(own)), std::min<std::size_t>(inSpline, 1));
-        brick.bytes = std::size_t(processBytes + bytesPerAtom * double(atoms_) +
-                                  bytesPerNear * double(balls) + bytesPerFlowLeaf * double(inFlow) +
-                                  bytesPerOwnLeaf * double(inSpline));
+        const double perBall = bytesPerNear + (isUnion(options_.kind) ? bytesPerBoundaryBall : 0.0);
+        const bool fine =
+            options_.kind == SurfaceKind::Gaussian || options_.kind == SurfaceKind::VanDerWaals;
+        const double perMeshLeaf = fine ? bytesPerFineLeaf : bytesPerMeshLeaf;
+        brick.bytes = std::size_t(
+            processBytes + bytesPerAtom * double(atoms_) + perBall * double(balls) +
+            std::max(bytesPerFlowLeaf * double(inFlow), perMeshLeaf * double(inSpline)) +
+            bytesPerValueOfLeaf * valuesAlong(options_) * double(own));
         brick.seconds = secondsPerLeaf * double(inSpline) + secondsPerFlowLeaf * double(inFlow);
         return brick;
     }
