@@ -53,7 +53,8 @@ void computeBrick(const BallSelection& atoms, const Options& options, const Bric
     Options fixed = options;
     fixed.evolution.steps = plan.steps;
     const Scope scope = scopeOf(plan, number - 1, fixed);
-    const Brick brick = runBrick(ballsNear(atoms, fixed, scope), fixed, scope, terminal);
+    const Brick brick =
+        runBrick(ballsNear(atoms, fixed, scope), fixed, scope, terminal, plan.keepsMemory);
     terminal.update("write", 0.0);
     OutputFile file(path, true);
     writeBrick(brick, id, number, meshed, file, terminal);

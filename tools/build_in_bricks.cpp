@@ -4,6 +4,7 @@
 #include "verbs.h"
 
 #include "molsurf/core/error.h"
+#include "molsurf/core/paged_array.h"
 #include "molsurf/pipeline/plan_bricks.h"
 
 #include <malloc.h>
@@ -108,7 +109,7 @@ int buildInBricks(const Call& call, Clock::time_point start)
     }
     checkBrickOptions(call.options);
     checkOutputs(call);
-    const BrickPlan plan = planBricks(atoms, call.options, {0, call.memory}, terminal);
+    const BrickPlan plan = planBricks(atoms, call.options, {0, call.memory, true}, terminal);
     terminal.erase();
     if (call.dryRun || !call.quiet) {
         say("the whole takes about " + sizeText(whole) + "; in bricks:");
@@ -127,7 +128,7 @@ int buildInBricks(const Call& call, Clock::time_point start)
         stopIfAsked();
         paths.push_back(folder.brick(k));
         computeBrick(atoms, call.options, plan, k, "one process", paths.back(), meshed, terminal);
-        malloc_trim(0);
+        if (!plan.keepsMemory) malloc_trim(0);
         if (!call.verbose) continue;
         terminal.erase();
         char text[160];
@@ -136,6 +137,8 @@ int buildInBricks(const Call& call, Clock::time_point start)
         say(text);
     }
     atoms = BallSelection();
+    releasePages();
+    malloc_trim(0);
     mergeBricks(call, plan, paths, "one process", terminal, start, report);
     if (!call.quiet) say(summary(report));
     return endOf(report);

@@ -30,6 +30,7 @@ struct BrickPlan {
     openvdb::Coord anchor;            ///< positions in sums are taken from this voxel
     double largest = 0.0, swollen = 0.0, tolerance = 0.0; ///< GaussianExtent of all balls [Å]
     std::size_t atoms = 0;                                ///< balls
+    bool keepsMemory = false; ///< what one brick has given back stays in the process for the next
 };
 
 /// A file that a plan depends on.

@@ -156,8 +156,7 @@ Jet jetBeside(const LeafTable& table, const LeafField& coefficients, float voxel
                             sizeof c[i][j]);
                 continue;
             }
-            for (int k = 0; k < 4; ++k)
-                c[i][j][k] = value(side[(z0 + k) >> 3], (z0 + k) & 7);
+            for (int k = 0; k < 4; ++k) c[i][j][k] = value(side[(z0 + k) >> 3], (z0 + k) & 7);
         }
     }
     Jet jet = evaluateSpline(&c[1][1][1], 16, 4, place - cell.asVec3d());
@@ -318,8 +317,7 @@ public:
         }
         constexpr int strides[3] = {SeedBlock::strideX, SeedBlock::strideY, SeedBlock::strideZ};
         LeafMask turns[3];
-        for (int axis = 0; axis < 3; ++axis)
-            turning(normals, Normals::strides[axis], turns[axis]);
+        for (int axis = 0; axis < 3; ++axis) turning(normals, Normals::strides[axis], turns[axis]);
         LeafMask out;
         (turns[0] | turns[1] | turns[2]).forEach([&](int v) {
             const std::int32_t* p = index.at(v >> 6, v >> 3 & 7, v & 7);

@@ -28,10 +28,11 @@ constexpr double processBytes = 70e6; // program, libraries, buffers
 constexpr double bytesPerAtom = 40.0; // of the whole molecule: balls, and reading them
 constexpr double bytesPerNear = 85.0; // of the balls near a brick: cell lists, copies
 constexpr double bytesPerBoundaryBall =
-    2.2e3;                                    // of those, where the boundary of their union is made
-constexpr double bytesPerFlowLeaf = 8.5e3;    // within the halo of the flow
-constexpr double bytesPerMeshLeaf = 12.5e3;   // within the halo of the spline
-constexpr double bytesPerFineLeaf = 25e3;     // the same of a surface that runs between atoms
+    2.2e3;                                  // of those, where the boundary of their union is made
+constexpr double bytesPerFlowLeaf = 8.5e3;  // within the halo of the flow
+constexpr double bytesPerMeshLeaf = 12.5e3; // within the halo of the spline
+constexpr double bytesPerFineLeaf = 25e3;   // the same of a surface that runs between atoms
+constexpr double bytesPerKeptLeaf = 5.5e3;  // of the flow, where these are kept for the next brick
 constexpr double bytesPerValueOfLeaf = 2.5e3; // of a grid that goes along with the surface
 constexpr double secondsPerLeaf = 0.2e-3, secondsPerFlowLeaf = 0.14e-3; // one core
 constexpr double bytesToMerge =
@@ -117,6 +118,9 @@ public:
 
     const CoordBBox& box() const { return occupancy_.box; }
 
+    /// Whether estimates are of processes that keep the memory of one brick for the next.
+    void setKeeping(bool keeping) { keeping_ = keeping; }
+
     /// @param[in] box  of places
     PlannedBrick estimate(const CoordBBox& box) const
     {
@@ -148,10 +152,11 @@ public:
         const double perBall = bytesPerNear + (isUnion(options_.kind) ? bytesPerBoundaryBall : 0.0);
         const bool fine =
             options_.kind == SurfaceKind::Gaussian || options_.kind == SurfaceKind::VanDerWaals;
-        const double perMeshLeaf = fine ? bytesPerFineLeaf : bytesPerMeshLeaf;
+        const double forFlow = bytesPerFlowLeaf * double(inFlow);
+        const double forMesh = (fine ? bytesPerFineLeaf : bytesPerMeshLeaf) * double(inSpline);
         brick.bytes = std::size_t(
             processBytes + bytesPerAtom * double(atoms_) + perBall * double(balls) +
-            std::max(bytesPerFlowLeaf * double(inFlow), perMeshLeaf * double(inSpline)) +
+            (keeping_ ? bytesPerKeptLeaf * double(inFlow) + forMesh : std::max(forFlow, forMesh)) +
             bytesPerValueOfLeaf * valuesAlong(options_) * double(own));
         brick.seconds = secondsPerLeaf * double(inSpline) + secondsPerFlowLeaf * double(inFlow);
         return brick;
@@ -201,8 +206,8 @@ public:
         cutInto(parts - half, second, out);
     }
 
-    /// As few bricks as fit: they overlap.
-    std::vector<PlannedBrick> cutToFit(std::size_t memory, const CoordBBox& box) const
+    /// As few bricks as fit, since they overlap; none if those of one size do not.
+    std::vector<PlannedBrick> cutEvenly(std::size_t memory, const CoordBBox& box) const
     {
         std::vector<PlannedBrick> out;
         const std::size_t least = estimate(box).bytes / memory + 1;
@@ -213,9 +218,7 @@ public:
                             [&](const PlannedBrick& b) { return b.bytes <= memory; }))
                 return out;
         }
-        out.clear();
-        halve(memory, box, out);
-        return out;
+        return {};
     }
 
     void halve(std::size_t memory, const CoordBBox& box, std::vector<PlannedBrick>& out) const
@@ -250,6 +253,7 @@ private:
 
     const Options& options_;
     const GaussianExtent& extent_;
+    bool keeping_ = false;
     std::size_t atoms_;
     Occupancy occupancy_;
 };
@@ -265,6 +269,13 @@ GaussianExtent extentFor(const BallSelection& atoms, const Options& options)
 namespace
 {
 
+double secondsOf(const std::vector<PlannedBrick>& bricks)
+{
+    double seconds = 0.0;
+    for (const PlannedBrick& brick : bricks) seconds += brick.seconds;
+    return seconds;
+}
+
 /// Cuts by the limits; without any the whole is one brick.
 BrickPlan makePlan(const BallSelection& atoms, const Options& options, const BrickLimits& limits,
                    const Progress& progress)
@@ -277,10 +288,19 @@ BrickPlan makePlan(const BallSelection& atoms, const Options& options, const Bri
     plan.tolerance = extent.tolerance;
     plan.atoms = atoms.balls.size();
     plan.steps = options.evolution.steps >= 0 ? options.evolution.steps : defaultBrickSteps;
-    const Planner planner(atoms, options, extent, progress);
+    Planner planner(atoms, options, extent, progress);
     const CoordBBox& box = planner.box();
     if (limits.memory > 0) {
-        plan.bricks = planner.cutToFit(limits.memory, box);
+        plan.bricks = planner.cutEvenly(limits.memory, box);
+        if (plan.bricks.empty()) {
+            planner.halve(limits.memory, box, plan.bricks);
+        } else if (limits.oneProcess) {
+            planner.setKeeping(true);
+            constexpr double worth = 1.1; // of the time: what asking anew takes
+            auto kept = planner.cutEvenly(limits.memory, box);
+            plan.keepsMemory = !kept.empty() && secondsOf(kept) < worth * secondsOf(plan.bricks);
+            if (plan.keepsMemory) plan.bricks = std::move(kept);
+        }
         double voxels = 0.0;
         for (const PlannedBrick& brick : plan.bricks) voxels += double(brick.voxels);
         const double merge = processBytes + bytesToMerge * voxels;

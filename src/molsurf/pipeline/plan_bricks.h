@@ -18,6 +18,9 @@ constexpr int defaultBrickSteps = 12;
 struct BrickLimits {
     std::size_t bricks = 0; ///< number wanted; there may be fewer where the molecule is small
     std::size_t memory = 0; ///< peak memory of a process [byte]
+    /// Whether one process computes the bricks one after another. It may then keep memory for the
+    /// next, which is faster than to ask for it again, if the bricks need not be much smaller.
+    bool oneProcess = false;
 };
 
 /// Cuts space into boxes with about as much surface each, along planes between leaves, the longest

@@ -98,7 +98,8 @@ openvdb::GridBase::Ptr sasGrid(const BallSelection& atoms, const Options& option
 
 /// The mesh, what is known at its vertices, and the grids.
 void finish(const BallSelection& atoms, const Options& options, const Scope& scope,
-            NarrowBand& band, DistanceBand& S, Progress& progress, Stopwatch& watch, Brick& brick)
+            NarrowBand& band, DistanceBand& S, bool keepsMemory, Progress& progress,
+            Stopwatch& watch, Brick& brick)
 {
     const CoordBBox& box = scope.region.owned;
     progress.update("spline", 0.0);
@@ -106,7 +107,7 @@ void finish(const BallSelection& atoms, const Options& options, const Scope& sco
     watch.stop("spline");
     auto surface = surfaceGrid(S.table, std::move(S.phi), options.voxel, scope, progress);
     closeSides(*surface);
-    releasePages(); // grids and meshes have memory of their own
+    if (!keepsMemory) releasePages(); // grids and meshes have memory of their own
     watch.stop("redistance");
 
     progress.update("mesh", 0.0);
@@ -125,7 +126,7 @@ void finish(const BallSelection& atoms, const Options& options, const Scope& sco
         brick.grids.push_back(std::move(grid));
     band = NarrowBand();
     spline = Spline();
-    releasePages();
+    if (!keepsMemory) releasePages();
 
     std::vector<std::uint32_t> sources;
     brick.mesh = cutBrick(std::move(whole), std::move(stats.cells), box,
@@ -253,7 +254,7 @@ void checkBrickOptions(const Options& options)
 }
 
 Brick runBrick(const BallSelection& atoms, const Options& options, const Scope& scope,
-               Progress& progress)
+               Progress& progress, bool keepsMemory)
 {
     Brick brick;
     Report report;
@@ -275,7 +276,7 @@ Brick runBrick(const BallSelection& atoms, const Options& options, const Scope& 
         watch.stop("redistance");
     }
     brick.evolution = report.evolution;
-    finish(atoms, options, scope, band, S, progress, watch, brick);
+    finish(atoms, options, scope, band, S, keepsMemory, progress, watch, brick);
     brick.seconds = report.seconds;
     return brick;
 }

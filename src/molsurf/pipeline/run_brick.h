@@ -29,7 +29,8 @@ void checkBrickOptions(const Options& options);
 /// Computes what a brick owns of a surface.
 /// @param[in] atoms    those that ballsNear() gives, or more; coloured if colours are wanted
 /// @param[in] options  as checkBrickOptions() lets them pass, with a number of steps
+/// @param[in] keepsMemory  does not give unused pages back to the system, for the next brick
 Brick runBrick(const BallSelection& atoms, const Options& options, const Scope& scope,
-               Progress& progress);
+               Progress& progress, bool keepsMemory = false);
 
 } // namespace molsurf

@@ -185,6 +185,26 @@ TEST_F(Bricks, HoldTheWholeSpaceOnce)
     EXPECT_EQ(balls, atoms.balls.size());
 }
 
+TEST_F(Bricks, NeedTheMemoryOfTheirSurface)
+{
+    BallSelection atoms;
+    atoms.balls = chain();
+    Progress progress;
+    const auto bytes = [&](SurfaceKind kind, std::vector<std::string> fields) {
+        Options options = coarse();
+        options.kind = kind;
+        options.fields = std::move(fields);
+        return planWhole(atoms, options, progress).bricks[0].bytes;
+    };
+    const std::size_t plain = bytes(SurfaceKind::Variational, {"surface"});
+    EXPECT_GT(bytes(SurfaceKind::Gaussian, {"surface"}), plain); // runs between the atoms
+    EXPECT_GT(bytes(SurfaceKind::SolventExcluded, {"surface"}), plain);
+    const std::size_t one = bytes(SurfaceKind::Variational, {"surface", "mean_curvature"}) - plain;
+    const std::size_t three = bytes(SurfaceKind::Variational, {"surface", "Cd"}) - plain;
+    EXPECT_GT(one, 0u);
+    EXPECT_EQ(three, 3 * one);
+}
+
 TEST_F(Bricks, FitTheMemoryOrSayWhatWould)
 {
     BallSelection atoms;
@@ -195,6 +215,10 @@ TEST_F(Bricks, FitTheMemoryOrSayWhatWould)
     const BrickPlan plan = planBricks(atoms, coarse(), {0, less}, progress);
     EXPECT_GT(plan.bricks.size(), 1u);
     for (const PlannedBrick& brick : plan.bricks) EXPECT_LE(brick.bytes, less);
+    EXPECT_FALSE(plan.keepsMemory);
+    const BrickPlan kept = planBricks(atoms, coarse(), {0, less, true}, progress);
+    EXPECT_GE(kept.bricks.size(), plan.bricks.size());
+    for (const PlannedBrick& brick : kept.bricks) EXPECT_LE(brick.bytes, less);
     try {
         planBricks(atoms, coarse(), {0, 1000000}, progress);
         FAIL() << "a megabyte is not enough";
