@@ -12,6 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <fstream>
 #include <memory>
 #include <vector>
 
@@ -25,6 +26,13 @@ double secondsSince(Clock::time_point start)
 
 std::size_t peakMemory()
 {
+    // getrusage() would count the process that started this one, too.
+    std::ifstream status("/proc/self/status");
+    const std::string mark = "VmHWM:";
+    for (std::string word; status >> word;) {
+        std::size_t kilobytes = 0;
+        if (word == mark && status >> kilobytes) return kilobytes * 1024;
+    }
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return std::size_t(usage.ru_maxrss) * 1024;

@@ -200,6 +200,14 @@ class Memory(ToolTest):
         self.assertEqual(len(whole[2]), len(merged[2]))
         report = json.loads((self.folder / "m.json").read_text())
         self.assertLess(report["peak_memory_bytes"], limit)
+        self.run_tool(*words, "--memory", limit, "-o", "n.json")  # keeps no mesh on disk
+        self.assertEqual(json.loads((self.folder / "n.json").read_text())["surface"], report["surface"])
+
+    def test_the_boundary_of_balls_keeps_to_the_limit(self):
+        words = [DATA / "4at1.ent.gz", "--voxel", "0.5", "--surface", "ses"]
+        limit = self.too_little_for(*words)
+        self.check(0, *words, "-q", "--memory", limit, "-o", "s.json")
+        self.assertLess(json.loads((self.folder / "s.json").read_text())["peak_memory_bytes"], limit)
 
     def test_an_interrupt_leaves_nothing(self):
         words = [DATA / "4at1.ent.gz", "--voxel", "0.5"]
