@@ -28,10 +28,9 @@ std::size_t peakMemory()
 {
     // getrusage() would count the process that started this one, too.
     std::ifstream status("/proc/self/status");
-    const std::string mark = "VmHWM:";
     for (std::string word; status >> word;) {
         std::size_t kilobytes = 0;
-        if (word == mark && status >> kilobytes) return kilobytes * 1024;
+        if (word == "VmHWM:" && status >> kilobytes) return kilobytes * 1024;
     }
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);

@@ -146,14 +146,13 @@ Jet jetBeside(const LeafTable& table, const LeafField& coefficients, float voxel
     for (int i = 0; i < 4; ++i) {
         const int x = first.x() + i, sideX = 9 * ((x >> 3) + 1) + below, rowX = 64 * (x & 7);
         for (int j = 0; j < 4; ++j) {
-            const int w = first.y() + j;
+            const int w = first.y() + j, row = rowX + 8 * (w & 7);
             const std::int32_t* side = &near[std::size_t(sideX + 3 * ((w >> 3) + 1))];
             const auto value = [&](std::int32_t m, int z) {
-                return m == noLeaf ? 0.0f : coefficients.leaf(m)[rowX + 8 * (w & 7) + z];
+                return m == noLeaf ? 0.0f : coefficients.leaf(m)[row + z];
             };
             if (z0 <= 4 && side[0] != noLeaf) {
-                std::memcpy(c[i][j], coefficients.leaf(side[0]) + rowX + 8 * (w & 7) + z0,
-                            sizeof c[i][j]);
+                std::memcpy(c[i][j], coefficients.leaf(side[0]) + row + z0, sizeof c[i][j]);
                 continue;
             }
             for (int k = 0; k < 4; ++k) c[i][j][k] = value(side[(z0 + k) >> 3], (z0 + k) & 7);

@@ -131,17 +131,11 @@ std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel,
 {
     constexpr int rounds = 8;
     Mesh& mesh = vertices.mesh;
-    const std::size_t chunks = (mesh.triangles.size() + chunk - 1) / chunk;
-    std::vector<std::vector<std::uint32_t>> found(chunks);
-    parallelFor(chunks, progress, [&](std::size_t c) {
-        const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * chunk);
-        for (std::size_t i = c * chunk; i < end; ++i) {
+    auto bad = parallelCollect<std::uint32_t>(
+        mesh.triangles.size(), progress, [&](std::size_t i, auto& corners) {
             const auto& t = mesh.triangles[i];
-            if (isBad(mesh, t)) found[c].insert(found[c].end(), t.begin(), t.end());
-        }
-    });
-    std::vector<std::uint32_t> bad;
-    for (const auto& f : found) bad.insert(bad.end(), f.begin(), f.end());
+            if (isBad(mesh, t)) corners.insert(corners.end(), t.begin(), t.end());
+        });
     std::size_t moved = 0;
     for (int round = 0; round < rounds && !bad.empty(); ++round) {
         std::sort(bad.begin(), bad.end());

@@ -87,17 +87,13 @@ VertexTriangles vertexTriangles(const Mesh& mesh, const std::vector<std::uint32_
     struct Corner {
         std::uint32_t place, triangle;
     };
-    std::vector<std::vector<Corner>> found((mesh.triangles.size() + block - 1) / block);
-    parallelFor(found.size(), progress, [&](std::size_t b) {
-        const std::size_t end = std::min(mesh.triangles.size(), (b + 1) * block);
-        for (std::size_t i = b * block; i < end; ++i) {
+    const auto corners =
+        parallelCollect<Corner>(mesh.triangles.size(), progress, [&](std::size_t i, auto& found) {
             for (const std::uint32_t v : mesh.triangles[i])
-                if (place[v] != none) found[b].push_back({place[v], std::uint32_t(i)});
-        }
-    });
+                if (place[v] != none) found.push_back({place[v], std::uint32_t(i)});
+        });
     return listed(some.size(), [&](const auto& take) {
-        for (const auto& corners : found)
-            for (const Corner& c : corners) take(c.place, c.triangle);
+        for (const Corner& c : corners) take(c.place, c.triangle);
     });
 }
 
