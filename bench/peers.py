@@ -10,7 +10,8 @@ what else goes on on the machine hits all alike; times are medians of whole proc
 medians of the ratios within a turn. Every answer is checked: its area and volume against those of
 the exact surface (vdb_molsurf --surface ses at a quarter of the voxel, or --reference), and whether
 its mesh is closed. Needs python3-numpy and time. Debian has EDTSurf (edtsurf), PyMOL (pymol) and FreeSASA
-(freesasa); NanoShaper is used if it is on PATH.
+(freesasa); NanoShaper is used if it is on PATH, and Mol* if node is, and finds its package: `npm
+install molstar` in a folder, and NODE_PATH=FOLDER/node_modules.
 """
 import argparse
 import json
@@ -198,6 +199,29 @@ Number_thread = 2
         return mesh_numbers(*read_off(os.path.join(folder, "triangulatedSurf.off")))
 
 
+class Molstar(Program):
+    name = "Mol* (node)"
+    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "molstar.cjs")
+
+    @staticmethod
+    def found():
+        command = ["node", "-e", "require.resolve('molstar/package.json')"]
+        return shutil.which("node") and subprocess.run(command, capture_output=True).returncode == 0
+
+    def version(self):
+        command = ["node", "-p", "require('molstar/package.json').version"]
+        return subprocess.run(command, capture_output=True, text=True).stdout.strip()
+
+    def command(self, case, folder):
+        return [shutil.which("node"), "--max-old-space-size=16000", self.script, case.path, str(case.voxel),
+                str(PROBE), os.path.join(folder, "points"), os.path.join(folder, "triangles")]
+
+    def result(self, case, folder, output):
+        points = np.fromfile(os.path.join(folder, "points"), np.float32).reshape(-1, 3)
+        triangles = np.fromfile(os.path.join(folder, "triangles"), np.uint32).reshape(-1, 3)
+        return mesh_numbers(points.astype(float), triangles.astype(np.int64))
+
+
 class FreeSASA(Program):
     """The area of the solvent-accessible surface by a hundred points an atom; no mesh, no volume."""
 
@@ -302,12 +326,15 @@ def main():
 
     programs = [Molsurf(tool, "ses", 2), Molsurf(tool, "ses", 1), Molsurf(tool, "variational", 2),
                 Molsurf(tool, "variational", 1), Molsurf(tool, "sas", 2)]
-    for executable, peer in (("EDTSurf", EDTSurf()), ("pymol", PyMOL()), ("NanoShaper", NanoShaper()),
-                             ("freesasa", FreeSASA())):
-        if shutil.which(executable):
+    for name, found, peer in (("EDTSurf", shutil.which("EDTSurf"), EDTSurf()),
+                              ("pymol", shutil.which("pymol"), PyMOL()),
+                              ("NanoShaper", shutil.which("NanoShaper"), NanoShaper()),
+                              ("molstar", Molstar.found(), Molstar()),
+                              ("freesasa", shutil.which("freesasa"), FreeSASA())):
+        if found:
             programs.append(peer)
         else:
-            print(f"not on PATH: {executable}", file=sys.stderr)
+            print(f"not found: {name}", file=sys.stderr)
 
     processor = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if "model name" in line), "?")
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True,
