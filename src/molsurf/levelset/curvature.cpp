@@ -28,19 +28,20 @@ MOLSURF_KERNEL void curvatureRows(const float* __restrict block, const LeafMask&
             const float norm2 = d.x * d.x + d.y * d.y + d.z * d.z + tiny;
             const float norm = std::sqrt(norm2), scale = 1.0f / norm;
             const float a = d.x * scale, b = d.y * scale, c = d.z * scale;
-            const float along = a * a * d.xx + b * b * d.yy + c * c * d.zz +
-                                2.0f * (a * b * d.xy + b * c * d.yz + a * c * d.xz);
-            const float adjugate =
-                a * a * (d.yy * d.zz - d.yz * d.yz) + b * b * (d.xx * d.zz - d.xz * d.xz) +
-                c * c * (d.xx * d.yy - d.xy * d.xy) +
-                2.0f * (a * b * (d.xz * d.yz - d.xy * d.zz) + b * c * (d.xy * d.xz - d.yz * d.xx) +
-                        a * c * (d.xy * d.yz - d.xz * d.yy));
+            // K = n . adj(H) n, and adj(H) = H^2 - (tr H) H + (tr^2 H - tr H^2)/2 (Cayley-Hamilton)
+            const float x = d.xx * a + d.xy * b + d.xz * c; // H n
+            const float y = d.xy * a + d.yy * b + d.yz * c;
+            const float w = d.xz * a + d.yz * b + d.zz * c;
+            const float along = a * x + b * y + c * w, trace = d.xx + d.yy + d.zz;
+            const float minors =
+                d.xx * d.yy + d.yy * d.zz + d.zz * d.xx - (d.xy * d.xy + d.yz * d.yz + d.xz * d.xz);
+            const float adjugate = x * x + y * y + w * w - trace * along + minors;
             const int v = 8 * row + z;
             nx[v] = a;
             ny[v] = b;
             nz[v] = c;
             slope[v] = norm;
-            mean[v] = (d.xx + d.yy + d.zz - along) * scale;
+            mean[v] = (trace - along) * scale;
             gauss[v] = adjugate * scale * scale;
         }
     }
