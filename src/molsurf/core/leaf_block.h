@@ -35,39 +35,77 @@ struct LeafBlock {
 
     void gather(const LeafTable& table, const LeafArray<T>& field, std::size_t n)
     {
-        const auto& near = table.neighbours(n);
-        const T* own = field.leaf(n);
-        for (int side = 0; side < 9; ++side) {
-            const int dx = side / 3 - 1, dy = side % 3 - 1;
-            const T* column[3]; // the leaves below, beside and above
-            for (int k = 0; k < 3; ++k) {
-                const std::int32_t m = near[3 * side + k];
-                column[k] = m == noLeaf ? nullptr : field.leaf(m);
-            }
-            for (int x = begin(dx); x < begin(dx) + width(dx); ++x) {
-                for (int y = begin(dy); y < begin(dy) + width(dy); ++y) {
-                    const int row = 64 * (x & 7) + 8 * (y & 7);
-                    const T* centre = column[1] ? column[1] + row
-                                                : own + 64 * std::clamp(x, 0, leafDim - 1) +
-                                                      8 * std::clamp(y, 0, leafDim - 1);
-                    T* out = at(x, y, 0);
-                    std::memcpy(out, centre, leafDim * sizeof(T));
-                    if (column[0]) {
-                        std::memcpy(out - Halo, column[0] + row + leafDim - Halo, Halo * sizeof(T));
-                    } else {
-                        for (int z = 0; z < Halo; ++z) out[z - Halo] = out[0];
-                    }
-                    if (column[2]) {
-                        std::memcpy(out + leafDim, column[2] + row, Halo * sizeof(T));
-                    } else {
-                        for (int z = 0; z < Halo; ++z) out[leafDim + z] = out[leafDim - 1];
-                    }
-                }
+        const Source from{table.neighbours(n).data(), field, field.leaf(n)};
+        gatherColumn<-1, -1>(from);
+        gatherColumn<-1, 0>(from);
+        gatherColumn<-1, 1>(from);
+        gatherColumn<0, -1>(from);
+        gatherColumn<0, 0>(from);
+        gatherColumn<0, 1>(from);
+        gatherColumn<1, -1>(from);
+        gatherColumn<1, 0>(from);
+        gatherColumn<1, 1>(from);
+    }
+
+private:
+    struct Source {
+        const std::int32_t* near;
+        const LeafArray<T>& field;
+        const T* own;
+    };
+
+    /// Copies what is needed of the three leaves above one another at (dx, dy). The loops know
+    /// their lengths and which leaves there are: they have no branch.
+    template<int dx, int dy>
+    void gatherColumn(const Source& from)
+    {
+        const T* column[3]; // the leaves below, beside and above
+        for (int k = 0; k < 3; ++k) {
+            const std::int32_t m = from.near[9 * (dx + 1) + 3 * (dy + 1) + k];
+            column[k] = m == noLeaf ? nullptr : from.field.leaf(m);
+        }
+        if (column[0]) {
+            column[2] ? copyRows<dx, dy, true, true>(column, from.own)
+                      : copyRows<dx, dy, true, false>(column, from.own);
+        } else {
+            column[2] ? copyRows<dx, dy, false, true>(column, from.own)
+                      : copyRows<dx, dy, false, false>(column, from.own);
+        }
+    }
+
+    template<int dx, int dy, bool below, bool above>
+    void copyRows(const T* const* column, const T* own)
+    {
+        constexpr int x0 = begin(dx), y0 = begin(dy), first = 64 * (x0 & 7) + 8 * (y0 & 7);
+        const bool beside = column[1] != nullptr;
+        const T* centre =
+            beside ? column[1] + first
+                   : own + 64 * std::clamp(x0, 0, leafDim - 1) + 8 * std::clamp(y0, 0, leafDim - 1);
+        const T* under = below ? column[0] + first + leafDim - Halo : centre;
+        const T* over = above ? column[2] + first : centre + leafDim - 1;
+        const int stepX = beside || dx == 0 ? 64 : 0, stepY = beside || dy == 0 ? 8 : 0;
+        for (int x = 0; x < width(dx); ++x) {
+            for (int y = 0; y < width(dy); ++y) {
+                const int step = 64 * x + 8 * y, ownStep = stepX * x + stepY * y;
+                T* out = at(x0 + x, y0 + y, 0);
+                std::memcpy(out, centre + ownStep, leafDim * sizeof(T));
+                copyEnd<below>(under + (below ? step : ownStep), out - Halo);
+                copyEnd<above>(over + (above ? step : ownStep), out + leafDim);
             }
         }
     }
 
-private:
+    /// The end of a row: that of the next leaf's, or one value where there is none.
+    template<bool known>
+    static void copyEnd(const T* in, T* out)
+    {
+        if (known) {
+            std::memcpy(out, in, Halo * sizeof(T));
+        } else {
+            std::fill_n(out, Halo, T(*in));
+        }
+    }
+
     static constexpr int begin(int side) { return side < 0 ? -Halo : side * leafDim; }
     static constexpr int width(int side) { return side == 0 ? leafDim : Halo; }
 };
