@@ -125,6 +125,7 @@ void curvaturePass(benchmark::State& state)
         LeafBlock<float, 1> block;
         for (std::size_t n = 0; n < table.size(); ++n) {
             block.gather(table, shell().phi, n);
+            mean.prefetchAfter(n);
             curvature(block, table.active(n), float(voxel), shape);
             std::memcpy(mean.leaf(n), shape.mean, sizeof shape.mean);
         }

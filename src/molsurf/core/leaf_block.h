@@ -35,6 +35,7 @@ struct LeafBlock {
 
     void gather(const LeafTable& table, const LeafArray<T>& field, std::size_t n)
     {
+        field.prefetchAfter(n);
         const Source from{table.neighbours(n).data(), field, field.leaf(n)};
         gatherColumn<-1, -1>(from);
         gatherColumn<-1, 0>(from);

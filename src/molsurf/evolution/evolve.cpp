@@ -66,6 +66,7 @@ StepSums step(const NarrowBand& band, double voxel, const Spline* coarse, const 
         LeafBlock<float, 1> phi, psi;
         phi.gather(band.table, band.phi, n);
         psi.gather(band.table, band.psi, n);
+        next.prefetchAfter(n);
         LeafCurvature shape;
         curvature(phi, active, float(voxel), shape);
         if (coarse) curvatureFromSpline(*coarse, band.table.origin(n), voxel, active, shape);

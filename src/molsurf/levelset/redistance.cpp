@@ -357,6 +357,8 @@ public:
         alignas(64) Lanes x[3], sign, distance, aside2, step[3];
         for (int first = 0; first < count; first += lanes) {
             const int used = std::min(lanes, count - first);
+            for (int l = first + lanes; l < std::min(first + 2 * lanes, count); ++l)
+                prefetch(index[voxels[l]]);
             for (int l = 0; l < lanes; ++l) {
                 const int v = voxels[first + std::min(l, used - 1)];
                 setLane(placeOf(v), l, x);
@@ -397,7 +399,7 @@ private:
     static constexpr int ahead = 24; // of reading a seed, to ask for it
 
     /// Closest points lie scattered in memory.
-    void prefetch(std::int32_t seed) const
+    inline __attribute__((always_inline)) void prefetch(std::int32_t seed) const
     {
         if (seed != noSeed) __builtin_prefetch(&seeds_[std::size_t(seed)]);
     }

@@ -64,10 +64,13 @@ MOLSURF_KERNEL void eulerStep(const float* __restrict block, const LeafMask& mov
     }
 }
 
-/// The voxels with a face neighbour of the other sign; 0 counts as outside.
-MOLSURF_KERNEL void nextToInterface(const float* __restrict block, LeafMask& mask)
+/// The voxels of a mask that have a face neighbour of the other sign; 0 counts as outside.
+MOLSURF_KERNEL void nextToInterface(const float* __restrict block, const LeafMask& among,
+                                    LeafMask& mask)
 {
     for (int row = 0; row < 64; ++row) {
+        const int candidates = among.row(row);
+        if (candidates == 0) continue;
         const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
         int bits = 0;
         for (int z = 0; z < 8; ++z) {
@@ -79,7 +82,7 @@ MOLSURF_KERNEL void nextToInterface(const float* __restrict block, LeafMask& mas
             const float crossing = q[0] < 0.0f ? -high - 1e-30f : low;
             bits |= int(crossing < 0.0f) << z;
         }
-        mask.words[row >> 3] |= std::uint64_t(bits) << (8 * (row & 7));
+        mask.words[row >> 3] |= std::uint64_t(bits & candidates) << (8 * (row & 7));
     }
 }
 
@@ -133,11 +136,9 @@ void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double w
         parallelFor(table.size(), progress, [&](std::size_t n) {
             Block block;
             block.gather(table, phi, n);
+            scratch.prefetchAfter(n);
             LeafMask& fixed = interface[n];
-            if (i == 0) {
-                nextToInterface(block.values, fixed);
-                fixed &= table.active(n);
-            }
+            if (i == 0) nextToInterface(block.values, table.active(n), fixed);
             eulerStep(block.values, table.active(n) & ~fixed, h, w, scratch.leaf(n));
             if (i == 0) taylorDistance(block.values, fixed, 1.0f / h, scratch.leaf(n));
         });
