@@ -35,7 +35,7 @@ struct LeafBlock {
 
     void gather(const LeafTable& table, const LeafArray<T>& field, std::size_t n)
     {
-        field.prefetchAfter(n);
+        prefetchAfter(table, field, n);
         const Source from{table.neighbours(n).data(), field, field.leaf(n)};
         gatherColumn<-1, -1>(from);
         gatherColumn<-1, 0>(from);
@@ -54,6 +54,23 @@ private:
         const LeafArray<T>& field;
         const T* own;
     };
+
+    /// Asks for a leaf that a pass will soon come to, and for what its block needs of those that
+    /// come later still, beside it along x and y.
+    static inline __attribute__((always_inline)) void
+    prefetchAfter(const LeafTable& table, const LeafArray<T>& field, std::size_t n)
+    {
+        field.prefetchAfter(n);
+        if (n + field.ahead >= table.size()) return;
+        const auto& near = table.neighbours(n + field.ahead);
+        const auto prefetch = [&](int k, int begin, int end, int step) {
+            if (near[k] != noLeaf) field.prefetch(std::size_t(near[k]), begin, end, step);
+        };
+        prefetch(16, 0, leafSize, 64);              // (0, 1, 0): the first row of each x
+        prefetch(19, 56, 64 * Halo, 64);            // (1, -1, 0)
+        prefetch(22, 0, 64 * Halo, 64 / sizeof(T)); // (1, 0, 0): all rows of the first x
+        prefetch(25, 0, 64 * Halo, 64);             // (1, 1, 0)
+    }
 
     /// Copies what is needed of the three leaves above one another at (dx, dy). The loops know
     /// their lengths and which leaves there are: they have no branch.

@@ -39,15 +39,24 @@ public:
     const T* leaf(std::size_t n) const { return &values_[n * leafSize]; }
     std::size_t leafCount() const { return values_.size() / leafSize; }
 
-    /// Asks for the memory of a leaf that a pass over all leaves, now at leaf n, will soon come to.
-    /// (Leaves are too short for the processor to foresee the next. Inlined always: GCC takes a
-    /// function that only prefetches for one without effect, and drops calls of it.)
+    /// How far before a pass over all leaves their memory is asked for: they are too short for the
+    /// processor to foresee the next.
+    static constexpr std::size_t ahead = 8;
+
+    /// Asks for the memory of the leaf that a pass, now at leaf n, will soon come to.
     inline __attribute__((always_inline)) void prefetchAfter(std::size_t n) const
     {
-        constexpr std::size_t ahead = 8;
-        if (n + ahead >= leafCount()) return;
-        const auto* bytes = reinterpret_cast<const char*>(leaf(n + ahead));
-        for (std::size_t i = 0; i < leafSize * sizeof(T); i += 64) __builtin_prefetch(bytes + i);
+        constexpr int line = 64 / sizeof(T);
+        if (n + ahead < leafCount()) prefetch(n + ahead, 0, leafSize, line);
+    }
+
+    /// Asks for the values begin, begin + step... below end of leaf n. (Inlined always: GCC takes a
+    /// function that only prefetches for one without effect, and drops calls of it.)
+    inline __attribute__((always_inline)) void prefetch(std::size_t n, int begin, int end,
+                                                        int step) const
+    {
+        const T* values = leaf(n);
+        for (int i = begin; i < end; i += step) __builtin_prefetch(values + i);
     }
     std::size_t bytes() const { return values_.size() * sizeof(T); }
 
