@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 namespace molsurf
 {
 
 using openvdb::Coord;
-using openvdb::Vec3d;
 
 namespace
 {
@@ -23,6 +21,22 @@ constexpr float cubeRadius = 0.5f * (cube - 1) * 1.7320508f; // of its voxels' c
 
 using Floats = float __attribute__((vector_size(4 * lanes), aligned(4)));
 using Ints = std::int32_t __attribute__((vector_size(4 * lanes), aligned(4)));
+
+/// Appends i + k to a list of m for every lane k that is on.
+/// @return the new length
+inline __attribute__((always_inline)) int appendLanes(const Ints& on, int i, std::int32_t* list,
+                                                      int m)
+{
+    std::uint64_t pairs[lanes / 2], any = 0;
+    std::memcpy(pairs, &on, sizeof pairs);
+    for (const std::uint64_t pair : pairs) any |= pair;
+    if (any == 0) return m;
+    for (int k = 0; k < lanes; ++k) {
+        list[m] = i + k;
+        m -= on[k];
+    }
+    return m;
+}
 
 /// The nearest of some points to a place.
 /// @param[in] count  a multiple of `lanes`, positive
@@ -69,14 +83,7 @@ MOLSURF_KERNEL int candidates(const float* x, const float* y, const float* z, in
         const Floats apart2 = ex * ex + ey * ey + ez * ez;
         const Floats positive = more > 0.0f ? more : Floats{};
         const Ints good = positive * positive <= limit * apart2 + 1e-3f ? Ints{} - 1 : Ints{};
-        std::uint64_t pairs[lanes / 2], any = 0;
-        std::memcpy(pairs, &good, sizeof pairs);
-        for (const std::uint64_t pair : pairs) any |= pair;
-        if (any == 0) continue;
-        for (int k = 0; k < lanes; ++k) {
-            out[m] = i + k;
-            m -= good[k];
-        }
+        m = appendLanes(good, i, out, m);
     }
     return m;
 }
@@ -114,80 +121,82 @@ MOLSURF_KERNEL void nearestInCube(const float* x, const float* y, const float* z
     }
 }
 
-constexpr double leafRadius = 3.5 * 1.7320508; // of the voxels' centres
-const Vec3d leafCentre(3.5);
+constexpr float leafHalf = 3.5f;               // of the box of a leaf's voxels' centres
+constexpr double leafRadius = 3.5 * 1.7320508; // of the ball about it
 
-/// The squared distance of the centre of a leaf from the voxels of the one at an offset.
-double distance2ToLeaf(const Coord& offset)
+/// The points within reach of the box of a leaf's voxels, about 0.
+/// @param[in]     in        coordinates, `lanes` more than there are points
+/// @param[in]     shift     to add to them
+/// @param[out]    out       indices of the points; room for `lanes` more
+/// @param[in,out] nearest2  least squared distance of points from 0
+/// @return their number
+MOLSURF_KERNEL int withinReach(const float* const* in, const float* shift, int count, float reach,
+                               std::int32_t* out, float& nearest2)
+{
+    Ints lane;
+    for (int k = 0; k < lanes; ++k) lane[k] = k;
+    Floats least = Floats{} + 1e30f;
+    int m = 0;
+    for (int i = 0; i < count; i += lanes) {
+        Floats inside2 = {}, outside2 = {};
+        for (int a = 0; a < 3; ++a) {
+            const Floats any = *reinterpret_cast<const Floats*>(in[a] + i) + shift[a];
+            const Floats p = lane < count - i ? any : Floats{} + 1e15f;
+            Floats beyond = (p < 0.0f ? -p : p) - leafHalf;
+            beyond = beyond > 0.0f ? beyond : Floats{};
+            inside2 += p * p;
+            outside2 += beyond * beyond;
+        }
+        least = inside2 < least ? inside2 : least;
+        const Ints good = outside2 <= reach * reach ? Ints{} - 1 : Ints{};
+        m = appendLanes(good, i, out, m);
+    }
+    for (int k = 0; k < lanes; ++k) nearest2 = smaller(nearest2, least[k]);
+    return m;
+}
+
+/// The distance between the boxes of voxels of two leaves.
+double gapBetween(const Coord& offset)
 {
     double sum = 0.0;
     for (int k = 0; k < 3; ++k) {
-        const double d = std::max(std::abs(offset[k]) - 3.5, 0.0);
+        const double d = std::max(std::abs(offset[k]) - 7, 0);
         sum += d * d;
     }
-    return sum;
+    return std::sqrt(sum);
 }
 
 /// The leaves that may hold points within reach of a voxel of a leaf, nearest first.
 void prepare(double reach, NearestScratch& s)
 {
-    const double farthest = reach + leafRadius + LeafPoints::overhang;
-    const int R = int(std::ceil((reach + LeafPoints::overhang) / leafDim));
+    const double farthest = reach + LeafPoints::overhang;
+    const int R = int(std::ceil(farthest / leafDim));
     s.reach = reach;
     s.offsets.clear();
     for (int dx = -R; dx <= R; ++dx) {
         for (int dy = -R; dy <= R; ++dy) {
             for (int dz = -R; dz <= R; ++dz) {
                 const Coord offset(leafDim * dx, leafDim * dy, leafDim * dz);
-                const double d2 = distance2ToLeaf(offset);
-                if (d2 <= farthest * farthest) s.offsets.push_back({d2, offset});
+                const double gap = gapBetween(offset);
+                if (gap <= farthest) s.offsets.push_back({gap, offset});
             }
         }
     }
     std::stable_sort(s.offsets.begin(), s.offsets.end(),
-                     [](const auto& a, const auto& b) { return a.distance2 < b.distance2; });
-}
-
-/// out = in + shift; the least of the squared lengths of the results.
-MOLSURF_KERNEL float shifted(const float* const* in, const float* shift, std::size_t count,
-                             float* const* out)
-{
-    const float *a = in[0], *b = in[1], *c = in[2];
-    float* __restrict x = out[0], * __restrict y = out[1], * __restrict z = out[2];
-    float least = 1e30f;
-    for (std::size_t i = 0; i < count; ++i) {
-        const float u = a[i] + shift[0], v = b[i] + shift[1], w = c[i] + shift[2];
-        x[i] = u;
-        y[i] = v;
-        z[i] = w;
-        least = smaller(least, u * u + v * v + w * w);
-    }
-    return least;
-}
-
-/// Adds points farther than any, up to a multiple of `lanes`.
-/// @return the number of all
-int padded(NearestScratch& s, std::size_t count)
-{
-    for (; count % lanes != 0; ++count) {
-        s.x[count] = s.y[count] = s.z[count] = 1e15f;
-        s.index[count] = -1;
-    }
-    return int(count);
+                     [](const auto& a, const auto& b) { return a.gap < b.gap; });
 }
 
 /// Gathers the points that may be nearest to a voxel of a leaf, relative to its centre, padded to a
-/// multiple of `lanes`.
+/// multiple of `lanes` by points farther than any.
 /// @return their number with the padding
 int gatherPoints(const LeafPoints& points, const Coord& origin, double reach, NearestScratch& s)
 {
     if (s.reach != reach) prepare(reach, s);
-    double limit = reach + leafRadius + LeafPoints::overhang;
-    const double farthest = limit;
+    double limit = reach;
     float nearest2 = 1e30f;
     std::size_t count = 0;
-    for (const auto& [distance2, offset] : s.offsets) {
-        if (distance2 > limit * limit) break;
+    for (const auto& [gap, offset] : s.offsets) {
+        if (gap > limit + LeafPoints::overhang) break;
         const std::int32_t n = points.table.find(origin + offset);
         if (n == noLeaf) continue;
         const std::size_t begin = points.begins[n], more = points.begins[n + 1] - begin;
@@ -196,41 +205,30 @@ int gatherPoints(const LeafPoints& points, const Coord& origin, double reach, Ne
             const std::size_t room = 2 * (count + more + lanes);
             for (auto* v : {&s.x, &s.y, &s.z}) v->resize(room);
             s.index.resize(room);
+            s.nearIndex.resize(room);
         }
-        const Vec3d from = offset.asVec3d() - leafCentre;
-        const float shift[3] = {float(from.x()), float(from.y()), float(from.z())};
+        const Coord from = offset - Coord(leafDim / 2);
+        const float shift[3] = {float(from.x()) + 0.5f, float(from.y()) + 0.5f,
+                                float(from.z()) + 0.5f};
         const float* in[3] = {points.x.data() + begin, points.y.data() + begin,
                               points.z.data() + begin};
-        float* out[3] = {s.x.data() + count, s.y.data() + count, s.z.data() + count};
-        nearest2 = std::min(nearest2, shifted(in, shift, more, out));
-        std::iota(s.index.begin() + std::ptrdiff_t(count),
-                  s.index.begin() + std::ptrdiff_t(count + more), std::int32_t(begin));
-        count += more;
+        const int near =
+            withinReach(in, shift, int(more), float(limit), s.nearIndex.data(), nearest2);
+        for (int k = 0; k < near; ++k, ++count) {
+            const auto i = std::size_t(s.nearIndex[std::size_t(k)]);
+            s.x[count] = in[0][i] + shift[0];
+            s.y[count] = in[1][i] + shift[1];
+            s.z[count] = in[2][i] + shift[2];
+            s.index[count] = std::int32_t(begin + i);
+        }
         // No voxel is farther from its nearest point than the centre from its own plus the radius.
-        limit = std::min(farthest,
-                         std::sqrt(double(nearest2)) + 2.0 * leafRadius + LeafPoints::overhang);
+        limit = std::min(reach, std::sqrt(double(nearest2)) + leafRadius);
     }
-    return padded(s, count);
-}
-
-/// Keeps the points that may be nearest to a voxel of the leaf.
-/// @return their number with the padding
-int keepCandidates(int count, NearestScratch& s)
-{
-    s.nearIndex.resize(std::size_t(count) + lanes);
-    float distance2;
-    const int y0 =
-        nearestOf(s.x.data(), s.y.data(), s.z.data(), count, 0.0f, 0.0f, 0.0f, distance2);
-    const int near = candidates(s.x.data(), s.y.data(), s.z.data(), count, 0.0f, 0.0f, 0.0f, y0,
-                                float(leafRadius), s.nearIndex.data());
-    for (int k = 0; k < near; ++k) {
-        const auto i = std::size_t(s.nearIndex[std::size_t(k)]);
-        s.x[std::size_t(k)] = s.x[i];
-        s.y[std::size_t(k)] = s.y[i];
-        s.z[std::size_t(k)] = s.z[i];
-        s.index[std::size_t(k)] = s.index[i];
+    for (; count % lanes != 0; ++count) {
+        s.x[count] = s.y[count] = s.z[count] = 1e15f;
+        s.index[count] = -1;
     }
-    return padded(s, std::size_t(near));
+    return int(count);
 }
 
 } // namespace
@@ -238,12 +236,11 @@ int keepCandidates(int count, NearestScratch& s)
 void nearestPoints(const LeafPoints& points, const Coord& origin, const LeafMask& mask,
                    double reach, NearestScratch& s, std::int32_t* out)
 {
-    const int gathered = gatherPoints(points, origin, reach, s);
-    if (gathered == 0) {
+    const int count = gatherPoints(points, origin, reach, s);
+    if (count == 0) {
         mask.forEach([&](int v) { out[v] = -1; });
         return;
     }
-    const int count = keepCandidates(gathered, s);
     s.nearX.resize(std::size_t(count));
     s.nearY.resize(std::size_t(count));
     s.nearZ.resize(std::size_t(count));

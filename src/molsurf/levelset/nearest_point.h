@@ -21,15 +21,16 @@ struct LeafPoints {
 
     const LeafTable& table;
     std::vector<std::size_t> begins;
-    std::vector<float> x, y, z; ///< from the first voxel of their leaf [voxel]
+    std::vector<float> x, y, z; ///< from the first voxel of their leaf [voxel]; `padding` more than
+                                ///< there are points
+    static constexpr std::size_t padding = 16;
 };
 
 /// Room for one search, kept from leaf to leaf by a thread.
 struct NearestScratch {
     /// Where a leaf may lie that holds the nearest point, nearest first.
     struct Offset {
-        double
-            distance2; // of the centre of the leaf that is searched for from its voxels [voxel^2]
+        double gap; // between its voxels and those of the leaf that is searched for [voxel]
         openvdb::Coord offset;
     };
     std::vector<Offset> offsets;

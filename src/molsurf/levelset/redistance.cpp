@@ -488,7 +488,7 @@ DistanceBand redistance(const LeafTable& table, LeafField phi, double voxel, dou
                 box);
 
     LeafPoints points{table, std::move(begins), {}, {}, {}};
-    for (auto* v : {&points.x, &points.y, &points.z}) v->resize(seeds.size());
+    for (auto* v : {&points.x, &points.y, &points.z}) v->resize(seeds.size() + LeafPoints::padding);
     parallelFor(table.size(), progress, [&](std::size_t n) {
         for (std::size_t i = points.begins[n]; i < points.begins[n + 1]; ++i) {
             points.x[i] = seeds[i].y.x();
