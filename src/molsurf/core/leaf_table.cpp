@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace molsurf
 {
@@ -26,26 +27,47 @@ LeafField copied(const LeafField& field)
     return copy;
 }
 
-MOLSURF_KERNEL LeafMask lessThan(const float* values, float limit)
+namespace
 {
+
+/// The bits of all lanes together.
+inline __attribute__((always_inline)) std::uint64_t bitsOf(const Ints& bits)
+{
+    std::uint64_t pairs[lanes / 2], all = 0;
+    std::memcpy(pairs, &bits, sizeof pairs);
+    for (const std::uint64_t pair : pairs) all |= pair;
+    return (all | all >> 32) & 0xffffffff;
+}
+
+/// The voxels of a leaf whose values, or their sizes, are below a limit.
+template<bool size>
+inline __attribute__((always_inline)) LeafMask below(const float* values, float limit)
+{
+    Ints bit[2];
+    for (int k = 0; k < 2 * lanes; ++k) bit[k / lanes][k % lanes] = std::int32_t(1u << k);
     LeafMask mask;
-    for (int row = 0; row < 64; ++row) {
-        int bits = 0;
-        for (int z = 0; z < 8; ++z) bits |= int(values[8 * row + z] < limit) << z;
-        mask.words[row >> 3] |= std::uint64_t(bits) << (8 * (row & 7));
+    for (int half = 0; half < 2 * leafDim; ++half) {
+        Ints bits = {};
+        for (int i = 0; i < 2; ++i) {
+            Floats v = *reinterpret_cast<const Floats*>(values + lanes * (2 * half + i));
+            if (size) v = v < 0.0f ? -v : v;
+            bits |= v < limit ? bit[i] : Ints{};
+        }
+        mask.words[half / 2] |= bitsOf(bits) << (32 * (half & 1));
     }
     return mask;
 }
 
+} // namespace
+
+MOLSURF_KERNEL LeafMask lessThan(const float* values, float limit)
+{
+    return below<false>(values, limit);
+}
+
 MOLSURF_KERNEL LeafMask within(const float* values, float limit)
 {
-    LeafMask mask;
-    for (int row = 0; row < 64; ++row) {
-        int bits = 0;
-        for (int z = 0; z < 8; ++z) bits |= int(std::abs(values[8 * row + z]) < limit) << z;
-        mask.words[row >> 3] |= std::uint64_t(bits) << (8 * (row & 7));
-    }
-    return mask;
+    return below<true>(values, limit);
 }
 
 namespace

@@ -22,6 +22,12 @@
 namespace molsurf
 {
 
+/// Sixteen numbers side by side. Comparisons of them are used as conditions of ?: only: GCC takes
+/// other operations on them apart, number by number.
+constexpr int lanes = 16;
+using Floats = float __attribute__((vector_size(4 * lanes), aligned(4)));
+using Ints = std::int32_t __attribute__((vector_size(4 * lanes), aligned(4)));
+
 /// The smaller and the larger of two numbers, by value: std::min and std::max hand out references,
 /// which keeps loops over arrays from vectorising.
 inline __attribute__((always_inline)) float smaller(float a, float b)

@@ -12,7 +12,6 @@ namespace molsurf
 namespace
 {
 
-constexpr int lanes = FootPoints::lanes;
 using Lanes = FootPoints::Lanes;
 
 /// The vector from a foot to its voxel, along the normal (s) and aside (t), and A t.

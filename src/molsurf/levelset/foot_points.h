@@ -2,10 +2,11 @@
 #pragma once
 
 /// @file
-/// Closest points of a surface to voxels ("feet" of the normals through them), sixteen side by side
+/// Closest points of a surface to voxels ("feet" of the normals through them), side by side
 /// so that loops over them vectorise. Lengths in voxels.
 
 #include "molsurf/bspline/spline.h"
+#include "molsurf/core/simd.h"
 
 #include <cstdint>
 
@@ -14,7 +15,6 @@ namespace molsurf
 
 /// Points of a surface with the shape of the surface there, a lane each.
 struct FootPoints {
-    static constexpr int lanes = 16;
     using Lanes = float[lanes];
 
     alignas(64) Lanes y[3];

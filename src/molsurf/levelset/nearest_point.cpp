@@ -15,12 +15,9 @@ using openvdb::Coord;
 namespace
 {
 
-constexpr int lanes = 16, cube = 4; // a plane of a cube is a vector
+constexpr int cube = 4; // a plane of a cube is a vector
 static_assert(cube * cube == lanes && leafDim % cube == 0);
 constexpr float cubeRadius = 0.5f * (cube - 1) * 1.7320508f; // of its voxels' centres
-
-using Floats = float __attribute__((vector_size(4 * lanes), aligned(4)));
-using Ints = std::int32_t __attribute__((vector_size(4 * lanes), aligned(4)));
 
 /// Appends i + k to a list of m for every lane k that is on.
 /// @return the new length

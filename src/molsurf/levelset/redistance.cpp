@@ -30,7 +30,6 @@ namespace
 constexpr std::int32_t noSeed = -1;
 
 using Lanes = FootPoints::Lanes;
-constexpr int lanes = FootPoints::lanes;
 
 /// A closest point on the interface, in units of voxels. One line of the cache.
 struct alignas(64) Seed {

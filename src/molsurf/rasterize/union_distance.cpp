@@ -23,13 +23,10 @@ using openvdb::Vec3f;
 namespace
 {
 
-constexpr int lanes = 16, cube = 4; // a plane of a cube is a vector
+constexpr int cube = 4; // a plane of a cube is a vector
 constexpr int planes = cube, cubeSize = planes * lanes;
 static_assert(cube * cube == lanes && leafDim % cube == 0);
 constexpr double cubeRadius = 0.5 * (cube - 1) * 1.7320508; // [voxel]
-
-using Floats = float __attribute__((vector_size(4 * lanes), aligned(4)));
-using Ints = std::int32_t __attribute__((vector_size(4 * lanes), aligned(4)));
 
 /// A foot counts as uncovered if it lies at most this far, as a cosine, in a cap: the arcs about it
 /// hold a point just as near.
