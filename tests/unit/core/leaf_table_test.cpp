@@ -33,6 +33,25 @@ LeafTable randomTable(unsigned seed, int places, int voxels)
     return table;
 }
 
+// Against one value at a time, with values at the limit, both zeros, and no number.
+TEST(LeafMasks, AreOfTheValuesBelowALimit)
+{
+    std::mt19937 random(11);
+    const float special[] = {1.5f, -1.5f, 0.0f, -0.0f, 1e30f, -1e30f, std::nanf("")};
+    for (int round = 0; round < 20; ++round) {
+        float values[leafSize];
+        for (float& value : values) {
+            value =
+                random() % 4 == 0 ? special[random() % 7] : float(random() % 4001) * 1e-3f - 2.0f;
+        }
+        const LeafMask less = lessThan(values, 1.5f), near = within(values, 1.5f);
+        for (int v = 0; v < leafSize; ++v) {
+            EXPECT_EQ(less.on(v), values[v] < 1.5f) << values[v];
+            EXPECT_EQ(near.on(v), std::abs(values[v]) < 1.5f) << values[v];
+        }
+    }
+}
+
 std::set<Coord> activeVoxels(const LeafTable& table)
 {
     std::set<Coord> out;

@@ -27,6 +27,7 @@ LeafPoints scattered(const LeafTable& table, int perLeaf)
         }
         points.begins.push_back(points.x.size());
     }
+    for (auto* v : {&points.x, &points.y, &points.z}) v->resize(v->size() + LeafPoints::padding);
     return points;
 }
 
