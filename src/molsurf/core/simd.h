@@ -6,6 +6,9 @@
 
 #include <cstdint>
 #include <cstring>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 /// Put before a hot function with plain loops: the compiler makes one version of it for each
 /// instruction set, and the loader picks the widest that the machine has. A macro, since an
@@ -27,6 +30,26 @@ namespace molsurf
 constexpr int lanes = 16;
 using Floats = float __attribute__((vector_size(4 * lanes), aligned(4)));
 using Ints = std::int32_t __attribute__((vector_size(4 * lanes), aligned(4)));
+
+/// While it lives, its thread takes numbers below the smallest normal one (1e-38 in float) for 0:
+/// products of exponentials run into them, and many processors take a hundred times as long there.
+class FlushDenormals
+{
+public:
+#ifdef __SSE__
+    FlushDenormals() { _mm_setcsr(before_ | 0x8040); } // results and operands
+    ~FlushDenormals() { _mm_setcsr(before_); }
+#else
+    FlushDenormals() {}
+#endif
+    FlushDenormals(const FlushDenormals&) = delete;
+    FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+#ifdef __SSE__
+private:
+    const unsigned before_ = _mm_getcsr();
+#endif
+};
 
 /// The smaller and the larger of two numbers, by value: std::min and std::max hand out references,
 /// which keeps loops over arrays from vectorising.

@@ -205,6 +205,7 @@ void GaussianSum::evaluate(const Coord& origin, double reach, float* psi) const
         std::fill_n(psi, leafSize, lowestPsi);
         return;
     }
+    const FlushDenormals scope;
     // Every term is taken relative to the largest exponent in the leaf, so that none overflows.
     float top = terms[0].exponent;
     for (const Term& t : terms) top = std::max(top, t.exponent);
