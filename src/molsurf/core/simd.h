@@ -31,6 +31,11 @@ constexpr int lanes = 16;
 using Floats = float __attribute__((vector_size(4 * lanes), aligned(4)));
 using Ints = std::int32_t __attribute__((vector_size(4 * lanes), aligned(4)));
 
+/// Eight of double width, likewise.
+constexpr int doubleLanes = 8;
+using Doubles = double __attribute__((vector_size(8 * doubleLanes), aligned(8)));
+using Longs = std::int64_t __attribute__((vector_size(8 * doubleLanes), aligned(8)));
+
 /// While it lives, its thread takes numbers below the smallest normal one (1e-38 in float) for 0:
 /// products of exponentials run into them, and many processors take a hundred times as long there.
 class FlushDenormals

@@ -38,9 +38,7 @@ struct NearPatch {
     float radius;
     std::uint32_t capsBegin, capsEnd;
     std::int32_t part;
-};
-struct NearCap {
-    float x, y, z, cosine;
+    float gap; // between a cube's centre and the sphere
 };
 struct NearArc {
     Vec3f centre, axis, middle;
@@ -54,6 +52,11 @@ struct NearCorner {
 struct NearBall {
     Vec3f centre;
     float radius;
+};
+
+/// Caps, number by number: loops over them vectorise.
+struct CapArrays {
+    std::vector<float> x, y, z, cosine, sine;
 };
 
 /// The voxels of a cube: places [Å], and for each the square of the least distance so far and the
@@ -80,6 +83,14 @@ inline __attribute__((always_inline)) void squareRoot(const Floats& x, Floats& o
     std::memcpy(values, &x, sizeof values);
     for (float& v : values) v = std::sqrt(v);
     std::memcpy(&out, values, sizeof values);
+}
+
+inline __attribute__((always_inline)) bool anyOf(const Ints& on)
+{
+    std::int64_t words[lanes / 2], any = 0;
+    std::memcpy(words, &on, sizeof words);
+    for (const std::int64_t w : words) any |= w;
+    return any != 0;
 }
 
 /// Keeps what is nearer.
@@ -130,41 +141,80 @@ MOLSURF_KERNEL void nearArcs(Cube& c, const NearArc* arcs, std::size_t count)
     }
 }
 
-MOLSURF_KERNEL void nearPatches(Cube& c, const NearPatch* patches, std::size_t count,
-                                const NearCap* caps)
+/// The directions from the centre of a patch to the ball about a cube.
+struct Cone {
+    Vec3f axis;
+    float cosine, sine; // of half its angle, at most a right one
+
+    Cone(const Cube& c, const Vec3f& apex)
+    {
+        axis = c.centre - apex;
+        const float length = axis.length();
+        if (length <= 1.0001f * c.radius) { // any direction
+            axis = Vec3f(0.0f);
+            cosine = 0.0f;
+            sine = 1.0f;
+            return;
+        }
+        axis /= length;
+        sine = c.radius / length;
+        cosine = std::sqrt(1.0f - sine * sine);
+    }
+};
+
+/// The caps that may hold a direction of a cone.
+/// @param[out] out  their indices; room for all
+/// @return their number; -1 if one holds all of the cone
+MOLSURF_KERNEL int capsAbout(const Cone& cone, const CapArrays& caps, std::uint32_t begin,
+                             std::uint32_t end, float* __restrict above, std::uint32_t* out)
+{
+    const float *x = caps.x.data() + begin, *y = caps.y.data() + begin, *z = caps.z.data() + begin;
+    const float *cosine = caps.cosine.data() + begin, *sine = caps.sine.data() + begin;
+    const float ax = cone.axis.x(), ay = cone.axis.y(), az = cone.axis.z();
+    const int count = int(end - begin);
+    std::int32_t whole = 0;
+    for (int k = 0; k < count; ++k) {
+        // A cap holds the cone if the angle between the axes is below the difference of the half
+        // angles, and misses it if it is above their sum.
+        const float t = x[k] * ax + y[k] * ay + z[k] * az - cosine[k] * cone.cosine;
+        const float s = sine[k] * cone.sine;
+        whole |= (cosine[k] <= cone.cosine ? t - s : -1.0f) > rimTolerance ? 1 : 0;
+        above[k] = t + s;
+    }
+    if (whole) return -1;
+    int m = 0;
+    for (int k = 0; k < count; ++k) {
+        out[m] = begin + std::uint32_t(k);
+        m += above[k] > -rimTolerance;
+    }
+    return m;
+}
+
+MOLSURF_KERNEL void nearPatch(Cube& c, const NearPatch& patch, const CapArrays& caps,
+                              const std::uint32_t* list, int count)
 {
     Floats y, z;
     places(c, y, z);
-    for (std::size_t i = 0; i < count; ++i) {
-        const NearPatch& patch = patches[i];
-        const Floats dy = y - patch.centre.y(), dz = z - patch.centre.z();
-        for (int plane = 0; plane < planes; ++plane) {
-            const float dx = c.first.x() + c.voxel * float(plane) - patch.centre.x();
-            const Floats r2 = dx * dx + dy * dy + dz * dz;
-            Floats r;
-            squareRoot(r2, r);
-            const Floats d = patch.radius - r;
-            Floats d2 = d * d; // of voxels outside the ball too: the same holds for them
-            const Floats least = *reinterpret_cast<const Floats*>(c.least2 + lanes * plane);
-            // Only directions that would be nearer are looked at further.
-            Ints open = d2 < least ? Ints{} - 1 : Ints{};
-            std::int64_t words[lanes / 2];
-            const auto none = [&] {
-                std::memcpy(words, &open, sizeof words);
-                std::int64_t any = 0;
-                for (const std::int64_t w : words) any |= w;
-                return any == 0;
-            };
-            if (none()) continue;
-            for (std::uint32_t k = patch.capsBegin; k < patch.capsEnd; ++k) {
-                const NearCap& cap = caps[k];
-                const Floats along = dx * cap.x + dy * cap.y + dz * cap.z;
-                open = along > (cap.cosine + rimTolerance) * r ? Ints{} : open;
-                if ((k & 3) == 3 && none()) break;
-            }
-            d2 = open != 0 ? d2 : Floats{} + 1e30f;
-            keep(c, plane, d2, patch.part);
+    const Floats dy = y - patch.centre.y(), dz = z - patch.centre.z();
+    for (int plane = 0; plane < planes; ++plane) {
+        const float dx = c.first.x() + c.voxel * float(plane) - patch.centre.x();
+        const Floats r2 = dx * dx + dy * dy + dz * dz;
+        Floats r;
+        squareRoot(r2, r);
+        const Floats d = patch.radius - r;
+        Floats d2 = d * d; // of voxels outside the ball too: the same holds for them
+        const Floats least = *reinterpret_cast<const Floats*>(c.least2 + lanes * plane);
+        // Only directions that would be nearer are looked at further.
+        Ints open = d2 < least ? Ints{} - 1 : Ints{};
+        if (!anyOf(open)) continue;
+        for (int k = 0; k < count; ++k) {
+            const std::uint32_t i = list[k];
+            const Floats along = dx * caps.x[i] + dy * caps.y[i] + dz * caps.z[i];
+            open = along > (caps.cosine[i] + rimTolerance) * r ? Ints{} : open;
+            if ((k & 3) == 3 && !anyOf(open)) break;
         }
+        d2 = open != 0 ? d2 : Floats{} + 1e30f;
+        keep(c, plane, d2, patch.part);
     }
 }
 
@@ -194,7 +244,8 @@ MOLSURF_KERNEL void nearBalls(const Cube& c, const NearBall* balls, std::size_t 
 /// Everything near a leaf, relative to its centre.
 struct Near {
     std::vector<NearPatch> patches, cubePatches;
-    std::vector<NearCap> caps;
+    std::vector<float> above; // of capsAbout()
+    std::vector<std::uint32_t> caps;
     std::vector<NearArc> arcs, cubeArcs;
     std::vector<NearCorner> corners, cubeCorners;
     std::vector<NearBall> balls, cubeBalls;
@@ -210,6 +261,15 @@ public:
           patchIndex_(spheres_, std::max(2.0, largest_ / 1.5)),
           ballIndex_(balls, std::max(2.0, largest_ / 1.5))
     {
+        for (auto* v : {&caps_.x, &caps_.y, &caps_.z, &caps_.cosine, &caps_.sine})
+            v->reserve(boundary.caps.size());
+        for (const Cap& cap : boundary.caps) {
+            caps_.x.push_back(float(cap.axis.x()));
+            caps_.y.push_back(float(cap.axis.y()));
+            caps_.z.push_back(float(cap.axis.z()));
+            caps_.cosine.push_back(float(cap.cosine));
+            caps_.sine.push_back(float(std::sqrt(1.0 - cap.cosine * cap.cosine)));
+        }
     }
 
     /// The leaves that may have a voxel of the band.
@@ -298,7 +358,6 @@ private:
         const double radius = 0.5 * (leafDim - 1) * std::sqrt(3.0) * voxel_;
         const double reach = inside_ + radius;
         near.patches.clear();
-        near.caps.clear();
         near.arcs.clear();
         near.corners.clear();
         near.balls.clear();
@@ -320,18 +379,12 @@ private:
             // All parts of a patch lie on its sphere.
             if (std::abs(distance - patch.radius) > reach) return;
             near.patches.push_back(
-                {Vec3f(c), float(patch.radius), std::uint32_t(near.caps.size()), 0, i});
-            for (std::uint32_t k = patch.capsBegin; k < patch.capsEnd; ++k) {
-                const Cap& cap = boundary_.caps[k];
-                near.caps.push_back({float(cap.axis.x()), float(cap.axis.y()), float(cap.axis.z()),
-                                     float(cap.cosine)});
-            }
-            near.patches.back().capsEnd = std::uint32_t(near.caps.size());
+                {Vec3f(c), float(patch.radius), patch.capsBegin, patch.capsEnd, i, 0.0f});
             const std::int32_t arcs = std::int32_t(boundary_.patches.size());
             for (std::uint32_t k = patch.arcsBegin; k < patch.arcsEnd; ++k) {
                 const Arc& arc = boundary_.arcs[k];
                 const Vec3d m = arc.centre - centre;
-                if (distanceToCircle(arc, -m) > reach) continue;
+                if (distance2ToCircle(arc, -m) > reach * reach) continue;
                 const float cosine = arc.ends[0] < 0 ? -2.0f : float(std::cos(arc.half));
                 near.arcs.push_back({Vec3f(m), Vec3f(arc.axis), Vec3f(arc.middle),
                                      float(arc.radius), cosine, arcs + std::int32_t(k)});
@@ -346,11 +399,11 @@ private:
     }
 
     /// @param[in] x  relative to the circle's centre
-    static double distanceToCircle(const Arc& arc, const Vec3d& x)
+    static double distance2ToCircle(const Arc& arc, const Vec3d& x)
     {
         const double along = x.dot(arc.axis);
-        const double r = std::sqrt(std::max(0.0, x.lengthSqr() - along * along));
-        return std::hypot(along, r - arc.radius);
+        const double r = std::sqrt(std::max(0.0, x.lengthSqr() - along * along)) - arc.radius;
+        return along * along + r * r;
     }
 
     /// @param[out] distance  signed, of the cube's voxels [Å]
@@ -390,28 +443,49 @@ private:
             }
         }
         nearCorners(c, near.cubeCorners.data(), near.cubeCorners.size());
+        // A part that is farther from the centre is farther from every voxel than what it has.
+        const auto farthest = [&c] {
+            float most2 = 0.0f;
+            for (const float d2 : c.least2) most2 = larger(most2, d2);
+            return std::sqrt(most2) + c.radius;
+        };
+        float limit = farthest();
         for (const NearArc& arc : near.arcs) {
             const Vec3f x = c.centre - arc.centre;
             const float along = x.dot(arc.axis);
             const float r = std::sqrt(std::max(0.0f, x.lengthSqr() - along * along)) - arc.radius;
-            if (along * along + r * r < reach * reach) near.cubeArcs.push_back(arc);
+            if (along * along + r * r < limit * limit) near.cubeArcs.push_back(arc);
         }
         nearArcs(c, near.cubeArcs.data(), near.cubeArcs.size());
-        float farthest2 = 0.0f;
-        for (const float d2 : c.least2) farthest2 = std::max(farthest2, d2);
-        const float limit = std::sqrt(farthest2) + c.radius;
-        for (const NearPatch& patch : near.patches) {
-            const float gap = std::abs((patch.centre - c.centre).length() - patch.radius);
-            if (gap < limit) near.cubePatches.push_back(patch);
+        limit = farthest();
+        for (NearPatch& patch : near.patches) {
+            patch.gap = std::abs((patch.centre - c.centre).length() - patch.radius);
+            if (patch.gap < limit) near.cubePatches.push_back(patch);
         }
-        nearPatches(c, near.cubePatches.data(), near.cubePatches.size(), near.caps.data());
+        // The nearest first: of the others fewer voxels then are looked at.
+        std::sort(near.cubePatches.begin(), near.cubePatches.end(),
+                  [](const NearPatch& a, const NearPatch& b) { return a.gap < b.gap; });
+        for (const NearPatch& patch : near.cubePatches) nearPatch(c, patch, near);
         for (int k = 0; k < cubeSize; ++k) {
             if (distance[k] < 0.0f) distance[k] = -std::sqrt(c.least2[k]);
         }
     }
 
+    void nearPatch(Cube& c, const NearPatch& patch, Near& near) const
+    {
+        const std::size_t room = patch.capsEnd - patch.capsBegin;
+        if (near.caps.size() < room) {
+            near.caps.resize(room);
+            near.above.resize(room);
+        }
+        const int count = capsAbout(Cone(c, patch.centre), caps_, patch.capsBegin, patch.capsEnd,
+                                    near.above.data(), near.caps.data());
+        if (count >= 0) molsurf::nearPatch(c, patch, caps_, near.caps.data(), count);
+    }
+
     const BallBoundary& boundary_;
     double probe_, voxel_, inside_, outside_, largest_;
+    CapArrays caps_; // of the boundary
     std::vector<Ball> spheres_;
     BallIndex patchIndex_, ballIndex_;
 };
