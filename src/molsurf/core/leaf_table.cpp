@@ -30,15 +30,6 @@ LeafField copied(const LeafField& field)
 namespace
 {
 
-/// The bits of all lanes together.
-inline __attribute__((always_inline)) std::uint64_t bitsOf(const Ints& bits)
-{
-    std::uint64_t pairs[lanes / 2], all = 0;
-    std::memcpy(pairs, &bits, sizeof pairs);
-    for (const std::uint64_t pair : pairs) all |= pair;
-    return (all | all >> 32) & 0xffffffff;
-}
-
 /// The voxels of a leaf whose values, or their sizes, are below a limit.
 template<bool size>
 inline __attribute__((always_inline)) LeafMask below(const float* values, float limit)
@@ -53,7 +44,7 @@ inline __attribute__((always_inline)) LeafMask below(const float* values, float 
             if (size) v = v < 0.0f ? -v : v;
             bits |= v < limit ? bit[i] : Ints{};
         }
-        mask.words[half / 2] |= bitsOf(bits) << (32 * (half & 1));
+        mask.words[half / 2] |= std::uint64_t(bitsOf(bits)) << (32 * (half & 1));
     }
     return mask;
 }

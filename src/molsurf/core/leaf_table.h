@@ -58,6 +58,7 @@ public:
         const T* values = leaf(n);
         for (int i = begin; i < end; i += step) __builtin_prefetch(values + i);
     }
+
     std::size_t bytes() const { return values_.size() * sizeof(T); }
 
     /// The same memory for values of another type of this size. What it holds are the bytes of the

@@ -31,6 +31,15 @@ constexpr int lanes = 16;
 using Floats = float __attribute__((vector_size(4 * lanes), aligned(4)));
 using Ints = std::int32_t __attribute__((vector_size(4 * lanes), aligned(4)));
 
+/// The bits of all lanes together.
+inline __attribute__((always_inline)) std::uint32_t bitsOf(const Ints& v)
+{
+    std::uint64_t pairs[lanes / 2], all = 0;
+    std::memcpy(pairs, &v, sizeof pairs);
+    for (const std::uint64_t pair : pairs) all |= pair;
+    return std::uint32_t(all | all >> 32);
+}
+
 /// Eight of double width, likewise.
 constexpr int doubleLanes = 8;
 using Doubles = double __attribute__((vector_size(8 * doubleLanes), aligned(8)));
@@ -42,8 +51,14 @@ class FlushDenormals
 {
 public:
 #ifdef __SSE__
-    FlushDenormals() { _mm_setcsr(before_ | 0x8040); } // results and operands
-    ~FlushDenormals() { _mm_setcsr(before_); }
+    FlushDenormals()
+    {
+        _mm_setcsr(before_ | 0x8040);
+    } // results and operands
+    ~FlushDenormals()
+    {
+        _mm_setcsr(before_);
+    }
 #else
     FlushDenormals() {}
 #endif

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace molsurf
 {
@@ -24,10 +23,7 @@ constexpr float cubeRadius = 0.5f * (cube - 1) * 1.7320508f; // of its voxels' c
 inline __attribute__((always_inline)) int appendLanes(const Ints& on, int i, std::int32_t* list,
                                                       int m)
 {
-    std::uint64_t pairs[lanes / 2], any = 0;
-    std::memcpy(pairs, &on, sizeof pairs);
-    for (const std::uint64_t pair : pairs) any |= pair;
-    if (any == 0) return m;
+    if (bitsOf(on) == 0) return m;
     for (int k = 0; k < lanes; ++k) {
         list[m] = i + k;
         m -= on[k];

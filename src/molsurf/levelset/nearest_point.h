@@ -5,6 +5,7 @@
 /// The nearest of many points on a surface, for every voxel of a band about it.
 
 #include "molsurf/core/leaf_table.h"
+#include "molsurf/core/simd.h"
 
 #include <openvdb/Types.h>
 
@@ -23,7 +24,7 @@ struct LeafPoints {
     std::vector<std::size_t> begins;
     std::vector<float> x, y, z; ///< from the first voxel of their leaf [voxel]; `padding` more than
                                 ///< there are points
-    static constexpr std::size_t padding = 16;
+    static constexpr std::size_t padding = lanes;
 };
 
 /// Room for one search, kept from leaf to leaf by a thread.

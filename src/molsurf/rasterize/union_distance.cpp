@@ -85,14 +85,6 @@ inline __attribute__((always_inline)) void squareRoot(const Floats& x, Floats& o
     std::memcpy(&out, values, sizeof values);
 }
 
-inline __attribute__((always_inline)) bool anyOf(const Ints& on)
-{
-    std::int64_t words[lanes / 2], any = 0;
-    std::memcpy(words, &on, sizeof words);
-    for (const std::int64_t w : words) any |= w;
-    return any != 0;
-}
-
 /// Keeps what is nearer.
 inline __attribute__((always_inline)) void keep(Cube& c, int plane, const Floats& d2, int part)
 {
@@ -206,12 +198,12 @@ MOLSURF_KERNEL void nearPatch(Cube& c, const NearPatch& patch, const CapArrays& 
         const Floats least = *reinterpret_cast<const Floats*>(c.least2 + lanes * plane);
         // Only directions that would be nearer are looked at further.
         Ints open = d2 < least ? Ints{} - 1 : Ints{};
-        if (!anyOf(open)) continue;
+        if (bitsOf(open) == 0) continue;
         for (int k = 0; k < count; ++k) {
             const std::uint32_t i = list[k];
             const Floats along = dx * caps.x[i] + dy * caps.y[i] + dz * caps.z[i];
             open = along > (caps.cosine[i] + rimTolerance) * r ? Ints{} : open;
-            if ((k & 3) == 3 && !anyOf(open)) break;
+            if ((k & 3) == 3 && bitsOf(open) == 0) break;
         }
         d2 = open != 0 ? d2 : Floats{} + 1e30f;
         keep(c, plane, d2, patch.part);

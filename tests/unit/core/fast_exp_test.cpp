@@ -42,4 +42,19 @@ TEST(FastLog, IsAsExactAsFloatAllows)
 }
 
 } // namespace
+TEST(FlushDenormals, TakesThemForZeroWhileItLives)
+{
+#ifndef __SSE__
+    GTEST_SKIP();
+#endif
+    volatile float small = 1e-30f;
+    {
+        const FlushDenormals scope;
+        volatile float denormal = small * 1e-10f;
+        EXPECT_EQ(denormal, 0.0f);
+    }
+    volatile float denormal = small * 1e-10f;
+    EXPECT_GT(denormal, 0.0f);
+}
+
 } // namespace molsurf
