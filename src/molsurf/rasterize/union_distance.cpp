@@ -52,6 +52,7 @@ struct NearCorner {
 struct NearBall {
     Vec3f centre;
     float radius;
+    float distance; // of its boundary from the leaf's centre, < 0 inside
 };
 
 /// Caps, number by number: loops over them vectorise.
@@ -358,12 +359,12 @@ private:
                                    const Vec3f c(Vec3d(ball.center) - centre);
                                    const float R = float(ball.radius + probe_);
                                    const double touch = R + outside_ + radius;
-                                   if (c.lengthSqr() < touch * touch) near.balls.push_back({c, R});
+                                   if (c.lengthSqr() < touch * touch)
+                                       near.balls.push_back({c, R, c.length() - R});
                                });
         // The largest overlap first: it may hold all voxels of a cube.
-        std::sort(near.balls.begin(), near.balls.end(), [](const NearBall& a, const NearBall& b) {
-            return a.centre.length() - a.radius < b.centre.length() - b.radius;
-        });
+        std::sort(near.balls.begin(), near.balls.end(),
+                  [](const NearBall& a, const NearBall& b) { return a.distance < b.distance; });
         patchIndex_.forEachNear(centre, centre, largest_ + reach, [&](const Ball&, std::int32_t i) {
             const Patch& patch = boundary_.patches[i];
             const Vec3d c = patch.centre - centre;

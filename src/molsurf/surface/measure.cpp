@@ -25,20 +25,16 @@ using Sums = PieceMeasure;
 constexpr double rule[2][2] = {{0.445948490915965, 0.223381589678011},
                                {0.091576213509771, 0.109951743655322}};
 
-/// Eight numbers that are added and multiplied at once (a compiler extension of GCC and Clang).
-using Eight = double __attribute__((vector_size(64)));
-
 /// Triangles side by side, one a lane.
 struct Patches {
-    static constexpr int lanes = 8;
-    Eight p[3][3]; ///< corner, axis: positions [Å]
-    Eight n[3][3]; ///< unit normals there
-    Eight area;    ///< of the patch [Å^2]
-    Eight volume;  ///< of the cone of the patch and the origin [Å^3]
-    Eight flat;    ///< twice the area of the triangle, squared
+    Doubles p[3][3]; ///< corner, axis: positions [Å]
+    Doubles n[3][3]; ///< unit normals there
+    Doubles area;    ///< of the patch [Å^2]
+    Doubles volume;  ///< of the cone of the patch and the origin [Å^3]
+    Doubles flat;    ///< twice the area of the triangle, squared
 };
 
-inline __attribute__((always_inline)) void cross(const Eight* u, const Eight* v, Eight* out)
+inline __attribute__((always_inline)) void cross(const Doubles* u, const Doubles* v, Doubles* out)
 {
     for (int a = 0; a < 3; ++a) {
         const int b = (a + 1) % 3, c = (a + 2) % 3;
@@ -46,7 +42,7 @@ inline __attribute__((always_inline)) void cross(const Eight* u, const Eight* v,
     }
 }
 
-inline __attribute__((always_inline)) void dot(const Eight* u, const Eight* v, Eight& out)
+inline __attribute__((always_inline)) void dot(const Doubles* u, const Doubles* v, Doubles& out)
 {
     out = u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
@@ -55,12 +51,12 @@ inline __attribute__((always_inline)) void dot(const Eight* u, const Eight* v, E
 /// them.
 MOLSURF_KERNEL void measurePatches(Patches& s)
 {
-    Eight mid[3][3]; // opposite to corner k
+    Doubles mid[3][3]; // opposite to corner k
     for (int k = 0; k < 3; ++k) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        Eight edge[3];
+        Doubles edge[3];
         for (int a = 0; a < 3; ++a) edge[a] = s.p[j][a] - s.p[i][a];
-        Eight along, against;
+        Doubles along, against;
         dot(edge, s.n[j], along);
         dot(edge, s.n[i], against);
         for (int a = 0; a < 3; ++a) {
@@ -68,17 +64,17 @@ MOLSURF_KERNEL void measurePatches(Patches& s)
                 0.5 * (s.p[i][a] + s.p[j][a]) + 0.125 * (along * s.n[j][a] - against * s.n[i][a]);
         }
     }
-    s.area = s.volume = Eight{};
+    s.area = s.volume = Doubles{};
     for (const auto& [equal, weight] : rule) {
         for (int k = 0; k < 3; ++k) {
             double b[3] = {equal, equal, equal};
             b[k] = 1.0 - 2.0 * equal;
             // x = sum b_k (2 b_k - 1) p_k + sum 4 b_i b_j mid_k; derivatives along b_1 and b_2 with
             // b_0 = 1 - b_1 - b_2
-            Eight x[3], u[3], v[3];
+            Doubles x[3], u[3], v[3];
             for (int a = 0; a < 3; ++a) {
-                Eight d[3];
-                x[a] = Eight{};
+                Doubles d[3];
+                x[a] = Doubles{};
                 for (int c = 0; c < 3; ++c) {
                     const int i = (c + 1) % 3, j = (c + 2) % 3;
                     x[a] += b[c] * (2.0 * b[c] - 1.0) * s.p[c][a] + 4.0 * b[i] * b[j] * mid[c][a];
@@ -88,17 +84,17 @@ MOLSURF_KERNEL void measurePatches(Patches& s)
                 u[a] = d[1] - d[0];
                 v[a] = d[2] - d[0];
             }
-            Eight normal[3]; // twice the area element
+            Doubles normal[3]; // twice the area element
             cross(u, v, normal);
-            Eight length, height;
+            Doubles length, height;
             dot(normal, normal, length);
             dot(x, normal, height);
-            for (int l = 0; l < Patches::lanes; ++l) length[l] = std::sqrt(length[l]);
+            for (int l = 0; l < doubleLanes; ++l) length[l] = std::sqrt(length[l]);
             s.area += 0.5 * weight * length;
             s.volume += weight / 6.0 * height;
         }
     }
-    Eight u[3], v[3], normal[3];
+    Doubles u[3], v[3], normal[3];
     for (int a = 0; a < 3; ++a) {
         u[a] = s.p[1][a] - s.p[0][a];
         v[a] = s.p[2][a] - s.p[0][a];
@@ -132,8 +128,8 @@ std::vector<PieceMeasure> measurePieces(const Mesh& mesh, const std::vector<std:
     parallelFor(chunks, progress, [&](std::size_t c) {
         const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * chunk);
         Patches patches{};
-        for (std::size_t first = c * chunk; first < end; first += Patches::lanes) {
-            const int used = int(std::min<std::size_t>(Patches::lanes, end - first));
+        for (std::size_t first = c * chunk; first < end; first += doubleLanes) {
+            const int used = int(std::min<std::size_t>(doubleLanes, end - first));
             for (int l = 0; l < used; ++l)
                 load(mesh, mesh.triangles[first + l], origin, l, patches);
             measurePatches(patches);

@@ -81,16 +81,18 @@ VertexTriangles vertexTriangles(const Mesh& mesh)
 VertexTriangles vertexTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& some,
                                 const Progress& progress)
 {
-    constexpr std::uint32_t none = ~std::uint32_t(0);
-    std::vector<std::uint32_t> place(mesh.positions.size(), none);
-    for (std::uint32_t i = 0; i < some.size(); ++i) place[some[i]] = i;
+    std::vector<bool> wanted(mesh.positions.size());
+    for (const std::uint32_t v : some) wanted[v] = true;
     struct Corner {
         std::uint32_t place, triangle;
     };
     const auto corners =
         parallelCollect<Corner>(mesh.triangles.size(), progress, [&](std::size_t i, auto& found) {
-            for (const std::uint32_t v : mesh.triangles[i])
-                if (place[v] != none) found.push_back({place[v], std::uint32_t(i)});
+            for (const std::uint32_t v : mesh.triangles[i]) {
+                if (!wanted[v]) continue;
+                const auto place = std::lower_bound(some.begin(), some.end(), v) - some.begin();
+                found.push_back({std::uint32_t(place), std::uint32_t(i)});
+            }
         });
     return listed(some.size(), [&](const auto& take) {
         for (const Corner& c : corners) take(c.place, c.triangle);
