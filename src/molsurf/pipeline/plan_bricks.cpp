@@ -24,17 +24,18 @@ namespace
 // memory against the leaves that hold atoms or lie beside them. No peak was above 0.96 of what
 // these give, since not all such leaves have a part of the surface. It is either that of the flow
 // and the distances, or that of the mesh.
-constexpr double processBytes = 70e6; // program, libraries, buffers
-constexpr double bytesPerAtom = 40.0; // of the whole molecule: balls, and reading them
-constexpr double bytesPerNear = 85.0; // of the balls near a brick: cell lists, copies
-constexpr double bytesPerBoundaryBall =
-    2.2e3;                                  // of those, where the boundary of their union is made
-constexpr double bytesPerFlowLeaf = 8.5e3;  // within the halo of the flow
-constexpr double bytesPerMeshLeaf = 12.5e3; // within the halo of the spline
-constexpr double bytesPerFineLeaf = 25e3;   // the same of a surface that runs between atoms
-constexpr double bytesPerKeptLeaf = 5.5e3;  // of the flow, where these are kept for the next brick
+constexpr double processBytes = 70e6;          // program, libraries, buffers
+constexpr double bytesPerAtom = 40.0;          // of the whole molecule: balls, and reading them
+constexpr double bytesPerNear = 85.0;          // of the balls near a brick: cell lists, copies
+constexpr double bytesPerBoundaryBall = 1.8e3; // of those: the boundary of their union
+constexpr double bytesPerOffsetBall = 1.3e3;   // the same where the surface lies inside of it
+constexpr double bytesPerFlowLeaf = 8.5e3;     // within the halo of the flow
+constexpr double bytesPerMeshLeaf = 12.5e3;    // within the halo of the spline
+constexpr double bytesPerFineLeaf = 25e3;      // the same of a surface that runs between atoms
+constexpr double bytesPerKeptLeaf = 5.5e3; // of the flow, where these are kept for the next brick
 constexpr double bytesPerValueOfLeaf = 2.5e3; // of a grid that goes along with the surface
 constexpr double secondsPerLeaf = 0.2e-3, secondsPerFlowLeaf = 0.14e-3; // one core
+constexpr double secondsPerBoundaryBall = 25e-6;
 constexpr double bytesToMerge =
     7.0; // an active voxel: leaves without values, statistics of vertices
 constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
@@ -149,7 +150,10 @@ public:
         // Grids with wider bands may have leaves in a box that holds no other.
         brick.voxels =
             std::max(std::size_t(voxelsPerLeaf * double(own)), std::min<std::size_t>(inSpline, 1));
-        const double perBall = bytesPerNear + (isUnion(options_.kind) ? bytesPerBoundaryBall : 0.0);
+        const double forBoundary = !isUnion(options_.kind)    ? 0.0
+                                   : offsetOf(options_) > 0.0 ? bytesPerOffsetBall
+                                                              : bytesPerBoundaryBall;
+        const double perBall = bytesPerNear + forBoundary;
         const bool fine =
             options_.kind == SurfaceKind::Gaussian || options_.kind == SurfaceKind::VanDerWaals;
         const double forFlow = bytesPerFlowLeaf * double(inFlow);
@@ -158,7 +162,8 @@ public:
             processBytes + bytesPerAtom * double(atoms_) + perBall * double(balls) +
             (keeping_ ? bytesPerKeptLeaf * double(inFlow) + forMesh : std::max(forFlow, forMesh)) +
             bytesPerValueOfLeaf * valuesAlong(options_) * double(own));
-        brick.seconds = secondsPerLeaf * double(inSpline) + secondsPerFlowLeaf * double(inFlow);
+        brick.seconds = secondsPerLeaf * double(inSpline) + secondsPerFlowLeaf * double(inFlow) +
+                        (isUnion(options_.kind) ? secondsPerBoundaryBall * double(balls) : 0.0);
         return brick;
     }
 

@@ -191,8 +191,8 @@ DistanceBand distanceBand(const std::vector<Ball>& balls, const LeafTable& table
         S = redistance(table, std::move(phi), h, inside, outside, -offset, progress, box);
     } else {
         const double probe = grownBy(options);
-        const BallBoundary boundary = ballBoundary(balls, probe, progress);
-        S = distanceToUnion(balls, probe, boundary, h, inside, outside, progress, box);
+        S = distanceToUnion(balls, probe, ballBoundary(balls, probe, progress), h, inside, outside,
+                            progress, box);
     }
     if (offset > 0.0) {
         parallelFor(S.table.size(), progress, [&](std::size_t n) {

@@ -374,11 +374,13 @@ BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Pr
     const GrownBalls grown(balls, probe, progress);
     tbb::enumerable_thread_specific<Scratch> scratches;
     std::vector<BallParts> all(balls.size());
+    std::vector<std::uint32_t> caps(balls.size());
     std::vector<std::uint8_t> exposed(balls.size());
     parallelFor(balls.size(), progress, [&](std::size_t n) {
         if (grown.isWithinOther(n)) return;
         Scratch& s = scratches.local();
         grown.findCaps(n, s);
+        caps[n] = std::uint32_t(s.caps.size());
         if (s.caps.size() == 0) exposed[n] = 1;
         for (int k = 0; k < s.caps.size(); ++k) {
             if (s.caps.other[std::size_t(k)] < std::int32_t(n)) continue; // found by the other
@@ -390,13 +392,6 @@ BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Pr
             for (const std::int32_t ball : arc.balls) exposed[std::size_t(ball)] = 1;
         }
     }
-    std::vector<std::vector<Cap>> caps(balls.size());
-    parallelFor(balls.size(), progress, [&](std::size_t n) {
-        if (!exposed[n]) return;
-        Scratch& s = scratches.local();
-        grown.findCaps(n, s);
-        for (int k = 0; k < s.caps.size(); ++k) caps[n].push_back(s.caps[k]);
-    });
 
     BallBoundary boundary;
     std::uint32_t capCount = 0, arcCount = 0, cornerCount = 0;
@@ -411,7 +406,7 @@ BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Pr
                     0,
                     cornerCount,
                     0};
-        patch.capsEnd = capCount += std::uint32_t(caps[n].size());
+        patch.capsEnd = capCount += caps[n];
         patch.arcsEnd = arcCount += std::uint32_t(all[n].arcs.size());
         patch.cornersEnd = cornerCount += std::uint32_t(all[n].corners.size());
         boundary.patches.push_back(patch);
@@ -422,11 +417,13 @@ BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Pr
     parallelFor(boundary.patches.size(), progress, [&](std::size_t p) {
         const Patch& patch = boundary.patches[p];
         const auto n = std::size_t(patch.ball);
-        std::copy(caps[n].begin(), caps[n].end(), boundary.caps.begin() + patch.capsBegin);
+        Scratch& s = scratches.local();
+        grown.findCaps(n, s); // once more: those of all balls would take much memory
+        for (int k = 0; k < s.caps.size(); ++k)
+            boundary.caps[patch.capsBegin + std::size_t(k)] = s.caps[k];
         std::copy(all[n].arcs.begin(), all[n].arcs.end(), boundary.arcs.begin() + patch.arcsBegin);
         std::copy(all[n].corners.begin(), all[n].corners.end(),
                   boundary.corners.begin() + patch.cornersBegin);
-        caps[n] = std::vector<Cap>();
         all[n] = BallParts();
     });
     return boundary;

@@ -247,22 +247,14 @@ struct Near {
 class Evaluator
 {
 public:
-    Evaluator(const std::vector<Ball>& balls, double probe, const BallBoundary& boundary,
-              double voxel, double inside, double outside)
+    /// @param[in,out] boundary  its caps are taken
+    Evaluator(const std::vector<Ball>& balls, double probe, BallBoundary& boundary, double voxel,
+              double inside, double outside)
         : boundary_(boundary), probe_(probe), voxel_(voxel), inside_(inside), outside_(outside),
-          largest_(largest(balls) + probe), spheres_(patchBalls(boundary)),
-          patchIndex_(spheres_, std::max(2.0, largest_ / 1.5)),
+          largest_(largest(balls) + probe), caps_(arraysOf(std::move(boundary.caps))),
+          spheres_(patchBalls(boundary)), patchIndex_(spheres_, std::max(2.0, largest_ / 1.5)),
           ballIndex_(balls, std::max(2.0, largest_ / 1.5))
     {
-        for (auto* v : {&caps_.x, &caps_.y, &caps_.z, &caps_.cosine, &caps_.sine})
-            v->reserve(boundary.caps.size());
-        for (const Cap& cap : boundary.caps) {
-            caps_.x.push_back(float(cap.axis.x()));
-            caps_.y.push_back(float(cap.axis.y()));
-            caps_.z.push_back(float(cap.axis.z()));
-            caps_.cosine.push_back(float(cap.cosine));
-            caps_.sine.push_back(float(std::sqrt(1.0 - cap.cosine * cap.cosine)));
-        }
     }
 
     /// The leaves that may have a voxel of the band.
@@ -335,6 +327,19 @@ private:
         float r = 0.0f;
         for (const Ball& ball : balls) r = std::max(r, ball.radius);
         return r;
+    }
+    static CapArrays arraysOf(const std::vector<Cap> caps)
+    {
+        CapArrays out;
+        for (auto* v : {&out.x, &out.y, &out.z, &out.cosine, &out.sine}) v->reserve(caps.size());
+        for (const Cap& cap : caps) {
+            out.x.push_back(float(cap.axis.x()));
+            out.y.push_back(float(cap.axis.y()));
+            out.z.push_back(float(cap.axis.z()));
+            out.cosine.push_back(float(cap.cosine));
+            out.sine.push_back(float(std::sqrt(1.0 - cap.cosine * cap.cosine)));
+        }
+        return out;
     }
     static std::vector<Ball> patchBalls(const BallBoundary& boundary)
     {
@@ -478,7 +483,7 @@ private:
 
     const BallBoundary& boundary_;
     double probe_, voxel_, inside_, outside_, largest_;
-    CapArrays caps_; // of the boundary
+    const CapArrays caps_;
     std::vector<Ball> spheres_;
     BallIndex patchIndex_, ballIndex_;
 };
@@ -518,9 +523,8 @@ bool isKink(const Vec3d& x, const Vec3d& foot, const Vec3d& nextFoot, double vox
 
 } // namespace
 
-DistanceBand distanceToUnion(const std::vector<Ball>& balls, double probe,
-                             const BallBoundary& boundary, double voxel, double inside,
-                             double outside, const Progress& progress,
+DistanceBand distanceToUnion(const std::vector<Ball>& balls, double probe, BallBoundary boundary,
+                             double voxel, double inside, double outside, const Progress& progress,
                              const openvdb::CoordBBox& box)
 {
     DistanceBand band;

@@ -22,12 +22,12 @@ namespace molsurf
 ///
 /// @param[in] balls     that the boundary was made of
 /// @param[in] probe     [Å]
+/// @param[in] boundary  handed over, since it takes much memory
 /// @param[in] voxel     voxel edge h [Å]
 /// @param[in] inside,outside  depth and height of the result [Å]
 /// @param[in] box       of whole leaves: no others are looked at
-DistanceBand distanceToUnion(const std::vector<Ball>& balls, double probe,
-                             const BallBoundary& boundary, double voxel, double inside,
-                             double outside, const Progress& progress,
+DistanceBand distanceToUnion(const std::vector<Ball>& balls, double probe, BallBoundary boundary,
+                             double voxel, double inside, double outside, const Progress& progress,
                              const openvdb::CoordBBox& box = openvdb::CoordBBox::inf());
 
 } // namespace molsurf
