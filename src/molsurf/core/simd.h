@@ -4,6 +4,7 @@
 /// @file
 /// Instruction sets for the hot loops, and the exponential and logarithm that they can vectorise.
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #ifdef __SSE__
@@ -30,6 +31,14 @@ namespace molsurf
 constexpr int lanes = 16;
 using Floats = float __attribute__((vector_size(4 * lanes), aligned(4)));
 using Ints = std::int32_t __attribute__((vector_size(4 * lanes), aligned(4)));
+
+inline __attribute__((always_inline)) void squareRoot(const Floats& x, Floats& out)
+{
+    alignas(64) float values[lanes];
+    std::memcpy(values, &x, sizeof values);
+    for (float& v : values) v = std::sqrt(v);
+    std::memcpy(&out, values, sizeof values);
+}
 
 /// The bits of all lanes together.
 inline __attribute__((always_inline)) std::uint32_t bitsOf(const Ints& v)
@@ -67,6 +76,7 @@ public:
 
 #ifdef __SSE__
 private:
+    static constexpr unsigned results = 0x8000, operands = 0x40; // "flush to zero" and "are zeros"
     const unsigned before_ = _mm_getcsr();
 #endif
 };

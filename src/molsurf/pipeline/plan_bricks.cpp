@@ -34,7 +34,8 @@ constexpr double bytesPerMeshLeaf = 12.5e3;    // within the halo of the spline
 constexpr double bytesPerFineLeaf = 25e3;      // the same of a surface that runs between atoms
 constexpr double bytesPerKeptLeaf = 5.5e3; // of the flow, where these are kept for the next brick
 constexpr double bytesPerValueOfLeaf = 2.5e3; // of a grid that goes along with the surface
-constexpr double secondsPerLeaf = 0.2e-3, secondsPerFlowLeaf = 0.14e-3; // one core
+// On one core.
+constexpr double secondsPerLeaf = 0.2e-3, secondsPerFlowLeaf = 0.14e-3;
 constexpr double secondsPerBoundaryBall = 25e-6;
 constexpr double bytesToMerge =
     7.0; // an active voxel: leaves without values, statistics of vertices

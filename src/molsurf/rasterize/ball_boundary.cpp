@@ -171,6 +171,7 @@ MOLSURF_KERNEL int farthestEnd(double fromX, double fromY, int count, const doub
 /// Whether covers overlap all around a circle, found by going from the end of one to the farthest
 /// end of those that hold it. False where they may do no more than touch: those who need to know
 /// have to look closer.
+/// @param[in,out] c  its ends are filled in
 bool surround(Covers& c)
 {
     const int count = c.size();
@@ -187,7 +188,7 @@ bool surround(Covers& c)
         if (farthest <= coverMargin) return false;
         double now;
         quartersAhead(startX, startY, c.endX[std::size_t(at)], c.endY[std::size_t(at)], now);
-        if (now < turned) return now > coverMargin; // past the start
+        if (now < turned) return true; // at the start, which the first step has covered, or past it
         turned = now;
     }
     return false;

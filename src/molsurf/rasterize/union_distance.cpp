@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace molsurf
 {
@@ -76,14 +77,6 @@ inline __attribute__((always_inline)) void places(const Cube& c, Floats& y, Floa
         y[k] = c.first.y() + c.voxel * float(k / cube);
         z[k] = c.first.z() + c.voxel * float(k % cube);
     }
-}
-
-inline __attribute__((always_inline)) void squareRoot(const Floats& x, Floats& out)
-{
-    alignas(64) float values[lanes];
-    std::memcpy(values, &x, sizeof values);
-    for (float& v : values) v = std::sqrt(v);
-    std::memcpy(&out, values, sizeof values);
 }
 
 /// Keeps what is nearer.
@@ -168,11 +161,11 @@ MOLSURF_KERNEL int capsAbout(const Cone& cone, const CapArrays& caps, std::uint3
     std::int32_t whole = 0;
     for (int k = 0; k < count; ++k) {
         // A cap holds the cone if the angle between the axes is below the difference of the half
-        // angles, and misses it if it is above their sum.
+        // angles, and misses it if it is above their sum; none does if that is above pi.
         const float t = x[k] * ax + y[k] * ay + z[k] * az - cosine[k] * cone.cosine;
         const float s = sine[k] * cone.sine;
         whole |= (cosine[k] <= cone.cosine ? t - s : -1.0f) > rimTolerance ? 1 : 0;
-        above[k] = t + s;
+        above[k] = cosine[k] < -cone.cosine ? 1.0f : t + s;
     }
     if (whole) return -1;
     int m = 0;

@@ -41,7 +41,6 @@ TEST(FastLog, IsAsExactAsFloatAllows)
     EXPECT_EQ(fastLog(1.0f), 0.0f);
 }
 
-} // namespace
 TEST(FlushDenormals, TakesThemForZeroWhileItLives)
 {
 #ifndef __SSE__
@@ -57,4 +56,5 @@ TEST(FlushDenormals, TakesThemForZeroWhileItLives)
     EXPECT_GT(denormal, 0.0f);
 }
 
+} // namespace
 } // namespace molsurf

@@ -115,6 +115,8 @@ TEST(UnionOfBalls, DistanceIsExactOnBothSides)
                 2.0, "three");
     expectExact(test::randomBalls(12, 7.0, Vec3d(3.0, -2.0, 1.0), 4), 1.4, 0.5, 3.4, 1.0, "twelve");
     expectExact(test::randomBalls(9, 5.0, Vec3d(3.0, -2.0, 1.0), 5), 0.0, 0.25, 1.5, 1.0, "nine");
+    expectExact(test::randomBalls(12, 2.0, Vec3d(3.0, -2.0, 1.0), 6), 1.4, 1.0, 4.0, 2.0,
+                "twelve close together, by large voxels");
 }
 
 // Equal, contained, touching and collinear balls, and four spheres through one point.
@@ -125,6 +127,8 @@ TEST(UnionOfBalls, DistanceOfSpecialPositions)
     expectExact({ball(0, 0, 0, 1.5), ball(3, 0, 0, 1.5)}, 0.0, 0.25, 1.0, 1.0, "touching");
     expectExact({ball(0, 0, 0, 1.5), ball(1.5, 0, 0, 1.5), ball(3, 0, 0, 1.5)}, 1.4, 0.5, 2.0, 1.0,
                 "collinear");
+    expectExact({ball(-0.06f, 0.75f, 0.75f, 2.0), ball(0.75f, 0.75f, 0.75f, 1.2f)}, 1.4, 0.5, 2.0,
+                1.0, "a cap of nearly the whole sphere");
     expectExact({ball(0, 0, 0, 1.5), ball(2, 0, 0, 1.5), ball(0, 2, 0, 1.5), ball(2, 2, 0, 1.5)},
                 1.0, 0.5, 3.0, 1.0, "a square");
     std::vector<Ball> cube;
