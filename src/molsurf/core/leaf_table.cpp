@@ -33,13 +33,14 @@ namespace
 template<bool size>
 inline __attribute__((always_inline)) LeafMask below(const float* values, float limit)
 {
-    Ints bit[2];
-    for (int k = 0; k < 2 * lanes; ++k) bit[k / lanes][k % lanes] = std::int32_t(1u << k);
+    constexpr int vectors = 32 / floatLanes; // of half a plane
+    Ints bit[vectors];
+    for (int k = 0; k < 32; ++k) bit[k / floatLanes][k % floatLanes] = std::int32_t(1u << k);
     LeafMask mask;
     for (int half = 0; half < 2 * leafDim; ++half) {
         Ints bits = {};
-        for (int i = 0; i < 2; ++i) {
-            Floats v = *reinterpret_cast<const Floats*>(values + lanes * (2 * half + i));
+        for (int i = 0; i < vectors; ++i) {
+            Floats v = *reinterpret_cast<const Floats*>(values + 32 * half + floatLanes * i);
             if (size) v = v < 0.0f ? -v : v;
             bits |= v < limit ? bit[i] : Ints{};
         }

@@ -26,15 +26,17 @@
 namespace molsurf
 {
 
-/// Sixteen numbers side by side. Comparisons of them are used as conditions of ?: only: GCC takes
-/// other operations on them apart, number by number.
-constexpr int lanes = 16;
-using Floats = float __attribute__((vector_size(4 * lanes), aligned(4)));
-using Ints = std::int32_t __attribute__((vector_size(4 * lanes), aligned(4)));
+/// Numbers side by side, as many as AVX2 holds: GCC takes comparisons of wider ones apart, number
+/// by number, wherever they have to be cut, and all but those in conditions of ?: with AVX-512.
+constexpr int floatLanes = 8, doubleLanes = 4;
+using Floats = float __attribute__((vector_size(32), aligned(4)));
+using Ints = std::int32_t __attribute__((vector_size(32), aligned(4)));
+using Doubles = double __attribute__((vector_size(32), aligned(8)));
+using Longs = std::int64_t __attribute__((vector_size(32), aligned(8)));
 
 inline __attribute__((always_inline)) void squareRoot(const Floats& x, Floats& out)
 {
-    alignas(64) float values[lanes];
+    alignas(32) float values[floatLanes];
     std::memcpy(values, &x, sizeof values);
     for (float& v : values) v = std::sqrt(v);
     std::memcpy(&out, values, sizeof values);
@@ -43,16 +45,11 @@ inline __attribute__((always_inline)) void squareRoot(const Floats& x, Floats& o
 /// The bits of all lanes together.
 inline __attribute__((always_inline)) std::uint32_t bitsOf(const Ints& v)
 {
-    std::uint64_t pairs[lanes / 2], all = 0;
+    std::uint64_t pairs[floatLanes / 2], all = 0;
     std::memcpy(pairs, &v, sizeof pairs);
     for (const std::uint64_t pair : pairs) all |= pair;
     return std::uint32_t(all | all >> 32);
 }
-
-/// Eight of double width, likewise.
-constexpr int doubleLanes = 8;
-using Doubles = double __attribute__((vector_size(8 * doubleLanes), aligned(8)));
-using Longs = std::int64_t __attribute__((vector_size(8 * doubleLanes), aligned(8)));
 
 /// While it lives, its thread takes numbers below the smallest normal one (1e-38 in float) for 0:
 /// products of exponentials run into them, and many processors take a hundred times as long there.
@@ -62,8 +59,8 @@ public:
 #ifdef __SSE__
     FlushDenormals()
     {
-        _mm_setcsr(before_ | 0x8040);
-    } // results and operands
+        _mm_setcsr(before_ | results | operands);
+    }
     ~FlushDenormals()
     {
         _mm_setcsr(before_);

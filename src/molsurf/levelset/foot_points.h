@@ -13,6 +13,8 @@
 namespace molsurf
 {
 
+constexpr int lanes = 16; ///< points side by side
+
 /// Points of a surface with the shape of the surface there, a lane each.
 struct FootPoints {
     using Lanes = float[lanes];

@@ -14,8 +14,8 @@ using openvdb::Coord;
 namespace
 {
 
-constexpr int cube = 4; // a plane of a cube is a vector
-static_assert(cube * cube == lanes && leafDim % cube == 0);
+constexpr int cube = 4, plane = cube * cube;
+static_assert(plane % floatLanes == 0 && leafDim % cube == 0);
 constexpr float cubeRadius = 0.5f * (cube - 1) * 1.7320508f; // of its voxels' centres
 
 /// Appends i + k to a list of m for every lane k that is on.
@@ -24,7 +24,7 @@ inline __attribute__((always_inline)) int appendLanes(const Ints& on, int i, std
                                                       int m)
 {
     if (bitsOf(on) == 0) return m;
-    for (int k = 0; k < lanes; ++k) {
+    for (int k = 0; k < floatLanes; ++k) {
         list[m] = i + k;
         m -= on[k];
     }
@@ -32,13 +32,13 @@ inline __attribute__((always_inline)) int appendLanes(const Ints& on, int i, std
 }
 
 /// The nearest of some points to a place.
-/// @param[in] count  a multiple of `lanes`, positive
+/// @param[in] count  a multiple of `floatLanes`, positive
 MOLSURF_KERNEL int nearestOf(const float* x, const float* y, const float* z, int count, float px,
                              float py, float pz, float& distance2)
 {
     Floats least = Floats{} + 1e30f;
     Ints best = {};
-    for (int i = 0; i < count; i += lanes) {
+    for (int i = 0; i < count; i += floatLanes) {
         const Floats dx = *reinterpret_cast<const Floats*>(x + i) - px;
         const Floats dy = *reinterpret_cast<const Floats*>(y + i) - py;
         const Floats dz = *reinterpret_cast<const Floats*>(z + i) - pz;
@@ -48,7 +48,7 @@ MOLSURF_KERNEL int nearestOf(const float* x, const float* y, const float* z, int
         best = nearer ? Ints{} + i : best;
     }
     int lane = 0;
-    for (int k = 1; k < lanes; ++k) {
+    for (int k = 1; k < floatLanes; ++k) {
         if (least[k] < least[lane]) lane = k;
     }
     distance2 = least[lane];
@@ -66,7 +66,7 @@ MOLSURF_KERNEL int candidates(const float* x, const float* y, const float* z, in
     const float d02 = (x0 - cx) * (x0 - cx) + (yy0 - cy) * (yy0 - cy) + (z0 - cz) * (z0 - cz);
     const float limit = 4.0f * radius * radius;
     int m = 0;
-    for (int i = 0; i < count; i += lanes) {
+    for (int i = 0; i < count; i += floatLanes) {
         const Floats px = *reinterpret_cast<const Floats*>(x + i),
                      py = *reinterpret_cast<const Floats*>(y + i),
                      pz = *reinterpret_cast<const Floats*>(z + i);
@@ -87,30 +87,30 @@ MOLSURF_KERNEL int candidates(const float* x, const float* y, const float* z, in
 MOLSURF_KERNEL void nearestInCube(const float* x, const float* y, const float* z, int count,
                                   float cx, float cy, float cz, std::int32_t* best, float* least)
 {
-    Floats vy, vz;
-    for (int k = 0; k < lanes; ++k) {
-        vy[k] = cy + float(k / cube);
-        vz[k] = cz + float(k % cube);
-    }
-    for (int plane = 0; plane < cube; plane += 2) {
-        const float vx = cx + float(plane);
-        Floats least0 = Floats{} + 1e30f, least1 = least0;
-        Ints best0 = {}, best1 = {};
+    for (int part = 0; part < plane; part += floatLanes) { // of each plane
+        Floats vy, vz;
+        for (int k = 0; k < floatLanes; ++k) {
+            vy[k] = cy + float((part + k) / cube);
+            vz[k] = cz + float((part + k) % cube);
+        }
+        Floats nearest[cube];
+        Ints which[cube] = {};
+        for (Floats& d : nearest) d = Floats{} + 1e30f;
         for (int i = 0; i < count; ++i) {
-            const float dx = x[i] - vx;
             const Floats dy = vy - y[i], dz = vz - z[i];
             const Floats aside = dy * dy + dz * dz;
-            const Floats d0 = aside + dx * dx, d1 = aside + (dx - 1.0f) * (dx - 1.0f);
-            const Ints nearer0 = d0 < least0, nearer1 = d1 < least1;
-            least0 = nearer0 ? d0 : least0;
-            least1 = nearer1 ? d1 : least1;
-            best0 = nearer0 ? Ints{} + i : best0;
-            best1 = nearer1 ? Ints{} + i : best1;
+            for (int k = 0; k < cube; ++k) {
+                const float dx = x[i] - cx - float(k);
+                const Floats d2 = aside + dx * dx;
+                const Ints nearer = d2 < nearest[k];
+                nearest[k] = nearer ? d2 : nearest[k];
+                which[k] = nearer ? Ints{} + i : which[k];
+            }
         }
-        *reinterpret_cast<Floats*>(least + lanes * plane) = least0;
-        *reinterpret_cast<Floats*>(least + lanes * (plane + 1)) = least1;
-        *reinterpret_cast<Ints*>(best + lanes * plane) = best0;
-        *reinterpret_cast<Ints*>(best + lanes * (plane + 1)) = best1;
+        for (int k = 0; k < cube; ++k) {
+            *reinterpret_cast<Floats*>(least + plane * k + part) = nearest[k];
+            *reinterpret_cast<Ints*>(best + plane * k + part) = which[k];
+        }
     }
 }
 
@@ -118,19 +118,19 @@ constexpr float leafHalf = 3.5f;               // of the box of a leaf's voxels'
 constexpr double leafRadius = 3.5 * 1.7320508; // of the ball about it
 
 /// The points within reach of the box of a leaf's voxels, about 0.
-/// @param[in]     in        coordinates, `lanes` more than there are points
+/// @param[in]     in        coordinates, `floatLanes` more than there are points
 /// @param[in]     shift     to add to them
-/// @param[out]    out       indices of the points; room for `lanes` more
+/// @param[out]    out       indices of the points; room for `floatLanes` more
 /// @param[in,out] nearest2  least squared distance of points from 0
 /// @return their number
 MOLSURF_KERNEL int withinReach(const float* const* in, const float* shift, int count, float reach,
                                std::int32_t* out, float& nearest2)
 {
     Ints lane;
-    for (int k = 0; k < lanes; ++k) lane[k] = k;
+    for (int k = 0; k < floatLanes; ++k) lane[k] = k;
     Floats least = Floats{} + 1e30f;
     int m = 0;
-    for (int i = 0; i < count; i += lanes) {
+    for (int i = 0; i < count; i += floatLanes) {
         Floats inside2 = {}, outside2 = {};
         for (int a = 0; a < 3; ++a) {
             const Floats any = *reinterpret_cast<const Floats*>(in[a] + i) + shift[a];
@@ -144,7 +144,7 @@ MOLSURF_KERNEL int withinReach(const float* const* in, const float* shift, int c
         const Ints good = outside2 <= reach * reach ? Ints{} - 1 : Ints{};
         m = appendLanes(good, i, out, m);
     }
-    for (int k = 0; k < lanes; ++k) nearest2 = smaller(nearest2, least[k]);
+    for (int k = 0; k < floatLanes; ++k) nearest2 = smaller(nearest2, least[k]);
     return m;
 }
 
@@ -180,7 +180,7 @@ void prepare(double reach, NearestScratch& s)
 }
 
 /// Gathers the points that may be nearest to a voxel of a leaf, relative to its centre, padded to a
-/// multiple of `lanes` by points farther than any.
+/// multiple of `floatLanes` by points farther than any.
 /// @return their number with the padding
 int gatherPoints(const LeafPoints& points, const Coord& origin, double reach, NearestScratch& s)
 {
@@ -194,8 +194,8 @@ int gatherPoints(const LeafPoints& points, const Coord& origin, double reach, Ne
         if (n == noLeaf) continue;
         const std::size_t begin = points.begins[n], more = points.begins[n + 1] - begin;
         if (more == 0) continue;
-        if (count + more + lanes > s.x.size()) {
-            const std::size_t room = 2 * (count + more + lanes);
+        if (count + more + floatLanes > s.x.size()) {
+            const std::size_t room = 2 * (count + more + floatLanes);
             for (auto* v : {&s.x, &s.y, &s.z}) v->resize(room);
             s.index.resize(room);
             s.nearIndex.resize(room);
@@ -217,7 +217,7 @@ int gatherPoints(const LeafPoints& points, const Coord& origin, double reach, Ne
         // No voxel is farther from its nearest point than the centre from its own plus the radius.
         limit = std::min(reach, std::sqrt(double(nearest2)) + leafRadius);
     }
-    for (; count % lanes != 0; ++count) {
+    for (; count % floatLanes != 0; ++count) {
         s.x[count] = s.y[count] = s.z[count] = 1e15f;
         s.index[count] = -1;
     }
@@ -257,13 +257,13 @@ void nearestPoints(const LeafPoints& points, const Coord& origin, const LeafMask
             s.nearY[i] = s.y[s.nearIndex[i]];
             s.nearZ[i] = s.z[s.nearIndex[i]];
         }
-        std::int32_t best[cube * lanes];
-        float least[cube * lanes];
+        std::int32_t best[cube * plane];
+        float least[cube * plane];
         nearestInCube(s.nearX.data(), s.nearY.data(), s.nearZ.data(), near, cx, cy, cz, best,
                       least);
         const float reach2 = float(reach * reach);
-        for (int k = 0; k < cube * lanes; ++k) {
-            const int v = 64 * (cube * bx + k / lanes) + 8 * (cube * by + k / cube % cube) +
+        for (int k = 0; k < cube * plane; ++k) {
+            const int v = 64 * (cube * bx + k / plane) + 8 * (cube * by + k / cube % cube) +
                           cube * bz + k % cube;
             if (mask.on(v)) out[v] = least[k] <= reach2 ? s.index[s.nearIndex[best[k]]] : -1;
         }

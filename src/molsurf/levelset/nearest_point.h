@@ -24,7 +24,7 @@ struct LeafPoints {
     std::vector<std::size_t> begins;
     std::vector<float> x, y, z; ///< from the first voxel of their leaf [voxel]; `padding` more than
                                 ///< there are points
-    static constexpr std::size_t padding = lanes;
+    static constexpr std::size_t padding = floatLanes;
 };
 
 /// Room for one search, kept from leaf to leaf by a thread.

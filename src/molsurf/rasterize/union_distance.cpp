@@ -24,9 +24,8 @@ using openvdb::Vec3f;
 namespace
 {
 
-constexpr int cube = 4; // a plane of a cube is a vector
-constexpr int planes = cube, cubeSize = planes * lanes;
-static_assert(cube * cube == lanes && leafDim % cube == 0);
+constexpr int cube = 4, plane = cube * cube, cubeSize = cube * plane;
+static_assert(plane % floatLanes == 0 && leafDim % cube == 0);
 constexpr double cubeRadius = 0.5 * (cube - 1) * 1.7320508; // [voxel]
 
 /// A foot counts as uncovered if it lies at most this far, as a cosine, in a cap: the arcs about it
@@ -71,19 +70,21 @@ struct Cube {
     alignas(64) std::int32_t part[cubeSize];
 };
 
-inline __attribute__((always_inline)) void places(const Cube& c, Floats& y, Floats& z)
+/// The places of some voxels of each plane.
+inline __attribute__((always_inline)) void places(const Cube& c, int part, Floats& y, Floats& z)
 {
-    for (int k = 0; k < lanes; ++k) {
-        y[k] = c.first.y() + c.voxel * float(k / cube);
-        z[k] = c.first.z() + c.voxel * float(k % cube);
+    for (int k = 0; k < floatLanes; ++k) {
+        y[k] = c.first.y() + c.voxel * float((part + k) / cube);
+        z[k] = c.first.z() + c.voxel * float((part + k) % cube);
     }
 }
 
 /// Keeps what is nearer.
-inline __attribute__((always_inline)) void keep(Cube& c, int plane, const Floats& d2, int part)
+/// @param[in] first  of the voxels
+inline __attribute__((always_inline)) void keep(Cube& c, int first, const Floats& d2, int part)
 {
-    Floats* least = reinterpret_cast<Floats*>(c.least2 + lanes * plane);
-    Ints* parts = reinterpret_cast<Ints*>(c.part + lanes * plane);
+    Floats* least = reinterpret_cast<Floats*>(c.least2 + first);
+    Ints* parts = reinterpret_cast<Ints*>(c.part + first);
     const Ints nearer = d2 < *least;
     *least = nearer ? d2 : *least;
     *parts = nearer ? Ints{} + part : *parts;
@@ -91,38 +92,43 @@ inline __attribute__((always_inline)) void keep(Cube& c, int plane, const Floats
 
 MOLSURF_KERNEL void nearCorners(Cube& c, const NearCorner* corners, std::size_t count)
 {
-    Floats y, z;
-    places(c, y, z);
-    for (std::size_t i = 0; i < count; ++i) {
-        const Vec3f& p = corners[i].position;
-        const Floats dy = y - p.y(), dz = z - p.z();
-        const Floats aside = dy * dy + dz * dz;
-        for (int plane = 0; plane < planes; ++plane) {
-            const float dx = c.first.x() + c.voxel * float(plane) - p.x();
-            keep(c, plane, aside + dx * dx, corners[i].part);
+    for (int first = 0; first < plane; first += floatLanes) {
+        Floats y, z;
+        places(c, first, y, z);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec3f& p = corners[i].position;
+            const Floats dy = y - p.y(), dz = z - p.z();
+            const Floats aside = dy * dy + dz * dz;
+            for (int k = 0; k < cube; ++k) {
+                const float dx = c.first.x() + c.voxel * float(k) - p.x();
+                keep(c, first + plane * k, aside + dx * dx, corners[i].part);
+            }
         }
     }
 }
 
 MOLSURF_KERNEL void nearArcs(Cube& c, const NearArc* arcs, std::size_t count)
 {
-    Floats y, z;
-    places(c, y, z);
-    for (std::size_t i = 0; i < count; ++i) {
-        const NearArc& arc = arcs[i];
-        const Floats dy = y - arc.centre.y(), dz = z - arc.centre.z();
-        for (int plane = 0; plane < planes; ++plane) {
-            const float dx = c.first.x() + c.voxel * float(plane) - arc.centre.x();
-            const Floats along = dx * arc.axis.x() + dy * arc.axis.y() + dz * arc.axis.z();
-            const Floats middle = dx * arc.middle.x() + dy * arc.middle.y() + dz * arc.middle.z();
-            // Not from squares, which cancel near the axis.
-            const Floats px = dx - along * arc.axis.x(), py = dy - along * arc.axis.y();
-            const Floats pz = dz - along * arc.axis.z();
-            Floats r;
-            squareRoot(px * px + py * py + pz * pz, r);
-            const Floats d2 = along * along + (r - arc.radius) * (r - arc.radius);
-            keep(c, plane, middle >= (arc.cosine - rimTolerance) * r ? d2 : Floats{} + 1e30f,
-                 arc.part);
+    for (int first = 0; first < plane; first += floatLanes) {
+        Floats y, z;
+        places(c, first, y, z);
+        for (std::size_t i = 0; i < count; ++i) {
+            const NearArc& arc = arcs[i];
+            const Floats dy = y - arc.centre.y(), dz = z - arc.centre.z();
+            for (int k = 0; k < cube; ++k) {
+                const float dx = c.first.x() + c.voxel * float(k) - arc.centre.x();
+                const Floats along = dx * arc.axis.x() + dy * arc.axis.y() + dz * arc.axis.z();
+                const Floats middle =
+                    dx * arc.middle.x() + dy * arc.middle.y() + dz * arc.middle.z();
+                // Not from squares, which cancel near the axis.
+                const Floats px = dx - along * arc.axis.x(), py = dy - along * arc.axis.y();
+                const Floats pz = dz - along * arc.axis.z();
+                Floats r;
+                squareRoot(px * px + py * py + pz * pz, r);
+                const Floats d2 = along * along + (r - arc.radius) * (r - arc.radius);
+                keep(c, first + plane * k,
+                     middle >= (arc.cosine - rimTolerance) * r ? d2 : Floats{} + 1e30f, arc.part);
+            }
         }
     }
 }
@@ -179,51 +185,54 @@ MOLSURF_KERNEL int capsAbout(const Cone& cone, const CapArrays& caps, std::uint3
 MOLSURF_KERNEL void nearPatch(Cube& c, const NearPatch& patch, const CapArrays& caps,
                               const std::uint32_t* list, int count)
 {
-    Floats y, z;
-    places(c, y, z);
-    const Floats dy = y - patch.centre.y(), dz = z - patch.centre.z();
-    for (int plane = 0; plane < planes; ++plane) {
-        const float dx = c.first.x() + c.voxel * float(plane) - patch.centre.x();
-        const Floats r2 = dx * dx + dy * dy + dz * dz;
-        Floats r;
-        squareRoot(r2, r);
-        const Floats d = patch.radius - r;
-        Floats d2 = d * d; // of voxels outside the ball too: the same holds for them
-        const Floats least = *reinterpret_cast<const Floats*>(c.least2 + lanes * plane);
-        // Only directions that would be nearer are looked at further.
-        Ints open = d2 < least ? Ints{} - 1 : Ints{};
-        if (bitsOf(open) == 0) continue;
-        for (int k = 0; k < count; ++k) {
-            const std::uint32_t i = list[k];
-            const Floats along = dx * caps.x[i] + dy * caps.y[i] + dz * caps.z[i];
-            open = along > (caps.cosine[i] + rimTolerance) * r ? Ints{} : open;
-            if ((k & 3) == 3 && bitsOf(open) == 0) break;
+    for (int first = 0; first < plane; first += floatLanes) {
+        Floats y, z;
+        places(c, first, y, z);
+        const Floats dy = y - patch.centre.y(), dz = z - patch.centre.z();
+        for (int k = 0; k < cube; ++k) {
+            const float dx = c.first.x() + c.voxel * float(k) - patch.centre.x();
+            const Floats r2 = dx * dx + dy * dy + dz * dz;
+            Floats r;
+            squareRoot(r2, r);
+            const Floats d = patch.radius - r;
+            Floats d2 = d * d; // of voxels outside the ball too: the same holds for them
+            const Floats least = *reinterpret_cast<const Floats*>(c.least2 + first + plane * k);
+            // Only directions that would be nearer are looked at further.
+            Ints open = d2 < least ? Ints{} - 1 : Ints{};
+            if (bitsOf(open) == 0) continue;
+            for (int j = 0; j < count; ++j) {
+                const std::uint32_t i = list[j];
+                const Floats along = dx * caps.x[i] + dy * caps.y[i] + dz * caps.z[i];
+                open = along > (caps.cosine[i] + rimTolerance) * r ? Ints{} : open;
+                if ((j & 3) == 3 && bitsOf(open) == 0) break;
+            }
+            d2 = open != 0 ? d2 : Floats{} + 1e30f;
+            keep(c, first + plane * k, d2, patch.part);
         }
-        d2 = open != 0 ? d2 : Floats{} + 1e30f;
-        keep(c, plane, d2, patch.part);
     }
 }
 
-/// Distance to the nearest ball, and the squared distance less the squared radius, whose sign tells
-/// inside from outside even where the first is rounded.
+/// The signed distance to the nearest ball; the one that counts outside of all.
 MOLSURF_KERNEL void nearBalls(const Cube& c, const NearBall* balls, std::size_t count,
                               float* __restrict distance)
 {
-    Floats y, z;
-    places(c, y, z);
-    for (int plane = 0; plane < planes; ++plane) {
-        const float x = c.first.x() + c.voxel * float(plane);
-        Floats least = Floats{} + 1e15f;
-        for (std::size_t i = 0; i < count; ++i) {
-            const NearBall& b = balls[i];
-            const float dx = x - b.centre.x();
-            const Floats dy = y - b.centre.y(), dz = z - b.centre.z();
-            Floats d;
-            squareRoot(dx * dx + dy * dy + dz * dz, d);
-            d -= b.radius;
-            least = d < least ? d : least;
+    for (int first = 0; first < plane; first += floatLanes) {
+        Floats y, z;
+        places(c, first, y, z);
+        for (int k = 0; k < cube; ++k) {
+            const float x = c.first.x() + c.voxel * float(k);
+            Floats least = Floats{} + 1e15f;
+            for (std::size_t i = 0; i < count; ++i) {
+                const NearBall& b = balls[i];
+                const float dx = x - b.centre.x();
+                const Floats dy = y - b.centre.y(), dz = z - b.centre.z();
+                Floats d;
+                squareRoot(dx * dx + dy * dy + dz * dz, d);
+                d -= b.radius;
+                least = d < least ? d : least;
+            }
+            *reinterpret_cast<Floats*>(distance + first + plane * k) = least;
         }
-        *reinterpret_cast<Floats*>(distance + lanes * plane) = least;
     }
 }
 
@@ -304,7 +313,7 @@ public:
             float distance[cubeSize];
             evaluate(c, near, distance);
             for (int k = 0; k < cubeSize; ++k) {
-                const int v = 64 * (corner.x() + k / lanes) + 8 * (corner.y() + k / cube % cube) +
+                const int v = 64 * (corner.x() + k / plane) + 8 * (corner.y() + k / cube % cube) +
                               corner.z() + k % cube;
                 phi[v] = std::clamp(distance[k], float(-inside_), float(outside_));
                 part[v] = c.part[k];
