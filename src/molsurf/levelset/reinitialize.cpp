@@ -21,24 +21,45 @@ constexpr int X = Block::strideX, Y = Block::strideY;
 /// Time step in units of h: the scheme is stable up to 1/sqrt(3).
 constexpr float timeStep = 0.5f;
 
-/// The one of two numbers of one sign that is nearer to 0; else 0.
-inline __attribute__((always_inline)) float minmod(float a, float b)
+static_assert(leafDim == floatLanes, "a row is a vector");
+
+inline __attribute__((always_inline)) const Floats& rowAt(const float* p)
 {
-    return larger(smaller(a, b), 0.0f) + smaller(larger(a, b), 0.0f);
+    return *reinterpret_cast<const Floats*>(p);
 }
 
-/// The square of the upwind derivative along one axis, times h^2.
-/// @param[in] sign  +1 outside, -1 inside
-inline __attribute__((always_inline)) float upwind(const float* p, int stride, float sign)
+inline __attribute__((always_inline)) void clamp(const Floats& low, const Floats& high, Floats& x)
 {
-    const float below = p[0] - p[-stride], above = p[stride] - p[0];
-    const float centre = above - below;
-    const float before = below - (p[-stride] - p[-2 * stride]);
-    const float after = (p[2 * stride] - p[stride]) - above;
-    const float minus = below + 0.5f * minmod(centre, before);
-    const float plus = above - 0.5f * minmod(centre, after);
-    const float slope = larger(larger(sign * minus, -sign * plus), 0.0f);
-    return slope * slope;
+    x = x > low ? x : low;
+    x = x < high ? x : high;
+}
+
+/// The one of two numbers of one sign that is nearer to 0; else 0: b between 0 and a.
+/// @param[in] zero  a little more than 0, and unknown to the compiler: with constants GCC takes two
+///                  instructions for a minimum
+inline __attribute__((always_inline)) void minmod(const Floats& a, const Floats& b,
+                                                  const Floats& zero, Floats& out)
+{
+    const Floats below = -zero;
+    out = b;
+    clamp(a < below ? a : below, a > zero ? a : zero, out);
+}
+
+/// Adds the square of the upwind derivative along one axis, times h^2.
+/// @param[in] sign  +1 outside, -1 inside
+inline __attribute__((always_inline)) void addUpwind(const float* p, int stride, const Floats& sign,
+                                                     const Floats& zero, Floats& sum)
+{
+    const Floats here = rowAt(p), before = rowAt(p - stride), after = rowAt(p + stride);
+    const Floats below = here - before, above = after - here, centre = above - below;
+    Floats minus, plus;
+    minmod(centre, below - (before - rowAt(p - 2 * stride)), zero, minus);
+    minmod(centre, (rowAt(p + 2 * stride) - after) - above, zero, plus);
+    const Floats fromBelow = sign * (below + 0.5f * minus);
+    const Floats fromAbove = sign * (0.5f * plus - above);
+    Floats slope = fromBelow > fromAbove ? fromBelow : fromAbove;
+    slope = slope > zero ? slope : zero;
+    sum += slope * slope;
 }
 
 /// One Euler step where a mask is on; elsewhere the field, limited to the band.
@@ -46,21 +67,30 @@ MOLSURF_KERNEL void eulerStep(const float* __restrict block, const LeafMask& mov
                               float width, float* __restrict out)
 {
     const float inverse2 = 1.0f / (voxel * voxel);
+    const Floats farthest = Floats{} + width, least = Floats{} + 1e-6f * voxel;
+    const Floats zero = 1e-20f * least;
+    Ints bit;
+    for (int z = 0; z < leafDim; ++z) bit[z] = rowBits[z];
     for (int row = 0; row < 64; ++row) {
         const int bits = moving.row(row);
         const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
+        const Floats value = rowAt(p);
+        Floats& result = *reinterpret_cast<Floats*>(out + 8 * row);
+        Floats limited = value;
+        clamp(-farthest, farthest, limited);
         if (bits == 0) {
-            for (int z = 0; z < 8; ++z) out[8 * row + z] = clamped(p[z], -width, width);
+            result = limited;
             continue;
         }
-        for (int z = 0; z < 8; ++z) {
-            const float value = p[z], sign = std::copysign(1.0f, value);
-            const float slope2 = inverse2 * (upwind(p + z, X, sign) + upwind(p + z, Y, sign) +
-                                             upwind(p + z, 1, sign));
-            const float next = sign * value - timeStep * voxel * (std::sqrt(slope2) - 1.0f);
-            const float stepped = sign * clamped(next, 1e-6f * voxel, width);
-            out[8 * row + z] = bits & rowBits[z] ? stepped : clamped(value, -width, width);
-        }
+        const Floats sign = value < 0.0f ? Floats{} - 1.0f : Floats{} + 1.0f;
+        Floats slope = {};
+        addUpwind(p, X, sign, zero, slope);
+        addUpwind(p, Y, sign, zero, slope);
+        addUpwind(p, 1, sign, zero, slope);
+        squareRoot(inverse2 * slope, slope);
+        Floats next = sign * value - timeStep * voxel * (slope - 1.0f);
+        clamp(least, farthest, next);
+        result = (bit & bits) != 0 ? sign * next : limited;
     }
 }
 
@@ -68,22 +98,25 @@ MOLSURF_KERNEL void eulerStep(const float* __restrict block, const LeafMask& mov
 MOLSURF_KERNEL void nextToInterface(const float* __restrict block, const LeafMask& among,
                                     LeafMask& mask)
 {
-    for (int row = 0; row < 64; ++row) {
-        const int candidates = among.row(row);
-        if (candidates == 0) continue;
-        const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
-        int bits = 0;
-        for (int z = 0; z < 8; ++z) {
-            const float* q = p + z;
-            const float x = smaller(q[X], q[-X]), y = smaller(q[Y], q[-Y]),
-                        w = smaller(q[1], q[-1]);
-            const float u = larger(q[X], q[-X]), v = larger(q[Y], q[-Y]), t = larger(q[1], q[-1]);
-            const float low = smaller(smaller(x, y), w), high = larger(larger(u, v), t);
-            const float crossing = q[0] < 0.0f ? -high - 1e-30f : low;
-            bits |= int(crossing < 0.0f) << z;
+    Ints bit;
+    for (int z = 0; z < leafDim; ++z) bit[z] = rowBits[z];
+    for (int half = 0; half < 16; ++half) { // of a plane
+        Ints found = {};
+        for (int y = 4 * (half & 1); y < 4 * (half & 1) + 4; ++y) {
+            const float* p = block + (half / 2 + 2) * X + (y + 2) * Y + 2;
+            const Floats here = rowAt(p);
+            Floats low = rowAt(p + X), high = low;
+            for (const int step : {-X, Y, -Y, 1, -1}) {
+                const Floats next = rowAt(p + step);
+                low = next < low ? next : low;
+                high = next > high ? next : high;
+            }
+            const Floats crossing = here < 0.0f ? -high - 1e-30f : low;
+            found |= crossing < 0.0f ? bit << (8 * (y & 3)) : Ints{};
         }
-        mask.words[row >> 3] |= std::uint64_t(bits & candidates) << (8 * (row & 7));
+        mask.words[half / 2] |= std::uint64_t(bitsOf(found)) << (32 * (half & 1));
     }
+    mask &= among;
 }
 
 /// Changes of an interface voxel below this many voxels are the stencil's own error rather than the
@@ -140,7 +173,8 @@ void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double w
             LeafMask& fixed = interface[n];
             if (i == 0) nextToInterface(block.values, table.active(n), fixed);
             eulerStep(block.values, table.active(n) & ~fixed, h, w, scratch.leaf(n));
-            if (i == 0) taylorDistance(block.values, fixed, 1.0f / h, scratch.leaf(n));
+            if (i == 0 && fixed.any())
+                taylorDistance(block.values, fixed, 1.0f / h, scratch.leaf(n));
         });
         std::swap(phi, scratch);
     }
