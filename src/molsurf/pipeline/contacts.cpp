@@ -15,8 +15,7 @@ std::vector<std::vector<std::int32_t>> contacts(const std::vector<Ball>& balls,
                                                 std::size_t labels, double gap,
                                                 const Progress& progress)
 {
-    float largest = 0.0f;
-    for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
+    const float largest = largestRadius(balls);
     const BallIndex index(balls, 4.0);
     constexpr std::size_t chunk = 1024;
     std::vector<std::set<std::pair<std::int32_t, std::int32_t>>> found((balls.size() + chunk - 1) /

@@ -299,7 +299,7 @@ class GrownBalls
 {
 public:
     GrownBalls(const std::vector<Ball>& balls, double probe, const Progress& progress)
-        : balls_(balls), probe_(probe), largest_(largest(balls)),
+        : balls_(balls), probe_(probe), largest_(largestRadius(balls)),
           index_(balls, std::max(2.0, (largest_ + probe) / 1.5)), within_(balls.size())
     {
         parallelFor(balls.size(), progress, [&](std::size_t i) {
@@ -349,13 +349,6 @@ public:
     }
 
 private:
-    static double largest(const std::vector<Ball>& balls)
-    {
-        float r = 0.0f;
-        for (const Ball& ball : balls) r = std::max(r, ball.radius);
-        return r;
-    }
-
     const std::vector<Ball>& balls_;
     const double probe_, largest_;
     const BallIndex index_;

@@ -16,6 +16,14 @@
 namespace molsurf
 {
 
+/// The largest radius [Å]; 0 if there are no balls.
+inline float largestRadius(const std::vector<Ball>& balls)
+{
+    float largest = 0.0f;
+    for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
+    return largest;
+}
+
 /// Balls by the cubic cell of their centres. Immutable once made; safe to read from all threads.
 class BallIndex
 {

@@ -150,8 +150,7 @@ BallShares ballShares(const std::vector<Ball>& balls, const Progress& progress)
     for (std::size_t p = 0; p < boundary.patches.size(); ++p) {
         out.areas[std::size_t(boundary.patches[p].ball)] += measure.patchAreas[p];
     }
-    double largest = 0.0;
-    for (const Ball& ball : balls) largest = std::max(largest, double(ball.radius));
+    const double largest = largestRadius(balls);
     const BallIndex index(balls, std::max(largest, 1.0));
 
     struct Part {

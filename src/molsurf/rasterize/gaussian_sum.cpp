@@ -101,8 +101,7 @@ float distanceToLeaf(float centre)
 GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& options,
                         const std::vector<Decay>& decays)
 {
-    float largest = 0.0f;
-    for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
+    const float largest = largestRadius(balls);
     GaussianExtent extent{largest, largest + options.probe, options.epsilon};
     if (options.blobbiness > 0.0) extent.tolerance = M_LN2 * extent.swollen / options.blobbiness;
     double slowest = 1e30;

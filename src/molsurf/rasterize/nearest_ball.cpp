@@ -44,8 +44,7 @@ std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
                                        const std::vector<Vec3f>& points, double reach,
                                        const Progress& progress)
 {
-    float largest = 0.0f;
-    for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
+    const float largest = largestRadius(balls);
     const BallIndex index(balls, 2.0);
 
     // Points are taken by runs that stay in a small box and share its candidates. Most lie close to

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace molsurf
@@ -253,7 +252,7 @@ public:
     Evaluator(const std::vector<Ball>& balls, double probe, BallBoundary& boundary, double voxel,
               double inside, double outside)
         : boundary_(boundary), probe_(probe), voxel_(voxel), inside_(inside), outside_(outside),
-          largest_(largest(balls) + probe), caps_(arraysOf(std::move(boundary.caps))),
+          largest_(largestRadius(balls) + probe), caps_(arraysOf(std::move(boundary.caps))),
           spheres_(patchBalls(boundary)), patchIndex_(spheres_, std::max(2.0, largest_ / 1.5)),
           ballIndex_(balls, std::max(2.0, largest_ / 1.5))
     {
@@ -324,13 +323,7 @@ public:
     }
 
 private:
-    static double largest(const std::vector<Ball>& balls)
-    {
-        float r = 0.0f;
-        for (const Ball& ball : balls) r = std::max(r, ball.radius);
-        return r;
-    }
-    static CapArrays arraysOf(const std::vector<Cap> caps)
+    static CapArrays arraysOf(std::vector<Cap> caps)
     {
         CapArrays out;
         for (auto* v : {&out.x, &out.y, &out.z, &out.cosine, &out.sine}) v->reserve(caps.size());
