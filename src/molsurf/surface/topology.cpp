@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/topology.h"
 
+#include "molsurf/core/disjoint_sets.h"
 #include "molsurf/core/parallel.h"
 
 #include <algorithm>
-#include <atomic>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -204,45 +204,15 @@ Topology checkTopology(const Mesh& mesh, const std::vector<char>& wanted, const 
 std::vector<std::uint32_t> connectedPieces(const Mesh& mesh, std::size_t& count,
                                            const Progress& progress)
 {
-    // Union-find without locks: roots are only ever hung under smaller ones, so that in the end
-    // they are the smallest vertices of their pieces, whatever the order.
-    using Parent = std::atomic<std::uint32_t>;
-    constexpr auto relaxed = std::memory_order_relaxed;
-    const std::size_t vertices = mesh.positions.size();
-    std::vector<Parent> parent(vertices);
-    for (std::uint32_t v = 0; v < vertices; ++v) parent[v].store(v, relaxed);
-    const auto root = [&](std::uint32_t v) {
-        for (;;) {
-            std::uint32_t up = parent[v].load(relaxed);
-            if (up == v) return v;
-            const std::uint32_t next = parent[up].load(relaxed);
-            if (next != up) parent[v].compare_exchange_weak(up, next, relaxed);
-            v = next;
-        }
-    };
-    const auto unite = [&](std::uint32_t a, std::uint32_t b) {
-        for (;;) {
-            a = root(a);
-            b = root(b);
-            if (a == b) return;
-            std::uint32_t larger = std::max(a, b);
-            if (parent[larger].compare_exchange_strong(larger, std::min(a, b), relaxed)) return;
-        }
-    };
+    DisjointSets sets(mesh.positions.size());
     parallelFor((mesh.triangles.size() + block - 1) / block, progress, [&](std::size_t c) {
         const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * block);
         for (std::size_t i = c * block; i < end; ++i) {
-            unite(mesh.triangles[i][0], mesh.triangles[i][1]);
-            unite(mesh.triangles[i][1], mesh.triangles[i][2]);
+            sets.join(mesh.triangles[i][0], mesh.triangles[i][1]);
+            sets.join(mesh.triangles[i][1], mesh.triangles[i][2]);
         }
     });
-    count = 0;
-    std::vector<std::uint32_t> piece(vertices);
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-        const std::uint32_t r = root(v);
-        piece[v] = r == v ? std::uint32_t(count++) : piece[r];
-    }
-    return piece;
+    return sets.numbers(count);
 }
 
 std::vector<double> pieceVolumes(const Mesh& mesh, const std::vector<std::uint32_t>& pieces,
