@@ -62,8 +62,8 @@ std::string helpText()
         "each also .gz, or - for standard input). Lengths are in Å. Defaults are in brackets.\n";
     text += tableOf(groups());
     text += "\n"
-            "Exit status: 0 done, 1 failed, 2 wrong usage, 3 not converged (files are written),\n"
-            "130 interrupted.\n";
+            "Exit status: 0 done, 1 failed, 2 wrong usage, 3 not converged (files are written) or\n"
+            "a result failed its own checks (none are), 130 interrupted.\n";
     return text;
 }
 
@@ -101,8 +101,8 @@ std::string compareHelpText()
         "other; signed ones are negative inside it. Means are weighted by area. On .vdb files\n"
         "and structures both are smooth surfaces, meshes are their triangles.\n"
         "\n"
-        "Exit status: 0 done, 1 failed, 2 wrong usage, 3 not converged (files are written),\n"
-        "130 interrupted.\n";
+        "Exit status: 0 done, 1 failed, 2 wrong usage, 3 not converged (files are written) or\n"
+        "a result failed its own checks (none are), 130 interrupted.\n";
     return text;
 }
 
@@ -169,8 +169,8 @@ std::string mergeHelpText()
            "closed mesh. Holds neither in memory.\n" +
            tableOf(mergeGroups()) + runOptions +
            "\n"
-           "Exit status: 0 done, 1 failed, 2 wrong usage, 3 not converged (files are written),\n"
-           "130 interrupted.\n";
+           "Exit status: 0 done, 1 failed, 2 wrong usage, 3 not converged (files are written) or\n"
+           "a result failed its own checks (none are), 130 interrupted.\n";
 }
 
 } // namespace molsurf::tool

@@ -83,6 +83,11 @@ int perform(const Call& call, std::chrono::steady_clock::time_point start)
     return 1;
 }
 
+int statusOf(ErrorKind kind)
+{
+    return kind == ErrorKind::Usage ? 2 : kind == ErrorKind::Check ? failedCheckStatus : 1;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -102,7 +107,7 @@ int main(int argc, char** argv)
         return status;
     } catch (const Error& e) {
         say(std::string("error: ") + e.what());
-        return e.kind() == ErrorKind::Usage ? 2 : 1;
+        return statusOf(e.kind());
     } catch (const Cancelled&) {
         say("interrupted");
         return interruptedStatus;

@@ -21,6 +21,9 @@ namespace molsurf::tool
 /// Exit status of a run that did not converge; the files are written all the same.
 constexpr int notConvergedStatus = 3;
 
+/// Exit status of a run whose result failed its own checks; no file is written.
+constexpr int failedCheckStatus = 3;
+
 /// Builds a surface and writes the outputs: build.cpp.
 /// @param[in] start  when the program began, for the total time
 int build(const Call& call, std::chrono::steady_clock::time_point start);

@@ -16,6 +16,7 @@ enum class ErrorKind {
     Input,   ///< a file cannot be read, or does not hold what it should
     Numeric, ///< the computation has no answer: no surface, not a number
     Output,  ///< a file cannot be written
+    Check,   ///< a result contradicts itself: two ways to the same number disagree
 };
 
 /// Thrown at the entry points of the stages, never inside a kernel. The message names the step or

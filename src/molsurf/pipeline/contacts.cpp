@@ -15,8 +15,7 @@ std::vector<std::vector<std::int32_t>> contacts(const std::vector<Ball>& balls,
                                                 std::size_t labels, double gap,
                                                 const Progress& progress)
 {
-    const float largest = largestRadius(balls);
-    const BallIndex index(balls, 4.0);
+    const BallIndex index(balls, {0.5, 0.0, 4.0});
     constexpr std::size_t chunk = 1024;
     std::vector<std::set<std::pair<std::int32_t, std::int32_t>>> found((balls.size() + chunk - 1) /
                                                                        chunk);
@@ -24,14 +23,13 @@ std::vector<std::vector<std::int32_t>> contacts(const std::vector<Ball>& balls,
         for (std::size_t i = c * chunk; i < std::min(balls.size(), (c + 1) * chunk); ++i) {
             if (labelOf[i] < 0) continue;
             const openvdb::Vec3d x(balls[i].center);
-            index.forEachNear(
-                x, x, balls[i].radius + largest + gap, [&](const Ball& other, std::int32_t j) {
-                    if (labelOf[j] < 0 || labelOf[j] >= labelOf[i]) return;
-                    const double touch = balls[i].radius + other.radius + gap;
-                    if ((openvdb::Vec3d(other.center) - x).lengthSqr() < touch * touch) {
-                        found[c].emplace(labelOf[i], labelOf[j]);
-                    }
-                });
+            index.forEachNear(x, x, balls[i].radius + gap, [&](const Ball& other, std::int32_t j) {
+                if (labelOf[j] < 0 || labelOf[j] >= labelOf[i]) return;
+                const double touch = balls[i].radius + other.radius + gap;
+                if ((openvdb::Vec3d(other.center) - x).lengthSqr() < touch * touch) {
+                    found[c].emplace(labelOf[i], labelOf[j]);
+                }
+            });
         }
     });
     std::set<std::pair<std::int32_t, std::int32_t>> all;

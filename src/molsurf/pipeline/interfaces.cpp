@@ -3,7 +3,7 @@
 
 #include "molsurf/pipeline/contacts.h"
 #include "molsurf/pipeline/parts.h"
-#include "molsurf/rasterize/boundary_measure.h"
+#include "molsurf/rasterize/boundary_check.h"
 
 #include <algorithm>
 
@@ -20,7 +20,9 @@ double areaOf(const BallSelection& atoms, const Options& options, const Progress
         const double probe = options.kind == SurfaceKind::SolventAccessible ? options.probe : 0.0;
         double area = 0.0;
         const BallBoundary boundary = ballBoundary(atoms.balls, probe, progress);
-        for (const double patch : measureBoundary(boundary, progress).patchAreas) area += patch;
+        const BoundaryMeasure measure = measureBoundary(boundary, progress);
+        checkBoundary(boundary, measure, progress);
+        for (const double patch : measure.patchAreas) area += patch;
         return area;
     }
     QuietProgress quiet(progress);

@@ -14,6 +14,7 @@
 #include "molsurf/pipeline/match_volume.h"
 #include "molsurf/pipeline/parts.h"
 #include "molsurf/pipeline/stages.h"
+#include "molsurf/rasterize/boundary_check.h"
 #include "molsurf/rasterize/boundary_measure.h"
 #include "molsurf/rasterize/union_distance.h"
 #include "molsurf/surface/extract.h"
@@ -112,22 +113,27 @@ void fillCavities(const std::vector<LeafMask>& cavities, double voxel, DistanceB
     });
 }
 
+/// Whether area, volume and pieces of a surface are known in closed form.
+bool isClosedForm(const Options& options)
+{
+    return isUnion(options.kind) && offsetOf(options) == 0.0 && options.minWall == 0.0;
+}
+
 /// Replaces area, volume and pieces by those of the union of balls itself. A mesh bridges what is
 /// narrower than a voxel: creases and small cavities.
-void measureExactly(const std::vector<Ball>& balls, const Options& options, Progress& progress,
-                    Report& report)
+void takeClosedForm(const BoundaryMeasure& measure, const Options& options, Report& report)
 {
-    const BallBoundary boundary = ballBoundary(balls, grownBy(options), progress);
     SurfaceReport& s = report.surface;
     const std::size_t shown = s.cavities.size();
     s.area = s.volume = s.outerArea = s.outerVolume = 0.0;
-    s.components = 0;
+    s.components = s.eulerCharacteristic = 0;
     s.cavities.clear();
-    for (const BoundaryPiece& piece : measureBoundary(boundary, progress).pieces) {
-        const bool cavity = piece.volume < 0.0;
+    for (const BoundaryPiece& piece : measure.pieces) {
+        const bool cavity = !piece.outer;
         if (cavity && options.fillCavities) continue;
         s.area += piece.area;
         s.volume += piece.volume;
+        s.eulerCharacteristic += piece.eulerCharacteristic;
         if (cavity) {
             s.cavities.push_back({piece.area, -piece.volume});
         } else {
@@ -173,14 +179,26 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
     const bool unionOfBalls = isUnion(options.kind);
 
     DistanceBand S;
+    BoundaryMeasure exact;
+    MeshTolerance tolerance{};
+    if (unionOfBalls) {
+        progress.update("redistance", 0.0);
+        BallBoundary boundary = ballBoundary(balls, grownBy(options), progress);
+        if (isClosedForm(options)) {
+            exact = measureBoundary(boundary, progress);
+            checkBoundary(boundary, exact, progress);
+            tolerance = meshTolerance(boundary, exact, options.voxel);
+        }
+        S = distanceBand(balls, std::move(boundary), options, everything, progress);
+    }
     Spline spline;
     ExtractStats stats;
     for (bool filled = false;; filled = true) {
         progress.update("redistance", 0.0);
-        if (!filled || !unionOfBalls) {
+        if (!unionOfBalls) {
             const bool kept = options.fillCavities || hasField(options.fields, "sas");
-            S = distanceBand(balls, band.table, kept ? copied(band.phi) : std::move(band.phi),
-                             options, everything, progress);
+            S = distanceBand(band.table, kept ? copied(band.phi) : std::move(band.phi), options,
+                             everything, progress);
             if (!kept) band = NarrowBand();
         }
         watch.stop("redistance");
@@ -222,8 +240,6 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
         report.surface = measure(result.mesh, progress);
     }
     report.surface.kind = nameOf(options.kind);
-    if (unionOfBalls && offsetOf(options) == 0.0 && options.minWall == 0.0)
-        measureExactly(balls, options, progress, report);
     report.surface.maxResidual = stats.maxResidual;
     const std::size_t vertices = stats.slopes.size();
     const GradientCounts counts =
@@ -232,6 +248,11 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
     report.surface.gradientShare = double(counts.unit) / double(vertices - counts.kink); // or 0/0
     addCurvature(spline, options.fields, result.mesh, progress);
     describeCurvature(result.mesh, spline, options, progress, report.surface);
+    if (isClosedForm(options)) {
+        const double area = report.surface.area, volume = report.surface.volume;
+        takeClosedForm(exact, options, report);
+        checkMesh(report.surface.area, report.surface.volume, area, volume, tolerance);
+    }
     watch.stop("mesh");
 
     if (hasField(options.fields, "sas")) {
@@ -263,6 +284,13 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
     return result;
 }
 
+/// The same balls in spatial order, so that results have the same bits for any order of the atoms.
+BallSelection inSpatialOrder(const BallSelection& atoms)
+{
+    const std::vector<std::int32_t> order = spatialOrder(atoms.balls);
+    return subset(atoms, {order.begin(), order.end()});
+}
+
 } // namespace
 
 Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress)
@@ -292,8 +320,8 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
     const bool helps = shown && !hasField(options.fields, shown);
     Options wanted = options;
     if (helps) wanted.fields.push_back(shown);
-    Result result =
-        whole ? runWhole(atoms, wanted, progress, warm) : runParts(atoms, wanted, progress);
+    Result result = whole ? runWhole(inSpatialOrder(atoms), wanted, progress, warm)
+                          : runParts(atoms, wanted, progress);
     if (shown) addCurvatureColors(options.color, !helps, result);
     Report& report = result.report;
     report.atoms = atoms.balls.size();

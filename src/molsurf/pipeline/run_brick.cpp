@@ -209,10 +209,13 @@ BallSelection ballsNear(const BallSelection& atoms, const Options& options, cons
             c.y() <= high.y() && c.z() <= high.z())
             near.push_back(i);
     }
+    std::vector<Ball> balls;
+    for (const std::size_t i : near) balls.push_back(atoms.balls[i]);
+    const std::vector<std::int32_t> order = spatialOrder(balls); // as in a run of the whole
     const auto take = [&](const auto& from, auto& to) {
         if (from.empty()) return;
         to.reserve(near.size());
-        for (const std::size_t i : near) to.push_back(from[i]);
+        for (const std::int32_t k : order) to.push_back(from[near[std::size_t(k)]]);
     };
     BallSelection some;
     take(atoms.balls, some.balls);
@@ -270,9 +273,13 @@ Brick runBrick(const BallSelection& atoms, const Options& options, const Scope& 
         }
         progress.update("redistance", 0.0);
         const bool kept = hasField(options.fields, "sas");
-        if (isUnion(options.kind) || band.table.size() > 0)
-            S = distanceBand(atoms.balls, band.table, kept ? copied(band.phi) : std::move(band.phi),
+        if (isUnion(options.kind)) {
+            S = distanceBand(atoms.balls, ballBoundary(atoms.balls, grownBy(options), progress),
                              options, scope, progress);
+        } else if (band.table.size() > 0) {
+            S = distanceBand(band.table, kept ? copied(band.phi) : std::move(band.phi), options,
+                             scope, progress);
+        }
         watch.stop("redistance");
     }
     brick.evolution = report.evolution;

@@ -180,20 +180,13 @@ Depth depthOf(const Options& options)
     return {offset + width + grown, std::max(width - offset, h) + grown};
 }
 
-DistanceBand distanceBand(const std::vector<Ball>& balls, const LeafTable& table, LeafField phi,
-                          const Options& options, const Scope& scope, Progress& progress)
+namespace
+{
+
+/// From the distance to the set that a surface is offset from.
+DistanceBand offsetBand(DistanceBand S, const Options& options, Progress& progress)
 {
     const double h = options.voxel, offset = offsetOf(options);
-    const auto [inside, outside] = depthOf(options);
-    const openvdb::CoordBBox box = scope.region.grown(scope.splineHalo);
-    DistanceBand S;
-    if (!isUnion(options.kind)) {
-        S = redistance(table, std::move(phi), h, inside, outside, -offset, progress, box);
-    } else {
-        const double probe = grownBy(options);
-        S = distanceToUnion(balls, probe, ballBoundary(balls, probe, progress), h, inside, outside,
-                            progress, box);
-    }
     if (offset > 0.0) {
         parallelFor(S.table.size(), progress, [&](std::size_t n) {
             for (int v = 0; v < leafSize; ++v) S.phi.leaf(n)[v] += float(offset);
@@ -204,6 +197,28 @@ DistanceBand distanceBand(const std::vector<Ball>& balls, const LeafTable& table
         thickenWalls(S, h, options.minWall, width, progress);
     }
     return S;
+}
+
+} // namespace
+
+DistanceBand distanceBand(const LeafTable& table, LeafField phi, const Options& options,
+                          const Scope& scope, Progress& progress)
+{
+    const auto [inside, outside] = depthOf(options);
+    return offsetBand(redistance(table, std::move(phi), options.voxel, inside, outside,
+                                 -offsetOf(options), progress,
+                                 scope.region.grown(scope.splineHalo)),
+                      options, progress);
+}
+
+DistanceBand distanceBand(const std::vector<Ball>& balls, BallBoundary boundary,
+                          const Options& options, const Scope& scope, Progress& progress)
+{
+    const auto [inside, outside] = depthOf(options);
+    return offsetBand(distanceToUnion(balls, grownBy(options), std::move(boundary), options.voxel,
+                                      inside, outside, progress,
+                                      scope.region.grown(scope.splineHalo)),
+                      options, progress);
 }
 
 void resample(DistanceBand& S, const Spline& spline, double voxel, Progress& progress)

@@ -11,6 +11,7 @@
 #include "molsurf/core/report.h"
 #include "molsurf/evolution/evolve.h"
 #include "molsurf/pipeline/options.h"
+#include "molsurf/rasterize/ball_boundary.h"
 #include "molsurf/rasterize/gaussian_sum.h"
 #include "molsurf/surface/mesh.h"
 
@@ -84,7 +85,12 @@ Depth depthOf(const Options& options);
 
 /// S = Phi + r_b on a band that holds the coefficients of every point of the surface.
 /// @param[in] table,phi  the level set that a smooth surface is offset from
-DistanceBand distanceBand(const std::vector<Ball>& balls, const LeafTable& table, LeafField phi,
+DistanceBand distanceBand(const LeafTable& table, LeafField phi, const Options& options,
+                          const Scope& scope, Progress& progress);
+
+/// The same of a surface that is offset from a union of balls.
+/// @param[in] boundary  of balls that are grown by grownBy()
+DistanceBand distanceBand(const std::vector<Ball>& balls, BallBoundary boundary,
                           const Options& options, const Scope& scope, Progress& progress);
 
 /// Replaces S near its zero set by the values of a coarser spline, so that signs and values agree

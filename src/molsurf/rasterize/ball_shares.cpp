@@ -31,14 +31,14 @@ struct Neighbour {
 
 /// The neighbours of a ball, those with the nearest planes first.
 /// @return false if the ball is within another one, or equals one of lower index
-bool findNeighbours(const Ball& ball, std::int32_t i, const BallIndex& index, double largest,
+bool findNeighbours(const Ball& ball, std::int32_t i, const BallIndex& index,
                     std::vector<Neighbour>& out)
 {
     out.clear();
     bool hidden = false;
     const Vec3d centre(ball.center);
     const double r = double(ball.radius);
-    index.forEachNear(centre, centre, r + largest, [&](const Ball& other, std::int32_t j) {
+    index.forEachNear(centre, centre, r, [&](const Ball& other, std::int32_t j) {
         const Vec3d offset = Vec3d(other.center) - centre;
         const double R = double(other.radius), d2 = offset.lengthSqr();
         if (j == i || d2 >= (r + R) * (r + R)) return;
@@ -148,10 +148,10 @@ BallShares ballShares(const std::vector<Ball>& balls, const Progress& progress)
     const BallBoundary boundary = ballBoundary(balls, 0.0, progress);
     const BoundaryMeasure measure = measureBoundary(boundary, progress);
     for (std::size_t p = 0; p < boundary.patches.size(); ++p) {
-        out.areas[std::size_t(boundary.patches[p].ball)] += measure.patchAreas[p];
+        const PlacedBall& ball = boundary.balls[std::size_t(boundary.patches[p].ball)];
+        out.areas[std::size_t(ball.index)] += measure.patchAreas[p];
     }
-    const double largest = largestRadius(balls);
-    const BallIndex index(balls, std::max(largest, 1.0));
+    const BallIndex index(balls, {1.0, 0.0, 1.0});
 
     struct Part {
         double flux = 0.0;
@@ -162,7 +162,7 @@ BallShares ballShares(const std::vector<Ball>& balls, const Progress& progress)
         const auto i = std::int32_t(n);
         const double radius = double(balls[n].radius);
         std::vector<Neighbour> neighbours;
-        if (!findNeighbours(balls[n], i, index, largest, neighbours)) return;
+        if (!findNeighbours(balls[n], i, index, neighbours)) return;
         parts[n].flux = radius * out.areas[n];
         std::vector<Vec2d> polygon, scratch;
         for (const Neighbour& other : neighbours) {

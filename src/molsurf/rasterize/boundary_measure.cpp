@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/rasterize/boundary_measure.h"
 
+#include "molsurf/core/disjoint_sets.h"
+#include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numeric>
-#include <tuple>
+#include <string>
 
 namespace molsurf
 {
@@ -16,28 +19,6 @@ using openvdb::Vec3d;
 
 namespace
 {
-
-/// Disjoint sets of indices.
-class Sets
-{
-public:
-    explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-    std::size_t find(std::size_t i)
-    {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    /// The lower root stays.
-    void join(std::size_t a, std::size_t b)
-    {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::uint32_t(std::min(a, b));
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 /// An arc as seen from one of its two spheres.
 struct Side {
@@ -61,13 +42,6 @@ const Cap& capOf(const BallBoundary& boundary, const Patch& patch, std::int32_t 
     return boundary.caps[k];
 }
 
-bool overlap(const Cap& a, const Cap& b)
-{
-    const double sines = std::sqrt((1.0 - a.cosine * a.cosine) * (1.0 - b.cosine * b.cosine));
-    if (a.cosine <= -b.cosine) return true; // the half angles add up to pi or more
-    return a.axis.dot(b.axis) > a.cosine * b.cosine - sines;
-}
-
 double distance2(const Arc& arc, const Vec3d& x)
 {
     const Vec3d w = x - arc.centre;
@@ -80,52 +54,43 @@ double distance2(const Arc& arc, const Vec3d& x)
                     (w - arc.radius * arc.end(1)).lengthSqr());
 }
 
+[[noreturn]] void disagree(const char* what)
+{
+    throw Error(ErrorKind::Check, std::string("boundary of the balls: ") + what);
+}
+
 /// The loops that the arcs of a sphere form: for each arc the number of its loop.
 std::vector<std::size_t> findLoops(const BallBoundary& boundary, const std::vector<Side>& sides,
                                    std::size_t& count)
 {
     struct End {
-        std::int32_t low, high; // the two other balls of the corner
-        std::size_t side;
-        Vec3d position;
+        CornerName corner;
+        std::uint32_t side;
     };
     std::vector<End> ends;
     for (std::size_t s = 0; s < sides.size(); ++s) {
         const Arc& arc = boundary.arcs[sides[s].arc];
-        for (int e = 0; e < 2 && arc.ends[e] >= 0; ++e) {
-            const auto [low, high] = std::minmax(sides[s].other, arc.ends[e]);
-            ends.push_back({low, high, s, arc.centre + arc.radius * arc.end(e)});
-        }
+        for (int e = 0; e < 2 && arc.ends[e] >= 0; ++e)
+            ends.push_back({cornerAt(arc, e), std::uint32_t(s)});
     }
-    std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
-        return std::tie(a.low, a.high, a.side) < std::tie(b.low, b.high, b.side);
-    });
-    Sets joined(sides.size());
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-        // Three spheres meet in at most two points, so the same three may come twice.
-        std::size_t nearest = i;
-        double least = 1e300;
-        const auto look = [&](std::size_t k) {
-            const double d2 = (ends[k].position - ends[i].position).lengthSqr();
-            if (ends[k].side != ends[i].side && d2 < least) {
-                least = d2;
-                nearest = k;
-            }
-        };
-        for (std::size_t k = i;
-             k-- > 0 && ends[k].low == ends[i].low && ends[k].high == ends[i].high;)
-            look(k);
-        for (std::size_t k = i + 1;
-             k < ends.size() && ends[k].low == ends[i].low && ends[k].high == ends[i].high; ++k)
-            look(k);
-        joined.join(ends[i].side, ends[nearest].side);
+    std::sort(ends.begin(), ends.end(),
+              [](const End& a, const End& b) { return a.corner < b.corner; });
+    std::vector<std::uint32_t> parent(sides.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::uint32_t s) {
+        while (parent[s] != s) s = parent[s] = parent[parent[s]];
+        return s;
+    };
+    for (std::size_t i = 0; i < ends.size(); i += 2) {
+        if (i + 1 == ends.size() || !(ends[i].corner == ends[i + 1].corner))
+            disagree("two arcs of a sphere do not meet in a corner");
+        const std::uint32_t a = root(ends[i].side), b = root(ends[i + 1].side);
+        parent[std::max(a, b)] = std::min(a, b);
     }
-    std::vector<std::size_t> loop(sides.size()), number(sides.size());
+    std::vector<std::size_t> loop(sides.size());
     count = 0;
-    for (std::size_t s = 0; s < sides.size(); ++s) {
-        if (joined.find(s) == s) number[s] = count++;
-        loop[s] = number[joined.find(s)];
-    }
+    for (std::uint32_t s = 0; s < sides.size(); ++s)
+        loop[s] = root(s) == s ? count++ : loop[root(s)];
     return loop;
 }
 
@@ -139,20 +104,26 @@ std::vector<std::size_t> findFaces(const BallBoundary& boundary, const Patch& pa
     if (loops == 1) return face;
 
     const std::size_t caps = patch.capsEnd - patch.capsBegin;
-    Sets clusters(caps);
-    for (std::size_t i = 0; i < caps; ++i) {
-        for (std::size_t j = 0; j < i; ++j) {
-            const Cap &a = boundary.caps[patch.capsBegin + i],
-                      &b = boundary.caps[patch.capsBegin + j];
-            if (clusters.find(i) != clusters.find(j) && overlap(a, b)) clusters.join(i, j);
+    DisjointSets sets(caps);
+    for (std::uint32_t i = 0; i < caps; ++i) {
+        for (std::uint32_t j = 0; j < i; ++j) {
+            if (sets.find(i) != sets.find(j) &&
+                capsOverlap(boundary, patch, boundary.caps[patch.capsBegin + i],
+                            boundary.caps[patch.capsBegin + j]))
+                sets.join(i, j);
         }
     }
+    std::size_t clusterCount = 0;
+    const std::vector<std::uint32_t> clusters = sets.numbers(clusterCount);
     std::vector<std::size_t> clusterOf(loops); // the cluster of caps that a loop bounds
     std::vector<Vec3d> sample(loops);
+    std::vector<double> longest(loops, 0.0);
     for (std::size_t s = 0; s < sides.size(); ++s) {
         const Cap& cap = capOf(boundary, patch, sides[s].other);
         const Arc& arc = boundary.arcs[sides[s].arc];
-        clusterOf[loop[s]] = clusters.find(std::size_t(&cap - &boundary.caps[patch.capsBegin]));
+        clusterOf[loop[s]] = clusters[std::size_t(&cap - &boundary.caps[patch.capsBegin])];
+        if (arc.half * arc.radius <= longest[loop[s]]) continue;
+        longest[loop[s]] = arc.half * arc.radius;
         sample[loop[s]] = arc.centre + arc.radius * arc.middle;
     }
     // The side of a cluster that a loop lies on is named by the cluster's loop nearest to it.
@@ -170,15 +141,19 @@ std::vector<std::size_t> findFaces(const BallBoundary& boundary, const Patch& pa
         }
         return found;
     };
-    for (std::size_t l = 1; l < loops; ++l) {
-        for (std::size_t other = 0; other < l && face[l] == l; ++other) {
-            bool same = true;
-            for (std::size_t k = 0; k < loops && same; ++k) {
-                same = sideOf(clusterOf[k], l) == sideOf(clusterOf[k], other);
-            }
-            if (same) face[l] = face[other];
+    // A cluster with one loop about it has but one side.
+    std::vector<std::size_t> loopsOf(clusterCount, 0);
+    for (const std::size_t cluster : clusterOf) ++loopsOf[cluster];
+    std::map<std::vector<std::size_t>, std::size_t> faceOn; // by the sides
+    for (std::size_t l = 0; l < loops; ++l) {
+        std::vector<std::size_t> sidesOf;
+        for (std::size_t cluster = 0; cluster < clusterCount; ++cluster) {
+            if (loopsOf[cluster] > 1) sidesOf.push_back(sideOf(cluster, l));
         }
+        face[l] = faceOn.emplace(std::move(sidesOf), l).first->second;
     }
+    // Faces and clusters are the nodes of a tree, the loops between them its edges.
+    if (faceOn.size() + clusterCount != loops + 1) disagree("faces of a sphere and their loops");
     return face;
 }
 
@@ -226,6 +201,33 @@ std::vector<Face> findFaces(const BallBoundary& boundary, const Patch& patch,
     return faces;
 }
 
+/// Tells outer pieces from cavities, and leaves the smallest of these out. The outer one encloses
+/// all cavities of its component, so its volume is larger than theirs; the sign of a volume alone
+/// would be that of rounding where the piece is tiny.
+void findOuter(std::vector<BoundaryPiece>& pieces)
+{
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> largest;
+    for (std::size_t n = 0; n < pieces.size(); ++n) {
+        const BoundaryPiece& piece = pieces[n];
+        if (piece.component < 0) continue;
+        const auto c = std::size_t(piece.component);
+        if (c >= largest.size()) largest.resize(c + 1, none);
+        if (largest[c] == none || std::abs(piece.volume) > std::abs(pieces[largest[c]].volume))
+            largest[c] = n;
+    }
+    for (std::size_t n = 0; n < pieces.size(); ++n) {
+        BoundaryPiece& piece = pieces[n];
+        piece.outer =
+            piece.component < 0 ? piece.volume > 0.0 : largest[std::size_t(piece.component)] == n;
+    }
+    pieces.erase(std::remove_if(pieces.begin(), pieces.end(),
+                                [](const BoundaryPiece& piece) {
+                                    return !piece.outer && piece.area < leastCavity;
+                                }),
+                 pieces.end());
+}
+
 } // namespace
 
 BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& progress)
@@ -233,8 +235,9 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
     BoundaryMeasure out;
     const std::size_t patches = boundary.patches.size();
     if (patches == 0) return out;
-    std::vector<std::uint32_t> patchOf(std::size_t(boundary.patches.back().ball) + 1);
-    for (std::size_t p = 0; p < patches; ++p) patchOf[boundary.patches[p].ball] = std::uint32_t(p);
+    std::vector<std::uint32_t> patchOf(boundary.balls.size());
+    for (std::size_t p = 0; p < patches; ++p)
+        patchOf[std::size_t(boundary.patches[p].ball)] = std::uint32_t(p);
     std::vector<std::vector<Side>> sides(patches);
     for (std::size_t a = 0; a < boundary.arcs.size(); ++a) {
         const Arc& arc = boundary.arcs[a];
@@ -248,46 +251,57 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
 
     std::vector<std::size_t> begins(patches + 1, 0);
     for (std::size_t p = 0; p < patches; ++p) begins[p + 1] = begins[p] + faces[p].size();
-    Sets joined(begins.back());
+    DisjointSets joined(begins.back());
     constexpr std::size_t none = ~std::size_t(0);
     std::vector<std::size_t> faceOfArc(boundary.arcs.size(), none);
     for (std::size_t p = 0; p < patches; ++p) {
         for (std::size_t f = 0; f < faces[p].size(); ++f) {
             for (const std::uint32_t arc : faces[p][f].arcs) {
                 if (faceOfArc[arc] == none) faceOfArc[arc] = begins[p] + f;
-                joined.join(faceOfArc[arc], begins[p] + f);
+                joined.join(std::uint32_t(faceOfArc[arc]), std::uint32_t(begins[p] + f));
             }
         }
     }
 
-    const Vec3d origin = boundary.patches[0].centre; // so that volumes do not cancel far from 0
     std::vector<std::size_t> number(begins.back());
+    std::vector<Vec3d> origin; // of each piece, so that volumes do not cancel far from 0
     std::vector<double> euler;
+    std::vector<Vec3d> normal; // integrated
     for (std::size_t p = 0; p < patches; ++p) {
         const Patch& patch = boundary.patches[p];
         out.patchAreas.push_back(0.0);
         for (std::size_t f = 0; f < faces[p].size(); ++f) {
-            const std::size_t root = joined.find(begins[p] + f);
+            const std::size_t root = joined.find(std::uint32_t(begins[p] + f));
             if (root == begins[p] + f) {
                 number[root] = out.pieces.size();
                 out.pieces.emplace_back();
+                out.pieces.back().component = patch.component;
+                origin.push_back(patch.centre);
                 euler.push_back(0.0);
+                normal.emplace_back(0.0);
             }
             const Face& face = faces[p][f];
-            BoundaryPiece& piece = out.pieces[number[root]];
-            piece.area += face.area;
-            piece.volume +=
-                (patch.radius * face.area + (patch.centre - origin).dot(face.normal)) / 3.0;
+            const std::size_t n = number[root];
+            out.pieces[n].area += face.area;
+            out.pieces[n].volume +=
+                (patch.radius * face.area + (patch.centre - origin[n]).dot(face.normal)) / 3.0;
+            normal[n] += face.normal;
             out.patchAreas[p] += face.area;
             // Faces, less arcs, plus corners, of which each ends three arcs.
             double openSides = 0.0;
             for (const std::uint32_t arc : face.arcs) openSides += boundary.arcs[arc].ends[0] >= 0;
-            euler[number[root]] += 2.0 - face.loops - openSides / 6.0;
+            euler[n] += 2.0 - face.loops - openSides / 6.0;
         }
     }
-    for (std::size_t i = 0; i < euler.size(); ++i) {
-        out.pieces[i].eulerCharacteristic = int(std::lround(euler[i]));
+    for (std::size_t n = 0; n < euler.size(); ++n) {
+        BoundaryPiece& piece = out.pieces[n];
+        piece.eulerCharacteristic = int(std::lround(euler[n]));
+        // The integrated normal of a closed surface is zero.
+        constexpr double open = 1e-6, rounding = 1e-9; // of the area, and [Å^2]
+        if (!(normal[n].length() <= open * piece.area + rounding))
+            disagree("a piece is not closed");
     }
+    findOuter(out.pieces);
     return out;
 }
 

@@ -15,9 +15,15 @@ namespace molsurf
 /// One connected piece of the boundary of a union of balls.
 struct BoundaryPiece {
     double area = 0.0;           ///< [Å^2]
-    double volume = 0.0;         ///< enclosed; negative: a cavity [Å^3]
+    double volume = 0.0;         ///< enclosed; negative: that of a cavity [Å^3]
     int eulerCharacteristic = 0; ///< 2 - 2 genus
+    bool outer = true;           ///< the wall of no cavity: one a part that hangs together
+    std::int32_t component = -1; ///< Patch::component
 };
+
+/// Cavities with less area are left out [Å^2]: they are no larger than what moves of 1e-9 Å and
+/// rounding can make where balls just touch.
+constexpr double leastCavity = 1e-8;
 
 /// The pieces, and the share of every ball.
 struct BoundaryMeasure {
@@ -34,8 +40,8 @@ struct BoundaryMeasure {
 /// flux of x/3 through the faces, their integrated normals being integrals over the loops. Loops of
 /// a sphere bound the same face if they lie on the same side of every connected cluster of caps.
 ///
-/// @return exact but for rounding, and for corners of four or more spheres, where the pieces may be
-///         joined wrongly
+/// @return exact but for rounding and the moves of placedBalls()
+/// @throws Error(ErrorKind::Check) if the parts of the boundary do not fit together
 BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& progress);
 
 } // namespace molsurf

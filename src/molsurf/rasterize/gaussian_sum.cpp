@@ -142,8 +142,7 @@ GaussianSum::GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& 
                          std::vector<Decay> decays)
     : balls_(balls), options_(options), decays_(std::move(decays)), epsilon_(options.epsilon),
       extent_(options.extent ? *options.extent : extentOf(balls, options, decays_)),
-      largest_(extent_.swollen),
-      index_(balls, std::max(2.0, 1.25 * (extent_.largest + options.probe)))
+      largest_(extent_.swollen), index_(balls, {1.25, options.probe, 2.0, extent_.largest})
 {
     options_.epsilon = extent_.tolerance;
 }
@@ -160,7 +159,9 @@ void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Ter
     // The smallest value of each term in the leaf bounds psi from below, its largest from above.
     terms.clear();
     float floor = 2.0f * lowestPsi;
-    index_.forEachNear(low, low + Vec3d(7.0 * h), farthest, [&](const Ball& ball, int i) {
+    // A smaller ball is felt less far, from its boundary too.
+    const double gap = farthest - extent_.largest;
+    index_.forEachNear(low, low + Vec3d(7.0 * h), gap, [&](const Ball& ball, int i) {
         float apart2 = 0.0f;
         for (int a = 0; a < 3; ++a) {
             const float d =

@@ -44,8 +44,7 @@ std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
                                        const std::vector<Vec3f>& points, double reach,
                                        const Progress& progress)
 {
-    const float largest = largestRadius(balls);
-    const BallIndex index(balls, 2.0);
+    const BallIndex index(balls, {0.5, 0.0, 2.0});
 
     // Points are taken by runs that stay in a small box and share its candidates. Most lie close to
     // their ball; for those that do not the search goes on twice as far.
@@ -69,7 +68,7 @@ std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
             for (double within = std::min(close, reach); missing;
                  within = std::min(2.0 * within, reach)) {
                 candidates.clear();
-                index.forEachNear(Vec3d(low), Vec3d(high), largest + within,
+                index.forEachNear(Vec3d(low), Vec3d(high), within,
                                   [&](const Ball& ball, std::int32_t i) {
                                       candidates.push_back({ball.center, ball.radius, i});
                                   });

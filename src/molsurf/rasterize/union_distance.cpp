@@ -252,9 +252,8 @@ public:
     Evaluator(const std::vector<Ball>& balls, double probe, BallBoundary& boundary, double voxel,
               double inside, double outside)
         : boundary_(boundary), probe_(probe), voxel_(voxel), inside_(inside), outside_(outside),
-          largest_(largestRadius(balls) + probe), caps_(arraysOf(std::move(boundary.caps))),
-          spheres_(patchBalls(boundary)), patchIndex_(spheres_, std::max(2.0, largest_ / 1.5)),
-          ballIndex_(balls, std::max(2.0, largest_ / 1.5))
+          caps_(arraysOf(std::move(boundary.caps))), spheres_(patchBalls(boundary)),
+          patchIndex_(spheres_, {1.0 / 1.5, 0.0, 2.0}), ballIndex_(balls, {1.0 / 1.5, probe, 2.0})
     {
     }
 
@@ -354,7 +353,7 @@ private:
         near.arcs.clear();
         near.corners.clear();
         near.balls.clear();
-        ballIndex_.forEachNear(centre, centre, largest_ + outside_ + radius,
+        ballIndex_.forEachNear(centre, centre, probe_ + outside_ + radius,
                                [&](const Ball& ball, std::int32_t) {
                                    const Vec3f c(Vec3d(ball.center) - centre);
                                    const float R = float(ball.radius + probe_);
@@ -365,7 +364,7 @@ private:
         // The largest overlap first: it may hold all voxels of a cube.
         std::sort(near.balls.begin(), near.balls.end(),
                   [](const NearBall& a, const NearBall& b) { return a.distance < b.distance; });
-        patchIndex_.forEachNear(centre, centre, largest_ + reach, [&](const Ball&, std::int32_t i) {
+        patchIndex_.forEachNear(centre, centre, reach, [&](const Ball&, std::int32_t i) {
             const Patch& patch = boundary_.patches[i];
             const Vec3d c = patch.centre - centre;
             const double distance = c.length();
@@ -477,7 +476,7 @@ private:
     }
 
     const BallBoundary& boundary_;
-    double probe_, voxel_, inside_, outside_, largest_;
+    double probe_, voxel_, inside_, outside_;
     const CapArrays caps_;
     std::vector<Ball> spheres_;
     BallIndex patchIndex_, ballIndex_;
