@@ -5,6 +5,7 @@
 
 #include "molsurf/core/error.h"
 #include "molsurf/core/paged_array.h"
+#include "molsurf/pipeline/check_balls.h"
 #include "molsurf/pipeline/plan_bricks.h"
 
 #include <malloc.h>
@@ -99,6 +100,7 @@ int buildInBricks(const Call& call, Clock::time_point start)
     Terminal terminal(call.progress);
     Report report;
     BallSelection atoms = readBalls(call, terminal, report);
+    if (call.memory == 0) checkBalls(atoms.balls, call.options, Pieces::One, physicalMemory());
     const BrickPlan one = planWhole(atoms, call.options, terminal);
     const std::size_t whole = one.bricks[0].bytes;
     if (call.memory == 0 || whole <= call.memory) {

@@ -3,6 +3,7 @@
 
 #include "molsurf/bspline/curvature.h"
 #include "molsurf/core/error.h"
+#include "molsurf/pipeline/check_balls.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -49,10 +50,46 @@ struct Occupancy {
     CoordBBox box; ///< of the places
 };
 
+/// Adds the leaves between two spheres about a ball's centre: column by column, since most of those
+/// in their box lie inside.
+void addShell(const Vec3d& centre, double inner, double outer, double edge,
+              std::vector<Coord>& places)
+{
+    const double halfLeaf = 0.5 * edge, diagonal = halfLeaf * std::sqrt(3.0);
+    const double far = outer + diagonal, near = std::max(inner - diagonal, 0.0);
+    const Coord first = Coord::floor((centre - Vec3d(far)) / edge);
+    const Coord last = Coord::floor((centre + Vec3d(far)) / edge);
+    for (int x = first.x(); x <= last.x(); ++x) {
+        for (int y = first.y(); y <= last.y(); ++y) {
+            const double u = x * edge + halfLeaf - centre.x(), v = y * edge + halfLeaf - centre.y();
+            const double aside2 = u * u + v * v;
+            if (aside2 > far * far) continue;
+            const double top = std::sqrt(far * far - aside2);
+            const double hole = near * near > aside2 ? std::sqrt(near * near - aside2) : -1.0;
+            const auto placeAt = [&](double z) { return int(std::floor((centre.z() + z) / edge)); };
+            for (int z = placeAt(-top - halfLeaf); z <= placeAt(top + halfLeaf); ++z) {
+                const double height = std::abs(z * edge + halfLeaf - centre.z());
+                if (height < hole) { // to the other side
+                    z = std::max(z, placeAt(hole - halfLeaf) - 1);
+                    continue;
+                }
+                places.emplace_back(x, y, z);
+            }
+        }
+    }
+}
+
+/// @param[in] reach  how far the surface may lie from the balls [Å]
 Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach,
                       const Progress& progress)
 {
     const double edge = leafDim * voxel;
+    constexpr double many = 4.0; // leaves within a ball: of a larger one its shell alone is taken
+    const auto isLarge = [&](const Ball& ball) { return ball.radius > many * edge; };
+    float largestSmall = 0.0f;
+    for (const Ball& ball : balls) {
+        if (!isLarge(ball)) largestSmall = std::max(largestSmall, ball.radius);
+    }
     std::vector<Coord> places(balls.size());
     for (std::size_t i = 0; i < balls.size(); ++i)
         places[i] = Coord::floor(Vec3d(balls[i].center) / edge);
@@ -76,7 +113,7 @@ Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach
     for (const Coord& place : own) {
         table.active(std::size_t(table.find(place))).set(int(Leaf::coordToOffset(place)));
     }
-    for (int steps = int(std::ceil(reach / edge)); steps > 0; steps -= leafDim)
+    for (int steps = int(std::ceil((largestSmall + reach) / edge)); steps > 0; steps -= leafDim)
         table = dilated(table, std::min(steps, leafDim), Spread::Cube, progress);
 
     Occupancy out;
@@ -85,7 +122,13 @@ Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach
             out.leaves.push_back(table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7));
         });
     }
+    for (const Ball& ball : balls) {
+        if (isLarge(ball))
+            addShell(Vec3d(ball.center), ball.radius - 2.0 * voxel,
+                     ball.radius + reach + 2.0 * voxel, edge, out.leaves);
+    }
     tbb::parallel_sort(out.leaves.begin(), out.leaves.end());
+    out.leaves.erase(std::unique(out.leaves.begin(), out.leaves.end()), out.leaves.end());
     for (std::size_t n = 0, m = 0; n < out.leaves.size(); ++n) {
         out.box.expand(out.leaves[n]);
         const bool found = m < own.size() && own[m] == out.leaves[n];
@@ -113,8 +156,8 @@ public:
     Planner(const BallSelection& atoms, const Options& options, const GaussianExtent& extent,
             const Progress& progress)
         : options_(options), extent_(extent), atoms_(atoms.balls.size()),
-          occupancy_(
-              occupancyOf(atoms.balls, options.voxel, extent.swollen + extent.tolerance, progress))
+          occupancy_(occupancyOf(atoms.balls, options.voxel,
+                                 extent.swollen - extent.largest + extent.tolerance, progress))
     {
     }
 
@@ -286,7 +329,8 @@ double secondsOf(const std::vector<PlannedBrick>& bricks)
 BrickPlan makePlan(const BallSelection& atoms, const Options& options, const BrickLimits& limits,
                    const Progress& progress)
 {
-    if (atoms.balls.empty()) throw Error(ErrorKind::Input, "no atoms");
+    checkBalls(atoms.balls, options, Pieces::Bricks,
+               limits.memory > 0 ? limits.memory : physicalMemory());
     BrickPlan plan;
     const GaussianExtent extent = extentFor(atoms, options);
     plan.largest = extent.largest;

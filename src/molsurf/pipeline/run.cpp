@@ -7,6 +7,7 @@
 #include "molsurf/levelset/cavities.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/levelset/thicken.h"
+#include "molsurf/pipeline/check_balls.h"
 #include "molsurf/pipeline/curvature_colors.h"
 #include "molsurf/pipeline/fields.h"
 #include "molsurf/pipeline/interfaces.h"
@@ -311,7 +312,7 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
         matchVolumes(matched, once, progress);
         return run(matched, once, progress, warm);
     }
-    if (atoms.balls.empty()) throw Error(ErrorKind::Input, "no atoms");
+    checkBalls(atoms.balls, options, Pieces::One, physicalMemory());
     const bool whole = !options.split && options.surfaceOf.empty();
     if ((!whole || options.interfaces) && (!atoms.labels || atoms.labels->groups.empty())) {
         throw Error(ErrorKind::Input, "there are no groups to surface alone");
