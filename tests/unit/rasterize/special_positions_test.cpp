@@ -53,6 +53,7 @@ Totals sampled(const std::vector<Ball>& all, double probe, int count)
             }))
             balls.push_back(b);
     }
+    const Vec3d origin(balls[0].center);
     Totals t;
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const double R = balls[i].radius + probe;
@@ -75,7 +76,7 @@ Totals sampled(const std::vector<Ball>& all, double probe, int count)
             if (covered) continue;
             const double dA = 4.0 * M_PI * R * R / count;
             t.area += dA;
-            t.volume += dA * (c + R * u).dot(u) / 3.0;
+            t.volume += dA * (c - origin + R * u).dot(u) / 3.0;
         }
     }
     return t;
@@ -215,6 +216,39 @@ std::vector<Ball> duplicated(Random& random)
     return out;
 }
 
+/// Spheres that share a circle, along an axis, with some other balls. All have sides of right
+/// triangles of integers: doubles alone do not tell where the moved ones cross.
+std::vector<Ball> pencil(Random& random)
+{
+    const double members[][2] = {{-1, 1.25}, {-0.4, 0.85}, {0, 0.75}, {0.4, 0.85}, {1, 1.25}};
+    const std::size_t axis = random() % 3;
+    const double place[] = {double(random() % 8), double(random() % 8), double(random() % 8)};
+    std::vector<Ball> out;
+    for (const auto& member : members) {
+        if (random() % 3 == 0) continue;
+        double x[] = {place[0], place[1], place[2]};
+        x[axis] += member[0];
+        out.push_back(ball(x[0], x[1], x[2], member[1]));
+    }
+    for (int k = 0; k < 4; ++k) {
+        const auto near = [&](std::size_t a) { return place[a] + uniform(random, -1.5, 1.5); };
+        const double x = near(0), y = near(1), z = near(2);
+        out.push_back(ball(x, y, z, uniform(random, 0.4, 0.9)));
+    }
+    return out;
+}
+
+/// Two caps that touch in a point, on a sphere that has other caps; in many places, so that the
+/// balls are moved otherwise each time.
+std::vector<Ball> touchingCaps(Random& random)
+{
+    const double x = double(random() % 1000), y = double(random() % 1000), z = 0.5;
+    std::vector<Ball> out = {ball(x, y, z, 2.5), ball(x + 1.5, y, z, 2.0), ball(x, y + 2.0, z, 1.5),
+                             ball(x - 1.5, y, z, 2.0), ball(x, y - 2.0, z, 1.5)};
+    out.push_back(ball(x + uniform(random, -0.5, 0.5), y, z + 2.3, 0.6));
+    return out;
+}
+
 void expectRight(const char* what, const std::function<std::vector<Ball>(Random&)>& make)
 {
     Random random(1);
@@ -246,6 +280,8 @@ TEST(SpecialPositions, TouchingAndEqualAgainstSamplesSlow)
 {
     expectRight("touching", touching);
     expectRight("equal", duplicated);
+    expectRight("spheres through one circle", pencil);
+    expectRight("caps that touch", touchingCaps);
 }
 
 // Moved by whole numbers, far from the origin, too.
