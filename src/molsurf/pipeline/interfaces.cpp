@@ -3,9 +3,11 @@
 
 #include "molsurf/pipeline/contacts.h"
 #include "molsurf/pipeline/parts.h"
+#include "molsurf/pipeline/stages.h"
 #include "molsurf/rasterize/boundary_check.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace molsurf
 {
@@ -32,17 +34,11 @@ double areaOf(const BallSelection& atoms, const Options& options, const Progress
 /// How far apart two balls may be that change each other's surface [Å].
 double interactionGap(const BallSelection& atoms, const Options& options)
 {
-    switch (options.kind) {
-    case SurfaceKind::VanDerWaals:
-        return 0.0;
-    case SurfaceKind::SolventAccessible:
-    case SurfaceKind::SolventExcluded:
-        return 2.0 * options.probe;
-    case SurfaceKind::Gaussian:
-        return 2.0;
-    default:
-        return 2.0 * options.probe + 2.0 * largestTolerance(atoms, options);
-    }
+    if (options.kind == SurfaceKind::VanDerWaals) return 0.0;
+    if (isUnion(options.kind)) return 2.0 * options.probe;
+    // Where the surface of one lies, the Gaussian of the other is not felt any more.
+    const GaussianExtent extent = extentOf(atoms, options);
+    return 2.0 * gaussianOptions(options).probe + cutoff(extent, 0.0) - extent.swollen;
 }
 
 } // namespace
@@ -84,6 +80,8 @@ void measureInterfaces(const BallSelection& atoms, const Options& options, Progr
                        std::back_inserter(both));
             const double area =
                 (alone[a] + alone[b] - areaOf(subset(atoms, both), plain, progress)) / 2.0;
+            constexpr double noticeable = 0.005; // [Å^2]
+            if (std::abs(area) < noticeable) continue;
             report.interfaces.push_back({labels.groups[a].name, labels.groups[b].name, area});
         }
     }

@@ -307,17 +307,6 @@ private:
     Occupancy occupancy_;
 };
 
-GaussianExtent extentFor(const BallSelection& atoms, const Options& options)
-{
-    return extentOf(atoms.balls, gaussianOptions(options),
-                    options.kind == SurfaceKind::Variational ? atoms.decays : std::vector<Decay>());
-}
-
-} // namespace
-
-namespace
-{
-
 double secondsOf(const std::vector<PlannedBrick>& bricks)
 {
     double seconds = 0.0;
@@ -332,7 +321,7 @@ BrickPlan makePlan(const BallSelection& atoms, const Options& options, const Bri
     checkBalls(atoms.balls, options, Pieces::Bricks,
                limits.memory > 0 ? limits.memory : physicalMemory());
     BrickPlan plan;
-    const GaussianExtent extent = extentFor(atoms, options);
+    const GaussianExtent extent = extentOf(atoms, options);
     plan.largest = extent.largest;
     plan.swollen = extent.swollen;
     plan.tolerance = extent.tolerance;

@@ -51,9 +51,6 @@ Result run(const std::vector<Ball>& balls, const Options& options, Progress& pro
 Result run(const BallSelection& atoms, const Options& options, Progress& progress,
            WarmStart* warm = nullptr);
 
-/// The largest tolerance that the Gaussians of the balls have [Å].
-double largestTolerance(const BallSelection& atoms, const Options& options);
-
 /// How far a point of the surface, or of its grid's band, may lie from its ball [Å].
 double labelReach(const BallSelection& atoms, const Options& options);
 

@@ -286,21 +286,16 @@ GradientCounts countGradients(const Mesh& mesh, const std::vector<float>& slopes
     return parallelSum<GradientCounts>((vertices + chunk - 1) / chunk, progress, count);
 }
 
-double largestTolerance(const BallSelection& atoms, const Options& options)
+GaussianExtent extentOf(const BallSelection& atoms, const Options& options)
 {
-    double largest = options.epsilon;
-    for (std::size_t i = 0; i < atoms.decays.size(); ++i) {
-        if (atoms.decays[i].rate <= 0.0f) continue;
-        const double R = atoms.balls[i].radius + options.probe;
-        largest = std::max(largest, M_LN2 / (atoms.decays[i].rate * R));
-    }
-    return largest;
+    return extentOf(atoms.balls, gaussianOptions(options),
+                    options.kind == SurfaceKind::Variational ? atoms.decays : std::vector<Decay>());
 }
 
 double labelReach(const BallSelection& atoms, const Options& options)
 {
     // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
-    return 2.0 * options.probe + 4.0 * largestTolerance(atoms, options) + 4.0 * options.voxel +
+    return 2.0 * options.probe + 4.0 * extentOf(atoms, options).tolerance + 4.0 * options.voxel +
            options.minWall;
 }
 

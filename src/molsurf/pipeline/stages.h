@@ -62,6 +62,9 @@ private:
 /// How the Gaussians of a run are summed.
 GaussianOptions gaussianOptions(const Options& options);
 
+/// How far the Gaussians of a run's balls reach.
+GaussianExtent extentOf(const BallSelection& atoms, const Options& options);
+
 /// The level set that a smooth surface is offset from; empty for surfaces of a union of balls, and
 /// in a region that has none of it.
 NarrowBand makeBand(const BallSelection& atoms, const Options& options, const Scope& scope,

@@ -122,6 +122,28 @@ TEST(Interfaces, FarGroupsHaveNone)
     EXPECT_NEAR(near.interfaces[0].area, 36.316811 - 73.076789 / 2.0, 0.1);
 }
 
+// Soft Gaussians are felt far beyond the balls: where the two surfaces are first reported, the area
+// of both, each alone, is that of two less than 0.005.
+TEST(Interfaces, OfGaussiansAreFoundAsFarAsTheyReach)
+{
+    Options options;
+    options.kind = SurfaceKind::Gaussian;
+    options.blobbiness = 0.3;
+    options.voxel = 0.25;
+    Progress progress;
+    const double alone = run(pair(100.0f), options, progress).report.surface.area;
+    for (const float apart : {5.3f, 5.5f, 7.0f, 9.0f, 10.0f, 12.0f}) {
+        options.interfaces = true;
+        const Report report = run(pair(apart), options, progress).report;
+        options.interfaces = false;
+        const double buried = 0.5 * (alone - report.surface.area);
+        ASSERT_EQ(report.interfaces.size(), std::abs(buried) > 0.005 ? 1u : 0u) << apart;
+        for (const InterfaceReport& found : report.interfaces)
+            EXPECT_NEAR(found.area, buried, 0.01);
+        EXPECT_TRUE(apart > 6.0f || buried < -12.0) << buried;
+    }
+}
+
 TEST(Parts, SplitGivesEveryGroupItsOwnClosedSurface)
 {
     Options options;
