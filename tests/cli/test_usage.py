@@ -2,9 +2,21 @@
 """Wrong calls have status 2, say why in one line, and leave nothing behind."""
 
 import os
+import shutil
+import subprocess
 import unittest
 
-from tool import CRAMBIN, FAST, ROOT, ToolTest
+from tool import CRAMBIN, FAST, ROOT, TOOL, ToolTest
+
+
+class Program(unittest.TestCase):
+    @unittest.skipUnless(shutil.which("readelf"), "needs readelf: apt-get install binutils")
+    def test_loader_does_not_look_in_the_current_folder(self):
+        dynamic = subprocess.run(["readelf", "-d", TOOL], capture_output=True, text=True, check=True)
+        for line in dynamic.stdout.splitlines():
+            if "RPATH" in line or "RUNPATH" in line:
+                for entry in line[line.index("[") + 1:line.index("]")].split(":"):
+                    self.assertTrue(entry.startswith(("/", "$ORIGIN")), line)
 
 
 class WrongCalls(ToolTest):
