@@ -54,13 +54,19 @@ std::vector<std::string> tickTexts(const ColorScale& scale)
             numberText(scale.low)};
 }
 
+/// The line for entries without room: as short as that, since it must not be cut off.
+std::string restText(std::size_t count)
+{
+    return "+" + std::to_string(count);
+}
+
 /// The entries that have room, and a line for the rest.
 std::vector<LegendEntry> shownEntries(const std::vector<LegendEntry>& entries, std::size_t room)
 {
     room = std::max<std::size_t>(room, 2);
     if (entries.size() <= room) return entries;
     std::vector<LegendEntry> shown(entries.begin(), entries.begin() + std::ptrdiff_t(room - 1));
-    shown.push_back({"and " + std::to_string(entries.size() - shown.size()) + " more", Color()});
+    shown.push_back({restText(entries.size() - shown.size()), Color()});
     return shown;
 }
 
@@ -145,6 +151,7 @@ int legendWidth(const Legend& legend, int width)
         for (const LegendEntry& entry : legend.entries)
             widest = std::max(widest, sizes.patch + sizes.gap +
                                           font.width(shortened(entry.name, font, width)));
+        widest = std::max(widest, font.width(restText(legend.entries.size())));
     }
     return widest + 3 * sizes.gap;
 }

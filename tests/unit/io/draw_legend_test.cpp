@@ -63,6 +63,21 @@ TEST(DrawLegend, TellsHowManyNamesHaveNoRoom)
     EXPECT_LT(shown, 40u);
 }
 
+// The line that counts the rest may be wider than title and names.
+TEST(DrawLegend, HasAMarginOnTheRight)
+{
+    Legend legend;
+    legend.title = "C";
+    for (int i = 0; i < 180000; ++i) legend.entries.push_back({"A", {200, 7, 9}});
+    const Picture picture = drawn(legend, 800, 400);
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = picture.width - 3; x < picture.width; ++x) {
+            const std::uint8_t* p = &picture.rgb[3 * std::size_t(y * picture.width + x)];
+            ASSERT_TRUE(std::equal(p, p + 3, background.begin())) << x << " " << y;
+        }
+    }
+}
+
 TEST(DrawLegend, TakesAnyName)
 {
     Legend legend;
