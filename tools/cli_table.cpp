@@ -3,6 +3,7 @@
 
 #include "molsurf/pipeline/fields.h"
 #include "molsurf/pipeline/options.h"
+#include "molsurf/pipeline/plan_bricks.h"
 
 #include <algorithm>
 #include <charconv>
@@ -175,7 +176,8 @@ const std::vector<Group>& groups()
         {"Run",
          {{"memory", "SIZE",
            "memory at most, such as 4G: in bricks, one by one, if\n"
-           "the whole takes more; then --steps is fixed [16]",
+           "the whole takes more; the flow then takes --steps [" +
+               std::to_string(defaultBrickSteps) + "]",
            ""},
           {"dry-run", nullptr, "say what it takes, and stop", ""},
           {"threads,j", "N", "threads at most", "all"},
@@ -295,13 +297,23 @@ std::string longName(const Entry& entry)
 std::vector<Group> groupsOf(Verb verb)
 {
     if (verb == Verb::Build) return groups();
+    // Options that plan a run are for the run of a molecule.
+    const auto runGroup = [](Group group, bool partial) {
+        const auto elsewhere = [&](const Entry& entry) {
+            const std::string name = longName(entry);
+            return name == "memory" || name == "dry-run" || (partial && name == "config");
+        };
+        group.entries.erase(std::remove_if(group.entries.begin(), group.entries.end(), elsewhere),
+                            group.entries.end());
+        return group;
+    };
     if (verb == Verb::Mesh || verb == Verb::Color) {
         std::vector<Group> all = storedGroups();
-        std::copy_if(groups().begin() + 1, groups().end(), std::back_inserter(all),
-                     [](const Group& group) {
-                         const std::string title = group.title;
-                         return title == "Picture" || title == "Run" || title == "Information";
-                     });
+        for (const Group& group : groups()) {
+            const std::string title = group.title;
+            if (title == "Run") all.push_back(runGroup(group, false));
+            if (title == "Picture" || title == "Information") all.push_back(group);
+        }
         return all;
     }
     const bool partial =
@@ -318,15 +330,7 @@ std::vector<Group> groupsOf(Verb verb)
         if (title == "Frames") continue;
         if ((title == "Picture" || title == "Scene") && verb != Verb::Batch) continue;
         if (title == "Groups" && verb == Verb::Compare) continue;
-        if (title == "Run") {
-            const auto elsewhere = [&](const Entry& entry) {
-                const std::string name = longName(entry);
-                return name == "memory" || name == "dry-run" || (partial && name == "config");
-            };
-            group.entries.erase(
-                std::remove_if(group.entries.begin(), group.entries.end(), elsewhere),
-                group.entries.end());
-        }
+        if (title == "Run") group = runGroup(group, partial);
         all.push_back(group);
     }
     return all;

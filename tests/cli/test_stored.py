@@ -115,6 +115,14 @@ class Stored(ToolTest):
         self.check(1, "color", "a.vdb", "--color", "residue", "-o", "c.ply", says="residue")
         self.assertEqual(self.names(), ["a.vdb", "b.ply"])
 
+    def test_options_that_plan_a_run_are_unknown(self):
+        self.build()
+        before = self.names()
+        for words in (["--dry-run"], ["--memory", "4G"]):
+            self.check(2, "mesh", "a.vdb", "-o", "b.ply", *words, says=words[0])
+            self.assertEqual(self.names(), before)
+            self.assertNotIn(words[0].encode(), self.check(0, "mesh", "--help").stdout)
+
     def test_wrong_calls(self):
         self.check(2, "mesh", says="one .vdb")
         self.check(2, "mesh", "a.vdb", "b.vdb", "-o", "a.ply", says="got 2")
