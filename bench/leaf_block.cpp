@@ -8,9 +8,9 @@
 #include "molsurf/core/leaf_block.h"
 #include "molsurf/bspline/spline.h"
 #include "molsurf/levelset/curvature.h"
+#include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
-#include "molsurf/rasterize/gaussian_sum.h"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>

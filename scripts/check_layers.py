@@ -14,11 +14,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 # Which stages a stage may include, besides itself and core.
 STAGES = {
     "core": set(),
+    "balls": set(),
     "structure": set(),
-    "selection": {"structure"},
-    "rasterize": {"selection"},
+    "selection": {"structure", "balls"},
     "bspline": set(),
-    "levelset": {"bspline"},
+    "levelset": {"balls", "bspline"},
     "evolution": {"levelset", "bspline"},
     "surface": {"levelset", "bspline"},
     "io": {"surface"},

@@ -6,8 +6,8 @@
 
 #include "molsurf/bspline/spline.h"
 #include "molsurf/evolution/evolve.h"
+#include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/levelset/initial_surface.h"
-#include "molsurf/rasterize/gaussian_sum.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pipeline/check_balls.h"
 
+#include "molsurf/balls/ball_index.h"
 #include "molsurf/core/error.h"
-#include "molsurf/rasterize/ball_index.h"
 
 #include <unistd.h>
 

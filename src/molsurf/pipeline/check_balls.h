@@ -4,8 +4,8 @@
 /// @file
 /// What balls have to be before anything is computed of them.
 
+#include "molsurf/balls/ball.h"
 #include "molsurf/pipeline/options.h"
-#include "molsurf/selection/ball.h"
 
 #include <cstddef>
 #include <vector>

@@ -4,9 +4,9 @@
 /// @file
 /// The optional grids beside `surface`.
 
+#include "molsurf/balls/ball.h"
 #include "molsurf/bspline/spline.h"
 #include "molsurf/core/progress.h"
-#include "molsurf/selection/ball.h"
 
 #include <openvdb/openvdb.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pipeline/interfaces.h"
 
-#include "molsurf/pipeline/contacts.h"
+#include "molsurf/balls/boundary_check.h"
+#include "molsurf/balls/contacts.h"
 #include "molsurf/pipeline/parts.h"
 #include "molsurf/pipeline/stages.h"
-#include "molsurf/rasterize/boundary_check.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pipeline/label_surface.h"
 
+#include "molsurf/balls/nearest_ball.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/pipeline/curvature_colors.h"
 #include "molsurf/pipeline/fields.h"
 #include "molsurf/pipeline/palette.h"
-#include "molsurf/rasterize/nearest_ball.h"
 #include "molsurf/surface/color_map.h"
 
 #include <openvdb/tools/Interpolation.h>

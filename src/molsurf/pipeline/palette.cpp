@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pipeline/palette.h"
 
-#include "molsurf/pipeline/contacts.h"
+#include "molsurf/balls/contacts.h"
 
 #include <algorithm>
 #include <tuple>

@@ -4,11 +4,11 @@
 /// @file
 /// The stages in their order: balls in, surface out.
 
+#include "molsurf/balls/ball.h"
 #include "molsurf/core/leaf_table.h"
 #include "molsurf/core/progress.h"
 #include "molsurf/core/report.h"
 #include "molsurf/pipeline/options.h"
-#include "molsurf/selection/ball.h"
 #include "molsurf/surface/mesh.h"
 
 #include <openvdb/openvdb.h>

@@ -4,10 +4,10 @@
 #include "molsurf/bspline/fit.h"
 #include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/levelset/union_distance.h"
 #include "molsurf/pipeline/fields.h"
 #include "molsurf/pipeline/label_surface.h"
 #include "molsurf/pipeline/run.h"
-#include "molsurf/rasterize/union_distance.h"
 #include "molsurf/surface/extract.h"
 
 #include <algorithm>

@@ -7,8 +7,8 @@
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/levelset/thicken.h"
+#include "molsurf/levelset/union_distance.h"
 #include "molsurf/pipeline/run.h"
-#include "molsurf/rasterize/union_distance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,15 +4,15 @@
 /// @file
 /// The stages that a run of a whole molecule and that of a brick of it have in common.
 
+#include "molsurf/balls/ball_boundary.h"
 #include "molsurf/bspline/spline.h"
 #include "molsurf/core/distance_band.h"
 #include "molsurf/core/progress.h"
 #include "molsurf/core/region.h"
 #include "molsurf/core/report.h"
 #include "molsurf/evolution/evolve.h"
+#include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/pipeline/options.h"
-#include "molsurf/rasterize/ball_boundary.h"
-#include "molsurf/rasterize/gaussian_sum.h"
 #include "molsurf/surface/mesh.h"
 
 #include <chrono>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pipeline/velocity.h"
 
+#include "molsurf/balls/nearest_ball.h"
 #include "molsurf/pipeline/run.h"
-#include "molsurf/rasterize/nearest_ball.h"
 
 namespace molsurf
 {

@@ -4,7 +4,7 @@
 /// @file
 /// Beads that stand for several atoms.
 
-#include "molsurf/selection/ball.h"
+#include "molsurf/balls/ball.h"
 #include "molsurf/structure/structure.h"
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 /// @file
 /// Named groups of atoms, and what else is known of every ball: chain, element, residue.
 
-#include "molsurf/selection/ball.h"
+#include "molsurf/balls/ball.h"
 #include "molsurf/structure/structure.h"
 
 #include <array>

@@ -4,7 +4,7 @@
 /// @file
 /// From a structure to the balls whose surface is wanted.
 
-#include "molsurf/selection/ball.h"
+#include "molsurf/balls/ball.h"
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/structure/structure.h"

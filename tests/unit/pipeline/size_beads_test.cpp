@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pipeline/size_beads.h"
 
+#include "molsurf/balls/ball_shares.h"
 #include "molsurf/core/error.h"
-#include "molsurf/rasterize/ball_shares.h"
 #include "support/molecules.h"
 #include "support/runs.h"
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What other balls cover of a sphere.
+
+#include "molsurf/balls/ball_boundary.h"
+#include "molsurf/balls/ball_index.h"
+#include "molsurf/balls/dense_caps.h"
+#include "molsurf/balls/placed_ball.h"
+#include "molsurf/core/progress.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace molsurf
+{
+
+/// The caps of a sphere, number by number: loops over them vectorise.
+struct CapArrays {
+    std::vector<double> x, y, z, cosine, sine;
+    std::vector<std::int32_t> other;
+
+    int size() const { return int(other.size()); }
+    void resize(std::size_t count)
+    {
+        for (auto* v : {&x, &y, &z, &cosine, &sine}) v->resize(count);
+        other.resize(count);
+    }
+    void set(std::size_t i, const Cap& cap, double capSine)
+    {
+        x[i] = cap.axis.x();
+        y[i] = cap.axis.y();
+        z[i] = cap.axis.z();
+        cosine[i] = cap.cosine;
+        sine[i] = capSine;
+        other[i] = cap.other;
+    }
+    Cap operator[](int k) const
+    {
+        const auto i = std::size_t(k);
+        return {openvdb::Vec3d(x[i], y[i], z[i]), cosine[i], other[i]};
+    }
+};
+
+/// What another ball covers of a sphere: nothing, a cap, or all.
+enum class Relation { Apart, Meeting, Around };
+
+/// Tells it without error.
+/// @param[in]  j    the place of the other ball
+/// @param[out] cap  if it meets the sphere
+Relation relate(const PlacedBall& ball, const PlacedBall& other, std::int32_t j, Cap& cap);
+
+/// What is known of a ball when its caps are found: perhaps a part of its sphere is uncovered, or
+/// it lies within another ball, or within several.
+enum class Exposure { Possible, WithinOne, WithinMany };
+
+/// Finds the caps of balls. Safe to use from all threads, each with room of its own.
+class CapFinder
+{
+public:
+    /// @param[in] balls  kept by reference
+    explicit CapFinder(const std::vector<PlacedBall>& balls);
+
+    /// Room for one ball, kept from ball to ball by a thread.
+    struct Scratch {
+        std::vector<Cap> found;
+    };
+
+    /// The caps of a ball, the largest first, without those that lie well within another one. Where
+    /// very many balls are near each other, without those that its power cell does not touch.
+    Exposure find(std::int32_t i, Scratch& scratch, CapArrays& caps) const;
+
+private:
+    bool gather(std::int32_t i, std::vector<Cap>& found) const;
+
+    const std::vector<PlacedBall>& balls_;
+    std::vector<Ball> grown_;
+    BallIndex index_;
+    DenseCaps dense_;
+};
+
+} // namespace molsurf

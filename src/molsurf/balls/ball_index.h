@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Which balls are near a box: cell lists, hashed by columns of cells, one for each class of radii.
+
+#include "molsurf/balls/ball.h"
+
+#include <openvdb/Types.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace molsurf
+{
+
+/// The largest radius [Å]; 0 if there are no balls.
+inline float largestRadius(const std::vector<Ball>& balls)
+{
+    float largest = 0.0f;
+    for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
+    return largest;
+}
+
+/// How large the cells of a BallIndex are: perRadius (r + grown), r being the largest radius that
+/// their class admits, and at least `least`.
+struct CellSize {
+    double perRadius;
+    double grown;         ///< [Å]
+    double least;         ///< [Å], at least 1
+    double largest = 0.0; ///< no radius of a class is above it [Å]; 0: the largest of the balls
+};
+
+/// Balls by the cubic cell of their centres. Balls of very different radii have lists of their own,
+/// so that a large one does not widen the search for small ones. Immutable once made; safe to read
+/// from all threads.
+class BallIndex
+{
+public:
+    /// @param[in] balls  every coordinate within 1e6 Å
+    BallIndex(const std::vector<Ball>& balls, const CellSize& cell);
+
+    /// Calls f(ball, i), i the ball's index in the vector, for the balls that may come within `gap`
+    /// of the box [low, high] [Å]: all whose centres lie within gap + r of it, and some that do
+    /// not. In an order that depends on the balls alone.
+    template<typename F>
+    void forEachNear(const openvdb::Vec3d& low, const openvdb::Vec3d& high, double gap,
+                     const F& f) const
+    {
+        forEachRange(low, high, gap, [&](std::int32_t begin, std::int32_t end) {
+            for (std::int32_t i = begin; i < end; ++i) f(balls_[i], order_[i]);
+        });
+    }
+
+    /// The number of balls that forEachNear() would visit.
+    std::size_t countNear(const openvdb::Vec3d& low, const openvdb::Vec3d& high, double gap) const
+    {
+        std::size_t count = 0;
+        forEachRange(low, high, gap, [&](std::int32_t begin, std::int32_t end) {
+            count += std::size_t(end - begin);
+        });
+        return count;
+    }
+
+private:
+    /// Cells above each other, from the first that has a ball to the last in a block of 32: a
+    /// shell is hollow, and cells without balls take memory too.
+    struct Column {
+        std::uint64_t key;
+        std::int64_t cell; // of the first cell in begins_
+        int z;             // of the first cell
+        int cells;         // 0 where the table has no column
+    };
+
+    /// The balls of one class of radii.
+    struct Level {
+        double cell;                 // edge [Å]
+        double largest;              // radius [Å]
+        std::vector<Column> columns; // open addressing
+
+        openvdb::Coord cellOf(const openvdb::Vec3d& x) const
+        {
+            return openvdb::Coord::floor(x / cell);
+        }
+        /// The place of a column in the table, or the free one where it would stand.
+        std::size_t position(std::uint64_t key) const
+        {
+            // Fibonacci hashing (Knuth, The Art of Computer Programming 3, 6.4), all bits folded
+            // down.
+            const std::uint64_t hash = key * 0x9e3779b97f4a7c15ull;
+            std::size_t i = (hash ^ hash >> 32) & (columns.size() - 1);
+            while (columns[i].cells != 0 && columns[i].key != key)
+                i = (i + 1) & (columns.size() - 1);
+            return i;
+        }
+    };
+
+    static constexpr int blockBits = 5;
+    static std::uint64_t columnKey(int x, int y, int block)
+    {
+        constexpr std::uint64_t mask = (1 << 21) - 1;
+        return (std::uint64_t(x) & mask) << 42 | (std::uint64_t(y) & mask) << 21 |
+               (std::uint64_t(block) & mask);
+    }
+
+    void addLevel(const std::vector<Ball>& balls, const std::vector<std::int32_t>& members,
+                  double cell);
+
+    /// Calls f(begin, end) with ranges of balls_.
+    template<typename F>
+    void forEachRange(const openvdb::Vec3d& low, const openvdb::Vec3d& high, double gap,
+                      const F& f) const
+    {
+        for (const Level& level : levels_) {
+            const double reach = level.largest + gap;
+            if (reach < 0.0) continue;
+            const openvdb::Coord from = level.cellOf(low - openvdb::Vec3d(reach));
+            const openvdb::Coord to = level.cellOf(high + openvdb::Vec3d(reach));
+            for (int x = from.x(); x <= to.x(); ++x) {
+                for (int y = from.y(); y <= to.y(); ++y) {
+                    for (int block = from.z() >> blockBits; block <= to.z() >> blockBits; ++block) {
+                        const Column& c = level.columns[level.position(columnKey(x, y, block))];
+                        const int first = std::max(from.z() - c.z, 0);
+                        const int last = std::min(to.z() - c.z, c.cells - 1);
+                        if (first > last) continue;
+                        f(begins_[std::size_t(c.cell + first)],
+                          begins_[std::size_t(c.cell + last + 1)]);
+                    }
+                }
+            }
+        }
+    }
+
+    std::vector<Level> levels_;        // of rising radii
+    std::vector<Ball> balls_;          // level by level, cell by cell
+    std::vector<std::int32_t> order_;  // their indices in the caller's vector
+    std::vector<std::int32_t> begins_; // first ball of each cell of each column, and the end
+};
+
+} // namespace molsurf

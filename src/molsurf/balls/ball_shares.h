@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// How a union of balls is shared out among them, in closed form.
+
+#include "molsurf/balls/ball.h"
+#include "molsurf/core/progress.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace molsurf
+{
+
+/// Where the parts of two balls touch: in the plane of equal power distance.
+struct ShareFacet {
+    std::int32_t balls[2]; ///< indices in the caller's vector, ascending
+    double area;           ///< [Å^2], > 0
+    double distance;       ///< of the two centres [Å]
+};
+
+/// The part of every ball: the points of the union whose power distance |x - c|^2 - r^2 to it is
+/// the least (its cell of the power diagram, Aurenhammer, SIAM J. Comput. 16:78-96, 1987, cut off
+/// at the ball). The parts fill the union without overlap.
+struct BallShares {
+    std::vector<double> volumes; ///< one a ball [Å^3]; they add up to that of the union
+    std::vector<double> areas;   ///< of the sphere that no other ball covers [Å^2], one a ball
+    std::vector<ShareFacet> facets;
+};
+
+/// Shares out a union of balls. Of equal balls the first has the part, balls within another one
+/// have none. Exact but for rounding; a volume is a third of the flux of x - c through the sphere's
+/// part and the facets.
+BallShares ballShares(const std::vector<Ball>& balls, const Progress& progress);
+
+} // namespace molsurf

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/balls/boundary_check.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/core/parallel.h"
+#include "molsurf/core/simd.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+
+namespace
+{
+
+constexpr std::size_t bundle = 16; // directions side by side
+
+/// Directions that are spread evenly, any run of them too: Roberts' low-discrepancy sequence R2 on
+/// a cylinder about the sphere.
+struct Directions {
+    static constexpr std::size_t count = 1 << 13;
+    std::array<double, count> x, y, z;
+
+    Directions()
+    {
+        for (std::size_t k = 0; k < count; ++k) {
+            const double u = 0.7548776662466927 * double(k), v = 0.5698402909980532 * double(k);
+            const double height =
+                1.0 - 2.0 * (u - std::floor(u) + 0.5 / count) / (1.0 + 1.0 / count);
+            const double angle = 2.0 * M_PI * (v - std::floor(v));
+            const double wide = std::sqrt(std::max(0.0, 1.0 - height * height));
+            x[k] = wide * std::cos(angle);
+            y[k] = wide * std::sin(angle);
+            z[k] = height;
+        }
+    }
+};
+
+const Directions& directions()
+{
+    static const Directions table;
+    return table;
+}
+
+/// Where rays from the centre of a sphere of radius 1 enter and leave the cell, along a bundle of
+/// directions.
+MOLSURF_KERNEL void followRays(const double* ux, const double* uy, const double* uz,
+                               const CapArrays& caps, double* __restrict from,
+                               double* __restrict to)
+{
+    std::fill_n(from, bundle, 0.0);
+    std::fill_n(to, bundle, 1.0);
+    for (std::size_t k = 0; k < caps.other.size(); ++k) {
+        const double x = caps.x[k], y = caps.y[k], z = caps.z[k], cosine = caps.cosine[k];
+        for (std::size_t d = 0; d < bundle; ++d) {
+            const double along = x * ux[d] + y * uy[d] + z * uz[d];
+            const double at = cosine / along; // the ray is beyond the plane where t along > cosine
+            const double leave = along > 0.0 ? at : 2.0, enter = along > 0.0 ? -1.0 : at;
+            to[d] = leave < to[d] ? leave : to[d];
+            from[d] = enter > from[d] ? enter : from[d];
+        }
+    }
+}
+
+/// How many directions of a bundle no cap holds.
+MOLSURF_KERNEL int countUncovered(const double* ux, const double* uy, const double* uz,
+                                  const Cap* caps, std::size_t count)
+{
+    double most[bundle];
+    std::fill_n(most, bundle, -1.0);
+    for (std::size_t k = 0; k < count; ++k) {
+        const Cap& cap = caps[k];
+        for (std::size_t d = 0; d < bundle; ++d) {
+            const double beyond =
+                cap.axis.x() * ux[d] + cap.axis.y() * uy[d] + cap.axis.z() * uz[d] - cap.cosine;
+            most[d] = beyond > most[d] ? beyond : most[d];
+        }
+    }
+    int uncovered = 0;
+    for (const double m : most) uncovered += m <= 0.0;
+    return uncovered;
+}
+
+/// The share of a patch's sphere that is uncovered, by a number of directions.
+double uncoveredShare(const BallBoundary& boundary, const Patch& patch, std::size_t first,
+                      std::size_t count)
+{
+    const Directions& u = directions();
+    int uncovered = 0;
+    for (std::size_t k = 0; k < count; k += bundle) {
+        const std::size_t at = (first + k) % Directions::count;
+        uncovered +=
+            countUncovered(&u.x[at], &u.y[at], &u.z[at], boundary.caps.data() + patch.capsBegin,
+                           patch.capsEnd - patch.capsBegin);
+    }
+    return double(uncovered) / double(count);
+}
+
+[[noreturn]] void disagree(const char* what, double one, double other)
+{
+    char text[200];
+    std::snprintf(text, sizeof text, "boundary of the balls: %s: %.8g and %.8g", what, one, other);
+    throw Error(ErrorKind::Check, text);
+}
+
+/// Areas from loops are wrong by multiples of a quarter of the sphere, if they are wrong.
+void checkArea(const BallBoundary& boundary, std::size_t p, double area)
+{
+    constexpr std::size_t few = 64, many = 4096;
+    constexpr double suspicious = 0.15, wrong = 0.05; // of the sphere
+    const Patch& patch = boundary.patches[p];
+    const double share = area / (4.0 * M_PI * patch.radius * patch.radius);
+    if (std::abs(share - uncoveredShare(boundary, patch, few * p, few)) < suspicious) return;
+    const double exact = uncoveredShare(boundary, patch, 0, many);
+    if (std::abs(share - exact) > wrong) disagree("shares of a sphere left free", share, exact);
+}
+
+} // namespace
+
+std::size_t raysFor(std::size_t balls)
+{
+    constexpr std::size_t all = 1 << 18, most = 1024;
+    return std::clamp(all / std::max<std::size_t>(balls, 1) / bundle * bundle, bundle, most);
+}
+
+CellVolume sampleCell(const CapArrays& caps, double radius, std::int32_t i, std::size_t rays)
+{
+    const Directions& u = directions();
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t k = 0; k < rays; k += bundle) {
+        const std::size_t at = (std::size_t(i) * rays + k) % Directions::count;
+        alignas(64) double from[bundle], to[bundle];
+        followRays(&u.x[at], &u.y[at], &u.z[at], caps, from, to);
+        for (std::size_t d = 0; d < bundle; ++d) {
+            const double length = std::max(from[d], to[d]);
+            const double cubes = length * length * length - from[d] * from[d] * from[d];
+            sum += cubes;
+            squares += cubes * cubes;
+        }
+    }
+    const double ball = 4.0 / 3.0 * M_PI * radius * radius * radius, n = double(rays);
+    const double mean = sum / n;
+    return {ball * mean, ball * ball * std::max(squares / n - mean * mean, 0.0) / n};
+}
+
+void checkBoundary(const BallBoundary& boundary, const BoundaryMeasure& measure,
+                   const Progress& progress)
+{
+    parallelFor(boundary.patches.size(), progress,
+                [&](std::size_t p) { checkArea(boundary, p, measure.patchAreas[p]); });
+
+    std::size_t outer = 0;
+    double volume = 0.0;
+    for (const BoundaryPiece& piece : measure.pieces) {
+        constexpr double rounding = 1e-9; // [Å^3]
+        const int chi = piece.eulerCharacteristic;
+        if (chi > 2 || chi % 2 != 0) disagree("Euler number, and 2 less twice the genus", chi, 2);
+        if (!(piece.area > 0.0)) disagree("area of a piece, and 0", piece.area, 0.0);
+        if ((piece.outer ? piece.volume : -piece.volume) < -rounding)
+            disagree("volume of an outer piece or a cavity, and 0", piece.volume, 0.0);
+        volume += piece.volume;
+        outer += piece.outer;
+    }
+    if (!boundary.estimate) return;
+    const UnionEstimate& estimate = *boundary.estimate;
+    if (outer != estimate.components)
+        disagree("outer pieces, and parts that hang together", double(outer),
+                 double(estimate.components));
+    constexpr double deviations = 8.0, floor = 0.003; // of the volume
+    if (std::abs(volume - estimate.volume) > deviations * estimate.error + floor * volume)
+        disagree("volume by its boundary, and by power cells", volume, estimate.volume);
+}
+
+MeshTolerance meshTolerance(const BallBoundary& boundary, const BoundaryMeasure& measure,
+                            double voxel)
+{
+    double creases = 0.0, bends = 0.0;
+    for (const Arc& arc : boundary.arcs) creases += 2.0 * arc.half * arc.radius;
+    for (std::size_t p = 0; p < boundary.patches.size(); ++p)
+        bends += measure.patchAreas[p] / boundary.patches[p].radius;
+    return {voxel * (creases + 1.5 * bends), 0.4 * voxel * voxel * (creases + bends)};
+}
+
+void checkMesh(double exactArea, double exactVolume, double meshArea, double meshVolume,
+               const MeshTolerance& tolerance)
+{
+    if (!(std::abs(meshArea - exactArea) <= tolerance.area))
+        disagree("area in closed form, and of the mesh", exactArea, meshArea);
+    if (!(std::abs(meshVolume - exactVolume) <= tolerance.volume))
+        disagree("volume in closed form, and of the mesh", exactVolume, meshVolume);
+}
+
+} // namespace molsurf

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/balls/boundary_measure.h"
+
+#include "molsurf/core/disjoint_sets.h"
+#include "molsurf/core/error.h"
+#include "molsurf/core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <string>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+
+namespace
+{
+
+/// An arc as seen from one of its two spheres.
+struct Side {
+    std::uint32_t arc;
+    std::int32_t other; // ball on the other side
+    double sign;        // +1: the arc's axis points away from the sphere's centre to the other ball
+};
+
+/// A connected part of a patch.
+struct Face {
+    double area = 0.0;
+    Vec3d normal = Vec3d(0.0); // integrated
+    int loops = 0;
+    std::vector<std::uint32_t> arcs;
+};
+
+const Cap& capOf(const BallBoundary& boundary, const Patch& patch, std::int32_t other)
+{
+    std::uint32_t k = patch.capsBegin;
+    while (k + 1 < patch.capsEnd && boundary.caps[k].other != other) ++k;
+    return boundary.caps[k];
+}
+
+double distance2(const Arc& arc, const Vec3d& x)
+{
+    const Vec3d w = x - arc.centre;
+    const double along = w.dot(arc.axis);
+    const double r = std::sqrt(std::max(0.0, w.lengthSqr() - along * along));
+    if (arc.ends[0] < 0 || w.dot(arc.middle) >= std::cos(arc.half) * r) {
+        return along * along + (r - arc.radius) * (r - arc.radius);
+    }
+    return std::min((w - arc.radius * arc.end(0)).lengthSqr(),
+                    (w - arc.radius * arc.end(1)).lengthSqr());
+}
+
+[[noreturn]] void disagree(const char* what)
+{
+    throw Error(ErrorKind::Check, std::string("boundary of the balls: ") + what);
+}
+
+/// The loops that the arcs of a sphere form: for each arc the number of its loop.
+std::vector<std::size_t> findLoops(const BallBoundary& boundary, const std::vector<Side>& sides,
+                                   std::size_t& count)
+{
+    struct End {
+        CornerName corner;
+        std::uint32_t side;
+    };
+    std::vector<End> ends;
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+        const Arc& arc = boundary.arcs[sides[s].arc];
+        for (int e = 0; e < 2 && arc.ends[e] >= 0; ++e)
+            ends.push_back({cornerAt(arc, e), std::uint32_t(s)});
+    }
+    std::sort(ends.begin(), ends.end(),
+              [](const End& a, const End& b) { return a.corner < b.corner; });
+    std::vector<std::uint32_t> parent(sides.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::uint32_t s) {
+        while (parent[s] != s) s = parent[s] = parent[parent[s]];
+        return s;
+    };
+    for (std::size_t i = 0; i < ends.size(); i += 2) {
+        if (i + 1 == ends.size() || !(ends[i].corner == ends[i + 1].corner))
+            disagree("two arcs of a sphere do not meet in a corner");
+        const std::uint32_t a = root(ends[i].side), b = root(ends[i + 1].side);
+        parent[std::max(a, b)] = std::min(a, b);
+    }
+    std::vector<std::size_t> loop(sides.size());
+    count = 0;
+    for (std::uint32_t s = 0; s < sides.size(); ++s)
+        loop[s] = root(s) == s ? count++ : loop[root(s)];
+    return loop;
+}
+
+/// For each loop of a sphere the number of the face that it bounds.
+std::vector<std::size_t> findFaces(const BallBoundary& boundary, const Patch& patch,
+                                   const std::vector<Side>& sides,
+                                   const std::vector<std::size_t>& loop, std::size_t loops)
+{
+    std::vector<std::size_t> face(loops);
+    std::iota(face.begin(), face.end(), 0u);
+    if (loops == 1) return face;
+
+    const std::size_t caps = patch.capsEnd - patch.capsBegin;
+    DisjointSets sets(caps);
+    for (std::uint32_t i = 0; i < caps; ++i) {
+        for (std::uint32_t j = 0; j < i; ++j) {
+            if (sets.find(i) != sets.find(j) &&
+                capsOverlap(boundary, patch, boundary.caps[patch.capsBegin + i],
+                            boundary.caps[patch.capsBegin + j]))
+                sets.join(i, j);
+        }
+    }
+    std::size_t clusterCount = 0;
+    const std::vector<std::uint32_t> clusters = sets.numbers(clusterCount);
+    std::vector<std::size_t> clusterOf(loops); // the cluster of caps that a loop bounds
+    std::vector<Vec3d> sample(loops);
+    std::vector<double> longest(loops, 0.0);
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+        const Cap& cap = capOf(boundary, patch, sides[s].other);
+        const Arc& arc = boundary.arcs[sides[s].arc];
+        clusterOf[loop[s]] = clusters[std::size_t(&cap - &boundary.caps[patch.capsBegin])];
+        if (arc.half * arc.radius <= longest[loop[s]]) continue;
+        longest[loop[s]] = arc.half * arc.radius;
+        sample[loop[s]] = arc.centre + arc.radius * arc.middle;
+    }
+    // The side of a cluster that a loop lies on is named by the cluster's loop nearest to it.
+    const auto sideOf = [&](std::size_t cluster, std::size_t l) {
+        if (clusterOf[l] == cluster) return l;
+        std::size_t found = l;
+        double least = 1e300;
+        for (std::size_t s = 0; s < sides.size(); ++s) {
+            if (clusterOf[loop[s]] != cluster) continue;
+            const double d2 = distance2(boundary.arcs[sides[s].arc], sample[l]);
+            if (d2 < least) {
+                least = d2;
+                found = loop[s];
+            }
+        }
+        return found;
+    };
+    // A cluster with one loop about it has but one side.
+    std::vector<std::size_t> loopsOf(clusterCount, 0);
+    for (const std::size_t cluster : clusterOf) ++loopsOf[cluster];
+    std::map<std::vector<std::size_t>, std::size_t> faceOn; // by the sides
+    for (std::size_t l = 0; l < loops; ++l) {
+        std::vector<std::size_t> sidesOf;
+        for (std::size_t cluster = 0; cluster < clusterCount; ++cluster) {
+            if (loopsOf[cluster] > 1) sidesOf.push_back(sideOf(cluster, l));
+        }
+        face[l] = faceOn.emplace(std::move(sidesOf), l).first->second;
+    }
+    // Faces and clusters are the nodes of a tree, the loops between them its edges.
+    if (faceOn.size() + clusterCount != loops + 1) disagree("faces of a sphere and their loops");
+    return face;
+}
+
+/// The faces of a patch, without their loops' shares.
+std::vector<Face> findFaces(const BallBoundary& boundary, const Patch& patch,
+                            const std::vector<Side>& sides)
+{
+    const double R = patch.radius;
+    if (sides.empty()) {
+        Face whole;
+        whole.area = 4.0 * M_PI * R * R;
+        return {whole};
+    }
+    std::size_t loops = 0;
+    const std::vector<std::size_t> loop = findLoops(boundary, sides, loops);
+    const std::vector<std::size_t> faceOf = findFaces(boundary, patch, sides, loop, loops);
+    std::vector<Face> byLoop(loops);
+    for (std::size_t l = 0; l < loops; ++l) ++byLoop[faceOf[l]].loops;
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+        const Arc& arc = boundary.arcs[sides[s].arc];
+        const Cap& cap = capOf(boundary, patch, sides[s].other);
+        Face& face = byLoop[faceOf[loop[s]]];
+        face.arcs.push_back(sides[s].arc);
+        const double angle = 2.0 * arc.half;
+        face.area += angle * cap.cosine;
+        for (int e = 0; e < 2 && arc.ends[e] >= 0; ++e) {
+            const Cap& next = capOf(boundary, patch, arc.ends[e]);
+            const Vec3d u = (arc.centre + arc.radius * arc.end(e) - patch.centre) / R;
+            const Vec3d a = u.cross(cap.axis), b = u.cross(next.axis);
+            const double exterior = std::atan2(a.cross(b).length(), a.dot(b));
+            face.area -= 0.5 * exterior; // the other half comes with the next arc
+        }
+        // 1/2 of the integral of x cross dx, the face on the left: clockwise about the cap's axis
+        const Vec3d m = arc.centre - patch.centre;
+        const Vec3d chord = arc.end(1) - arc.end(0); // about the arc's own axis
+        face.normal -= 0.5 * sides[s].sign * arc.radius * m.cross(chord) +
+                       0.5 * arc.radius * arc.radius * angle * cap.axis;
+    }
+    std::vector<Face> faces;
+    for (Face& face : byLoop) {
+        if (face.loops == 0) continue;
+        face.area = R * R * (2.0 * M_PI * (2 - face.loops) + face.area);
+        faces.push_back(std::move(face));
+    }
+    return faces;
+}
+
+/// Tells outer pieces from cavities, and leaves the smallest of these out. The outer one encloses
+/// all cavities of its component, so its volume is larger than theirs; the sign of a volume alone
+/// would be that of rounding where the piece is tiny.
+void findOuter(std::vector<BoundaryPiece>& pieces)
+{
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> largest;
+    for (std::size_t n = 0; n < pieces.size(); ++n) {
+        const BoundaryPiece& piece = pieces[n];
+        if (piece.component < 0) continue;
+        const auto c = std::size_t(piece.component);
+        if (c >= largest.size()) largest.resize(c + 1, none);
+        if (largest[c] == none || std::abs(piece.volume) > std::abs(pieces[largest[c]].volume))
+            largest[c] = n;
+    }
+    for (std::size_t n = 0; n < pieces.size(); ++n) {
+        BoundaryPiece& piece = pieces[n];
+        piece.outer =
+            piece.component < 0 ? piece.volume > 0.0 : largest[std::size_t(piece.component)] == n;
+    }
+    pieces.erase(std::remove_if(pieces.begin(), pieces.end(),
+                                [](const BoundaryPiece& piece) {
+                                    return !piece.outer && piece.area < leastCavity;
+                                }),
+                 pieces.end());
+}
+
+} // namespace
+
+BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& progress)
+{
+    BoundaryMeasure out;
+    const std::size_t patches = boundary.patches.size();
+    if (patches == 0) return out;
+    std::vector<std::uint32_t> patchOf(boundary.balls.size());
+    for (std::size_t p = 0; p < patches; ++p)
+        patchOf[std::size_t(boundary.patches[p].ball)] = std::uint32_t(p);
+    std::vector<std::vector<Side>> sides(patches);
+    for (std::size_t a = 0; a < boundary.arcs.size(); ++a) {
+        const Arc& arc = boundary.arcs[a];
+        sides[patchOf[arc.balls[0]]].push_back({std::uint32_t(a), arc.balls[1], 1.0});
+        sides[patchOf[arc.balls[1]]].push_back({std::uint32_t(a), arc.balls[0], -1.0});
+    }
+    std::vector<std::vector<Face>> faces(patches);
+    parallelFor(patches, progress, [&](std::size_t p) {
+        faces[p] = findFaces(boundary, boundary.patches[p], sides[p]);
+    });
+
+    std::vector<std::size_t> begins(patches + 1, 0);
+    for (std::size_t p = 0; p < patches; ++p) begins[p + 1] = begins[p] + faces[p].size();
+    DisjointSets joined(begins.back());
+    constexpr std::size_t none = ~std::size_t(0);
+    std::vector<std::size_t> faceOfArc(boundary.arcs.size(), none);
+    for (std::size_t p = 0; p < patches; ++p) {
+        for (std::size_t f = 0; f < faces[p].size(); ++f) {
+            for (const std::uint32_t arc : faces[p][f].arcs) {
+                if (faceOfArc[arc] == none) faceOfArc[arc] = begins[p] + f;
+                joined.join(std::uint32_t(faceOfArc[arc]), std::uint32_t(begins[p] + f));
+            }
+        }
+    }
+
+    std::vector<std::size_t> number(begins.back());
+    std::vector<Vec3d> origin; // of each piece, so that volumes do not cancel far from 0
+    std::vector<double> euler;
+    std::vector<Vec3d> normal; // integrated
+    for (std::size_t p = 0; p < patches; ++p) {
+        const Patch& patch = boundary.patches[p];
+        out.patchAreas.push_back(0.0);
+        for (std::size_t f = 0; f < faces[p].size(); ++f) {
+            const std::size_t root = joined.find(std::uint32_t(begins[p] + f));
+            if (root == begins[p] + f) {
+                number[root] = out.pieces.size();
+                out.pieces.emplace_back();
+                out.pieces.back().component = patch.component;
+                origin.push_back(patch.centre);
+                euler.push_back(0.0);
+                normal.emplace_back(0.0);
+            }
+            const Face& face = faces[p][f];
+            const std::size_t n = number[root];
+            out.pieces[n].area += face.area;
+            out.pieces[n].volume +=
+                (patch.radius * face.area + (patch.centre - origin[n]).dot(face.normal)) / 3.0;
+            normal[n] += face.normal;
+            out.patchAreas[p] += face.area;
+            // Faces, less arcs, plus corners, of which each ends three arcs.
+            double openSides = 0.0;
+            for (const std::uint32_t arc : face.arcs) openSides += boundary.arcs[arc].ends[0] >= 0;
+            euler[n] += 2.0 - face.loops - openSides / 6.0;
+        }
+    }
+    for (std::size_t n = 0; n < euler.size(); ++n) {
+        BoundaryPiece& piece = out.pieces[n];
+        piece.eulerCharacteristic = int(std::lround(euler[n]));
+        // The integrated normal of a closed surface is zero.
+        constexpr double open = 1e-6, rounding = 1e-9; // of the area, and [Å^2]
+        if (!(normal[n].length() <= open * piece.area + rounding))
+            disagree("a piece is not closed");
+    }
+    findOuter(out.pieces);
+    return out;
+}
+
+} // namespace molsurf

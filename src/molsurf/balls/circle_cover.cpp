@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/balls/circle_cover.h"
+
+#include "molsurf/balls/quad.h"
+#include "molsurf/core/simd.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+
+void Meetings::resize(int count)
+{
+    const int padded = (count + doubleLanes - 1) / doubleLanes * doubleLanes;
+    for (auto* v : {&x, &y, &cosine, &error, &sure, &endX, &endY}) v->resize(std::size_t(padded));
+    std::fill(sure.begin() + count, sure.end(), 1.0); // nothing
+}
+
+namespace
+{
+
+/// Room by which covers overlap to count as such: more than all errors of what is sure.
+constexpr double coverMargin = 2e-9;
+
+// A cover is sure if its ends are known to 1e-9: the cosine to 1e-11, and that not near 1 or -1.
+constexpr double sureError = 1e-11, sureCosine = 1.0 - 1e-4;
+
+/// Places on a circle are taken from doubles if their error is below this.
+constexpr double largestError = 1e-10;
+
+/// Two unit vectors that are orthogonal to a unit vector and to each other.
+void frame(const Vec3d& axis, Vec3d& e1, Vec3d& e2)
+{
+    const Vec3d other = std::abs(axis.x()) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
+    e1 = axis.cross(other);
+    e1.normalize();
+    e2 = axis.cross(e1);
+}
+
+struct CapPointers {
+    const double *x, *y, *z, *cosine;
+};
+
+/// How caps meet a circle.
+/// @return whether one surely covers all of it
+MOLSURF_KERNEL bool meetCircle(const Circle& circle, const CapPointers& caps, int count,
+                               double* __restrict x, double* __restrict y,
+                               double* __restrict cosine, double* __restrict error,
+                               double* __restrict sure)
+{
+    const Vec3d axis = circle.axis, e1 = circle.e1, e2 = circle.e2;
+    const double height = circle.cosine, radius = circle.sine;
+    // 16 roundings of numbers up to 1, divided by the circle's radius and by the distance of the
+    // cap's axis from that of the circle. The radius itself has an error of 1/radius roundings.
+    const double rounding = 16.0 * 0x1p-52 / (radius * radius);
+    std::int64_t whole = 0; // as wide as what is compared
+    for (int k = 0; k < count; ++k) {
+        const double along = axis.x() * caps.x[k] + axis.y() * caps.y[k] + axis.z() * caps.z[k];
+        const double u = e1.x() * caps.x[k] + e1.y() * caps.y[k] + e1.z() * caps.z[k];
+        const double v = e2.x() * caps.x[k] + e2.y() * caps.y[k] + e2.z() * caps.z[k];
+        const double inverse = 1.0 / std::sqrt(u * u + v * v);
+        x[k] = u * inverse;
+        y[k] = v * inverse;
+        const double c = (caps.cosine[k] - height * along) * inverse / radius;
+        const double e = rounding * inverse;
+        cosine[k] = c;
+        error[k] = e;
+        whole |= c < -1.0 - e ? 1 : 0;
+        const double known = e < sureError ? c : 1.0;
+        sure[k] = std::abs(known) < sureCosine ? known : 1.0;
+    }
+    return whole != 0;
+}
+
+/// Where covers end.
+MOLSURF_KERNEL void findEnds(int count, const double* x, const double* y, const double* cosine,
+                             double* __restrict endX, double* __restrict endY)
+{
+    for (int k = 0; k < count; ++k) {
+        const double sine = std::sqrt(1.0 - cosine[k] * cosine[k]);
+        endX[k] = x[k] * cosine[k] - y[k] * sine;
+        endY[k] = y[k] * cosine[k] + x[k] * sine;
+    }
+}
+
+/// How far a direction lies ahead of another one: from 0 to 4, as the angle.
+template<typename T>
+inline __attribute__((always_inline)) void quartersAhead(double fromX, double fromY, const T& toX,
+                                                         const T& toY, T& quarters)
+{
+    const T along = toX * fromX + toY * fromY, ahead = fromX * toY - fromY * toX;
+    quarters = ahead >= 0.0 ? 1.0 - along : 3.0 + along;
+}
+
+/// The end that lies farthest ahead of a direction, of the covers that hold it.
+/// @param[in]  count    a multiple of doubleLanes
+/// @param[out] farthest how far; 0 where none holds it
+/// @return the cover
+MOLSURF_KERNEL int farthestEnd(double fromX, double fromY, int count, const double* x,
+                               const double* y, const double* cosine, const double* endX,
+                               const double* endY, double& farthest)
+{
+    Doubles most = {};
+    Longs best = {};
+    for (int k = 0; k < count; k += doubleLanes) {
+        const auto at = [k](const double* v) { return reinterpret_cast<const Doubles*>(v + k); };
+        Doubles ahead;
+        quartersAhead(fromX, fromY, *at(endX), *at(endY), ahead);
+        const Doubles inside = *at(x) * fromX + *at(y) * fromY - *at(cosine);
+        const Doubles held = inside > coverMargin ? ahead : Doubles{};
+        best = held > most ? Longs{} + k : best;
+        most = held > most ? held : most;
+    }
+    int lane = 0;
+    for (int j = 1; j < doubleLanes; ++j) {
+        if (most[j] > most[lane]) lane = j;
+    }
+    farthest = most[lane];
+    return int(best[lane]) + lane;
+}
+
+/// Whether covers overlap all around a circle, found by going from the end of one to the farthest
+/// end of those that hold it. False where they may do no more than touch: those who need to know
+/// have to look closer.
+/// @param[in,out] m  its ends are filled in
+bool isSurrounded(Meetings& m)
+{
+    const int count = m.size();
+    int at = 0; // the cover at whose end we are
+    while (at < count && !(m.sure[std::size_t(at)] < 1.0)) ++at;
+    if (at == count) return false;
+    findEnds(count, m.x.data(), m.y.data(), m.sure.data(), m.endX.data(), m.endY.data());
+    const double startX = m.endX[std::size_t(at)], startY = m.endY[std::size_t(at)];
+    double turned = 0.0; // how far from the start, from 0 to 4
+    for (int step = 0; step <= count; ++step) {
+        double farthest;
+        at = farthestEnd(m.endX[std::size_t(at)], m.endY[std::size_t(at)], count, m.x.data(),
+                         m.y.data(), m.sure.data(), m.endX.data(), m.endY.data(), farthest);
+        if (farthest <= coverMargin) return false;
+        double now;
+        quartersAhead(startX, startY, m.endX[std::size_t(at)], m.endY[std::size_t(at)], now);
+        if (now < turned) return true; // at the start, which the first step has covered, or past it
+        turned = now;
+    }
+    return false;
+}
+
+enum class Answer { Yes, No, Unknown };
+
+/// The ends of all covers. No: one of them covers all of the circle.
+/// @param[out] doubt  the largest error of an end
+Answer findCovers(const Meetings& m, int count, int own, std::vector<Cover<double>>& covers,
+                  double& doubt)
+{
+    covers.clear();
+    doubt = 0.0;
+    for (int k = 0; k < count; ++k) {
+        const auto i = std::size_t(k);
+        const double c = m.cosine[i], beyond = std::abs(c) - 1.0;
+        if (k == own || (beyond > m.error[i] && c > 0.0)) continue;
+        // Not a number counts as unknown.
+        if (!(beyond < -m.error[i])) return Answer::Unknown;
+        const double sine = std::sqrt((1.0 - c) * (1.0 + c)), x = m.x[i], y = m.y[i];
+        doubt = std::max(doubt, m.error[i] / sine);
+        covers.push_back(
+            {x * c + y * sine, y * c - x * sine, x * c - y * sine, y * c + x * sine, k});
+    }
+    return doubt < largestError ? Answer::Yes : Answer::Unknown;
+}
+
+/// The same in quadruple precision, from the balls themselves.
+Answer findCovers(const std::vector<PlacedBall>& balls, std::int32_t i, const CapArrays& caps,
+                  int own, const Circle& circle, std::vector<Cover<Quad>>& covers, Quad& doubt)
+{
+    const PlacedBall& ball = balls[std::size_t(i)];
+    const auto planeOf = [&](int k) {
+        return quadPlane(ball, balls[std::size_t(caps.other[std::size_t(k)])]);
+    };
+    const QuadPlane plane = planeOf(own);
+    const Quad way2 = plane.way.dot(plane.way);
+    const QuadVector axis = plane.way * (1 / sqrt(way2)),
+                     middle = plane.way * (plane.height / way2);
+    const Quad r(ball.radius), radius = sqrt(r * r - plane.height * plane.height / way2);
+    // The frame of the doubles, without their errors.
+    QuadVector e1{circle.e1.x(), circle.e1.y(), circle.e1.z()};
+    e1 = e1 - axis * e1.dot(axis);
+    e1 = e1 * (1 / sqrt(e1.dot(e1)));
+    const QuadVector e2 = axis.cross(e1);
+
+    const Quad tie(1e-20);
+    covers.clear();
+    doubt = tie;
+    for (int k = 0; k < caps.size(); ++k) {
+        if (k == own) continue;
+        const QuadPlane other = planeOf(k);
+        const Quad u = other.way.dot(e1), v = other.way.dot(e2), length = sqrt(u * u + v * v);
+        const Quad rest = other.height - other.way.dot(middle), most = radius * length;
+        if (abs(abs(rest) - most) <= tie * most) return Answer::Unknown;
+        if (rest > most) continue;
+        if (rest < -most) return Answer::No;
+        const Quad x = u / length, y = v / length, c = rest / most, sine = sqrt((1 - c) * (1 + c));
+        covers.push_back(
+            {x * c + y * sine, y * c - x * sine, x * c - y * sine, y * c + x * sine, k});
+    }
+    return Answer::Yes;
+}
+
+/// A number from 0 to 4 that grows as the angle of a direction does, at half to the whole of its
+/// rate.
+template<typename Real>
+Real pseudoAngle(const Real& x, const Real& y)
+{
+    if (y >= 0) return x >= 0 ? Real(y / (x + y)) : Real(1 + x / (x - y));
+    return x < 0 ? Real(2 + y / (x + y)) : Real(3 + x / (x - y));
+}
+
+/// The gaps between covers.
+/// @param[in] doubt  the error of their ends, at most
+/// @return false if ends lie too near each other to tell which comes first
+template<typename Real>
+bool findGaps(const std::vector<Cover<Real>>& covers, const Real& doubt, std::vector<Gap>& gaps)
+{
+    struct Interval {
+        Real begin, end; // end > begin; what runs over the full turn comes twice
+        int cover;
+    };
+    thread_local std::vector<Interval> intervals;
+    gaps.clear();
+    if (covers.empty()) {
+        gaps.push_back({1.0, 0.0, 1.0, 0.0, -1, -1});
+        return true;
+    }
+    intervals.clear();
+    for (std::size_t k = 0; k < covers.size(); ++k) {
+        const Cover<Real>& c = covers[k];
+        const Real begin = pseudoAngle(c.beginX, c.beginY), end = pseudoAngle(c.endX, c.endY);
+        if (begin < end) {
+            intervals.push_back({begin, end, int(k)});
+        } else {
+            intervals.push_back({begin, end + 4, int(k)});
+            intervals.push_back({begin - 4, end, int(k)});
+        }
+    }
+    std::sort(intervals.begin(), intervals.end(),
+              [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+
+    const Real margin = 4 * doubt;
+    const auto tooNear = [&](const Real& a, const Real& b) {
+        return a - b < margin && b - a < margin;
+    };
+    const auto add = [&](int before, int after) {
+        const Cover<Real>&b = covers[std::size_t(before)], &a = covers[std::size_t(after)];
+        gaps.push_back(
+            {double(b.endX), double(b.endY), double(a.beginX), double(a.beginY), b.cap, a.cap});
+    };
+    Interval last = intervals.front();
+    bool sure = true, opened = false; // whether the last one came behind a gap
+    for (std::size_t i = 1; i < intervals.size() && sure; ++i) {
+        const Interval& next = intervals[i];
+        sure = !tooNear(next.begin, last.end) && !tooNear(next.end, last.end) &&
+               !(opened && tooNear(next.begin, intervals[i - 1].begin));
+        opened = next.begin > last.end;
+        if (opened) add(last.cover, next.cover);
+        if (opened || next.end > last.end) last = next;
+    }
+    const Real again = intervals.front().begin + 4;
+    sure = sure && !tooNear(again, last.end);
+    if (again > last.end) {
+        sure = sure && (intervals.size() < 2 || !tooNear(intervals[1].begin, intervals[0].begin));
+        add(last.cover, intervals.front().cover);
+    }
+    return sure;
+}
+
+} // namespace
+
+void findGaps(const std::vector<PlacedBall>& balls, std::int32_t i, const CapArrays& caps, int own,
+              CircleScratch& scratch, Circle& circle, std::vector<Gap>& gaps)
+{
+    gaps.clear();
+    const auto place = std::size_t(own);
+    circle = {caps[own].axis, {}, {}, caps.cosine[place], caps.sine[place]};
+    frame(circle.axis, circle.e1, circle.e2);
+    Meetings& m = scratch.meetings;
+    m.resize(caps.size());
+    // The own cap is never sure: its axis is that of the circle.
+    const bool whole = meetCircle(
+        circle, {caps.x.data(), caps.y.data(), caps.z.data(), caps.cosine.data()}, caps.size(),
+        m.x.data(), m.y.data(), m.cosine.data(), m.error.data(), m.sure.data());
+    if (whole || isSurrounded(m)) return;
+    double doubt;
+    Answer found = findCovers(m, caps.size(), own, scratch.covers, doubt);
+    if (found == Answer::Yes && findGaps(scratch.covers, doubt, gaps)) return;
+
+    thread_local std::vector<Cover<Quad>> covers;
+    Quad quadDoubt;
+    found = findCovers(balls, i, caps, own, circle, covers, quadDoubt);
+    gaps.clear();
+    if (found == Answer::No) return;
+    if (found == Answer::Unknown || !findGaps(covers, quadDoubt, gaps)) throw SpecialPosition();
+}
+
+} // namespace molsurf

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The smooth field of a molecule, psi(x) = ln sum_i exp(-C_i (|x - x_i|^2 - R_i^2)), with R_i =
+/// r_i plus the probe radius and C_i = ln 2 / (eps R_i). psi = 0 approximates the
+/// solvent-accessible surface from outside to within about eps; psi > 0 inside. The paper's g is 1
+/// - e^psi: psi is kept instead since it is nearly quadratic, and g spans many decades
+/// (docs/math.md, section 2).
+
+#include "molsurf/balls/ball.h"
+#include "molsurf/balls/ball_index.h"
+#include "molsurf/core/leaf_table.h"
+#include "molsurf/core/progress.h"
+
+#include <optional>
+#include <vector>
+
+namespace molsurf
+{
+
+/// What psi near a leaf depends on besides the balls near it.
+struct GaussianExtent {
+    double largest;   ///< largest r_i [Å]
+    double swollen;   ///< largest R_i, swollen by the level of its Gaussian [Å]
+    double tolerance; ///< largest tolerance of all balls [Å]
+};
+
+/// Parameters of psi.
+struct GaussianOptions {
+    double probe = 1.4;      ///< probe radius r_b [Å]
+    double epsilon = 0.5;    ///< tolerance eps [Å]; not used with a blobbiness
+    double blobbiness = 0.0; ///< d > 0: C_i = d / R_i^2 instead, the Gaussian surface of Blinn
+    double voxel = 0.5;      ///< voxel edge h [Å]
+    double reach = 3.0;      ///< how far outside the balls of radius R_i psi is wanted [Å]
+    /// Of all balls, where the sum is made of some: near these it is then the same.
+    std::optional<GaussianExtent> extent{};
+};
+
+/// @param[in] decays  one a ball, or none
+GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& options,
+                        const std::vector<Decay>& decays);
+
+/// How far from a leaf the balls may lie whose terms count there [Å].
+double cutoff(const GaussianExtent& extent, double reach);
+
+/// psi of a set of balls, evaluated leaf by leaf. The balls must outlive it.
+class GaussianSum
+{
+public:
+    /// @param[in] decays  one a ball, or none: all by the options
+    GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& options,
+                std::vector<Decay> decays = {});
+
+    /// How far psi = 0 may lie outside the balls of radius R_i, as a length for each doubling of
+    /// the balls that meet there: the largest tolerance of all balls [Å].
+    double tolerance() const { return options_.epsilon; }
+
+    /// The voxels within `steps` voxels (see dilated()) of those next to psi = 0.
+    /// @param[in] box  of whole leaves: no others are looked at
+    /// @return an empty table if psi is negative at all voxels
+    LeafTable band(int steps, const Progress& progress,
+                   const openvdb::CoordBBox& box = openvdb::CoordBBox::inf()) const;
+
+    /// psi at all voxels of a leaf. Balls whose terms are below e^-12 of the sum throughout the
+    /// leaf are left out, and so are those that are farther than R_i + reach + 2 eps from it and
+    /// below e^-12 where psi = 0.
+    /// @param[in]  origin  first voxel of the leaf
+    /// @param[in]  reach   how far outside the balls of radius R_i psi is wanted [Å]
+    /// @param[out] psi     512 values; always finite
+    void evaluate(const openvdb::Coord& origin, double reach, float* psi) const;
+
+    /// How many balls are not left out of a leaf by evaluate().
+    std::size_t termCount(const openvdb::Coord& origin, double reach) const;
+
+    /// psi at all voxels of all leaves, with the reach of the options.
+    LeafField evaluate(const LeafTable& table, const Progress& progress) const;
+
+private:
+    /// One ball in units of voxels, relative to a leaf.
+    struct Term {
+        float x, y, z;  // centre [voxel], from the leaf's first voxel
+        float decay;    // C h^2
+        float level;    // C R^2
+        float exponent; // largest exponent of the term in the leaf
+    };
+    void gatherTerms(const openvdb::Coord& origin, double reach, std::vector<Term>& terms) const;
+
+    /// C of a ball [1/Å^2]
+    double rate(std::size_t i, double R) const
+    {
+        if (!decays_.empty() && decays_[i].rate > 0.0f) return decays_[i].rate;
+        return options_.blobbiness > 0.0 ? options_.blobbiness / (R * R) : M_LN2 / (epsilon_ * R);
+    }
+
+    const std::vector<Ball>& balls_;
+    GaussianOptions options_; // with the largest tolerance of all balls
+    std::vector<Decay> decays_;
+    double epsilon_; // of balls without a rate of their own [Å]
+    GaussianExtent extent_;
+    double largest_; // largest R_i, swollen [Å]
+    BallIndex index_;
+};
+
+} // namespace molsurf

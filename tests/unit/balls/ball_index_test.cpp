@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/balls/ball_index.h"
+
+#include "support/molecules.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3d;
+
+TEST(BallIndex, FindsAllThatAreNearOnceEach)
+{
+    for (const Vec3d& centre : {Vec3d(0.0), Vec3d(-90.0, 5000.0, -999000.0)}) {
+        std::vector<Ball> balls = test::randomBalls(800, 40.0, centre, 4);
+        balls.push_back(balls.front()); // at the same place
+        balls.back().atom = 800;
+        for (int k = 0; k < 6; ++k) { // far larger ones
+            balls[std::size_t(100 * k)].radius *= float(5 << 2 * k);
+        }
+        for (const double cell : {1.0, 3.3, 50.0}) {
+            const BallIndex index(balls, {0.5, 0.0, cell});
+            for (const Ball& box : test::randomBalls(30, 50.0, centre, 5)) {
+                const Vec3d low(box.center), high = low + Vec3d(3.5, 0.0, 1.0);
+                const double reach = 2.0 * box.radius;
+                std::set<std::int32_t> found;
+                index.forEachNear(low, high, reach, [&](const Ball& ball, std::int32_t i) {
+                    EXPECT_TRUE(found.insert(i).second) << "twice: " << i;
+                    EXPECT_EQ(ball.atom, balls[i].atom);
+                });
+                for (std::size_t i = 0; i < balls.size(); ++i) {
+                    const Vec3d c(balls[i].center);
+                    const Vec3d nearest =
+                        openvdb::math::maxComponent(low, openvdb::math::minComponent(high, c));
+                    if ((c - nearest).length() > reach + balls[i].radius) continue;
+                    EXPECT_TRUE(found.count(int(i)));
+                }
+            }
+        }
+    }
+}
+
+TEST(BallIndex, LeavesOutWhatIsFar)
+{
+    const std::vector<Ball> balls = test::randomBalls(800, 40.0, Vec3d(0.0), 4);
+    const BallIndex index(balls, {0.0, 0.0, 2.0});
+    std::size_t found = 0;
+    index.forEachNear(Vec3d(0.0), Vec3d(2.0), 1.0, [&](const Ball& ball, int) {
+        ++found;
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_GT(ball.center[i], -5.01f);
+            EXPECT_LT(ball.center[i], 7.01f);
+        }
+    });
+    EXPECT_LT(found, 100u);
+}
+
+} // namespace
+} // namespace molsurf
