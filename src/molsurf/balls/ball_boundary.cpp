@@ -238,7 +238,7 @@ BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Pr
         } catch (const SpecialPosition&) {
         }
     }
-    throw Error(ErrorKind::Check, "boundary of the balls: arcs do not meet in corners");
+    throw Error(ErrorKind::Check, "boundary: arcs do not meet in corners");
 }
 
 } // namespace molsurf

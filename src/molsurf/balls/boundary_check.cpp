@@ -105,7 +105,7 @@ double uncoveredShare(const BallBoundary& boundary, const Patch& patch, std::siz
 [[noreturn]] void disagree(const char* what, double one, double other)
 {
     char text[200];
-    std::snprintf(text, sizeof text, "boundary of the balls: %s: %.8g and %.8g", what, one, other);
+    std::snprintf(text, sizeof text, "%s: %.8g and %.8g disagree", what, one, other);
     throw Error(ErrorKind::Check, text);
 }
 
@@ -118,7 +118,9 @@ void checkArea(const BallBoundary& boundary, std::size_t p, double area)
     const double share = area / (4.0 * M_PI * patch.radius * patch.radius);
     if (std::abs(share - uncoveredShare(boundary, patch, few * p, few)) < suspicious) return;
     const double exact = uncoveredShare(boundary, patch, 0, many);
-    if (std::abs(share - exact) > wrong) disagree("shares of a sphere left free", share, exact);
+    if (std::abs(share - exact) > wrong)
+        disagree("boundary: shares of a sphere that are free, by loops and by samples", share,
+                 exact);
 }
 
 } // namespace
@@ -160,21 +162,22 @@ void checkBoundary(const BallBoundary& boundary, const BoundaryMeasure& measure,
     for (const BoundaryPiece& piece : measure.pieces) {
         constexpr double rounding = 1e-9; // [Å^3]
         const int chi = piece.eulerCharacteristic;
-        if (chi > 2 || chi % 2 != 0) disagree("Euler number, and 2 less twice the genus", chi, 2);
-        if (!(piece.area > 0.0)) disagree("area of a piece, and 0", piece.area, 0.0);
+        if (chi > 2 || chi % 2 != 0)
+            disagree("boundary: Euler number of a piece and 2 - 2 genus", chi, 2);
+        if (!(piece.area > 0.0)) disagree("boundary: area of a piece and 0", piece.area, 0.0);
         if ((piece.outer ? piece.volume : -piece.volume) < -rounding)
-            disagree("volume of an outer piece or a cavity, and 0", piece.volume, 0.0);
+            disagree("boundary: volume of an outer piece or a cavity and 0", piece.volume, 0.0);
         volume += piece.volume;
         outer += piece.outer;
     }
     if (!boundary.estimate) return;
     const UnionEstimate& estimate = *boundary.estimate;
     if (outer != estimate.components)
-        disagree("outer pieces, and parts that hang together", double(outer),
+        disagree("boundary: outer pieces and parts that hang together", double(outer),
                  double(estimate.components));
     constexpr double deviations = 8.0, floor = 0.003; // of the volume
     if (std::abs(volume - estimate.volume) > deviations * estimate.error + floor * volume)
-        disagree("volume by its boundary, and by power cells", volume, estimate.volume);
+        disagree("boundary: volume by patches and by power cells", volume, estimate.volume);
 }
 
 MeshTolerance meshTolerance(const BallBoundary& boundary, const BoundaryMeasure& measure,
@@ -191,9 +194,9 @@ void checkMesh(double exactArea, double exactVolume, double meshArea, double mes
                const MeshTolerance& tolerance)
 {
     if (!(std::abs(meshArea - exactArea) <= tolerance.area))
-        disagree("area in closed form, and of the mesh", exactArea, meshArea);
+        disagree("mesh: area in closed form and of the triangles", exactArea, meshArea);
     if (!(std::abs(meshVolume - exactVolume) <= tolerance.volume))
-        disagree("volume in closed form, and of the mesh", exactVolume, meshVolume);
+        disagree("mesh: volume in closed form and of the triangles", exactVolume, meshVolume);
 }
 
 } // namespace molsurf

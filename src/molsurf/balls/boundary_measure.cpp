@@ -56,7 +56,7 @@ double distance2(const Arc& arc, const Vec3d& x)
 
 [[noreturn]] void disagree(const char* what)
 {
-    throw Error(ErrorKind::Check, std::string("boundary of the balls: ") + what);
+    throw Error(ErrorKind::Check, std::string("boundary: ") + what);
 }
 
 /// The loops that the arcs of a sphere form: for each arc the number of its loop.

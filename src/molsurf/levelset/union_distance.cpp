@@ -27,8 +27,9 @@ constexpr int cube = 4, plane = cube * cube, cubeSize = cube * plane;
 static_assert(plane % floatLanes == 0 && leafDim % cube == 0);
 constexpr double cubeRadius = 0.5 * (cube - 1) * 1.7320508; // [voxel]
 
-/// A foot counts as uncovered if it lies at most this far, as a cosine, in a cap: the arcs about it
-/// hold a point just as near.
+/// A foot on a sphere counts as covered if it comes this near, as a cosine, to a cap. If it is not
+/// covered, an arc or corner about it is just as near; if it is, as where spheres meet in a point
+/// inside of others, nothing is.
 constexpr float rimTolerance = 2e-6f;
 
 /// What a cube of voxels is evaluated on, relative to its leaf's centre [Å].
@@ -176,7 +177,7 @@ MOLSURF_KERNEL int capsAbout(const Cone& cone, const CapArrays& caps, std::uint3
     int m = 0;
     for (int k = 0; k < count; ++k) {
         out[m] = begin + std::uint32_t(k);
-        m += above[k] > -rimTolerance;
+        m += above[k] > -2.0f * rimTolerance;
     }
     return m;
 }
@@ -202,7 +203,7 @@ MOLSURF_KERNEL void nearPatch(Cube& c, const NearPatch& patch, const CapArrays& 
             for (int j = 0; j < count; ++j) {
                 const std::uint32_t i = list[j];
                 const Floats along = dx * caps.x[i] + dy * caps.y[i] + dz * caps.z[i];
-                open = along > (caps.cosine[i] + rimTolerance) * r ? Ints{} : open;
+                open = along > (caps.cosine[i] - rimTolerance) * r ? Ints{} : open;
                 if ((j & 3) == 3 && bitsOf(open) == 0) break;
             }
             d2 = open != 0 ? d2 : Floats{} + 1e30f;
@@ -458,8 +459,13 @@ private:
         std::sort(near.cubePatches.begin(), near.cubePatches.end(),
                   [](const NearPatch& a, const NearPatch& b) { return a.gap < b.gap; });
         for (const NearPatch& patch : near.cubePatches) nearPatch(c, patch, near);
+        // Outside, the boundary is as near as the nearest ball. If it is not, balls meet in the
+        // voxel, and only by rounding does none of them hold it.
+        const float rounding = 1e-3f * c.voxel;
         for (int k = 0; k < cubeSize; ++k) {
-            if (distance[k] < 0.0f) distance[k] = -std::sqrt(c.least2[k]);
+            const float nearest = std::sqrt(c.least2[k]);
+            if (distance[k] < 0.0f || (distance[k] < rounding && nearest > 2.0f * rounding))
+                distance[k] = -std::min(nearest, beyond);
         }
     }
 

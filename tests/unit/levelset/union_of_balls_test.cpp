@@ -137,6 +137,27 @@ TEST(UnionOfBalls, DistanceOfSpecialPositions)
     expectExact(cube, 0.5, 0.5, 2.0, 1.0, "a cube");
 }
 
+// Spheres that nearly meet in a voxel, inside of the union: all around are balls, but each foot
+// there lies within rounding of a cap.
+TEST(UnionOfBalls, NoBoundaryWhereSpheresMeetInside)
+{
+    for (const double radius : {5.0000005, 5.000003, 5.00001, 5.0001}) {
+        const std::vector<Ball> balls = {ball(4, 3, 0, radius), ball(-4, 3, 0, radius),
+                                         ball(0, -5, 0, radius), ball(0, 0, 5, radius),
+                                         ball(0, 0, -5, radius)};
+        const DistanceBand band = distanceToUnion(balls, 0.0, ballBoundary(balls, 0.0, Progress()),
+                                                  0.5, 2.0, 1.0, Progress());
+        for (int k = 0; k < 27; ++k) {
+            const Coord c(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
+            const std::int32_t n = band.table.find(c);
+            if (n == noLeaf) continue;
+            const int v = int(openvdb::FloatTree::LeafNodeType::coordToOffset(c));
+            EXPECT_FALSE(band.table.active(n).on(v)) << c << " " << radius;
+            EXPECT_FLOAT_EQ(band.phi.leaf(n)[v], -2.0f) << c << " " << radius;
+        }
+    }
+}
+
 /// Area and volume by points spread evenly over every sphere.
 void expectSampled(const std::vector<Ball>& balls, double probe, const BoundaryMeasure& measure,
                    double tolerance)
