@@ -31,7 +31,7 @@ using PsiSource = std::function<void(const openvdb::Coord& origin, float* psi)>;
 
 /// Evolves phi by  phi_t = |grad phi| (w kappa + n . grad w)  with speeds extended along normals
 /// from the interface (docs/math.md, section 4). After each step the level set is made a distance
-/// again by reinitialize(); leaves are added and dropped as the interface moves.
+/// again by reinitialize(); leaves are added as the interface moves, and none is dropped.
 ///
 /// Stops when in a step the energy changes by less than options.energyTolerance and the mean
 /// displacement is below options.displacementTolerance; or after options.maxSteps; or, if these are
