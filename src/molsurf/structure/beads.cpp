@@ -100,8 +100,10 @@ bool isMartini2(const Structure& structure)
 
 bool isUnnamed(const Structure& structure)
 {
-    constexpr double longestBond = 1.9; // [Å], of heavy atoms in amino acids: C-S 1.8
+    constexpr double longestBond = 1.9;      // [Å], of heavy atoms in amino acids: C-S 1.8
+    constexpr std::size_t shortestTrace = 4; // fewer CA alone may be a part of anything
     bool sideChain = false;
+    std::size_t residues = 0;
     for (const auto& [index, atoms] : residuesOf(structure)) {
         const Residue& residue = structure.residues[std::size_t(index)];
         if (residue.water) continue;
@@ -109,6 +111,7 @@ bool isUnnamed(const Structure& structure)
             has(atoms, "N") || has(atoms, "C")) {
             return false;
         }
+        ++residues;
         sideChain = sideChain || atoms.size() > 1;
         for (const Atom* a : atoms) {
             for (const Atom* b : atoms) {
@@ -116,7 +119,7 @@ bool isUnnamed(const Structure& structure)
             }
         }
     }
-    return sideChain;
+    return sideChain || residues >= shortestTrace;
 }
 
 } // namespace

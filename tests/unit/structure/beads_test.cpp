@@ -64,11 +64,12 @@ TEST(Beads, NamedByAtoms)
 {
     EXPECT_EQ(beads("MET CA CG,ALA CA,PHE CA CE1 CE2").beads, BeadKind::Unnamed);
     EXPECT_EQ(beads("MET CA CG,ALA CA,PHE CA CE1 CE2").atoms[0].element, 6);
-    EXPECT_EQ(beads("MET CA CG,ALA CA", 1.8).beads, BeadKind::None); // bonded
-    EXPECT_EQ(beads("ALA CA,ALA CA,GLY CA").beads, BeadKind::None);  // a trace
-    EXPECT_EQ(beads("ALA N CA C,GLY CA").beads, BeadKind::None);     // a backbone
-    EXPECT_EQ(beads("MET CA CG,XYZ CA CB").beads, BeadKind::None);   // no amino acid
-    EXPECT_EQ(beads("MET CA CG,ALA CB").beads, BeadKind::None);      // without CA
+    EXPECT_EQ(beads("MET CA CG,ALA CA", 1.8).beads, BeadKind::None);          // bonded
+    EXPECT_EQ(beads("ALA CA,ALA CA,GLY CA,LYS CA").beads, BeadKind::Unnamed); // a trace
+    EXPECT_EQ(beads("ALA CA,ALA CA,GLY CA").beads, BeadKind::None);           // too few to tell
+    EXPECT_EQ(beads("ALA N CA C,GLY CA").beads, BeadKind::None);              // a backbone
+    EXPECT_EQ(beads("MET CA CG,XYZ CA CB").beads, BeadKind::None);            // no amino acid
+    EXPECT_EQ(beads("MET CA CG,ALA CB").beads, BeadKind::None);               // without CA
 }
 
 TEST(Beads, AtomsAreNone)
