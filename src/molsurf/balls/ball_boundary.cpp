@@ -119,14 +119,14 @@ BallBoundary boundaryOf(std::vector<PlacedBall> balls, const Progress& progress)
     std::vector<BallParts> all(balls.size());
     std::vector<std::uint8_t> exposed(balls.size());
     DisjointSets joined(balls.size());
-    std::atomic<bool> anyLost{false}; // a ball whose cell and overlaps are not known
+    std::atomic<bool> anyLost{false}; // a ball whose overlaps are not all known
     const std::size_t rays = raysFor(balls.size());
     parallelFor(balls.size(), progress, [&](std::size_t n) {
         Scratch& s = scratches.local();
         const auto i = std::int32_t(n);
         const Exposure exposure = finder.find(i, s.finder, s.caps);
-        if (exposure == Exposure::WithinMany) anyLost = true;
-        if (exposure != Exposure::Possible) return;
+        if (exposure.amongMany) anyLost = true;
+        if (!exposure.possible) return;
         all[n].caps = std::uint32_t(s.caps.size());
         all[n].cell = sampleCell(s.caps, balls[n].radius, i, rays);
         if (s.caps.size() == 0) exposed[n] = 1;

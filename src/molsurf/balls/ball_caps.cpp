@@ -117,11 +117,8 @@ Exposure CapFinder::find(std::int32_t i, Scratch& scratch, CapArrays& caps) cons
     const Vec3d centre = ball.centre();
     std::vector<Cap>& found = scratch.found;
     const std::size_t near = index_.countNear(centre, centre, ball.radius);
-    if (near > dense) {
-        if (!dense_.find(i, found)) return Exposure::WithinMany;
-    } else if (!gather(i, found)) {
-        return Exposure::WithinOne;
-    }
+    const bool amongMany = near > dense;
+    if (!(amongMany ? dense_.find(i, found) : gather(i, found))) return {false, amongMany};
     std::sort(found.begin(), found.end(), isLarger); // large ones hold most of the others
     caps.resize(found.size());
     std::size_t kept = 0;
@@ -132,7 +129,7 @@ Exposure CapFinder::find(std::int32_t i, Scratch& scratch, CapArrays& caps) cons
             caps.set(kept++, cap, sine);
     }
     caps.resize(kept);
-    return Exposure::Possible;
+    return {true, amongMany};
 }
 
 } // namespace molsurf

@@ -69,8 +69,7 @@ bool DenseCaps::mayReach(const PlacedBall& ball, const Box& box, const PowerCell
                                 .length();
     const double room = box.largest * box.largest - ball.radius * ball.radius +
                         2.0 * PowerCell::tolerance * farthest;
-    for (std::size_t v = 0; v < cell.size(); ++v) {
-        const Vec3d& x = cell.vertex(v);
+    for (const Vec3d& x : cell.outerPoints()) {
         if (distance2(x, low, high) <= x.lengthSqr() + room) return true;
     }
     return false;
@@ -109,7 +108,7 @@ bool DenseCaps::find(std::int32_t i, std::vector<Cap>& found) const
     }
     found.erase(std::remove_if(found.begin(), found.end(),
                                [&](const Cap& cap) {
-                                   return !cell.reaches(cap.axis, ball.radius * cap.cosine);
+                                   return !cell.touches(cap.axis, ball.radius * cap.cosine);
                                }),
                 found.end());
     return true;

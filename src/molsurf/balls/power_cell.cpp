@@ -25,9 +25,16 @@ PowerCell::PowerCell(double radius) : radius_(radius)
         vertices_.push_back(
             {{x, 2 + y, 4 + z}, half * Vec3d(x ? 1.0 : -1.0, y ? 1.0 : -1.0, z ? 1.0 : -1.0)});
     }
+    findOuterPoints();
 }
 
 bool PowerCell::reaches(const Vec3d& normal, double height) const
+{
+    return std::any_of(outer_.begin(), outer_.end(),
+                       [&](const Vec3d& x) { return x.dot(normal) > height - tolerance; });
+}
+
+bool PowerCell::touches(const Vec3d& normal, double height) const
 {
     return std::any_of(vertices_.begin(), vertices_.end(),
                        [&](const Vertex& v) { return v.x.dot(normal) > height - tolerance; });
@@ -71,13 +78,32 @@ void PowerCell::cut(const Vec3d& normal, double height)
     }
     planes_.push_back({normal, height});
     vertices_.swap(kept_);
+    findOuterPoints();
 }
 
-bool PowerCell::isHidden() const
+void PowerCell::findOuterPoints()
 {
-    const double limit = radius_ - tolerance;
-    return std::all_of(vertices_.begin(), vertices_.end(),
-                       [&](const Vertex& v) { return v.x.lengthSqr() < limit * limit; });
+    // Let s be a point of the sphere in the polyhedron. Beyond the plane that touches the sphere in
+    // s all is outside, so the part of the polyhedron there has outer vertices and points of edges
+    // outside alone; s is one of its points.
+    const double radius = radius_ - tolerance;
+    outer_.clear();
+    for (const Vertex& v : vertices_) {
+        if (v.x.lengthSqr() < radius * radius) continue;
+        outer_.push_back(v.x);
+        for (const Vertex& u : vertices_) {
+            if (u.x.lengthSqr() >= radius * radius) continue;
+            int common = 0;
+            for (const std::size_t plane : u.planes)
+                common += std::count(v.planes.begin(), v.planes.end(), plane) != 0;
+            if (common < 2) continue;
+            // |u + t (v - u)| = radius
+            const Vec3d along = v.x - u.x;
+            const double a = along.lengthSqr(), b = u.x.dot(along);
+            const double c = u.x.lengthSqr() - radius * radius;
+            outer_.push_back(u.x + (std::sqrt(b * b - a * c) - b) / a * along);
+        }
+    }
 }
 
 } // namespace molsurf

@@ -28,14 +28,19 @@ public:
     /// @param[in] height  [Å], from the centre of the ball
     void cut(const openvdb::Vec3d& normal, double height);
 
-    /// Whether a plane may cut something off.
+    /// Whether a plane may cut something off the part of the sphere that lies in the polyhedron.
     bool reaches(const openvdb::Vec3d& normal, double height) const;
 
-    /// Whether the polyhedron lies within the ball, or is empty: no part of the sphere is left.
-    bool isHidden() const;
+    /// Whether a plane touches the polyhedron: one that has cut it and does not any more is not
+    /// needed. (Of a face inside the ball, too: beyond it another part of the sphere may lie.)
+    bool touches(const openvdb::Vec3d& normal, double height) const;
 
-    std::size_t size() const { return vertices_.size(); }
-    const openvdb::Vec3d& vertex(std::size_t v) const { return vertices_[v].x; }
+    /// Whether the polyhedron lies within the ball, or is empty: no part of the sphere is left.
+    bool isHidden() const { return outer_.empty(); }
+
+    /// Points whose convex hull holds the part of the sphere that lies in the polyhedron: vertices
+    /// outside of the sphere, and where edges go inside.
+    const std::vector<openvdb::Vec3d>& outerPoints() const { return outer_; }
 
     static constexpr double tolerance = 1e-9; ///< [Å]
 
@@ -49,9 +54,12 @@ private:
         openvdb::Vec3d x;
     };
 
+    void findOuterPoints();
+
     double radius_;
     std::vector<Plane> planes_;
     std::vector<Vertex> vertices_, kept_;
+    std::vector<openvdb::Vec3d> outer_;
 };
 
 } // namespace molsurf
