@@ -233,6 +233,24 @@ void checkExtent(const Structure& structure, const std::vector<Ball>& balls)
     }
 }
 
+/// Balls have single precision: far from the origin they are moved by what that leaves out.
+void warnOfRounding(const std::vector<Ball>& balls, std::vector<std::string>& warnings)
+{
+    constexpr float far = 1e4f, digit = 0x1p-23f; // [Å], and the last bit of 1
+    float farthest = 0.0f;
+    for (const Ball& ball : balls) {
+        for (int axis = 0; axis < 3; ++axis)
+            farthest = std::max(farthest, std::abs(ball.center[axis]));
+    }
+    if (farthest < far) return;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "atoms lie up to %.3g Å from the origin, where places are rounded to %.1g Å [hint: "
+                  "move the molecule to the origin]",
+                  double(farthest), double(farthest * digit));
+    warnings.push_back(text);
+}
+
 std::string describeDrops(const std::vector<Drop>& drops)
 {
     std::vector<std::string> parts;
@@ -367,6 +385,7 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
                                  " atoms: dropped " + describeDrops(out.drops));
     }
     checkExtent(structure, out.balls);
+    warnOfRounding(out.balls, out.warnings);
     for (const Ball& ball : out.balls) {
         const std::int32_t n = beadAtoms.empty() ? 0 : beadAtoms[std::size_t(ball.atom)];
         out.beads += n > 0;

@@ -132,6 +132,14 @@ TEST(SelectBalls, RefusesAMoleculeLargerThanAnyGrid)
                "extent in x: expected at most 1e6 Å, got 1200000");
 }
 
+TEST(SelectBalls, TellsHowFarPlacesAreRounded)
+{
+    EXPECT_TRUE(selectBalls(readText("a.xyzr", "9000 0 0 1\n"), {}).warnings.empty());
+    const BallSelection far = selectBalls(readText("a.xyzr", "0 -800000.11 0 1\n"), {});
+    ASSERT_EQ(far.warnings.size(), 1u);
+    EXPECT_HAS(far.warnings[0], "rounded to 0.1 Å");
+}
+
 TEST(SelectBalls, PassesOnTheWarningsOfTheFile)
 {
     const std::string atom =
