@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <new>
 #include <optional>
@@ -30,13 +31,40 @@ struct Task {
     std::vector<Output> outputs;
 };
 
+// Whether a file is a structure, by its name.
+bool isStructure(const fs::path& path)
+{
+    const fs::path name = path.extension() == ".gz" ? path.stem() : path.filename();
+    const std::string extension = name.extension().string();
+    const char* const known[] = {".pdb", ".ent", ".cif", ".mmcif", ".pqr", ".xyzr"};
+    return std::any_of(std::begin(known), std::end(known),
+                       [&](const char* word) { return extension == word; });
+}
+
+// The structures of a folder, by name.
+std::vector<std::string> structuresIn(const std::string& folder)
+{
+    std::vector<std::string> inputs;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        if (entry.is_regular_file() && isStructure(entry.path()))
+            inputs.push_back(entry.path().string());
+    }
+    std::sort(inputs.begin(), inputs.end());
+    if (inputs.empty()) throw Error(ErrorKind::Input, folder + ": no structures in this folder");
+    return inputs;
+}
+
 std::vector<std::string> readList(const std::string& path)
 {
     std::ifstream file;
     std::error_code ignored;
     if (path != "-") {
-        if (fs::is_directory(path, ignored))
-            throw Error(ErrorKind::Input, path + ": it is a folder");
+        if (fs::is_directory(path, ignored)) return structuresIn(path);
+        if (isStructure(path))
+            throw Error(ErrorKind::Input, path +
+                                              ": it is a structure, expected a list of them or a "
+                                              "folder [hint: vdb_molsurf " +
+                                              path + " -o FILE]");
         file.open(path);
         if (!file) throw Error(ErrorKind::Input, "cannot read " + path);
     }

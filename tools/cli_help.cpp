@@ -74,6 +74,7 @@ std::string batchHelpText()
         "\n"
         "Builds the surfaces of many structures, one after the other. LIST has the name of a\n"
         "structure file a line, - is standard input; empty lines and those with # do not count.\n"
+        "A folder in its place stands for all structures in it.\n"
         "What fails is reported and does not stop the rest. DIR/summary.csv and summary.json have\n"
         "a line each; the same command once more does what was not done, or failed.\n";
     text += tableOf(batchGroups());

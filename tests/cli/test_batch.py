@@ -67,6 +67,20 @@ class Batch(ToolTest):
                 self.assertEqual((self.folder / "out" / name).stat().st_mtime_ns, time, name)
         self.assertEqual([row["status"] for row in self.table()], ["done"] * 3)
 
+    def test_folder_of_structures(self):
+        (self.folder / "all").mkdir()
+        (self.folder / "all" / "b.pdb").write_bytes(CRAMBIN.read_bytes())
+        (self.folder / "all" / "a.xyzr").write_text("0 0 0 1.7\n")
+        (self.folder / "all" / "notes.txt").write_text("not a structure\n")
+        self.check(0, "batch", "all", "-O", "out", *FAST, "--formats", "json")
+        self.assertEqual(self.files(), ["a.json", "b.json", "summary.csv", "summary.json"])
+        (self.folder / "none").mkdir()
+        self.check(1, "batch", "none", "-O", "other", says="no structures")
+
+    def test_structure_in_place_of_a_list(self):
+        self.check(1, "batch", CRAMBIN, "-O", "out", says=["it is a structure", "vdb_molsurf "])
+        self.assertFalse((self.folder / "out" / "summary.csv").exists())
+
     def test_other_options_need_force_or_another_folder(self):
         self.batch(1)
         done = self.batch(1, "--probe", "1.5", says=["other options", "--force"])
@@ -86,7 +100,6 @@ class Batch(ToolTest):
         self.check(2, "batch", "list", "-O", "out", "--formats", "vdb,gltf", says="gltf")
         self.check(2, "batch", "list", "-O", "out", "-o", "a.vdb", says="-o")
         self.check(1, "batch", "none", "-O", "out", says="none")
-        self.check(1, "batch", ".", "-O", "out", says="folder")
         (self.folder / "list").write_text("a/x.pdb\nb/x.cif.gz\n")
         self.check(1, "batch", "list", "-O", "out", says=["a/x.pdb", "b/x.cif.gz"])
         (self.folder / "list").write_text("# nothing\n")
