@@ -51,8 +51,8 @@ enum class Relation { Apart, Meeting, Around };
 /// @param[out] cap  if it meets the sphere
 Relation relate(const PlacedBall& ball, const PlacedBall& other, std::int32_t j, Cap& cap);
 
-/// What is known of a ball when its caps are found: perhaps a part of its sphere is uncovered, or it
-/// lies within another ball or several. Among very many balls its overlaps are not all known.
+/// What is known of a ball when its caps are found: perhaps a part of its sphere is uncovered, or
+/// it lies within another ball or several. Among very many balls its overlaps are not all known.
 struct Exposure {
     bool possible, amongMany;
 };

@@ -12,7 +12,8 @@ namespace molsurf
 {
 
 /// Surfaces every group alone, and with every other one that is near enough to change its surface,
-/// and reports the buried areas (A_a + A_b - A_ab) / 2 from 0.005 Å^2 on; sets the groups' aloneArea.
+/// and reports the buried areas (A_a + A_b - A_ab) / 2 from 0.005 Å^2 on; sets the groups'
+/// aloneArea.
 ///
 /// Areas of the solvent-accessible and van der Waals surfaces are in closed form.
 ///

@@ -15,7 +15,8 @@ namespace molsurf
 /// the balls of each resolution rule, one number a rule, so that the surface of these balls alone
 /// encloses the volume that it has with the tolerance of the options instead.
 ///
-/// By bisection and the secant rule on whole runs, at the voxel of the options or 1 Å, whichever is coarser.
+/// By bisection and the secant rule on whole runs, at the voxel of the options or 1 Å, whichever is
+/// coarser.
 ///
 /// @param[in,out] atoms  decays and resolutions are set
 /// @throws Error(ErrorKind::Numeric) if no level is found

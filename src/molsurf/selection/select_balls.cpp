@@ -244,10 +244,11 @@ void warnOfRounding(const std::vector<Ball>& balls, std::vector<std::string>& wa
     }
     if (farthest < far) return;
     char text[160];
-    std::snprintf(text, sizeof text,
-                  "atoms lie up to %.3g Å from the origin, where places are rounded to %.1g Å [hint: "
-                  "move the molecule to the origin]",
-                  double(farthest), double(farthest * digit));
+    std::snprintf(
+        text, sizeof text,
+        "atoms lie up to %.3g Å from the origin, where places are rounded to %.1g Å [hint: "
+        "move the molecule to the origin]",
+        double(farthest), double(farthest * digit));
     warnings.push_back(text);
 }
 
