@@ -735,7 +735,7 @@ Call parseInfo(int argc, const char* const* argv)
     bool onlyFiles = false;
     for (int i = 2; i < argc; ++i) {
         const std::string word = argv[i];
-        if (!onlyFiles && word == "--help") {
+        if (!onlyFiles && (word == "--help" || word == "-h")) {
             call.verb = Verb::InfoHelp;
             return call;
         }

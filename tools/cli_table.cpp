@@ -187,8 +187,8 @@ const std::vector<Group>& groups()
           {"config", "FILE", "options as lines \"name = value\"; the command line wins", ""}}},
         {"Information",
          {{"list-radii", nullptr, "print the radii sets and stop", ""},
-          {"version", nullptr, "print the version and stop", ""},
-          {"help", nullptr, "print this text and stop", ""}}}};
+          {"version,V", nullptr, "print the version and stop", ""},
+          {"help,h", nullptr, "print this text and stop", ""}}}};
     return all;
 }
 

@@ -19,6 +19,14 @@ class Program(unittest.TestCase):
                     self.assertTrue(entry.startswith(("/", "$ORIGIN")), line)
 
 
+class ShortWords(ToolTest):
+    def test_help_and_version(self):
+        for verb in ([], ["compare"], ["batch"], ["info"], ["plan"], ["merge"]):
+            self.assertEqual(self.check(0, *verb, "-h").stdout,
+                             self.check(0, *verb, "--help").stdout)
+        self.assertEqual(self.check(0, "-V").stdout, self.check(0, "--version").stdout)
+
+
 class WrongCalls(ToolTest):
     def refuse(self, *words, says=()):
         self.check(2, *words, says=says)
