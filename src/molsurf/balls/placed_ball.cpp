@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -18,9 +19,12 @@ using Place = std::array<std::int64_t, 3>;
 
 Place placeOf(const Ball& ball)
 {
+    constexpr double most = 1.04e6; // differences of two places do not overflow [Å]
     Place place;
-    for (int a = 0; a < 3; ++a)
-        place[std::size_t(a)] = std::llround(double(ball.center[a]) / placeUnit);
+    for (int a = 0; a < 3; ++a) {
+        const double x = std::clamp(double(ball.center[a]), -most, most);
+        place[std::size_t(a)] = std::llround(x / placeUnit);
+    }
     return place;
 }
 
