@@ -1,7 +1,7 @@
 # Makes a C++ file of text files:
 #   cmake -DOUTPUT=x.cpp -DFOLDER=dir -P embed_text.cmake
 # A literal has 16,000 letters at most, since more need not be taken by a compiler.
-set(text "// Made of the files of viewer/ by cmake/embed_text.cmake.\n#include \"molsurf/io/viewer_text.h\"\n\nnamespace molsurf\n{\n")
+set(text "// Made of the files of viewer/ by cmake/embed_text.cmake.\n#include \"molsurf/picture/viewer_text.h\"\n\nnamespace molsurf\n{\n")
 foreach(entry "viewerPage=page.html" "viewerScript=viewer.min.js")
   string(REGEX REPLACE "=.*" "" name "${entry}")
   string(REGEX REPLACE ".*=" "" file "${entry}")

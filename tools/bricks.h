@@ -8,9 +8,9 @@
 #include "outputs.h"
 #include "terminal.h"
 
-#include "molsurf/core/brick_plan.h"
-#include "molsurf/core/report.h"
+#include "molsurf/bricks/brick_plan.h"
 #include "molsurf/selection/select_balls.h"
+#include "molsurf/surface/report.h"
 
 #include <openvdb/openvdb.h>
 

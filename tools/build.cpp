@@ -8,7 +8,7 @@
 #include "write_result.h"
 
 #include "molsurf/io/output_file.h"
-#include "molsurf/pipeline/run.h"
+#include "molsurf/surface/run.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -3,10 +3,10 @@
 #include "stop.h"
 #include "verbs.h"
 
+#include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/core/error.h"
-#include "molsurf/core/paged_array.h"
-#include "molsurf/pipeline/check_balls.h"
-#include "molsurf/pipeline/plan_bricks.h"
+#include "molsurf/grid/paged_array.h"
+#include "molsurf/surface/check_balls.h"
 
 #include <malloc.h>
 #include <sys/stat.h>

@@ -7,7 +7,7 @@
 #include "sidecar.h"
 
 #include "molsurf/core/error.h"
-#include "molsurf/pipeline/fields.h"
+#include "molsurf/surface/extra_grids.h"
 
 #include <boost/program_options.hpp>
 

@@ -5,9 +5,9 @@
 /// The command line: what the user typed, as values. The only place that knows an option's name and
 /// its help text.
 
-#include "molsurf/pipeline/options.h"
-#include "molsurf/pipeline/scene.h"
-#include "molsurf/surface/draw_mesh.h"
+#include "molsurf/io/scene.h"
+#include "molsurf/picture/draw_mesh.h"
+#include "molsurf/surface/options.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "cli_table.h"
 
-#include "molsurf/pipeline/plan_bricks.h"
+#include "molsurf/bricks/plan_bricks.h"
 
 #include <algorithm>
 

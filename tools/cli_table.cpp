@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "cli_table.h"
 
-#include "molsurf/pipeline/fields.h"
-#include "molsurf/pipeline/options.h"
-#include "molsurf/pipeline/plan_bricks.h"
+#include "molsurf/bricks/plan_bricks.h"
+#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/options.h"
 
 #include <algorithm>
 #include <charconv>

@@ -5,15 +5,15 @@
 #include "sha256.h"
 #include "terminal.h"
 
+#include "molsurf/color/color_map.h"
 #include "molsurf/core/error.h"
 #include "molsurf/io/read_mesh.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/write_comparison.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_vdb.h"
-#include "molsurf/pipeline/compare.h"
-#include "molsurf/pipeline/run.h"
-#include "molsurf/surface/color_map.h"
+#include "molsurf/surface/compare.h"
+#include "molsurf/surface/run.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "frame_source.h"
 
+#include "molsurf/color/palette.h"
 #include "molsurf/core/error.h"
-#include "molsurf/pipeline/palette.h"
-#include "molsurf/pipeline/size_beads.h"
 #include "molsurf/structure/read_structure.h"
 
 #include <algorithm>
@@ -128,7 +127,7 @@ BallSelection FrameSource::load(std::size_t i)
     } else {
         options.model = number(i);
     }
-    return selectBalls(structure_, options, beadSizer(call_.options, progress_));
+    return selectBalls(structure_, options, probeOf(call_.options), progress_);
 }
 
 void FrameSource::keepColors(BallSelection& selection)

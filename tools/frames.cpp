@@ -9,8 +9,8 @@
 
 #include "molsurf/core/error.h"
 #include "molsurf/io/read_vdb.h"
-#include "molsurf/pipeline/fields.h"
-#include "molsurf/pipeline/velocity.h"
+#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/velocity.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -3,7 +3,7 @@
 
 #include "cli.h"
 
-#include "molsurf/pipeline/fields.h"
+#include "molsurf/surface/extra_grids.h"
 
 #include <algorithm>
 #include <set>

@@ -6,12 +6,12 @@
 #include "verbs.h"
 #include "write_result.h"
 
+#include "molsurf/bricks/brick_file.h"
+#include "molsurf/bricks/merge_mesh.h"
+#include "molsurf/bricks/merge_vdb.h"
+#include "molsurf/bricks/plan_file.h"
 #include "molsurf/core/error.h"
-#include "molsurf/evolution/evolve.h"
-#include "molsurf/io/brick_file.h"
-#include "molsurf/io/merge_mesh.h"
-#include "molsurf/io/merge_vdb.h"
-#include "molsurf/io/plan_file.h"
+#include "molsurf/flow/evolve.h"
 #include "molsurf/io/write_report.h"
 
 #include <algorithm>

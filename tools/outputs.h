@@ -7,8 +7,8 @@
 #include "cli.h"
 #include "terminal.h"
 
-#include "molsurf/core/report.h"
 #include "molsurf/io/output_file.h"
+#include "molsurf/surface/report.h"
 
 #include <tbb/global_control.h>
 

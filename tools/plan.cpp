@@ -4,9 +4,9 @@
 #include "stop.h"
 #include "verbs.h"
 
+#include "molsurf/bricks/plan_bricks.h"
+#include "molsurf/bricks/plan_file.h"
 #include "molsurf/core/error.h"
-#include "molsurf/io/plan_file.h"
-#include "molsurf/pipeline/plan_bricks.h"
 
 #include <algorithm>
 #include <cstdio>

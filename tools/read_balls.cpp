@@ -2,8 +2,7 @@
 #include "outputs.h"
 #include "verbs.h"
 
-#include "molsurf/pipeline/palette.h"
-#include "molsurf/pipeline/size_beads.h"
+#include "molsurf/color/palette.h"
 #include "molsurf/structure/read_structure.h"
 
 #include <malloc.h>
@@ -16,7 +15,7 @@ DescribedBalls readBalls(const std::string& path, const Options& options, Termin
     terminal.update("read", 0.0);
     const Structure structure = readStructure(path);
     stopIfAsked();
-    BallSelection balls = selectBalls(structure, options.atoms, beadSizer(options, terminal));
+    BallSelection balls = selectBalls(structure, options.atoms, probeOf(options), terminal);
     std::string description = describeSelection(structure, balls);
     return {std::move(balls), std::move(description)};
 }

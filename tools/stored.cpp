@@ -8,7 +8,7 @@
 #include "molsurf/core/error.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/write_vdb.h"
-#include "molsurf/pipeline/stored_surface.h"
+#include "molsurf/surface/stored_surface.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -7,8 +7,8 @@
 #include "cli.h"
 #include "terminal.h"
 
-#include "molsurf/core/report.h"
-#include "molsurf/pipeline/run.h"
+#include "molsurf/surface/report.h"
+#include "molsurf/surface/run.h"
 
 #include <chrono>
 #include <functional>

@@ -5,17 +5,17 @@
 #include "sha256.h"
 #include "sidecar.h"
 
-#include "molsurf/io/draw_legend.h"
+#include "molsurf/color/legend.h"
 #include "molsurf/io/write_3mf.h"
 #include "molsurf/io/write_glb.h"
-#include "molsurf/io/write_html.h"
 #include "molsurf/io/write_mesh.h"
-#include "molsurf/io/write_png.h"
 #include "molsurf/io/write_report.h"
 #include "molsurf/io/write_usda.h"
 #include "molsurf/io/write_vdb.h"
-#include "molsurf/pipeline/legends.h"
-#include "molsurf/pipeline/stored_surface.h"
+#include "molsurf/picture/draw_legend.h"
+#include "molsurf/picture/write_html.h"
+#include "molsurf/picture/write_png.h"
+#include "molsurf/surface/stored_surface.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -7,7 +7,7 @@
 #include "cli.h"
 
 #include "molsurf/io/output_file.h"
-#include "molsurf/pipeline/run.h"
+#include "molsurf/surface/run.h"
 
 namespace molsurf::tool
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include <molsurf/io/write_mesh.h>
-#include <molsurf/pipeline/run.h>
+#include <molsurf/surface/run.h>
 
 #include <cstdio>
 

@@ -4,8 +4,8 @@
 /// @file
 /// Closed-form level sets in general position, and leaf fields filled from them.
 
-#include "molsurf/bspline/spline.h"
-#include "molsurf/core/leaf_table.h"
+#include "molsurf/grid/leaf_table.h"
+#include "molsurf/spline/spline.h"
 
 #include <openvdb/openvdb.h>
 

@@ -4,10 +4,10 @@
 /// @file
 /// The stages up to the evolved level set, as the pipeline joins them.
 
-#include "molsurf/bspline/spline.h"
-#include "molsurf/evolution/evolve.h"
+#include "molsurf/flow/evolve.h"
 #include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/levelset/initial_surface.h"
+#include "molsurf/spline/spline.h"
 
 #include <vector>
 

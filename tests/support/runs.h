@@ -4,9 +4,9 @@
 /// @file
 /// Whole runs, and the spline that they leave.
 
-#include "molsurf/bspline/spline.h"
 #include "molsurf/core/error.h"
-#include "molsurf/pipeline/run.h"
+#include "molsurf/spline/spline.h"
+#include "molsurf/surface/run.h"
 #include "support/molecules.h"
 
 #include <utility>

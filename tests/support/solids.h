@@ -4,7 +4,7 @@
 /// @file
 /// Meshes of few triangles.
 
-#include "molsurf/surface/mesh.h"
+#include "molsurf/mesh/mesh.h"
 
 namespace molsurf::test
 {

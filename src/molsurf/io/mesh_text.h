@@ -5,7 +5,7 @@
 /// What the readers of mesh files share; of no use elsewhere.
 
 #include "molsurf/core/error.h"
-#include "molsurf/surface/mesh.h"
+#include "molsurf/mesh/mesh.h"
 
 #include <charconv>
 #include <cmath>

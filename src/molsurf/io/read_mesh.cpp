@@ -4,8 +4,8 @@
 #include "molsurf/core/error.h"
 #include "molsurf/core/progress.h"
 #include "molsurf/io/mesh_text.h"
-#include "molsurf/surface/distance.h"
-#include "molsurf/surface/topology.h"
+#include "molsurf/mesh/distance.h"
+#include "molsurf/mesh/topology.h"
 
 #include <cerrno>
 #include <cstring>

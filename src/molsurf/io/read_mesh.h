@@ -4,7 +4,7 @@
 /// @file
 /// Triangle meshes from files of other programs.
 
-#include "molsurf/surface/mesh.h"
+#include "molsurf/mesh/mesh.h"
 
 #include <cstddef>
 #include <string>

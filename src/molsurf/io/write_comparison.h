@@ -4,8 +4,8 @@
 /// @file
 /// The report of a comparison, as JSON and as lines to read.
 
-#include "molsurf/core/comparison_report.h"
 #include "molsurf/io/output_file.h"
+#include "molsurf/surface/comparison_report.h"
 
 #include <string>
 

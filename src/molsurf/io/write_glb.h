@@ -4,9 +4,9 @@
 /// @file
 /// Binary glTF 2.0.
 
+#include "molsurf/color/color_map.h"
 #include "molsurf/io/output_file.h"
-#include "molsurf/surface/color_map.h"
-#include "molsurf/surface/mesh.h"
+#include "molsurf/mesh/mesh.h"
 
 #include <string>
 

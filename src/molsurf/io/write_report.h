@@ -4,8 +4,8 @@
 /// @file
 /// The report of a run as JSON.
 
-#include "molsurf/core/report.h"
 #include "molsurf/io/output_file.h"
+#include "molsurf/surface/report.h"
 
 #include <string>
 

@@ -4,7 +4,7 @@
 /// @file
 /// Regions of a level set that hang together.
 
-#include "molsurf/core/leaf_table.h"
+#include "molsurf/grid/leaf_table.h"
 
 #include <vector>
 

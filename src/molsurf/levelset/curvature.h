@@ -4,7 +4,7 @@
 /// @file
 /// Curvature of a level set at the voxels of a leaf, by central differences: second order in h.
 
-#include "molsurf/core/leaf_block.h"
+#include "molsurf/grid/leaf_block.h"
 
 namespace molsurf
 {

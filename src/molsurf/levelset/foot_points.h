@@ -5,8 +5,8 @@
 /// Closest points of a surface to voxels ("feet" of the normals through them), side by side
 /// so that loops over them vectorise. Lengths in voxels.
 
-#include "molsurf/bspline/spline.h"
 #include "molsurf/core/simd.h"
+#include "molsurf/spline/spline.h"
 
 #include <cstdint>
 

@@ -10,8 +10,8 @@
 
 #include "molsurf/balls/ball.h"
 #include "molsurf/balls/ball_index.h"
-#include "molsurf/core/leaf_table.h"
 #include "molsurf/core/progress.h"
+#include "molsurf/grid/leaf_table.h"
 
 #include <optional>
 #include <vector>

@@ -4,8 +4,8 @@
 /// @file
 /// The nearest of many points on a surface, for every voxel of a band about it.
 
-#include "molsurf/core/leaf_table.h"
 #include "molsurf/core/simd.h"
+#include "molsurf/grid/leaf_table.h"
 
 #include <openvdb/Types.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/levelset/redistance.h"
 
-#include "molsurf/bspline/spline.h"
-#include "molsurf/core/leaf_block.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"
+#include "molsurf/grid/leaf_block.h"
 #include "molsurf/levelset/foot_points.h"
 #include "molsurf/levelset/nearest_point.h"
+#include "molsurf/spline/spline.h"
 
 #include <tbb/enumerable_thread_specific.h>
 

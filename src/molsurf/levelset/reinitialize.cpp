@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/levelset/reinitialize.h"
 
-#include "molsurf/core/leaf_block.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"
+#include "molsurf/grid/leaf_block.h"
 #include "molsurf/levelset/stencil.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 /// @file
 /// Rows of a leaf block in loops that vectorise: masks, and central differences of second order.
 
-#include "molsurf/core/leaf_block.h"
+#include "molsurf/grid/leaf_block.h"
 
 namespace molsurf
 {

@@ -4,8 +4,8 @@
 /// @file
 /// A least thickness for what is thin.
 
-#include "molsurf/core/distance_band.h"
 #include "molsurf/core/progress.h"
+#include "molsurf/grid/distance_band.h"
 
 namespace molsurf
 {

@@ -2,9 +2,9 @@
 #include "molsurf/levelset/union_distance.h"
 
 #include "molsurf/balls/ball_index.h"
-#include "molsurf/core/leaf_block.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"
+#include "molsurf/grid/leaf_block.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>

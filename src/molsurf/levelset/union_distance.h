@@ -6,7 +6,7 @@
 /// solvent-accessible surface, and by an inward offset the solvent-excluded one.
 
 #include "molsurf/balls/ball_boundary.h"
-#include "molsurf/core/distance_band.h"
+#include "molsurf/grid/distance_band.h"
 
 namespace molsurf
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/coarse_grain.h"
 
+#include "molsurf/balls/bead_radii.h"
 #include "molsurf/core/error.h"
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/structure/text_fields.h"
@@ -265,7 +266,8 @@ std::string nameOf(const CoarseRule& rule)
 }
 
 CoarseBalls coarseGrain(const Structure& structure, const std::vector<Ball>& balls,
-                        const std::vector<CoarseRule>& given, const SizeBeads& sizeBeads)
+                        const std::vector<CoarseRule>& given, double probe,
+                        const Progress& progress)
 {
     CoarseBalls out;
     std::vector<CoarseRule> rules(1); // atom
@@ -279,10 +281,10 @@ CoarseBalls coarseGrain(const Structure& structure, const std::vector<Ball>& bal
         }
         out.warnings.insert(out.warnings.end(), match.warnings.begin(), match.warnings.end());
     }
-    const std::vector<Members> members = Grouping(structure, balls, rules, ruleOf).take();
-    out.balls.reserve(members.size());
+    out.members = Grouping(structure, balls, rules, ruleOf).take();
+    out.balls.reserve(out.members.size());
     out.beadAtoms.resize(structure.atoms.size());
-    for (const Members& bead : members) {
+    for (const Members& bead : out.members) {
         const auto atom = static_cast<std::size_t>(balls[bead[0]].atom);
         if (rules[static_cast<std::size_t>(ruleOf[atom])].level == CoarseRule::Level::Atom) {
             out.balls.push_back(balls[bead[0]]);
@@ -291,7 +293,7 @@ CoarseBalls coarseGrain(const Structure& structure, const std::vector<Ball>& bal
         out.balls.push_back(beadOf(structure, balls, bead));
         out.beadAtoms[std::size_t(out.balls.back().atom)] = std::int32_t(bead.size());
     }
-    sizeBeads(balls, members, out.balls);
+    sizeBeads(balls, out.members, probe, out.balls, progress);
     return out;
 }
 

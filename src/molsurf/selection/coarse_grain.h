@@ -5,11 +5,11 @@
 /// Beads that stand for several atoms.
 
 #include "molsurf/balls/ball.h"
+#include "molsurf/core/progress.h"
 #include "molsurf/structure/structure.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,20 +31,13 @@ CoarseRule parseCoarse(const std::string& text);
 /// The text that parseCoarse() makes the rule of.
 std::string nameOf(const CoarseRule& rule);
 
-/// Sets the radii of beads.
-///
-/// @param[in]     balls    all atoms
-/// @param[in]     members  one list a bead: indices in `balls`, ascending; every ball is in one
-/// @param[in,out] beads    centres are set; radii of 0 are to be set, others are atoms'
-using SizeBeads = std::function<void(const std::vector<Ball>& balls,
-                                     const std::vector<std::vector<std::size_t>>& members,
-                                     std::vector<Ball>& beads)>;
-
 /// Beads, and what they stand for.
 struct CoarseBalls {
     std::vector<Ball> balls;
     std::vector<std::int32_t> beadAtoms; ///< one an atom of the structure: the number of atoms its
                                          ///< bead stands for, if it represents one; else 0
+    std::vector<std::vector<std::size_t>> members; ///< one list a bead or ball: the balls that it
+                                                   ///< stands for, ascending; every one is in one
     std::vector<std::string> warnings;
 };
 
@@ -60,11 +53,14 @@ struct CoarseBalls {
 /// a residue or chain makes beads of that part alone.
 ///
 /// The centre of a bead is that of its atoms, weighted by the volumes of their balls. Its `atom` is
-/// the one nearest to the centre. Beads stand in the order of their first atoms.
+/// the one nearest to the centre. Beads stand in the order of their first atoms. Their radii are
+/// those of sizeBeads().
 ///
 /// @param[in] balls  atoms in the coordinates of the file
-/// @throws Error as matchAtoms()
+/// @param[in] probe  see sizeBeads() [Å]
+/// @throws Error as matchAtoms(), and as sizeBeads()
 CoarseBalls coarseGrain(const Structure& structure, const std::vector<Ball>& balls,
-                        const std::vector<CoarseRule>& rules, const SizeBeads& sizeBeads);
+                        const std::vector<CoarseRule>& rules, double probe,
+                        const Progress& progress);
 
 } // namespace molsurf

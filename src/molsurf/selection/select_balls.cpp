@@ -343,8 +343,8 @@ std::vector<GroupRule> withCopies(const Structure& structure, const SelectOption
 
 } // namespace
 
-BallSelection selectBalls(const Structure& structure, const SelectOptions& options,
-                          const SizeBeads& sizeBeads)
+BallSelection selectBalls(const Structure& structure, const SelectOptions& options, double probe,
+                          const Progress& progress)
 {
     if (structure.hasRadii && options.radii != "bondi") {
         throw Error(ErrorKind::Usage, "radii " + inQuotes(options.radii) +
@@ -363,7 +363,7 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
     std::vector<Ball> balls = makeBalls(structure, options, filter, out);
     std::vector<std::int32_t> beadAtoms; // by the representative atom: how many a bead stands for
     if (!options.coarse.empty()) {
-        CoarseBalls coarse = coarseGrain(structure, balls, options.coarse, sizeBeads);
+        CoarseBalls coarse = coarseGrain(structure, balls, options.coarse, probe, progress);
         balls = std::move(coarse.balls);
         beadAtoms = std::move(coarse.beadAtoms);
         out.warnings.insert(out.warnings.end(), coarse.warnings.begin(), coarse.warnings.end());

@@ -97,7 +97,8 @@ struct BallSelection {
 ///
 /// Radii of .pqr and .xyzr come from the file; options.radii must then be "bondi", its default.
 ///
-/// @param[in] sizeBeads  needed with coarse rules; molsurf/pipeline/size_beads.h has one
+/// @param[in] probe  that the surface is made with: radii of beads depend on it, see sizeBeads()
+/// [Å]
 /// @throws Error(ErrorKind::Input) if nothing is selected or nothing is left, if the model, the
 ///         alternate location, the assembly or the radii file does not exist, or if the molecule is
 ///         larger than 1e6 Å
@@ -105,7 +106,7 @@ struct BallSelection {
 ///         options.model, if options.altloc is no label, or if radii are asked for a file that has
 ///         its own
 BallSelection selectBalls(const Structure& structure, const SelectOptions& options,
-                          const SizeBeads& sizeBeads = nullptr);
+                          double probe = 0.0, const Progress& progress = Progress());
 
 /// One line that says what was read, used and dropped, by kind and count:
 /// "1a8o.cif.gz: mmCIF, 1 model, 644 atoms; used 1112 balls (2 copies); dropped 88 water".

@@ -1,256 +1,274 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/compare.h"
 
+#include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/levelset/redistance.h"
+#include "molsurf/mesh/extract.h"
+#include "molsurf/mesh/measure.h"
+#include "molsurf/mesh/topology.h"
+#include "molsurf/spline/fit.h"
 
-#include <openvdb/tree/LeafManager.h>
+#include <openvdb/tools/MeshToVolume.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <sstream>
 
 namespace molsurf
 {
 
+using openvdb::Coord;
+using openvdb::FloatGrid;
+using openvdb::Mat3d;
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 
 namespace
 {
 
-constexpr std::size_t chunk = 512; // vertices or triangles that share a query
+/// How far on either side the spline through a level set has coefficients [voxel].
+constexpr double splineWidthVox = 4.5;
 
-template<typename F>
-void inChunks(std::size_t n, const Progress& progress, const F& f)
+[[noreturn]] void refuse(const std::string& message)
 {
-    parallelFor((n + chunk - 1) / chunk, progress,
-                [&](std::size_t c) { f(c * chunk, std::min(n, (c + 1) * chunk)); });
+    throw Error(ErrorKind::Input, message);
 }
 
-struct Corners {
-    Vec3d a, b, c;
-
-    Corners(const Mesh& mesh, std::size_t i)
-        : a(mesh.positions[mesh.triangles[i][0]]), b(mesh.positions[mesh.triangles[i][1]]),
-          c(mesh.positions[mesh.triangles[i][2]])
-    {
-    }
-    double area() const { return 0.5 * (b - a).cross(c - a).length(); }
-    double longest() const
-    {
-        return std::sqrt(std::max({(b - a).lengthSqr(), (c - b).lengthSqr(), (a - c).lengthSqr()}));
-    }
-    /// Parts along each side.
-    int parts(double spacing) const
-    {
-        constexpr double most = 256.0;
-        return int(std::clamp(std::ceil(longest() / spacing), 1.0, most));
-    }
-};
-
-/// sampleSpacing, or as many times doubled as it takes to have a million parts at most.
-double spacingOf(const Mesh& mesh, const Progress& progress)
+std::string gridName(const openvdb::GridBase& grid)
 {
-    constexpr std::size_t mostParts = 1000000;
-    const std::size_t triangles = mesh.triangles.size();
-    for (double spacing = sampleSpacing;; spacing *= 2.0) {
-        const auto parts =
-            parallelSum<std::size_t>((triangles + chunk - 1) / chunk, progress, [&](std::size_t c) {
-                std::size_t sum = 0;
-                for (std::size_t i = c * chunk; i < std::min(triangles, (c + 1) * chunk); ++i) {
-                    const auto n = std::size_t(Corners(mesh, i).parts(spacing));
-                    if (n > 1) sum += n * n;
-                }
-                return sum;
-            });
-        if (parts <= mostParts) return spacing;
+    return "grid '" + grid.getName() + "'";
+}
+
+/// The level set that stands for the surface.
+FloatGrid::Ptr findLevelSet(const openvdb::GridPtrVec& grids)
+{
+    std::vector<FloatGrid::Ptr> found;
+    for (const auto& grid : grids) {
+        const bool named = grid->getName() == "surface";
+        if (grid->getGridClass() != openvdb::GRID_LEVEL_SET) {
+            if (named)
+                refuse("grid 'surface': expected class level set, got " +
+                       openvdb::GridBase::gridClassToString(grid->getGridClass()));
+            continue;
+        }
+        const auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
+        if (!floats && named)
+            refuse("grid 'surface': expected type float, got " + grid->valueType());
+        if (!floats) continue;
+        if (named) return floats;
+        found.push_back(floats);
+    }
+    if (found.empty())
+        refuse("expected a level set of type float, got none among " +
+               std::to_string(grids.size()) + " grids [hint: vdb_molsurf info FILE.vdb]");
+    if (found.size() > 1)
+        refuse("expected a grid 'surface' or only one level set, got " +
+               std::to_string(found.size()) + " level sets of other names");
+    return found[0];
+}
+
+/// The rotation and shift of a grid of cubes.
+Pose poseOf(const openvdb::GridBase& grid)
+{
+    const auto& transform = grid.transform();
+    if (!transform.isLinear()) refuse(gridName(grid) + ": expected a linear transform");
+    Pose pose;
+    pose.shift = transform.indexToWorld(Vec3d(0.0));
+    const double voxel = grid.voxelSize()[0];
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3d step(0.0);
+        step[axis] = 1.0;
+        pose.turn.setCol(axis, (transform.indexToWorld(step) - pose.shift) / voxel);
+    }
+    const Mat3d product = pose.turn.transpose() * pose.turn;
+    double worst = 0.0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            worst = std::max(worst, std::abs(product(i, j) - (i == j ? 1.0 : 0.0)));
+    if (!(worst < 1e-6) || pose.turn.det() < 0.0) {
+        std::ostringstream message;
+        message << gridName(grid)
+                << ": expected voxels that are cubes, not sheared or mirrored; got edges of "
+                << grid.voxelSize() << " Å";
+        refuse(message.str());
+    }
+    return pose;
+}
+
+/// The leaves of a grid as a field: all their values, and which are active.
+void readLeaves(const FloatGrid& grid, LeafTable& table, LeafField& field)
+{
+    std::vector<Coord> origins;
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) origins.push_back(leaf->origin());
+    table = LeafTable(std::move(origins));
+    field = LeafField(table.size());
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+        const auto n = std::size_t(table.find(leaf->origin()));
+        for (int v = 0; v < leafSize; ++v) {
+            field.leaf(n)[v] = leaf->getValue(openvdb::Index(v));
+            table.active(n).set(v, leaf->isValueOn(openvdb::Index(v)));
+        }
     }
 }
 
-/// Sums of weighted distances.
-struct Sums {
-    double weight = 0.0, distance = 0.0, square = 0.0, withSign = 0.0, inside = 0.0, max = -1.0;
-    Vec3d maxAt{0.0};
-    std::size_t samples = 0;
-
-    void add(double w, const Distance& d)
-    {
-        weight += w;
-        distance += w * d.value;
-        square += w * d.value * d.value;
-        withSign += w * (d.inside ? -d.value : d.value);
-        if (d.inside) inside += w;
-    }
-    void look(const Vec3d& x, const Distance& d)
-    {
-        ++samples;
-        if (!(d.value > max)) return;
-        max = d.value;
-        maxAt = x;
-    }
-    Sums& operator+=(const Sums& o)
-    {
-        weight += o.weight;
-        distance += o.distance;
-        square += o.square;
-        withSign += o.withSign;
-        inside += o.inside;
-        samples += o.samples;
-        if (o.max > max) {
-            max = o.max;
-            maxAt = o.maxAt;
-        }
-        return *this;
-    }
-};
-
-/// The parts of a large triangle: their centroids count, their corners are looked at.
-void addParts(const Corners& t, int n, DistanceTo::Query& query, Sums& sums)
+/// The spline through a level set.
+Spline fitted(const FloatGrid& grid, const Progress& progress)
 {
-    const double weight = t.area() / (double(n) * n);
-    const auto point = [&](double i, double j) {
-        return t.a + (i / n) * (t.b - t.a) + (j / n) * (t.c - t.a);
-    };
-    for (int i = 0; i <= n; ++i) {
-        for (int j = 0; i + j <= n; ++j) {
-            const Vec3d x = point(i, j);
-            sums.look(x, query.at(x));
-            for (int upper = 0; upper < 2 && i + j + upper < n; ++upper) {
-                const Vec3d y = point(i + (1 + upper) / 3.0, j + (1 + upper) / 3.0);
-                const Distance d = query.at(y);
-                sums.add(weight, d);
-                sums.look(y, d);
-            }
-        }
+    const double voxel = grid.voxelSize()[0];
+    LeafTable given;
+    LeafField values;
+    readLeaves(grid, given, values);
+    const float full = std::abs(grid.background()) * (1.0f - 1e-6f);
+    for (std::size_t n = 0; n < given.size(); ++n) given.active(n) &= within(values.leaf(n), full);
+    const double width = splineWidthVox * voxel;
+    DistanceBand band = redistance(given, copied(values), voxel, width, width, 0.0, progress);
+    parallelFor(band.table.size(), progress, [&](std::size_t n) {
+        const std::int32_t m = given.find(band.table.origin(n));
+        if (m == noLeaf) return;
+        given.active(m).forEach([&](int v) { band.phi.leaf(n)[v] = values.leaf(m)[v]; });
+        band.table.active(n) |= given.active(m);
+    });
+    if (band.table.size() == 0) return Spline();
+    return fitSpline(band.table, band.phi, voxel, 0, progress);
+}
+
+Spline storedSpline(const FloatGrid& grid)
+{
+    Spline spline;
+    spline.voxel = grid.voxelSize()[0];
+    readLeaves(grid, spline.table, spline.coefficients);
+    return spline;
+}
+
+FloatGrid::Ptr findSpline(const openvdb::GridPtrVec& grids)
+{
+    for (const auto& grid : grids) {
+        if (grid->getName() != "spline") continue;
+        const auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
+        if (floats && !floats->empty()) return floats;
     }
+    return nullptr;
+}
+
+void sayIfOpen(Operand& operand)
+{
+    if (operand.surface.closed) return;
+    operand.warnings.push_back("the mesh is open, or its triangles are not oriented alike: it has "
+                               "no volume and no inside");
 }
 
 } // namespace
 
-OneWay distancesFrom(const Surface& from, const DistanceTo& to, const Progress& progress)
+Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
 {
-    const Mesh& mesh = from.mesh;
-    const std::size_t vertices = mesh.positions.size(), triangles = mesh.triangles.size();
-    std::vector<Distance> distances(vertices);
-    inChunks(vertices, progress, [&](std::size_t begin, std::size_t end) {
-        DistanceTo::Query query(to);
-        for (std::size_t v = begin; v < end; ++v) distances[v] = query.at(Vec3d(mesh.positions[v]));
-    });
+    Operand operand;
+    operand.kind = "level set";
+    const FloatGrid::Ptr stored = findLevelSet(grids);
+    const Pose pose = poseOf(*stored);
+    operand.voxel = stored->voxelSize()[0];
+    stored->tree().voxelizeActiveTiles();
+    if (stored->tree().leafCount() == 0) refuse(gridName(*stored) + ": expected voxels, got none");
+    for (auto it = stored->cbeginValueOn(); it; ++it)
+        if (!std::isfinite(*it)) refuse(gridName(*stored) + ": a value is not a number");
 
-    // Large triangles by their parts, the others by their corners.
-    const double spacing =
-        from.spline ? std::numeric_limits<double>::infinity() : spacingOf(mesh, progress);
-    Sums sums = parallelSum<Sums>((triangles + chunk - 1) / chunk, progress, [&](std::size_t c) {
-        DistanceTo::Query query(to);
-        Sums part;
-        for (std::size_t i = c * chunk; i < std::min(triangles, (c + 1) * chunk); ++i) {
-            const Corners t(mesh, i);
-            const int n = t.parts(spacing);
-            if (n > 1) {
-                addParts(t, n, query, part);
-            } else {
-                for (const std::uint32_t v : mesh.triangles[i])
-                    part.add(t.area() / 3.0, distances[v]);
-            }
-        }
-        return part;
-    });
-    sums += parallelSum<Sums>((vertices + chunk - 1) / chunk, progress, [&](std::size_t c) {
-        Sums part;
-        for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v)
-            part.look(Vec3d(mesh.positions[v]), distances[v]);
-        return part;
-    });
+    Surface& surface = operand.surface;
+    surface.pose = pose;
+    const FloatGrid::Ptr coefficients = findSpline(grids);
+    if (coefficients) {
+        const Pose other = poseOf(*coefficients);
+        if ((other.shift - pose.shift).length() > 1e-3 * operand.voxel ||
+            !other.turn.eq(pose.turn, 1e-5))
+            refuse("grids 'surface' and 'spline': expected one origin and direction, got two");
+        surface.spline = storedSpline(*coefficients);
+    } else {
+        surface.spline = fitted(*stored, progress);
+    }
 
-    OneWay result;
-    result.samples = sums.samples;
-    result.max = sums.max;
-    result.maxAt = sums.maxAt;
-    const double weight = sums.weight > 0.0 ? sums.weight : 1.0; // no triangle has an area
-    result.mean = sums.distance / weight;
-    result.rms = std::sqrt(sums.square / weight);
-    const bool withSign = to.surface().closed;
-    if (withSign) {
-        result.meanSigned = sums.withSign / weight;
-        result.inside = sums.inside / weight;
-    }
-    result.distance.reserve(vertices);
-    if (withSign) result.signedDistance.reserve(vertices);
-    for (const Distance& d : distances) {
-        result.distance.push_back(float(d.value));
-        if (withSign) result.signedDistance.push_back(float(d.inside ? -d.value : d.value));
-    }
-    return result;
+    // The mesh is made in the frame of the spline.
+    const FloatGrid::Ptr local = stored->copy();
+    local->setTransform(openvdb::math::Transform::createLinearTransform(operand.voxel));
+    ExtractStats stats;
+    Mesh& mesh = surface.mesh;
+    if (surface.spline->table.size() > 0)
+        mesh = extractMesh(*local, *surface.spline, progress, stats);
+    if (mesh.triangles.empty())
+        refuse(gridName(*stored) + ": expected values of both signs, got no surface");
+    SurfaceReport report = measure(mesh, progress);
+    if (!report.manifold && !splitNonManifold(mesh).empty()) report = measure(mesh, progress);
+    surface.closed = report.closed;
+    operand.size.area = report.area;
+    if (report.closed) operand.size.volume = report.volume;
+    sayIfOpen(operand);
+    for (Vec3f& p : mesh.positions) p = Vec3f(pose.toWorld(Vec3d(p)));
+    for (Vec3f& n : mesh.normals) n = Vec3f(pose.turn * Vec3d(n));
+    operand.levelSet = stored;
+    return operand;
 }
 
-std::vector<openvdb::FloatGrid::Ptr> distanceGrids(const openvdb::FloatGrid& on,
-                                                   const DistanceTo& to, const Progress& progress)
+Operand operandOf(Result&& result)
 {
-    std::vector<openvdb::FloatGrid::Ptr> grids;
-    for (const char* name : {"distance", "signed_distance"}) {
-        auto grid = openvdb::FloatGrid::create(0.0f);
-        grid->setTree(
-            std::make_shared<openvdb::FloatTree>(on.tree(), 0.0f, openvdb::TopologyCopy()));
-        grid->setTransform(on.transform().copy());
-        grid->setName(name);
-        grids.push_back(std::move(grid));
-    }
-    openvdb::tree::LeafManager<openvdb::FloatTree> plain(grids[0]->tree()), signs(grids[1]->tree());
-    parallelFor(plain.leafCount(), progress, [&](std::size_t n) {
-        DistanceTo::Query query(to);
-        for (auto it = plain.leaf(n).beginValueOn(); it; ++it) {
-            const Distance d = query.at(on.indexToWorld(it.getCoord()));
-            it.setValue(float(d.value));
-            signs.leaf(n).setValueOnly(it.pos(), float(d.inside ? -d.value : d.value));
-        }
-    });
-    if (!to.surface().closed) grids.pop_back();
-    return grids;
+    Operand operand;
+    operand.kind = "structure";
+    operand.atoms = result.report.atoms;
+    operand.voxel = result.report.voxel;
+    const FloatGrid::Ptr coefficients = findSpline(result.fields);
+    if (!coefficients) throw std::logic_error("compare: a run without the field 'spline'");
+    operand.surface.spline = storedSpline(*coefficients);
+    operand.surface.mesh = std::move(result.mesh);
+    operand.surface.closed = result.report.surface.closed;
+    operand.size.area = result.report.surface.area;
+    if (operand.surface.closed) operand.size.volume = result.report.surface.volume;
+    operand.warnings = result.report.warnings;
+    operand.levelSet = result.surface;
+    return operand;
 }
 
-Size sizeOfTriangles(const Mesh& mesh, bool closed, const Progress& progress)
+Operand operandOf(Mesh mesh, const Progress& progress)
 {
-    struct Sum {
-        double area = 0.0, volume = 0.0;
-        Sum& operator+=(const Sum& o)
-        {
-            area += o.area;
-            volume += o.volume;
-            return *this;
-        }
-    };
-    Size size;
-    if (mesh.triangles.empty()) return size;
-    const std::size_t triangles = mesh.triangles.size();
-    // Relative to a vertex, so that the volume does not cancel far from the origin.
-    const Vec3d origin(mesh.positions[mesh.triangles[0][0]]);
-    const Sum sum = parallelSum<Sum>((triangles + chunk - 1) / chunk, progress, [&](std::size_t c) {
-        Sum part;
-        for (std::size_t i = c * chunk; i < std::min(triangles, (c + 1) * chunk); ++i) {
-            const Corners t(mesh, i);
-            part += {t.area(), (t.a - origin).dot((t.b - origin).cross(t.c - origin)) / 6.0};
-        }
-        return part;
-    });
-    size.area = sum.area;
-    if (closed) size.volume = sum.volume;
-    return size;
+    Operand operand;
+    operand.kind = "mesh";
+    Surface& surface = operand.surface;
+    surface.mesh = std::move(mesh);
+    surface.closed = hasInside(surface.mesh, vertexTriangles(surface.mesh), progress);
+    sayIfOpen(operand);
+    operand.size = sizeOfTriangles(surface.mesh, surface.closed, progress);
+    if (operand.size.volume && *operand.size.volume < 0.0) {
+        for (auto& t : surface.mesh.triangles) std::swap(t[1], t[2]);
+        for (Vec3f& n : surface.mesh.normals) n = -n;
+        operand.size.volume = -*operand.size.volume;
+        operand.warnings.push_back(
+            "the triangles of the mesh are oriented inward: they are turned round");
+    }
+    if (surface.mesh.normals.empty()) surface.mesh.normals = vertexNormals(surface.mesh);
+    return operand;
 }
 
-std::vector<Vec3f> vertexNormals(const Mesh& mesh)
+FloatGrid::Ptr levelSetOf(const Surface& surface, double voxel)
 {
-    std::vector<Vec3d> sums(mesh.positions.size(), Vec3d(0.0));
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Corners t(mesh, i);
-        const Vec3d n = (t.b - t.a).cross(t.c - t.a);
-        for (const std::uint32_t v : mesh.triangles[i]) sums[v] += n;
-    }
-    std::vector<Vec3f> normals(sums.size());
-    for (std::size_t v = 0; v < sums.size(); ++v) {
-        const double length = sums[v].length();
-        normals[v] = length > 0.0 ? Vec3f(sums[v] / length) : Vec3f(0.0f, 0.0f, 1.0f);
-    }
-    return normals;
+    if (!surface.closed)
+        refuse("the mesh is not closed: it has no level set [hint: write .ply instead of .vdb]");
+    const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
+    std::vector<openvdb::Vec3I> triangles;
+    triangles.reserve(surface.mesh.triangles.size());
+    for (const auto& t : surface.mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+    constexpr float halfWidth = 3.0f; // [voxel]
+    auto grid = openvdb::tools::meshToLevelSet<FloatGrid>(*transform, surface.mesh.positions,
+                                                          triangles, halfWidth);
+    grid->setName("surface");
+    return grid;
+}
+
+Comparison compare(const Operand& a, const DistanceTo& toA, const Operand& b, const DistanceTo& toB,
+                   Progress& progress)
+{
+    Comparison both;
+    progress.update("distance", 0.0);
+    both.aToB = distancesFrom(a.surface, toB, progress);
+    progress.update("distance", 0.5);
+    both.bToA = distancesFrom(b.surface, toA, progress);
+    both.hausdorff = std::max(both.aToB.max, both.bToA.max);
+    return both;
 }
 
 } // namespace molsurf

@@ -2,64 +2,63 @@
 #pragma once
 
 /// @file
-/// How far one surface is from another. docs/math.md, section 11.
+/// Two surfaces side by side, whatever they were made from.
 
 #include "molsurf/core/progress.h"
-#include "molsurf/surface/distance.h"
+#include "molsurf/mesh/deviation.h"
+#include "molsurf/mesh/distance.h"
+#include "molsurf/surface/run.h"
 
 #include <openvdb/openvdb.h>
 
-#include <optional>
+#include <string>
 #include <vector>
 
 namespace molsurf
 {
 
-/// Area and volume; of the smooth surface if there is a spline, else of the triangles.
-struct Size {
-    double area = 0.0;            ///< [Å^2]
-    std::optional<double> volume; ///< [Å^3]; none if the surface is not closed
+/// One of the two, ready to be compared.
+struct Operand {
+    std::string kind; ///< "structure", "level set" or "mesh"
+    Surface surface;
+    openvdb::FloatGrid::Ptr levelSet; ///< null for a mesh
+    double voxel = 0.0;               ///< of the level set [Å]; 0 for a mesh
+    std::size_t atoms = 0;            ///< 0 unless it is a structure
+    Size size;
+    std::vector<std::string> warnings; ///< one line each
 };
 
-/// The distances of one surface's points from another surface. Means are weighted by area.
-struct OneWay {
-    std::vector<float> distance; ///< of each vertex, >= 0 [Å]
-    std::vector<float>
-        signedDistance;        ///< < 0 inside the other one [Å]; empty if that is not closed
-    double mean = 0.0;         ///< of the distance [Å]
-    double rms = 0.0;          ///< root of the mean square [Å]
-    double max = 0.0;          ///< one-sided Hausdorff distance [Å]
-    openvdb::Vec3d maxAt{0.0}; ///< where that is [Å]
-    std::optional<double> meanSigned; ///< mean of the signed distance [Å]
-    std::optional<double> inside;     ///< share of the area that is inside the other surface
-    std::size_t samples = 0;          ///< points at which the distance was taken
+/// A stored surface: the zero set of its grid `spline` if it has one, else of the spline through
+/// its level set, which is the grid `surface` or the only one. Any position and rotation of the
+/// grid will do; voxels must be cubes.
+///
+/// The spline takes the level set's own values in its band. Voxels that the band lacks up to 4.5
+/// voxels on either side, which the spline needs, get the distance from the zero set.
+///
+/// @throws Error(ErrorKind::Input) if there is no such grid, if it is empty or not in world units
+///         of cubes, or has no zero
+Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress);
+
+/// The surface that run() made; its options must ask for the field "spline".
+Operand operandOf(Result&& result);
+
+/// A mesh as it is. One whose volume is negative is turned inside out, with a warning; so is one
+/// that is open mentioned, whose volume and inside are not defined.
+/// @param[in] mesh  with at least one triangle; normals are made if there are none
+Operand operandOf(Mesh mesh, const Progress& progress);
+
+/// The level set of a closed mesh, for a grid to show distances on: by OpenVDB, band of 3 voxels.
+/// @throws Error(ErrorKind::Input) if the mesh is not closed
+openvdb::FloatGrid::Ptr levelSetOf(const Surface& surface, double voxel);
+
+/// Both ways of a comparison.
+struct Comparison {
+    OneWay aToB, bToA;
+    double hausdorff = 0.0; ///< the larger maximum [Å]
 };
 
-/// Edges longer than this are sampled between their ends too [Å]; doubled until the parts of large
-/// triangles are a million at most.
-constexpr double sampleSpacing = 1.0;
-
-/// Measures the distance of every vertex of a surface from another one.
-///
-/// The mean of f is the sum of A_v f_v over the sum of A_v, with A_v a third of the area of the
-/// triangles at a vertex: exact for f linear on the triangles. If the triangles are the surface,
-/// one with an edge longer than sampleSpacing counts by its n^2 parts instead, at their centroids,
-/// with n edges along each side; the maximum is then over their corners, too.
-///
-/// @param[in] from  with at least one triangle
-OneWay distancesFrom(const Surface& from, const DistanceTo& to, const Progress& progress);
-
-/// The distance from a surface at every active voxel of a grid.
-/// @param[in] on  a level set; the results have its active voxels and its transform
-/// @return the grid `distance` [Å] and, if the surface is closed, `signed_distance`, < 0 inside it;
-///         0 elsewhere
-std::vector<openvdb::FloatGrid::Ptr> distanceGrids(const openvdb::FloatGrid& on,
-                                                   const DistanceTo& to, const Progress& progress);
-
-/// Area of the triangles, and the volume inside them if they bound one.
-Size sizeOfTriangles(const Mesh& mesh, bool closed, const Progress& progress);
-
-/// Normals at the vertices: the mean of the triangles', weighted by area.
-std::vector<openvdb::Vec3f> vertexNormals(const Mesh& mesh);
+/// @param[in] progress  gets the stage "distance"
+Comparison compare(const Operand& a, const DistanceTo& toA, const Operand& b, const DistanceTo& toB,
+                   Progress& progress);
 
 } // namespace molsurf

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/output_file.h"
 
-#include "folder.h"
 #include "molsurf/core/error.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 

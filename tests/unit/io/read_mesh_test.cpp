@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/read_mesh.h"
 
-#include "folder.h"
+#include "support/folder.h"
 
 #include "molsurf/core/error.h"
 #include "molsurf/io/write_mesh.h"
-#include "molsurf/surface/compare.h"
+#include "molsurf/mesh/deviation.h"
 #include "support/solids.h"
 
 #include <gtest/gtest.h>

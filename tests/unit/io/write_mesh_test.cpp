@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_mesh.h"
 
-#include "folder.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 

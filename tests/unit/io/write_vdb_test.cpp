@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_vdb.h"
 
-#include "folder.h"
 #include "molsurf/core/error.h"
 #include "molsurf/io/read_vdb.h"
+#include "support/folder.h"
 #include "support/surfaces.h"
 
 #include <openvdb/io/Stream.h>

@@ -13,28 +13,18 @@ namespace molsurf::test
 namespace
 {
 
-/// Keeps the members, and gives every bead a radius of 2 Å.
+/// The balls of every bead.
 struct Recorder {
     std::vector<std::vector<std::size_t>> members;
-
-    SizeBeads sizer()
-    {
-        return [this](const std::vector<Ball>&, const std::vector<std::vector<std::size_t>>& m,
-                      std::vector<Ball>& beads) {
-            members = m;
-            for (Ball& bead : beads) {
-                if (bead.radius == 0.0f) bead.radius = 2.0f;
-            }
-        };
-    }
 };
 
 BallSelection beadsOf(const Structure& s, const std::vector<std::string>& rules,
                       SelectOptions options = {}, Recorder* recorder = nullptr)
 {
-    Recorder own;
+    const BallSelection atoms = selectBalls(s, options);
     for (const std::string& rule : rules) options.coarse.push_back(parseCoarse(rule));
-    return selectBalls(s, options, (recorder ? *recorder : own).sizer());
+    if (recorder) recorder->members = coarseGrain(s, atoms.balls, options.coarse, 0.0, {}).members;
+    return selectBalls(s, options);
 }
 
 const Atom& atomOf(const Structure& s, const Ball& ball)

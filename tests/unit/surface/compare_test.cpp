@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/compare.h"
 
-#include "molsurf/surface/color_map.h"
+#include "molsurf/core/error.h"
+#include "molsurf/surface/extra_grids.h"
+#include "support/fields.h"
+#include "support/runs.h"
 #include "support/solids.h"
-#include "support/surfaces.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
+#include <openvdb/tools/LevelSetSphere.h>
 
 #include <cmath>
 
@@ -15,222 +17,198 @@ namespace molsurf
 namespace
 {
 
+using openvdb::FloatGrid;
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 
-Surface ballOf(double radius, const Vec3d& centre, double voxel)
+const Vec3d centre(0.13, 0.29, 0.41);
+
+FloatGrid::Ptr sphereGrid(double radius, const Vec3d& at, double voxel, const char* name,
+                          double width = 3.0)
 {
-    test::Pose pose;
-    pose.centre = centre;
-    const test::Shape shape = test::sphere(radius, pose);
-    Surface surface;
-    surface.spline = test::splineOf(shape.distance, shape.distance, shape.centre, shape.extent,
-                                    voxel, 6.0 * voxel);
-    surface.mesh = test::meshOf(shape, voxel);
-    surface.closed = true;
-    return surface;
+    auto grid = openvdb::tools::createLevelSetSphere<FloatGrid>(float(radius), Vec3f(at),
+                                                                float(voxel), float(width));
+    grid->setName(name);
+    return grid;
 }
 
-Surface meshSurface(Mesh mesh)
+std::string errorOf(const openvdb::GridPtrVec& grids)
 {
-    Surface surface;
-    surface.closed = hasInside(mesh, vertexTriangles(mesh), Progress());
-    surface.mesh = std::move(mesh);
-    return surface;
-}
-
-OneWay from(const Surface& a, const Surface& b)
-{
-    const DistanceTo to(b);
-    return distancesFrom(a, to, Progress());
-}
-
-const Vec3d first(0.13, 0.29, 0.41);
-
-// Over a sphere of radius R the mean distance from a point at e from its centre is R + e^2/(3 R) if
-// e < R, and the mean square is R^2 + e^2.
-TEST(Compare, ASmallBallInsideALargeOne)
-{
-    const Vec3d shift(0.4, -0.3, 0.5);
-    const double e = shift.length(), R = 4.0, r = 1.5, h = 0.25;
-    const Surface large = ballOf(R, first, h), small = ballOf(r, first + shift, h);
-    const OneWay inward = from(large, small), outward = from(small, large);
-
-    const double meanIn = R + e * e / (3.0 * R) - r, meanOut = R - r - e * e / (3.0 * r);
-    EXPECT_NEAR(inward.mean, meanIn, 1e-3);
-    EXPECT_NEAR(outward.mean, meanOut, 1e-3);
-    EXPECT_NEAR(*inward.meanSigned, meanIn, 1e-3);
-    EXPECT_NEAR(*outward.meanSigned, -meanOut, 1e-3);
-    EXPECT_EQ(*inward.inside, 0.0);
-    EXPECT_NEAR(*outward.inside, 1.0, 1e-12);
-    const double about = R + e * e / (3.0 * R);
-    EXPECT_NEAR(inward.rms, std::sqrt(R * R + e * e - 2.0 * r * about + r * r), 1e-3);
-    // The farthest vertex is at most half an edge from the farthest point.
-    EXPECT_LE(inward.max, R + e - r + 1e-4);
-    EXPECT_NEAR(inward.max, R + e - r, 2e-3);
-    EXPECT_NEAR(outward.max, R - r + e, 5e-3);
-    EXPECT_NEAR((inward.maxAt - (first - R * shift.unit())).length(), 0.0, 0.2);
-    for (std::size_t v = 0; v < large.mesh.positions.size(); ++v) {
-        const double exact = (Vec3d(large.mesh.positions[v]) - first - shift).length() - r;
-        ASSERT_NEAR(inward.distance[v], std::abs(exact), 1e-4);
-        ASSERT_NEAR(inward.signedDistance[v], exact, 1e-4);
+    try {
+        operandOf(grids, Progress());
+    } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::Input);
+        return e.what();
     }
-    EXPECT_EQ(inward.samples, large.mesh.positions.size());
+    return "";
 }
 
-// They cut each other, so half of the signs differ.
-TEST(Compare, AShiftedBall)
+#define EXPECT_SAYS(grids, words)                                                                  \
+    EXPECT_NE(errorOf(grids).find(words), std::string::npos) << errorOf(grids)
+
+Comparison compared(const Operand& a, const Operand& b)
+{
+    Progress progress;
+    const DistanceTo toA(a.surface), toB(b.surface);
+    return compare(a, toA, b, toB, progress);
+}
+
+TEST(OperandOfGrids, TwoBallsAreExact)
 {
     const Vec3d shift(0.7, -0.2, 0.3);
-    const Surface a = ballOf(4.0, first, 0.25), b = ballOf(4.0, first + shift, 0.25);
-    const OneWay there = from(a, b), back = from(b, a);
-    const double e = shift.length();
-    EXPECT_NEAR(there.max, e, 2e-3);
-    EXPECT_NEAR(there.mean, back.mean, 1e-3);
-    EXPECT_NEAR(*there.meanSigned, e * e / 12.0, 1e-3);
-    // | |x - c| - R | vanishes where cos = e/(2 R) and grows linearly there.
-    EXPECT_NEAR(*there.inside, 0.5 - e / 16.0, 5e-3);
-    EXPECT_NEAR(there.mean, e / 2.0, 5e-3);
-    for (std::size_t v = 0; v < a.mesh.positions.size(); ++v)
-        ASSERT_NEAR(there.signedDistance[v],
-                    (Vec3d(a.mesh.positions[v]) - first - shift).length() - 4.0, 1e-4);
-}
-
-TEST(Compare, ASurfaceWithItself)
-{
-    const Surface a = ballOf(2.3, first, 0.25);
-    EXPECT_LT(from(a, a).max, 1e-5);
-    const Surface b = meshSurface(test::box({0, 0, 0}, {3, 1, 2}));
-    EXPECT_LT(from(b, b).max, 1e-12);
-    // Triangles of a spline are not sampled inside, however large: they are not the surface.
-    const Surface coarse = ballOf(8.0, first, 1.5);
-    EXPECT_LT(from(coarse, coarse).max, 5e-5);
-}
-
-/// A square of two triangles at height z + slope x.
-Mesh plate(float size, float z, float slope)
-{
-    Mesh mesh;
-    for (const auto& [x, y] : {std::pair{0.0f, 0.0f}, {size, 0.0f}, {size, size}, {0.0f, size}})
-        mesh.positions.emplace_back(x, y, z + slope * x);
-    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    return mesh;
-}
-
-TEST(Compare, OpenPlates)
-{
-    const Surface flat = meshSurface(plate(8.0f, 0.0f, 0.0f));
-    const Surface high = meshSurface(plate(8.0f, 1.0f, 0.5f));
-    const OneWay down = from(high, flat);
-    EXPECT_NEAR(down.mean, 3.0, 1e-9); // linear, so exact
-    EXPECT_NEAR(down.max, 5.0, 1e-9);
-    EXPECT_TRUE(down.signedDistance.empty());
-    EXPECT_FALSE(down.meanSigned || down.inside);
-    // A mean square of 1 + 8 + 64/12 + ...: the variance of a uniform distribution from 1 to 5.
-    EXPECT_NEAR(down.rms, std::sqrt(9.0 + 16.0 / 12.0), 5e-3);
-    EXPECT_GT(down.samples, 100u);
-}
-
-// The corners of the large triangle touch the other surface, its middle does not.
-TEST(Compare, LargeTrianglesAreSampledInside)
-{
-    Mesh corners = plate(8.0f, 0.0f, 0.0f);
-    corners.triangles.clear();
-    for (std::uint32_t v = 0; v < 4; ++v) {
-        const auto n = std::uint32_t(corners.positions.size());
-        const Vec3f p = corners.positions[v];
-        corners.positions.push_back(p - Vec3f(0, 0, 1e-3f));
-        corners.positions.push_back(p - Vec3f(1e-3f, 0, 1e-3f));
-        corners.triangles.push_back({v, n, n + 1});
+    const Operand a = operandOf({sphereGrid(4.0, centre, 0.25, "surface")}, Progress());
+    const Operand b = operandOf({sphereGrid(3.0, centre + shift, 0.25, "surface")}, Progress());
+    EXPECT_EQ(a.kind, "level set");
+    EXPECT_EQ(a.voxel, 0.25);
+    EXPECT_TRUE(a.surface.closed && a.warnings.empty());
+    EXPECT_NEAR(a.size.area, 64.0 * M_PI, 1e-2);
+    EXPECT_NEAR(a.size.volume.value(), 256.0 * M_PI / 3.0, 1e-2);
+    const Comparison both = compared(a, b);
+    for (std::size_t v = 0; v < a.surface.mesh.positions.size(); ++v) {
+        const double exact = (Vec3d(a.surface.mesh.positions[v]) - centre - shift).length() - 3.0;
+        ASSERT_NEAR(both.aToB.signedDistance[v], exact, 1e-4);
     }
-    const OneWay way = from(meshSurface(plate(8.0f, 0.0f, 0.0f)), meshSurface(std::move(corners)));
-    EXPECT_EQ(way.distance, std::vector<float>(4, 0.0f));
-    EXPECT_NEAR(way.max, std::sqrt(32.0), 1e-2); // the middle of the plate
-    // Mean distance from a corner of a square of side a: a (sqrt 2 + ln(1 + sqrt 2))/3.
-    EXPECT_NEAR(way.mean, 4.0 * (std::sqrt(2.0) + std::log(1.0 + std::sqrt(2.0))) / 3.0, 2e-2);
+    EXPECT_NEAR(both.hausdorff, 4.0 - 3.0 + shift.length(), 2e-3);
+    EXPECT_EQ(both.hausdorff, std::max(both.aToB.max, both.bToA.max));
+    EXPECT_LT(compared(a, a).hausdorff, 1e-5);
 }
 
-// However large the triangles, the work is bounded.
-TEST(Compare, HugeTriangles)
+// The spline needs four voxels; what the file lacks is made up for.
+TEST(OperandOfGrids, ANarrowBand)
 {
-    Mesh mesh = test::box({0, 0, 0}, {3e4f, 3e4f, 3e4f});
-    for (int i = 0; i < 300; ++i)
-        for (int t = 0; t < 12; ++t)
-            mesh.triangles.push_back(
-                {mesh.triangles[t][0], mesh.triangles[t][1], mesh.triangles[t][2]});
-    const Surface one = meshSurface(test::box({0, 0, 0}, {1, 1, 1}));
-    const OneWay way = from(meshSurface(std::move(mesh)), one);
-    EXPECT_LT(way.samples, 4000000u);
-    EXPECT_NEAR(way.max, 3e4 * std::sqrt(3.0), 3.0);
+    const Operand a = operandOf({sphereGrid(4.0, centre, 0.25, "surface", 2.0)}, Progress());
+    for (const Vec3f& p : a.surface.mesh.positions)
+        ASSERT_NEAR((Vec3d(p) - centre).length(), 4.0, 2e-3);
 }
 
-TEST(Compare, TheSameBitsForAnyNumberOfThreads)
+TEST(OperandOfGrids, ShiftedAndTurned)
 {
-    const Surface a = ballOf(2.3, first, 0.25), b = ballOf(2.0, first + Vec3d(0.3), 0.25);
-    const auto run = [&](std::size_t threads) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        return from(a, b);
-    };
-    const OneWay one = run(1), four = run(4);
-    EXPECT_EQ(one.distance, four.distance);
-    EXPECT_EQ(one.signedDistance, four.signedDistance);
-    EXPECT_EQ(one.mean, four.mean);
-    EXPECT_EQ(one.rms, four.rms);
-    EXPECT_EQ(one.max, four.max);
+    const auto grid = sphereGrid(2.0, Vec3d(2.2, 0.3, -1.1), 0.25, "any name");
+    grid->transform().postRotate(0.7, openvdb::math::Z_AXIS);
+    grid->transform().postTranslate(Vec3d(0.05, 10.0, -7.0));
+    const Vec3d at(2.2 * std::cos(0.7) + 0.3 * std::sin(0.7) + 0.05,
+                   -2.2 * std::sin(0.7) + 0.3 * std::cos(0.7) + 10.0, -8.1);
+    const Operand moved = operandOf({grid}, Progress());
+    Vec3d mean(0.0);
+    for (const Vec3f& p : moved.surface.mesh.positions)
+        mean += Vec3d(p) / double(moved.surface.mesh.positions.size());
+    // Whichever way the library turns, the distance from the turned centre is the radius.
+    const Vec3d back(2.2 * std::cos(0.7) - 0.3 * std::sin(0.7) + 0.05,
+                     2.2 * std::sin(0.7) + 0.3 * std::cos(0.7) + 10.0, -8.1);
+    const Vec3d centreNow = (mean - at).length() < (mean - back).length() ? at : back;
+    const DistanceTo to(moved.surface);
+    DistanceTo::Query query(to);
+    for (const Vec3f& p : moved.surface.mesh.positions)
+        ASSERT_NEAR((Vec3d(p) - centreNow).length(), 2.0, 1e-4);
+    const Distance far = query.at(centreNow + Vec3d(3.0, 4.0, 12.0));
+    EXPECT_NEAR(far.value, 11.0, 1e-4);
+    EXPECT_FALSE(far.inside);
+    for (std::size_t v = 0; v < moved.surface.mesh.positions.size(); ++v)
+        ASSERT_GT(moved.surface.mesh.normals[v].dot(
+                      (moved.surface.mesh.positions[v] - Vec3f(centreNow)).unit()),
+                  0.999f);
 }
 
-TEST(Compare, GridsOfDistance)
+TEST(OperandOfGrids, WhichGridIsTaken)
 {
-    const Surface ball = ballOf(2.0, first, 0.25);
-    const test::Shape other = test::sphere(3.0);
-    const LeafTable band = test::bandTable(other.distance, other.centre, other.extent, 0.5, 1.5);
-    const auto on = toLevelSet(band, test::filled(band, 0.5, other.distance), 1.5, 0.5, Progress());
-    const DistanceTo to(ball);
-    const auto grids = distanceGrids(*on, to, Progress());
-    ASSERT_EQ(grids.size(), 2u);
-    EXPECT_EQ(grids[0]->getName(), "distance");
-    EXPECT_EQ(grids[1]->getName(), "signed_distance");
-    EXPECT_EQ(grids[0]->activeVoxelCount(), on->activeVoxelCount());
-    for (auto it = grids[1]->cbeginValueOn(); it; ++it) {
-        const double exact = (on->indexToWorld(it.getCoord()) - first).length() - 2.0;
-        ASSERT_NEAR(*it, exact, 2e-4);
-        ASSERT_NEAR(grids[0]->tree().getValue(it.getCoord()), std::abs(exact), 2e-4);
-    }
+    const auto one = sphereGrid(2.0, centre, 0.5, "one");
+    const auto two = sphereGrid(3.0, centre, 0.5, "surface");
+    const auto fog = sphereGrid(4.0, centre, 0.5, "fog");
+    fog->setGridClass(openvdb::GRID_FOG_VOLUME);
+    EXPECT_NEAR(operandOf({one, fog}, Progress()).size.area, 16.0 * M_PI, 0.1);
+    EXPECT_NEAR(operandOf({one, two}, Progress()).size.area, 36.0 * M_PI, 0.1);
+    EXPECT_SAYS({fog}, "expected a level set of type float, got none among 1 grids");
+    EXPECT_SAYS({}, "got none among 0 grids");
+    two->setName("two");
+    EXPECT_SAYS((openvdb::GridPtrVec{one, two}), "got 2 level sets");
+    fog->setName("surface");
+    EXPECT_SAYS((openvdb::GridPtrVec{one, fog}), "expected class level set, got fog volume");
 }
 
-TEST(SizeOfTriangles, OfABox)
+TEST(OperandOfGrids, BadGrids)
 {
-    const Mesh mesh = test::box({1001, 2002, -3003}, {1003, 2005, -3002});
-    const Size closed = sizeOfTriangles(mesh, true, Progress());
-    EXPECT_DOUBLE_EQ(closed.area, 2.0 * (6.0 + 3.0 + 2.0));
-    EXPECT_DOUBLE_EQ(closed.volume.value(), 6.0);
-    EXPECT_FALSE(sizeOfTriangles(mesh, false, Progress()).volume);
+    auto grid = sphereGrid(2.0, centre, 0.5, "surface");
+    grid->transform().preScale(Vec3d(1.0, 1.0, 2.0));
+    EXPECT_SAYS({grid}, "expected voxels that are cubes");
+    grid = sphereGrid(2.0, centre, 0.5, "surface");
+    grid->transform().preScale(Vec3d(1.0, 1.0, -1.0));
+    EXPECT_SAYS({grid}, "mirrored");
+    grid = sphereGrid(2.0, centre, 0.5, "surface");
+    grid->tree().clear();
+    EXPECT_SAYS({grid}, "expected voxels, got none");
+    grid = openvdb::createLevelSet<FloatGrid>(0.5, 3.0f);
+    grid->tree().setValueOn(openvdb::Coord(1, 2, 3), 0.5f);
+    EXPECT_SAYS({grid}, "got no surface");
+    grid = sphereGrid(2.0, centre, 0.5, "surface");
+    grid->beginValueOn().setValue(std::nanf(""));
+    EXPECT_SAYS({grid}, "not a number");
+    grid = sphereGrid(2.0, centre, 0.5, "surface");
+    const auto spline = grid->deepCopy();
+    spline->setName("spline");
+    spline->transform().postTranslate(Vec3d(0.1));
+    EXPECT_SAYS((openvdb::GridPtrVec{grid, spline}), "grids 'surface' and 'spline'");
 }
 
-TEST(VertexNormals, OfABoxPointOutward)
+// A run and what it leaves in a file are the same surface: exactly with the spline, nearly from the
+// level set, which was made a distance again.
+TEST(OperandOfResult, AgreesWithItsGrids)
 {
-    const Mesh mesh = test::box({-1, -1, -1}, {1, 1, 1});
-    const auto normals = vertexNormals(mesh);
-    ASSERT_EQ(normals.size(), 8u);
-    for (std::size_t v = 0; v < 8; ++v) {
-        EXPECT_NEAR(normals[v].length(), 1.0f, 1e-6f);
-        EXPECT_GT(normals[v].dot(mesh.positions[v]), 0.9f);
+    for (const int level : {0, 1}) {
+        Options options;
+        options.voxel = 0.5;
+        options.splineLevel = level;
+        options.fields = {"spline"};
+        const std::vector<Ball> balls = {{{0.1f, 0.2f, 0.3f}, 1.7f, 0},
+                                         {{1.5f, 0.4f, 0.1f}, 1.55f, 1}};
+        Result result = test::runOn(balls, options);
+        const openvdb::GridPtrVec stored = {result.surface, result.fields.at(0)};
+        const Operand structure = operandOf(std::move(result));
+        EXPECT_EQ(structure.kind, "structure");
+        EXPECT_EQ(structure.atoms, 2u);
+        const Operand file = operandOf(stored, Progress());
+        EXPECT_LT(compared(structure, file).hausdorff, 1e-5);
+        EXPECT_NEAR(file.size.area, structure.size.area, 1e-3);
+        const Operand refitted = operandOf({stored[0]}, Progress());
+        EXPECT_LT(compared(structure, refitted).hausdorff, 0.02);
     }
 }
 
-TEST(ColorScale, EndsMiddleAndBeyond)
+TEST(OperandOfMesh, ClosedOpenAndInward)
 {
-    const ColorScale plain = magnitudeScale(2.0);
-    EXPECT_EQ(plain.at(0.0), (Color{68, 1, 84}));
-    EXPECT_EQ(plain.at(2.0), (Color{253, 231, 37}));
-    EXPECT_EQ(plain.at(5.0), plain.at(2.0));
-    EXPECT_EQ(plain.at(-1.0), plain.at(0.0));
-    EXPECT_EQ(plain.at(std::nan("")), plain.at(0.0));
-    EXPECT_EQ(plain.at(2.0 / 9.0), plain.stops[1]);
-    const ColorScale both = signedScale(2.0);
-    EXPECT_EQ(both.at(0.0), (Color{247, 247, 247}));
-    EXPECT_GT(both.at(2.0)[0], both.at(2.0)[2]);   // red outside
-    EXPECT_GT(both.at(-2.0)[2], both.at(-2.0)[0]); // blue inside
+    const Operand closed = operandOf(test::box({0, 0, 0}, {1, 2, 3}), Progress());
+    EXPECT_EQ(closed.kind, "mesh");
+    EXPECT_DOUBLE_EQ(closed.size.area, 22.0);
+    EXPECT_DOUBLE_EQ(closed.size.volume.value(), 6.0);
+    EXPECT_EQ(closed.surface.mesh.normals.size(), 8u);
+    EXPECT_TRUE(closed.warnings.empty());
+
+    Mesh open = test::box({0, 0, 0}, {1, 2, 3});
+    open.triangles.pop_back();
+    const Operand half = operandOf(open, Progress());
+    EXPECT_FALSE(half.surface.closed || half.size.volume);
+    ASSERT_EQ(half.warnings.size(), 1u);
+    EXPECT_NE(half.warnings[0].find("open"), std::string::npos);
+
+    Mesh inward = test::box({0, 0, 0}, {1, 2, 3});
+    for (auto& t : inward.triangles) std::swap(t[0], t[1]);
+    const Operand turned = operandOf(inward, Progress());
+    EXPECT_DOUBLE_EQ(turned.size.volume.value(), 6.0);
+    ASSERT_EQ(turned.warnings.size(), 1u);
+    const DistanceTo to(turned.surface);
+    EXPECT_TRUE(DistanceTo::Query(to).at(Vec3d(0.5, 0.5, 0.5)).inside);
+}
+
+TEST(LevelSetOf, AMesh)
+{
+    const Operand box = operandOf(test::box({0, 0, 0}, {4, 5, 6}), Progress());
+    const auto grid = levelSetOf(box.surface, 0.25);
+    EXPECT_EQ(grid->getName(), "surface");
+    EXPECT_EQ(grid->getGridClass(), openvdb::GRID_LEVEL_SET);
+    EXPECT_NEAR(grid->tree().getValue(openvdb::Coord(8, 8, 2)), -0.5f, 1e-5f);
+    EXPECT_NEAR(grid->tree().getValue(openvdb::Coord(8, 8, -1)), 0.25f, 1e-5f);
+    Operand open = operandOf(test::box({0, 0, 0}, {4, 5, 6}), Progress());
+    open.surface.closed = false;
+    EXPECT_THROW(levelSetOf(open.surface, 0.25), Error);
 }
 
 } // namespace

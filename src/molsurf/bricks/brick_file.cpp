@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/bricks/brick_file.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/core/parallel.h"
+
+#include <nlohmann/json.hpp>
+#include <openvdb/io/Compression.h>
+#include <openvdb/io/io.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <sstream>
+#include <utility>
+
+namespace molsurf
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<char, 8> magic = {'M', 'O', 'L', 'B', 'R', 'K', '0', '2'};
+
+// Appends sections, and knows where it is.
+class Writer
+{
+public:
+    explicit Writer(OutputFile& file) : file_(file) {}
+
+    template<typename T>
+    Section add(const std::vector<T>& records)
+    {
+        const Section section{at_, records.size()};
+        bytes(records.data(), records.size() * sizeof(T));
+        return section;
+    }
+    void bytes(const void* from, std::size_t size)
+    {
+        file_.write(from, size);
+        at_ += size;
+    }
+    std::uint64_t at() const { return at_; }
+
+private:
+    OutputFile& file_;
+    std::uint64_t at_ = 0;
+};
+
+// The values of a leaf as they stand in a .vdb.
+template<typename LeafT>
+std::string valuesOf(const LeafT& leaf, const typename LeafT::ValueType& background)
+{
+    std::ostringstream stream;
+    openvdb::io::setDataCompression(stream, openvdb::io::COMPRESS_BLOSC |
+                                                openvdb::io::COMPRESS_ACTIVE_MASK);
+    openvdb::io::setGridBackgroundValuePtr(stream, &background);
+    leaf.writeBuffers(stream);
+    return stream.str();
+}
+
+template<typename T>
+std::vector<double> numbersOf(const T& value)
+{
+    return {double(value)};
+}
+std::vector<double> numbersOf(const openvdb::Vec3s& value)
+{
+    return {value.x(), value.y(), value.z()};
+}
+
+template<typename T>
+bool isNegative(const T& value)
+{
+    return value < T(0);
+}
+bool isNegative(const openvdb::Vec3s&)
+{
+    return false;
+}
+
+template<typename GridT>
+StoredGrid addGrid(const GridT& grid, Writer& writer, const Progress& progress)
+{
+    using Leaf = typename GridT::TreeType::LeafNodeType;
+    std::vector<const Leaf*> leaves;
+    grid.tree().getNodes(leaves);
+    std::vector<StoredLeaf> stored(leaves.size());
+    const auto background = grid.background();
+    constexpr std::size_t run = 4096;
+    for (std::size_t begin = 0; begin < leaves.size(); begin += run) {
+        const std::size_t count = std::min(run, leaves.size() - begin);
+        std::vector<std::string> values(count);
+        parallelFor(count, progress, [&](std::size_t i) {
+            const Leaf& leaf = *leaves[begin + i];
+            values[i] = valuesOf(leaf, background);
+            StoredLeaf& out = stored[begin + i];
+            out.origin = {leaf.origin().x(), leaf.origin().y(), leaf.origin().z()};
+            out.negative = std::uint32_t(isNegative(leaf.getFirstValue())) |
+                           std::uint32_t(isNegative(leaf.getLastValue())) << 1;
+            out.size = values[i].size();
+            for (int x = 0; x < 8; ++x)
+                out.mask[std::size_t(x)] =
+                    leaf.getValueMask().template getWord<openvdb::Index64>(x);
+        });
+        for (std::size_t i = 0; i < count; ++i) {
+            stored[begin + i].offset = writer.at();
+            writer.bytes(values[i].data(), values[i].size());
+        }
+    }
+    return {grid.getName(), grid.type(), openvdb::GridBase::gridClassToString(grid.getGridClass()),
+            numbersOf(background), writer.add(stored)};
+}
+
+StoredGrid addAnyGrid(const openvdb::GridBase::Ptr& grid, Writer& writer, const Progress& progress)
+{
+    if (const auto g = openvdb::gridPtrCast<openvdb::FloatGrid>(grid))
+        return addGrid(*g, writer, progress);
+    if (const auto g = openvdb::gridPtrCast<openvdb::Int32Grid>(grid))
+        return addGrid(*g, writer, progress);
+    return addGrid(*openvdb::gridPtrCast<openvdb::Vec3SGrid>(grid), writer, progress);
+}
+
+void writeVertices(const Mesh& mesh, std::size_t count, const PlyLayout& layout, Writer& writer,
+                   const Progress& progress)
+{
+    constexpr std::size_t run = 1 << 16;
+    const std::size_t size = layout.vertexSize();
+    std::vector<char> records(run * size);
+    for (std::size_t begin = 0; begin < count; begin += run) {
+        const std::size_t some = std::min(run, count - begin);
+        parallelFor(some, progress, [&](std::size_t i) {
+            encodeVertex(mesh, begin + i, records.data() + i * size);
+        });
+        writer.bytes(records.data(), some * size);
+    }
+}
+
+Json json(const Section& section)
+{
+    return {section.offset, section.count};
+}
+
+Section section(const Json& json)
+{
+    return {json.at(0), json.at(1)};
+}
+
+Json json(const EvolutionReport& e)
+{
+    return {{"steps", e.steps},
+            {"energy", e.energy},
+            {"area", e.area},
+            {"volume", e.volume},
+            {"mean_displacement", e.meanDisplacement},
+            {"max_speed", e.maxSpeed},
+            {"crevice_voxels", e.creviceVoxels}};
+}
+
+EvolutionReport evolution(const Json& json)
+{
+    EvolutionReport e;
+    e.steps = json.at("steps");
+    e.energy = json.at("energy").get<std::vector<double>>();
+    e.area = json.at("area").get<std::vector<double>>();
+    e.volume = json.at("volume").get<std::vector<double>>();
+    e.meanDisplacement = json.at("mean_displacement").get<std::vector<double>>();
+    e.maxSpeed = json.at("max_speed").get<std::vector<double>>();
+    e.creviceVoxels = json.at("crevice_voxels");
+    return e;
+}
+
+std::string headerText(const BrickHeader& h)
+{
+    Json grids = Json::array(), groups = Json::array(), seconds = Json::array();
+    for (const StoredGrid& g : h.grids) {
+        grids.push_back(Json{{"name", g.name},
+                             {"type", g.type},
+                             {"class", g.gridClass},
+                             {"background", g.background},
+                             {"leaves", json(g.leaves)}});
+    }
+    for (const GroupReport& g : h.sums.groups)
+        groups.push_back(Json{{"name", g.name}, {"atoms", g.atoms}, {"area", g.area}});
+    for (const auto& [stage, time] : h.sums.seconds) seconds.push_back(Json{stage, time});
+    const Brick& b = h.sums;
+    const Json text = {{"plan", h.plan},
+                       {"brick", h.number},
+                       {"grids", std::move(grids)},
+                       {"scalars", h.layout.scalars},
+                       {"labels", h.layout.labels},
+                       {"colors", h.layout.colors},
+                       {"vertices", json(h.vertices)},
+                       {"areas", json(h.areas)},
+                       {"curvatures", json(h.curvatures)},
+                       {"triangles", json(h.triangles)},
+                       {"border", json(h.border)},
+                       {"open_edges", json(h.openEdges)},
+                       {"pieces", json(h.pieces)},
+                       {"closed", b.mesh.closed},
+                       {"manifold", b.mesh.manifold},
+                       {"degenerate_triangles", b.mesh.flat},
+                       {"max_residual", b.maxResidual},
+                       {"kink_vertices", b.kinkVertices},
+                       {"unit_vertices", b.unitVertices},
+                       {"groups", std::move(groups)},
+                       {"evolution", b.evolution ? json(*b.evolution) : Json()},
+                       {"seconds", std::move(seconds)}};
+    return text.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+BrickHeader parseHeader(const std::string& text)
+{
+    const Json j = Json::parse(text);
+    BrickHeader h;
+    h.plan = j.at("plan");
+    h.number = j.at("brick");
+    for (const Json& g : j.at("grids")) {
+        h.grids.push_back({g.at("name"), g.at("type"), g.at("class"),
+                           g.at("background").get<std::vector<double>>(), section(g.at("leaves"))});
+    }
+    h.layout.scalars = j.at("scalars").get<std::vector<std::string>>();
+    h.layout.labels = j.at("labels").get<std::vector<std::string>>();
+    h.layout.colors = j.at("colors");
+    h.vertices = section(j.at("vertices"));
+    h.areas = section(j.at("areas"));
+    h.curvatures = section(j.at("curvatures"));
+    h.triangles = section(j.at("triangles"));
+    h.border = section(j.at("border"));
+    h.openEdges = section(j.at("open_edges"));
+    h.pieces = section(j.at("pieces"));
+    h.sums.mesh.closed = j.at("closed");
+    h.sums.mesh.manifold = j.at("manifold");
+    h.sums.mesh.flat = j.at("degenerate_triangles");
+    h.sums.maxResidual = j.at("max_residual");
+    h.sums.kinkVertices = j.at("kink_vertices");
+    h.sums.unitVertices = j.at("unit_vertices");
+    for (const Json& g : j.at("groups")) {
+        GroupReport group;
+        group.name = g.at("name");
+        group.atoms = g.at("atoms");
+        group.area = g.at("area");
+        h.sums.groups.push_back(group);
+    }
+    if (!j.at("evolution").is_null()) h.sums.evolution = evolution(j.at("evolution"));
+    for (const Json& s : j.at("seconds")) h.sums.seconds.emplace_back(s.at(0), s.at(1));
+    return h;
+}
+
+} // namespace
+
+void writeBrick(const Brick& brick, const std::string& plan, std::size_t number, bool meshed,
+                OutputFile& file, const Progress& progress)
+{
+    BrickHeader header;
+    header.plan = plan;
+    header.number = number;
+    header.sums.evolution = brick.evolution;
+    header.sums.maxResidual = brick.maxResidual;
+    header.sums.kinkVertices = brick.kinkVertices;
+    header.sums.unitVertices = brick.unitVertices;
+    header.sums.groups = brick.groups;
+    header.sums.seconds = brick.seconds;
+    header.sums.mesh.closed = brick.mesh.closed;
+    header.sums.mesh.manifold = brick.mesh.manifold;
+    header.sums.mesh.flat = brick.mesh.flat;
+
+    Writer writer(file);
+    std::array<std::uint64_t, 2> tail = {0, 0}; // where the header is, and its length
+    writer.bytes(magic.data(), magic.size());
+    writer.bytes(tail.data(), sizeof tail);
+    for (const auto& grid : brick.grids) header.grids.push_back(addAnyGrid(grid, writer, progress));
+    const Mesh& mesh = brick.mesh.mesh;
+    header.layout = layoutOf(mesh);
+    const std::size_t owned = brick.mesh.owned;
+    header.vertices = {writer.at(), owned};
+    header.triangles = {0, mesh.triangles.size()};
+    if (meshed) {
+        writeVertices(mesh, owned, header.layout, writer, progress);
+        header.triangles = writer.add(mesh.triangles);
+    }
+    header.areas = writer.add(brick.mesh.areas);
+    std::vector<std::array<float, 2>> curvatures(owned);
+    parallelFor(owned, progress, [&](std::size_t n) {
+        curvatures[n] = {mesh.scalars[0].values[n], mesh.scalars[1].values[n]};
+    });
+    header.curvatures = writer.add(curvatures);
+    header.border = writer.add(brick.mesh.border);
+    header.openEdges = writer.add(brick.mesh.openEdges);
+    header.pieces = writer.add(brick.mesh.pieces);
+    const std::string text = headerText(header);
+    tail = {writer.at(), text.size()};
+    writer.bytes(text.data(), text.size());
+    try {
+        file.stream().seekp(std::streamoff(magic.size()));
+    } catch (const std::ios_base::failure&) {
+        file.fail("cannot write");
+    }
+    file.write(tail.data(), sizeof tail);
+    file.finish();
+}
+
+BrickFile::BrickFile(const std::string& path)
+    : path_(path), file_(open(path.c_str(), O_RDONLY | O_CLOEXEC))
+{
+    const auto refuse = [&] {
+        if (file_ >= 0) close(file_);
+        throw Error(ErrorKind::Input, path + ": is not the file of a brick");
+    };
+    if (file_ < 0) throw Error(ErrorKind::Input, "cannot read " + path + ": " + strerror(errno));
+    std::array<char, 8> mark{};
+    std::array<std::uint64_t, 2> tail{};
+    const off_t size = lseek(file_, 0, SEEK_END);
+    if (size < off_t(sizeof mark + sizeof tail)) refuse();
+    try {
+        read(0, mark.data(), mark.size());
+        read(mark.size(), tail.data(), sizeof tail);
+        if (mark != magic || tail[0] + tail[1] != std::uint64_t(size)) refuse();
+        std::string text(tail[1], ' ');
+        read(tail[0], text.data(), text.size());
+        header_ = parseHeader(text);
+    } catch (const Json::exception&) {
+        refuse();
+    }
+}
+
+BrickFile::~BrickFile()
+{
+    if (file_ >= 0) close(file_);
+}
+
+BrickFile::BrickFile(BrickFile&& other) noexcept
+    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)),
+      header_(std::move(other.header_))
+{
+}
+
+void BrickFile::read(std::uint64_t offset, void* to, std::size_t bytes) const
+{
+    char* at = static_cast<char*>(to);
+    while (bytes > 0) {
+        const ssize_t got = pread(file_, at, bytes, off_t(offset));
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0)
+            throw Error(ErrorKind::Input, "cannot read " + path_ + ": " +
+                                              (got < 0 ? std::strerror(errno) : "it is cut short"));
+        at += got;
+        offset += std::uint64_t(got);
+        bytes -= std::size_t(got);
+    }
+}
+
+} // namespace molsurf

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The result of a brick on disk: leaves as a .vdb holds them and vertices as a .ply does, ready to
+/// be copied, and a JSON header that tells where they are.
+
+#include "molsurf/bricks/brick.h"
+#include "molsurf/io/output_file.h"
+#include "molsurf/io/ply_layout.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// A run of records in the file.
+struct Section {
+    std::uint64_t offset = 0; ///< of the first byte
+    std::uint64_t count = 0;  ///< records
+};
+
+/// A leaf of a grid; its values lie in the file as tree::LeafNode::writeBuffers() puts them.
+struct StoredLeaf {
+    std::array<std::int32_t, 3> origin;
+    std::uint32_t negative; ///< bit 0: the first value is negative, bit 1: the last
+    std::uint64_t offset;   ///< of its values in the file
+    std::uint64_t size;     ///< bytes
+    std::array<std::uint64_t, 8> mask;
+};
+
+/// A grid without its leaves.
+struct StoredGrid {
+    std::string name, type, gridClass; ///< as OpenVDB calls them
+    std::vector<double> background;    ///< one number, or three
+    Section leaves;                    ///< of StoredLeaf
+};
+
+/// What the header tells.
+struct BrickHeader {
+    std::string plan;       ///< of which plan it is: see manifestId()
+    std::size_t number = 0; ///< from 1
+    std::vector<StoredGrid> grids;
+    PlyLayout layout;
+    Section vertices;   ///< the owned ones, records of layout.vertexSize() bytes, if meshed
+    Section triangles;  ///< three 32-bit indices, if meshed
+    Section areas;      ///< floats, one an owned vertex
+    Section curvatures; ///< two floats an owned vertex: mean [1/Å] and Gaussian [1/Å^2]
+    Section border;     ///< of BorderVertex
+    Section openEdges;  ///< of OpenEdge
+    Section pieces;     ///< of PieceMeasure
+    /// What does not lie in sections: mesh.mesh and grids stay empty.
+    Brick sums;
+};
+
+/// Writes what a brick leaves. The file must be one that can be written out of order.
+/// @param[in] meshed  whether MergedMesh::writePly() is to be possible; else vertices and triangles
+///                    are counted but left out
+void writeBrick(const Brick& brick, const std::string& plan, std::size_t number, bool meshed,
+                OutputFile& file, const Progress& progress);
+
+/// A brick that lies on disk. Reads nothing that is not asked for.
+class BrickFile
+{
+public:
+    /// @throws Error(ErrorKind::Input) if it cannot be read, or is not the file of a brick
+    explicit BrickFile(const std::string& path);
+    ~BrickFile();
+    BrickFile(BrickFile&& other) noexcept;
+    BrickFile(const BrickFile&) = delete;
+    BrickFile& operator=(const BrickFile&) = delete;
+
+    const BrickHeader& header() const { return header_; }
+
+    void read(std::uint64_t offset, void* to, std::size_t bytes) const;
+
+    template<typename T>
+    std::vector<T> read(const Section& section) const
+    {
+        std::vector<T> out(section.count);
+        read(section.offset, out.data(), out.size() * sizeof(T));
+        return out;
+    }
+
+private:
+    std::string path_;
+    int file_ = -1;
+    BrickHeader header_;
+};
+
+} // namespace molsurf

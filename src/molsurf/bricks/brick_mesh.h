@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The part of a mesh that a brick owns, cut so that the parts of all bricks fit vertex on vertex.
+
+#include "molsurf/core/progress.h"
+#include "molsurf/mesh/measure.h"
+#include "molsurf/mesh/mesh.h"
+
+#include <openvdb/openvdb.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace molsurf
+{
+
+/// What a vertex is the same by in all bricks: the cell in which the mesher had put it, and its
+/// number among those of the cell. Bricks from machines that round differently fit all the same.
+using VertexKey = std::array<std::int32_t, 4>;
+
+/// A vertex at the border of a brick.
+struct BorderVertex {
+    VertexKey key;
+    std::uint32_t vertex; ///< index in the brick's mesh
+    std::uint32_t piece;  ///< connected piece of the brick's triangles
+};
+
+/// An edge that has more triangles on one side than on the other, within the brick.
+struct OpenEdge {
+    std::uint32_t from, to; ///< border vertices
+    std::int32_t surplus;   ///< triangles that run from `from` to `to` less those back
+};
+
+/// The triangles that a brick owns, with their vertices.
+struct BrickMesh {
+    Mesh mesh;                ///< the owned vertices first, then those of other bricks
+    std::size_t owned = 0;    ///< number of owned vertices
+    std::vector<float> areas; ///< of the owned vertices: a third of all triangles about them [Å^2]
+    std::vector<BorderVertex> border;
+    std::vector<OpenEdge> openEdges;
+    std::vector<PieceMeasure> pieces;    ///< of the owned triangles
+    std::size_t flat = 0;                ///< owned triangles without area
+    bool closed = true, manifold = true; ///< at the owned vertices
+};
+
+/// Cuts a mesh that reaches beyond a brick. A vertex belongs to the brick of the cell in which the
+/// mesher had put it, a triangle to the brick of the voxel whose edge it was made for. Pinched
+/// vertices are split first, as in a mesh of the whole.
+///
+/// @param[in]  mesh    with normals
+/// @param[in]  cells   in which the mesher had put the vertices
+/// @param[in]  box     the voxels that the brick owns
+/// @param[in]  anchor  origin of the volumes [Å]
+/// @param[out] sources for each vertex of the result its index in `mesh`
+BrickMesh cutBrick(Mesh mesh, std::vector<openvdb::Coord> cells, const openvdb::CoordBBox& box,
+                   const openvdb::Vec3d& anchor, std::vector<std::uint32_t>& sources,
+                   const Progress& progress);
+
+} // namespace molsurf

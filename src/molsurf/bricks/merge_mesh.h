@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The mesh of the whole from the bricks' parts, welded vertex on vertex, without holding it.
+
+#include "molsurf/bricks/brick_file.h"
+#include "molsurf/io/output_file.h"
+#include "molsurf/surface/report.h"
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace molsurf
+{
+
+/// Where the vertices of each brick stand in the mesh of the whole: those that brick 1 owns, those
+/// that brick 2 owns, ... Holds the vertices at the bricks' borders only.
+class MergedMesh
+{
+public:
+    /// @param[in] bricks  all of a plan, in their order; they must outlive it
+    /// @throws Error(ErrorKind::Input) if a vertex of a brick is missing in the one that owns it
+    explicit MergedMesh(const std::vector<BrickFile>& bricks);
+
+    std::size_t vertices() const { return firsts_.back(); }
+    std::size_t triangles() const { return triangles_; }
+
+    /// Writes binary PLY as writePly() does.
+    /// @throws Error(ErrorKind::Output) if there are more vertices than its indices can count
+    void writePly(OutputFile& file, const Progress& progress) const;
+
+    /// Everything that SurfaceReport says of the whole. A mesh whose bricks do not fit along an
+    /// edge counts as not closed.
+    SurfaceReport report() const;
+
+private:
+    std::uint64_t indexOf(std::size_t brick, std::uint32_t vertex) const;
+
+    const std::vector<BrickFile>& bricks_;
+    std::vector<std::uint64_t> firsts_; // of each brick's vertices, and the end
+    std::size_t triangles_ = 0;
+    std::vector<std::unordered_map<std::uint32_t, std::uint64_t>> foreign_; // by local index
+    std::vector<std::vector<BorderVertex>> border_;
+};
+
+} // namespace molsurf

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/bricks/merge_vdb.h"
+
+#include "molsurf/core/error.h"
+
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/Compression.h>
+#include <openvdb/io/GridDescriptor.h>
+#include <openvdb/io/io.h>
+
+#include <cerrno>
+#include <ios>
+#include <map>
+#include <type_traits>
+#include <utility>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+
+namespace
+{
+
+// Of a node: whether its first and its last value are negative.
+struct Ends {
+    bool first, last;
+};
+
+// Fills the tiles of a node, and of those below it, by the signs of its children, as
+// tools::SignedFloodFillOp does; the leaves have no values but know the signs of their ends.
+template<typename NodeT, typename T>
+Ends floodTiles(NodeT& node, const T& inside, const T& outside)
+{
+    if constexpr (NodeT::LEVEL == 0) {
+        return {(node.transientData() & 1) != 0, (node.transientData() & 2) != 0};
+    } else {
+        constexpr int size = 1 << NodeT::LOG2DIM;
+        std::vector<signed char> last(NodeT::NUM_VALUES, -1); // of children; -1: a tile
+        std::vector<char> negative(NodeT::NUM_VALUES);
+        bool any = false, x = false, first = false;
+        for (auto it = node.beginChildOn(); it; ++it) {
+            const Ends ends = floodTiles(*it, inside, outside);
+            last[it.pos()] = ends.last;
+            if (!any) x = ends.first;
+            if (it.pos() == 0) first = ends.first;
+            any = true;
+        }
+        for (int i = 0, n = 0; i < size; ++i) {
+            if (last[std::size_t(n)] >= 0) x = last[std::size_t(n)];
+            bool y = x;
+            for (int j = 0; j < size; ++j) {
+                if (last[std::size_t(n)] >= 0) y = last[std::size_t(n)];
+                bool z = y;
+                for (int k = 0; k < size; ++k, ++n) {
+                    if (last[std::size_t(n)] >= 0) z = last[std::size_t(n)];
+                    negative[std::size_t(n)] = z;
+                }
+            }
+        }
+        for (auto it = node.beginChildOff(); it; ++it)
+            it.setValue(negative[it.pos()] ? inside : outside);
+        return {last[0] >= 0 ? first : bool(negative[0]), bool(negative[NodeT::NUM_VALUES - 1])};
+    }
+}
+
+// The same for the root: what lies between two inner nodes along z is inside.
+template<typename TreeT>
+void floodRoot(TreeT& tree)
+{
+    using Value = typename TreeT::ValueType;
+    const Value outside = tree.background(), inside = -outside;
+    std::map<Coord, Ends> nodes;
+    for (auto it = tree.root().beginChildOn(); it; ++it)
+        nodes.emplace(it.getCoord(), floodTiles(*it, inside, outside));
+    constexpr int dim = int(TreeT::RootNodeType::ChildNodeType::DIM);
+    for (auto a = nodes.begin(), b = a; a != nodes.end(); a = b) {
+        if (++b == nodes.end()) break;
+        const Coord step = b->first - a->first;
+        if (step.x() != 0 || step.y() != 0 || step.z() == dim) continue;
+        if (!a->second.last || !b->second.first) continue;
+        for (Coord c = a->first.offsetBy(0, 0, dim); c.z() != b->first.z(); c.z() += dim)
+            tree.root().addTile(c, inside, false);
+    }
+}
+
+// Where the values of a leaf lie.
+struct Place {
+    std::uint32_t brick;
+    std::uint64_t offset, size;
+};
+
+// A grid whose leaves have no values, and where these are.
+struct Skeleton {
+    openvdb::GridBase::Ptr grid;
+    std::vector<Place> leaves; // in the order of the tree
+    std::size_t bytes = 0;     // of the grid, once it is loaded
+};
+
+// What a leaf without values knows: the signs of its ends, and its number in a list of places.
+constexpr int signBits = 2;
+
+template<typename T>
+T valueFrom(const std::vector<double>& numbers)
+{
+    if constexpr (std::is_arithmetic_v<T>)
+        return T(numbers.at(0));
+    else
+        return T(float(numbers.at(0)), float(numbers.at(1)), float(numbers.at(2)));
+}
+
+template<typename GridT>
+Skeleton skeletonOf(const std::vector<BrickFile>& bricks, std::size_t g, double voxel)
+{
+    using Tree = typename GridT::TreeType;
+    using Leaf = typename Tree::LeafNodeType;
+    using Value = typename GridT::ValueType;
+    const StoredGrid& first = bricks.front().header().grids[g];
+    const Value background = valueFrom<Value>(first.background);
+    auto grid = GridT::create(background);
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
+    grid->setGridClass(openvdb::GridBase::stringToGridClass(first.gridClass));
+    grid->setName(first.name);
+
+    std::vector<Place> places;
+    for (std::size_t b = 0; b < bricks.size(); ++b) {
+        const auto leaves = bricks[b].read<StoredLeaf>(bricks[b].header().grids[g].leaves);
+        for (const StoredLeaf& stored : leaves) {
+            const Coord origin(stored.origin[0], stored.origin[1], stored.origin[2]);
+            auto* leaf = new Leaf(openvdb::PartialCreate(), origin, background);
+            typename Leaf::NodeMaskType mask;
+            for (int x = 0; x < 8; ++x)
+                mask.template getWord<openvdb::Index64>(x) = stored.mask[std::size_t(x)];
+            leaf->setValueMask(mask);
+            leaf->setTransientData(openvdb::Index32(places.size()) << signBits | stored.negative);
+            grid->tree().addLeaf(leaf);
+            places.push_back({std::uint32_t(b), stored.offset, stored.size});
+        }
+    }
+    if constexpr (std::is_same_v<Value, float>) {
+        if (grid->getGridClass() == openvdb::GRID_LEVEL_SET) floodRoot(grid->tree());
+    }
+    Skeleton out{grid, {}, 0};
+    out.leaves.reserve(places.size());
+    for (auto leaf = grid->tree().cbeginLeaf(); leaf; ++leaf)
+        out.leaves.push_back(places[leaf->transientData() >> signBits]);
+    out.bytes = std::size_t(grid->tree().memUsage()) + out.leaves.size() * 512 * sizeof(Value);
+    return out;
+}
+
+Skeleton skeletonOfAny(const std::vector<BrickFile>& bricks, std::size_t g, double voxel)
+{
+    const std::string& type = bricks.front().header().grids[g].type;
+    if (type == openvdb::FloatGrid::gridType())
+        return skeletonOf<openvdb::FloatGrid>(bricks, g, voxel);
+    if (type == openvdb::Int32Grid::gridType())
+        return skeletonOf<openvdb::Int32Grid>(bricks, g, voxel);
+    return skeletonOf<openvdb::Vec3SGrid>(bricks, g, voxel);
+}
+
+// Writes a file like io::Archive::write(), but for the values, which it copies.
+class CopyingArchive : public openvdb::io::Archive
+{
+public:
+    CopyingArchive()
+    {
+        setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
+    }
+
+    void begin(std::ostream& stream, bool seekable, std::size_t grids,
+               const openvdb::MetaMap& metadata) const
+    {
+        openvdb::io::setDataCompression(stream, compression());
+        writeHeader(stream, seekable);
+        metadata.writeMeta(stream);
+        const auto count = std::int32_t(grids);
+        stream.write(reinterpret_cast<const char*>(&count), sizeof count);
+    }
+
+    void add(std::ostream& stream, bool seekable, const Skeleton& skeleton,
+             const std::vector<BrickFile>& bricks, const Progress& progress) const
+    {
+        const openvdb::GridBase& grid = *skeleton.grid;
+        openvdb::io::GridDescriptor descriptor(grid.getName(), grid.type());
+        descriptor.writeHeader(stream);
+        const auto offsets = seekable ? stream.tellp() : std::ostream::pos_type(0);
+        descriptor.writeStreamPos(stream);
+        if (seekable) descriptor.setGridPos(stream.tellp());
+        setGridCompression(stream, grid);
+        openvdb::GridBase::Ptr described =
+            openvdb::ConstPtrCast<openvdb::GridBase>(grid.copyGrid());
+        described->addStatsMetadata();
+        described->insertMeta(openvdb::GridBase::META_FILE_MEM_BYTES,
+                              openvdb::Int64Metadata(std::int64_t(skeleton.bytes)));
+        described->insertMeta(openvdb::GridBase::META_FILE_COMPRESSION,
+                              openvdb::StringMetadata(openvdb::io::compressionToString(
+                                  openvdb::io::getDataCompression(stream))));
+        described->writeMeta(stream);
+        grid.writeTransform(stream);
+        grid.writeTopology(stream);
+        if (seekable) descriptor.setBlockPos(stream.tellp());
+        // Leaves that lie one after another in a brick's file are copied at once.
+        constexpr std::size_t most = 1 << 20;
+        std::vector<char> values;
+        for (std::size_t i = 0; i < skeleton.leaves.size();) {
+            const Place& first = skeleton.leaves[i];
+            std::size_t size = 0;
+            for (; i < skeleton.leaves.size() && size < most; ++i) {
+                const Place& next = skeleton.leaves[i];
+                if (next.brick != first.brick || next.offset != first.offset + size) break;
+                size += next.size;
+            }
+            values.resize(size);
+            bricks[first.brick].read(first.offset, values.data(), size);
+            stream.write(values.data(), std::streamsize(size));
+            if (progress.cancelled()) throw Cancelled();
+        }
+        if (!seekable) return;
+        descriptor.setEndPos(stream.tellp());
+        stream.seekp(offsets);
+        descriptor.writeStreamPos(stream);
+        descriptor.seekToEnd(stream);
+    }
+};
+
+} // namespace
+
+void writeMergedVdb(const std::vector<BrickFile>& bricks, double voxel, const std::string& creator,
+                    const openvdb::MetaMap& metadata, OutputFile& file, const Progress& progress)
+{
+    const std::size_t grids = bricks.front().header().grids.size();
+    try {
+        errno = 0;
+        const CopyingArchive archive;
+        archive.begin(file.stream(), file.seekable(), grids, metadata);
+        for (std::size_t g = 0; g < grids; ++g) {
+            const Skeleton skeleton = skeletonOfAny(bricks, g, voxel);
+            skeleton.grid->setCreator(creator);
+            archive.add(file.stream(), file.seekable(), skeleton, bricks, progress);
+        }
+    } catch (const std::ios_base::failure&) {
+        file.fail("cannot write");
+    } catch (const openvdb::Exception& e) {
+        throw Error(ErrorKind::Output, "cannot write " + file.path() + ": " + e.what());
+    }
+    file.finish();
+}
+
+MergedSize sizeOfMerged(const std::vector<BrickFile>& bricks)
+{
+    MergedSize size;
+    for (const BrickFile& brick : bricks) {
+        const Section& leaves = brick.header().grids.front().leaves;
+        for (const StoredLeaf& leaf : brick.read<StoredLeaf>(leaves)) {
+            for (const std::uint64_t word : leaf.mask)
+                size.activeVoxels += std::size_t(__builtin_popcountll(word));
+        }
+        size.bytes += leaves.count * (sizeof(openvdb::FloatTree::LeafNodeType) + 512 * 4);
+    }
+    return size;
+}
+
+} // namespace molsurf

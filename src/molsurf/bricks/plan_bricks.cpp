@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/bricks/plan_bricks.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/spline/curvature.h"
+#include "molsurf/surface/check_balls.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+using openvdb::CoordBBox;
+using openvdb::Vec3d;
+
+namespace
+{
+
+// Measured on 1F2N, 1K4R, 6ZU5 and 1M4X at 0.5 to 2 Å and on small proteins: peaks of the resident
+// memory against the leaves that hold atoms or lie beside them. No peak was above 0.96 of what
+// these give, since not all such leaves have a part of the surface. It is either that of the flow
+// and the distances, or that of the mesh.
+constexpr double processBytes = 70e6;          // program, libraries, buffers
+constexpr double bytesPerAtom = 40.0;          // of the whole molecule: balls, and reading them
+constexpr double bytesPerNear = 85.0;          // of the balls near a brick: cell lists, copies
+constexpr double bytesPerBoundaryBall = 1.8e3; // of those: the boundary of their union
+constexpr double bytesPerOffsetBall = 1.3e3;   // the same where the surface lies inside of it
+constexpr double bytesPerFlowLeaf = 8.5e3;     // within the halo of the flow
+constexpr double bytesPerMeshLeaf = 12.5e3;    // within the halo of the spline
+constexpr double bytesPerFineLeaf = 25e3;      // the same of a surface that runs between atoms
+constexpr double bytesPerKeptLeaf = 5.5e3; // of the flow, where these are kept for the next brick
+constexpr double bytesPerValueOfLeaf = 2.5e3; // of a grid that goes along with the surface
+// On one core.
+constexpr double secondsPerLeaf = 0.2e-3, secondsPerFlowLeaf = 0.14e-3;
+constexpr double secondsPerBoundaryBall = 25e-6;
+constexpr double bytesToMerge =
+    7.0; // an active voxel: leaves without values, statistics of vertices
+constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
+constexpr int smallest = 4;             // leaves along the shortest edge of a brick that is cut
+
+/// Leaves that may have a part of the surface, with the number of balls whose centres are in each.
+struct Occupancy {
+    std::vector<Coord> leaves; ///< places among leaves, ascending
+    std::vector<std::uint32_t> atoms;
+    CoordBBox box; ///< of the places
+};
+
+/// Adds the leaves between two spheres about a ball's centre: column by column, since most of those
+/// in their box lie inside.
+void addShell(const Vec3d& centre, double inner, double outer, double edge,
+              std::vector<Coord>& places)
+{
+    const double halfLeaf = 0.5 * edge, diagonal = halfLeaf * std::sqrt(3.0);
+    const double far = outer + diagonal, near = std::max(inner - diagonal, 0.0);
+    const Coord first = Coord::floor((centre - Vec3d(far)) / edge);
+    const Coord last = Coord::floor((centre + Vec3d(far)) / edge);
+    for (int x = first.x(); x <= last.x(); ++x) {
+        for (int y = first.y(); y <= last.y(); ++y) {
+            const double u = x * edge + halfLeaf - centre.x(), v = y * edge + halfLeaf - centre.y();
+            const double aside2 = u * u + v * v;
+            if (aside2 > far * far) continue;
+            const double top = std::sqrt(far * far - aside2);
+            const double hole = near * near > aside2 ? std::sqrt(near * near - aside2) : -1.0;
+            const auto placeAt = [&](double z) { return int(std::floor((centre.z() + z) / edge)); };
+            for (int z = placeAt(-top - halfLeaf); z <= placeAt(top + halfLeaf); ++z) {
+                const double height = std::abs(z * edge + halfLeaf - centre.z());
+                if (height < hole) { // to the other side
+                    z = std::max(z, placeAt(hole - halfLeaf) - 1);
+                    continue;
+                }
+                places.emplace_back(x, y, z);
+            }
+        }
+    }
+}
+
+/// @param[in] reach  how far the surface may lie from the balls [Å]
+Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach,
+                      const Progress& progress)
+{
+    const double edge = leafDim * voxel;
+    constexpr double many = 4.0; // leaves within a ball: of a larger one its shell alone is taken
+    const auto isLarge = [&](const Ball& ball) { return ball.radius > many * edge; };
+    float largestSmall = 0.0f;
+    for (const Ball& ball : balls) {
+        if (!isLarge(ball)) largestSmall = std::max(largestSmall, ball.radius);
+    }
+    std::vector<Coord> places(balls.size());
+    for (std::size_t i = 0; i < balls.size(); ++i)
+        places[i] = Coord::floor(Vec3d(balls[i].center) / edge);
+    tbb::parallel_sort(places.begin(), places.end());
+    std::vector<Coord> own;
+    std::vector<std::uint32_t> counts;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (i == 0 || places[i] != places[i - 1]) {
+            own.push_back(places[i]);
+            counts.push_back(0);
+        }
+        ++counts.back();
+    }
+    // Voxels of this table stand for leaves.
+    std::vector<Coord> blocks;
+    for (const Coord& place : own) blocks.push_back(place & ~(leafDim - 1));
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    LeafTable table(std::move(blocks));
+    using Leaf = openvdb::FloatTree::LeafNodeType;
+    for (const Coord& place : own) {
+        table.active(std::size_t(table.find(place))).set(int(Leaf::coordToOffset(place)));
+    }
+    for (int steps = int(std::ceil((largestSmall + reach) / edge)); steps > 0; steps -= leafDim)
+        table = dilated(table, std::min(steps, leafDim), Spread::Cube, progress);
+
+    Occupancy out;
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        table.active(n).forEach([&](int v) {
+            out.leaves.push_back(table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7));
+        });
+    }
+    for (const Ball& ball : balls) {
+        if (isLarge(ball))
+            addShell(Vec3d(ball.center), ball.radius - 2.0 * voxel,
+                     ball.radius + reach + 2.0 * voxel, edge, out.leaves);
+    }
+    tbb::parallel_sort(out.leaves.begin(), out.leaves.end());
+    out.leaves.erase(std::unique(out.leaves.begin(), out.leaves.end()), out.leaves.end());
+    for (std::size_t n = 0, m = 0; n < out.leaves.size(); ++n) {
+        out.box.expand(out.leaves[n]);
+        const bool found = m < own.size() && own[m] == out.leaves[n];
+        out.atoms.push_back(found ? counts[m++] : 0);
+    }
+    // The band about the outermost surface may reach into the next leaf.
+    out.box.expand(1);
+    return out;
+}
+
+/// How many numbers a voxel has in the grids that go along with the surface.
+int valuesAlong(const Options& options)
+{
+    int values = 0;
+    for (const std::string& name : options.fields) {
+        const CurvatureField* curvature = findCurvatureField(name);
+        values += curvature ? curvature->components : name == "Cd" ? 3 : name == "surface" ? 0 : 1;
+    }
+    return values;
+}
+
+class Planner
+{
+public:
+    Planner(const BallSelection& atoms, const Options& options, const GaussianExtent& extent,
+            const Progress& progress)
+        : options_(options), extent_(extent), atoms_(atoms.balls.size()),
+          occupancy_(occupancyOf(atoms.balls, options.voxel,
+                                 extent.swollen - extent.largest + extent.tolerance, progress))
+    {
+    }
+
+    const CoordBBox& box() const { return occupancy_.box; }
+
+    /// Whether estimates are of processes that keep the memory of one brick for the next.
+    void setKeeping(bool keeping) { keeping_ = keeping; }
+
+    /// @param[in] box  of places
+    PlannedBrick estimate(const CoordBBox& box) const
+    {
+        PlannedBrick brick;
+        brick.box = CoordBBox(box.min() << 3, (box.max() << 3).offsetBy(leafDim - 1));
+        Region region;
+        region.owned = brick.box;
+        const Scope scope = brickScope(options_, region, extent_);
+        const int reach = int(std::ceil(ballReach(options_, extent_) / leafDim / options_.voxel));
+        const int widest = std::max(scope.flowHalo, scope.splineHalo);
+        CoordBBox splined = box, flowed = box, near = box;
+        splined.expand(scope.splineHalo);
+        flowed.expand(widest);
+        near.expand(widest + reach);
+        std::size_t own = 0, inSpline = 0, inFlow = 0, balls = 0;
+        for (std::size_t n = 0; n < occupancy_.leaves.size(); ++n) {
+            const Coord& place = occupancy_.leaves[n];
+            if (!near.isInside(place)) continue;
+            balls += occupancy_.atoms[n];
+            inFlow += flowed.isInside(place);
+            inSpline += splined.isInside(place);
+            if (!box.isInside(place)) continue;
+            brick.atoms += occupancy_.atoms[n];
+            ++own;
+        }
+        // Grids with wider bands may have leaves in a box that holds no other.
+        brick.voxels =
+            std::max(std::size_t(voxelsPerLeaf * double(own)), std::min<std::size_t>(inSpline, 1));
+        const double forBoundary = !isUnion(options_.kind)    ? 0.0
+                                   : offsetOf(options_) > 0.0 ? bytesPerOffsetBall
+                                                              : bytesPerBoundaryBall;
+        const double perBall = bytesPerNear + forBoundary;
+        const bool fine =
+            options_.kind == SurfaceKind::Gaussian || options_.kind == SurfaceKind::VanDerWaals;
+        const double forFlow = bytesPerFlowLeaf * double(inFlow);
+        const double forMesh = (fine ? bytesPerFineLeaf : bytesPerMeshLeaf) * double(inSpline);
+        brick.bytes = std::size_t(
+            processBytes + bytesPerAtom * double(atoms_) + perBall * double(balls) +
+            (keeping_ ? bytesPerKeptLeaf * double(inFlow) + forMesh : std::max(forFlow, forMesh)) +
+            bytesPerValueOfLeaf * valuesAlong(options_) * double(own));
+        brick.seconds = secondsPerLeaf * double(inSpline) + secondsPerFlowLeaf * double(inFlow) +
+                        (isUnion(options_.kind) ? secondsPerBoundaryBall * double(balls) : 0.0);
+        return brick;
+    }
+
+    /// Cuts a box in two, `share` of the surface in the first. False if it is too small.
+    bool cut(const CoordBBox& box, double share, CoordBBox& first, CoordBBox& second) const
+    {
+        const int axis = int(box.extents().maxIndex());
+        const int length = box.dim()[axis];
+        if (length < 2 * smallest) return false;
+        std::vector<std::size_t> counts(std::size_t(length), 0);
+        std::size_t total = 0;
+        for (const Coord& place : occupancy_.leaves) {
+            if (!box.isInside(place)) continue;
+            ++counts[std::size_t(place[axis] - box.min()[axis])];
+            ++total;
+        }
+        int best = smallest;
+        double least = 1e300;
+        std::size_t below = 0;
+        for (int i = 0; i < length; ++i) {
+            if (i >= smallest && i <= length - smallest) {
+                const double off = std::abs(double(below) - share * double(total));
+                if (off < least) {
+                    least = off;
+                    best = i;
+                }
+            }
+            below += counts[std::size_t(i)];
+        }
+        first = second = box;
+        first.max()[axis] = box.min()[axis] + best - 1;
+        second.min()[axis] = box.min()[axis] + best;
+        return true;
+    }
+
+    void cutInto(std::size_t parts, const CoordBBox& box, std::vector<PlannedBrick>& out) const
+    {
+        CoordBBox first, second;
+        const std::size_t half = parts / 2;
+        if (parts < 2 || !cut(box, double(half) / double(parts), first, second)) {
+            keep(estimate(box), out);
+            return;
+        }
+        cutInto(half, first, out);
+        cutInto(parts - half, second, out);
+    }
+
+    /// As few bricks as fit, since they overlap; none if those of one size do not.
+    std::vector<PlannedBrick> cutEvenly(std::size_t memory, const CoordBBox& box) const
+    {
+        std::vector<PlannedBrick> out;
+        const std::size_t least = estimate(box).bytes / memory + 1;
+        for (std::size_t parts = least; parts <= 2 * least + 1; ++parts) {
+            out.clear();
+            cutInto(parts, box, out);
+            if (std::all_of(out.begin(), out.end(),
+                            [&](const PlannedBrick& b) { return b.bytes <= memory; }))
+                return out;
+        }
+        return {};
+    }
+
+    void halve(std::size_t memory, const CoordBBox& box, std::vector<PlannedBrick>& out) const
+    {
+        const PlannedBrick brick = estimate(box);
+        CoordBBox first, second;
+        if (brick.bytes <= memory) {
+            keep(brick, out);
+        } else if (cut(box, 0.5, first, second)) {
+            halve(memory, first, out);
+            halve(memory, second, out);
+        } else {
+            tooLittle("the smallest brick", double(brick.bytes), memory);
+        }
+    }
+
+    [[noreturn]] static void tooLittle(const char* what, double bytes, std::size_t memory)
+    {
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "--memory: %s needs %.2f GB, and there are %.2f [hint: --memory %.1fG, or a "
+                      "larger --voxel]",
+                      what, bytes / 1e9, double(memory) / 1e9, std::ceil(1.1e-8 * bytes) / 10.0);
+        throw Error(ErrorKind::Input, text);
+    }
+
+private:
+    static void keep(const PlannedBrick& brick, std::vector<PlannedBrick>& out)
+    {
+        if (brick.voxels > 0) out.push_back(brick);
+    }
+
+    const Options& options_;
+    const GaussianExtent& extent_;
+    bool keeping_ = false;
+    std::size_t atoms_;
+    Occupancy occupancy_;
+};
+
+double secondsOf(const std::vector<PlannedBrick>& bricks)
+{
+    double seconds = 0.0;
+    for (const PlannedBrick& brick : bricks) seconds += brick.seconds;
+    return seconds;
+}
+
+/// Cuts by the limits; without any the whole is one brick.
+BrickPlan makePlan(const BallSelection& atoms, const Options& options, const BrickLimits& limits,
+                   const Progress& progress)
+{
+    checkBalls(atoms.balls, options, Pieces::Bricks,
+               limits.memory > 0 ? limits.memory : physicalMemory());
+    BrickPlan plan;
+    const GaussianExtent extent = extentOf(atoms, options);
+    plan.largest = extent.largest;
+    plan.swollen = extent.swollen;
+    plan.tolerance = extent.tolerance;
+    plan.atoms = atoms.balls.size();
+    plan.steps = options.evolution.steps >= 0 ? options.evolution.steps : defaultBrickSteps;
+    Planner planner(atoms, options, extent, progress);
+    const CoordBBox& box = planner.box();
+    if (limits.memory > 0) {
+        plan.bricks = planner.cutEvenly(limits.memory, box);
+        if (plan.bricks.empty()) {
+            planner.halve(limits.memory, box, plan.bricks);
+        } else if (limits.oneProcess) {
+            planner.setKeeping(true);
+            constexpr double worth = 1.1; // of the time: what asking anew takes
+            auto kept = planner.cutEvenly(limits.memory, box);
+            plan.keepsMemory = !kept.empty() && secondsOf(kept) < worth * secondsOf(plan.bricks);
+            if (plan.keepsMemory) plan.bricks = std::move(kept);
+        }
+        double voxels = 0.0;
+        for (const PlannedBrick& brick : plan.bricks) voxels += double(brick.voxels);
+        const double merge = processBytes + bytesToMerge * voxels;
+        if (merge > double(limits.memory)) Planner::tooLittle("the merge", merge, limits.memory);
+    } else {
+        planner.cutInto(std::max<std::size_t>(limits.bricks, 1), box, plan.bricks);
+    }
+    plan.anchor = Coord::floor(0.5 * leafDim * (box.min() + box.max()).asVec3d());
+    return plan;
+}
+
+} // namespace
+
+BrickPlan planBricks(const BallSelection& atoms, const Options& options, const BrickLimits& limits,
+                     const Progress& progress)
+{
+    checkBrickOptions(options);
+    return makePlan(atoms, options, limits, progress);
+}
+
+BrickPlan planWhole(const BallSelection& atoms, const Options& options, const Progress& progress)
+{
+    return makePlan(atoms, options, {1, 0}, progress);
+}
+
+GaussianExtent extentOf(const BrickPlan& plan)
+{
+    return {plan.largest, plan.swollen, plan.tolerance};
+}
+
+Scope scopeOf(const BrickPlan& plan, std::size_t k, const Options& options)
+{
+    return brickScope(options, {plan.bricks[k].box, plan.anchor}, extentOf(plan));
+}
+
+} // namespace molsurf

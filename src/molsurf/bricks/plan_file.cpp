@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/bricks/plan_file.h"
+
+#include "molsurf/core/error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace molsurf
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+Json json(const openvdb::Coord& c)
+{
+    return {c.x(), c.y(), c.z()};
+}
+
+openvdb::Coord coord(const Json& json)
+{
+    return {json.at(0), json.at(1), json.at(2)};
+}
+
+} // namespace
+
+std::string manifestText(const PlanManifest& m)
+{
+    Json files = Json::array(), bricks = Json::array();
+    for (const PlanInput& f : m.files)
+        files.push_back(Json{{"path", f.path}, {"sha256", f.sha256}});
+    for (const PlannedBrick& b : m.plan.bricks) {
+        bricks.push_back(Json{{"min", json(b.box.min())},
+                              {"max", json(b.box.max())},
+                              {"atoms", b.atoms},
+                              {"voxels", b.voxels},
+                              {"bytes", b.bytes},
+                              {"seconds", b.seconds}});
+    }
+    const BrickPlan& p = m.plan;
+    const Json text = {{"program", "vdb_molsurf"},
+                       {"version", m.version},
+                       {"input", m.input},
+                       {"arguments", m.arguments},
+                       {"files", std::move(files)},
+                       {"atoms", p.atoms},
+                       {"voxel", m.voxel},
+                       {"steps", p.steps},
+                       {"anchor", json(p.anchor)},
+                       {"largest_radius", p.largest},
+                       {"largest_extent", p.swollen},
+                       {"largest_tolerance", p.tolerance},
+                       {"bricks", std::move(bricks)}};
+    return text.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void writeManifest(const PlanManifest& manifest, OutputFile& file)
+{
+    const std::string text = manifestText(manifest);
+    file.write(text.data(), text.size());
+    file.finish();
+}
+
+PlanManifest readManifest(const std::string& path)
+{
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw Error(ErrorKind::Input, "cannot read " + path + ": " + std::strerror(errno));
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    try {
+        const Json j = Json::parse(text);
+        PlanManifest m;
+        m.version = j.at("version");
+        m.input = j.at("input");
+        m.arguments = j.at("arguments").get<std::vector<std::string>>();
+        for (const Json& f : j.at("files")) m.files.push_back({f.at("path"), f.at("sha256")});
+        m.voxel = j.at("voxel");
+        m.plan.atoms = j.at("atoms");
+        m.plan.steps = j.at("steps");
+        m.plan.anchor = coord(j.at("anchor"));
+        m.plan.largest = j.at("largest_radius");
+        m.plan.swollen = j.at("largest_extent");
+        m.plan.tolerance = j.at("largest_tolerance");
+        for (const Json& b : j.at("bricks")) {
+            m.plan.bricks.push_back({openvdb::CoordBBox(coord(b.at("min")), coord(b.at("max"))),
+                                     b.at("atoms"), b.at("voxels"), b.at("bytes"),
+                                     b.at("seconds")});
+        }
+        return m;
+    } catch (const Json::exception&) {
+        throw Error(ErrorKind::Input, path + ": is no plan [hint: vdb_molsurf plan writes one]");
+    }
+}
+
+} // namespace molsurf

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/color/color_by.h"
+
+namespace molsurf
+{
+
+const char* nameOf(ColorBy color)
+{
+    switch (color) {
+    case ColorBy::Chain:
+        return "chain";
+    case ColorBy::Group:
+        return "group";
+    case ColorBy::Element:
+        return "element";
+    case ColorBy::Residue:
+        return "residue";
+    case ColorBy::MeanCurvature:
+        return "mean-curvature";
+    case ColorBy::GaussianCurvature:
+        return "gaussian-curvature";
+    default:
+        return "none";
+    }
+}
+
+} // namespace molsurf

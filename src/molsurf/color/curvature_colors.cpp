@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/color/curvature_colors.h"
+
+#include "molsurf/color/palette.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace molsurf
+{
+
+const char* curvatureNameOf(ColorBy by)
+{
+    if (by == ColorBy::MeanCurvature) return "mean_curvature";
+    return by == ColorBy::GaussianCurvature ? "gaussian_curvature" : nullptr;
+}
+
+ColorScale curvatureScale(const std::vector<float>& curvature)
+{
+    constexpr double least = 1e-6; // of a plane
+    if (curvature.empty()) return signedScale(least);
+    std::vector<float> sizes;
+    sizes.reserve(curvature.size());
+    for (const float c : curvature) sizes.push_back(std::abs(c));
+    const std::size_t place = sizes.size() * 95 / 100;
+    std::nth_element(sizes.begin(), sizes.begin() + std::ptrdiff_t(place), sizes.end());
+    return signedScale(std::max(double(sizes[place]), least));
+}
+
+void colorByCurvature(ColorBy by, Mesh& mesh)
+{
+    const char* name = curvatureNameOf(by);
+    if (!name) return;
+    for (const auto& scalar : mesh.scalars) {
+        if (scalar.name != name) continue;
+        const ColorScale scale = curvatureScale(scalar.values);
+        mesh.colors.clear();
+        for (const float c : scalar.values) mesh.colors.push_back(scale.at(c));
+    }
+}
+
+void addCurvatureColors(ColorBy by, bool keep, const Mesh& mesh,
+                        std::vector<openvdb::GridBase::Ptr>& fields)
+{
+    const char* name = curvatureNameOf(by);
+    if (!name) return;
+    const auto scalar = std::find_if(mesh.scalars.begin(), mesh.scalars.end(),
+                                     [&](const auto& s) { return s.name == name; });
+    if (scalar == mesh.scalars.end()) return;
+    const ColorScale scale = curvatureScale(scalar->values);
+    const std::string start = name;
+    std::vector<openvdb::GridBase::Ptr> kept, colors;
+    for (const auto& field : fields) {
+        const std::string whole = field->getName();
+        const auto values = openvdb::gridPtrCast<openvdb::FloatGrid>(field);
+        const bool shown = whole.rfind(start, 0) == 0 && values;
+        if (keep || !shown) kept.push_back(field);
+        if (!shown) continue;
+        const openvdb::Vec3f background = linearLight(neutralColor);
+        auto grid = openvdb::Vec3SGrid::create(background);
+        grid->setTree(std::make_shared<openvdb::Vec3STree>(values->tree(), background,
+                                                           openvdb::TopologyCopy()));
+        grid->setTransform(values->transform().copy());
+        grid->setName("Cd" + whole.substr(start.size()));
+        auto to = grid->beginValueOn();
+        for (auto from = values->cbeginValueOn(); from; ++from, ++to)
+            to.setValue(linearLight(scale.at(*from)));
+        colors.push_back(grid);
+    }
+    kept.insert(kept.end(), colors.begin(), colors.end());
+    fields = std::move(kept);
+}
+
+} // namespace molsurf

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/color/legend.h"
+
+#include "molsurf/color/curvature_colors.h"
+#include "molsurf/color/palette.h"
+#include "molsurf/structure/element.h"
+
+#include <algorithm>
+#include <set>
+
+namespace molsurf
+{
+
+namespace
+{
+
+const char* nameOf(ResidueClass residue)
+{
+    switch (residue) {
+    case ResidueClass::Hydrophobic:
+        return "hydrophobic";
+    case ResidueClass::Aromatic:
+        return "aromatic";
+    case ResidueClass::Polar:
+        return "polar";
+    case ResidueClass::Positive:
+        return "positive";
+    case ResidueClass::Negative:
+        return "negative";
+    case ResidueClass::Special:
+        return "Gly, Pro, Cys";
+    case ResidueClass::Nucleic:
+        return "nucleic acid";
+    default:
+        return "other";
+    }
+}
+
+std::optional<Legend> curvatureLegend(ColorBy by, const Mesh& mesh)
+{
+    Legend legend;
+    const bool mean = by == ColorBy::MeanCurvature;
+    legend.title = mean ? "Mean curvature" : "Gaussian curvature";
+    legend.unit = mean ? "1/Å" : "1/Å²";
+    legend.attribute = curvatureNameOf(by);
+    for (const auto& scalar : mesh.scalars)
+        if (scalar.name == legend.attribute) legend.scale = curvatureScale(scalar.values);
+    if (!legend.scale) return {};
+    return legend;
+}
+
+/// Adds "other" if a vertex has none of the entries.
+void addOther(const Mesh& mesh, Legend& legend)
+{
+    for (const auto& label : mesh.labels) {
+        if (label.name != legend.attribute) continue;
+        if (std::count(label.values.begin(), label.values.end(), -1) > 0)
+            legend.entries.push_back({"other", neutralColor});
+    }
+}
+
+/// Entries of what occurs among the balls, by a value of each.
+template<typename Value, typename Name>
+void addKinds(const std::vector<Value>& values, const std::vector<Color>& colors, const Name& name,
+              Legend& legend)
+{
+    std::set<Value> seen;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (seen.insert(values[i]).second) legend.entries.push_back({name(values[i]), colors[i]});
+}
+
+} // namespace
+
+std::optional<Legend> legendOf(ColorBy by, const BallSelection& atoms, const Mesh& mesh,
+                               const Progress& progress)
+{
+    if (by == ColorBy::Nothing) return {};
+    std::optional<Legend> found;
+    Legend legend;
+    if (curvatureNameOf(by)) {
+        found = curvatureLegend(by, mesh);
+    } else if (atoms.labels) {
+        const BallLabels& labels = *atoms.labels;
+        if (by == ColorBy::Chain) {
+            legend.title = "Chain";
+            legend.attribute = "chain_id";
+            const std::vector<Color> colors = chainColors(atoms, progress);
+            for (std::size_t i = 0; i < colors.size(); ++i)
+                legend.entries.push_back({labels.chains[i], colors[i]});
+        } else if (by == ColorBy::Group) {
+            legend.title = "Group";
+            legend.attribute = "group_id";
+            const std::vector<Color> colors = groupColors(atoms, progress);
+            for (std::size_t i = 0; i < colors.size(); ++i)
+                legend.entries.push_back({labels.groups[i].name, colors[i]});
+        } else if (by == ColorBy::Element) {
+            legend.title = "Element";
+            addKinds(labels.elementOf, ballColors(atoms, by, progress), elementSymbol, legend);
+        } else {
+            legend.title = "Residue";
+            addKinds(
+                labels.residueClassOf, ballColors(atoms, by, progress),
+                [](ResidueClass c) { return std::string(nameOf(c)); }, legend);
+        }
+        if (!legend.entries.empty()) {
+            addOther(mesh, legend);
+            found = legend;
+        }
+    }
+    if (found) found->id = molsurf::nameOf(by);
+    return found;
+}
+
+} // namespace molsurf

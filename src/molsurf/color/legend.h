@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What the colours of a surface mean, for a legend.
+
+#include "molsurf/color/color_by.h"
+#include "molsurf/color/color_map.h"
+#include "molsurf/core/progress.h"
+#include "molsurf/mesh/mesh.h"
+#include "molsurf/selection/select_balls.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// A colour with the name of what has it.
+struct LegendEntry {
+    std::string name;
+    Color color;
+};
+
+/// A scale of values, or a list of names.
+struct Legend {
+    std::string title;               ///< "Chain", "Mean curvature"
+    std::string id;                  ///< the command line's word: "chain", "mean-curvature"
+    std::string attribute;           ///< vertex attribute that is shown; empty: none in the mesh
+    std::string unit;                ///< of the scale: "1/Å"
+    std::optional<ColorScale> scale; ///< of a legend of values
+    /// Else of names: entry i is that of the attribute's value i; of value -1 the last one.
+    std::vector<LegendEntry> entries;
+};
+
+/// The legend of one kind of colours, or nothing: the mesh cannot have them. Chains and groups have
+/// an entry each, in their order, and if some vertices have none of them one more, "other";
+/// elements and kinds of residues have one for each that occurs.
+///
+/// @param[in] mesh  of the run
+std::optional<Legend> legendOf(ColorBy by, const BallSelection& atoms, const Mesh& mesh,
+                               const Progress& progress);
+
+} // namespace molsurf

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/flow/evolve.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/core/parallel.h"
+#include "molsurf/flow/speed.h"
+#include "molsurf/levelset/redistance.h"
+#include "molsurf/levelset/reinitialize.h"
+#include "molsurf/spline/curvature.h"
+#include "molsurf/spline/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace molsurf
+{
+
+namespace
+{
+
+/// Iterations that keep the band a distance while the interface moves by at most 0.4 voxel: each
+/// carries the distance half a voxel.
+constexpr int reinitializations = 1;
+
+/// Takes the curvatures of a leaf from a spline.
+void curvatureFromSpline(const Spline& spline, const openvdb::Coord& origin, double voxel,
+                         const LeafMask& active, LeafCurvature& shape)
+{
+    SplineSampler sampler(spline);
+    active.forEach([&](int v) {
+        const Jet jet = sampler.at(origin.offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() * voxel);
+        if (jet.gradient.lengthSqr() < 1e-6) return;
+        shape.mean[v] = float(2.0 * meanCurvature(jet));
+        shape.gauss[v] = float(gaussianCurvature(jet));
+    });
+}
+
+/// The spline of phi on voxels of edge 2^level h, on a band wide enough for it.
+Spline coarseSpline(const NarrowBand& band, double voxel, int level, const Progress& progress)
+{
+    const double width = (flowWidthVox + 3.5 * (1 << level)) * voxel;
+    const DistanceBand wide =
+        redistance(band.table, copied(band.phi), voxel, width, width, 0.0, progress);
+    return fitSpline(wide.table, wide.phi, voxel, level, progress);
+}
+
+/// One step of the flow on all leaves.
+/// @param[in]  coarse  the spline that gives the curvature, or null for differences
+/// @param[out] next    phi after it
+StepSums step(const NarrowBand& band, double voxel, const Spline* coarse, const Weights& weights,
+              const StepSize& size, LeafField& next, const Region& region, const Progress& progress)
+{
+    // Positions are taken from the first leaf: volumes then do not cancel far from the origin.
+    const openvdb::Coord first = !region.whole()     ? region.anchor
+                                 : band.table.size() ? band.table.origin(0)
+                                                     : openvdb::Coord();
+    return parallelSum<StepSums>(band.table.size(), progress, [&](std::size_t n) {
+        const LeafMask active =
+            band.table.active(n) & within(band.phi.leaf(n), float(flowWidthVox * voxel));
+        if (!active.any()) {
+            std::copy_n(band.phi.leaf(n), leafSize, next.leaf(n));
+            return StepSums();
+        }
+        LeafBlock<float, 1> phi, psi;
+        phi.gather(band.table, band.phi, n);
+        psi.gather(band.table, band.psi, n);
+        next.prefetchAfter(n);
+        LeafCurvature shape;
+        curvature(phi, active, float(voxel), shape);
+        if (coarse) curvatureFromSpline(*coarse, band.table.origin(n), voxel, active, shape);
+        const StepSums sums =
+            flowStep(phi, psi, shape, active, (band.table.origin(n) - first).asVec3d() * voxel,
+                     float(voxel), weights, size, next.leaf(n));
+        return region.owned.isInside(band.table.origin(n)) ? sums : StepSums();
+    });
+}
+
+/// The sign at each voxel of a new leaf: that of the nearest voxel of an old leaf.
+void fillFromNeighbours(const NarrowBand& old, const LeafTable& table, std::size_t n, float width,
+                        float* phi)
+{
+    const auto& near = table.neighbours(n);
+    std::array<std::int32_t, 27> known;
+    for (int k = 0; k < 27; ++k) {
+        known[k] = near[k] == noLeaf ? noLeaf : old.table.find(table.origin(near[k]));
+    }
+    for (int v = 0; v < leafSize; ++v) {
+        const int x = v >> 6, y = v >> 3 & 7, z = v & 7;
+        int nearest = 1000;
+        phi[v] = width;
+        for (int k = 0; k < 27; ++k) {
+            if (known[k] == noLeaf) continue;
+            const int dx = k / 9 - 1, dy = k / 3 % 3 - 1, dz = k % 3 - 1;
+            const int qx = dx == 0 ? x : dx < 0 ? -1 : 8, qy = dy == 0 ? y : dy < 0 ? -1 : 8;
+            const int qz = dz == 0 ? z : dz < 0 ? -1 : 8;
+            const int distance = (x - qx) * (x - qx) + (y - qy) * (y - qy) + (z - qz) * (z - qz);
+            if (distance >= nearest) continue;
+            nearest = distance;
+            const float value = old.phi.leaf(known[k])[64 * (qx & 7) + 8 * (qy & 7) + (qz & 7)];
+            phi[v] = std::copysign(width, value);
+        }
+    }
+}
+
+/// Makes the active voxels those within the band of the interface; adds leaves as needed. None is
+/// dropped: that would change what stencils beside it see, and what happens at a voxel would depend
+/// on whether any leaf, anywhere, has to be added in the same step.
+/// @param[in]     domain   where leaves may be
+/// @param[in,out] scratch  a field that grows with the band; its values are lost
+void track(NarrowBand& band, const PsiSource& source, double voxel, double width,
+           const openvdb::CoordBBox& domain, LeafField& scratch, Progress& progress)
+{
+    // The voxels that are certainly within the band, and one step around them.
+    const float core = float(width - voxel);
+    std::vector<LeafMask> inside(band.table.size());
+    parallelFor(band.table.size(), progress, [&](std::size_t n) {
+        const float* phi = band.phi.leaf(n);
+        inside[n] = within(phi, core) & band.table.active(n);
+    });
+    bool complete = true;
+    std::vector<LeafMask> wanted(band.table.size());
+    for (std::size_t n = 0; n < band.table.size(); ++n) {
+        band.table.active(n) = inside[n];
+        if (!inside[n].any()) continue;
+        const auto& near = band.table.neighbours(n);
+        const auto& w = inside[n].words;
+        std::uint64_t all = 0;
+        for (const std::uint64_t word : w) all |= word;
+        const auto lacks = [&](int k) {
+            return near[k] == noLeaf &&
+                   domain.isInside(band.table.origin(n).offsetBy(
+                       leafDim * (k / 9 - 1), leafDim * (k / 3 % 3 - 1), leafDim * (k % 3 - 1)));
+        };
+        complete = complete && !(w[0] && lacks(4)) && !(w[7] && lacks(22)) &&
+                   !((all & 0xff) && lacks(10)) && !((all >> 56) && lacks(16)) &&
+                   !((all & 0x0101010101010101ull) && lacks(12)) &&
+                   !((all & 0x8080808080808080ull) && lacks(14));
+    }
+    if (complete) {
+        parallelFor(band.table.size(), progress,
+                    [&](std::size_t n) { wanted[n] = dilatedMask(band.table, inside, n, false); });
+        for (std::size_t n = 0; n < band.table.size(); ++n) band.table.active(n) = wanted[n];
+        return;
+    }
+    // The leaves of the band stay, where none of their voxels is active, too.
+    LeafTable table =
+        joined(clipped(dilated(band.table, 1, Spread::Ball, progress), domain), band.table);
+    // One field after the other: at no time are there both twice.
+    scratch = LeafField();
+    const auto extend = [&](LeafField& field, const auto& fill) {
+        LeafField out(table.size());
+        parallelFor(table.size(), progress, [&](std::size_t n) {
+            const std::int32_t m = band.table.find(table.origin(n));
+            if (m != noLeaf) {
+                std::copy_n(field.leaf(std::size_t(m)), leafSize, out.leaf(n));
+            } else {
+                fill(n, out.leaf(n));
+            }
+        });
+        field = std::move(out);
+    };
+    extend(band.psi, [&](std::size_t n, float* psi) { source(table.origin(n), psi); });
+    extend(band.phi, [&](std::size_t n, float* phi) {
+        fillFromNeighbours(band, table, n, float(width), phi);
+    });
+    scratch = LeafField(table.size());
+    band.table = std::move(table);
+}
+
+/// How far the interface has yet to go if the displacements of the last two steps go on to shrink
+/// by the same factor: the sum of a geometric series [Å].
+double remainingWay(const std::vector<double>& displacement)
+{
+    const std::size_t n = displacement.size();
+    if (n < 2) return n == 1 ? displacement[0] : 0.0;
+    const double last = displacement[n - 1], ratio = last / displacement[n - 2];
+    if (last == 0.0) return 0.0;
+    return ratio < 1.0 ? last * ratio / (1.0 - ratio) : std::numeric_limits<double>::infinity();
+}
+
+/// Whether the steps, though small, will not meet the tolerance, since they no longer fall: on
+/// voxels that are too large for the metric's valley the discretisation keeps the flow moving for
+/// ever.
+bool stalled(const EvolutionReport& report, const EvolveOptions& options, double voxel)
+{
+    constexpr std::size_t steps = 5; // over which they are compared
+    const std::vector<double>&d = report.meanDisplacement, &E = report.energy;
+    const std::size_t n = d.size();
+    return n > steps && d[n - 1] >= options.displacementTolerance * voxel &&
+           d[n - 1] < 0.05 * voxel && d[n - 1] > 0.99 * d[n - 1 - steps] &&
+           std::abs(E[n] - E[n - steps]) < 0.01 * E[n];
+}
+
+} // namespace
+
+EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
+                       const EvolveOptions& options, Progress& progress, const Region& region,
+                       int halo)
+{
+    const bool preconditioned = options.flow == Flow::Preconditioned;
+    const bool gradient = options.regularizer == Regularizer::Gradient;
+    const bool fixed = options.steps >= 0;
+    const int maxSteps = fixed                   ? options.steps
+                         : options.maxSteps >= 0 ? options.maxSteps
+                         : preconditioned        ? 50
+                                                 : 2000;
+    const bool mayGiveUp = preconditioned && !fixed && options.maxSteps < 0;
+    const Weights weights{gradient ? float(options.lambda) : 0.0f,
+                          gradient ? 0.0f : float(options.lambda)};
+    const double width = bandWidthVox * voxel;
+
+    EvolutionReport report;
+    LeafField next(band.table.size());
+    double lastDisplacement = 0.0;
+    for (;;) {
+        Spline coarse;
+        if (options.splineLevel > 0) {
+            coarse = coarseSpline(band, voxel, options.splineLevel, progress);
+        }
+        const Spline* spline = options.splineLevel > 0 ? &coarse : nullptr;
+        StepSize size;
+        if (!preconditioned) {
+            // Explicit Euler for a stiffness P is stable up to 2/P; the longest step is limited
+            // anyway.
+            const StepSums before =
+                step(band, voxel, spline, weights, {true, 0.0f}, next, region, progress);
+            size = {false, 0.8f / before.maxSecond};
+        }
+        const StepSums sums = step(band, voxel, spline, weights, size, next, region, progress);
+        if (!std::isfinite(sums.energy) || !std::isfinite(sums.displacement)) {
+            throw Error(ErrorKind::Numeric, "evolve: step " + std::to_string(report.steps) +
+                                                ": the energy is not a number");
+        }
+        if (sums.area == 0.0 && region.whole()) {
+            throw Error(ErrorKind::Numeric,
+                        "evolve: step " + std::to_string(report.steps) +
+                            ": nothing is left of the surface [hint: a smaller --lambda]");
+        }
+        if (!report.energy.empty() && sums.energy > 0.0) {
+            const double change = std::abs(sums.energy - report.energy.back()) / sums.energy;
+            report.converged = change < options.energyTolerance &&
+                               lastDisplacement < options.displacementTolerance * voxel;
+        }
+        report.energy.push_back(sums.energy);
+        report.area.push_back(sums.area);
+        report.volume.push_back(sums.volume);
+        report.creviceVoxels = sums.crevices;
+        report.remainingWay = remainingWay(report.meanDisplacement);
+        if ((report.converged && !fixed) || report.steps == maxSteps) break;
+        if (mayGiveUp && stalled(report, options, voxel)) break;
+
+        lastDisplacement = sums.area > 0.0 ? sums.displacement / sums.area : 0.0;
+        report.meanDisplacement.push_back(lastDisplacement);
+        report.maxSpeed.push_back(sums.maxSpeed);
+        ++report.steps;
+        progress.update("evolve", double(report.steps) / maxSteps);
+        std::swap(band.phi, next);
+        reinitialize(band.table, band.phi, voxel, width, reinitializations, next, progress);
+        track(band, source, voxel, width, region.grown(halo), next, progress);
+    }
+    return report;
+}
+
+void judge(const EvolveOptions& options, double voxel, EvolutionReport& report)
+{
+    report.remainingWay = remainingWay(report.meanDisplacement);
+    const std::size_t n = report.energy.size();
+    if (n < 2) return;
+    const double change = std::abs(report.energy[n - 1] - report.energy[n - 2]);
+    report.converged = change < options.energyTolerance * report.energy[n - 1] &&
+                       report.meanDisplacement[n - 2] < options.displacementTolerance * voxel;
+}
+
+} // namespace molsurf

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/scene.h"
+
+#include <openvdb/tools/ChangeBackground.h>
+#include <openvdb/tools/ValueTransformer.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace molsurf
+{
+
+namespace
+{
+
+constexpr Host hosts[] = {Host::Blender, Host::Houdini, Host::Usd};
+
+std::optional<double> parseScale(const std::string& text)
+{
+    if (text == "mn-0.01") return 0.01;
+    if (text == "mn-0.1" || text == "nm") return 0.1;
+    double scale = 0.0;
+    const char* end = text.data() + text.size();
+    const auto [stop, problem] = std::from_chars(text.data(), end, scale);
+    constexpr double least = 1e-12, most = 1e6; // so that floats hold what comes of it
+    if (problem != std::errc() || stop != end || !(scale >= least && scale <= most)) return {};
+    return scale;
+}
+
+openvdb::GridBase::Ptr scaledValues(const openvdb::FloatGrid& grid, double factor)
+{
+    auto out = grid.deepCopy();
+    const auto multiply = [=](const openvdb::FloatGrid::ValueOnIter& it) {
+        it.setValue(float(double(*it) * factor));
+    };
+    if (grid.getGridClass() == openvdb::GRID_LEVEL_SET)
+        openvdb::tools::changeLevelSetBackground(out->tree(),
+                                                 float(double(grid.background()) * factor));
+    openvdb::tools::foreach (out->beginValueOn(), multiply);
+    return out;
+}
+
+} // namespace
+
+std::optional<Scene> parseScene(const std::string& text)
+{
+    const std::size_t split = text.find('=');
+    for (const Host host : hosts) {
+        if (text.substr(0, split) != nameOf(host)) continue;
+        Scene scene;
+        scene.host = host;
+        if (split == std::string::npos) return scene;
+        const auto scale = parseScale(text.substr(split + 1));
+        if (!scale) return {};
+        scene.scale = *scale;
+        return scene;
+    }
+    return {};
+}
+
+const char* nameOf(Host host)
+{
+    switch (host) {
+    case Host::Blender:
+        return "blender";
+    case Host::Houdini:
+        return "houdini";
+    case Host::Usd:
+        return "usd";
+    default:
+        return "none";
+    }
+}
+
+int lengthPower(const openvdb::GridBase& grid)
+{
+    if (grid.getGridClass() == openvdb::GRID_LEVEL_SET) return 1;
+    const std::string name = grid.getName();
+    const auto is = [&](const char* field) { return name.rfind(field, 0) == 0; };
+    if (is("spline")) return 1;
+    if (is("mean_curvature") || is("principal_curvature") || is("curvedness")) return -1;
+    if (is("gaussian_curvature")) return -2;
+    return 0;
+}
+
+openvdb::GridCPtrVec placeInScene(const openvdb::GridCPtrVec& grids, const Scene& scene)
+{
+    openvdb::GridCPtrVec out;
+    for (const auto& grid : grids) {
+        const int power = lengthPower(*grid);
+        const auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid);
+        openvdb::GridBase::Ptr placed;
+        if (power != 0 && scene.scale != 1.0 && floats)
+            placed = scaledValues(*floats, std::pow(scene.scale, power));
+        else
+            placed = openvdb::ConstPtrCast<openvdb::GridBase>(grid->copyGrid());
+
+        const double voxel = grid->voxelSize()[0];
+        openvdb::Vec3d origin = grid->indexToWorld(openvdb::Vec3d(0.0)) - scene.center;
+        if (scene.host == Host::Blender) origin -= openvdb::Vec3d(0.5 * voxel);
+        auto transform = openvdb::math::Transform::createLinearTransform(scene.scale * voxel);
+        transform->postTranslate(scene.scale * origin);
+        placed->setTransform(transform);
+        out.push_back(placed);
+    }
+    return out;
+}
+
+} // namespace molsurf

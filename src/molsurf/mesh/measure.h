@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Area, volume and topology of the smooth surface behind a mesh.
+
+#include "molsurf/core/progress.h"
+#include "molsurf/mesh/mesh.h"
+#include "molsurf/surface/report.h"
+
+namespace molsurf
+{
+
+/// Of a connected piece of a surface.
+struct PieceMeasure {
+    double area = 0.0;   ///< [Å^2]
+    double volume = 0.0; ///< integral of (x - origin).n/3 [Å^3]
+
+    PieceMeasure& operator+=(const PieceMeasure& other)
+    {
+        area += other.area;
+        volume += other.volume;
+        return *this;
+    }
+};
+
+/// Area and volume of the pieces of a mesh, which need not be closed, as measure() takes them.
+/// @param[in]  pieces  of the vertices, less than count
+/// @param[in]  origin  of the volumes [Å]
+/// @param[out] flat    raised by the number of triangles without area
+std::vector<PieceMeasure> measurePieces(const Mesh& mesh, const std::vector<std::uint32_t>& pieces,
+                                        std::size_t count, const openvdb::Vec3d& origin,
+                                        std::size_t& flat, const Progress& progress);
+
+/// Adds closed pieces to areas and volumes: components, and cavities, whose volume is negative.
+void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report);
+
+/// Measures the smooth surface that a mesh samples, and checks the mesh.
+///
+/// Each triangle is replaced by the quadratic patch through its corners and through the midpoints
+/// of the arcs that its normals imply: for an edge e from p with normal m to q with normal n the
+/// midpoint is (p + q)/2 + ((e.n) n - (e.m) m)/8 (the cubic Hermite arc, as in Vlachos et al.,
+/// Curved PN triangles, Symposium on Interactive 3D Graphics 2001). Area by a rule of degree 4,
+/// volume exactly, by the divergence theorem: fourth order in the length of the edges if vertices
+/// and normals are exact.
+///
+/// A closed piece with negative volume is a cavity wall.
+///
+/// @param[in] mesh  with normals
+/// @return everything but maxResidual, gradientShare, kinkShare
+SurfaceReport measure(const Mesh& mesh, const Progress& progress);
+
+} // namespace molsurf

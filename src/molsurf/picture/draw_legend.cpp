@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/picture/draw_legend.h"
+
+#include "molsurf/picture/font.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace molsurf
+{
+
+namespace
+{
+
+constexpr double widestName = 0.3; // of the picture
+
+/// Sizes in the column, all of them in proportion to the letters [pixel].
+struct Sizes {
+    int letters, gap, patch, bar;
+    explicit Sizes(int width)
+        : letters(std::clamp(width / 52, 11, 160)), gap(letters / 2), patch(letters), bar(letters)
+    {
+    }
+};
+
+/// A number of the scale with two digits that matter.
+std::string numberText(double value)
+{
+    if (value == 0.0) return "0";
+    const int places = std::clamp(1 - int(std::floor(std::log10(std::abs(value)))), 0, 6);
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*f", places, std::abs(value));
+    return (value < 0.0 ? "\xE2\x88\x92" : "") + std::string(text); // a minus sign
+}
+
+/// A name that is not too wide, with an ellipsis where it was cut.
+std::string shortened(const std::string& name, const Font& font, int width)
+{
+    const int widest = int(widestName * width);
+    if (name.size() < 8 || font.width(name) <= widest) return name;
+    constexpr std::size_t enough = 200; // letters; more are never shown
+    for (std::size_t end = std::min(name.size(), enough); end-- > 1;) {
+        if ((std::uint8_t(name[end]) & 0xC0) == 0x80) continue; // within a letter
+        const std::string cut = name.substr(0, end) + "\xE2\x80\xA6";
+        if (font.width(cut) <= widest) return cut;
+    }
+    return "";
+}
+
+std::vector<std::string> tickTexts(const ColorScale& scale)
+{
+    return {numberText(scale.high), numberText(0.5 * (scale.low + scale.high)),
+            numberText(scale.low)};
+}
+
+/// The line for entries without room: as short as that, since it must not be cut off.
+std::string restText(std::size_t count)
+{
+    return "+" + std::to_string(count);
+}
+
+/// The entries that have room, and a line for the rest.
+std::vector<LegendEntry> shownEntries(const std::vector<LegendEntry>& entries, std::size_t room)
+{
+    room = std::max<std::size_t>(room, 2);
+    if (entries.size() <= room) return entries;
+    std::vector<LegendEntry> shown(entries.begin(), entries.begin() + std::ptrdiff_t(room - 1));
+    shown.push_back({restText(entries.size() - shown.size()), Color()});
+    return shown;
+}
+
+void fillBox(int x, int y, int width, int height, const Color& color, Picture& picture)
+{
+    for (int py = std::max(y, 0); py < std::min(y + height, picture.height); ++py) {
+        for (int px = std::max(x, 0); px < std::min(x + width, picture.width); ++px) {
+            std::copy(color.begin(), color.end(),
+                      picture.rgb.begin() + 3 * (std::ptrdiff_t(py) * picture.width + px));
+        }
+    }
+}
+
+/// Draws downward from `top`.
+class Column
+{
+public:
+    Column(const Sizes& sizes, const Font& font, int left, int top, const Color& ink,
+           Picture& picture)
+        : sizes_(sizes), font_(font), left_(left), y_(top), ink_(ink), picture_(picture)
+    {
+    }
+
+    void text(const std::string& line, int indent = 0)
+    {
+        font_.draw(line, left_ + indent, y_ + sizes_.letters, ink_, picture_);
+        y_ += font_.lineHeight();
+    }
+
+    void skip(int pixels) { y_ += pixels; }
+
+    void entry(const LegendEntry& entry, bool patch)
+    {
+        const int indent = sizes_.patch + sizes_.gap, top = y_ + sizes_.letters - sizes_.patch + 2;
+        if (patch) framed(left_, top, sizes_.patch, sizes_.patch, entry.color);
+        text(shortened(entry.name, font_, picture_.width), patch ? indent : 0);
+    }
+
+    void bar(const ColorScale& scale, int height)
+    {
+        const auto ticks = tickTexts(scale);
+        framed(left_, y_, sizes_.bar, height, Color());
+        for (int row = 0; row < height; ++row) {
+            const double share = (row + 0.5) / height;
+            fillBox(left_, y_ + row, sizes_.bar, 1,
+                    scale.at(scale.high + share * (scale.low - scale.high)), picture_);
+        }
+        for (std::size_t i = 0; i < ticks.size(); ++i) {
+            const int y = y_ + int(i) * (height - 1) / 2;
+            fillBox(left_ + sizes_.bar, y, sizes_.gap / 2, 1, ink_, picture_);
+            font_.draw(ticks[i], left_ + sizes_.bar + sizes_.gap, y + sizes_.letters * 3 / 8, ink_,
+                       picture_);
+        }
+        y_ += height;
+    }
+
+private:
+    void framed(int x, int y, int width, int height, const Color& color)
+    {
+        fillBox(x - 1, y - 1, width + 2, height + 2, ink_, picture_);
+        fillBox(x, y, width, height, color, picture_);
+    }
+
+    const Sizes& sizes_;
+    const Font& font_;
+    int left_, y_;
+    Color ink_;
+    Picture& picture_;
+};
+
+} // namespace
+
+int legendWidth(const Legend& legend, int width)
+{
+    const Sizes sizes(width);
+    const Font font(sizes.letters);
+    int widest = font.width(legend.title);
+    if (legend.scale) {
+        for (const std::string& tick : tickTexts(*legend.scale))
+            widest = std::max(widest, sizes.bar + sizes.gap + font.width(tick));
+    } else {
+        for (const LegendEntry& entry : legend.entries)
+            widest = std::max(widest, sizes.patch + sizes.gap +
+                                          font.width(shortened(entry.name, font, width)));
+        widest = std::max(widest, font.width(restText(legend.entries.size())));
+    }
+    return widest + 3 * sizes.gap;
+}
+
+Picture withLegend(const Picture& picture, const Legend& legend, int width, const Color& background)
+{
+    const Sizes sizes(width);
+    const Font font(sizes.letters);
+    const int line = font.lineHeight(), barHeight = 9 * line;
+    const int fixed = legend.scale ? 2 * line + sizes.gap + barHeight + line : line + sizes.gap;
+
+    Picture out;
+    out.width = width;
+    out.height = std::max(picture.height, legend.scale ? fixed + 2 * sizes.gap : 6 * line);
+    out.rgb.resize(3 * std::size_t(out.width) * std::size_t(out.height));
+    fillBox(0, 0, out.width, out.height, background, out);
+    const int above = (out.height - picture.height) / 2;
+    for (int y = 0; y < picture.height; ++y)
+        std::copy_n(picture.rgb.begin() + 3 * std::ptrdiff_t(y) * picture.width, 3 * picture.width,
+                    out.rgb.begin() + 3 * std::ptrdiff_t(y + above) * out.width);
+
+    const double gray = 0.3 * background[0] + 0.6 * background[1] + 0.1 * background[2];
+    const Color ink = gray > 127.0 ? Color{30, 33, 38} : Color{235, 237, 240};
+    const int left = picture.width + sizes.gap;
+    if (legend.scale) {
+        Column column(sizes, font, left, (out.height - fixed) / 2, ink, out);
+        column.text(legend.title);
+        column.text("[" + legend.unit + "]");
+        column.skip(sizes.gap + line / 2);
+        column.bar(*legend.scale, barHeight);
+        return out;
+    }
+    const int room = (out.height - 2 * sizes.gap - fixed) / line;
+    const auto entries = shownEntries(legend.entries, std::size_t(std::max(room, 0)));
+    const int height = fixed + int(entries.size()) * line;
+    Column column(sizes, font, left, std::max((out.height - height) / 2, 0), ink, out);
+    column.text(legend.title);
+    column.skip(sizes.gap);
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        column.entry(entries[i], entries.size() == legend.entries.size() || i + 1 < entries.size());
+    return out;
+}
+
+} // namespace molsurf

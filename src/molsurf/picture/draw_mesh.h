@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Pictures of meshes.
+
+#include "molsurf/color/color_map.h"
+#include "molsurf/core/progress.h"
+#include "molsurf/mesh/mesh.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace molsurf
+{
+
+/// Pixels in rows from top to bottom, three bytes (red, green, blue; sRGB) each.
+struct Picture {
+    int width = 0, height = 0; ///< [pixel]
+    std::vector<std::uint8_t> rgb;
+};
+
+/// From where, and how large.
+struct DrawOptions {
+    int width = 1200; ///< of the picture [pixel], > 0; the height follows the shape
+    /// Toward the eye, and what is up; zero: the shortest principal axis of the vertices toward the
+    /// eye, the longest one across the picture.
+    openvdb::Vec3d toEye{0.0}, up{0.0};
+    double turn = 0.0;     ///< about `up` [degree]
+    bool turnable = false; ///< the scale is the same for every turn, also for 0
+    Color background = {255, 255, 255};
+    Color plain = {140, 181, 222}; ///< of a mesh without colours
+};
+
+/// What is right, up and toward the eye in a picture: unit vectors, right-handed.
+/// @param[in] mesh  with at least one vertex
+std::array<openvdb::Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options);
+
+/// Draws a mesh: orthographic, shaded by ambient occlusion and a lamp over the eye's shoulder,
+/// paler with distance, with dark outlines where one part stands before another. Rays by Embree.
+/// The picture does not depend on the number of threads.
+///
+/// @param[in] mesh  with normals; one without triangles gives a blank picture
+Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& progress);
+
+} // namespace molsurf

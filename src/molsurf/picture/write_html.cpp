@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/picture/write_html.h"
+
+#include "molsurf/core/error.h"
+#include "molsurf/picture/viewer_text.h"
+
+#include <nlohmann/json.hpp>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+namespace molsurf
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+/// Arrays of whole numbers, packed: component by component, byte by byte of all elements, each the
+/// difference from the element before.
+class Arrays
+{
+public:
+    /// @param[in] width  bytes of a number: 1, 2 or 4
+    template<typename Value>
+    void add(const std::string& name, std::size_t count, int components, int width,
+             const Value& value)
+    {
+        table_.push_back(Json{{"name", name},
+                              {"offset", bytes_.size()},
+                              {"count", count},
+                              {"components", components},
+                              {"width", width}});
+        for (int c = 0; c < components; ++c) {
+            const std::size_t begin = bytes_.size();
+            bytes_.resize(begin + count * std::size_t(width));
+            std::uint32_t last = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::uint32_t now = value(i, c), step = now - last;
+                for (int w = 0; w < width; ++w)
+                    bytes_[begin + std::size_t(w) * count + i] = std::uint8_t(step >> 8 * w);
+                last = now;
+            }
+        }
+    }
+
+    const Json& table() const { return table_; }
+
+    /// All bytes, as base64 of a zlib stream.
+    std::string packed() const
+    {
+        uLongf size = compressBound(uLong(bytes_.size()));
+        std::vector<std::uint8_t> out(size);
+        if (compress2(out.data(), &size, bytes_.data(), uLong(bytes_.size()), 6) != Z_OK)
+            throw Error(ErrorKind::Output, "html: zlib failed");
+        out.resize(size);
+        return base64(out);
+    }
+
+private:
+    static std::string base64(const std::vector<std::uint8_t>& bytes)
+    {
+        static constexpr char letters[] =
+            "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        std::string out;
+        out.reserve((bytes.size() + 2) / 3 * 4);
+        for (std::size_t i = 0; i < bytes.size(); i += 3) {
+            const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
+            std::uint32_t bits = std::uint32_t(bytes[i]) << 16;
+            if (left > 1) bits |= std::uint32_t(bytes[i + 1]) << 8;
+            if (left > 2) bits |= bytes[i + 2];
+            for (std::size_t k = 0; k < 4; ++k)
+                out += k <= left ? letters[bits >> (18 - 6 * k) & 63] : '=';
+        }
+        return out;
+    }
+
+    Json table_ = Json::array();
+    std::vector<std::uint8_t> bytes_;
+};
+
+Json colorJson(const Color& color)
+{
+    return Json::array({color[0], color[1], color[2]});
+}
+
+/// Packs what a legend shows; the mode of the viewer, or nothing if the mesh has no such thing.
+Json modeOf(const Legend& legend, const Mesh& mesh, Arrays& arrays)
+{
+    Json mode = {{"title", legend.title}, {"id", legend.id}};
+    if (legend.scale) {
+        const auto scalar = std::find_if(mesh.scalars.begin(), mesh.scalars.end(),
+                                         [&](const auto& s) { return s.name == legend.attribute; });
+        if (scalar == mesh.scalars.end()) return {};
+        const double low = legend.scale->low, range = legend.scale->high - low;
+        arrays.add(legend.attribute, scalar->values.size(), 1, 1, [&](std::size_t i, int) {
+            const double place = (double(scalar->values[i]) - low) / range;
+            return std::uint32_t(std::lround(255.0 * std::clamp(place, 0.0, 1.0)));
+        });
+        mode["kind"] = "scale";
+        mode["array"] = legend.attribute;
+        mode["unit"] = legend.unit;
+        mode["low"] = low;
+        mode["high"] = legend.scale->high;
+        for (const Color& stop : legend.scale->stops) mode["stops"].push_back(colorJson(stop));
+        return mode;
+    }
+    const auto label = std::find_if(mesh.labels.begin(), mesh.labels.end(),
+                                    [&](const auto& l) { return l.name == legend.attribute; });
+    if (label != mesh.labels.end()) {
+        const std::size_t last = legend.entries.size() - 1; // also that of what has no label
+        arrays.add(legend.attribute, label->values.size(), 1, last < 256 ? 1 : 4,
+                   [&](std::size_t i, int) {
+                       const std::int32_t v = label->values[i];
+                       return std::uint32_t(v < 0 ? last : std::min(std::size_t(v), last));
+                   });
+        mode["kind"] = "names";
+        mode["array"] = legend.attribute;
+    } else if (!mesh.colors.empty()) {
+        arrays.add("color", mesh.colors.size(), 3, 1, [&](std::size_t i, int c) {
+            return std::uint32_t(mesh.colors[i][std::size_t(c)]);
+        });
+        mode["kind"] = "colors";
+        mode["array"] = "color";
+    } else {
+        return {};
+    }
+    for (const LegendEntry& entry : legend.entries)
+        mode["entries"].push_back(Json{{"name", entry.name}, {"color", colorJson(entry.color)}});
+    return mode;
+}
+
+Json headerOf(const Mesh& mesh, const HtmlPage& page, Arrays& arrays)
+{
+    openvdb::BBoxd box;
+    for (const openvdb::Vec3f& p : mesh.positions) box.expand(openvdb::Vec3d(p));
+    if (mesh.positions.empty()) box = openvdb::BBoxd(openvdb::Vec3d(0.0), openvdb::Vec3d(0.0));
+    constexpr double full = std::numeric_limits<std::uint16_t>::max();
+    const openvdb::Vec3d extent = box.extents(), center = box.getCenter();
+    const double step = std::max({extent[0], extent[1], extent[2], 1e-6}) / full; // [Å]
+    arrays.add("position", mesh.positions.size(), 3, 2, [&](std::size_t i, int c) {
+        const double place = (double(mesh.positions[i][c]) - center[c]) / step + 0.5 * full;
+        return std::uint32_t(std::lround(std::clamp(place, 0.0, full)));
+    });
+    arrays.add("index", 3 * mesh.triangles.size(), 1, 4,
+               [&](std::size_t i, int) { return mesh.triangles[i / 3][i % 3]; });
+    Json modes = Json::array();
+    for (const Legend& legend : page.legends) {
+        Json mode = modeOf(legend, mesh, arrays);
+        if (!mode.is_null()) modes.push_back(std::move(mode));
+    }
+    modes.push_back(Json{
+        {"title", "Plain"}, {"id", "none"}, {"kind", "plain"}, {"color", colorJson(page.plain)}});
+    Json axes = Json::array();
+    for (const openvdb::Vec3d& axis : page.axes)
+        axes.push_back(Json::array({axis[0], axis[1], axis[2]}));
+    return {{"title", page.title},
+            {"step", step},
+            {"axes", axes},
+            {"modes", modes},
+            {"arrays", arrays.table()}};
+}
+
+/// Text that may stand anywhere in HTML; in JSON the escape means the same letter.
+std::string escaped(const std::string& text, const char* less, const char* ampersand)
+{
+    std::string all;
+    for (const char letter : text) {
+        if (letter == '<')
+            all += less;
+        else if (letter == '&')
+            all += ampersand;
+        else
+            all += letter;
+    }
+    return all;
+}
+
+} // namespace
+
+void writeHtml(const Mesh& mesh, const HtmlPage& page, OutputFile& file)
+{
+    Arrays arrays;
+    const Json header = headerOf(mesh, page, arrays);
+    const auto put = [&](std::string_view text) { file.write(text.data(), text.size()); };
+    const std::string headerText = header.dump(-1, ' ', false, Json::error_handler_t::replace);
+
+    // The page with its four places filled in, in their order.
+    std::string_view left = viewerPage;
+    const auto fill = [&](std::string_view place, std::string_view text) {
+        const std::size_t at = left.find(place);
+        put(left.substr(0, at));
+        put(text);
+        left.remove_prefix(at + place.size());
+    };
+    fill("%TITLE%", escaped(page.title, "&lt;", "&amp;"));
+    fill("%HEADER%", escaped(headerText, "\\u003c", "&"));
+    fill("%DATA%", arrays.packed());
+    fill("%VIEWER%", viewerScript);
+    put(left);
+    file.finish();
+}
+
+} // namespace molsurf

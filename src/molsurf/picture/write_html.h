@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// A page that shows a mesh: one file that needs nothing else.
+
+#include "molsurf/color/legend.h"
+#include "molsurf/io/output_file.h"
+#include "molsurf/mesh/mesh.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// What is on the page beside the mesh.
+struct HtmlPage {
+    std::string title;
+    std::vector<Legend> legends;           ///< the colours to choose from, the first one first
+    Color plain = {140, 181, 222};         ///< of the mesh without them
+    std::array<openvdb::Vec3d, 3> axes = { ///< what is right, up and toward the eye at first
+        openvdb::Vec3d(1, 0, 0), openvdb::Vec3d(0, 1, 0), openvdb::Vec3d(0, 0, 1)};
+};
+
+/// Writes a page of HTML with the mesh in it and a viewer (three.js, WebGL 2).
+///
+/// The mesh is packed: positions by steps of 1/65535 of its largest extent, values of curvature in
+/// 256 steps of their scale, names of chains and groups as numbers; differences from vertex to
+/// vertex, compressed by zlib, in base64. A legend without an attribute shows Mesh::colors.
+///
+/// @throws Error(ErrorKind::Output) if the file cannot be written
+void writeHtml(const Mesh& mesh, const HtmlPage& page, OutputFile& file);
+
+} // namespace molsurf

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/check_balls.h"
+
+#include "molsurf/balls/ball_index.h"
+#include "molsurf/core/error.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace molsurf
+{
+
+std::size_t physicalMemory()
+{
+    return std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGE_SIZE));
+}
+
+void checkBalls(const std::vector<Ball>& balls, const Options& options, Pieces pieces,
+                std::size_t memory)
+{
+    if (balls.empty()) throw Error(ErrorKind::Input, "no atoms");
+    constexpr float farthest = 1e6f; // [Å]
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        const Ball& b = balls[i];
+        const bool placed = std::abs(b.center.x()) <= farthest &&
+                            std::abs(b.center.y()) <= farthest &&
+                            std::abs(b.center.z()) <= farthest;
+        if (placed && b.radius > 0.0f && std::isfinite(b.radius)) continue;
+        throw Error(ErrorKind::Input,
+                    "ball " + std::to_string(i) +
+                        (placed ? ": expected a radius above 0 Å, got " + std::to_string(b.radius)
+                                : ": expected coordinates within 1e6 Å"));
+    }
+
+    // The band of the surface has 6 voxels across. A run took 59 bytes for each at the least, on a
+    // ball of 200 Å; the merge of bricks takes 7.
+    constexpr double band = 6.0, share = 0.9;
+    const double bytesPerVoxel = pieces == Pieces::One ? 50.0 : 6.0;
+    const double radius = largestRadius(balls);
+    const double bytes = bytesPerVoxel * band * 4.0 * M_PI * std::pow(radius / options.voxel, 2);
+    if (bytes <= share * double(memory)) return;
+    constexpr double margin = 3.0; // what it takes above the least
+    const double voxel = options.voxel * std::sqrt(margin * bytes / double(memory));
+    char text[240];
+    std::snprintf(
+        text, sizeof text,
+        "a ball of radius %.6g Å takes at least %.3g GB at a voxel of %g Å, and there are "
+        "%.3g GB",
+        radius, bytes / 1e9, options.voxel, double(memory) / 1e9);
+    char hint[80] = "";
+    if (voxel <= maxVoxel) std::snprintf(hint, sizeof hint, " [hint: --voxel %.2g]", voxel + 0.05);
+    throw Error(ErrorKind::Input, std::string(text) + hint);
+}
+
+} // namespace molsurf

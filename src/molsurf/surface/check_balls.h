@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What balls have to be before anything is computed of them.
+
+#include "molsurf/balls/ball.h"
+#include "molsurf/surface/options.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace molsurf
+{
+
+/// Memory of this machine [byte].
+std::size_t physicalMemory();
+
+/// What is in memory at once: a surface in one piece, or no more of it than its bricks' merge
+/// needs.
+enum class Pieces { One, Bricks };
+
+/// Checks that there are balls, that they are finite, and that the largest one fits: the surface of
+/// the whole is at least as large as its own.
+///
+/// @param[in] memory  that there is [byte]
+/// @throws Error(ErrorKind::Input) that names the first ball at fault, by its index, or says what
+///         voxel would do
+void checkBalls(const std::vector<Ball>& balls, const Options& options, Pieces pieces,
+                std::size_t memory);
+
+} // namespace molsurf

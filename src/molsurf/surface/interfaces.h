@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The areas that groups of atoms bury between them.
+
+#include "molsurf/core/progress.h"
+#include "molsurf/surface/options.h"
+#include "molsurf/surface/report.h"
+
+namespace molsurf
+{
+
+/// Surfaces every group alone, and with every other one that is near enough to change its surface,
+/// and reports the buried areas (A_a + A_b - A_ab) / 2 from 0.005 Å^2 on; sets the groups'
+/// aloneArea.
+///
+/// Areas of the solvent-accessible and van der Waals surfaces are in closed form.
+///
+/// @param[in]     atoms   with groups
+/// @param[in,out] report  with the groups
+void measureInterfaces(const BallSelection& atoms, const Options& options, Progress& progress,
+                       Report& report);
+
+} // namespace molsurf

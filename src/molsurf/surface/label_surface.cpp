@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/label_surface.h"
+
+#include "molsurf/balls/nearest_ball.h"
+#include "molsurf/color/curvature_colors.h"
+#include "molsurf/color/label.h"
+#include "molsurf/color/palette.h"
+#include "molsurf/surface/extra_grids.h"
+
+#include <cstdio>
+
+namespace molsurf
+{
+
+using openvdb::Vec3f;
+
+namespace
+{
+
+std::string hex(const Color& color)
+{
+    char text[8];
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", color[0], color[1], color[2]);
+    return text;
+}
+
+void reportGroups(const BallSelection& atoms, const Options& options, const Labels& nearest,
+                  double reach, Progress& progress, Result& result)
+{
+    const BallLabels& labels = *atoms.labels;
+    const std::size_t other = labels.groups.size();
+    const auto scaled = [](std::vector<double> parts, double whole) {
+        double sum = 0.0;
+        for (const double p : parts) sum += p;
+        for (double& p : parts) p *= sum > 0.0 ? whole / sum : 0.0;
+        return parts;
+    };
+    const std::vector<double> area =
+        scaled(groupAreas(atoms.balls, labels, nearest, result.mesh), result.report.surface.area);
+    std::vector<double> points(other + 1, 0.0);
+    const std::vector<Vec3f> inside = pointsInside(*result.surface, result.report.surface.volume);
+    for (const std::int32_t ball : nearestBalls(atoms.balls, inside, reach, progress)) {
+        const std::int32_t g = ball < 0 ? -1 : labels.groupOf[std::size_t(ball)];
+        points[g < 0 ? other : std::size_t(g)] += 1.0;
+    }
+    const std::vector<double> volume = scaled(points, result.report.surface.volume);
+
+    std::vector<Color> colors;
+    if (options.color == ColorBy::Group) colors = groupColors(atoms, progress);
+    std::size_t grouped = 0;
+    for (std::size_t g = 0; g < other; ++g) {
+        const Group& group = labels.groups[g];
+        grouped += group.balls;
+        result.report.groups.push_back(
+            {group.name, group.balls, area[g], volume[g], colors.empty() ? "" : hex(colors[g])});
+    }
+    const std::size_t rest = atoms.balls.size() - grouped;
+    if (rest > 0 || area[other] > 0.0) {
+        result.report.groups.push_back(
+            {"other", rest, area[other], volume[other], colors.empty() ? "" : hex(neutralColor)});
+    }
+}
+
+/// Labels and colours. @return the ball of each vertex, if anything depends on it
+Labels label(const BallSelection& atoms, const Options& options, double reach, Progress& progress,
+             Result& result)
+{
+    Mesh& mesh = result.mesh;
+    const auto has = [&](const char* name) { return hasField(options.fields, name); };
+    const bool grouped = atoms.labels && !atoms.labels->groups.empty();
+    colorByCurvature(options.color, mesh);
+    const bool colored = options.color != ColorBy::Nothing && mesh.colors.empty();
+    Labels nearest;
+    if (options.meshLabels || grouped || colored)
+        nearest = nearestBalls(atoms.balls, mesh.positions, reach, progress);
+    if (options.meshLabels) labelVertices(atoms, nearest, mesh);
+    const LabelNames names{has("atom_id"), has("chain_id"), has("group_id")};
+    for (auto& grid : labelGrids(atoms, *result.surface, names, reach, progress))
+        result.fields.push_back(std::move(grid));
+    if (!colored) return nearest;
+    const std::vector<Color> ballColor =
+        atoms.colors.empty() ? ballColors(atoms, options.color, progress) : atoms.colors;
+    mesh.colors = colorsOf(nearest, ballColor);
+    if (has("Cd"))
+        result.fields.push_back(
+            colorGrid(*result.surface, has("density"), atoms.balls, ballColor, reach, progress));
+    return nearest;
+}
+
+} // namespace
+
+void labelSurface(const BallSelection& atoms, const Options& options, double reach,
+                  Progress& progress, Result& result)
+{
+    const Labels nearest = label(atoms, options, reach, progress, result);
+    if (atoms.labels && !atoms.labels->groups.empty())
+        reportGroups(atoms, options, nearest, reach, progress, result);
+}
+
+std::vector<double> labelPart(const BallSelection& atoms, const Options& options, double reach,
+                              Progress& progress, Result& result)
+{
+    const Labels nearest = label(atoms, options, reach, progress, result);
+    if (!atoms.labels || atoms.labels->groups.empty()) return {};
+    return groupAreas(atoms.balls, *atoms.labels, nearest, result.mesh);
+}
+
+} // namespace molsurf

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The atoms' labels on the surface: identities, colours, the groups' parts.
+
+#include "molsurf/surface/options.h"
+#include "molsurf/surface/run.h"
+
+namespace molsurf
+{
+
+/// Every point of the surface belongs to the ball whose own surface is nearest to it (the least |x
+/// - x_i| - r_i).
+///
+/// Adds to the mesh the labels atom_id, with labelled balls chain_id and group_id, and the colours
+/// that the options ask for; to the fields the grids atom_id, chain_id, group_id and Cd that they
+/// ask for; to the report the groups with their areas (of the triangles, scaled to the area of
+/// the smooth surface) and volumes (shares of 1e5 to 1e6 points inside).
+///
+/// @param[in] reach  farthest that a point of the surface may lie from the balls [Å]
+void labelSurface(const BallSelection& atoms, const Options& options, double reach,
+                  Progress& progress, Result& result);
+
+/// The same for a part of a surface, without the report.
+/// @return area of every group, and at last of no group, on the mesh [Å^2]; empty without groups
+std::vector<double> labelPart(const BallSelection& atoms, const Options& options, double reach,
+                              Progress& progress, Result& result);
+
+} // namespace molsurf

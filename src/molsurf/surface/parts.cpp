@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/parts.h"
+
+#include "molsurf/color/curvature_colors.h"
+#include "molsurf/color/palette.h"
+#include "molsurf/core/error.h"
+#include "molsurf/mesh/statistics.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <string>
+
+namespace molsurf
+{
+
+namespace
+{
+
+constexpr const char* otherName = "other";
+
+struct Part {
+    std::string name;
+    SurfaceKind kind;
+    std::vector<std::size_t> balls;
+};
+
+std::size_t findGroup(const std::vector<Group>& groups, const std::string& name)
+{
+    const auto found = std::find_if(groups.begin(), groups.end(),
+                                    [&](const Group& group) { return group.name == name; });
+    if (found != groups.end()) return std::size_t(found - groups.begin());
+    std::string names;
+    for (std::size_t g = 0; g < std::min<std::size_t>(groups.size(), 8); ++g) {
+        names += (g ? ", " : "") + groups[g].name;
+    }
+    throw Error(ErrorKind::Input, "--surface-of: there is no group '" + name +
+                                      "' [hint: the groups are " + names +
+                                      (groups.size() > 8 ? ", ..." : "") + "]");
+}
+
+std::vector<Part> partsOf(const BallSelection& atoms, const Options& options)
+{
+    const std::vector<Group>& groups = atoms.labels->groups;
+    std::vector<Part> parts;
+    for (const Group& group : groups) parts.push_back({group.name, options.kind, {}});
+    parts.push_back({otherName, options.kind, {}});
+    std::vector<bool> alone(groups.size(), options.split);
+    for (const auto& [name, kind] : options.surfaceOf) {
+        const std::size_t g = findGroup(groups, name);
+        parts[g].kind = kind;
+        alone[g] = true;
+    }
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
+        const std::int32_t g = atoms.labels->groupOf[i];
+        const bool own = g >= 0 && alone[std::size_t(g)];
+        parts[own ? std::size_t(g) : groups.size()].balls.push_back(i);
+    }
+    parts.erase(std::remove_if(parts.begin(), parts.end(),
+                               [](const Part& part) { return part.balls.empty(); }),
+                parts.end());
+    return parts;
+}
+
+/// The name in the letters that any program takes, unlike those before it.
+std::string gridName(const std::string& name, std::set<std::string>& taken)
+{
+    std::string word;
+    for (const char letter : name) {
+        word += std::isalnum(static_cast<unsigned char>(letter)) || letter == '-' ? letter : '_';
+    }
+    const std::string first = word;
+    for (int n = 2; !taken.insert(word).second; ++n) word = first + "_" + std::to_string(n);
+    return word;
+}
+
+template<typename T>
+void append(std::vector<T>& to, const std::vector<T>& more)
+{
+    to.insert(to.end(), more.begin(), more.end());
+}
+
+template<typename T>
+void append(std::vector<Attribute<T>>& to, const std::vector<Attribute<T>>& more)
+{
+    if (to.empty()) {
+        to = more;
+        return;
+    }
+    for (std::size_t a = 0; a < to.size(); ++a) append(to[a].values, more[a].values);
+}
+
+void append(Mesh& mesh, const Mesh& part, const std::string& name)
+{
+    const auto before = std::uint32_t(mesh.positions.size());
+    mesh.parts.push_back({name, mesh.triangles.size()});
+    append(mesh.positions, part.positions);
+    append(mesh.normals, part.normals);
+    append(mesh.scalars, part.scalars);
+    append(mesh.labels, part.labels);
+    append(mesh.colors, part.colors);
+    for (const auto& t : part.triangles) {
+        mesh.triangles.push_back({t[0] + before, t[1] + before, t[2] + before});
+    }
+}
+
+/// Adds all but the statistics of curvature.
+void add(SurfaceReport& sum, const SurfaceReport& part)
+{
+    const auto smooth = [](const SurfaceReport& s) {
+        return double(s.vertices) * (1.0 - s.kinkShare);
+    };
+    const double before = smooth(sum), more = smooth(part);
+    if (more > 0.0) {
+        sum.gradientShare = ((before > 0.0 ? before * sum.gradientShare : 0.0) + //
+                             more * part.gradientShare) /
+                            (before + more);
+    }
+    sum.kinkShare =
+        (double(sum.vertices) * sum.kinkShare + double(part.vertices) * part.kinkShare) /
+        std::max(1.0, double(sum.vertices + part.vertices));
+    if (sum.vertices == 0) {
+        sum.kind = part.kind;
+        sum.closed = sum.manifold = true;
+    } else if (sum.kind != part.kind) {
+        sum.kind = "mixed";
+    }
+    sum.area += part.area;
+    sum.volume += part.volume;
+    sum.eulerCharacteristic += part.eulerCharacteristic;
+    sum.components += part.components;
+    append(sum.cavities, part.cavities);
+    sum.outerArea += part.outerArea;
+    sum.outerVolume += part.outerVolume;
+    sum.vertices += part.vertices;
+    sum.triangles += part.triangles;
+    sum.closed = sum.closed && part.closed;
+    sum.manifold = sum.manifold && part.manifold;
+    sum.degenerateTriangles += part.degenerateTriangles;
+    sum.maxResidual = std::max(sum.maxResidual, part.maxResidual);
+    if (part.integrals && sum.integrals) {
+        *sum.integrals += *part.integrals;
+    } else if (part.integrals) {
+        sum.integrals = part.integrals;
+    }
+}
+
+/// Whether an evolution says more of the whole than another.
+bool tellsMore(const EvolutionReport& a, const EvolutionReport& b)
+{
+    return a.converged != b.converged ? !a.converged : a.steps > b.steps;
+}
+
+void add(Report& sum, const Report& part, const std::string& name)
+{
+    add(sum.surface, part.surface);
+    sum.parts.push_back({name, part.atoms, part.surface});
+    for (const GroupReport& group : part.groups) {
+        const auto found = std::find_if(sum.groups.begin(), sum.groups.end(),
+                                        [&](const GroupReport& g) { return g.name == group.name; });
+        if (found == sum.groups.end()) {
+            sum.groups.push_back(group);
+            continue;
+        }
+        found->atoms += group.atoms;
+        found->area += group.area;
+        found->volume += group.volume;
+    }
+    if (part.evolution && (!sum.evolution || tellsMore(*part.evolution, *sum.evolution))) {
+        sum.evolution = part.evolution;
+    }
+    sum.activeVoxels += part.activeVoxels;
+    sum.gridBytes += part.gridBytes;
+    for (const auto& [stage, seconds] : part.seconds) {
+        const auto found =
+            std::find_if(sum.seconds.begin(), sum.seconds.end(),
+                         [&s = stage](const auto& entry) { return entry.first == s; });
+        if (found == sum.seconds.end()) {
+            sum.seconds.emplace_back(stage, seconds);
+        } else {
+            found->second += seconds;
+        }
+    }
+    for (const std::string& warning : part.warnings) sum.warnings.push_back(name + ": " + warning);
+}
+
+/// The same colours for a part as for the whole.
+BallSelection colored(const BallSelection& atoms, ColorBy by, const Progress& progress)
+{
+    BallSelection out = atoms;
+    out.colors = ballColors(atoms, by, progress);
+    if (by != ColorBy::Group) return out;
+    const std::vector<Color> colors = groupColors(atoms, progress);
+    for (std::size_t g = 0; g < colors.size(); ++g) out.labels->groups[g].color = colors[g];
+    return out;
+}
+
+template<typename T>
+std::vector<T> chosen(const std::vector<T>& from, const std::vector<std::size_t>& which)
+{
+    std::vector<T> out;
+    if (from.empty()) return out;
+    out.reserve(which.size());
+    for (const std::size_t i : which) out.push_back(from[i]);
+    return out;
+}
+
+} // namespace
+
+BallSelection subset(const BallSelection& atoms, const std::vector<std::size_t>& which)
+{
+    BallSelection out;
+    out.balls = chosen(atoms.balls, which);
+    out.decays = chosen(atoms.decays, which);
+    out.resolutions = atoms.resolutions;
+    out.resolutionOf = chosen(atoms.resolutionOf, which);
+    out.colors = chosen(atoms.colors, which);
+    for (ResolutionGroup& group : out.resolutions) group.balls = 0;
+    for (const std::int32_t r : out.resolutionOf) {
+        if (r >= 0) ++out.resolutions[std::size_t(r)].balls;
+    }
+    out.copyBegin = {0, out.balls.size()};
+    out.model = atoms.model;
+    if (!atoms.labels) return out;
+    const BallLabels& all = *atoms.labels;
+    BallLabels labels;
+    labels.chains = all.chains;
+    labels.groups = all.groups;
+    labels.chainOf = chosen(all.chainOf, which);
+    labels.groupOf = chosen(all.groupOf, which);
+    labels.elementOf = chosen(all.elementOf, which);
+    labels.residueClassOf = chosen(all.residueClassOf, which);
+    for (Group& group : labels.groups) group.balls = 0;
+    for (const std::int32_t g : labels.groupOf) {
+        if (g >= 0) ++labels.groups[std::size_t(g)].balls;
+    }
+    out.labels = std::move(labels);
+    return out;
+}
+
+std::vector<std::vector<std::size_t>> ballsOfGroups(const BallLabels& labels)
+{
+    std::vector<std::vector<std::size_t>> out(labels.groups.size() + 1);
+    for (std::size_t i = 0; i < labels.groupOf.size(); ++i) {
+        const std::int32_t g = labels.groupOf[i];
+        out[g < 0 ? labels.groups.size() : std::size_t(g)].push_back(i);
+    }
+    return out;
+}
+
+Result runParts(const BallSelection& atoms, const Options& options, Progress& progress)
+{
+    const std::vector<Part> parts = partsOf(atoms, options);
+    const BallSelection all = colored(atoms, options.color, progress);
+    Options one = options;
+    one.split = one.interfaces = false;
+    one.surfaceOf.clear();
+
+    Result whole;
+    std::set<std::string> names;
+    std::size_t done = 0; // balls
+    for (const Part& part : parts) {
+        progress.update("parts", double(done) / double(atoms.balls.size()));
+        done += part.balls.size();
+        one.kind = part.kind;
+        QuietProgress quiet(progress);
+        Result result;
+        try {
+            result = run(subset(all, part.balls), one, quiet);
+        } catch (const Error& e) {
+            throw Error(e.kind(), part.name + ": " + e.what());
+        }
+        const std::string suffix = "_" + gridName(part.name, names);
+        result.surface->setName("surface" + suffix);
+        whole.fields.push_back(result.surface);
+        for (const auto& field : result.fields) {
+            field->setName(field->getName() + suffix);
+            whole.fields.push_back(field);
+        }
+        append(whole.mesh, result.mesh, part.name);
+        add(whole.report, result.report, part.name);
+    }
+    colorByCurvature(options.color, whole.mesh);
+    std::vector<Cavity>& cavities = whole.report.surface.cavities;
+    std::stable_sort(cavities.begin(), cavities.end(),
+                     [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
+    const std::vector<float> areas = vertexAreas(whole.mesh, progress);
+    SurfaceReport& surface = whole.report.surface;
+    surface.meanCurvature = statistics(whole.mesh.scalars[0].values, areas);
+    surface.gaussianCurvature = statistics(whole.mesh.scalars[1].values, areas);
+    return whole;
+}
+
+} // namespace molsurf

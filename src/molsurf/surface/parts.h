@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Groups of atoms with surfaces of their own, in one result.
+
+#include "molsurf/surface/run.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace molsurf
+{
+
+/// Some of the balls, with all that is known of them.
+/// @param[in] which  indices, ascending
+BallSelection subset(const BallSelection& atoms, const std::vector<std::size_t>& which);
+
+/// The balls of each group, and at last of none.
+std::vector<std::vector<std::size_t>> ballsOfGroups(const BallLabels& labels);
+
+/// Surfaces every group alone (Options::split), or those of Options::surfaceOf alone and the other
+/// atoms together.
+///
+/// The result has no grid `surface`, but a level set `surface_NAME` a part, all with one transform
+/// and background, and the fields of each part likewise. The mesh has them one after the other;
+/// each is closed, and they may pass through each other. Areas, volumes, pieces and groups are
+/// sums; the evolution is that of the part which took the most steps, unless one did not converge.
+///
+/// @param[in] atoms  with groups
+/// @throws Error(ErrorKind::Input) if there is no such group
+/// @throws Error as run(), with the part's name before the message
+Result runParts(const BallSelection& atoms, const Options& options, Progress& progress);
+
+} // namespace molsurf

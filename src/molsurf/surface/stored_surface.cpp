@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/stored_surface.h"
+
+#include "molsurf/color/color_map.h"
+#include "molsurf/color/curvature_colors.h"
+#include "molsurf/color/palette.h"
+#include "molsurf/core/error.h"
+#include "molsurf/mesh/extract.h"
+#include "molsurf/mesh/measure.h"
+#include "molsurf/mesh/statistics.h"
+#include "molsurf/surface/compare.h"
+#include "molsurf/surface/extra_grids.h"
+
+#include <openvdb/tools/ChangeBackground.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <sstream>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+using openvdb::FloatGrid;
+using openvdb::Int32Grid;
+using openvdb::Vec3d;
+using openvdb::Vec3SGrid;
+
+namespace
+{
+
+template<typename GridT>
+typename GridT::Ptr find(const openvdb::GridPtrVec& grids, const std::string& name)
+{
+    for (const auto& grid : grids)
+        if (grid->getName() == name)
+            if (const auto found = openvdb::gridPtrCast<GridT>(grid)) return found;
+    return nullptr;
+}
+
+double numberOf(const openvdb::MetaMap& metadata, const char* name, double preset)
+{
+    const auto found = metadata.getMetadata<openvdb::DoubleMetadata>(name);
+    return found ? found->value() : preset;
+}
+
+std::string textOf(const openvdb::MetaMap& metadata, const std::string& name)
+{
+    const auto found = metadata.getMetadata<openvdb::StringMetadata>(name);
+    return found ? found->value() : std::string();
+}
+
+/// The grids `surface` and `spline` as they were before placeInScene(), but for the origin.
+openvdb::GridPtrVec inAngstrom(const openvdb::GridPtrVec& grids, const openvdb::MetaMap& metadata)
+{
+    const double scale = numberOf(metadata, "scene.units_per_angstrom", 1.0);
+    const double shift = numberOf(metadata, "scene.shift_in_voxels", 0.0);
+    if (scale == 1.0 && shift == 0.0) return grids;
+    openvdb::GridPtrVec out;
+    for (const auto& grid : grids) {
+        const auto placed = openvdb::gridPtrCast<FloatGrid>(grid);
+        const bool wanted = grid->getName() == "surface" || grid->getName() == "spline";
+        if (!placed || !wanted || !placed->transform().isLinear()) {
+            out.push_back(grid);
+            continue;
+        }
+        FloatGrid::Ptr local = placed->copy();
+        if (scale != 1.0) {
+            local = placed->deepCopy();
+            if (placed->getGridClass() == openvdb::GRID_LEVEL_SET)
+                openvdb::tools::changeLevelSetBackground(
+                    local->tree(), float(double(placed->background()) / scale));
+            for (auto it = local->beginValueOn(); it; ++it) it.setValue(float(double(*it) / scale));
+        }
+        // Voxels of the report, if they are these: a quotient would be off by its last digit.
+        double voxel = placed->voxelSize()[0] / scale;
+        const double told = numberOf(metadata, "option.voxel", voxel);
+        for (const double known : {told, 2.0 * told, 4.0 * told})
+            if (std::abs(voxel - known) < 1e-6 * known) voxel = known;
+        const Vec3d origin = placed->indexToWorld(Vec3d(0.0)) / scale - Vec3d(shift * voxel);
+        auto transform = openvdb::math::Transform::createLinearTransform(voxel);
+        transform->postTranslate(origin);
+        local->setTransform(transform);
+        out.push_back(local);
+    }
+    return out;
+}
+
+/// The colour that linearLight() came from.
+Color fromLinearLight(const openvdb::Vec3f& light)
+{
+    Color color{};
+    for (int i = 0; i < 3; ++i) {
+        const double c = light[i];
+        const double s = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
+        color[std::size_t(i)] = std::uint8_t(std::lround(255.0 * std::clamp(s, 0.0, 1.0)));
+    }
+    return color;
+}
+
+/// The voxels nearest to the vertices.
+std::vector<Coord> voxelsOf(const Surface& surface, double voxel)
+{
+    std::vector<Coord> out;
+    out.reserve(surface.mesh.positions.size());
+    for (const openvdb::Vec3f& p : surface.mesh.positions)
+        out.push_back(Coord::round(surface.pose.toLocal(Vec3d(p)) / voxel));
+    return out;
+}
+
+template<typename GridT>
+std::vector<typename GridT::ValueType> valuesAt(const GridT& grid, const std::vector<Coord>& voxels)
+{
+    std::vector<typename GridT::ValueType> out;
+    out.reserve(voxels.size());
+    const auto accessor = grid.getConstAccessor();
+    for (const Coord& voxel : voxels) out.push_back(accessor.getValue(voxel));
+    return out;
+}
+
+/// Reads what addLabelMetadata() wrote.
+std::vector<Group> readLabels(const std::string& text)
+{
+    std::vector<Group> labels;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        const auto color = parseColor(line.substr(0, 7));
+        labels.push_back({line.size() > 8 ? line.substr(8) : "", 0, color.value_or(neutralColor)});
+    }
+    return labels;
+}
+
+/// Names and colours of the values of a grid of labels; of grids of older files numbers, all in
+/// colours of their own.
+std::vector<Group> labelsOf(const Int32Grid& grid, const openvdb::MetaMap& metadata)
+{
+    std::vector<Group> labels = readLabels(textOf(metadata, "label." + grid.getName()));
+    std::int32_t most = -1;
+    for (auto it = grid.cbeginValueOn(); it; ++it) most = std::max(most, *it);
+    if (std::size_t(most + 1) <= labels.size()) return labels;
+    std::vector<std::vector<std::int32_t>> others(std::size_t(most) + 1);
+    for (std::size_t i = 0; i < others.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) others[i].push_back(std::int32_t(j));
+    const std::vector<Color> colors = distinctColors(others);
+    labels.clear();
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        labels.push_back({std::to_string(i), 0, colors[i]});
+    return labels;
+}
+
+Color colorOf(const std::vector<Group>& labels, std::int32_t value)
+{
+    const bool known = value >= 0 && std::size_t(value) < labels.size();
+    return known ? *labels[std::size_t(value)].color : neutralColor;
+}
+
+/// A grid Cd on the voxels of a grid of labels.
+Vec3SGrid::Ptr colorGrid(const Int32Grid& ids, const std::vector<Group>& labels)
+{
+    const openvdb::Vec3f background = linearLight(neutralColor);
+    auto grid = Vec3SGrid::create(background);
+    grid->setTree(
+        std::make_shared<openvdb::Vec3STree>(ids.tree(), background, openvdb::TopologyCopy()));
+    grid->setName("Cd");
+    auto to = grid->beginValueOn();
+    for (auto from = ids.cbeginValueOn(); from; ++from, ++to)
+        to.setValue(linearLight(colorOf(labels, *from)));
+    return grid;
+}
+
+[[noreturn]] void cannotColor(ColorBy by, const openvdb::GridPtrVec& grids)
+{
+    const std::string word = nameOf(by);
+    std::string held, hint;
+    for (const auto& grid : grids) held += (held.empty() ? "" : ",") + grid->getName();
+    if (by == ColorBy::Chain || by == ColorBy::Group)
+        hint = "--fields spline," + word + "_id";
+    else
+        hint = "--color " + word + " --fields spline,Cd";
+    throw Error(ErrorKind::Input, "--color " + word + ": the file cannot give these colours, it " +
+                                      "has the grids " + held +
+                                      " [hint: store them when it is built: " + hint + "]");
+}
+
+} // namespace
+
+void addLabelMetadata(const BallSelection& atoms, const std::vector<std::string>& fields,
+                      const Progress& progress, openvdb::MetaMap& metadata)
+{
+    if (!atoms.labels) return;
+    const auto add = [&](const char* field, std::size_t count, const auto& nameOfLabel,
+                         const std::vector<Color>& colors) {
+        if (!hasField(fields, field) || count == 0) return;
+        std::string text;
+        for (std::size_t i = 0; i < count; ++i) {
+            char color[16];
+            std::snprintf(color, sizeof color, "#%02x%02x%02x ", colors[i][0], colors[i][1],
+                          colors[i][2]);
+            text += color + nameOfLabel(i) + "\n";
+        }
+        metadata.insertMeta(std::string("label.") + field, openvdb::StringMetadata(text));
+    };
+    const BallLabels& labels = *atoms.labels;
+    add(
+        "chain_id", labels.chains.size(), [&](std::size_t i) { return labels.chains[i]; },
+        chainColors(atoms, progress));
+    add(
+        "group_id", labels.groups.size(), [&](std::size_t i) { return labels.groups[i].name; },
+        groupColors(atoms, progress));
+}
+
+StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::MetaMap& metadata,
+                            const Options& options, Progress& progress)
+{
+    StoredSurface stored;
+    stored.scale = numberOf(metadata, "scene.units_per_angstrom", 1.0);
+    progress.update("mesh", 0.0);
+    Operand operand = operandOf(inAngstrom(grids, metadata), progress);
+    Surface& surface = operand.surface;
+    if (!find<FloatGrid>(grids, "spline"))
+        stored.warnings.push_back("no grid spline: it is fitted to the level set, close to the "
+                                  "one that was [hint: --fields spline when it is built]");
+    for (const std::string& warning : operand.warnings) stored.warnings.push_back(warning);
+    const std::vector<Coord> voxels = voxelsOf(surface, operand.voxel);
+
+    Result& result = stored.result;
+    result.mesh = std::move(surface.mesh);
+    Mesh& mesh = result.mesh;
+    std::vector<openvdb::Vec3f> placed = mesh.positions;
+    for (openvdb::Vec3f& p : mesh.positions) p = openvdb::Vec3f(surface.pose.toLocal(Vec3d(p)));
+    addCurvature(*surface.spline, options.fields, mesh, progress);
+    mesh.positions = std::move(placed);
+
+    Report& report = result.report;
+    progress.update("mesh", 0.7);
+    report.surface = measure(mesh, progress);
+    const std::string kind = textOf(metadata, "option.surface");
+    report.surface.kind = kind.empty() ? "level set" : kind;
+    report.surface.maxResidual = report.surface.gradientShare = report.surface.kinkShare =
+        std::numeric_limits<double>::quiet_NaN();
+    const std::vector<float> areas = vertexAreas(mesh, progress);
+    report.surface.meanCurvature = statistics(mesh.scalars[0].values, areas);
+    report.surface.gaussianCurvature = statistics(mesh.scalars[1].values, areas);
+    report.voxel = operand.voxel;
+    const auto atoms = metadata.getMetadata<openvdb::Int64Metadata>("atoms");
+    if (atoms) report.atoms = std::size_t(atoms->value());
+    report.activeVoxels = operand.levelSet->activeVoxelCount();
+    report.gridBytes = operand.levelSet->memUsage();
+
+    progress.update("color", 0.0);
+    BallLabels names;
+    const auto chains = find<Int32Grid>(grids, "chain_id");
+    const auto groups = find<Int32Grid>(grids, "group_id");
+    if (const auto ids = find<Int32Grid>(grids, "atom_id"))
+        mesh.labels.push_back({"atom_id", valuesAt(*ids, voxels)});
+    if (chains) {
+        mesh.labels.push_back({"chain_id", valuesAt(*chains, voxels)});
+        for (const Group& chain : labelsOf(*chains, metadata)) {
+            names.chains.push_back(chain.name);
+            names.chainColors.push_back(*chain.color);
+        }
+    }
+    if (groups) {
+        mesh.labels.push_back({"group_id", valuesAt(*groups, voxels)});
+        names.groups = labelsOf(*groups, metadata);
+    }
+    stored.names.labels = std::move(names);
+
+    const auto colors = find<Vec3SGrid>(grids, "Cd");
+    const std::string shown = textOf(metadata, "option.color");
+    constexpr ColorBy all[] = {ColorBy::Chain,         ColorBy::Group,
+                               ColorBy::Element,       ColorBy::Residue,
+                               ColorBy::MeanCurvature, ColorBy::GaussianCurvature};
+    ColorBy& by = stored.options.color;
+    by = options.color;
+    if (by == ColorBy::Nothing && colors)
+        for (const ColorBy one : all)
+            if (shown == nameOf(one)) by = one;
+    const auto place = [&](const Vec3SGrid::Ptr& grid) {
+        for (const auto& other : grids)
+            if (other->getName() == "surface" || grids.size() == 1)
+                grid->setTransform(other->transform().copy());
+        result.fields.push_back(grid);
+    };
+    const auto byLabel = [&](const Int32Grid::Ptr& ids, const std::vector<Group>& labels) {
+        for (const std::int32_t id : valuesAt(*ids, voxels))
+            mesh.colors.push_back(colorOf(labels, id));
+        place(colorGrid(*ids, labels));
+    };
+    if (const char* name = curvatureNameOf(by)) {
+        colorByCurvature(by, mesh);
+        const auto local = operand.levelSet->copy();
+        local->setTransform(openvdb::math::Transform::createLinearTransform(operand.voxel));
+        std::vector<openvdb::GridBase::Ptr> curvatures =
+            curvatureGrids(*local, *surface.spline, {name}, progress);
+        addCurvatureColors(by, false, mesh, curvatures);
+        place(openvdb::gridPtrCast<Vec3SGrid>(curvatures.at(0)));
+    } else if (colors && (options.color == ColorBy::Nothing || shown == nameOf(by))) {
+        for (const openvdb::Vec3f& light : valuesAt(*colors, voxels))
+            mesh.colors.push_back(fromLinearLight(light));
+        place(colors);
+    } else if (by == ColorBy::Chain && chains) {
+        byLabel(chains, labelsOf(*chains, metadata));
+    } else if (by == ColorBy::Group && groups) {
+        byLabel(groups, labelsOf(*groups, metadata));
+    } else if (by != ColorBy::Nothing) {
+        cannotColor(by, grids);
+    }
+    return stored;
+}
+
+} // namespace molsurf

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/velocity.h"
+
+#include "molsurf/balls/nearest_ball.h"
+#include "molsurf/surface/run.h"
+
+namespace molsurf
+{
+
+openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const BallSelection& atoms,
+                                     const std::vector<openvdb::Vec3f>& displacement,
+                                     const Options& options, const Progress& progress)
+{
+    const openvdb::Vec3f none(0.0f);
+    auto grid = openvdb::Vec3SGrid::create(none);
+    grid->setTree(
+        std::make_shared<openvdb::Vec3STree>(surface.tree(), none, openvdb::TopologyCopy()));
+    grid->setTransform(surface.transform().copy());
+    grid->setName("v");
+    grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
+    std::vector<openvdb::Vec3f> points;
+    for (auto it = surface.cbeginValueOn(); it; ++it)
+        points.emplace_back(surface.indexToWorld(it.getCoord()));
+    const std::vector<std::int32_t> owner =
+        nearestBalls(atoms.balls, points, labelReach(atoms, options), progress);
+    std::size_t i = 0;
+    for (auto it = grid->beginValueOn(); it; ++it, ++i)
+        if (owner[i] >= 0) it.setValue(displacement[std::size_t(owner[i])]);
+    return grid;
+}
+
+} // namespace molsurf

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "support/runs.h"
+
+#include "molsurf/bricks/brick_file.h"
+#include "molsurf/bricks/merge_mesh.h"
+#include "molsurf/bricks/merge_vdb.h"
+#include "molsurf/bricks/plan_bricks.h"
+#include "molsurf/core/error.h"
+#include "molsurf/mesh/measure.h"
+#include "support/mesh_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include <unistd.h>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3f;
+
+/// A crooked chain of balls, some 130 Å long, which crosses itself here and there.
+std::vector<Ball> chain()
+{
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> step(-1.0f, 1.0f);
+    std::vector<Ball> balls;
+    Vec3f at(-60.3f, 2.1f, -7.7f), way(1.0f, 0.0f, 0.0f);
+    for (int i = 0; i < 1500; ++i) {
+        way += 0.7f * Vec3f(step(random) + 0.12f, step(random), step(random));
+        way -= 0.01f * Vec3f(0.0f, at.y(), at.z());
+        way.normalize();
+        at += 1.5f * way;
+        balls.push_back({at, i % 3 ? 1.7f : 1.52f, i});
+    }
+    return balls;
+}
+
+class Bricks : public ::testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        folder_ = std::filesystem::temp_directory_path() /
+                  ("molsurf_bricks_" + std::to_string(getpid()) + "_" +
+                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
+        std::filesystem::create_directories(folder_);
+        openvdb::initialize();
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+    /// Computes all bricks of a plan, and opens them.
+    std::vector<BrickFile> bricksOf(const BallSelection& atoms, const Options& options,
+                                    const BrickPlan& plan)
+    {
+        Progress progress;
+        std::vector<BrickFile> files;
+        for (std::size_t k = 0; k < plan.bricks.size(); ++k) {
+            const Scope scope = scopeOf(plan, k, options);
+            const Brick brick =
+                runBrick(ballsNear(atoms, options, scope), options, scope, progress);
+            const std::string name = path(std::to_string(k) + ".brick");
+            OutputFile file(name, true);
+            writeBrick(brick, "test", k + 1, true, file, progress);
+            file.commit();
+            files.emplace_back(name);
+        }
+        return files;
+    }
+
+    /// Compares bricks with the whole, bit by bit.
+    void expectSame(const std::vector<Ball>& balls, Options options, std::size_t count,
+                    bool exact = true)
+    {
+        options.evolution.steps = 6;
+        Progress progress;
+        BallSelection atoms;
+        atoms.balls = balls;
+        const Result whole = run(atoms, options, progress);
+        const BrickPlan plan = planBricks(atoms, options, {count, 0}, progress);
+        ASSERT_GT(plan.bricks.size(), 1u);
+        const std::vector<BrickFile> bricks = bricksOf(atoms, options, plan);
+
+        OutputFile vdb(path("whole.vdb"), true);
+        writeMergedVdb(bricks, options.voxel, "test", {}, vdb, progress);
+        vdb.commit();
+        openvdb::io::File file(path("whole.vdb"));
+        file.open();
+        const auto merged = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("surface"));
+        EXPECT_EQ(merged->activeVoxelCount(), whole.surface->activeVoxelCount());
+        auto accessor = merged->getConstAccessor();
+        float worst = 0.0f;
+        std::size_t wrong = 0;
+        for (auto it = whole.surface->cbeginValueAll(); it; ++it) {
+            // Tiles too: the flood fill of the merged tree is that of the whole.
+            const openvdb::Coord c = it.getCoord();
+            worst = std::max(worst, std::abs(accessor.getValue(c) - *it));
+            wrong += accessor.isValueOn(c) != it.isValueOn();
+        }
+        EXPECT_EQ(wrong, 0u);
+        EXPECT_EQ(worst, 0.0f);
+
+        const MergedMesh mesh(bricks);
+        const SurfaceReport report = mesh.report();
+        const SurfaceReport& expected = whole.report.surface;
+        EXPECT_TRUE(report.closed && report.manifold);
+        EXPECT_EQ(report.vertices, expected.vertices);
+        EXPECT_EQ(report.triangles, expected.triangles);
+        const int euler = measure(whole.mesh, progress).eulerCharacteristic;
+        EXPECT_EQ(report.eulerCharacteristic, euler);
+        EXPECT_EQ(report.maxResidual < 1e-3, expected.maxResidual < 1e-3);
+        EXPECT_EQ(report.meanCurvature.percentiles, expected.meanCurvature.percentiles);
+        if (exact) {
+            EXPECT_NEAR(report.area, expected.area, 1e-9 * expected.area);
+            EXPECT_NEAR(report.volume, expected.volume, 1e-9 * expected.volume);
+            EXPECT_EQ(report.components, expected.components);
+            EXPECT_EQ(report.cavities.size(), expected.cavities.size());
+        }
+        OutputFile ply(path("whole.ply"), true);
+        mesh.writePly(ply, progress);
+        ply.commit();
+        const test::MeshVerdict verdict = test::judge(test::readPly(path("whole.ply")), false);
+        EXPECT_TRUE(verdict.polygonMesh && verdict.valid && verdict.closed && verdict.outward)
+            << verdict;
+        EXPECT_EQ(verdict.euler, euler);
+    }
+
+    std::filesystem::path folder_;
+};
+
+Options coarse(SurfaceKind kind = SurfaceKind::Variational)
+{
+    Options options;
+    options.voxel = 0.8;
+    options.kind = kind;
+    return options;
+}
+
+TEST_F(Bricks, VariationalSurfaceIsThatOfTheWhole)
+{
+    expectSame(chain(), coarse(), 5);
+}
+
+TEST_F(Bricks, GaussianSurfaceIsThatOfTheWhole)
+{
+    expectSame(chain(), coarse(SurfaceKind::Gaussian), 4);
+}
+
+TEST_F(Bricks, SolventExcludedSurfaceIsThatOfTheWhole)
+{
+    expectSame(chain(), coarse(SurfaceKind::SolventExcluded), 4);
+}
+
+TEST_F(Bricks, UnionsAreThoseOfTheWhole)
+{
+    // Of the whole, area, volume and pieces are those of the balls and not of the mesh.
+    expectSame(chain(), coarse(SurfaceKind::VanDerWaals), 3, false);
+    expectSame(chain(), coarse(SurfaceKind::SolventAccessible), 3, false);
+}
+
+TEST_F(Bricks, HoldTheWholeSpaceOnce)
+{
+    BallSelection atoms;
+    atoms.balls = chain();
+    Progress progress;
+    const BrickPlan plan = planBricks(atoms, coarse(), {7, 0}, progress);
+    std::size_t balls = 0;
+    for (std::size_t i = 0; i < plan.bricks.size(); ++i) {
+        const openvdb::CoordBBox& box = plan.bricks[i].box;
+        balls += plan.bricks[i].atoms;
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_EQ(box.min()[axis] % leafDim, 0);
+            EXPECT_EQ((box.max()[axis] + 1) % leafDim, 0);
+        }
+        for (std::size_t j = 0; j < i; ++j)
+            EXPECT_FALSE(box.hasOverlap(plan.bricks[j].box)) << i << " " << j;
+    }
+    EXPECT_EQ(balls, atoms.balls.size());
+}
+
+TEST_F(Bricks, NeedTheMemoryOfTheirSurface)
+{
+    BallSelection atoms;
+    atoms.balls = chain();
+    Progress progress;
+    const auto bytes = [&](SurfaceKind kind, std::vector<std::string> fields) {
+        Options options = coarse();
+        options.kind = kind;
+        options.fields = std::move(fields);
+        return planWhole(atoms, options, progress).bricks[0].bytes;
+    };
+    const std::size_t plain = bytes(SurfaceKind::Variational, {"surface"});
+    EXPECT_GT(bytes(SurfaceKind::Gaussian, {"surface"}), plain); // runs between the atoms
+    EXPECT_GT(bytes(SurfaceKind::SolventExcluded, {"surface"}), plain);
+    const std::size_t one = bytes(SurfaceKind::Variational, {"surface", "mean_curvature"}) - plain;
+    const std::size_t three = bytes(SurfaceKind::Variational, {"surface", "Cd"}) - plain;
+    EXPECT_GT(one, 0u);
+    EXPECT_EQ(three, 3 * one);
+}
+
+TEST_F(Bricks, FitTheMemoryOrSayWhatWould)
+{
+    BallSelection atoms;
+    atoms.balls = chain();
+    Progress progress;
+    const std::size_t whole = planWhole(atoms, coarse(), progress).bricks[0].bytes;
+    const std::size_t less = whole - whole / 20;
+    const BrickPlan plan = planBricks(atoms, coarse(), {0, less}, progress);
+    EXPECT_GT(plan.bricks.size(), 1u);
+    for (const PlannedBrick& brick : plan.bricks) EXPECT_LE(brick.bytes, less);
+    EXPECT_FALSE(plan.keepsMemory);
+    const BrickPlan kept = planBricks(atoms, coarse(), {0, less, true}, progress);
+    EXPECT_GE(kept.bricks.size(), plan.bricks.size());
+    for (const PlannedBrick& brick : kept.bricks) EXPECT_LE(brick.bytes, less);
+    try {
+        planBricks(atoms, coarse(), {0, 1000000}, progress);
+        FAIL() << "a megabyte is not enough";
+    } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::Input);
+        EXPECT_NE(std::string(e.what()).find("[hint: --memory 0."), std::string::npos) << e.what();
+    }
+}
+
+TEST_F(Bricks, RefuseWhatNeedsTheWhole)
+{
+    const auto refused = [](auto change) {
+        Options options;
+        change(options);
+        EXPECT_THROW(checkBrickOptions(options), Error);
+    };
+    EXPECT_NO_THROW(checkBrickOptions(Options()));
+    refused([](Options& o) { o.split = true; });
+    refused([](Options& o) { o.interfaces = true; });
+    refused([](Options& o) { o.fillCavities = true; });
+    refused([](Options& o) { o.curvatureIntegrals = true; });
+    refused([](Options& o) { o.splineLevel = 1; });
+    refused([](Options& o) { o.evolution.flow = Flow::Plain; });
+    refused([](Options& o) { o.color = ColorBy::MeanCurvature; });
+    refused([](Options& o) { o.surfaceOf = {{"a", SurfaceKind::VanDerWaals}}; });
+}
+
+TEST_F(Bricks, ACutFileIsRefused)
+{
+    BallSelection atoms;
+    atoms.balls = {{Vec3f(0.1f, 0.2f, 0.3f), 1.7f, 0}};
+    Options options = coarse();
+    options.evolution.steps = 2;
+    Progress progress;
+    const BrickPlan plan = planWhole(atoms, options, progress);
+    bricksOf(atoms, options, plan);
+    std::ifstream in(path("0.brick"), std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    std::ofstream(path("cut.brick"), std::ios::binary) << bytes.substr(0, bytes.size() - 5);
+    EXPECT_THROW(BrickFile(path("cut.brick")), Error);
+    std::ofstream(path("other.brick"), std::ios::binary) << "something else, of some length";
+    EXPECT_THROW(BrickFile(path("other.brick")), Error);
+}
+
+} // namespace
+} // namespace molsurf

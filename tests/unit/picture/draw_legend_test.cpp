@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/picture/draw_legend.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace molsurf
+{
+namespace
+{
+
+constexpr Color background = {255, 255, 255};
+
+Picture blank(int width, int height)
+{
+    Picture picture;
+    picture.width = width;
+    picture.height = height;
+    picture.rgb.assign(3 * std::size_t(width) * std::size_t(height), 255);
+    return picture;
+}
+
+Picture drawn(const Legend& legend, int width, int height)
+{
+    const int column = legendWidth(legend, width);
+    EXPECT_LT(column, width / 2);
+    return withLegend(blank(width - column, height), legend, width, background);
+}
+
+std::size_t pixelsOf(const Picture& picture, const Color& color)
+{
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
+        count += std::equal(color.begin(), color.end(), picture.rgb.begin() + std::ptrdiff_t(i));
+    return count;
+}
+
+TEST(DrawLegend, HasAPatchForEveryName)
+{
+    Legend legend;
+    legend.title = "Chain";
+    legend.entries = {{"A", {200, 10, 20}}, {"B-2", {10, 20, 200}}};
+    const Picture picture = drawn(legend, 800, 400);
+    EXPECT_EQ(picture.width, 800);
+    EXPECT_EQ(picture.height, 400);
+    for (const LegendEntry& entry : legend.entries)
+        EXPECT_GT(pixelsOf(picture, entry.color), 100u) << entry.name;
+}
+
+TEST(DrawLegend, TellsHowManyNamesHaveNoRoom)
+{
+    Legend legend;
+    legend.title = "Chain";
+    for (int i = 0; i < 180; ++i)
+        legend.entries.push_back({"A-" + std::to_string(i), {std::uint8_t(i), 7, 9}});
+    const Picture picture = drawn(legend, 800, 400);
+    EXPECT_EQ(picture.height, 400);
+    std::size_t shown = 0;
+    for (const LegendEntry& entry : legend.entries) shown += pixelsOf(picture, entry.color) > 0;
+    EXPECT_GT(shown, 10u);
+    EXPECT_LT(shown, 40u);
+}
+
+// The line that counts the rest may be wider than title and names.
+TEST(DrawLegend, HasAMarginOnTheRight)
+{
+    Legend legend;
+    legend.title = "C";
+    for (int i = 0; i < 180000; ++i) legend.entries.push_back({"A", {200, 7, 9}});
+    const Picture picture = drawn(legend, 800, 400);
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = picture.width - 3; x < picture.width; ++x) {
+            const std::uint8_t* p = &picture.rgb[3 * std::size_t(y * picture.width + x)];
+            ASSERT_TRUE(std::equal(p, p + 3, background.begin())) << x << " " << y;
+        }
+    }
+}
+
+TEST(DrawLegend, TakesAnyName)
+{
+    Legend legend;
+    legend.title = "Group";
+    legend.entries = {{"", {1, 2, 3}},
+                      {std::string(1000, 'W'), {4, 5, 6}},
+                      {"\xC3\xA9\xC3\x85\xCE\xB1", {7, 8, 9}}, // é Å α
+                      {"\xFF\xC3", {10, 11, 12}}};             // no UTF-8
+    const Picture picture = drawn(legend, 1200, 600);
+    for (const LegendEntry& entry : legend.entries) EXPECT_GT(pixelsOf(picture, entry.color), 100u);
+}
+
+TEST(DrawLegend, BarRunsFromHighToLow)
+{
+    Legend legend;
+    legend.title = "Mean curvature";
+    legend.unit = "1/\xC3\x85";
+    legend.scale = signedScale(0.123);
+    const Picture picture = drawn(legend, 800, 500);
+    const auto row = [&](const Color& color) {
+        for (int y = 0; y < picture.height; ++y) {
+            for (int x = 0; x < picture.width; ++x) {
+                const std::uint8_t* p = &picture.rgb[3 * std::size_t(y * picture.width + x)];
+                int far = 0;
+                for (std::size_t c = 0; c < 3; ++c) far = std::max(far, std::abs(p[c] - color[c]));
+                if (far <= 4) return y;
+            }
+        }
+        return -1;
+    };
+    const int top = row(legend.scale->stops.back()), bottom = row(legend.scale->stops.front());
+    EXPECT_GE(top, 0);
+    EXPECT_GT(bottom, top + 100);
+}
+
+} // namespace
+} // namespace molsurf

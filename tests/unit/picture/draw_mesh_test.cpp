@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/picture/draw_mesh.h"
+
+#include <tbb/global_control.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3f;
+
+constexpr Color red = {200, 30, 30}, blue = {30, 30, 200};
+
+/// Adds a ball of triangles.
+void addBall(Mesh& mesh, const Vec3f& center, float radius, const Color& color)
+{
+    constexpr int rings = 40, sides = 80;
+    const auto first = std::uint32_t(mesh.positions.size());
+    for (int i = 0; i <= rings; ++i) {
+        for (int j = 0; j < sides; ++j) {
+            const double a = M_PI * i / rings, b = 2.0 * M_PI * j / sides;
+            const Vec3f n(float(std::sin(a) * std::cos(b)), float(std::sin(a) * std::sin(b)),
+                          float(std::cos(a)));
+            mesh.positions.push_back(center + radius * n);
+            mesh.normals.push_back(n);
+            mesh.colors.push_back(color);
+        }
+    }
+    for (int i = 0; i < rings; ++i) {
+        for (int j = 0; j < sides; ++j) {
+            const auto at = [&](int ring, int side) {
+                return first + std::uint32_t(ring * sides + side % sides);
+            };
+            mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+            mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+    }
+}
+
+Color pixel(const Picture& picture, int x, int y)
+{
+    const std::uint8_t* p = picture.rgb.data() + 3 * (y * picture.width + x);
+    return {p[0], p[1], p[2]};
+}
+
+TEST(DrawMesh, ShowsABallInTheMiddle)
+{
+    Mesh mesh;
+    addBall(mesh, {30.0f, -7.0f, 4.0f}, 5.0f, red);
+    DrawOptions options;
+    options.width = 100;
+    const Picture picture = drawMesh(mesh, options, Progress());
+    ASSERT_EQ(picture.rgb.size(), 3u * 100u * std::size_t(picture.height));
+    EXPECT_NEAR(picture.height, 100, 1);
+    EXPECT_EQ(pixel(picture, 1, 1), options.background);
+    const Color middle = pixel(picture, 50, picture.height / 2);
+    EXPECT_GT(middle[0], 150);
+    EXPECT_LT(middle[1], 80);
+    int covered = 0;
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < 100; ++x) covered += pixel(picture, x, y) != options.background;
+    }
+    // Pixels on the rim count as a whole, which is half a pixel more of radius.
+    const double disc = M_PI * std::pow(50.0 / 1.04 + 0.5, 2);
+    EXPECT_NEAR(covered, disc, 0.03 * disc);
+}
+
+TEST(DrawMesh, LooksFromWhereItIsTold)
+{
+    Mesh mesh;
+    addBall(mesh, {0.0f, 0.0f, 0.0f}, 2.0f, red);
+    addBall(mesh, {0.0f, 0.0f, 6.0f}, 2.0f, blue);
+    DrawOptions options;
+    options.width = 90;
+    const Picture side = drawMesh(mesh, options, Progress()); // both, side by side
+    EXPECT_NEAR(side.height, 90.0 * 4.0 / 10.0, 2);
+    const Color left = pixel(side, 18, side.height / 2), right = pixel(side, 72, side.height / 2);
+    EXPECT_GT(left[0], left[2]);
+    EXPECT_GT(right[2], right[0]);
+
+    options.toEye = {0, 0, 1};
+    options.up = {0, 1, 0};
+    const Picture top = drawMesh(mesh, options, Progress());
+    EXPECT_NEAR(top.height, 90, 1);
+    EXPECT_GT(pixel(top, 45, 45)[2], pixel(top, 45, 45)[0]); // the blue one hides the red one
+
+    options.turn = 180.0;
+    const Picture back = drawMesh(mesh, options, Progress());
+    const Color middle = pixel(back, 45, back.height / 2);
+    EXPECT_GT(middle[0], middle[2]);
+}
+
+TEST(DrawMesh, CrevicesAreDark)
+{
+    Mesh mesh;
+    addBall(mesh, {0.0f, 0.0f, 0.0f}, 4.0f, red);
+    addBall(mesh, {6.0f, 0.0f, 0.0f}, 4.0f, red);
+    DrawOptions options;
+    options.width = 140;
+    options.toEye = {0, 0, 1};
+    options.up = {0, 1, 0};
+    const Picture picture = drawMesh(mesh, options, Progress());
+    EXPECT_LT(int(pixel(picture, 70, picture.height / 2)[0]) + 20,
+              int(pixel(picture, 40, picture.height / 2)[0]));
+}
+
+TEST(DrawMesh, SameForOneAndTwoThreads)
+{
+    Mesh mesh;
+    addBall(mesh, {0.1f, 0.2f, 0.3f}, 3.0f, blue);
+    DrawOptions options;
+    options.width = 60;
+    const Picture two = drawMesh(mesh, options, Progress());
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(drawMesh(mesh, options, Progress()).rgb, two.rgb);
+}
+
+TEST(DrawMesh, NothingIsBlank)
+{
+    DrawOptions options;
+    options.width = 20;
+    options.background = {1, 2, 3};
+    const Picture picture = drawMesh(Mesh(), options, Progress());
+    ASSERT_EQ(picture.rgb.size(), 3u * 20 * 20);
+    EXPECT_EQ(pixel(picture, 7, 7), options.background);
+}
+
+} // namespace
+} // namespace molsurf

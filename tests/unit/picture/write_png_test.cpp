@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/picture/write_png.h"
+
+#include "support/folder.h"
+
+#include <png.h>
+
+#include <gtest/gtest.h>
+
+namespace molsurf
+{
+namespace
+{
+
+TEST(WritePng, ReadsBackAsItWas)
+{
+    Picture picture;
+    picture.width = 7;
+    picture.height = 5;
+    for (int n = 0; n < 3 * 7 * 5; ++n) picture.rgb.push_back(std::uint8_t(37 * n));
+    const std::string bytes = test::written([&](OutputFile& file) { writePng(picture, file); });
+
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    ASSERT_TRUE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()));
+    image.format = PNG_FORMAT_RGB;
+    EXPECT_EQ(image.width, 7u);
+    EXPECT_EQ(image.height, 5u);
+    std::vector<std::uint8_t> back(PNG_IMAGE_SIZE(image));
+    ASSERT_TRUE(png_image_finish_read(&image, nullptr, back.data(), 0, nullptr));
+    EXPECT_EQ(back, picture.rgb);
+}
+
+} // namespace
+} // namespace molsurf
