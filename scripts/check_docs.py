@@ -5,9 +5,9 @@
     scripts/check_docs.py [--program vdb_molsurf] [--renew]
 
 These have to exist: links and the headings they lead to; paths and file names in backticks, or written from a
-folder of the root; numbered sections such as "docs/math.md, section 7"; in backticks names such as `Type::member`
-and `someFunction` of the code, and the options of the program. Defaults beside options have to be those of the
-help, and docs/options.md and docs/cli-help.txt have to be what the program prints; --renew writes these two.
+folder of the root; numbered sections such as "docs/math.md, section 7", and ADRs; in backticks names such as
+`Type::member` and `someFunction` of the code, and the options of the program. Defaults beside options have to be
+those of the help, and docs/options.md and docs/cli-help.txt have to be what the program prints; --renew writes these two.
 Prints one line for each fault, and exits with 1 if there is one.
 """
 
@@ -106,11 +106,8 @@ class Program:
                         for text, names in titles.items()))
 
 
-def same(one, other):
-    try:
-        return float(one) == float(other)
-    except ValueError:
-        return one == other
+def plain(value):
+    return str(float(value)) if re.fullmatch(NUMBER, value) else value
 
 
 def slug(heading):
@@ -135,6 +132,9 @@ def faults_of(text, page, tree, program):
     for found in re.finditer(r"(?<![\w/.-])(?<!\]\()(?:src|tools|tests|docs|scripts|bench|cmake|\.ci)/[\w./-]*\w", text):
         if not tree.has(found[0], page):
             yield found.start(), f"there is no {found[0]}"
+    for found in re.finditer(r"\bADR\s+(\d{4})", text):
+        if not any(path.startswith(f"docs/adr/{found[1]}") for path in tree.paths):
+            yield found.start(), f"there is no ADR {found[1]}"
     if page.suffix != ".md":
         return
     for found in re.finditer(r"\]\(([^)\s#]*)(?:#([^)\s]+))?\)", text):
@@ -180,9 +180,11 @@ def default_faults(text, program):
                  rf"`(--[a-z-]+)[^`]*`[^.;`]*,\s+(?:and|with)\s+{value}\s+(?:is|as)\s+the\s+default",
                  rf"`(--[a-z-]+)[^`]*`[^.;`]*\bdefault\s+(?:is\s+|of\s+)?({NUMBER})"):
         quoted += [(found.start(), found[1], found[2]) for found in re.finditer(form, text)]
+    quoted += [(found.start(), found[2], found[1])
+               for found in re.finditer(rf"({NUMBER})\s+unless\s+`(--[a-z-]+)", text)]
     for place, option, said in quoted:
         known = program.defaults.get(option, {"off"} if option in program.options else set())
-        if known and not any(same(said, default) for default in known):
+        if known and plain(said) not in map(plain, known):
             yield place, f"the default of {option} is {' or '.join(sorted(known))}, not {said}"
 
 
@@ -205,6 +207,8 @@ def main():
     parser.add_argument("--program", default=ROOT / "build-release/tools/vdb_molsurf")
     parser.add_argument("--renew", action="store_true", help="write docs/options.md and docs/cli-help.txt")
     words = parser.parse_args()
+    if not pathlib.Path(words.program).is_file():
+        sys.exit(f"{words.program}: there is no program; build it, or give --program")
     program = Program.ask(words.program)
     lines = []
     for name, text in (("docs/options.md", program.page()), ("docs/cli-help.txt", program.main)):

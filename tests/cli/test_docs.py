@@ -47,6 +47,8 @@ FAULTS = [
     ("docs/guide.md", "`--voxel` (1)", "the default of --voxel is 0.5, not 1"),
     ("docs/guide.md", "`--voxel` has the default 0.25", "the default of --voxel is 0.5, not 0.25"),
     ("docs/guide.md", "`--steps` is 16 by default", "the default of --steps is 12, not 16"),
+    ("docs/guide.md", "16 steps, or 16 unless `--steps` says", "the default of --steps is 12, not 16"),
+    ("docs/guide.md", "See ADR 0002.", "there is no ADR 0002"),
     ("docs/guide.md", "| option | default |\n|---|---|\n| `--surface KIND` | ses |",
      "the default of --surface is variational, not ses"),
     ("src/molsurf/core/options.h", "// docs/math.md, section 4", "math.md has no section 4"),
