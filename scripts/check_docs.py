@@ -1,0 +1,226 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MPL-2.0
+"""Holds what README.md, CONTRIBUTING.md, docs/ and the comments of src/ and tools/ say against the tree.
+
+    scripts/check_docs.py [--program vdb_molsurf] [--renew]
+
+These have to exist: links and the headings they lead to; paths and file names in backticks, or written from a
+folder of the root; numbered sections such as "docs/math.md, section 7", and ADRs; in backticks names such as
+`Type::member` and `someFunction` of the code, and the options of the program. Defaults beside options have to be
+those of the help, and docs/options.md and docs/cli-help.txt have to be what the program prints; --renew writes these two.
+Prints one line for each fault, and exits with 1 if there is one.
+"""
+
+import argparse
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+SOURCES = ("src", "tools", "tests", "bench")
+# Folders that a run, a build or a user makes; paths into them are not held against the tree.
+MADE = re.compile(r"(build|example|install|paper|surfaces|assembly|batch|bricks|pdb|structures)\b")
+# Namespaces of other people.
+FOREIGN = {"std", "openvdb", "tbb", "gemmi", "boost", "CGAL", "molsurf"}
+# Names in backticks that look like ours, and are another program's or a file's.
+FOREIGN_NAMES = {"readAll", "metersPerUnit", "levelSet", "fogVolume"}
+NUMBER = r"-?\d+(?:\.\d+)?(?:e-?\d+)?"
+
+
+class Tree:
+    """The files of the project, and what its code defines."""
+
+    def __init__(self, root):
+        self.root = root
+        self.paths = []
+        for folder, folders, files in os.walk(root):
+            folders[:] = [f for f in folders if f == ".ci" or not (f.startswith((".", "__")) or (
+                pathlib.Path(folder) == root and re.match("build|example$|install$|paper$", f)))]
+            place = pathlib.Path(folder).relative_to(root)
+            self.paths += [(place / name).as_posix() for name in folders + files]
+        self.names = {pathlib.PurePosixPath(path).name for path in self.paths}
+        # Every end of a path, with its extension and without: a name from inside a folder is enough.
+        self.ends = {"/".join(parts[i:]) for path in self.paths
+                     for parts in (path.split("/"), re.sub(r"\.\w+$", "", path).split("/"))
+                     for i in range(len(parts))}
+        self.words, self.bodies = set(), {}
+        for path in self.paths:
+            if path.endswith((".h", ".cpp")) and path.split("/")[0] in SOURCES:
+                self.read_code((root / path).read_text())
+
+    def read_code(self, text):
+        text = re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'\\?.\'', " ", text, flags=re.DOTALL)
+        self.words.update(re.findall(r"\w+", text))
+        for found in re.finditer(r"\b(?:struct|class|enum|union|namespace)\s+(\w+)[^;{}()]*\{", text):
+            depth, end = 1, found.end()
+            while depth and end < len(text):
+                depth += {"{": 1, "}": -1}.get(text[end], 0)
+                end += 1
+            self.bodies.setdefault(found[1], set()).update(re.findall(r"\w+", text[found.end():end]))
+
+    def has(self, path, page):
+        path = path.rstrip("/")
+        return (page.parent / path).exists() or path in self.ends
+
+
+class Program:
+    """The help of the program and of its verbs."""
+
+    def __init__(self, main, verbs=None):
+        self.main, self.verbs = main, verbs or {}
+        texts = [main, *self.verbs.values()]
+        self.options = {option for text in texts for option in re.findall(r"--[a-z][a-z-]*", text)}
+        self.defaults = {}  # of "  --voxel H   edge of a voxel [0.5]", "... --steps [12]", "... [--steps 12]."
+        for item in (item.rstrip() for text in texts for item in re.split(r"\n(?=  -\w, --|      --|\S|\n)", text)):
+            option = re.match(r"  (?:-\w, |    )(--[a-z-]+)", item)
+            last = re.search(r"(--[a-z-]+)? ?\[(--[a-z-]+)? ?([^][\s;A-Z]+)[^][]*\]\.?\Z", item)
+            if last and (last[1] or last[2] or option):
+                self.defaults.setdefault(last[1] or last[2] or option[1], set()).add(last[3])
+
+    @classmethod
+    def ask(cls, path):
+        """Every word of the usage is tried as a verb, and every two as a verb of two words."""
+        def text(*words):
+            return subprocess.run([path, *words, "--help"], capture_output=True, text=True).stdout
+        main, verbs = text(), {}
+        for line in main.split("\n\n")[0].splitlines():
+            words = [part.split("|") for part in re.split(r"[\s,]+", line)[1:]
+                     if re.fullmatch(r"[a-z]+(\|[a-z]+)*", part)]
+            for verb in [(w,) for part in words for w in part] + [
+                    (a, b) for first, second in zip(words, words[1:]) for a in first for b in second]:
+                answer = text(*verb)
+                if answer not in ("", main) and (answer not in verbs.values() or len(verb) == 1):
+                    verbs[" ".join(verb)] = answer
+        return cls(main, verbs)
+
+    def page(self):
+        """docs/options.md."""
+        titles = {self.main: ["vdb_molsurf"]}
+        for verb, text in self.verbs.items():
+            titles.setdefault(text, []).append(f"vdb_molsurf {verb}")
+        return ("# Options\n\nThis page has the help of the program and of each of its verbs, as `--help` prints "
+                "it. The page\n[Settings](settings.md) tells how to choose the options that matter.\n" +
+                "".join(f"\n## {', '.join(names)}\n\n```text\n{text.rstrip()}\n```\n"
+                        for text, names in titles.items()))
+
+
+def plain(value):
+    return str(float(value)) if re.fullmatch(NUMBER, value) else value
+
+
+def slug(heading):
+    return re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-")
+
+
+def headings(page):
+    return re.findall(r"^#+ (.*)$", re.sub(r"^```.*?^```", "", page.read_text(), flags=re.M | re.S), re.M)
+
+
+def faults_of(text, page, tree, program):
+    """(place, fault) of a page, or of the comments of a source file."""
+    # "math.md, section 7"; "sections 5, 8 and 9" are those of the page itself, if its sections have numbers.
+    for found in re.finditer(r"(?:(\w+\.md)\)?,?\s+)?\bsections?\s+(\d+(?:(?:,\s+|\s+and\s+)\d+)*)\b(?!\.\d)", text):
+        name = found[1] or page.name
+        titles = [title for p in tree.paths if p.endswith("/" + name) and name.endswith(".md")
+                  for title in headings(tree.root / p)]
+        numbers = {title.split(".")[0] for title in titles if re.match(r"\d+\.", title)}
+        if numbers or found[1]:
+            yield from ((found.start(), f"{name} has no section {number}")
+                        for number in re.findall(r"\d+", found[2]) if number not in numbers)
+    for found in re.finditer(r"(?<![\w/.-])(?<!\]\()(?:src|tools|tests|docs|scripts|bench|cmake|\.ci)/[\w./-]*\w", text):
+        if not tree.has(found[0], page):
+            yield found.start(), f"there is no {found[0]}"
+    for found in re.finditer(r"\bADR\s+(\d{4})", text):
+        if not any(path.startswith(f"docs/adr/{found[1]}") for path in tree.paths):
+            yield found.start(), f"there is no ADR {found[1]}"
+    if page.suffix != ".md":
+        return
+    for found in re.finditer(r"\]\(([^)\s#]*)(?:#([^)\s]+))?\)", text):
+        target = page.parent / found[1] if found[1] else page
+        if re.match(r"\w+:", found[1]):
+            continue
+        if not target.exists():
+            yield found.start(), f"the link leads to nothing: {found[1]}"
+        elif found[2] and found[2] not in map(slug, headings(target)):
+            yield found.start(), f"{found[1]} has no heading #{found[2]}"
+    # A block that is indented or fenced has no spans.
+    prose = re.sub(r"^```.*?^```|^(?:    |\t).*$", lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.M | re.S)
+    for found in re.finditer(r"`([^`]+)`", prose):
+        yield from ((found.start(), fault) for fault in span_faults(found[1], page, tree, program))
+    yield from default_faults(prose, program)
+
+
+def span_faults(span, page, tree, program):
+    for kind, member in re.findall(r"\b([A-Za-z]\w*)::(\w+)", span):
+        if kind not in FOREIGN and member not in tree.bodies.get(kind, ()):
+            yield f"the code has no {kind}::{member}"
+    name = re.fullmatch(r"([a-z]+[A-Z]\w*|[A-Z][a-z]+[A-Z]\w*)(?:\(\))?", span)
+    if name and name[1] not in tree.words | FOREIGN_NAMES:
+        yield f"the code has no {name[1]}"
+    if re.match(r"vdb_molsurf\s|--[a-z]", span):
+        for option in set(re.findall(r"--[a-z][a-z-]*", span)) - program.options:
+            yield f"the program has no {option}"
+    if re.fullmatch(r"[a-z][\w.-]+(/[A-Za-z][\w.-]*)+/?", span, re.A) and not MADE.match(span) and not tree.has(span, page):
+        yield f"there is no {span}"
+    elif re.fullmatch(r"[\w.-]+\.(h|cpp|py|sh|md|cjs)", span) and span not in tree.names:
+        yield f"there is no file {span}"
+
+
+def default_faults(text, program):
+    """Of table columns called default, and of "`--voxel` (0.5)", "[0.5]", "is 0.5 by default" near an option."""
+    quoted = []
+    for table in re.finditer(r"^\| option \| default \|.*\n(?:\|.*\n?)*", text, re.M):
+        quoted += [(table.start() + row.start(), row[1], row[2])
+                   for row in re.finditer(r"^\| `(--[a-z-]+)[^|]*\| (\S+)", table[0], re.M) if row[2] != "|"]
+    value = rf"`?({NUMBER}|[a-z]+)`?"
+    for form in (rf"`(--[a-z-]+)[^`]*`\s+\(({NUMBER})\)", rf"`(--[a-z-]+)[^`]*`[^.`\n]*\[({NUMBER})\]",
+                 rf"`(--[a-z-]+)[^`]*`[^.;`]*\b(?:is|stays)\s+{value}\s+by\s+default",
+                 rf"`(--[a-z-]+)[^`]*`[^.;`]*,\s+(?:and|with)\s+{value}\s+(?:is|as)\s+the\s+default",
+                 rf"`(--[a-z-]+)[^`]*`[^.;`]*\bdefault\s+(?:is\s+|of\s+)?({NUMBER})"):
+        quoted += [(found.start(), found[1], found[2]) for found in re.finditer(form, text)]
+    quoted += [(found.start(), found[2], found[1])
+               for found in re.finditer(rf"({NUMBER})\s+unless\s+`(--[a-z-]+)", text)]
+    for place, option, said in quoted:
+        known = program.defaults.get(option, {"off"} if option in program.options else set())
+        if known and plain(said) not in map(plain, known):
+            yield place, f"the default of {option} is {' or '.join(sorted(known))}, not {said}"
+
+
+def check(root, program):
+    """Lines that tell of the faults."""
+    tree, lines = Tree(root), []
+    pages = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").rglob("*.md"))]
+    for path in pages + [root / p for p in tree.paths if re.match(r"(src|tools)/.*\.(h|cpp)$", p)]:
+        text = path.read_text()
+        if path.suffix != ".md":  # comments only, without their slashes, of the same length
+            text = re.sub(r"^(.*?)(//[/<!]*|$)", lambda m: " " * len(m[0]), text, flags=re.M) \
+                if "//" in text else ""
+        lines += [f"{path.relative_to(root)}:{text.count(chr(10), 0, place) + 1}: {fault}"
+                  for place, fault in sorted(set(faults_of(text, path, tree, program)))]
+    return lines
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", default=ROOT / "build-release/tools/vdb_molsurf")
+    parser.add_argument("--renew", action="store_true", help="write docs/options.md and docs/cli-help.txt")
+    words = parser.parse_args()
+    if not pathlib.Path(words.program).is_file():
+        sys.exit(f"{words.program}: there is no program; build it, or give --program")
+    program = Program.ask(words.program)
+    lines = []
+    for name, text in (("docs/options.md", program.page()), ("docs/cli-help.txt", program.main)):
+        if words.renew:
+            (ROOT / name).write_text(text)
+        elif not (ROOT / name).exists() or (ROOT / name).read_text() != text:
+            lines.append(f"{name}: not what the program prints; run scripts/check_docs.py --renew")
+    lines += check(ROOT, program)
+    print(*lines, sep="\n", end="\n" if lines else "")
+    print(f"docs: {len(program.options)} options, {len(lines)} faults")
+    return 1 if lines else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
