@@ -93,17 +93,9 @@ class Program:
                 answer = text(*verb)
                 if answer not in ("", main) and (answer not in verbs.values() or len(verb) == 1):
                     verbs[" ".join(verb)] = answer
-        return cls(main, verbs)
-
-    def page(self):
-        """docs/options.md."""
-        titles = {self.main: ["vdb_molsurf"]}
-        for verb, text in self.verbs.items():
-            titles.setdefault(text, []).append(f"vdb_molsurf {verb}")
-        return ("# Options\n\nThis page has the help of the program and of each of its verbs, as `--help` prints "
-                "it. The page\n[Settings](settings.md) tells how to choose the options that matter.\n" +
-                "".join(f"\n## {', '.join(names)}\n\n```text\n{text.rstrip()}\n```\n"
-                        for text, names in titles.items()))
+        program = cls(main, verbs)
+        program.page = subprocess.run([path, "--options-page"], capture_output=True, text=True).stdout
+        return program
 
 
 def plain(value):
@@ -211,7 +203,7 @@ def main():
         sys.exit(f"{words.program}: there is no program; build it, or give --program")
     program = Program.ask(words.program)
     lines = []
-    for name, text in (("docs/options.md", program.page()), ("docs/cli-help.txt", program.main)):
+    for name, text in (("docs/options.md", program.page), ("docs/cli-help.txt", program.main)):
         if words.renew:
             (ROOT / name).write_text(text)
         elif not (ROOT / name).exists() or (ROOT / name).read_text() != text:

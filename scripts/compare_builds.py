@@ -118,7 +118,9 @@ def main():
                 folders[k].mkdir(parents=True)
                 said.append(run(programs[k], commands, folders[k], new[k]))
             names = sorted({p.name for f in folders for p in f.iterdir()})
-            bad = [f"{said}"] if any(said) else []
+            if any(said):
+                return commands, 0, [f"{said}"]
+            bad = []
             for name in names:
                 a, b = folders[0] / name, folders[1] / name
                 if not (a.exists() and b.exists()):

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
+#include "cli/option_table.h"
 #include "outputs.h"
 #include "terminal.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/io/batch_summary.h"
 
 #include <algorithm>
@@ -140,7 +141,7 @@ BatchEntry buildEntry(const Call& call, const Task& task)
         entry.seconds = report.seconds.back().second;
     } catch (const Error& e) {
         entry.status = "failed";
-        entry.message = e.what();
+        entry.message = withOptionNames(e.what());
     } catch (const std::bad_alloc&) {
         entry.status = "failed";
         entry.message = "out of memory";
@@ -183,10 +184,28 @@ std::string describe(const BatchEntry& entry)
     return text;
 }
 
+// All that the surfaces depend on, as a line for the summary.
+std::string optionsLine(const Call& call)
+{
+    std::string line;
+    for (const OptionGroup& group : optionTable()) {
+        for (const Option& option : group.options) {
+            const bool process = option.verbs & ~(Build | Batch | Compare | Convert | BricksPlan);
+            if (process || !(option.verbs & Batch) || !call.has(option.name)) continue;
+            const std::string name = option.name;
+            if (name == "folder" || name == "force" || name == "verbose") continue;
+            line += (line.empty() ? "--" : " --") + name;
+            for (const std::string& value : call.given.at(name)) line += " " + value;
+        }
+    }
+    return line;
+}
+
 } // namespace
 
 int batch(const Call& call)
 {
+    const std::string options = optionsLine(call);
     const std::vector<Task> tasks = tasksOf(call);
     std::error_code problem;
     fs::create_directories(call.folder, problem);
@@ -194,7 +213,7 @@ int batch(const Call& call)
         throw Error(ErrorKind::Output, "cannot make " + call.folder + ": " + problem.message());
     const fs::path folder = call.folder;
     const std::optional<BatchSummary> before = readSummary((folder / "summary.json").string());
-    if (before && before->options != call.given[0] && !call.force)
+    if (before && before->options != options && !call.force)
         throw Error(ErrorKind::Output, call.folder + " holds surfaces with other options (" +
                                            before->options +
                                            ") [hint: another folder, or --force]");
@@ -210,7 +229,7 @@ int batch(const Call& call)
         const bool fresh = !table[i];
         if (fresh) {
             table[i] = buildEntry(call, tasks[i]);
-            save(call.given[0], table, folder);
+            save(options, table, folder);
         }
         failed += table[i]->status == "failed";
         creeping += table[i]->status == "not converged";
@@ -218,7 +237,7 @@ int batch(const Call& call)
             say(std::to_string(i + 1) + "/" + std::to_string(tasks.size()) + " " + tasks[i].input +
                 ": " + describe(*table[i]));
     }
-    save(call.given[0], table, folder);
+    save(options, table, folder);
     if (!call.quiet) {
         std::string line = counted(tasks.size(), "structure", "structures");
         if (kept > 0) line += ", " + std::to_string(kept) + " done before";

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "bricks.h"
+#include "cli/complete.h"
+#include "cli/parse.h"
 #include "sha256.h"
 #include "stop.h"
 #include "verbs.h"
@@ -7,7 +9,7 @@
 #include "molsurf/bricks/brick_file.h"
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/bricks/plan_file.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -21,44 +23,39 @@ std::string brickPath(const std::string& planPath, std::size_t number)
     return (path.parent_path() / path.stem()).string() + "." + std::to_string(number) + ".brick";
 }
 
-Call callOf(const PlanManifest& manifest)
+Call callOf(PlanManifest manifest, const std::string& path)
 {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    const auto resolve = [&](std::string& file) {
+        for (const char* name : {"groups", "radii"}) {
+            const auto found = manifest.options.find(name);
+            if (found != manifest.options.end() && found->second.back() == file)
+                found->second.back() = (folder / file).string();
+        }
+        file = (folder / file).string();
+    };
+    for (PlanInput& file : manifest.files) resolve(file.path);
+    resolve(manifest.input);
     if (manifest.version != MOLSURF_VERSION)
         throw Error(ErrorKind::Input, "the plan was made by version " + manifest.version +
                                           ", this is " MOLSURF_VERSION);
     for (const PlanInput& file : manifest.files) {
         if (!std::filesystem::exists(file.path))
             throw Error(ErrorKind::Input, "cannot find " + file.path +
-                                              ", which the plan was made of [hint: run where plan "
-                                              "was run, or make the plan with an absolute path]");
+                                              ", which the plan was made of [hint: it has to lie "
+                                              "where it lay, seen from the plan]");
         if (sha256OfFile(file.path) != file.sha256)
             throw Error(ErrorKind::Input, file.path + " has changed since the plan was made "
                                                       "[hint: make a new one]");
     }
-    std::vector<const char*> words = {"vdb_molsurf"};
-    for (const std::string& word : manifest.arguments) words.push_back(word.c_str());
-    for (const char* word : {"-o", "brick.vdb", "--"}) words.push_back(word);
-    words.push_back(manifest.input.c_str());
-    Call call = parseCall(int(words.size()), words.data());
+    Call call;
+    call.verb = BricksPlan;
+    call.input = manifest.input;
+    setOptions(manifest.options, call);
+    completeSurface(call);
     call.options.evolution.steps = manifest.plan.steps;
-    checkOptions(call.options);
     checkBrickOptions(call.options);
     return call;
-}
-
-void computeBrick(const BallSelection& atoms, const Options& options, const BrickPlan& plan,
-                  std::size_t number, const std::string& id, const std::string& path, bool meshed,
-                  Terminal& terminal)
-{
-    Options fixed = options;
-    fixed.evolution.steps = plan.steps;
-    const Scope scope = scopeOf(plan, number - 1, fixed);
-    const Brick brick =
-        runBrick(ballsNear(atoms, fixed, scope), fixed, scope, terminal, plan.keepsMemory);
-    terminal.update("write", 0.0);
-    OutputFile file(path, true);
-    writeBrick(brick, id, number, meshed, file, terminal);
-    file.commit();
 }
 
 namespace
@@ -82,16 +79,16 @@ int brick(const Call& call)
 {
     const PlanManifest manifest = readManifest(call.input);
     const std::size_t count = manifest.plan.bricks.size();
-    if (call.bricks > count)
-        throw Error(ErrorKind::Usage, "brick: expected a number from 1 to " +
+    if (call.brick > count)
+        throw Error(ErrorKind::Usage, "bricks run: expected a number from 1 to " +
                                           std::to_string(count) + ", got " +
-                                          std::to_string(call.bricks));
-    const std::string id = sha256OfFile(call.input), path = brickPath(call.input, call.bricks);
-    if (!call.force && isDone(path, id, call.bricks)) {
+                                          std::to_string(call.brick));
+    const std::string id = sha256OfFile(call.input), path = brickPath(call.input, call.brick);
+    if (!call.force && isDone(path, id, call.brick)) {
         if (!call.quiet) say(path + " is done already");
         return 0;
     }
-    Call build = callOf(manifest);
+    Call build = callOf(manifest, call.input);
     build.outputs = {{path, Format::Vdb, "", 0.0}};
     build.force = true;
     build.quiet = call.quiet;
@@ -101,12 +98,12 @@ int brick(const Call& call)
     Terminal terminal(call.progress);
     const Clock::time_point start = Clock::now();
     Report report;
-    BallSelection atoms = readBalls(build, terminal, report);
+    BallSet atoms = readBalls(build, terminal, report);
     colorBalls(build.options, terminal, atoms);
-    computeBrick(atoms, build.options, manifest.plan, call.bricks, id, path, true, terminal);
+    computeBrick(atoms, build.options, manifest.plan, call.brick, id, path, true, terminal);
     terminal.erase();
     if (!call.quiet) {
-        const PlannedBrick& planned = manifest.plan.bricks[call.bricks - 1];
+        const PlannedBrick& planned = manifest.plan.bricks[call.brick - 1];
         char text[160];
         std::snprintf(text, sizeof text, ": %.2f s, %.3f GB of memory (%.3f planned)",
                       secondsSince(start), double(peakMemory()) / 1e9, double(planned.bytes) / 1e9);

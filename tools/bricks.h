@@ -4,13 +4,13 @@
 /// @file
 /// What the verbs plan, brick and merge share, and a build in bricks with them.
 
-#include "cli.h"
+#include "cli/call.h"
 #include "outputs.h"
 #include "terminal.h"
 
-#include "molsurf/bricks/brick_plan.h"
+#include "molsurf/bricks/plan_file.h"
+#include "molsurf/report.h"
 #include "molsurf/selection/select_balls.h"
-#include "molsurf/surface/report.h"
 
 #include <openvdb/openvdb.h>
 
@@ -26,15 +26,9 @@ std::vector<std::string> describePlan(const BrickPlan& plan);
 /// The file of brick `number` (from 1) of a plan.
 std::string brickPath(const std::string& planPath, std::size_t number);
 
-/// Computes a brick and writes its file.
-/// @param[in] atoms   of the whole molecule, coloured if the options want colours
-/// @param[in] meshed  whether a mesh will be wanted
-void computeBrick(const BallSelection& atoms, const Options& options, const BrickPlan& plan,
-                  std::size_t number, const std::string& id, const std::string& path, bool meshed,
-                  Terminal& terminal);
-
 /// The call that a plan was made with, as a build.
-Call callOf(const PlanManifest& manifest);
+/// @param[in] path  of the plan, from whose folder its files are found
+Call callOf(PlanManifest manifest, const std::string& path);
 
 /// Joins bricks and writes the outputs of a call.
 /// @param[in]     paths   of all bricks, in their order
@@ -46,6 +40,9 @@ void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std:
 
 /// The last line of a run.
 std::string summary(const Report& report);
+
+/// Prints the time of every stage, threads and memory.
+void sayTimes(const Report& report);
 
 /// Says so if the flow did not converge.
 /// @return the exit status

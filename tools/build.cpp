@@ -8,7 +8,7 @@
 #include "write_result.h"
 
 #include "molsurf/io/output_file.h"
-#include "molsurf/surface/run.h"
+#include "molsurf/surface.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -19,7 +19,7 @@ namespace molsurf::tool
 namespace
 {
 
-void writeAll(const Call& call, const BallSelection& atoms, Result& result, Terminal& terminal,
+void writeAll(const Call& call, const BallSet& atoms, MolecularSurface& result, Terminal& terminal,
               Clock::time_point programStart)
 {
     writeOutputs(
@@ -35,7 +35,7 @@ void writeAll(const Call& call, const BallSelection& atoms, Result& result, Term
         });
 }
 
-// What run() reports, behind what was read.
+// What makeSurface() reports, behind what was read.
 void completeReport(const Call& call, std::size_t atoms, const Report& read, Report& report)
 {
     beginReport(call, report);
@@ -43,6 +43,7 @@ void completeReport(const Call& call, std::size_t atoms, const Report& read, Rep
     report.voxel = call.options.voxel;
     report.warnings.insert(report.warnings.begin(), read.warnings.begin(), read.warnings.end());
     report.seconds.insert(report.seconds.begin(), read.seconds.begin(), read.seconds.end());
+    for (std::string& warning : report.warnings) warning = withOptionNames(warning);
 }
 
 } // namespace
@@ -61,9 +62,6 @@ std::string summary(const Report& report)
     return line + text;
 }
 
-namespace
-{
-
 void sayTimes(const Report& report)
 {
     for (const auto& [stage, time] : report.seconds) {
@@ -77,6 +75,9 @@ void sayTimes(const Report& report)
     say(text);
 }
 
+namespace
+{
+
 // Whether a file holds the mesh or a picture of it.
 bool showsMesh(const std::vector<Output>& outputs)
 {
@@ -87,7 +88,7 @@ bool showsMesh(const std::vector<Output>& outputs)
 }
 
 // The middle of the mesh's box comes to the origin; the grids follow when they are written.
-void centerMesh(Call& call, Result& result)
+void centerMesh(Call& call, MolecularSurface& result)
 {
     openvdb::BBoxd box;
     for (const openvdb::Vec3f& p : result.mesh.positions) box.expand(openvdb::Vec3d(p));
@@ -99,13 +100,13 @@ void centerMesh(Call& call, Result& result)
 
 } // namespace
 
-Report surfaceOf(Call call, const BallSelection& balls, const Report& read, Terminal& terminal,
+Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& terminal,
                  Clock::time_point start, WarmStart* warm,
-                 const std::function<void(Result&)>& extend)
+                 const std::function<void(MolecularSurface&)>& extend)
 {
     stopIfAsked();
     call.options.meshLabels = showsMesh(call.outputs);
-    Result result = run(balls, call.options, terminal, warm);
+    MolecularSurface result = makeSurface(balls, call.options, &terminal, warm);
     terminal.erase();
     if (!call.quiet)
         for (const std::string& warning : result.report.warnings) say("warning: " + warning);
@@ -121,8 +122,8 @@ Report surfaceOf(Call call, const BallSelection& balls, const Report& read, Term
     return result.report;
 }
 
-Report buildSurface(const Call& call, const BallSelection& balls, const Report& read,
-                    Terminal& terminal, Clock::time_point start)
+Report buildSurface(const Call& call, const BallSet& balls, const Report& read, Terminal& terminal,
+                    Clock::time_point start)
 {
     const Report report = surfaceOf(call, balls, read, terminal, start);
     if (call.verbose) sayTimes(report);
@@ -132,13 +133,12 @@ Report buildSurface(const Call& call, const BallSelection& balls, const Report& 
 
 Report buildSurface(const Call& call, Clock::time_point start)
 {
-    checkOptions(call.options);
     prepareOutputs(call);
     openvdb::initialize();
     const auto limit = limitThreads(call);
     Terminal terminal(call.progress);
     Report read;
-    const BallSelection balls = readBalls(call, terminal, read);
+    const BallSet balls = readBalls(call, terminal, read);
     return buildSurface(call, balls, read, terminal, start);
 }
 

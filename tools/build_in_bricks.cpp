@@ -4,7 +4,7 @@
 #include "verbs.h"
 
 #include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/grid/paged_array.h"
 #include "molsurf/surface/check_balls.h"
 
@@ -92,14 +92,13 @@ std::string sizeText(std::size_t bytes)
 
 int buildInBricks(const Call& call, Clock::time_point start)
 {
-    checkOptions(call.options);
     prepareOutputs(call);
     openvdb::initialize();
     const auto limit = limitThreads(call);
 
     Terminal terminal(call.progress);
     Report report;
-    BallSelection atoms = readBalls(call, terminal, report);
+    BallSet atoms = readBalls(call, terminal, report);
     if (call.memory == 0) checkBalls(atoms.balls, call.options, Pieces::One, physicalMemory());
     const BrickPlan one = planWhole(atoms, call.options, terminal);
     const std::size_t whole = one.bricks[0].bytes;
@@ -138,7 +137,7 @@ int buildInBricks(const Call& call, Clock::time_point start)
                       plan.bricks.size(), secondsSince(start), double(peakMemory()) / 1e9);
         say(text);
     }
-    atoms = BallSelection();
+    atoms = BallSet();
     releasePages();
     malloc_trim(0);
     mergeBricks(call, plan, paths, "one process", terminal, start, report);

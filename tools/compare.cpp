@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
+#include "cli/option_table.h"
 #include "outputs.h"
 #include "sha256.h"
 #include "terminal.h"
 
 #include "molsurf/color/color_map.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/io/read_mesh.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/write_comparison.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_vdb.h"
+#include "molsurf/surface.h"
 #include "molsurf/surface/compare.h"
-#include "molsurf/surface/run.h"
 
 #include <algorithm>
 #include <charconv>
@@ -75,11 +76,11 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
         stopIfAsked();
         read.operand = operandOf(std::move(mesh), terminal);
     } else {
-        const auto [selection, description] = readBalls(path, call.options, terminal);
+        const auto [selection, description] = readBalls(path, call, terminal);
         said.push_back(description);
-        Options options = call.options;
+        SurfaceOptions options = call.options;
         options.fields = {"spline"};
-        Result result = run(selection, options, terminal);
+        MolecularSurface result = makeSurface(selection, options, &terminal);
         read.converged = !result.report.evolution || result.report.evolution->converged;
         read.operand = operandOf(std::move(result));
         auto& warnings = read.operand.warnings;
@@ -94,11 +95,15 @@ std::vector<std::string> warningsOf(const Call& call, const Read& a, const Read&
     std::vector<std::string> all;
     const bool structures = a.operand.kind == "structure" || b.operand.kind == "structure";
     if (structures) all = call.warnings;
-    if (!structures && !call.given.empty()) {
-        std::string names;
-        for (const std::string& name : call.given) names += (names.empty() ? "" : ", ") + name;
-        all.push_back(names + ": without effect, since neither A nor B is a structure");
-    }
+    std::vector<std::string> idle; // options that only structures need; meshes have voxels, too
+    for (const OptionGroup& group : optionTable())
+        for (const Option& option : group.options)
+            if (option.stored && (option.verbs & Compare) && call.has(option.name) &&
+                option.name != std::string("voxel"))
+                idle.push_back(std::string("--") + option.name);
+    if (!structures && !idle.empty())
+        all.push_back(joinWords(idle, ", ") +
+                      ": without effect, since neither A nor B is a structure");
     for (const Read* read : {&a, &b})
         all.insert(all.end(), read->operand.warnings.begin(), read->operand.warnings.end());
     return all;
@@ -121,7 +126,7 @@ std::string number(double value)
     return std::string(digits, std::to_chars(digits, digits + sizeof digits, float(value)).ptr);
 }
 
-OperandReport report(const Read& read)
+ComparedFile described(const Read& read)
 {
     const Operand& operand = read.operand;
     const Mesh& mesh = operand.surface.mesh;
@@ -136,32 +141,15 @@ OperandReport report(const Read& read)
             operand.surface.closed};
 }
 
-OneWayReport report(const OneWay& way)
-{
-    return {way.mean,       way.rms,    way.max,    {way.maxAt[0], way.maxAt[1], way.maxAt[2]},
-            way.meanSigned, way.inside, way.samples};
-}
-
-ColorReport report(const ColorScale& scale, bool bySign)
-{
-    ColorReport color{
-        bySign ? "signed_distance" : "distance", scale.map, scale.low, scale.high, {}};
-    const double last = double(scale.stops.size() - 1);
-    for (std::size_t i = 0; i < scale.stops.size(); ++i)
-        color.bar.emplace_back(scale.low + (scale.high - scale.low) * double(i) / last,
-                               scale.stops[i]);
-    return color;
-}
-
 /// What a reader of the mesh file must know of its colours.
-std::vector<std::string> colorComments(const ColorReport& color)
+std::vector<std::string> colorComments(const ComparisonReport& report)
 {
-    std::vector<std::string> lines = {"colors: " + color.attribute + " in Angstrom, map " +
-                                      color.map + " from " + number(color.low) + " to " +
-                                      number(color.high)};
-    for (const auto& [value, rgb] : color.bar) {
-        std::string line = "color " + number(value);
-        for (const std::uint8_t part : rgb) line += " " + std::to_string(int(part));
+    const ColorScale& color = report.color;
+    std::vector<std::string> lines = {"colors: " + report.shown + " in Angstrom, map " + color.map +
+                                      " from " + number(color.low) + " to " + number(color.high)};
+    for (std::size_t i = 0; i < color.stops.size(); ++i) {
+        std::string line = "color " + number(color.valueOf(i));
+        for (const std::uint8_t part : color.stops[i]) line += " " + std::to_string(int(part));
         lines.push_back(line);
     }
     return lines;
@@ -181,16 +169,16 @@ openvdb::MetaMap metadata(const Call& call, const ComparisonReport& report)
     text("command", report.command);
     text("a", report.a.input);
     text("b", report.b.input);
-    if (call.files[0] != "-") text("a_sha256", sha256OfFile(call.files[0]));
-    if (call.files[1] != "-") text("b_sha256", sha256OfFile(call.files[1]));
+    if (call.inputs[0] != "-") text("a_sha256", sha256OfFile(call.inputs[0]));
+    if (call.inputs[1] != "-") text("b_sha256", sha256OfFile(call.inputs[1]));
     for (const bool there : {true, false}) {
-        const OneWayReport& way = there ? report.aToB : report.bToA;
+        const OneWay& way = there ? report.distances.aToB : report.distances.bToA;
         const std::string name = there ? "a_to_b." : "b_to_a.";
         number(name + "mean", way.mean);
         number(name + "rms", way.rms);
         number(name + "max", way.max);
     }
-    number("hausdorff", report.hausdorff);
+    number("hausdorff", report.distances.hausdorff);
     return map;
 }
 
@@ -211,7 +199,6 @@ openvdb::GridCPtrVec grids(const Call& call, const Operand& a, const DistanceTo&
 
 int compare(const Call& call, Clock::time_point start)
 {
-    checkOptions(call.options);
     prepareOutputs(call);
     openvdb::initialize();
     const auto limit = limitThreads(call);
@@ -228,10 +215,11 @@ int compare(const Call& call, Clock::time_point start)
         lapStart = Clock::now();
     };
     std::vector<std::string> said;
-    Read a = readOne(call, call.files[0], terminal, said);
-    Read b = readOne(call, call.files[1], terminal, said);
+    Read a = readOne(call, call.inputs[0], terminal, said);
+    Read b = readOne(call, call.inputs[1], terminal, said);
     lap("surfaces");
-    all.warnings = warningsOf(call, a, b);
+    for (const std::string& warning : warningsOf(call, a, b))
+        all.warnings.push_back(withOptionNames(warning));
     terminal.erase();
     if (!call.quiet) {
         for (const std::string& line : said) say(line);
@@ -247,20 +235,19 @@ int compare(const Call& call, Clock::time_point start)
 
     const DistanceTo toA(a.operand.surface), toB(b.operand.surface);
     lap("search tree");
-    const Comparison both = molsurf::compare(a.operand, toA, b.operand, toB, terminal);
+    all.distances = molsurf::compare(a.operand, toA, b.operand, toB, terminal);
     lap("distance");
 
-    const std::vector<float>& shown = both.aToB.distance;
+    const OneWay& there = all.distances.aToB;
+    const std::vector<float>& shown = there.distance;
     const double range = call.colorRange > 0.0 ? call.colorRange : usualRange(shown);
-    const ColorScale scale = call.colorBySign ? signedScale(range) : magnitudeScale(range);
+    const ColorScale& scale = all.color =
+        call.colorBySign ? signedScale(range) : magnitudeScale(range);
     all.version = MOLSURF_VERSION;
     all.command = call.command;
-    all.a = report(a);
-    all.b = report(b);
-    all.aToB = report(both.aToB);
-    all.bToA = report(both.bToA);
-    all.hausdorff = both.hausdorff;
-    all.color = report(scale, call.colorBySign);
+    all.a = described(a);
+    all.b = described(b);
+    all.shown = call.colorBySign ? "signed_distance" : "distance";
     all.threads =
         int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 
@@ -270,14 +257,14 @@ int compare(const Call& call, Clock::time_point start)
             const Format format = output.format;
             if (format == Format::Ply) {
                 Mesh mesh = a.operand.surface.mesh;
-                const auto& values = call.colorBySign ? both.aToB.signedDistance : shown;
+                const auto& values = call.colorBySign ? there.signedDistance : shown;
                 mesh.colors.reserve(values.size());
                 for (const float value : values) mesh.colors.push_back(scale.at(value));
                 mesh.scalars.insert(mesh.scalars.begin(), {"distance", shown});
-                if (!both.aToB.signedDistance.empty())
+                if (!there.signedDistance.empty())
                     mesh.scalars.insert(mesh.scalars.begin() + 1,
-                                        {"signed_distance", both.aToB.signedDistance});
-                writePly(mesh, file, colorComments(all.color));
+                                        {"signed_distance", there.signedDistance});
+                writePly(mesh, file, colorComments(all));
             } else if (format == Format::Vdb) {
                 writeVdb(grids(call, a.operand, toB, terminal), metadata(call, all), file);
             } else {
@@ -301,7 +288,8 @@ int compare(const Call& call, Clock::time_point start)
         char text[160];
         std::snprintf(text, sizeof text,
                       "mean distance %.4f Å there, %.4f Å back, Hausdorff %.4f Å, %.2f s",
-                      all.aToB.mean, all.bToA.mean, all.hausdorff, all.seconds.back().second);
+                      all.distances.aToB.mean, all.distances.bToA.mean, all.distances.hausdorff,
+                      all.seconds.back().second);
         say(text);
     }
     for (const Read* read : {&a, &b})

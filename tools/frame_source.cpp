@@ -2,7 +2,7 @@
 #include "frame_source.h"
 
 #include "molsurf/color/palette.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/structure/read_structure.h"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ FrameSource::FrameSource(const Call& call, Progress& progress) : call_(call), pr
     if (call.trajectory.empty()) {
         chooseModels(range);
     } else {
-        const int wanted = call.options.atoms.model;
+        const int wanted = call.atoms.model;
         const auto& models = structure_.models;
         const auto model = std::find_if(models.begin(), models.end(), [&](const Model& m) {
             return wanted == 0 || m.number == wanted;
@@ -115,9 +115,9 @@ void FrameSource::chooseModels(const FrameRange& range)
     if (!has(range.last)) missing(range.last, there);
 }
 
-BallSelection FrameSource::load(std::size_t i)
+BallSet FrameSource::load(std::size_t i)
 {
-    SelectOptions options = call_.options.atoms;
+    SelectOptions options = call_.atoms;
     const Model& model = structure_.models[model_];
     if (trajectory_) {
         const std::vector<openvdb::Vec3f> positions = trajectory_->read(std::size_t(number(i)) - 1);
@@ -130,7 +130,7 @@ BallSelection FrameSource::load(std::size_t i)
     return selectBalls(structure_, options, probeOf(call_.options), progress_);
 }
 
-void FrameSource::keepColors(BallSelection& selection)
+void FrameSource::keepColors(BallSet& selection)
 {
     if (!selection.labels || !first_.labels) return;
     selection.labels->chainColors = first_.labels->chainColors;
@@ -138,12 +138,12 @@ void FrameSource::keepColors(BallSelection& selection)
         selection.labels->groups[g].color = first_.labels->groups[g].color;
 }
 
-const BallSelection& FrameSource::balls(std::size_t i)
+const BallSet& FrameSource::balls(std::size_t i)
 {
     if (i == 0) return first_;
     const auto known = loaded_.find(i);
     if (known != loaded_.end()) return known->second;
-    BallSelection selection = load(i);
+    BallSet selection = load(i);
     if (selection.balls.size() != first_.balls.size())
         throw Error(ErrorKind::Input, "frame " + std::to_string(number(i)) + ": expected " +
                                           std::to_string(first_.balls.size()) +

@@ -4,7 +4,7 @@
 /// @file
 /// The atoms of frames: models of a structure, or a trajectory beside it.
 
-#include "cli.h"
+#include "cli/call.h"
 
 #include "molsurf/structure/structure.h"
 #include "molsurf/structure/trajectory.h"
@@ -42,7 +42,7 @@ public:
 
     /// The balls of frame i, with the colours of chains and groups that frame 0 has.
     /// @throws Error(ErrorKind::Input) if it cannot be read, or has other balls than frame 0
-    const BallSelection& balls(std::size_t i);
+    const BallSet& balls(std::size_t i);
 
     /// Displacement of each ball from frame i to the next, of the last one from the one before [Å].
     std::vector<openvdb::Vec3f> displacement(std::size_t i);
@@ -51,8 +51,8 @@ public:
     std::string description();
 
 private:
-    BallSelection load(std::size_t i);
-    void keepColors(BallSelection& selection);
+    BallSet load(std::size_t i);
+    void keepColors(BallSet& selection);
     [[noreturn]] void missing(int number, const std::string& there) const;
     void chooseModels(const FrameRange& range);
 
@@ -62,8 +62,8 @@ private:
     std::unique_ptr<Trajectory> trajectory_;
     std::size_t model_ = 0; ///< of the structure, for a trajectory
     std::vector<int> numbers_;
-    std::map<std::size_t, BallSelection> loaded_;
-    BallSelection first_;
+    std::map<std::size_t, BallSet> loaded_;
+    BallSet first_;
 };
 
 } // namespace molsurf::tool

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "frame_table.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/io/output_file.h"
 
 #include <charconv>

@@ -4,7 +4,7 @@
 /// @file
 /// The table of the frames of a run, a .csv file.
 
-#include "molsurf/surface/report.h"
+#include "molsurf/report.h"
 
 #include <cstddef>
 #include <map>

@@ -7,7 +7,7 @@
 #include "sidecar.h"
 #include "write_result.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/velocity.h"
@@ -111,8 +111,9 @@ std::string describe(const FrameRow& row, const Report& report, bool warm)
     return line + text;
 }
 
-void addVelocity(const Call& call, const BallSelection& selection,
-                 std::vector<openvdb::Vec3f> displacement, const Progress& progress, Result& result)
+void addVelocity(const Call& call, const BallSet& selection,
+                 std::vector<openvdb::Vec3f> displacement, const Progress& progress,
+                 MolecularSurface& result)
 {
     if (!result.surface) return;
     for (openvdb::Vec3f& d : displacement) d *= float(call.scene.scale);
@@ -125,14 +126,13 @@ void addVelocity(const Call& call, const BallSelection& selection,
 int frames(const Call& asked, Clock::time_point start)
 {
     Call call = asked;
-    checkOptions(call.options);
     openvdb::initialize();
     const auto limit = limitThreads(call);
     Terminal terminal(call.progress);
     terminal.update("read", 0.0);
     FrameSource source(call, terminal);
     terminal.erase();
-    const BallSelection& first = source.balls(0);
+    const BallSet& first = source.balls(0);
     if (call.center) call.scene.center = centerOf(first.balls);
     const std::string options = optionsDigest(call), tableName = tableOf(call);
     if (!tableName.empty()) checkWritable(tableName, true);
@@ -179,14 +179,14 @@ int frames(const Call& asked, Clock::time_point start)
                            ": ");
         std::vector<openvdb::Vec3f> displacement;
         if (moves) displacement = source.displacement(i);
-        const BallSelection& selection = source.balls(i);
-        const bool begun = call.warm && warm.table.size() > 0;
+        const BallSet& selection = source.balls(i);
+        const bool begun = call.warm && !warm.empty();
         Report read;
         read.warnings = call.warnings;
         read.seconds = {{"read", secondsSince(frameStart)}};
         const Report report =
             surfaceOf(calls[i], selection, read, terminal, frameStart, call.warm ? &warm : nullptr,
-                      [&](Result& result) {
+                      [&](MolecularSurface& result) {
                           if (moves) addVelocity(call, selection, displacement, terminal, result);
                       });
         const FrameRow row = rowOf(i + 1, source.number(i), begun, options, report);

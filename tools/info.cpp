@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/io/read_vdb.h"
 
 #include <openvdb/tools/LevelSetMeasure.h>
@@ -74,7 +74,7 @@ void line(const char* name, const std::string& value)
 int info(const Call& call)
 {
     openvdb::initialize();
-    for (const std::string& path : call.files) {
+    for (const std::string& path : call.inputs) {
         if (!isVdbFile(path)) {
             infoStructure(path);
             continue;

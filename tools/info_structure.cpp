@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/structure/read_structure.h"
 #include "molsurf/structure/text_fields.h"

@@ -4,11 +4,11 @@
 /// @file
 /// What the verbs that write files share.
 
-#include "cli.h"
+#include "cli/call.h"
 #include "terminal.h"
 
 #include "molsurf/io/output_file.h"
-#include "molsurf/surface/report.h"
+#include "molsurf/report.h"
 
 #include <tbb/global_control.h>
 

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "bricks.h"
+#include "cli/option_table.h"
 #include "sha256.h"
 #include "stop.h"
 #include "verbs.h"
 
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/bricks/plan_file.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 namespace molsurf::tool
 {
@@ -31,24 +33,66 @@ std::vector<std::string> describePlan(const BrickPlan& plan)
     return {text};
 }
 
+namespace
+{
+
+// A path as it is found from the folder of the plan, wherever the bricks are computed.
+std::string fromPlan(const Call& call, const std::string& path)
+{
+    namespace fs = std::filesystem;
+    if (fs::path(path).is_absolute()) return path;
+    return fs::absolute(path)
+        .lexically_normal()
+        .lexically_relative(fs::absolute(call.outputs[0].path).lexically_normal().parent_path())
+        .string();
+}
+
+// Files beside the structure that the surface depends on.
+std::vector<std::string> filesRead(const Call& call)
+{
+    std::vector<std::string> files;
+    if (!call.groupsFile.empty()) files.push_back(call.groupsFile);
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(call.atoms.radii, ignored))
+        files.push_back(call.atoms.radii);
+    return files;
+}
+
+// The options that say what surface is wanted.
+GivenOptions planned(const Call& call)
+{
+    GivenOptions options;
+    for (const OptionGroup& group : optionTable())
+        for (const Option& option : group.options)
+            if (option.stored && (option.verbs & BricksPlan) && call.has(option.name))
+                options[option.name] = call.given.at(option.name);
+    for (const std::string& file : filesRead(call))
+        for (const char* name : {"groups", "radii"})
+            if (options.count(name) && options[name].back() == file)
+                options[name].back() = fromPlan(call, file);
+    return options;
+}
+
+} // namespace
+
 int plan(const Call& call)
 {
-    checkOptions(call.options);
-    checkBrickOptions(call.options);
     prepareOutputs(call);
     openvdb::initialize();
     const auto limit = limitThreads(call);
     Terminal terminal(call.progress);
     Report report;
     PlanManifest manifest;
-    const BallSelection atoms = readBalls(call, terminal, report);
+    const BallSet atoms = readBalls(call, terminal, report);
     manifest.version = MOLSURF_VERSION;
-    manifest.input = call.input;
-    manifest.arguments = call.given;
+    manifest.input = fromPlan(call, call.input);
+    manifest.options = planned(call);
     manifest.voxel = call.options.voxel;
-    manifest.files.push_back({call.input, sha256OfFile(call.input)});
-    for (const std::string& file : call.read) manifest.files.push_back({file, sha256OfFile(file)});
-    manifest.plan = planBricks(atoms, call.options, {call.bricks, call.memory}, terminal);
+    manifest.files.push_back({manifest.input, sha256OfFile(call.input)});
+    for (const std::string& file : filesRead(call))
+        manifest.files.push_back({fromPlan(call, file), sha256OfFile(file)});
+    manifest.plan =
+        planBricks(atoms, call.options, {std::size_t(call.bricks), call.memory}, terminal);
     terminal.erase();
 
     OutputFile file(call.outputs[0].path, call.force);
@@ -57,7 +101,7 @@ int plan(const Call& call)
     file.commit();
     if (!call.quiet) {
         for (const std::string& line : describePlan(manifest.plan)) say(line);
-        if (manifest.plan.bricks.size() < call.bricks)
+        if (manifest.plan.bricks.size() < std::size_t(call.bricks))
             say("fewer bricks than asked for: smaller ones would be little but overlap");
     }
     return 0;

@@ -3,6 +3,9 @@
 #include "verbs.h"
 
 #include "molsurf/color/palette.h"
+#include "molsurf/error.h"
+#include "molsurf/io/read_mesh.h"
+#include "molsurf/io/read_vdb.h"
 #include "molsurf/structure/read_structure.h"
 
 #include <malloc.h>
@@ -10,20 +13,28 @@
 namespace molsurf::tool
 {
 
-DescribedBalls readBalls(const std::string& path, const Options& options, Terminal& terminal)
+DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& terminal)
 {
     terminal.update("read", 0.0);
+    if (path != "-" && isVdbFile(path))
+        throw Error(ErrorKind::Input,
+                    path + ": it is an OpenVDB file, expected atoms [hint: vdb_molsurf convert " +
+                        path + " -o FILE]");
+    if (isMeshName(path))
+        throw Error(
+            ErrorKind::Input,
+            path + ": it is a mesh, expected atoms [hint: vdb_molsurf compare measures meshes]");
     const Structure structure = readStructure(path);
     stopIfAsked();
-    BallSelection balls = selectBalls(structure, options.atoms, probeOf(options), terminal);
+    BallSet balls = selectBalls(structure, call.atoms, probeOf(call.options), terminal);
     std::string description = describeSelection(structure, balls);
     return {std::move(balls), std::move(description)};
 }
 
-BallSelection readBalls(const Call& call, Terminal& terminal, Report& report)
+BallSet readBalls(const Call& call, Terminal& terminal, Report& report)
 {
     const Clock::time_point start = Clock::now();
-    auto [balls, description] = readBalls(call.input, call.options, terminal);
+    auto [balls, description] = readBalls(call.input, call, terminal);
     malloc_trim(0); // what the parser has left is in pieces too small for the fields
     report.warnings = call.warnings;
     report.warnings.insert(report.warnings.end(), balls.warnings.begin(), balls.warnings.end());
@@ -37,7 +48,7 @@ BallSelection readBalls(const Call& call, Terminal& terminal, Report& report)
     return std::move(balls);
 }
 
-void colorBalls(const Options& options, Terminal& terminal, BallSelection& balls)
+void colorBalls(const SurfaceOptions& options, Terminal& terminal, BallSet& balls)
 {
     if (options.color != ColorBy::Nothing)
         balls.colors = ballColors(balls, options.color, terminal);

@@ -11,4 +11,7 @@ namespace molsurf::tool
 /// @throws Error(ErrorKind::Input) if the file cannot be read
 std::string sha256OfFile(const std::string& path);
 
+/// The same of a text.
+std::string sha256OfText(const std::string& text);
+
 } // namespace molsurf::tool

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "sidecar.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <algorithm>
 #include <charconv>

@@ -4,7 +4,7 @@
 /// @file
 /// The .usda files that stand beside .vdb files.
 
-#include "cli.h"
+#include "cli/call.h"
 
 #include "molsurf/io/write_usda.h"
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <regex>
 
 namespace molsurf::tool
 {
@@ -33,9 +34,26 @@ std::string duration(double seconds)
 
 } // namespace
 
+std::string withOptionNames(const std::string& message)
+{
+    static const std::regex option("`([a-z][A-Za-z]*)`");
+    std::string out;
+    auto rest = message.begin();
+    for (std::sregex_iterator it(message.begin(), message.end(), option), end; it != end; ++it) {
+        out.append(rest, message.begin() + it->position()).append("--");
+        for (const char letter : it->str(1)) {
+            const bool capital = letter >= 'A' && letter <= 'Z';
+            if (capital) out += '-';
+            out += capital ? char(letter - 'A' + 'a') : letter;
+        }
+        rest = message.begin() + it->position() + it->length();
+    }
+    return out.append(rest, message.end());
+}
+
 void say(const std::string& text)
 {
-    std::string line = "vdb_molsurf: " + text;
+    std::string line = "vdb_molsurf: " + withOptionNames(text);
     std::replace(line.begin(), line.end(), '\n', ' ');
     std::fprintf(stderr, "%s\n", line.c_str());
 }

@@ -4,13 +4,17 @@
 /// @file
 /// What people see on standard error while a run goes on.
 
-#include "molsurf/core/progress.h"
+#include "molsurf/progress.h"
 
 #include <chrono>
 #include <string>
 
 namespace molsurf::tool
 {
+
+/// A message of the library with options as the command line calls them: `maxSteps` becomes
+/// --max-steps.
+std::string withOptionNames(const std::string& message);
 
 /// Prints "vdb_molsurf: ..." as one line on standard error, whatever the text holds.
 void say(const std::string& text);

@@ -4,11 +4,11 @@
 /// @file
 /// The verbs of the tool, one file each. They return the exit status.
 
-#include "cli.h"
+#include "cli/call.h"
 #include "terminal.h"
 
-#include "molsurf/surface/report.h"
-#include "molsurf/surface/run.h"
+#include "molsurf/report.h"
+#include "molsurf/surface.h"
 
 #include <chrono>
 #include <functional>
@@ -34,30 +34,30 @@ Report buildSurface(const Call& call, std::chrono::steady_clock::time_point star
 
 /// The part of it behind the atoms.
 /// @param[in] read  what readBalls() has put in the report
-Report buildSurface(const Call& call, const BallSelection& balls, const Report& read,
-                    Terminal& terminal, std::chrono::steady_clock::time_point start);
+Report buildSurface(const Call& call, const BallSet& balls, const Report& read, Terminal& terminal,
+                    std::chrono::steady_clock::time_point start);
 
 /// The part of that which says little: runs and writes. prepareOutputs() has been called.
 /// @param[in]     call    with --center and a frame the centre of the scene is taken, else chosen
-/// @param[in,out] warm    as run() takes it
+/// @param[in,out] warm    as makeSurface() takes it
 /// @param[in]     extend  changes the result before it is written; may be empty
-Report surfaceOf(Call call, const BallSelection& balls, const Report& read, Terminal& terminal,
+Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& terminal,
                  std::chrono::steady_clock::time_point start, WarmStart* warm = nullptr,
-                 const std::function<void(Result&)>& extend = nullptr);
+                 const std::function<void(MolecularSurface&)>& extend = nullptr);
 
 /// What is read of a structure file: read_balls.cpp.
 struct DescribedBalls {
-    BallSelection balls;
+    BallSet balls;
     std::string description; ///< one line
 };
-DescribedBalls readBalls(const std::string& path, const Options& options, Terminal& terminal);
+DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& terminal);
 
 /// The balls of a call, described on standard error.
 /// @param[in,out] report  gets the seconds that it took, and warnings
-BallSelection readBalls(const Call& call, Terminal& terminal, Report& report);
+BallSet readBalls(const Call& call, Terminal& terminal, Report& report);
 
 /// Colours each ball, if the options want colours, by what touches what in the whole molecule.
-void colorBalls(const Options& options, Terminal& terminal, BallSelection& balls);
+void colorBalls(const SurfaceOptions& options, Terminal& terminal, BallSet& balls);
 
 /// Builds the surfaces of frames: frames.cpp.
 int frames(const Call& call, std::chrono::steady_clock::time_point start);
@@ -83,9 +83,9 @@ int merge(const Call& call, std::chrono::steady_clock::time_point start);
 /// Builds a surface within --memory, or only says what it takes (--dry-run): build_in_bricks.cpp.
 int buildInBricks(const Call& call, std::chrono::steady_clock::time_point start);
 
-/// Meshes, colours and pictures of a stored surface: stored.cpp.
+/// Meshes, colours and pictures of a stored surface: convert.cpp.
 /// @param[in] start  when the program began, for the total time
-int stored(const Call& call, std::chrono::steady_clock::time_point start);
+int convert(const Call& call, std::chrono::steady_clock::time_point start);
 
 /// Prints what files hold: info.cpp.
 int info(const Call& call);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "write_result.h"
 
-#include "cli_table.h"
+#include "cli/option_table.h"
 #include "sha256.h"
 #include "sidecar.h"
 
@@ -15,6 +15,7 @@
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/write_html.h"
 #include "molsurf/picture/write_png.h"
+#include "molsurf/selection/coarse_grain.h"
 #include "molsurf/surface/stored_surface.h"
 
 #include <algorithm>
@@ -43,71 +44,15 @@ struct Metadata {
     {
         map.insertMeta(name, openvdb::Int64Metadata(value));
     }
-    void yesNo(const char* name, bool value) { map.insertMeta(name, openvdb::BoolMetadata(value)); }
 };
 
-void addOptions(const Call& call, openvdb::MetaMap& map)
+// How the grids lie in the scene of another program.
+void addScene(const Call& call, Metadata& to)
 {
-    Metadata to{map};
-    const Options& options = call.options;
-    to.text("option.select", options.atoms.select.empty() ? "all" : options.atoms.select);
-    to.text("option.model", options.atoms.model ? std::to_string(options.atoms.model) : "first");
-    to.text("option.assembly", options.atoms.assembly);
-    to.text("option.copies", options.atoms.copies.empty() ? "all" : options.atoms.copies);
-    to.text("option.altloc",
-            options.atoms.altloc.empty() ? "highest occupancy" : options.atoms.altloc);
-    to.yesNo("option.no-hydrogens", !options.atoms.hydrogens);
-    to.yesNo("option.no-hetero", !options.atoms.hetero);
-    to.yesNo("option.waters", options.atoms.waters);
-    to.text("option.radii", options.atoms.radii);
-    to.number("option.probe", options.probe);
-    to.text("option.surface", nameOf(options.kind));
-    to.number("option.blobbiness", options.blobbiness);
-    to.number("option.voxel", options.voxel);
-    to.yesNo("option.fill-cavities", options.fillCavities);
-    std::string coarse;
-    for (const CoarseRule& rule : options.atoms.coarse)
-        coarse += (coarse.empty() ? "" : ", ") + nameOf(rule);
-    to.text("option.coarse", coarse.empty() ? "atom" : coarse);
-    std::string resolutions;
-    for (const ResolutionRule& rule : options.atoms.resolutions) {
-        resolutions += (resolutions.empty() ? "" : ", ") +
-                       (rule.select.empty() ? "" : rule.select + "=") + shortest(rule.resolution);
-    }
-    to.text("option.resolution", resolutions);
-    to.yesNo("option.match-volume", options.matchVolume);
-    std::string groups;
-    for (const GroupRule& group : options.atoms.groups)
-        groups += (groups.empty() ? "" : ", ") + group.name + " " + group.select;
-    to.text("option.groups", groups);
-    to.text("option.group-by", options.atoms.groupBy);
-    to.text("option.color", nameOf(options.color));
-    to.text("option.split", options.split ? "group" : "none");
-    std::string surfaceOf;
-    for (const auto& [name, kind] : options.surfaceOf)
-        surfaceOf += (surfaceOf.empty() ? "" : ",") + name + "=" + nameOf(kind);
-    to.text("option.surface-of", surfaceOf);
-    std::string fields = "surface";
-    for (const std::string& field : options.fields) fields += "," + field;
-    to.text("option.fields", fields);
-    to.text("option.for", nameOf(call.scene.host));
-    to.yesNo("option.center", call.center);
-    to.number("option.min-wall", options.minWall);
     const char* axes[] = {"scene.center_x", "scene.center_y", "scene.center_z"};
     for (int i = 0; i < 3; ++i) to.number(axes[i], call.scene.center[i]);
     to.number("scene.units_per_angstrom", call.scene.scale);
     to.number("scene.shift_in_voxels", call.scene.host == Host::Blender ? -0.5 : 0.0);
-    to.yesNo("option.curvature-totals", options.curvatureIntegrals);
-    to.number("option.epsilon", options.epsilon);
-    to.number("option.lambda", options.evolution.lambda);
-    to.text("option.regularizer", nameOf(options.evolution.regularizer));
-    to.text("option.flow", nameOf(options.evolution.flow));
-    const int steps = options.evolution.maxSteps;
-    to.text("option.steps", options.evolution.steps >= 0 ? std::to_string(options.evolution.steps)
-                                                         : "by the stopping rule");
-    to.text("option.max-steps", steps >= 0 ? std::to_string(steps) : "default of the flow");
-    to.number("option.tolerance", options.evolution.energyTolerance);
-    to.count("option.spline-level", options.splineLevel);
 }
 
 } // namespace
@@ -131,13 +76,14 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
         to.text("frames.options", optionsDigest(call));
     }
     addOptions(call, map);
+    addScene(call, to);
     return map;
 }
 
 namespace
 {
 
-openvdb::GridCPtrVec gridsOf(const Call& call, const Result& result)
+openvdb::GridCPtrVec gridsOf(const Call& call, const MolecularSurface& result)
 {
     openvdb::GridCPtrVec grids;
     if (result.surface) grids.push_back(result.surface);
@@ -166,7 +112,7 @@ std::string stemOf(const std::string& path)
 }
 
 // What the colours can mean; the first one is what they do mean, if they were asked for.
-std::vector<Legend> legendsOf(const Call& call, const BallSelection& atoms, const Mesh& mesh,
+std::vector<Legend> legendsOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
                               const Progress& progress)
 {
     std::vector<ColorBy> kinds = {ColorBy::Chain, ColorBy::Group, ColorBy::MeanCurvature,
@@ -182,13 +128,13 @@ std::vector<Legend> legendsOf(const Call& call, const BallSelection& atoms, cons
     return legends;
 }
 
-void writePicture(const Call& call, const BallSelection& atoms, const Mesh& mesh, double turn,
+void writePicture(const Call& call, const BallSet& atoms, const Mesh& mesh, double turn,
                   const Progress& progress, OutputFile& file)
 {
     DrawOptions options = call.picture;
     options.turn += turn;
-    const auto legend =
-        call.legend ? legendOf(call.options.color, atoms, mesh, progress) : std::optional<Legend>();
+    const auto legend = call.drawsLegend() ? legendOf(call.options.color, atoms, mesh, progress)
+                                           : std::optional<Legend>();
     if (!legend) {
         writePng(drawMesh(mesh, options, progress), file);
         return;
@@ -210,14 +156,10 @@ std::string optionsDigest(const Call& call)
     for (auto meta = map.beginMeta(); meta != map.endMeta(); ++meta)
         if (meta->first.rfind("option.", 0) == 0 && meta->first != "option.model")
             all += "\n" + meta->first + "=" + meta->second->str();
-    std::uint64_t hash = 14695981039346656037u; // FNV-1a
-    for (const char letter : all) hash = (hash ^ std::uint8_t(letter)) * 1099511628211u;
-    char digits[24];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-    return digits;
+    return sha256OfText(all).substr(0, 16);
 }
 
-void writeOutput(const Call& call, const BallSelection& atoms, const Result& result,
+void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,
                  const Output& output, const Progress& progress, OutputFile& file)
 {
     switch (output.format) {

@@ -4,10 +4,10 @@
 /// @file
 /// The files of a run.
 
-#include "cli.h"
+#include "cli/call.h"
 
 #include "molsurf/io/output_file.h"
-#include "molsurf/surface/run.h"
+#include "molsurf/surface.h"
 
 namespace molsurf::tool
 {
@@ -20,7 +20,7 @@ std::string optionsDigest(const Call& call);
 
 /// Writes one output. The report must be complete but for what is timed by writing.
 /// @throws Error(ErrorKind::Output) if the file cannot be written
-void writeOutput(const Call& call, const BallSelection& atoms, const Result& result,
+void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,
                  const Output& output, const Progress& progress, OutputFile& file);
 
 } // namespace molsurf::tool

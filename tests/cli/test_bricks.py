@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MPL-2.0
-"""plan, brick and merge; --memory and --dry-run."""
+"""bricks plan, run and merge; --memory and --dry-run."""
 
 import collections
 import json
@@ -34,13 +34,13 @@ class Bricks(ToolTest):
         shutil.copy(DATA / "1a8o.cif.gz", self.input)
 
     def plan(self, count=3, *words):
-        self.check(0, "plan", "dimer.cif.gz", "-o", "plan.json", "--bricks", count, "--assembly",
+        self.check(0, "bricks", "plan", "dimer.cif.gz", "-o", "plan.json", "--bricks", count, "--assembly",
                    "1", *FAST, *STEPS, *words)
         return json.loads((self.folder / "plan.json").read_text())
 
     def bricks(self, plan):
         for k in range(1, len(plan["bricks"]) + 1):
-            self.check(0, "brick", "plan.json", k)
+            self.check(0, "bricks", "run", "plan.json", k)
 
     def report(self, name):
         return json.loads((self.folder / name).read_text())
@@ -52,7 +52,7 @@ class Bricks(ToolTest):
         self.bricks(plan)
         self.assertEqual([name for name in self.names() if name.endswith(".brick")],
                          [f"plan.{k}.brick" for k in range(1, 5)])
-        self.run_tool("merge", "plan.json", "-o", "m.vdb", "-o", "m.ply", "-o", "m.json")
+        self.run_tool("bricks", "merge", "plan.json", "-o", "m.vdb", "-o", "m.ply", "-o", "m.json")
         self.run_tool("dimer.cif.gz", "--assembly", "1", *FAST, *STEPS, "--fields", FIELDS,
                       "--color", "chain", "--group-by", "chain", "-o", "w.vdb", "-o", "w.ply",
                       "-o", "w.json")
@@ -86,55 +86,55 @@ class Bricks(ToolTest):
         self.bricks(plan)
         first = self.folder / "plan.1.brick"
         before = first.stat().st_mtime_ns
-        self.check(0, "brick", "plan.json", 1, says="done already")
+        self.check(0, "bricks", "run", "plan.json", 1, says="done already")
         self.assertEqual(first.stat().st_mtime_ns, before)
-        self.check(0, "brick", "plan.json", 1, "--force")
+        self.check(0, "bricks", "run", "plan.json", 1, "--force")
         self.assertNotEqual(first.stat().st_mtime_ns, before)
 
     def test_a_killed_brick_can_be_run_again(self):
         plan = self.plan(2)
         self.bricks(plan)
-        self.run_tool("merge", "plan.json", "-o", "a.vdb", "-o", "a.ply")
+        self.run_tool("bricks", "merge", "plan.json", "-o", "a.vdb", "-o", "a.ply")
         (self.folder / "plan.2.brick").unlink()
         for wait in (0.0, 0.02, 0.05, 0.1, 0.2):
-            process = subprocess.Popen([TOOL, "brick", "plan.json", "2", "-q"], cwd=self.folder)
+            process = subprocess.Popen([TOOL, "bricks", "run", "plan.json", "2", "-q"], cwd=self.folder)
             time.sleep(wait)
             process.send_signal(signal.SIGKILL)
             process.wait()
         if not (self.folder / "plan.2.brick").exists():
-            self.check(1, "merge", "plan.json", "-o", "b.ply", says="of 2 bricks 1 are missing: 2")
-        self.check(0, "brick", "plan.json", 2)
-        self.run_tool("merge", "plan.json", "-o", "b.ply")
+            self.check(1, "bricks", "merge", "plan.json", "-o", "b.ply", says="of 2 bricks 1 are missing: 2")
+        self.check(0, "bricks", "run", "plan.json", 2)
+        self.run_tool("bricks", "merge", "plan.json", "-o", "b.ply")
         self.assertEqual((self.folder / "a.ply").read_bytes(), (self.folder / "b.ply").read_bytes())
 
     def test_incomplete_and_foreign_sets_are_refused(self):
         plan = self.plan(3)
         self.bricks(plan)
         (self.folder / "plan.2.brick").rename(self.folder / "kept")
-        self.check(1, "merge", "plan.json", "-o", "m.ply", says="missing: 2")
+        self.check(1, "bricks", "merge", "plan.json", "-o", "m.ply", says="missing: 2")
         shutil.copy(self.folder / "plan.3.brick", self.folder / "plan.2.brick")
-        self.check(1, "merge", "plan.json", "-o", "m.ply", says="belongs to another plan")
+        self.check(1, "bricks", "merge", "plan.json", "-o", "m.ply", says="belongs to another plan")
         (self.folder / "plan.2.brick").write_text("nothing of the kind, but long enough\n")
-        self.check(1, "merge", "plan.json", "-o", "m.ply", says="is not the file of a brick")
+        self.check(1, "bricks", "merge", "plan.json", "-o", "m.ply", says="is not the file of a brick")
         (self.folder / "kept").rename(self.folder / "plan.2.brick")
         self.plan(3, "--force", "--probe", "1.5")
-        self.check(1, "merge", "plan.json", "-o", "m.ply", says="belongs to another plan")
-        self.check(1, "brick", "plan.json", 1, says="belongs to another plan")
+        self.check(1, "bricks", "merge", "plan.json", "-o", "m.ply", says="belongs to another plan")
+        self.check(1, "bricks", "run", "plan.json", 1, says="belongs to another plan")
         self.assertNotIn("m.ply", self.names())
 
     def test_a_missing_input_is_named(self):
         self.plan()
         self.input.unlink()
-        self.check(1, "brick", "plan.json", 1, says="cannot find dimer.cif.gz")
+        self.check(1, "bricks", "run", "plan.json", 1, says="cannot find dimer.cif.gz")
 
     def test_fewer_bricks_than_asked_for_are_told(self):
-        self.check(0, "plan", "dimer.cif.gz", "-o", "plan.json", "--bricks", 500, *FAST, *STEPS,
+        self.check(0, "bricks", "plan", "dimer.cif.gz", "-o", "plan.json", "--bricks", 500, *FAST, *STEPS,
                    says="fewer bricks than asked for")
 
     def test_a_changed_input_is_refused(self):
         self.plan(2)
         shutil.copy(DATA / "1a8o.pdb.gz", self.input)
-        self.check(1, "brick", "plan.json", 1, says="has changed since the plan was made")
+        self.check(1, "bricks", "run", "plan.json", 1, says="has changed since the plan was made")
 
     def test_steps(self):
         self.run_tool(CRAMBIN, *FAST, "--steps", "3", "-o", "s.json")
@@ -145,16 +145,16 @@ class Bricks(ToolTest):
 
     def test_wrong_calls(self):
         self.plan(2)
-        self.check(2, "brick", "plan.json", 3, says="from 1 to 2, got 3")
-        self.check(2, "brick", "plan.json", "x", says="got 'x'")
-        self.check(2, "brick", "plan.json", says="expected a plan and the number")
-        self.check(1, "brick", "dimer.cif.gz", 1, says="is no plan")
-        self.check(2, "plan", "dimer.cif.gz", "-o", "p.json", says="either --bricks N or --memory")
-        self.check(2, "plan", "dimer.cif.gz", "-o", "p.vdb", "--bricks", 2, says=".json")
-        self.check(2, "plan", "dimer.cif.gz", "-o", "p.json", "--bricks", 2, "--fill-cavities",
-                   says="--fill-cavities needs the whole molecule")
-        self.check(2, "merge", "plan.json", "-o", "m.stl", says="merge writes .vdb, .ply or .json")
-        self.check(2, "merge", "plan.json", "--voxel", 1, "-o", "m.ply", says="unknown option")
+        self.check(2, "bricks", "run", "plan.json", 3, says="from 1 to 2, got 3")
+        self.check(2, "bricks", "run", "plan.json", "x", says="got 'x'")
+        self.check(2, "bricks", "run", "plan.json", says="expected a plan and the number")
+        self.check(1, "bricks", "run", "dimer.cif.gz", 1, says="is no plan")
+        self.check(2, "bricks", "plan", "dimer.cif.gz", "-o", "p.json", says="either --bricks N or --memory")
+        self.check(2, "bricks", "plan", "dimer.cif.gz", "-o", "p.vdb", "--bricks", 2, says=".json")
+        self.check(2, "bricks", "plan", "dimer.cif.gz", "-o", "p.json", "--bricks", 2, "--fill-cavities",
+                   says="--fill-cavities is for build")
+        self.check(2, "bricks", "merge", "plan.json", "-o", "m.stl", says="merge writes .vdb, .ply or .json")
+        self.check(2, "bricks", "merge", "plan.json", "--voxel", 1, "-o", "m.ply", says="--voxel is for build")
         self.check(2, CRAMBIN, "-o", "m.ply", "--memory", "lots", says="expected a size")
 
 

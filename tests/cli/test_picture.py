@@ -66,6 +66,26 @@ class Pictures(ToolTest):
         right = [pixel for row in rows for pixel in row[230:]]
         self.assertGreater(max(min(pixel) for pixel in right), 200)
 
+    def test_backgrounds(self):
+        """By other words for a colour, and none: the surface is opaque then, and what is about it is not there."""
+        words = [CRAMBIN, *FAST, "--color", "chain", "--legend", "on", "--size", "300"]
+        black = self.picture(*words, "--background", "#000000")
+        for word in ("black", "#000", "BLACK"):
+            self.assertEqual(self.picture(*words, "--background", word), black)
+        self.check(0, *words, "--background", "transparent", "-o", "t.png")
+        _, rows = read_png((self.folder / "t.png").read_bytes(), parts=4)
+        alpha = [list(row[3::4]) for row in rows]
+        self.assertEqual((alpha[0][0], alpha[-1][0]), (0, 0))
+        # As much is opaque or partly so as is not white on white.
+        _, white = self.picture(*words)
+        shown = sum(a > 0 for row in alpha for a in row)
+        self.assertLess(abs(shown - sum(p != WHITE for row in white for p in row)), 0.02 * shown)
+        self.assertGreater(max(max(row[240:]) for row in alpha), 200)  # letters
+        for y, row in enumerate(rows):  # where it is opaque it is as on white
+            for x, a in enumerate(alpha[y]):
+                if a == 255:
+                    self.assertEqual(tuple(row[4 * x:4 * x + 3]), white[y][x])
+
     def test_turntable(self):
         self.check(0, CRAMBIN, *FAST, "-o", "a.png", "-o", "a.ply", "--turntable", "4", "--size",
                    "120")

@@ -35,7 +35,7 @@ class Stored(ToolTest):
     def test_mesh_is_that_of_the_run(self):
         """Bit for bit; identities and colours are those of the nearest voxel."""
         self.build()
-        self.check(0, "mesh", "a.vdb", "-o", "b.ply", "-o", "b.stl", "-o", "b.json")
+        self.check(0, "convert", "a.vdb", "-o", "b.ply", "-o", "b.stl", "-o", "b.json")
         self.assertEqual((self.folder / "a.stl").read_bytes(), (self.folder / "b.stl").read_bytes())
         self.same_shape("a.ply", "b.ply")
         names, run, _ = self.ply("a.ply")
@@ -55,13 +55,13 @@ class Stored(ToolTest):
                       ["--fill-cavities"]):
             with self.subTest(words):
                 self.build(*words, "--force")
-                self.check(0, "mesh", "a.vdb", "-o", "b.ply", "--force")
+                self.check(0, "convert", "a.vdb", "-o", "b.ply", "--force")
                 self.same_shape("a.ply", "b.ply")
 
     def test_scene_is_undone(self):
         """Of a scaled .vdb the values are rounded twice."""
         self.build("--for", "blender=nm", "--center")
-        self.check(0, "mesh", "a.vdb", "-o", "b.ply")
+        self.check(0, "convert", "a.vdb", "-o", "b.ply")
         names, run, triangles = self.ply("a.ply")
         again_names, again, again_triangles = self.ply("b.ply")
         self.assertEqual(triangles, again_triangles)
@@ -71,7 +71,7 @@ class Stored(ToolTest):
 
     def test_without_spline(self):
         self.check(0, CRAMBIN, *FAST, "-o", "a.vdb", "-o", "a.json")
-        self.check(0, "mesh", "a.vdb", "-o", "b.json", says="no grid spline")
+        self.check(0, "convert", "a.vdb", "-o", "b.json", says="no grid spline")
         a, b = (json.loads((self.folder / name).read_text())["surface"]
                 for name in ("a.json", "b.json"))
         self.assertAlmostEqual(b["volume"] / a["volume"], 1, delta=0.002)
@@ -79,10 +79,10 @@ class Stored(ToolTest):
     def test_recoloured(self):
         self.build()
         for word in ("group", "mean-curvature", "chain"):
-            self.check(0, "color", "a.vdb", "--color", word, "-o", "b.vdb", "-o", "b.ply",
+            self.check(0, "convert", "a.vdb", "--color", word, "-o", "b.vdb", "-o", "b.ply",
                        "-o", "b.png", "--size", "200", "--force")
             # What is stored is what was shown.
-            self.check(0, "mesh", "b.vdb", "-o", "c.ply", "--force")
+            self.check(0, "convert", "b.vdb", "-o", "c.ply", "--force")
             names, vertices, _ = self.ply("b.ply")
             again_names, again, _ = self.ply("c.ply")
             pairs = list(zip(columns(vertices, names, ("red", "green", "blue")),
@@ -95,7 +95,7 @@ class Stored(ToolTest):
     def test_chains_keep_their_colours(self):
         self.check(0, DIMER, "--assembly", "1", *FAST, "--fields", "spline,chain_id", "-o", "a.vdb",
                    "--color", "chain", "-o", "a.ply")
-        self.check(0, "color", "a.vdb", "--color", "chain", "-o", "b.ply")
+        self.check(0, "convert", "a.vdb", "--color", "chain", "-o", "b.ply")
         colors = []
         for name in ("a.ply", "b.ply"):
             names, vertices, _ = self.ply(name)
@@ -107,32 +107,32 @@ class Stored(ToolTest):
         self.check(0, CRAMBIN, *FAST, "-o", "a.vdb")
         for word, hint in (("chain", "--fields spline,chain_id"),
                            ("element", "--color element --fields spline,Cd")):
-            self.check(1, "color", "a.vdb", "--color", word, "-o", "b.ply",
+            self.check(1, "convert", "a.vdb", "--color", word, "-o", "b.ply",
                        says=["a.vdb: --color " + word, hint])
         self.check(0, CRAMBIN, *FAST, "--color", "element", "--fields", "Cd", "-o", "a.vdb",
                    "--force")
-        self.check(0, "color", "a.vdb", "--color", "element", "-o", "b.ply")
-        self.check(1, "color", "a.vdb", "--color", "residue", "-o", "c.ply", says="residue")
+        self.check(0, "convert", "a.vdb", "--color", "element", "-o", "b.ply")
+        self.check(1, "convert", "a.vdb", "--color", "residue", "-o", "c.ply", says="residue")
         self.assertEqual(self.names(), ["a.vdb", "b.ply"])
 
     def test_options_that_plan_a_run_are_unknown(self):
         self.build()
         before = self.names()
         for words in (["--dry-run"], ["--memory", "4G"]):
-            self.check(2, "mesh", "a.vdb", "-o", "b.ply", *words, says=words[0])
+            self.check(2, "convert", "a.vdb", "-o", "b.ply", *words, says=words[0])
             self.assertEqual(self.names(), before)
-            self.assertNotIn(words[0].encode(), self.check(0, "mesh", "--help").stdout)
+            self.assertNotIn(words[0].encode(), self.check(0, "convert", "--help").stdout)
 
     def test_wrong_calls(self):
-        self.check(2, "mesh", says="one .vdb")
-        self.check(2, "mesh", "a.vdb", "b.vdb", "-o", "a.ply", says="got 2")
-        self.check(2, "mesh", "a.vdb", says="-o FILE")
-        self.check(2, "mesh", "a.vdb", "-o", "b.vdb", says="color")
-        self.check(2, "color", "a.vdb", "-o", "b.vdb", says="--color")
-        self.check(2, "mesh", "a.vdb", "-o", "b.ply", "--probe", "1", says="--probe")
-        self.check(1, "mesh", "a.vdb", "-o", "b.ply", says="a.vdb")
+        self.check(2, "convert", says="one .vdb")
+        self.check(2, "convert", "a.vdb", "b.vdb", "-o", "a.ply", says="got 'a.vdb' and 'b.vdb'")
+        self.check(2, "convert", "a.vdb", says="-o FILE")
+        self.check(2, "convert", "a.vdb", "-o", "b.vdb", says="color")
+        self.check(2, "convert", "a.vdb", "-o", "b.vdb", says="--color")
+        self.check(2, "convert", "a.vdb", "-o", "b.ply", "--probe", "1", says="--probe")
+        self.check(1, "convert", "a.vdb", "-o", "b.ply", says="a.vdb")
         (self.folder / "a.vdb").write_text("HEADER\n")
-        self.check(1, "mesh", "a.vdb", "-o", "b.ply", says="a.vdb")
+        self.check(1, "convert", "a.vdb", "-o", "b.ply", says="a.vdb")
         self.assertEqual(self.names(), ["a.vdb"])
 
 

@@ -21,10 +21,27 @@ class Program(unittest.TestCase):
 
 class ShortWords(ToolTest):
     def test_help_and_version(self):
-        for verb in ([], ["compare"], ["batch"], ["info"], ["plan"], ["merge"]):
+        for verb in ([], ["compare"], ["batch"], ["info"], ["convert"], ["bricks", "plan"], ["bricks", "merge"]):
             self.assertEqual(self.check(0, *verb, "-h").stdout,
                              self.check(0, *verb, "--help").stdout)
         self.assertEqual(self.check(0, "-V").stdout, self.check(0, "--version").stdout)
+
+    def test_help_of_a_verb(self):
+        for verb in (["compare"], ["bricks", "run"], ["BATCH"]):
+            self.assertEqual(self.check(0, "help", *verb).stdout, self.check(0, *verb, "--help").stdout)
+        overview = self.check(0, "help").stdout.decode()
+        for verb in ("batch", "compare", "convert", "bricks plan", "bricks run", "bricks merge", "info"):
+            self.assertIn(f"vdb_molsurf {verb} ", overview)
+
+    def test_build_is_a_verb(self):
+        self.check(0, "build", CRAMBIN, *FAST, "-o", "a.ply")
+        self.check(0, CRAMBIN, *FAST, "-o", "b.ply")
+        self.assertEqual(*((self.folder / name).read_bytes() for name in ("a.ply", "b.ply")))
+
+    def test_words_in_any_case(self):
+        self.check(0, CRAMBIN, *FAST, "--surface", "SES", "--color", "Element", "-o", "a.PLY")
+        self.check(0, CRAMBIN, *FAST, "--surface", "ses", "--color", "element", "-o", "b.ply")
+        self.assertEqual(*((self.folder / name).read_bytes() for name in ("a.PLY", "b.ply")))
 
 
 class WrongCalls(ToolTest):
@@ -46,6 +63,38 @@ class WrongCalls(ToolTest):
 
     def test_unknown_option(self):
         self.refuse(CRAMBIN, "-o", "a.vdb", "--voxle", "1", says="--voxle")
+
+    def test_what_was_meant(self):
+        for words, meant in ((("compar", "a.vdb", "b.vdb"), "compare"), (("brick", "plan"), "bricks"),
+                             (("bricks", "rn", "p.json", "1"), "run"),
+                             ((CRAMBIN, "-o", "a.vdb", "--voxle", "1"), "--voxel"),
+                             ((CRAMBIN, "-o", "a.vdb", "--surface", "varational"), "variational"),
+                             ((CRAMBIN, "-o", "a.vdb", "--fields", "mean_curvatur"), "mean_curvature"),
+                             ((CRAMBIN, "-o", "a.png", "--background", "blak"), "black")):
+            self.refuse(*words, says=f"did you mean {meant}?")
+        self.refuse("bricks", says="plan, run, merge")
+
+    def test_options_of_other_verbs(self):
+        self.refuse("compare", CRAMBIN, CRAMBIN, "--turn", "5", says="--turn is for build, batch, convert")
+        self.refuse("bricks", "plan", CRAMBIN, "-o", "p.json", "--bricks", 2, "--split", "group",
+                    says="--split is for build, batch, not for bricks plan")
+        self.refuse("info", "-q", CRAMBIN, says="-q")
+        for verb, option in (("compare", "--turn"), ("convert", "--probe"), ("batch", "--frames")):
+            self.assertNotIn(option.encode(), self.check(0, verb, "--help").stdout)
+
+    def test_a_surface_is_no_structure(self):
+        self.check(0, CRAMBIN, *FAST, "-o", "a.vdb", "-o", "a.ply")
+        self.check(1, "a.vdb", "-o", "b.ply", says="vdb_molsurf convert a.vdb")
+        self.check(1, "a.ply", "-o", "b.vdb", says="it is a mesh")
+
+    def test_order_of_options_does_not_decide(self):
+        for words in (("--epsilon", "1", "--resolution", "5"), ("--resolution", "5", "--epsilon", "1")):
+            self.refuse(CRAMBIN, "-o", "a.vdb", *words, says="--epsilon and a --resolution")
+
+    def test_files_that_hold_no_colours_or_fields(self):
+        self.check(0, CRAMBIN, *FAST, "--color", "chain", "-o", "a.stl", says="none of the files can hold colours")
+        self.check(0, CRAMBIN, *FAST, "--fields", "sas,mean_curvature", "-o", "b.ply",
+                   says="--fields sas: none of the files")
 
     def test_options_are_not_guessed(self):
         self.refuse(CRAMBIN, "-o", "a.vdb", "--vox", "1", says="--vox")

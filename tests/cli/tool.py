@@ -80,8 +80,8 @@ def read_ply(data):
     return names, vertices, triangles
 
 
-def read_png(data):
-    """(width, rows of bytes, three a pixel) of an 8-bit picture with or without alpha."""
+def read_png(data, parts=3):
+    """(width, rows of bytes, three or all four a pixel) of an 8-bit picture with or without alpha."""
     channels = {2: 3, 6: 4}[data[25]]
     width, at, body = struct.unpack(">I", data[16:20])[0], 8, b""
     while at < len(data):
@@ -100,7 +100,5 @@ def read_png(data):
             paeth = min((a, b, c), key=lambda x: abs(guess - x))
             row[i] = row[i] + (0, a, b, (a + b) // 2, paeth)[kind] & 255
         last = row
-        if channels == 4:
-            row = bytearray(v for i, v in enumerate(row) if i % 4 < 3)
-        rows.append(row)
+        rows.append(bytearray(v for i, v in enumerate(row) if i % channels < parts))
     return width, rows

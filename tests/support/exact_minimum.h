@@ -5,7 +5,7 @@
 /// Surfaces of least energy, computed without a level set: the ball about one atom, and the
 /// surface of revolution about atoms on a line.
 
-#include "molsurf/flow/options.h"
+#include "molsurf/options.h"
 
 #include <openvdb/Types.h>
 

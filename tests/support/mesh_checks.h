@@ -4,7 +4,7 @@
 /// @file
 /// A mesh judged by CGAL, which shares no code with the library.
 
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
 
 #include <iosfwd>
 #include <string>

@@ -4,9 +4,9 @@
 /// @file
 /// Whole runs, and the spline that they leave.
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/spline/spline.h"
-#include "molsurf/surface/run.h"
+#include "molsurf/surface.h"
 #include "support/molecules.h"
 
 #include <utility>
@@ -15,10 +15,10 @@
 namespace molsurf::test
 {
 
-inline Result runOn(const std::vector<Ball>& balls, const Options& options = {})
+inline MolecularSurface runOn(const std::vector<Ball>& balls, const SurfaceOptions& options = {})
 {
     Progress progress;
-    return run(balls, options, progress);
+    return makeSurface(balls, options, &progress);
 }
 
 /// S as the field "spline" holds it.
@@ -40,7 +40,7 @@ inline Spline splineFrom(const openvdb::FloatGrid& grid)
     return spline;
 }
 
-inline Spline splineFrom(const Result& result)
+inline Spline splineFrom(const MolecularSurface& result)
 {
     for (const auto& field : result.fields) {
         if (field->getName() == "spline")

@@ -4,7 +4,7 @@
 /// @file
 /// Meshes of few triangles.
 
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
 
 namespace molsurf::test
 {

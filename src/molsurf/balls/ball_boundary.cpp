@@ -6,8 +6,8 @@
 #include "molsurf/balls/circle_cover.h"
 #include "molsurf/balls/quad.h"
 #include "molsurf/core/disjoint_sets.h"
-#include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/error.h"
 
 #include <tbb/enumerable_thread_specific.h>
 

@@ -7,9 +7,9 @@
 /// surface calculation, J. Appl. Cryst. 16:548-558, 1983, are the points at a probe radius from
 /// them).
 
-#include "molsurf/balls/ball.h"
+#include "molsurf/ball.h"
 #include "molsurf/balls/placed_ball.h"
-#include "molsurf/core/progress.h"
+#include "molsurf/progress.h"
 
 #include <openvdb/Types.h>
 

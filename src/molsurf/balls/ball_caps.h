@@ -8,7 +8,7 @@
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/balls/dense_caps.h"
 #include "molsurf/balls/placed_ball.h"
-#include "molsurf/core/progress.h"
+#include "molsurf/progress.h"
 
 #include <cstdint>
 #include <vector>

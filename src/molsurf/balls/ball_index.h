@@ -4,7 +4,7 @@
 /// @file
 /// Which balls are near a box: cell lists, hashed by columns of cells, one for each class of radii.
 
-#include "molsurf/balls/ball.h"
+#include "molsurf/ball.h"
 
 #include <openvdb/Types.h>
 

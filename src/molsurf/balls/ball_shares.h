@@ -4,8 +4,8 @@
 /// @file
 /// How a union of balls is shared out among them, in closed form.
 
-#include "molsurf/balls/ball.h"
-#include "molsurf/core/progress.h"
+#include "molsurf/ball.h"
+#include "molsurf/progress.h"
 
 #include <cstdint>
 #include <vector>

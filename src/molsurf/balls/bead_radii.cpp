@@ -2,7 +2,7 @@
 #include "molsurf/balls/bead_radii.h"
 
 #include "molsurf/balls/ball_shares.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +97,7 @@ public:
         for (int step = 0; !done(); ++step) {
             if (step == mostSteps || floor <= 0.0 || !advance(floor)) {
                 throw Error(ErrorKind::Numeric,
-                            "--coarse: no radii give the beads their volumes [hint: are there "
+                            "`coarse`: no radii give the beads their volumes [hint: are there "
                             "atoms more than once?]");
             }
         }

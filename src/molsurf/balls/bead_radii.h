@@ -4,8 +4,8 @@
 /// @file
 /// Radii of beads by equal volume.
 
-#include "molsurf/balls/ball.h"
-#include "molsurf/core/progress.h"
+#include "molsurf/ball.h"
+#include "molsurf/progress.h"
 
 #include <cstddef>
 #include <vector>

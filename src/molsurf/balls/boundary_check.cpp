@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/balls/boundary_check.h"
 
-#include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"
+#include "molsurf/error.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 
 #include "molsurf/balls/ball_caps.h"
 #include "molsurf/balls/boundary_measure.h"
-#include "molsurf/core/progress.h"
+#include "molsurf/progress.h"
 
 #include <cstddef>
 #include <cstdint>

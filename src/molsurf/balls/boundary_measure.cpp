@@ -2,8 +2,8 @@
 #include "molsurf/balls/boundary_measure.h"
 
 #include "molsurf/core/disjoint_sets.h"
-#include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/error.h"
 
 #include <algorithm>
 #include <cmath>

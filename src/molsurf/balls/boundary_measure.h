@@ -5,7 +5,7 @@
 /// Area, volume and topology of a union of balls in closed form.
 
 #include "molsurf/balls/ball_boundary.h"
-#include "molsurf/core/progress.h"
+#include "molsurf/progress.h"
 
 #include <vector>
 

@@ -4,8 +4,8 @@
 /// @file
 /// Which labelled parts of a molecule touch.
 
-#include "molsurf/balls/ball.h"
-#include "molsurf/core/progress.h"
+#include "molsurf/ball.h"
+#include "molsurf/progress.h"
 
 #include <cstdint>
 #include <vector>

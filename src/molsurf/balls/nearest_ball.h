@@ -4,8 +4,8 @@
 /// @file
 /// Which atom a point of a surface belongs to.
 
-#include "molsurf/balls/ball.h"
-#include "molsurf/core/progress.h"
+#include "molsurf/ball.h"
+#include "molsurf/progress.h"
 
 #include <openvdb/Types.h>
 

@@ -4,7 +4,7 @@
 /// @file
 /// Balls in general position: no four spheres meet in a point, no two touch.
 
-#include "molsurf/balls/ball.h"
+#include "molsurf/ball.h"
 
 #include <openvdb/Types.h>
 

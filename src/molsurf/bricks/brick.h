@@ -5,7 +5,7 @@
 /// The result of a brick: its part of the grids and of the mesh, and what adds up over bricks.
 
 #include "molsurf/bricks/brick_mesh.h"
-#include "molsurf/surface/report.h"
+#include "molsurf/report.h"
 
 #include <openvdb/openvdb.h>
 

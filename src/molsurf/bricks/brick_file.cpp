@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/brick_file.h"
 
-#include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/error.h"
 
 #include <nlohmann/json.hpp>
 #include <openvdb/io/Compression.h>

@@ -4,9 +4,9 @@
 /// @file
 /// The part of a mesh that a brick owns, cut so that the parts of all bricks fit vertex on vertex.
 
-#include "molsurf/core/progress.h"
+#include "molsurf/mesh.h"
 #include "molsurf/mesh/measure.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/progress.h"
 
 #include <openvdb/openvdb.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/merge_mesh.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/mesh/statistics.h"
 
 #include <tbb/parallel_invoke.h>
@@ -124,7 +124,7 @@ void MergedMesh::writePly(OutputFile& file, const Progress& progress) const
     if (vertices() > std::size_t(std::numeric_limits<std::int32_t>::max()))
         throw Error(ErrorKind::Output, "cannot write " + file.path() +
                                            ": .ply counts at most 2147483647 vertices [hint: a "
-                                           "larger --voxel]");
+                                           "larger `voxel`]");
     const PlyLayout layout = commonLayout(bricks_);
     const std::string header = plyHeader(layout, vertices(), triangles());
     file.write(header.data(), header.size());

@@ -6,7 +6,7 @@
 
 #include "molsurf/bricks/brick_file.h"
 #include "molsurf/io/output_file.h"
-#include "molsurf/surface/report.h"
+#include "molsurf/report.h"
 
 #include <cstdint>
 #include <string>

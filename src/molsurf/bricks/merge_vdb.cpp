@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/merge_vdb.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Compression.h>

@@ -5,8 +5,8 @@
 /// The .vdb of the whole from the bricks' leaves, without holding their values.
 
 #include "molsurf/bricks/brick_file.h"
-#include "molsurf/core/progress.h"
 #include "molsurf/io/output_file.h"
+#include "molsurf/progress.h"
 
 #include <openvdb/openvdb.h>
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/plan_bricks.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/bricks/brick_file.h"
+
+#include "molsurf/error.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/check_balls.h"
 
@@ -140,7 +142,7 @@ Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach
 }
 
 /// How many numbers a voxel has in the grids that go along with the surface.
-int valuesAlong(const Options& options)
+int valuesAlong(const SurfaceOptions& options)
 {
     int values = 0;
     for (const std::string& name : options.fields) {
@@ -153,7 +155,7 @@ int valuesAlong(const Options& options)
 class Planner
 {
 public:
-    Planner(const BallSelection& atoms, const Options& options, const GaussianExtent& extent,
+    Planner(const BallSet& atoms, const SurfaceOptions& options, const GaussianExtent& extent,
             const Progress& progress)
         : options_(options), extent_(extent), atoms_(atoms.balls.size()),
           occupancy_(occupancyOf(atoms.balls, options.voxel,
@@ -288,8 +290,8 @@ public:
     {
         char text[160];
         std::snprintf(text, sizeof text,
-                      "--memory: %s needs %.2f GB, and there are %.2f [hint: --memory %.1fG, or a "
-                      "larger --voxel]",
+                      "`memory`: %s needs %.2f GB, and there are %.2f [hint: `memory` %.1fG, or a "
+                      "larger `voxel`]",
                       what, bytes / 1e9, double(memory) / 1e9, std::ceil(1.1e-8 * bytes) / 10.0);
         throw Error(ErrorKind::Input, text);
     }
@@ -300,7 +302,7 @@ private:
         if (brick.voxels > 0) out.push_back(brick);
     }
 
-    const Options& options_;
+    const SurfaceOptions& options_;
     const GaussianExtent& extent_;
     bool keeping_ = false;
     std::size_t atoms_;
@@ -315,7 +317,7 @@ double secondsOf(const std::vector<PlannedBrick>& bricks)
 }
 
 /// Cuts by the limits; without any the whole is one brick.
-BrickPlan makePlan(const BallSelection& atoms, const Options& options, const BrickLimits& limits,
+BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const BrickLimits& limits,
                    const Progress& progress)
 {
     checkBalls(atoms.balls, options, Pieces::Bricks,
@@ -353,14 +355,14 @@ BrickPlan makePlan(const BallSelection& atoms, const Options& options, const Bri
 
 } // namespace
 
-BrickPlan planBricks(const BallSelection& atoms, const Options& options, const BrickLimits& limits,
+BrickPlan planBricks(const BallSet& atoms, const SurfaceOptions& options, const BrickLimits& limits,
                      const Progress& progress)
 {
     checkBrickOptions(options);
     return makePlan(atoms, options, limits, progress);
 }
 
-BrickPlan planWhole(const BallSelection& atoms, const Options& options, const Progress& progress)
+BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const Progress& progress)
 {
     return makePlan(atoms, options, {1, 0}, progress);
 }
@@ -370,9 +372,24 @@ GaussianExtent extentOf(const BrickPlan& plan)
     return {plan.largest, plan.swollen, plan.tolerance};
 }
 
-Scope scopeOf(const BrickPlan& plan, std::size_t k, const Options& options)
+Scope scopeOf(const BrickPlan& plan, std::size_t k, const SurfaceOptions& options)
 {
     return brickScope(options, {plan.bricks[k].box, plan.anchor}, extentOf(plan));
+}
+
+void computeBrick(const BallSet& balls, const SurfaceOptions& options, const BrickPlan& plan,
+                  std::size_t number, const std::string& id, const std::string& path, bool meshed,
+                  Progress& progress)
+{
+    SurfaceOptions fixed = options;
+    fixed.evolution.steps = plan.steps;
+    const Scope scope = scopeOf(plan, number - 1, fixed);
+    const Brick brick =
+        runBrick(ballsNear(balls, fixed, scope), fixed, scope, progress, plan.keepsMemory);
+    progress.update("write", 0.0);
+    OutputFile file(path, true);
+    writeBrick(brick, id, number, meshed, file, progress);
+    file.commit();
 }
 
 } // namespace molsurf

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/plan_file.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <nlohmann/json.hpp>
 
@@ -47,7 +47,7 @@ std::string manifestText(const PlanManifest& m)
     const Json text = {{"program", "vdb_molsurf"},
                        {"version", m.version},
                        {"input", m.input},
-                       {"arguments", m.arguments},
+                       {"options", m.options},
                        {"files", std::move(files)},
                        {"atoms", p.atoms},
                        {"voxel", m.voxel},
@@ -78,7 +78,7 @@ PlanManifest readManifest(const std::string& path)
         PlanManifest m;
         m.version = j.at("version");
         m.input = j.at("input");
-        m.arguments = j.at("arguments").get<std::vector<std::string>>();
+        m.options = j.at("options").get<std::map<std::string, std::vector<std::string>>>();
         for (const Json& f : j.at("files")) m.files.push_back({f.at("path"), f.at("sha256")});
         m.voxel = j.at("voxel");
         m.plan.atoms = j.at("atoms");
@@ -94,7 +94,8 @@ PlanManifest readManifest(const std::string& path)
         }
         return m;
     } catch (const Json::exception&) {
-        throw Error(ErrorKind::Input, path + ": is no plan [hint: vdb_molsurf plan writes one]");
+        throw Error(ErrorKind::Input,
+                    path + ": is no plan [hint: vdb_molsurf bricks plan writes one]");
     }
 }
 

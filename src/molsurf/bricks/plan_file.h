@@ -4,13 +4,34 @@
 /// @file
 /// The manifest of a plan: plan.json.
 
-#include "molsurf/bricks/brick_plan.h"
+#include "molsurf/bricks.h"
 #include "molsurf/io/output_file.h"
+
+#include <map>
+#include <string>
+#include <vector>
 
 namespace molsurf
 {
 
-/// The content of plan.json.
+/// A file that a plan depends on.
+struct PlanInput {
+    std::string path;
+    std::string sha256;
+};
+
+/// The content of plan.json: what to compute, and how it is cut.
+struct PlanManifest {
+    std::string version; ///< of the program
+    std::string input;   ///< the structure
+    /// Options of the surface that were given, by name, with their values.
+    std::map<std::string, std::vector<std::string>> options;
+    std::vector<PlanInput> files; ///< the structure and other files that were read
+    double voxel = 0.0;           ///< [Å]
+    BrickPlan plan;
+};
+
+/// The text of plan.json.
 std::string manifestText(const PlanManifest& manifest);
 
 void writeManifest(const PlanManifest& manifest, OutputFile& file);

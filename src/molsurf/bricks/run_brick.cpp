@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/run_brick.h"
 
-#include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/error.h"
 #include "molsurf/levelset/union_distance.h"
 #include "molsurf/mesh/extract.h"
 #include "molsurf/spline/fit.h"
+#include "molsurf/surface.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/label_surface.h"
-#include "molsurf/surface/run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +79,7 @@ openvdb::GridBase::Ptr owned(const openvdb::GridBase::Ptr& grid, const CoordBBox
 }
 
 /// The grid `sas` of what a brick owns.
-openvdb::GridBase::Ptr sasGrid(const BallSelection& atoms, const Options& options,
+openvdb::GridBase::Ptr sasGrid(const BallSet& atoms, const SurfaceOptions& options,
                                const NarrowBand& band, const Scope& scope, Progress& progress)
 {
     const double width = surfaceWidthVox * options.voxel;
@@ -97,7 +97,7 @@ openvdb::GridBase::Ptr sasGrid(const BallSelection& atoms, const Options& option
 }
 
 /// The mesh, what is known at its vertices, and the grids.
-void finish(const BallSelection& atoms, const Options& options, const Scope& scope,
+void finish(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
             NarrowBand& band, DistanceBand& S, bool keepsMemory, Progress& progress,
             Stopwatch& watch, Brick& brick)
 {
@@ -115,7 +115,7 @@ void finish(const BallSelection& atoms, const Options& options, const Scope& sco
     stats.keepCells = true;
     Mesh whole = extractMesh(*surface, spline, progress, stats);
     addCurvature(spline, options.fields, whole, progress);
-    Result result;
+    MolecularSurface result;
     result.surface = openvdb::gridPtrCast<openvdb::FloatGrid>(owned(surface, box));
     surface.reset();
     brick.grids = {result.surface};
@@ -162,7 +162,7 @@ void finish(const BallSelection& atoms, const Options& options, const Scope& sco
 
 } // namespace
 
-Scope brickScope(const Options& options, const Region& region, const GaussianExtent& extent)
+Scope brickScope(const SurfaceOptions& options, const Region& region, const GaussianExtent& extent)
 {
     Scope scope;
     scope.region = region;
@@ -182,7 +182,7 @@ Scope brickScope(const Options& options, const Region& region, const GaussianExt
     return scope;
 }
 
-double ballReach(const Options& options, const GaussianExtent& extent)
+double ballReach(const SurfaceOptions& options, const GaussianExtent& extent)
 {
     const double h = options.voxel, R = extent.largest + options.probe;
     const double leaf = leafDim * h, tolerance = extent.tolerance;
@@ -195,7 +195,7 @@ double ballReach(const Options& options, const GaussianExtent& extent)
     return std::max({unions, isUnion(options.kind) ? 0.0 : sums, labels});
 }
 
-BallSelection ballsNear(const BallSelection& atoms, const Options& options, const Scope& scope)
+BallSet ballsNear(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope)
 {
     const int halo = std::max(scope.flowHalo, scope.splineHalo);
     const CoordBBox box = scope.region.grown(halo);
@@ -217,7 +217,7 @@ BallSelection ballsNear(const BallSelection& atoms, const Options& options, cons
         to.reserve(near.size());
         for (const std::int32_t k : order) to.push_back(from[near[std::size_t(k)]]);
     };
-    BallSelection some;
+    BallSet some;
     take(atoms.balls, some.balls);
     take(atoms.decays, some.decays);
     take(atoms.colors, some.colors);
@@ -234,29 +234,29 @@ BallSelection ballsNear(const BallSelection& atoms, const Options& options, cons
     return some;
 }
 
-void checkBrickOptions(const Options& options)
+void checkBrickOptions(const SurfaceOptions& options)
 {
     const auto refuse = [](const std::string& what) {
         throw Error(ErrorKind::Usage,
                     what + " needs the whole molecule at once: it is not for bricks [hint: without "
-                           "--memory, on a machine that has enough]");
+                           "`memory`, on a machine that has enough]");
     };
-    if (options.split) refuse("--split");
-    if (!options.surfaceOf.empty()) refuse("--surface-of");
-    if (options.interfaces) refuse("--interfaces");
-    if (options.matchVolume && !options.atoms.resolutions.empty()) refuse("--match-volume");
-    if (options.fillCavities) refuse("--fill-cavities");
-    if (options.minWall > 0.0) refuse("--min-wall");
-    if (hasField(options.fields, "density")) refuse("--fields density");
-    if (options.curvatureIntegrals) refuse("--curvature-totals");
-    if (options.splineLevel > 0) refuse("--spline-level");
+    if (options.split) refuse("`split`");
+    if (!options.surfaceOf.empty()) refuse("`surfaceOf`");
+    if (options.interfaces) refuse("`interfaces`");
+    if (options.matchVolume) refuse("`matchVolume`");
+    if (options.fillCavities) refuse("`fillCavities`");
+    if (options.minWall > 0.0) refuse("`minWall`");
+    if (hasField(options.fields, "density")) refuse("`fields` density");
+    if (options.curvatureTotals) refuse("`curvatureTotals`");
+    if (options.splineLevel > 0) refuse("`splineLevel`");
     if (options.kind == SurfaceKind::Variational && options.evolution.flow == Flow::Plain)
-        refuse("--flow plain");
+        refuse("`flow` plain");
     if (options.color == ColorBy::MeanCurvature || options.color == ColorBy::GaussianCurvature)
-        refuse("--color by curvature");
+        refuse("`color` by curvature");
 }
 
-Brick runBrick(const BallSelection& atoms, const Options& options, const Scope& scope,
+Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
                Progress& progress, bool keepsMemory)
 {
     Brick brick;

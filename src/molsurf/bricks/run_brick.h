@@ -4,8 +4,9 @@
 /// @file
 /// The surface in one brick of space.
 
+#include "molsurf/atoms.h"
 #include "molsurf/bricks/brick.h"
-#include "molsurf/surface/options.h"
+#include "molsurf/options.h"
 #include "molsurf/surface/stages.h"
 
 namespace molsurf
@@ -14,23 +15,23 @@ namespace molsurf
 /// Halos wide enough that what a brick owns is what a run of the whole molecule has there.
 /// @param[in] region  the brick
 /// @param[in] extent  of all balls
-Scope brickScope(const Options& options, const Region& region, const GaussianExtent& extent);
+Scope brickScope(const SurfaceOptions& options, const Region& region, const GaussianExtent& extent);
 
 /// How far outside the voxels of a brick's widest halo balls matter to it [Å].
-double ballReach(const Options& options, const GaussianExtent& extent);
+double ballReach(const SurfaceOptions& options, const GaussianExtent& extent);
 
 /// The balls near a brick, in their order, with all that is known of them.
-BallSelection ballsNear(const BallSelection& atoms, const Options& options, const Scope& scope);
+BallSet ballsNear(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope);
 
 /// @throws Error(ErrorKind::Usage) for options that need the whole molecule at once; names them as
 ///         the command line does
-void checkBrickOptions(const Options& options);
+void checkBrickOptions(const SurfaceOptions& options);
 
 /// Computes what a brick owns of a surface.
 /// @param[in] atoms    those that ballsNear() gives, or more; coloured if colours are wanted
 /// @param[in] options  as checkBrickOptions() lets them pass, with a number of steps
 /// @param[in] keepsMemory  does not give unused pages back to the system, for the next brick
-Brick runBrick(const BallSelection& atoms, const Options& options, const Scope& scope,
+Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
                Progress& progress, bool keepsMemory = false);
 
 } // namespace molsurf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/color/color_by.h"
+#include "molsurf/options.h"
 
 namespace molsurf
 {

@@ -27,6 +27,12 @@ struct ColorScale {
     std::vector<Color> stops; ///< evenly spaced, at least two; linear in sRGB between them
 
     Color at(double value) const;
+
+    /// The value that stop i stands at.
+    double valueOf(std::size_t i) const
+    {
+        return low + (high - low) * double(i) / double(stops.size() - 1);
+    }
 };
 
 /// From 0 to @a high by viridis: its lightness rises evenly, so equal steps look equal, also in

@@ -4,9 +4,9 @@
 /// @file
 /// Colours by curvature: of the mesh and of the grid Cd, by one scale.
 
-#include "molsurf/color/color_by.h"
 #include "molsurf/color/color_map.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
+#include "molsurf/options.h"
 
 #include <openvdb/openvdb.h>
 

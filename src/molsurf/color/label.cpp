@@ -203,7 +203,7 @@ std::vector<Vec3f> pointsInside(const openvdb::FloatGrid& surface, double volume
     return points;
 }
 
-void labelVertices(const BallSelection& atoms, const Labels& nearest, Mesh& mesh)
+void labelVertices(const BallSet& atoms, const Labels& nearest, Mesh& mesh)
 {
     mesh.labels.push_back({"atom_id", labelsOf(nearest, atomsOf(atoms.balls))});
     if (!atoms.labels) return;
@@ -212,7 +212,7 @@ void labelVertices(const BallSelection& atoms, const Labels& nearest, Mesh& mesh
         mesh.labels.push_back({"group_id", labelsOf(nearest, atoms.labels->groupOf)});
 }
 
-std::vector<openvdb::GridBase::Ptr> labelGrids(const BallSelection& atoms,
+std::vector<openvdb::GridBase::Ptr> labelGrids(const BallSet& atoms,
                                                const openvdb::FloatGrid& surface,
                                                const LabelNames& names, double reach,
                                                const Progress& progress)

@@ -8,8 +8,8 @@
 /// |x - x_i| - r_i, see nearestBalls().
 
 #include "molsurf/color/color_map.h"
-#include "molsurf/core/progress.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
+#include "molsurf/progress.h"
 #include "molsurf/selection/select_balls.h"
 
 #include <openvdb/openvdb.h>
@@ -25,7 +25,7 @@ using Labels = std::vector<std::int32_t>;
 
 /// Adds the labels atom_id and, of labelled balls, chain_id and group_id to a mesh.
 /// @param[in] nearest  ball of each vertex
-void labelVertices(const BallSelection& atoms, const Labels& nearest, Mesh& mesh);
+void labelVertices(const BallSet& atoms, const Labels& nearest, Mesh& mesh);
 
 /// The grids of labels that are wanted.
 struct LabelNames {
@@ -34,7 +34,7 @@ struct LabelNames {
 
 /// The grids atom_id, chain_id and group_id on the active voxels of a level set, -1 elsewhere.
 /// @param[in] reach  farthest that a point of the band may lie from the balls [Å]
-std::vector<openvdb::GridBase::Ptr> labelGrids(const BallSelection& atoms,
+std::vector<openvdb::GridBase::Ptr> labelGrids(const BallSet& atoms,
                                                const openvdb::FloatGrid& surface,
                                                const LabelNames& names, double reach,
                                                const Progress& progress);

@@ -71,7 +71,7 @@ void addKinds(const std::vector<Value>& values, const std::vector<Color>& colors
 
 } // namespace
 
-std::optional<Legend> legendOf(ColorBy by, const BallSelection& atoms, const Mesh& mesh,
+std::optional<Legend> legendOf(ColorBy by, const BallSet& atoms, const Mesh& mesh,
                                const Progress& progress)
 {
     if (by == ColorBy::Nothing) return {};

@@ -4,10 +4,10 @@
 /// @file
 /// What the colours of a surface mean, for a legend.
 
-#include "molsurf/color/color_by.h"
 #include "molsurf/color/color_map.h"
-#include "molsurf/core/progress.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
+#include "molsurf/options.h"
+#include "molsurf/progress.h"
 #include "molsurf/selection/select_balls.h"
 
 #include <cstddef>
@@ -40,7 +40,7 @@ struct Legend {
 /// elements and kinds of residues have one for each that occurs.
 ///
 /// @param[in] mesh  of the run
-std::optional<Legend> legendOf(ColorBy by, const BallSelection& atoms, const Mesh& mesh,
+std::optional<Legend> legendOf(ColorBy by, const BallSet& atoms, const Mesh& mesh,
                                const Progress& progress);
 
 } // namespace molsurf

@@ -139,7 +139,7 @@ std::vector<Color> distinctColors(const std::vector<std::vector<std::int32_t>>& 
     return out;
 }
 
-std::vector<Color> chainColors(const BallSelection& atoms, const Progress& progress)
+std::vector<Color> chainColors(const BallSet& atoms, const Progress& progress)
 {
     if (!atoms.labels) return {};
     const BallLabels& labels = *atoms.labels;
@@ -148,7 +148,7 @@ std::vector<Color> chainColors(const BallSelection& atoms, const Progress& progr
         contacts(atoms.balls, labels.chainOf, labels.chains.size(), visibleGap, progress));
 }
 
-std::vector<Color> groupColors(const BallSelection& atoms, const Progress& progress)
+std::vector<Color> groupColors(const BallSet& atoms, const Progress& progress)
 {
     if (!atoms.labels || atoms.labels->groups.empty()) return {};
     const BallLabels& labels = *atoms.labels;
@@ -160,7 +160,7 @@ std::vector<Color> groupColors(const BallSelection& atoms, const Progress& progr
     return colors;
 }
 
-std::vector<Color> ballColors(const BallSelection& atoms, ColorBy by, const Progress& progress)
+std::vector<Color> ballColors(const BallSet& atoms, ColorBy by, const Progress& progress)
 {
     std::vector<Color> out(atoms.balls.size(), neutralColor);
     if (!atoms.labels) return out;

@@ -4,9 +4,9 @@
 /// @file
 /// Colours of balls: by chain, group, element or kind of residue.
 
-#include "molsurf/color/color_by.h"
 #include "molsurf/color/color_map.h"
-#include "molsurf/core/progress.h"
+#include "molsurf/options.h"
+#include "molsurf/progress.h"
 #include "molsurf/selection/select_balls.h"
 
 #include <vector>
@@ -29,12 +29,12 @@ std::vector<Color> distinctColors(const std::vector<std::vector<std::int32_t>>& 
 ///
 /// @param[in] by  Chain, Group, Element or Residue
 /// @return one colour a ball; all neutral without labels
-std::vector<Color> ballColors(const BallSelection& atoms, ColorBy by, const Progress& progress);
+std::vector<Color> ballColors(const BallSet& atoms, ColorBy by, const Progress& progress);
 
 /// The colours of the chains themselves, as ballColors() gives them.
-std::vector<Color> chainColors(const BallSelection& atoms, const Progress& progress);
+std::vector<Color> chainColors(const BallSet& atoms, const Progress& progress);
 
 /// The colours of the groups themselves, as ballColors() gives them.
-std::vector<Color> groupColors(const BallSelection& atoms, const Progress& progress);
+std::vector<Color> groupColors(const BallSet& atoms, const Progress& progress);
 
 } // namespace molsurf

@@ -4,7 +4,7 @@
 /// @file
 /// Loops over leaves on all threads, with sums that have the same bits for any number of them.
 
-#include "molsurf/core/progress.h"
+#include "molsurf/progress.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/flow/evolve.h"
 
-#include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/error.h"
 #include "molsurf/flow/speed.h"
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
@@ -236,7 +236,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
         if (sums.area == 0.0 && region.whole()) {
             throw Error(ErrorKind::Numeric,
                         "evolve: step " + std::to_string(report.steps) +
-                            ": nothing is left of the surface [hint: a smaller --lambda]");
+                            ": nothing is left of the surface [hint: a smaller `lambda`]");
         }
         if (!report.energy.empty() && sums.energy > 0.0) {
             const double change = std::abs(sums.energy - report.energy.back()) / sums.energy;

@@ -4,11 +4,11 @@
 /// @file
 /// The variational flow: a level set moves down the energy  E = integral over Gamma of w.
 
-#include "molsurf/core/progress.h"
-#include "molsurf/flow/options.h"
 #include "molsurf/grid/leaf_table.h"
 #include "molsurf/grid/region.h"
-#include "molsurf/surface/report.h"
+#include "molsurf/options.h"
+#include "molsurf/progress.h"
+#include "molsurf/report.h"
 
 #include <functional>
 

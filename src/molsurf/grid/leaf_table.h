@@ -6,9 +6,9 @@
 /// like OpenVDB's leaf nodes, with a mask of active voxels and a table of neighbours each. A field
 /// on it is one array of 512 values a leaf. docs/adr/0002-leaf-table.md tells why.
 
-#include "molsurf/core/progress.h"
 #include "molsurf/grid/leaf_mask.h"
 #include "molsurf/grid/paged_array.h"
+#include "molsurf/progress.h"
 
 #include <openvdb/openvdb.h>
 

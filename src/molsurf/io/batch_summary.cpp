@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/batch_summary.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <nlohmann/json.hpp>
 

@@ -4,8 +4,8 @@
 /// @file
 /// What the readers of mesh files share; of no use elsewhere.
 
-#include "molsurf/core/error.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/error.h"
+#include "molsurf/mesh.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/output_file.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -42,7 +42,7 @@ std::string hint(int reason)
     switch (reason) {
     case ENOSPC:
     case EDQUOT:
-        return " [hint: free some space, write elsewhere, or take a larger --voxel]";
+        return " [hint: free some space, write elsewhere, or take a larger `voxel`]";
     case EACCES:
     case EPERM:
     case EROFS:
@@ -59,7 +59,7 @@ std::string hint(int reason)
 
 [[noreturn]] void refuseExisting(const std::string& path)
 {
-    refuse(path, "it exists already [hint: --force replaces it]");
+    refuse(path, "it exists already [hint: `force` replaces it]");
 }
 
 } // namespace

@@ -4,7 +4,7 @@
 /// @file
 /// The parts of a mesh as ranges of its vertices and triangles.
 
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
 
 #include <cstddef>
 #include <string>

@@ -5,7 +5,7 @@
 /// The records of a binary PLY file.
 
 #include "molsurf/io/output_buffer.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
 
 #include <array>
 #include <cstddef>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/read_mesh.h"
 
-#include "molsurf/core/error.h"
-#include "molsurf/core/progress.h"
+#include "molsurf/error.h"
 #include "molsurf/io/mesh_text.h"
 #include "molsurf/mesh/distance.h"
 #include "molsurf/mesh/topology.h"
+#include "molsurf/progress.h"
 
 #include <cerrno>
 #include <cstring>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/read_vdb.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <openvdb/io/Stream.h>
 

@@ -5,7 +5,7 @@
 /// 3MF, the 3D Manufacturing Format.
 
 #include "molsurf/io/output_file.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
 
 #include <string>
 

@@ -25,7 +25,7 @@ std::optional<double> ratio(std::optional<double> a, std::optional<double> b)
     return *a / *b;
 }
 
-Json operandJson(const OperandReport& operand)
+Json operandJson(const ComparedFile& operand)
 {
     return {{"input", operand.input},
             {"kind", operand.kind},
@@ -38,23 +38,24 @@ Json operandJson(const OperandReport& operand)
             {"closed", operand.closed}};
 }
 
-Json oneWayJson(const OneWayReport& way)
+Json oneWayJson(const OneWay& way)
 {
     return {{"mean", way.mean},
             {"rms", way.rms},
             {"max", way.max},
-            {"max_at", way.maxAt},
+            {"max_at", {way.maxAt[0], way.maxAt[1], way.maxAt[2]}},
             {"mean_signed", orNull(way.meanSigned)},
             {"inside", orNull(way.inside)},
             {"samples", way.samples}};
 }
 
-Json colorJson(const ColorReport& color)
+Json colorJson(const ComparisonReport& report)
 {
+    const ColorScale& color = report.color;
     Json bar = Json::array();
-    for (const auto& [value, rgb] : color.bar)
-        bar.push_back(Json{{"value", value}, {"color", rgb}});
-    return {{"attribute", color.attribute},
+    for (std::size_t i = 0; i < color.stops.size(); ++i)
+        bar.push_back(Json{{"value", color.valueOf(i)}, {"color", color.stops[i]}});
+    return {{"attribute", report.shown},
             {"map", color.map},
             {"low", color.low},
             {"high", color.high},
@@ -96,12 +97,12 @@ std::string comparisonText(const ComparisonReport& report)
         {"command", report.command},
         {"a", operandJson(report.a)},
         {"b", operandJson(report.b)},
-        {"a_to_b", oneWayJson(report.aToB)},
-        {"b_to_a", oneWayJson(report.bToA)},
-        {"hausdorff", report.hausdorff},
+        {"a_to_b", oneWayJson(report.distances.aToB)},
+        {"b_to_a", oneWayJson(report.distances.bToA)},
+        {"hausdorff", report.distances.hausdorff},
         {"area_ratio", orNull(ratio(report.a.area, report.b.area))},
         {"volume_ratio", orNull(ratio(report.a.volume, report.b.volume))},
-        {"color", colorJson(report.color)},
+        {"color", colorJson(report)},
         {"seconds", std::move(seconds)},
         {"peak_memory_bytes", report.peakMemoryBytes},
         {"threads", report.threads},
@@ -119,7 +120,7 @@ void writeComparison(const ComparisonReport& report, OutputFile& file)
 
 std::string comparisonTable(const ComparisonReport& report)
 {
-    const OneWayReport &there = report.aToB, &back = report.bToA;
+    const OneWay &there = report.distances.aToB, &back = report.distances.bToA;
     std::string table;
     row(table, "distance [Å]", {"A to B", "B to A"});
     const auto distances = [&](const char* name, std::optional<double> a, std::optional<double> b) {
@@ -129,7 +130,7 @@ std::string comparisonTable(const ComparisonReport& report)
     distances("  mean, signed", there.meanSigned, back.meanSigned);
     distances("  RMS", there.rms, back.rms);
     distances("  max", there.max, back.max);
-    row(table, "  Hausdorff", {cell(report.hausdorff, "%.5f")});
+    row(table, "  Hausdorff", {cell(report.distances.hausdorff, "%.5f")});
     row(table, "", {"A", "B", "A/B"});
     row(table, "area [Å^2]",
         {cell(report.a.area, "%.2f"), cell(report.b.area, "%.2f"),

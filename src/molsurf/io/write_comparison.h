@@ -4,13 +4,46 @@
 /// @file
 /// The report of a comparison, as JSON and as lines to read.
 
+#include "molsurf/color/color_map.h"
+#include "molsurf/compare.h"
 #include "molsurf/io/output_file.h"
-#include "molsurf/surface/comparison_report.h"
 
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace molsurf
 {
+
+/// One of the two surfaces.
+struct ComparedFile {
+    std::string input;
+    std::string kind;             ///< "structure", "level set" or "mesh"
+    std::size_t atoms = 0;        ///< of a structure
+    double voxel = 0.0;           ///< [Å]; 0 for a mesh
+    double area = 0.0;            ///< [Å^2]
+    std::optional<double> volume; ///< [Å^3]; none if the surface is not closed
+    std::size_t vertices = 0;
+    std::size_t triangles = 0;
+    bool closed = false;
+};
+
+/// What a comparison tells.
+struct ComparisonReport {
+    std::string program = "vdb_molsurf";
+    std::string version;
+    std::string command;
+    ComparedFile a, b;
+    Comparison distances;
+    std::string shown; ///< what the colours show: "distance" or "signed_distance"
+    ColorScale color;
+    std::vector<std::pair<std::string, double>> seconds; ///< stage, wall seconds; "total" last
+    std::size_t peakMemoryBytes = 0;
+    int threads = 0;
+    std::vector<std::string> warnings;
+};
 
 /// The report as JSON text, indented, with a final line feed. What is not defined is null.
 std::string comparisonText(const ComparisonReport& report);

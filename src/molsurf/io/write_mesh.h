@@ -6,7 +6,7 @@
 /// mesh gives the same bytes.
 
 #include "molsurf/io/output_file.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
 
 #include <string>
 #include <vector>

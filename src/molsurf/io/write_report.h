@@ -5,7 +5,7 @@
 /// The report of a run as JSON.
 
 #include "molsurf/io/output_file.h"
-#include "molsurf/surface/report.h"
+#include "molsurf/report.h"
 
 #include <string>
 

@@ -8,10 +8,10 @@
 /// - e^psi: psi is kept instead since it is nearly quadratic, and g spans many decades
 /// (docs/math.md, section 2).
 
-#include "molsurf/balls/ball.h"
+#include "molsurf/ball.h"
 #include "molsurf/balls/ball_index.h"
-#include "molsurf/core/progress.h"
 #include "molsurf/grid/leaf_table.h"
+#include "molsurf/progress.h"
 
 #include <optional>
 #include <vector>

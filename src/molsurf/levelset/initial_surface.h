@@ -4,8 +4,8 @@
 /// @file
 /// The level set that the flow starts from: the zero set of the smooth field psi.
 
-#include "molsurf/core/progress.h"
 #include "molsurf/grid/leaf_table.h"
+#include "molsurf/progress.h"
 
 namespace molsurf
 {

@@ -4,8 +4,8 @@
 /// @file
 /// The signed distance to the zero set of a level set, deep into the molecule, by closest points.
 
-#include "molsurf/core/progress.h"
 #include "molsurf/grid/distance_band.h"
+#include "molsurf/progress.h"
 
 namespace molsurf
 {

@@ -5,8 +5,8 @@
 /// Keeps a level set a signed distance while its interface moves: Hamilton-Jacobi iterations by
 /// leaf block.
 
-#include "molsurf/core/progress.h"
 #include "molsurf/grid/leaf_table.h"
+#include "molsurf/progress.h"
 
 namespace molsurf
 {

@@ -4,8 +4,8 @@
 /// @file
 /// A least thickness for what is thin.
 
-#include "molsurf/core/progress.h"
 #include "molsurf/grid/distance_band.h"
+#include "molsurf/progress.h"
 
 namespace molsurf
 {

@@ -4,7 +4,7 @@
 /// @file
 /// The point of a triangle mesh that is nearest to a given point.
 
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
 
 #include <cstdint>
 #include <memory>

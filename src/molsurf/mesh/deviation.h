@@ -4,8 +4,9 @@
 /// @file
 /// How far one surface is from another. docs/math.md, section 11.
 
-#include "molsurf/core/progress.h"
+#include "molsurf/compare.h"
 #include "molsurf/mesh/distance.h"
+#include "molsurf/progress.h"
 
 #include <openvdb/openvdb.h>
 
@@ -19,20 +20,6 @@ namespace molsurf
 struct Size {
     double area = 0.0;            ///< [Å^2]
     std::optional<double> volume; ///< [Å^3]; none if the surface is not closed
-};
-
-/// The distances of one surface's points from another surface. Means are weighted by area.
-struct OneWay {
-    std::vector<float> distance; ///< of each vertex, >= 0 [Å]
-    std::vector<float>
-        signedDistance;        ///< < 0 inside the other one [Å]; empty if that is not closed
-    double mean = 0.0;         ///< of the distance [Å]
-    double rms = 0.0;          ///< root of the mean square [Å]
-    double max = 0.0;          ///< one-sided Hausdorff distance [Å]
-    openvdb::Vec3d maxAt{0.0}; ///< where that is [Å]
-    std::optional<double> meanSigned; ///< mean of the signed distance [Å]
-    std::optional<double> inside;     ///< share of the area that is inside the other surface
-    std::size_t samples = 0;          ///< points at which the distance was taken
 };
 
 /// Edges longer than this are sampled between their ends too [Å]; doubled until the parts of large

@@ -5,10 +5,10 @@
 /// The distance of any point from a surface, near or far: to triangles, or to the zero set of a
 /// spline that triangles sample. docs/math.md, section 11.
 
-#include "molsurf/core/progress.h"
+#include "molsurf/mesh.h"
 #include "molsurf/mesh/closest_point.h"
-#include "molsurf/mesh/mesh.h"
 #include "molsurf/mesh/topology.h"
+#include "molsurf/progress.h"
 #include "molsurf/spline/spline.h"
 
 #include <memory>

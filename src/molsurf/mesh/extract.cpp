@@ -126,8 +126,7 @@ bool isBad(const Mesh& mesh, const std::array<std::uint32_t, 3>& t)
 }
 
 /// Slides the vertices of bad triangles along the surface to the centroid of their neighbours.
-std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel,
-                  const Progress& progress)
+void relax(Vertices& vertices, SplineSampler& sampler, double voxel, const Progress& progress)
 {
     constexpr int rounds = 8;
     Mesh& mesh = vertices.mesh;
@@ -136,7 +135,6 @@ std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel,
             const auto& t = mesh.triangles[i];
             if (isBad(mesh, t)) corners.insert(corners.end(), t.begin(), t.end());
         });
-    std::size_t moved = 0;
     for (int round = 0; round < rounds && !bad.empty(); ++round) {
         std::sort(bad.begin(), bad.end());
         bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
@@ -179,7 +177,6 @@ std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel,
                 mesh.scalars[1].values[v] = oldGauss;
                 continue;
             }
-            ++moved;
             for (auto i = begin; i != end; ++i) {
                 const auto& t = mesh.triangles[*i];
                 if (isBad(mesh, t)) still.insert(still.end(), t.begin(), t.end());
@@ -187,7 +184,6 @@ std::size_t relax(Vertices& vertices, SplineSampler& sampler, double voxel,
         }
         bad = std::move(still);
     }
-    return moved;
 }
 
 } // namespace
@@ -252,7 +248,6 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
     const double voxel = surface.voxelSize()[0];
 
     const std::size_t chunks = (count + chunk - 1) / chunk;
-    std::vector<std::size_t> bisected(chunks, 0);
     std::vector<double> residual(chunks, 0.0);
     const auto project = [&](std::size_t c) {
         SplineSampler sampler(spline);
@@ -263,7 +258,6 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
             if (!moveToSurface(sampler, voxel, 1.0, x, jet)) {
                 x = start;
                 bisect(sampler, voxel, x, jet);
-                ++bisected[c];
             }
             vertices.set(v, x, jet);
             residual[c] = std::max(residual[c], std::abs(jet.value));
@@ -275,10 +269,7 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
     tbb::parallel_invoke([&] { mesh.triangles.resize(2 * begins.back()); },
                          [&] { parallelFor(chunks, progress, project); });
     mesher.pointList().reset();
-    for (std::size_t c = 0; c < chunks; ++c) {
-        stats.bisected += bisected[c];
-        stats.maxResidual = std::max(stats.maxResidual, residual[c]);
-    }
+    for (const double r : residual) stats.maxResidual = std::max(stats.maxResidual, r);
 
     parallelFor(begins.size() - 1, progress, [&](std::size_t n) {
         for (std::size_t i = 0; i < pools[n].numQuads(); ++i) {
@@ -290,7 +281,7 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
     });
 
     SplineSampler sampler(spline);
-    stats.relaxed = relax(vertices, sampler, voxel, progress);
+    relax(vertices, sampler, voxel, progress);
     return mesh;
 }
 

@@ -4,8 +4,8 @@
 /// @file
 /// The triangle mesh of a surface given by its spline.
 
-#include "molsurf/core/progress.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
+#include "molsurf/progress.h"
 #include "molsurf/spline/spline.h"
 
 #include <openvdb/openvdb.h>
@@ -18,11 +18,9 @@ namespace molsurf
 
 /// What extractMesh() had to do beyond the plain way.
 struct ExtractStats {
-    std::size_t bisected = 0;  ///< vertices that Newton's method did not bring to the surface
-    std::size_t relaxed = 0;   ///< vertices moved along the surface, out of folds and slivers
-    double maxResidual = 0.0;  ///< largest |S| at a vertex [Å]
-    std::vector<float> slopes; ///< |grad S| at each vertex
-    bool keepCells = false;    ///< whether the next two are wanted
+    double maxResidual = 0.0;          ///< largest |S| at a vertex [Å]
+    std::vector<float> slopes;         ///< |grad S| at each vertex
+    bool keepCells = false;            ///< whether the next two are wanted
     std::vector<openvdb::Coord> cells; ///< in which the mesher had put each vertex
     std::vector<float> residuals;      ///< |S| at each vertex [Å]
 };

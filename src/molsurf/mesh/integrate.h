@@ -4,10 +4,10 @@
 /// @file
 /// Integrals over the surface S = 0 of a spline. Formulas: docs/math.md, section 9.
 
-#include "molsurf/core/progress.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
+#include "molsurf/progress.h"
+#include "molsurf/report.h"
 #include "molsurf/spline/spline.h"
-#include "molsurf/surface/report.h"
 
 namespace molsurf
 {

@@ -4,9 +4,9 @@
 /// @file
 /// Area, volume and topology of the smooth surface behind a mesh.
 
-#include "molsurf/core/progress.h"
-#include "molsurf/mesh/mesh.h"
-#include "molsurf/surface/report.h"
+#include "molsurf/mesh.h"
+#include "molsurf/progress.h"
+#include "molsurf/report.h"
 
 namespace molsurf
 {

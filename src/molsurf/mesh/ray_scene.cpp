@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/mesh/ray_scene.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <cstring>
 #include <new>

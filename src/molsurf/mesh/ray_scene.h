@@ -4,7 +4,7 @@
 /// @file
 /// A triangle mesh in Embree's hands.
 
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
 
 #include <embree3/rtcore.h>
 

@@ -4,9 +4,9 @@
 /// @file
 /// How a quantity is distributed over a surface.
 
-#include "molsurf/core/progress.h"
-#include "molsurf/mesh/mesh.h"
-#include "molsurf/surface/report.h"
+#include "molsurf/mesh.h"
+#include "molsurf/progress.h"
+#include "molsurf/report.h"
 
 #include <vector>
 

@@ -4,8 +4,8 @@
 /// @file
 /// How the triangles of a mesh hang together.
 
-#include "molsurf/core/progress.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
+#include "molsurf/progress.h"
 
 #include <cstdint>
 #include <vector>

@@ -74,8 +74,9 @@ void fillBox(int x, int y, int width, int height, const Color& color, Picture& p
 {
     for (int py = std::max(y, 0); py < std::min(y + height, picture.height); ++py) {
         for (int px = std::max(x, 0); px < std::min(x + width, picture.width); ++px) {
-            std::copy(color.begin(), color.end(),
-                      picture.rgb.begin() + 3 * (std::ptrdiff_t(py) * picture.width + px));
+            const std::ptrdiff_t pixel = std::ptrdiff_t(py) * picture.width + px;
+            std::copy(color.begin(), color.end(), picture.rgb.begin() + 3 * pixel);
+            if (!picture.alpha.empty()) picture.alpha[std::size_t(pixel)] = 255;
         }
     }
 }
@@ -168,10 +169,15 @@ Picture withLegend(const Picture& picture, const Legend& legend, int width, cons
     out.height = std::max(picture.height, legend.scale ? fixed + 2 * sizes.gap : 6 * line);
     out.rgb.resize(3 * std::size_t(out.width) * std::size_t(out.height));
     fillBox(0, 0, out.width, out.height, background, out);
+    if (!picture.alpha.empty()) out.alpha.resize(out.rgb.size() / 3, 0);
     const int above = (out.height - picture.height) / 2;
-    for (int y = 0; y < picture.height; ++y)
-        std::copy_n(picture.rgb.begin() + 3 * std::ptrdiff_t(y) * picture.width, 3 * picture.width,
-                    out.rgb.begin() + 3 * std::ptrdiff_t(y + above) * out.width);
+    for (int y = 0; y < picture.height; ++y) {
+        const std::ptrdiff_t from = std::ptrdiff_t(y) * picture.width,
+                             to = std::ptrdiff_t(y + above) * out.width;
+        std::copy_n(picture.rgb.begin() + 3 * from, 3 * picture.width, out.rgb.begin() + 3 * to);
+        if (!picture.alpha.empty())
+            std::copy_n(picture.alpha.begin() + from, picture.width, out.alpha.begin() + to);
+    }
 
     const double gray = 0.3 * background[0] + 0.6 * background[1] + 0.1 * background[2];
     const Color ink = gray > 127.0 ? Color{30, 33, 38} : Color{235, 237, 240};

@@ -253,6 +253,9 @@ public:
     {
     }
 
+    float cover(int x, int y) const { return at(x, y).cover; }
+
+    /// Of the surface alone, where there is any of it in a pixel.
     Vec3f color(int x, int y, const Vec3f& background) const
     {
         const Sample& s = at(x, y);
@@ -261,8 +264,7 @@ public:
         const double behind = (view_.far - double(s.depth)) / (view_.far - view_.low);
         const float haze = float(0.22 * std::clamp(behind, 0.0, 1.0));
         Vec3f lit = (1.0f - haze) * shade * s.color + haze * background;
-        lit *= 1.0f - 0.75f * outline(x, y);
-        return s.cover * lit + (1.0f - s.cover) * background;
+        return lit * (1.0f - 0.75f * outline(x, y));
     }
 
 private:
@@ -343,6 +345,7 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
             picture.rgb.insert(picture.rgb.end(), options.background.begin(),
                                options.background.end());
         }
+        if (options.transparent) picture.alpha.resize(picture.rgb.size() / 3, 0);
         return picture;
     }
     const View view = chooseView(mesh, options);
@@ -361,9 +364,15 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
     picture.width = view.width;
     picture.height = view.height;
     picture.rgb.resize(3 * width * height);
+    if (options.transparent) picture.alpha.resize(width * height);
     parallelFor(height, progress, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
-            const Vec3f color = canvas.color(int(x), int(y), background);
+            const float cover = canvas.cover(int(x), int(y));
+            Vec3f color = canvas.color(int(x), int(y), background);
+            if (options.transparent)
+                picture.alpha[y * width + x] = std::uint8_t(std::lround(255.0f * cover));
+            else if (cover > 0.0f)
+                color = cover * color + (1.0f - cover) * background;
             std::uint8_t* to = &picture.rgb[3 * (y * width + x)];
             if (color == background) { // most of them, and exact
                 std::copy(options.background.begin(), options.background.end(), to);

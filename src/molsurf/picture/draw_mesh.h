@@ -5,8 +5,8 @@
 /// Pictures of meshes.
 
 #include "molsurf/color/color_map.h"
-#include "molsurf/core/progress.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
+#include "molsurf/progress.h"
 
 #include <array>
 #include <cstdint>
@@ -19,6 +19,7 @@ namespace molsurf
 struct Picture {
     int width = 0, height = 0; ///< [pixel]
     std::vector<std::uint8_t> rgb;
+    std::vector<std::uint8_t> alpha = {}; ///< one a pixel, 255: opaque; empty: all are
 };
 
 /// From where, and how large.
@@ -27,10 +28,11 @@ struct DrawOptions {
     /// Toward the eye, and what is up; zero: the shortest principal axis of the vertices toward the
     /// eye, the longest one across the picture.
     openvdb::Vec3d toEye{0.0}, up{0.0};
-    double turn = 0.0;     ///< about `up` [degree]
-    bool turnable = false; ///< the scale is the same for every turn, also for 0
-    Color background = {255, 255, 255};
-    Color plain = {140, 181, 222}; ///< of a mesh without colours
+    double turn = 0.0;                  ///< about `up` [degree]
+    bool turnable = false;              ///< the scale is the same for every turn, also for 0
+    Color background = {255, 255, 255}; ///< also what distant parts fade to
+    bool transparent = false;           ///< there is nothing behind the surface
+    Color plain = {140, 181, 222};      ///< of a mesh without colours
 };
 
 /// What is right, up and toward the eye in a picture: unit vectors, right-handed.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/picture/font.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
@@ -109,9 +109,14 @@ void Font::draw(const std::string& text, int x, int y, const Color& color, Pictu
                 const int px = left + column, py = top + row;
                 if (px < 0 || py < 0 || px >= picture.width || py >= picture.height) continue;
                 const int cover = glyph->bitmap.buffer[row * glyph->bitmap.pitch + column];
-                std::uint8_t* to =
-                    &picture
-                         .rgb[3 * (std::size_t(py) * std::size_t(picture.width) + std::size_t(px))];
+                const std::size_t pixel =
+                    std::size_t(py) * std::size_t(picture.width) + std::size_t(px);
+                std::uint8_t* to = &picture.rgb[3 * pixel];
+                if (!picture.alpha.empty()) {
+                    std::uint8_t& alpha = picture.alpha[pixel];
+                    if (alpha == 0) std::copy(color.begin(), color.end(), to);
+                    alpha = std::max(alpha, std::uint8_t(cover));
+                }
                 for (std::size_t c = 0; c < 3; ++c)
                     to[c] = std::uint8_t((color[c] * cover + to[c] * (255 - cover) + 127) / 255);
             }

@@ -6,7 +6,7 @@
 
 #include "molsurf/color/legend.h"
 #include "molsurf/io/output_file.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
 
 #include <array>
 #include <string>

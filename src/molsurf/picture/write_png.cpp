@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/picture/write_png.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <png.h>
 
@@ -24,18 +24,19 @@ void flushNothing(png_structp) {}
 void stayQuiet(png_structp, png_const_charp) {}
 
 // Apart from writePng() because of the jump: nothing here has a destructor.
-bool encodePng(const Picture& picture, png_structp png, png_infop info,
-               std::vector<std::uint8_t>& bytes)
+bool encodePng(const Picture& picture, const std::vector<std::uint8_t>& pixels, png_structp png,
+               png_infop info, std::vector<std::uint8_t>& bytes)
 {
     if (setjmp(png_jmpbuf(png))) return false;
     png_set_write_fn(png, &bytes, appendBytes, flushNothing);
     png_set_compression_level(png, 6);
     png_set_IHDR(png, info, png_uint_32(picture.width), png_uint_32(picture.height), 8,
-                 PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+                 picture.alpha.empty() ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_write_info(png, info);
     for (int row = 0; row < picture.height; ++row)
-        png_write_row(png, picture.rgb.data() + std::size_t(row) * 3 * std::size_t(picture.width));
+        png_write_row(png, pixels.data() +
+                               std::size_t(row) * (pixels.size() / std::size_t(picture.height)));
     png_write_end(png, info);
     return true;
 }
@@ -46,8 +47,17 @@ void writePng(const Picture& picture, OutputFile& file)
 {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, stayQuiet);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
-    std::vector<std::uint8_t> bytes;
-    const bool good = info && encodePng(picture, png, info, bytes);
+    std::vector<std::uint8_t> bytes, pixels;
+    if (!picture.alpha.empty()) {
+        pixels.reserve(4 * picture.alpha.size());
+        for (std::size_t i = 0; i < picture.alpha.size(); ++i) {
+            const auto rgb = picture.rgb.begin() + std::ptrdiff_t(3 * i);
+            pixels.insert(pixels.end(), rgb, rgb + 3);
+            pixels.push_back(picture.alpha[i]);
+        }
+    }
+    const bool good =
+        info && encodePng(picture, pixels.empty() ? picture.rgb : pixels, png, info, bytes);
     png_destroy_write_struct(&png, &info);
     if (!good) throw Error(ErrorKind::Output, "cannot write " + file.path() + ": libpng failed");
     file.write(bytes.data(), bytes.size());

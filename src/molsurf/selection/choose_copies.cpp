@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/choose_copies.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ constexpr string_view foldWord = "fold:";
 
 [[noreturn]] void misuse(const std::string& text)
 {
-    throw Error(ErrorKind::Usage, "--copies: expected numbers from 1 such as 1,7,20-25, or fold:N "
+    throw Error(ErrorKind::Usage, "`copies`: expected numbers from 1 such as 1,7,20-25, or fold:N "
                                   "with N from 2, got " +
                                       inQuotes(text));
 }

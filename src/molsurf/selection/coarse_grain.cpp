@@ -2,7 +2,7 @@
 #include "molsurf/selection/coarse_grain.h"
 
 #include "molsurf/balls/bead_radii.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/structure/text_fields.h"
 
@@ -252,7 +252,7 @@ CoarseRule parseCoarse(const std::string& text)
         return rule;
     }
     throw Error(ErrorKind::Usage,
-                "--coarse: expected atom, residue, a number of atoms from 1 to 1000000, or "
+                "`coarse`: expected atom, residue, a number of atoms from 1 to 1000000, or "
                 "SELECTION= and one of them, got " +
                     inQuotes(text));
 }

@@ -4,8 +4,8 @@
 /// @file
 /// Beads that stand for several atoms.
 
-#include "molsurf/balls/ball.h"
-#include "molsurf/core/progress.h"
+#include "molsurf/atoms.h"
+#include "molsurf/progress.h"
 #include "molsurf/structure/structure.h"
 
 #include <cstddef>
@@ -15,14 +15,6 @@
 
 namespace molsurf
 {
-
-/// What becomes of some or all atoms.
-struct CoarseRule {
-    enum class Level { Atom, Residue, Cluster };
-    std::string select; ///< gemmi selections joined by '|'; empty: all
-    Level level = Level::Atom;
-    int atoms = 1; ///< Cluster: about how many share a bead, >= 2
-};
 
 /// Reads "atom", "residue", a number of atoms, or any of them after "SELECTION=".
 /// @throws Error(ErrorKind::Usage) if the text is none of them

@@ -4,7 +4,7 @@
 /// @file
 /// The copies that make a biological assembly.
 
-#include "molsurf/balls/ball.h"
+#include "molsurf/ball.h"
 #include "molsurf/structure/structure.h"
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/groups.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/selection/match_atoms.h"
 
 #include <nlohmann/json.hpp>
@@ -170,14 +170,49 @@ std::vector<std::string> sequences(const Structure& structure)
 
 } // namespace
 
+namespace
+{
+
+using NamedColor = std::pair<const char*, std::array<std::uint8_t, 3>>;
+
+constexpr NamedColor namedColors[] = {
+    {"aqua", {0, 255, 255}},    {"black", {0, 0, 0}},        {"blue", {0, 0, 255}},
+    {"cyan", {0, 255, 255}},    {"fuchsia", {255, 0, 255}},  {"gray", {128, 128, 128}},
+    {"green", {0, 128, 0}},     {"grey", {128, 128, 128}},   {"lime", {0, 255, 0}},
+    {"magenta", {255, 0, 255}}, {"maroon", {128, 0, 0}},     {"navy", {0, 0, 128}},
+    {"olive", {128, 128, 0}},   {"orange", {255, 165, 0}},   {"purple", {128, 0, 128}},
+    {"red", {255, 0, 0}},       {"silver", {192, 192, 192}}, {"teal", {0, 128, 128}},
+    {"white", {255, 255, 255}}, {"yellow", {255, 255, 0}}};
+
+} // namespace
+
+const std::vector<std::string>& colorNames()
+{
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const NamedColor& color : namedColors) all.push_back(color.first);
+        return all;
+    }();
+    return names;
+}
+
 std::optional<std::array<std::uint8_t, 3>> parseColor(const std::string& text)
 {
+    const auto lower = [](char letter) {
+        return letter >= 'A' && letter <= 'Z' ? char(letter - 'A' + 'a') : letter;
+    };
+    std::string word = text;
+    std::transform(word.begin(), word.end(), word.begin(), lower);
+    for (const NamedColor& color : namedColors)
+        if (word == color.first) return color.second;
+    const std::size_t digits = word.size() == 4 ? 1 : 2; // of each part
     std::array<std::uint8_t, 3> color{};
-    if (text.size() != 7 || text[0] != '#') return {};
+    if (word.size() != 1 + 3 * digits || word[0] != '#') return {};
     for (std::size_t k = 0; k < 3; ++k) {
-        const char* begin = text.data() + 1 + 2 * k;
-        const auto [end, problem] = std::from_chars(begin, begin + 2, color[k], 16);
-        if (problem != std::errc() || end != begin + 2) return {};
+        const char* begin = word.data() + 1 + digits * k;
+        const auto [end, problem] = std::from_chars(begin, begin + digits, color[k], 16);
+        if (problem != std::errc() || end != begin + digits) return {};
+        if (digits == 1) color[k] = std::uint8_t(17 * color[k]);
     }
     return color;
 }
@@ -216,7 +251,7 @@ BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls
     }
     if (!by.empty() && by != "chain" && by != "entity" && by != "copy" && perGroup < 1) {
         throw Error(ErrorKind::Usage,
-                    "--group-by: expected chain, entity, copy or residues:N, got '" + by + "'");
+                    "`groupBy`: expected chain, entity, copy or residues:N, got '" + by + "'");
     }
 
     BallLabels labels;

@@ -4,7 +4,7 @@
 /// @file
 /// Named groups of atoms, and what else is known of every ball: chain, element, residue.
 
-#include "molsurf/balls/ball.h"
+#include "molsurf/atoms.h"
 #include "molsurf/structure/structure.h"
 
 #include <array>
@@ -16,49 +16,11 @@
 namespace molsurf
 {
 
-/// A group as asked for.
-struct GroupRule {
-    std::string name;
-    std::string select;                               ///< gemmi selections joined by '|'
-    std::optional<std::array<std::uint8_t, 3>> color; ///< sRGB
-    std::string copies{}; ///< in these copies of the assembly, see parseCopies(); empty: all
-    std::vector<int> copyNumbers{}; ///< what `copies` comes to; empty: all
-};
-
-/// A group as found.
-struct Group {
-    std::string name;
-    std::size_t balls = 0;
-    std::optional<std::array<std::uint8_t, 3>> color; ///< sRGB
-};
-
-/// Kinds of residues that are coloured alike.
-enum class ResidueClass : std::uint8_t {
-    Hydrophobic,
-    Aromatic,
-    Polar,
-    Positive,
-    Negative,
-    Special, ///< glycine, proline, cysteine
-    Nucleic,
-    Other
-};
-
-/// What is known of every ball, by its index.
-struct BallLabels {
-    std::vector<std::int32_t> chainOf;        ///< index into chains
-    std::vector<std::string> chains;          ///< "A", in an assembly's second copy "A-2"
-    std::vector<std::int32_t> groupOf;        ///< index into groups, or -1
-    std::vector<Group> groups;                ///< those asked for, in their order
-    std::vector<std::uint8_t> elementOf;      ///< atomic number; 0: unknown
-    std::vector<ResidueClass> residueClassOf; ///< by the residue's name
-    std::vector<std::string> warnings;        ///< groups that lost atoms to later ones, ...
-    /// sRGB, one a chain; empty: chosen by contacts, see chainColors().
-    std::vector<std::array<std::uint8_t, 3>> chainColors{};
-};
-
-/// The colour that "#rrggbb" stands for.
+/// The colour that "#rrggbb", "#rgb" or a name of colorNames() stands for.
 std::optional<std::array<std::uint8_t, 3>> parseColor(const std::string& text);
+
+/// The colours that have names: the sixteen of HTML 4, orange, cyan and magenta.
+const std::vector<std::string>& colorNames();
 
 /// Reads groups from a file: JSON {"groups": [{"name": "...", "select": "...", "color": "#rrggbb"},
 /// ...]}, an entry may also have "copies": "1,7" or "fold:5"; or a table with one group a line:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/match_atoms.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/structure/text_fields.h"
 
 #define USE_STD_SNPRINTF // or gemmi asks for stb_sprintf, with a compiler warning

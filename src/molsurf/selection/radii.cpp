@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/radii.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/text_fields.h"

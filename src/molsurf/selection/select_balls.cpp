@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/select_balls.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
+#include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/choose_locations.h"
+#include "molsurf/selection/coarse_grain.h"
 #include "molsurf/selection/expand_assembly.h"
+#include "molsurf/selection/groups.h"
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/selection/radii.h"
+#include "molsurf/structure/read_structure.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
@@ -60,7 +64,7 @@ const Model& chooseModel(const Structure& structure, const SelectOptions& option
 class Filter
 {
 public:
-    Filter(const Model& model, BallSelection& out) : out_(out)
+    Filter(const Model& model, BallSet& out) : out_(out)
     {
         for (std::size_t i = model.begin; i < model.end; ++i) {
             atoms_.push_back(static_cast<std::int32_t>(i));
@@ -89,12 +93,12 @@ public:
     const Indices& atoms() const { return atoms_; }
 
 private:
-    BallSelection& out_;
+    BallSet& out_;
     Indices atoms_;
 };
 
 void chooseAltloc(const Structure& structure, const std::string& altloc, Filter& filter,
-                  BallSelection& out)
+                  BallSet& out)
 {
     if (altloc == "all") return;
     if (altloc.empty()) return filter.dropLowerOccupancies(structure);
@@ -200,7 +204,7 @@ std::vector<float> findRadii(const Structure& structure, const SelectOptions& op
 
 /// The balls in the coordinates of the file.
 std::vector<Ball> makeBalls(const Structure& structure, const SelectOptions& options,
-                            Filter& filter, BallSelection& out)
+                            Filter& filter, BallSet& out)
 {
     const std::vector<float> radii = findRadii(structure, options, filter.atoms(), out.warnings);
     std::vector<Ball> balls;
@@ -252,15 +256,16 @@ void warnOfRounding(const std::vector<Ball>& balls, std::vector<std::string>& wa
     warnings.push_back(text);
 }
 
-std::string describeDrops(const std::vector<Drop>& drops)
+std::string describeDrops(const std::vector<Excluded>& drops)
 {
     std::vector<std::string> parts;
-    for (const Drop& drop : drops) parts.push_back(std::to_string(drop.count) + " " + drop.reason);
+    for (const Excluded& drop : drops)
+        parts.push_back(std::to_string(drop.count) + " " + drop.reason);
     return joined(parts);
 }
 
 void applyFilters(const Structure& structure, const SelectOptions& options, const AtomMatch& match,
-                  Filter& filter, BallSelection& out)
+                  Filter& filter, BallSet& out)
 {
     auto atomAt = [&](std::int32_t i) -> const Atom& {
         return structure.atoms[static_cast<std::size_t>(i)];
@@ -286,7 +291,7 @@ void applyFilters(const Structure& structure, const SelectOptions& options, cons
 }
 
 /// Gives every ball the rate of the last rule that has its atom.
-void applyResolutions(const Structure& structure, const SelectOptions& options, BallSelection& out)
+void applyResolutions(const Structure& structure, const SelectOptions& options, BallSet& out)
 {
     if (options.resolutions.empty()) return;
     std::vector<std::int32_t> ruleOf(structure.atoms.size(), -1);
@@ -330,7 +335,7 @@ std::vector<GroupRule> withCopies(const Structure& structure, const SelectOption
         if (group.copies.empty()) continue;
         const std::string where = "group " + group.name + ": copies: ";
         if (options.assembly == "none") {
-            throw Error(ErrorKind::Input, where + "expected an assembly [hint: --assembly]");
+            throw Error(ErrorKind::Input, where + "expected an assembly [hint: `assembly`]");
         }
         try {
             group.copyNumbers = findCopies(structure, options.assembly, group.copies, balls);
@@ -343,8 +348,24 @@ std::vector<GroupRule> withCopies(const Structure& structure, const SelectOption
 
 } // namespace
 
-BallSelection selectBalls(const Structure& structure, const SelectOptions& options, double probe,
-                          const Progress& progress)
+void checkOptions(const SelectOptions& options)
+{
+    parseCopies(options.copies);
+    if (!options.copies.empty() && options.assembly == "none") {
+        throw Error(ErrorKind::Usage,
+                    "`copies` is for an assembly [hint: `assembly` 1, for example]");
+    }
+}
+
+BallSet readAtoms(const std::string& path, const SelectOptions& options, double probe,
+                  const Progress& progress)
+{
+    checkOptions(options);
+    return selectBalls(readStructure(path), options, probe, progress);
+}
+
+BallSet selectBalls(const Structure& structure, const SelectOptions& options, double probe,
+                    const Progress& progress)
 {
     if (structure.hasRadii && options.radii != "bondi") {
         throw Error(ErrorKind::Usage, "radii " + inQuotes(options.radii) +
@@ -354,7 +375,7 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
     const AtomMatch match =
         options.select.empty() ? AtomMatch() : matchAtoms(structure, options.select);
     const Model& model = chooseModel(structure, options, match.models);
-    BallSelection out;
+    BallSet out;
     out.model = model.number;
     out.warnings = structure.warnings;
     out.warnings.insert(out.warnings.end(), match.warnings.begin(), match.warnings.end());
@@ -402,7 +423,7 @@ BallSelection selectBalls(const Structure& structure, const SelectOptions& optio
     return out;
 }
 
-std::string describeSelection(const Structure& structure, const BallSelection& selection)
+std::string describeSelection(const Structure& structure, const BallSet& selection)
 {
     auto counted = [](std::size_t n, const std::string& what) {
         return std::to_string(n) + " " + what + (n == 1 ? "" : "s");

@@ -5,9 +5,9 @@
 /// A C2 function on a sparse band: the uniform tensor-product cubic B-spline that interpolates a
 /// field at its voxels. Lengths in Å, symbols in docs/math.md, section 5.
 
-#include "molsurf/core/progress.h"
 #include "molsurf/grid/leaf_block.h"
 #include "molsurf/grid/leaf_table.h"
+#include "molsurf/progress.h"
 
 #include <openvdb/openvdb.h>
 

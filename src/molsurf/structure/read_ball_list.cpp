@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/read_ball_list.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/structure/element.h"
 #include "molsurf/structure/name_table.h"
 #include "molsurf/structure/residue_kind.h"

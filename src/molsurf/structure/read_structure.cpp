@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/read_structure.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/structure/beads.h"
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/load_text.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/trajectory.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/structure/read_dcd.h"
 #include "molsurf/structure/read_xtc.h"
 

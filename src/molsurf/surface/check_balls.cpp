@@ -2,7 +2,7 @@
 #include "molsurf/surface/check_balls.h"
 
 #include "molsurf/balls/ball_index.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <unistd.h>
 
@@ -18,7 +18,7 @@ std::size_t physicalMemory()
     return std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGE_SIZE));
 }
 
-void checkBalls(const std::vector<Ball>& balls, const Options& options, Pieces pieces,
+void checkBalls(const std::vector<Ball>& balls, const SurfaceOptions& options, Pieces pieces,
                 std::size_t memory)
 {
     if (balls.empty()) throw Error(ErrorKind::Input, "no atoms");
@@ -51,7 +51,7 @@ void checkBalls(const std::vector<Ball>& balls, const Options& options, Pieces p
         "%.3g GB",
         radius, bytes / 1e9, options.voxel, double(memory) / 1e9);
     char hint[80] = "";
-    if (voxel <= maxVoxel) std::snprintf(hint, sizeof hint, " [hint: --voxel %.2g]", voxel + 0.05);
+    if (voxel <= maxVoxel) std::snprintf(hint, sizeof hint, " [hint: `voxel` %.2g]", voxel + 0.05);
     throw Error(ErrorKind::Input, std::string(text) + hint);
 }
 

@@ -4,8 +4,8 @@
 /// @file
 /// What balls have to be before anything is computed of them.
 
-#include "molsurf/balls/ball.h"
-#include "molsurf/surface/options.h"
+#include "molsurf/ball.h"
+#include "molsurf/options.h"
 
 #include <cstddef>
 #include <vector>
@@ -26,7 +26,7 @@ enum class Pieces { One, Bricks };
 /// @param[in] memory  that there is [byte]
 /// @throws Error(ErrorKind::Input) that names the first ball at fault, by its index, or says what
 ///         voxel would do
-void checkBalls(const std::vector<Ball>& balls, const Options& options, Pieces pieces,
+void checkBalls(const std::vector<Ball>& balls, const SurfaceOptions& options, Pieces pieces,
                 std::size_t memory);
 
 } // namespace molsurf

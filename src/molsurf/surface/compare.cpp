@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/compare.h"
 
-#include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/error.h"
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/mesh/extract.h"
 #include "molsurf/mesh/measure.h"
@@ -206,7 +206,7 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
     return operand;
 }
 
-Operand operandOf(Result&& result)
+Operand operandOf(MolecularSurface&& result)
 {
     Operand operand;
     operand.kind = "structure";

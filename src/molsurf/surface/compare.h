@@ -4,10 +4,11 @@
 /// @file
 /// Two surfaces side by side, whatever they were made from.
 
-#include "molsurf/core/progress.h"
+#include "molsurf/compare.h"
 #include "molsurf/mesh/deviation.h"
 #include "molsurf/mesh/distance.h"
-#include "molsurf/surface/run.h"
+#include "molsurf/progress.h"
+#include "molsurf/surface.h"
 
 #include <openvdb/openvdb.h>
 
@@ -39,8 +40,8 @@ struct Operand {
 ///         of cubes, or has no zero
 Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress);
 
-/// The surface that run() made; its options must ask for the field "spline".
-Operand operandOf(Result&& result);
+/// The surface that makeSurface() made; its options must ask for the field "spline".
+Operand operandOf(MolecularSurface&& result);
 
 /// A mesh as it is. One whose volume is negative is turned inside out, with a warning; so is one
 /// that is open mentioned, whose volume and inside are not defined.
@@ -50,12 +51,6 @@ Operand operandOf(Mesh mesh, const Progress& progress);
 /// The level set of a closed mesh, for a grid to show distances on: by OpenVDB, band of 3 voxels.
 /// @throws Error(ErrorKind::Input) if the mesh is not closed
 openvdb::FloatGrid::Ptr levelSetOf(const Surface& surface, double voxel);
-
-/// Both ways of a comparison.
-struct Comparison {
-    OneWay aToB, bToA;
-    double hausdorff = 0.0; ///< the larger maximum [Å]
-};
 
 /// @param[in] progress  gets the stage "distance"
 Comparison compare(const Operand& a, const DistanceTo& toA, const Operand& b, const DistanceTo& toB,

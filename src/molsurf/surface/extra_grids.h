@@ -4,8 +4,8 @@
 /// @file
 /// The optional grids beside `surface`.
 
-#include "molsurf/balls/ball.h"
-#include "molsurf/core/progress.h"
+#include "molsurf/ball.h"
+#include "molsurf/progress.h"
 #include "molsurf/spline/spline.h"
 
 #include <openvdb/openvdb.h>
@@ -16,9 +16,9 @@
 namespace molsurf
 {
 
-/// The names that Options::fields takes: "sas", "spline", those of curvatureFields(),
+/// The names that SurfaceOptions::fields takes: "sas", "spline", those of curvatureFields(),
 /// "density", "atom_id", "chain_id", "group_id", "Cd", and for frames "v", see velocityGrid(),
-/// which run() leaves to its caller.
+/// which makeSurface() leaves to its caller.
 const std::vector<std::string>& fieldNames();
 
 /// Whether a list of fields names one.

@@ -15,7 +15,7 @@ namespace molsurf
 namespace
 {
 
-double areaOf(const BallSelection& atoms, const Options& options, const Progress& progress)
+double areaOf(const BallSet& atoms, const SurfaceOptions& options, const Progress& progress)
 {
     if (options.kind == SurfaceKind::SolventAccessible ||
         options.kind == SurfaceKind::VanDerWaals) {
@@ -28,11 +28,11 @@ double areaOf(const BallSelection& atoms, const Options& options, const Progress
         return area;
     }
     QuietProgress quiet(progress);
-    return run(atoms, options, quiet).report.surface.area;
+    return makeSurface(atoms, options, &quiet).report.surface.area;
 }
 
 /// How far apart two balls may be that change each other's surface [Å].
-double interactionGap(const BallSelection& atoms, const Options& options)
+double interactionGap(const BallSet& atoms, const SurfaceOptions& options)
 {
     if (options.kind == SurfaceKind::VanDerWaals) return 0.0;
     if (isUnion(options.kind)) return 2.0 * options.probe;
@@ -43,15 +43,15 @@ double interactionGap(const BallSelection& atoms, const Options& options)
 
 } // namespace
 
-void measureInterfaces(const BallSelection& atoms, const Options& options, Progress& progress,
+void measureInterfaces(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
                        Report& report)
 {
-    Options plain = options;
+    SurfaceOptions plain = options;
     plain.interfaces = plain.split = false;
     plain.surfaceOf.clear();
     plain.fields.clear();
     plain.color = ColorBy::Nothing;
-    plain.curvatureIntegrals = false;
+    plain.curvatureTotals = false;
     const BallLabels& labels = *atoms.labels;
     const auto near = contacts(atoms.balls, labels.groupOf, labels.groups.size(),
                                interactionGap(atoms, options), progress);

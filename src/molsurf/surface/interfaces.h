@@ -4,9 +4,10 @@
 /// @file
 /// The areas that groups of atoms bury between them.
 
-#include "molsurf/core/progress.h"
-#include "molsurf/surface/options.h"
-#include "molsurf/surface/report.h"
+#include "molsurf/atoms.h"
+#include "molsurf/options.h"
+#include "molsurf/progress.h"
+#include "molsurf/report.h"
 
 namespace molsurf
 {
@@ -19,7 +20,7 @@ namespace molsurf
 ///
 /// @param[in]     atoms   with groups
 /// @param[in,out] report  with the groups
-void measureInterfaces(const BallSelection& atoms, const Options& options, Progress& progress,
+void measureInterfaces(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
                        Report& report);
 
 } // namespace molsurf

@@ -24,8 +24,8 @@ std::string hex(const Color& color)
     return text;
 }
 
-void reportGroups(const BallSelection& atoms, const Options& options, const Labels& nearest,
-                  double reach, Progress& progress, Result& result)
+void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Labels& nearest,
+                  double reach, Progress& progress, MolecularSurface& result)
 {
     const BallLabels& labels = *atoms.labels;
     const std::size_t other = labels.groups.size();
@@ -62,8 +62,8 @@ void reportGroups(const BallSelection& atoms, const Options& options, const Labe
 }
 
 /// Labels and colours. @return the ball of each vertex, if anything depends on it
-Labels label(const BallSelection& atoms, const Options& options, double reach, Progress& progress,
-             Result& result)
+Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, Progress& progress,
+             MolecularSurface& result)
 {
     Mesh& mesh = result.mesh;
     const auto has = [&](const char* name) { return hasField(options.fields, name); };
@@ -89,16 +89,16 @@ Labels label(const BallSelection& atoms, const Options& options, double reach, P
 
 } // namespace
 
-void labelSurface(const BallSelection& atoms, const Options& options, double reach,
-                  Progress& progress, Result& result)
+void labelSurface(const BallSet& atoms, const SurfaceOptions& options, double reach,
+                  Progress& progress, MolecularSurface& result)
 {
     const Labels nearest = label(atoms, options, reach, progress, result);
     if (atoms.labels && !atoms.labels->groups.empty())
         reportGroups(atoms, options, nearest, reach, progress, result);
 }
 
-std::vector<double> labelPart(const BallSelection& atoms, const Options& options, double reach,
-                              Progress& progress, Result& result)
+std::vector<double> labelPart(const BallSet& atoms, const SurfaceOptions& options, double reach,
+                              Progress& progress, MolecularSurface& result)
 {
     const Labels nearest = label(atoms, options, reach, progress, result);
     if (!atoms.labels || atoms.labels->groups.empty()) return {};

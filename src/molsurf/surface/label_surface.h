@@ -4,8 +4,8 @@
 /// @file
 /// The atoms' labels on the surface: identities, colours, the groups' parts.
 
-#include "molsurf/surface/options.h"
-#include "molsurf/surface/run.h"
+#include "molsurf/options.h"
+#include "molsurf/surface.h"
 
 namespace molsurf
 {
@@ -19,12 +19,12 @@ namespace molsurf
 /// the smooth surface) and volumes (shares of 1e5 to 1e6 points inside).
 ///
 /// @param[in] reach  farthest that a point of the surface may lie from the balls [Å]
-void labelSurface(const BallSelection& atoms, const Options& options, double reach,
-                  Progress& progress, Result& result);
+void labelSurface(const BallSet& atoms, const SurfaceOptions& options, double reach,
+                  Progress& progress, MolecularSurface& result);
 
 /// The same for a part of a surface, without the report.
 /// @return area of every group, and at last of no group, on the mesh [Å^2]; empty without groups
-std::vector<double> labelPart(const BallSelection& atoms, const Options& options, double reach,
-                              Progress& progress, Result& result);
+std::vector<double> labelPart(const BallSet& atoms, const SurfaceOptions& options, double reach,
+                              Progress& progress, MolecularSurface& result);
 
 } // namespace molsurf

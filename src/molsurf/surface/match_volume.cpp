@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/match_volume.h"
 
-#include "molsurf/core/error.h"
-#include "molsurf/surface/run.h"
+#include "molsurf/error.h"
+#include "molsurf/surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +17,11 @@ namespace
 constexpr double closeEnough = 0.002; // relative
 constexpr int mostRuns = 12;
 
-double volumeOf(const BallSelection& atoms, const Options& options, const Progress& progress)
+double volumeOf(const BallSet& atoms, const SurfaceOptions& options, const Progress& progress)
 {
     QuietProgress quiet(progress);
     try {
-        return run(atoms, options, quiet).report.surface.outerVolume;
+        return makeSurface(atoms, options, &quiet).report.surface.outerVolume;
     } catch (const Error& e) {
         if (e.kind() != ErrorKind::Numeric) throw;
         return 0.0; // nothing is left
@@ -29,7 +29,7 @@ double volumeOf(const BallSelection& atoms, const Options& options, const Progre
 }
 
 /// The level at which some balls of one rate enclose a volume.
-double findLevel(BallSelection atoms, double wanted, const Options& options,
+double findLevel(BallSet atoms, double wanted, const SurfaceOptions& options,
                  const Progress& progress)
 {
     const auto excess = [&](double level) {
@@ -60,21 +60,21 @@ double findLevel(BallSelection atoms, double wanted, const Options& options,
     const double worst = 3.0 * std::min(std::abs(atLow), std::abs(atHigh));
     if (worst > 5.0 * closeEnough) {
         throw Error(ErrorKind::Numeric,
-                    "--match-volume: no level gives the volume " + std::to_string(wanted) + " Å^3");
+                    "`matchVolume`: no level gives the volume " + std::to_string(wanted) + " Å^3");
     }
     return std::abs(atLow) < std::abs(atHigh) ? low : high;
 }
 
 } // namespace
 
-void matchVolumes(BallSelection& atoms, const Options& options, const Progress& progress)
+void matchVolumes(BallSet& atoms, const SurfaceOptions& options, const Progress& progress)
 {
-    Options plain = options;
+    SurfaceOptions plain = options;
     plain.fields.clear();
     plain.fillCavities = false;
     plain.voxel = std::max(options.voxel, 1.0);
     for (std::size_t r = 0; r < atoms.resolutions.size(); ++r) {
-        BallSelection part;
+        BallSet part;
         for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
             if (atoms.resolutionOf[i] != std::int32_t(r)) continue;
             part.balls.push_back(atoms.balls[i]);

@@ -4,9 +4,9 @@
 /// @file
 /// Coarse resolutions that keep the volume of the fine surface.
 
-#include "molsurf/core/progress.h"
+#include "molsurf/options.h"
+#include "molsurf/progress.h"
 #include "molsurf/selection/select_balls.h"
-#include "molsurf/surface/options.h"
 
 namespace molsurf
 {
@@ -20,6 +20,6 @@ namespace molsurf
 ///
 /// @param[in,out] atoms  decays and resolutions are set
 /// @throws Error(ErrorKind::Numeric) if no level is found
-void matchVolumes(BallSelection& atoms, const Options& options, const Progress& progress);
+void matchVolumes(BallSet& atoms, const SurfaceOptions& options, const Progress& progress);
 
 } // namespace molsurf

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/surface/options.h"
+#include "molsurf/options.h"
 
-#include "molsurf/core/error.h"
-#include "molsurf/selection/choose_copies.h"
+#include "molsurf/error.h"
 #include "molsurf/surface/extra_grids.h"
 
 #include <algorithm>
@@ -41,40 +40,45 @@ const char* nameOf(SurfaceKind kind)
     }
 }
 
-double probeOf(const Options& options)
+const char* nameOf(Regularizer regularizer)
+{
+    return regularizer == Regularizer::Gradient ? "gradient" : "area";
+}
+
+const char* nameOf(Flow flow)
+{
+    return flow == Flow::Preconditioned ? "preconditioned" : "plain";
+}
+
+double probeOf(const SurfaceOptions& options)
 {
     const bool bare =
         options.kind == SurfaceKind::VanDerWaals || options.kind == SurfaceKind::Gaussian;
     return bare ? 0.0 : options.probe;
 }
 
-void checkOptions(const Options& options)
+void checkOptions(const SurfaceOptions& options)
 {
-    parseCopies(options.atoms.copies);
-    if (!options.atoms.copies.empty() && options.atoms.assembly == "none") {
-        throw Error(ErrorKind::Usage,
-                    "--copies is for an assembly [hint: --assembly 1, for example]");
-    }
     const auto finite = [](double x) { return std::isfinite(x); };
-    check(options.voxel >= minVoxel && options.voxel <= maxVoxel, "--voxel", "0.05 to 10 Å",
+    check(options.voxel >= minVoxel && options.voxel <= maxVoxel, "`voxel`", "0.05 to 10 Å",
           options.voxel);
-    check(finite(options.probe) && options.probe >= 0.0 && options.probe <= 100.0, "--probe",
+    check(finite(options.probe) && options.probe >= 0.0 && options.probe <= 100.0, "`probe`",
           "0 to 100 Å", options.probe);
-    check(options.epsilon >= 0.01 && options.epsilon <= 10.0, "--epsilon", "0.01 to 10 Å",
+    check(options.epsilon >= 0.01 && options.epsilon <= 10.0, "`epsilon`", "0.01 to 10 Å",
           options.epsilon);
-    check(options.blobbiness >= 0.1 && options.blobbiness <= 100.0, "--blobbiness", "0.1 to 100",
+    check(options.blobbiness >= 0.1 && options.blobbiness <= 100.0, "`blobbiness`", "0.1 to 100",
           options.blobbiness);
-    check(options.evolution.lambda >= 0.0 && options.evolution.lambda <= 1e6, "--lambda",
+    check(options.evolution.lambda >= 0.0 && options.evolution.lambda <= 1e6, "`lambda`",
           "0 to 1e6", options.evolution.lambda);
     check(options.evolution.energyTolerance > 0.0 && finite(options.evolution.energyTolerance),
-          "--tolerance", "a positive number", options.evolution.energyTolerance);
+          "`tolerance`", "a positive number", options.evolution.energyTolerance);
     for (const std::string& field : options.fields) {
         const auto& names = fieldNames();
         if (std::find(names.begin(), names.end(), field) == names.end()) {
-            throw Error(ErrorKind::Usage, "--fields: there is no field '" + field + "'");
+            throw Error(ErrorKind::Usage, "`fields`: there is no field '" + field + "'");
         }
     }
-    check(options.splineLevel >= 0 && options.splineLevel <= 2, "--spline-level", "0, 1 or 2",
+    check(options.splineLevel >= 0 && options.splineLevel <= 2, "`splineLevel`", "0, 1 or 2",
           options.splineLevel);
 }
 

@@ -3,7 +3,7 @@
 
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/color/palette.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/mesh/statistics.h"
 
 #include <algorithm>
@@ -34,12 +34,12 @@ std::size_t findGroup(const std::vector<Group>& groups, const std::string& name)
     for (std::size_t g = 0; g < std::min<std::size_t>(groups.size(), 8); ++g) {
         names += (g ? ", " : "") + groups[g].name;
     }
-    throw Error(ErrorKind::Input, "--surface-of: there is no group '" + name +
+    throw Error(ErrorKind::Input, "`surfaceOf`: there is no group '" + name +
                                       "' [hint: the groups are " + names +
                                       (groups.size() > 8 ? ", ..." : "") + "]");
 }
 
-std::vector<Part> partsOf(const BallSelection& atoms, const Options& options)
+std::vector<Part> partsOf(const BallSet& atoms, const SurfaceOptions& options)
 {
     const std::vector<Group>& groups = atoms.labels->groups;
     std::vector<Part> parts;
@@ -171,23 +171,14 @@ void add(Report& sum, const Report& part, const std::string& name)
     }
     sum.activeVoxels += part.activeVoxels;
     sum.gridBytes += part.gridBytes;
-    for (const auto& [stage, seconds] : part.seconds) {
-        const auto found =
-            std::find_if(sum.seconds.begin(), sum.seconds.end(),
-                         [&s = stage](const auto& entry) { return entry.first == s; });
-        if (found == sum.seconds.end()) {
-            sum.seconds.emplace_back(stage, seconds);
-        } else {
-            found->second += seconds;
-        }
-    }
+    for (const auto& [stage, seconds] : part.seconds) sum.addSeconds(stage, seconds);
     for (const std::string& warning : part.warnings) sum.warnings.push_back(name + ": " + warning);
 }
 
 /// The same colours for a part as for the whole.
-BallSelection colored(const BallSelection& atoms, ColorBy by, const Progress& progress)
+BallSet colored(const BallSet& atoms, ColorBy by, const Progress& progress)
 {
-    BallSelection out = atoms;
+    BallSet out = atoms;
     out.colors = ballColors(atoms, by, progress);
     if (by != ColorBy::Group) return out;
     const std::vector<Color> colors = groupColors(atoms, progress);
@@ -207,9 +198,9 @@ std::vector<T> chosen(const std::vector<T>& from, const std::vector<std::size_t>
 
 } // namespace
 
-BallSelection subset(const BallSelection& atoms, const std::vector<std::size_t>& which)
+BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which)
 {
-    BallSelection out;
+    BallSet out;
     out.balls = chosen(atoms.balls, which);
     out.decays = chosen(atoms.decays, which);
     out.resolutions = atoms.resolutions;
@@ -248,15 +239,15 @@ std::vector<std::vector<std::size_t>> ballsOfGroups(const BallLabels& labels)
     return out;
 }
 
-Result runParts(const BallSelection& atoms, const Options& options, Progress& progress)
+MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
     const std::vector<Part> parts = partsOf(atoms, options);
-    const BallSelection all = colored(atoms, options.color, progress);
-    Options one = options;
+    const BallSet all = colored(atoms, options.color, progress);
+    SurfaceOptions one = options;
     one.split = one.interfaces = false;
     one.surfaceOf.clear();
 
-    Result whole;
+    MolecularSurface whole;
     std::set<std::string> names;
     std::size_t done = 0; // balls
     for (const Part& part : parts) {
@@ -264,9 +255,9 @@ Result runParts(const BallSelection& atoms, const Options& options, Progress& pr
         done += part.balls.size();
         one.kind = part.kind;
         QuietProgress quiet(progress);
-        Result result;
+        MolecularSurface result;
         try {
-            result = run(subset(all, part.balls), one, quiet);
+            result = makeSurface(subset(all, part.balls), one, &quiet);
         } catch (const Error& e) {
             throw Error(e.kind(), part.name + ": " + e.what());
         }

@@ -4,7 +4,7 @@
 /// @file
 /// Groups of atoms with surfaces of their own, in one result.
 
-#include "molsurf/surface/run.h"
+#include "molsurf/surface.h"
 
 #include <cstddef>
 #include <vector>
@@ -14,13 +14,13 @@ namespace molsurf
 
 /// Some of the balls, with all that is known of them.
 /// @param[in] which  indices, ascending
-BallSelection subset(const BallSelection& atoms, const std::vector<std::size_t>& which);
+BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which);
 
 /// The balls of each group, and at last of none.
 std::vector<std::vector<std::size_t>> ballsOfGroups(const BallLabels& labels);
 
-/// Surfaces every group alone (Options::split), or those of Options::surfaceOf alone and the other
-/// atoms together.
+/// Surfaces every group alone (SurfaceOptions::split), or those of SurfaceOptions::surfaceOf alone
+/// and the other atoms together.
 ///
 /// The result has no grid `surface`, but a level set `surface_NAME` a part, all with one transform
 /// and background, and the fields of each part likewise. The mesh has them one after the other;
@@ -29,7 +29,7 @@ std::vector<std::vector<std::size_t>> ballsOfGroups(const BallLabels& labels);
 ///
 /// @param[in] atoms  with groups
 /// @throws Error(ErrorKind::Input) if there is no such group
-/// @throws Error as run(), with the part's name before the message
-Result runParts(const BallSelection& atoms, const Options& options, Progress& progress);
+/// @throws Error as makeSurface(), with the part's name before the message
+MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, Progress& progress);
 
 } // namespace molsurf

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/surface/run.h"
+#include "molsurf/surface/warm_start.h"
 
 #include "molsurf/balls/boundary_check.h"
 #include "molsurf/balls/boundary_measure.h"
 #include "molsurf/color/curvature_colors.h"
-#include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/error.h"
 #include "molsurf/levelset/cavities.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/levelset/thicken.h"
@@ -115,14 +115,14 @@ void fillCavities(const std::vector<LeafMask>& cavities, double voxel, DistanceB
 }
 
 /// Whether area, volume and pieces of a surface are known in closed form.
-bool isClosedForm(const Options& options)
+bool isClosedForm(const SurfaceOptions& options)
 {
     return isUnion(options.kind) && offsetOf(options) == 0.0 && options.minWall == 0.0;
 }
 
 /// Replaces area, volume and pieces by those of the union of balls itself. A mesh bridges what is
 /// narrower than a voxel: creases and small cavities.
-void takeClosedForm(const BoundaryMeasure& measure, const Options& options, Report& report)
+void takeClosedForm(const BoundaryMeasure& measure, const SurfaceOptions& options, Report& report)
 {
     SurfaceReport& s = report.surface;
     const std::size_t shown = s.cavities.size();
@@ -148,30 +148,30 @@ void takeClosedForm(const BoundaryMeasure& measure, const Options& options, Repo
     if (!options.fillCavities && shown != s.cavities.size()) {
         report.warnings.push_back("mesh: " + std::to_string(shown) + " inner walls for " +
                                   std::to_string(s.cavities.size()) +
-                                  " cavities, for want of voxels [hint: a smaller --voxel]");
+                                  " cavities, for want of voxels [hint: a smaller `voxel`]");
     }
 }
 
 /// Statistics and integrals of the curvatures.
-void describeCurvature(const Mesh& mesh, const Spline& spline, const Options& options,
+void describeCurvature(const Mesh& mesh, const Spline& spline, const SurfaceOptions& options,
                        Progress& progress, SurfaceReport& report)
 {
     const std::vector<float> areas = vertexAreas(mesh, progress);
     tbb::parallel_invoke(
         [&] { report.meanCurvature = statistics(mesh.scalars[0].values, areas); },
         [&] { report.gaussianCurvature = statistics(mesh.scalars[1].values, areas); });
-    if (!options.curvatureIntegrals) return;
+    if (!options.curvatureTotals) return;
     constexpr double tolerance = 5.0; // for each unit of the Euler characteristic [sr]
     const int chi = std::max(std::abs(report.eulerCharacteristic), 2);
     report.integrals = integrateSurface(mesh, spline, tolerance * chi, progress);
 }
 
 /// The surface of all balls.
-Result runWhole(const BallSelection& atoms, const Options& options, Progress& progress,
-                WarmStart* warm)
+MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
+                          WarmStart* warm)
 {
     const std::vector<Ball>& balls = atoms.balls;
-    Result result;
+    MolecularSurface result;
     Report& report = result.report;
     Stopwatch watch(report);
 
@@ -222,7 +222,7 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
         if (result.mesh.triangles.empty()) {
             throw Error(ErrorKind::Numeric,
                         "mesh: nothing of the molecule is left at this resolution [hint: a smaller "
-                        "--voxel, --lambda or --epsilon]");
+                        "`voxel`, `lambda` or `epsilon`]");
         }
         if (filled || !options.fillCavities) break;
         const std::vector<LeafMask> cavities =
@@ -286,7 +286,7 @@ Result runWhole(const BallSelection& atoms, const Options& options, Progress& pr
 }
 
 /// The same balls in spatial order, so that results have the same bits for any order of the atoms.
-BallSelection inSpatialOrder(const BallSelection& atoms)
+BallSet inSpatialOrder(const BallSet& atoms)
 {
     const std::vector<std::int32_t> order = spatialOrder(atoms.balls);
     return subset(atoms, {order.begin(), order.end()});
@@ -294,23 +294,32 @@ BallSelection inSpatialOrder(const BallSelection& atoms)
 
 } // namespace
 
-Result run(const std::vector<Ball>& balls, const Options& options, Progress& progress)
+WarmStart::WarmStart() = default;
+WarmStart::~WarmStart() = default;
+WarmStart::WarmStart(WarmStart&& other) noexcept = default;
+WarmStart& WarmStart::operator=(WarmStart&& other) noexcept = default;
+
+MolecularSurface makeSurface(const std::vector<Ball>& balls, const SurfaceOptions& options,
+                             Progress* progress)
 {
-    BallSelection atoms;
+    BallSet atoms;
     atoms.balls = balls;
-    return run(atoms, options, progress);
+    return makeSurface(atoms, options, progress);
 }
 
-Result run(const BallSelection& atoms, const Options& options, Progress& progress, WarmStart* warm)
+MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options,
+                             Progress* listener, WarmStart* warm)
 {
+    Progress nobody;
+    Progress& progress = listener ? *listener : nobody;
     checkOptions(options);
     if (options.matchVolume && !atoms.resolutions.empty()) {
-        BallSelection matched = atoms;
-        Options once = options;
+        BallSet matched = atoms;
+        SurfaceOptions once = options;
         once.matchVolume = false;
         progress.update("match", 0.0);
         matchVolumes(matched, once, progress);
-        return run(matched, once, progress, warm);
+        return makeSurface(matched, once, &progress, warm);
     }
     checkBalls(atoms.balls, options, Pieces::One, physicalMemory());
     const bool whole = !options.split && options.surfaceOf.empty();
@@ -319,10 +328,10 @@ Result run(const BallSelection& atoms, const Options& options, Progress& progres
     }
     const char* shown = hasField(options.fields, "Cd") ? curvatureNameOf(options.color) : nullptr;
     const bool helps = shown && !hasField(options.fields, shown);
-    Options wanted = options;
+    SurfaceOptions wanted = options;
     if (helps) wanted.fields.push_back(shown);
-    Result result = whole ? runWhole(inSpatialOrder(atoms), wanted, progress, warm)
-                          : runParts(atoms, wanted, progress);
+    MolecularSurface result = whole ? runWhole(inSpatialOrder(atoms), wanted, progress, warm)
+                                    : runParts(atoms, wanted, progress);
     if (shown) addCurvatureColors(options.color, !helps, result.mesh, result.fields);
     Report& report = result.report;
     report.atoms = atoms.balls.size();

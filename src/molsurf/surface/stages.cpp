@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/stages.h"
 
-#include "molsurf/core/error.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/error.h"
 #include "molsurf/levelset/initial_surface.h"
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/levelset/thicken.h"
 #include "molsurf/levelset/union_distance.h"
-#include "molsurf/surface/run.h"
+#include "molsurf/surface/warm_start.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,12 +21,7 @@ void Stopwatch::stop(const char* stage)
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - start_).count();
     start_ = now;
-    for (auto& [name, sum] : report_.seconds) {
-        if (name != stage) continue;
-        sum += seconds;
-        return;
-    }
-    report_.seconds.emplace_back(stage, seconds);
+    report_.addSeconds(stage, seconds);
 }
 
 namespace
@@ -43,7 +38,7 @@ NarrowBand gaussianBand(const GaussianSum& field, double voxel, const Scope& sco
         if (!scope.region.whole()) return band;
         throw Error(ErrorKind::Numeric,
                     "density: no voxel lies inside the surface [hint: a smaller "
-                    "--voxel]");
+                    "`voxel`]");
     }
     progress.update("density", 0.6);
     band.psi = field.evaluate(band.table, progress);
@@ -73,13 +68,13 @@ void addCorrection(const WarmStart& warm, double voxel, NarrowBand& band, LeafFi
     parallelFor(band.table.size(), progress, [&](std::size_t n) {
         float* phi = band.phi.leaf(n);
         std::copy_n(phi, leafSize, cold.leaf(n));
-        const std::int32_t m = warm.table.find(band.table.origin(n));
+        const std::int32_t m = warm.empty() ? noLeaf : warm.state->table.find(band.table.origin(n));
         if (m == noLeaf) return;
-        const float* correction = warm.correction.leaf(m);
+        const float* correction = warm.state->correction.leaf(m);
         for (int v = 0; v < leafSize; ++v)
             phi[v] = std::clamp(phi[v] + correction[v], -width, width);
     });
-    if (warm.table.size() == 0) return;
+    if (warm.empty()) return;
     LeafField scratch;
     reinitialize(band.table, band.phi, voxel, width, repairs, scratch, progress);
 }
@@ -90,10 +85,11 @@ WarmStart correctionOf(const LeafTable& before, const LeafField& cold, const Nar
 {
     const float width = float(bandWidthVox * voxel) * 0.999f;
     WarmStart warm;
-    warm.table = band.table;
-    warm.correction = LeafField(band.table.size());
+    warm.state = std::make_unique<WarmStart::State>();
+    warm.state->table = band.table;
+    warm.state->correction = LeafField(band.table.size());
     parallelFor(band.table.size(), progress, [&](std::size_t n) {
-        float* out = warm.correction.leaf(n);
+        float* out = warm.state->correction.leaf(n);
         std::fill_n(out, leafSize, 0.0f);
         const std::int32_t m = before.find(band.table.origin(n));
         if (m == noLeaf) return;
@@ -105,7 +101,7 @@ WarmStart correctionOf(const LeafTable& before, const LeafField& cold, const Nar
 }
 
 /// The flow.
-void evolveBand(const GaussianSum& field, const Options& options, const Scope& scope,
+void evolveBand(const GaussianSum& field, const SurfaceOptions& options, const Scope& scope,
                 NarrowBand& band, Progress& progress, Report& report, WarmStart* warm)
 {
     const double h = options.voxel, reach = gaussianReach(h);
@@ -123,13 +119,13 @@ void evolveBand(const GaussianSum& field, const Options& options, const Scope& s
     if (report.evolution->converged && report.evolution->remainingWay > noticeable * h) {
         report.warnings.push_back(
             "evolve: the steps are small, but the interface still creeps [hint: a "
-            "smaller --tolerance and more --max-steps]");
+            "smaller `tolerance` and more `maxSteps`]");
     }
 }
 
 } // namespace
 
-GaussianOptions gaussianOptions(const Options& options)
+GaussianOptions gaussianOptions(const SurfaceOptions& options)
 {
     const double h = options.voxel;
     if (options.kind == SurfaceKind::Gaussian)
@@ -137,7 +133,7 @@ GaussianOptions gaussianOptions(const Options& options)
     return {options.probe, options.epsilon, 0.0, h, gaussianReach(h)};
 }
 
-NarrowBand makeBand(const BallSelection& atoms, const Options& options, const Scope& scope,
+NarrowBand makeBand(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
                     Progress& progress, Report& report, Stopwatch& watch, WarmStart* warm)
 {
     if (isUnion(options.kind)) return NarrowBand();
@@ -160,19 +156,19 @@ bool isUnion(SurfaceKind kind)
     return kind != SurfaceKind::Variational && kind != SurfaceKind::Gaussian;
 }
 
-double offsetOf(const Options& options)
+double offsetOf(const SurfaceOptions& options)
 {
     return options.kind == SurfaceKind::Variational || options.kind == SurfaceKind::SolventExcluded
                ? options.probe
                : 0.0;
 }
 
-double grownBy(const Options& options)
+double grownBy(const SurfaceOptions& options)
 {
     return options.kind == SurfaceKind::VanDerWaals ? 0.0 : options.probe;
 }
 
-Depth depthOf(const Options& options)
+Depth depthOf(const SurfaceOptions& options)
 {
     const double h = options.voxel, width = splineWidthVox * h * (1 << options.splineLevel);
     const double offset = offsetOf(options);
@@ -184,7 +180,7 @@ namespace
 {
 
 /// From the distance to the set that a surface is offset from.
-DistanceBand offsetBand(DistanceBand S, const Options& options, Progress& progress)
+DistanceBand offsetBand(DistanceBand S, const SurfaceOptions& options, Progress& progress)
 {
     const double h = options.voxel, offset = offsetOf(options);
     if (offset > 0.0) {
@@ -201,7 +197,7 @@ DistanceBand offsetBand(DistanceBand S, const Options& options, Progress& progre
 
 } // namespace
 
-DistanceBand distanceBand(const LeafTable& table, LeafField phi, const Options& options,
+DistanceBand distanceBand(const LeafTable& table, LeafField phi, const SurfaceOptions& options,
                           const Scope& scope, Progress& progress)
 {
     const auto [inside, outside] = depthOf(options);
@@ -212,7 +208,7 @@ DistanceBand distanceBand(const LeafTable& table, LeafField phi, const Options& 
 }
 
 DistanceBand distanceBand(const std::vector<Ball>& balls, BallBoundary boundary,
-                          const Options& options, const Scope& scope, Progress& progress)
+                          const SurfaceOptions& options, const Scope& scope, Progress& progress)
 {
     const auto [inside, outside] = depthOf(options);
     return offsetBand(distanceToUnion(balls, grownBy(options), std::move(boundary), options.voxel,
@@ -286,13 +282,13 @@ GradientCounts countGradients(const Mesh& mesh, const std::vector<float>& slopes
     return parallelSum<GradientCounts>((vertices + chunk - 1) / chunk, progress, count);
 }
 
-GaussianExtent extentOf(const BallSelection& atoms, const Options& options)
+GaussianExtent extentOf(const BallSet& atoms, const SurfaceOptions& options)
 {
     return extentOf(atoms.balls, gaussianOptions(options),
                     options.kind == SurfaceKind::Variational ? atoms.decays : std::vector<Decay>());
 }
 
-double labelReach(const BallSelection& atoms, const Options& options)
+double labelReach(const BallSet& atoms, const SurfaceOptions& options)
 {
     // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
     return 2.0 * options.probe + 4.0 * extentOf(atoms, options).tolerance + 4.0 * options.voxel +

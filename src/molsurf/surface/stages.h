@@ -4,16 +4,17 @@
 /// @file
 /// The stages that a run of a whole molecule and that of a brick of it have in common.
 
+#include "molsurf/atoms.h"
 #include "molsurf/balls/ball_boundary.h"
-#include "molsurf/core/progress.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/grid/distance_band.h"
 #include "molsurf/grid/region.h"
 #include "molsurf/levelset/gaussian_sum.h"
-#include "molsurf/mesh/mesh.h"
+#include "molsurf/mesh.h"
+#include "molsurf/options.h"
+#include "molsurf/progress.h"
+#include "molsurf/report.h"
 #include "molsurf/spline/spline.h"
-#include "molsurf/surface/options.h"
-#include "molsurf/surface/report.h"
 
 #include <chrono>
 #include <cstddef>
@@ -34,7 +35,7 @@ constexpr double splineWidthVox = 4.0;
 /// interface during the flow.
 constexpr int flowLeaves = 2;
 
-struct WarmStart;
+class WarmStart;
 
 /// What a run computes of a molecule: everything, or a brick. The halos, in leaves about the brick,
 /// shrink from stage to stage: each stage needs the one before it farther out.
@@ -60,14 +61,14 @@ private:
 };
 
 /// How the Gaussians of a run are summed.
-GaussianOptions gaussianOptions(const Options& options);
+GaussianOptions gaussianOptions(const SurfaceOptions& options);
 
 /// How far the Gaussians of a run's balls reach.
-GaussianExtent extentOf(const BallSelection& atoms, const Options& options);
+GaussianExtent extentOf(const BallSet& atoms, const SurfaceOptions& options);
 
 /// The level set that a smooth surface is offset from; empty for surfaces of a union of balls, and
 /// in a region that has none of it.
-NarrowBand makeBand(const BallSelection& atoms, const Options& options, const Scope& scope,
+NarrowBand makeBand(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
                     Progress& progress, Report& report, Stopwatch& watch,
                     WarmStart* warm = nullptr);
 
@@ -75,26 +76,26 @@ NarrowBand makeBand(const BallSelection& atoms, const Options& options, const Sc
 bool isUnion(SurfaceKind kind);
 
 /// How far the surface lies inside the set whose distance is known [Å].
-double offsetOf(const Options& options);
+double offsetOf(const SurfaceOptions& options);
 
 /// The probe that the balls of a union surface are grown by [Å].
-double grownBy(const Options& options);
+double grownBy(const SurfaceOptions& options);
 
 /// How far from the surface of its set the distance is computed [Å].
 struct Depth {
     double inside, outside;
 };
-Depth depthOf(const Options& options);
+Depth depthOf(const SurfaceOptions& options);
 
 /// S = Phi + r_b on a band that holds the coefficients of every point of the surface.
 /// @param[in] table,phi  the level set that a smooth surface is offset from
-DistanceBand distanceBand(const LeafTable& table, LeafField phi, const Options& options,
+DistanceBand distanceBand(const LeafTable& table, LeafField phi, const SurfaceOptions& options,
                           const Scope& scope, Progress& progress);
 
 /// The same of a surface that is offset from a union of balls.
 /// @param[in] boundary  of balls that are grown by grownBy()
 DistanceBand distanceBand(const std::vector<Ball>& balls, BallBoundary boundary,
-                          const Options& options, const Scope& scope, Progress& progress);
+                          const SurfaceOptions& options, const Scope& scope, Progress& progress);
 
 /// Replaces S near its zero set by the values of a coarser spline, so that signs and values agree
 /// with it.
@@ -121,5 +122,8 @@ struct GradientCounts {
 GradientCounts countGradients(const Mesh& mesh, const std::vector<float>& slopes,
                               std::size_t vertices, const DistanceBand& S, double voxel,
                               Progress& progress);
+
+/// How far a point of the surface, or of its grid's band, may lie from its ball [Å].
+double labelReach(const BallSet& atoms, const SurfaceOptions& options);
 
 } // namespace molsurf

@@ -4,10 +4,11 @@
 #include "molsurf/color/color_map.h"
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/color/palette.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/mesh/extract.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/statistics.h"
+#include "molsurf/selection/groups.h"
 #include "molsurf/surface/compare.h"
 #include "molsurf/surface/extra_grids.h"
 
@@ -176,17 +177,17 @@ Vec3SGrid::Ptr colorGrid(const Int32Grid& ids, const std::vector<Group>& labels)
     std::string held, hint;
     for (const auto& grid : grids) held += (held.empty() ? "" : ",") + grid->getName();
     if (by == ColorBy::Chain || by == ColorBy::Group)
-        hint = "--fields spline," + word + "_id";
+        hint = "`fields` spline," + word + "_id";
     else
-        hint = "--color " + word + " --fields spline,Cd";
-    throw Error(ErrorKind::Input, "--color " + word + ": the file cannot give these colours, it " +
+        hint = "`color` " + word + " `fields` spline,Cd";
+    throw Error(ErrorKind::Input, "`color` " + word + ": the file cannot give these colours, it " +
                                       "has the grids " + held +
                                       " [hint: store them when it is built: " + hint + "]");
 }
 
 } // namespace
 
-void addLabelMetadata(const BallSelection& atoms, const std::vector<std::string>& fields,
+void addLabelMetadata(const BallSet& atoms, const std::vector<std::string>& fields,
                       const Progress& progress, openvdb::MetaMap& metadata)
 {
     if (!atoms.labels) return;
@@ -212,7 +213,7 @@ void addLabelMetadata(const BallSelection& atoms, const std::vector<std::string>
 }
 
 StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::MetaMap& metadata,
-                            const Options& options, Progress& progress)
+                            const SurfaceOptions& options, Progress& progress)
 {
     StoredSurface stored;
     stored.scale = numberOf(metadata, "scene.units_per_angstrom", 1.0);
@@ -221,11 +222,11 @@ StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::Met
     Surface& surface = operand.surface;
     if (!find<FloatGrid>(grids, "spline"))
         stored.warnings.push_back("no grid spline: it is fitted to the level set, close to the "
-                                  "one that was [hint: --fields spline when it is built]");
+                                  "one that was [hint: `fields` spline when it is built]");
     for (const std::string& warning : operand.warnings) stored.warnings.push_back(warning);
     const std::vector<Coord> voxels = voxelsOf(surface, operand.voxel);
 
-    Result& result = stored.result;
+    MolecularSurface& result = stored.result;
     result.mesh = std::move(surface.mesh);
     Mesh& mesh = result.mesh;
     std::vector<openvdb::Vec3f> placed = mesh.positions;

@@ -4,8 +4,8 @@
 /// @file
 /// A surface read back from a .vdb: its mesh, identities and colours without the atoms.
 
-#include "molsurf/surface/options.h"
-#include "molsurf/surface/run.h"
+#include "molsurf/options.h"
+#include "molsurf/surface.h"
 
 #include <openvdb/openvdb.h>
 
@@ -19,17 +19,17 @@ namespace molsurf
 struct StoredSurface {
     /// Mesh with curvatures, labels and colours; the grid Cd if colours were asked for, the only
     /// field, placed as the surface of the file; a report of the mesh.
-    Result result;
-    BallSelection names; ///< chains and groups with their colours, for legends; no balls
-    Options options;     ///< color: what the colours show, if they show what the program knows
-    double scale = 1.0;  ///< scene units per Å of the file
+    MolecularSurface result;
+    BallSet names;          ///< chains and groups with their colours, for legends; no balls
+    SurfaceOptions options; ///< color: what the colours show, if they show what the program knows
+    double scale = 1.0;     ///< scene units per Å of the file
     std::vector<std::string> warnings; ///< one line each
 };
 
 /// The names and colours of chains and groups as metadata of a file, "label.chain_id" and
 /// "label.group_id": lines of colour and name, one a value.
 /// @param[in] fields  stored; without the grid of a label its names are left out
-void addLabelMetadata(const BallSelection& atoms, const std::vector<std::string>& fields,
+void addLabelMetadata(const BallSet& atoms, const std::vector<std::string>& fields,
                       const Progress& progress, openvdb::MetaMap& metadata);
 
 /// The surface that a .vdb of this program holds, or any level set: see operandOf(). Scene
@@ -42,6 +42,6 @@ void addLabelMetadata(const BallSelection& atoms, const std::vector<std::string>
 /// @throws Error(ErrorKind::Input) if there is no such surface, or if the file cannot give the
 ///         colours; says which fields they need
 StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::MetaMap& metadata,
-                            const Options& options, Progress& progress);
+                            const SurfaceOptions& options, Progress& progress);
 
 } // namespace molsurf

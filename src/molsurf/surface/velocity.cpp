@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/velocity.h"
+#include "molsurf/surface/stages.h"
 
 #include "molsurf/balls/nearest_ball.h"
-#include "molsurf/surface/run.h"
+#include "molsurf/surface.h"
 
 namespace molsurf
 {
 
-openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const BallSelection& atoms,
+openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const BallSet& atoms,
                                      const std::vector<openvdb::Vec3f>& displacement,
-                                     const Options& options, const Progress& progress)
+                                     const SurfaceOptions& options, const Progress& progress)
 {
     const openvdb::Vec3f none(0.0f);
     auto grid = openvdb::Vec3SGrid::create(none);

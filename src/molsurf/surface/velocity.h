@@ -4,8 +4,9 @@
 /// @file
 /// How a surface moves from frame to frame, for motion blur.
 
-#include "molsurf/core/progress.h"
-#include "molsurf/surface/options.h"
+#include "molsurf/atoms.h"
+#include "molsurf/options.h"
+#include "molsurf/progress.h"
 
 #include <openvdb/openvdb.h>
 
@@ -19,8 +20,8 @@ namespace molsurf
 /// (openvdb::VEC_CONTRAVARIANT_RELATIVE).
 ///
 /// @param[in] displacement  one a ball [Å per frame, or in the units of the scene]
-openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const BallSelection& atoms,
+openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const BallSet& atoms,
                                      const std::vector<openvdb::Vec3f>& displacement,
-                                     const Options& options, const Progress& progress);
+                                     const SurfaceOptions& options, const Progress& progress);
 
 } // namespace molsurf

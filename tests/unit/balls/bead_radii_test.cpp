@@ -2,7 +2,9 @@
 #include "molsurf/balls/bead_radii.h"
 
 #include "molsurf/balls/ball_shares.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
+#include "molsurf/selection/coarse_grain.h"
+#include "molsurf/selection/select_balls.h"
 #include "support/molecules.h"
 #include "support/runs.h"
 
@@ -22,10 +24,10 @@ using Members = std::vector<std::vector<std::size_t>>;
 
 const Progress quiet;
 
-BallSelection beadsOf(const std::string& file, const Options& options,
-                      const std::vector<std::string>& rules)
+BallSet beadsOf(const std::string& file, const SurfaceOptions& options,
+                const std::vector<std::string>& rules)
 {
-    SelectOptions select = options.atoms;
+    SelectOptions select;
     for (const std::string& rule : rules) select.coarse.push_back(parseCoarse(rule));
     return selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + "/" + file), select,
                        probeOf(options), quiet);
@@ -74,8 +76,8 @@ TEST(SizeBeads, EveryBeadHasThePartsOfItsAtoms)
 TEST(SizeBeads, AtomsKeepTheirRadii)
 {
     const Structure crambin = readStructure(std::string(MOLSURF_TEST_DATA) + "/1crn.pdb");
-    const BallSelection mixed = beadsOf("1crn.pdb", {}, {"A/1-20=residue"});
-    const BallSelection atoms = beadsOf("1crn.pdb", {}, {});
+    const BallSet mixed = beadsOf("1crn.pdb", {}, {"A/1-20=residue"});
+    const BallSet atoms = beadsOf("1crn.pdb", {}, {});
     EXPECT_GT(mixed.beads, 30u);
     std::size_t kept = 0;
     for (const Ball& ball : mixed.balls) {
@@ -106,9 +108,9 @@ TEST(SizeBeads, BeadsOfOneCentreAreAnError)
 
 TEST(SizeBeads, TheSameBitsForAnyNumberOfThreads)
 {
-    const BallSelection many = beadsOf("1a8o.cif.gz", {}, {"residue"});
+    const BallSet many = beadsOf("1a8o.cif.gz", {}, {"residue"});
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-    const BallSelection one = beadsOf("1a8o.cif.gz", {}, {"residue"});
+    const BallSet one = beadsOf("1a8o.cif.gz", {}, {"residue"});
     ASSERT_EQ(one.balls.size(), many.balls.size());
     for (std::size_t i = 0; i < one.balls.size(); ++i) {
         EXPECT_EQ(one.balls[i].radius, many.balls[i].radius);
@@ -128,12 +130,13 @@ TEST(SizeBeads, ResidueBeadsKeepTheVolumeOf1A8O)
                           {SurfaceKind::SolventAccessible, 1e-3},
                           {SurfaceKind::SolventExcluded, 0.05},
                           {SurfaceKind::Variational, 0.05}}) {
-        Options options;
+        SurfaceOptions options;
         options.kind = c.kind;
         Progress progress;
-        const double fine =
-            run(beadsOf("1a8o.cif.gz", options, {}), options, progress).report.surface.outerVolume;
-        const Result coarse = run(beadsOf("1a8o.cif.gz", options, {"residue"}), options, progress);
+        const double fine = makeSurface(beadsOf("1a8o.cif.gz", options, {}), options, &progress)
+                                .report.surface.outerVolume;
+        const MolecularSurface coarse =
+            makeSurface(beadsOf("1a8o.cif.gz", options, {"residue"}), options, &progress);
         EXPECT_NEAR(coarse.report.surface.outerVolume / fine, 1.0, c.tolerance) << int(c.kind);
         ASSERT_TRUE(coarse.report.coarse);
         EXPECT_EQ(coarse.report.coarse->beads, 136u);

@@ -5,7 +5,7 @@
 #include "molsurf/bricks/merge_mesh.h"
 #include "molsurf/bricks/merge_vdb.h"
 #include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/mesh/measure.h"
 #include "support/mesh_checks.h"
 
@@ -59,7 +59,7 @@ protected:
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
     /// Computes all bricks of a plan, and opens them.
-    std::vector<BrickFile> bricksOf(const BallSelection& atoms, const Options& options,
+    std::vector<BrickFile> bricksOf(const BallSet& atoms, const SurfaceOptions& options,
                                     const BrickPlan& plan)
     {
         Progress progress;
@@ -78,14 +78,14 @@ protected:
     }
 
     /// Compares bricks with the whole, bit by bit.
-    void expectSame(const std::vector<Ball>& balls, Options options, std::size_t count,
+    void expectSame(const std::vector<Ball>& balls, SurfaceOptions options, std::size_t count,
                     bool exact = true)
     {
         options.evolution.steps = 6;
         Progress progress;
-        BallSelection atoms;
+        BallSet atoms;
         atoms.balls = balls;
-        const Result whole = run(atoms, options, progress);
+        const MolecularSurface whole = makeSurface(atoms, options, &progress);
         const BrickPlan plan = planBricks(atoms, options, {count, 0}, progress);
         ASSERT_GT(plan.bricks.size(), 1u);
         const std::vector<BrickFile> bricks = bricksOf(atoms, options, plan);
@@ -137,9 +137,9 @@ protected:
     std::filesystem::path folder_;
 };
 
-Options coarse(SurfaceKind kind = SurfaceKind::Variational)
+SurfaceOptions coarse(SurfaceKind kind = SurfaceKind::Variational)
 {
-    Options options;
+    SurfaceOptions options;
     options.voxel = 0.8;
     options.kind = kind;
     return options;
@@ -169,7 +169,7 @@ TEST_F(Bricks, UnionsAreThoseOfTheWhole)
 
 TEST_F(Bricks, HoldTheWholeSpaceOnce)
 {
-    BallSelection atoms;
+    BallSet atoms;
     atoms.balls = chain();
     Progress progress;
     const BrickPlan plan = planBricks(atoms, coarse(), {7, 0}, progress);
@@ -189,11 +189,11 @@ TEST_F(Bricks, HoldTheWholeSpaceOnce)
 
 TEST_F(Bricks, NeedTheMemoryOfTheirSurface)
 {
-    BallSelection atoms;
+    BallSet atoms;
     atoms.balls = chain();
     Progress progress;
     const auto bytes = [&](SurfaceKind kind, std::vector<std::string> fields) {
-        Options options = coarse();
+        SurfaceOptions options = coarse();
         options.kind = kind;
         options.fields = std::move(fields);
         return planWhole(atoms, options, progress).bricks[0].bytes;
@@ -209,7 +209,7 @@ TEST_F(Bricks, NeedTheMemoryOfTheirSurface)
 
 TEST_F(Bricks, FitTheMemoryOrSayWhatWould)
 {
-    BallSelection atoms;
+    BallSet atoms;
     atoms.balls = chain();
     Progress progress;
     const std::size_t whole = planWhole(atoms, coarse(), progress).bricks[0].bytes;
@@ -226,33 +226,33 @@ TEST_F(Bricks, FitTheMemoryOrSayWhatWould)
         FAIL() << "a megabyte is not enough";
     } catch (const Error& e) {
         EXPECT_EQ(e.kind(), ErrorKind::Input);
-        EXPECT_NE(std::string(e.what()).find("[hint: --memory 0."), std::string::npos) << e.what();
+        EXPECT_NE(std::string(e.what()).find("[hint: `memory` 0."), std::string::npos) << e.what();
     }
 }
 
 TEST_F(Bricks, RefuseWhatNeedsTheWhole)
 {
     const auto refused = [](auto change) {
-        Options options;
+        SurfaceOptions options;
         change(options);
         EXPECT_THROW(checkBrickOptions(options), Error);
     };
-    EXPECT_NO_THROW(checkBrickOptions(Options()));
-    refused([](Options& o) { o.split = true; });
-    refused([](Options& o) { o.interfaces = true; });
-    refused([](Options& o) { o.fillCavities = true; });
-    refused([](Options& o) { o.curvatureIntegrals = true; });
-    refused([](Options& o) { o.splineLevel = 1; });
-    refused([](Options& o) { o.evolution.flow = Flow::Plain; });
-    refused([](Options& o) { o.color = ColorBy::MeanCurvature; });
-    refused([](Options& o) { o.surfaceOf = {{"a", SurfaceKind::VanDerWaals}}; });
+    EXPECT_NO_THROW(checkBrickOptions(SurfaceOptions()));
+    refused([](SurfaceOptions& o) { o.split = true; });
+    refused([](SurfaceOptions& o) { o.interfaces = true; });
+    refused([](SurfaceOptions& o) { o.fillCavities = true; });
+    refused([](SurfaceOptions& o) { o.curvatureTotals = true; });
+    refused([](SurfaceOptions& o) { o.splineLevel = 1; });
+    refused([](SurfaceOptions& o) { o.evolution.flow = Flow::Plain; });
+    refused([](SurfaceOptions& o) { o.color = ColorBy::MeanCurvature; });
+    refused([](SurfaceOptions& o) { o.surfaceOf = {{"a", SurfaceKind::VanDerWaals}}; });
 }
 
 TEST_F(Bricks, ACutFileIsRefused)
 {
-    BallSelection atoms;
+    BallSet atoms;
     atoms.balls = {{Vec3f(0.1f, 0.2f, 0.3f), 1.7f, 0}};
-    Options options = coarse();
+    SurfaceOptions options = coarse();
     options.evolution.steps = 2;
     Progress progress;
     const BrickPlan plan = planWhole(atoms, options, progress);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "support/flow.h"
 #include "support/molecules.h"
 

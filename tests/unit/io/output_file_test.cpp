@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/output_file.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "support/folder.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ TEST(OutputFile, ReplacesOnlyIfTold)
     std::ofstream(folder / "a.ply") << "old";
     const std::string why = refusal([&] { checkWritable(folder / "a.ply", false); });
     EXPECT_NE(why.find("exists"), std::string::npos) << why;
-    EXPECT_NE(why.find("--force"), std::string::npos) << why;
+    EXPECT_NE(why.find("`force`"), std::string::npos) << why;
     refusal([&] { OutputFile(folder / "a.ply", false); });
     EXPECT_EQ(contentOf(folder / "a.ply"), "old");
 

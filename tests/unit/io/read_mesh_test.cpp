@@ -3,7 +3,7 @@
 
 #include "support/folder.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/mesh/deviation.h"
 #include "support/solids.h"

@@ -85,7 +85,7 @@ TEST(Altloc, WarnsIfThereAreNone)
 {
     SelectOptions options;
     options.altloc = "A";
-    const BallSelection selection = selectBalls(readStructure(dataFile("1crn.pdb")), options);
+    const BallSet selection = selectBalls(readStructure(dataFile("1crn.pdb")), options);
     EXPECT_EQ(selection.balls.size(), 327u);
     ASSERT_EQ(selection.warnings.size(), 1u);
     EXPECT_HAS(selection.warnings[0], "have no alternate locations");

@@ -43,7 +43,7 @@ TEST(Assembly, OfTheDimer)
     for (const char* name : {"1a8o.cif.gz", "1a8o.pdb.gz"}) {
         const Structure s = readStructure(dataFile(name));
         SelectOptions options = assembly("1");
-        const BallSelection dry = selectBalls(s, options);
+        const BallSet dry = selectBalls(s, options);
         EXPECT_EQ(dry.balls.size(), 1112u) << name;
         EXPECT_EQ(dry.copies, 2u);
         EXPECT_EQ(dry.copyBegin, (std::vector<std::size_t>{0, 556, 1112}));
@@ -79,7 +79,7 @@ TEST(Assembly, CopyByCopyAndOnlyItsChains)
         {"x",
          {{{"A", "B"}, {moved(10), moved(20)}}, {{"Q"}, {moved(99)}}, {{"A"}, {moved(30)}}},
          ""}};
-    const BallSelection selection = selectBalls(s, assembly("x"));
+    const BallSet selection = selectBalls(s, assembly("x"));
     ASSERT_EQ(selection.balls.size(), 5u);
     EXPECT_EQ(selection.copies, 3u); // no atom is in chain Q
     EXPECT_EQ(selection.copyBegin, (std::vector<std::size_t>{0, 2, 4, 5}));

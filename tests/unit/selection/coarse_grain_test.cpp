@@ -18,10 +18,10 @@ struct Recorder {
     std::vector<std::vector<std::size_t>> members;
 };
 
-BallSelection beadsOf(const Structure& s, const std::vector<std::string>& rules,
-                      SelectOptions options = {}, Recorder* recorder = nullptr)
+BallSet beadsOf(const Structure& s, const std::vector<std::string>& rules,
+                SelectOptions options = {}, Recorder* recorder = nullptr)
 {
-    const BallSelection atoms = selectBalls(s, options);
+    const BallSet atoms = selectBalls(s, options);
     for (const std::string& rule : rules) options.coarse.push_back(parseCoarse(rule));
     if (recorder) recorder->members = coarseGrain(s, atoms.balls, options.coarse, 0.0, {}).members;
     return selectBalls(s, options);
@@ -42,7 +42,7 @@ TEST(ParseCoarse, ReadsItsWords)
     EXPECT_EQ(parseCoarse("A;q=1=3").select, "A;q=1");
     for (const std::string text :
          {"", "=", "=4", "atoms", "0", "-1", "1.5", "4 ,", "1000001", "A=", "A=b", "99999999999"}) {
-        EXPECT_EQ(errorOf(ErrorKind::Usage, [&] { parseCoarse(text); }).find("--coarse: expected"),
+        EXPECT_EQ(errorOf(ErrorKind::Usage, [&] { parseCoarse(text); }).find("`coarse`: expected"),
                   0u)
             << text;
     }
@@ -52,7 +52,7 @@ TEST(CoarseGrain, BackboneAndSideChainOfEveryResidue)
 {
     const Structure s = readStructure(dataFile("1crn.pdb"));
     Recorder recorder;
-    const BallSelection beads = beadsOf(s, {"residue"}, {}, &recorder);
+    const BallSet beads = beadsOf(s, {"residue"}, {}, &recorder);
     // 46 residues, 4 glycines without a side chain.
     ASSERT_EQ(beads.balls.size(), 88u);
     EXPECT_EQ(beads.beads, 88u);
@@ -77,7 +77,7 @@ TEST(CoarseGrain, ABeadStandsAtTheCentreOfItsVolumeForTheNearestAtom)
 {
     const Structure s = readStructure(dataFile("1crn.pdb"));
     Recorder recorder;
-    const BallSelection atoms = selectBalls(s, {}), beads = beadsOf(s, {"10"}, {}, &recorder);
+    const BallSet atoms = selectBalls(s, {}), beads = beadsOf(s, {"10"}, {}, &recorder);
     for (std::size_t b = 0; b < beads.balls.size(); ++b) {
         openvdb::Vec3d sum(0.0);
         double volume = 0.0, nearest = 1e9;
@@ -99,7 +99,7 @@ TEST(CoarseGrain, ClustersHaveAboutAsManyAtomsAsAsked)
     const Structure s = readStructure(dataFile("1a8o.cif.gz"));
     for (const int n : {2, 4, 10, 50, 1000}) {
         Recorder recorder;
-        const BallSelection beads = beadsOf(s, {std::to_string(n)}, {}, &recorder);
+        const BallSet beads = beadsOf(s, {std::to_string(n)}, {}, &recorder);
         EXPECT_EQ(beads.beads, std::max<std::size_t>(1, (2 * 556 + std::size_t(n)) / (2 * n)));
         std::size_t least = 1000, most = 0;
         for (const auto& members : recorder.members) {
@@ -114,7 +114,7 @@ TEST(CoarseGrain, ClustersHaveAboutAsManyAtomsAsAsked)
 TEST(CoarseGrain, LaterRulesWinAndAtomsStay)
 {
     const Structure s = readStructure(dataFile("1crn.pdb"));
-    const BallSelection beads = beadsOf(s, {"residue", "A/1-10=5", "A/5-20=atom"});
+    const BallSet beads = beadsOf(s, {"residue", "A/1-10=5", "A/5-20=atom"});
     std::size_t atoms = 0;
     for (const Ball& ball : beads.balls) {
         const int number = s.residues[std::size_t(atomOf(s, ball).residue)].number;
@@ -131,7 +131,7 @@ TEST(CoarseGrain, HydrogensGoWithTheirAtom)
 {
     const Structure s = readStructure(dataFile("1d3z.pdb.gz"));
     Recorder recorder;
-    const BallSelection beads = beadsOf(s, {"residue"}, {}, &recorder);
+    const BallSet beads = beadsOf(s, {"residue"}, {}, &recorder);
     EXPECT_EQ(beads.beadAtoms, 1231u);
     EXPECT_EQ(beads.beads, 146u); // 76 backbones, 6 glycines without side chain
     for (const auto& members : recorder.members) {
@@ -152,12 +152,12 @@ TEST(CoarseGrain, AssembliesAndGroupsTakeBeads)
     SelectOptions options;
     options.assembly = "1";
     options.groups = {{"head", "A/151-180", {}}, {"tail", "A/181-230", {}}};
-    const BallSelection beads = beadsOf(s, {"residue"}, options);
+    const BallSet beads = beadsOf(s, {"residue"}, options);
     ASSERT_EQ(beads.balls.size(), 272u);
     EXPECT_EQ(beads.beads, 272u);
     EXPECT_EQ(beads.beadAtoms, 1112u);
     EXPECT_EQ(beads.labels->groups[0].balls + beads.labels->groups[1].balls, 272u);
-    const BallSelection unit = beadsOf(s, {"residue"});
+    const BallSet unit = beadsOf(s, {"residue"});
     for (std::size_t i = 0; i < 136; ++i) {
         EXPECT_LT((beads.balls[i].center - unit.balls[i].center).length(), 1e-4); // the identity
         const Ball &a = beads.balls[i], &b = beads.balls[136 + i];
@@ -199,8 +199,8 @@ TEST(CoarseGrain, WatersIonsAndLigands)
     const Structure s = readStructure(dataFile("4at1.ent.gz"));
     SelectOptions options;
     options.select = "*;!polymer";
-    const BallSelection ligands = selectBalls(s, options);
-    const BallSelection beads = beadsOf(s, {"residue"}, options);
+    const BallSet ligands = selectBalls(s, options);
+    const BallSet beads = beadsOf(s, {"residue"}, options);
     EXPECT_EQ(beads.beadAtoms, ligands.balls.size());
     // Two zinc ions, and two ATP of 31 atoms in clusters of about four.
     EXPECT_EQ(ligands.balls.size(), 64u);
@@ -208,7 +208,7 @@ TEST(CoarseGrain, WatersIonsAndLigands)
     options = {};
     options.waters = true;
     const Structure wet = readStructure(dataFile("1ubq.pdb"));
-    const BallSelection all = beadsOf(wet, {"100"}, options);
+    const BallSet all = beadsOf(wet, {"100"}, options);
     std::size_t waters = 0;
     for (const Ball& b : all.balls) {
         waters += wet.residues[std::size_t(atomOf(wet, b).residue)].water;

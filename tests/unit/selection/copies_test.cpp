@@ -69,7 +69,7 @@ TEST(Copies, AreThoseOfTheFirstOperatorWhereverItIs)
     std::vector<Operator> operators = icosahedral();
     std::rotate(operators.begin(), operators.begin() + 17, operators.end());
     const Operator home = inverseOf(operators[0]);
-    const BallSelection five = selectBalls(withAssembly(operators), copies("fold:5"));
+    const BallSet five = selectBalls(withAssembly(operators), copies("fold:5"));
     ASSERT_EQ(five.copies, 5u);
     // In the frame of copy 1 it is the ring of the copy that the identity makes.
     std::vector<Ball> balls = five.balls;
@@ -107,7 +107,7 @@ TEST(Copies, DuplicatesAreLeftOutOfARing)
     std::vector<Operator> operators = icosahedral();
     const std::vector<Operator> once = operators;
     operators.insert(operators.end(), once.begin(), once.end());
-    const BallSelection five = selectBalls(withAssembly(operators), copies("fold:5"));
+    const BallSet five = selectBalls(withAssembly(operators), copies("fold:5"));
     expectRing(five.balls, 5, {0, 1, golden});
     EXPECT_LE(five.copyNumbers.back(), 60);
 }
@@ -115,10 +115,10 @@ TEST(Copies, DuplicatesAreLeftOutOfARing)
 TEST(Copies, ByNumber)
 {
     const Structure s = withAssembly(icosahedral());
-    const BallSelection some = selectBalls(s, copies("7, 1,23-25,24"));
+    const BallSet some = selectBalls(s, copies("7, 1,23-25,24"));
     EXPECT_EQ(some.copyNumbers, (std::vector<int>{1, 7, 23, 24, 25}));
     EXPECT_EQ(some.copyBegin, (std::vector<std::size_t>{0, 2, 4, 6, 8, 10}));
-    const BallSelection all = selectBalls(s, copies(""));
+    const BallSet all = selectBalls(s, copies(""));
     EXPECT_EQ(some.balls[2].center, all.balls[12].center); // copy 7
     EXPECT_EQ(some.balls[9].center, all.balls[49].center); // copy 25
     EXPECT_HAS(errorOf(ErrorKind::Input, [&] { selectBalls(s, copies("3,61")); }),
@@ -135,7 +135,7 @@ TEST(Copies, OfAPartWithItsOwnOperatorsComeAlong)
     std::vector<Operator> others = cyclic(4);
     std::rotate(others.begin(), others.begin() + 1, others.end()); // the identity comes last
     s.assemblies[0].parts.push_back({{"B"}, others});
-    const BallSelection ring = selectBalls(s, copies("fold:4"));
+    const BallSet ring = selectBalls(s, copies("fold:4"));
     EXPECT_EQ(ring.copyNumbers, (std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8}));
     EXPECT_EQ(selectBalls(s, copies("8")).balls.at(0).center, openvdb::Vec3f(8, 51, 71));
 }
@@ -144,7 +144,7 @@ TEST(Copies, BadWords)
 {
     for (const char* text : {"x", "0", "-1", "3-1", "1,,2", "1-", ",", "fold:", "fold:1", "fold:x",
                              "fold:-3", "1.5", "fold:5,1"}) {
-        EXPECT_HAS(errorOf(ErrorKind::Usage, [&] { parseCopies(text); }), "--copies: expected");
+        EXPECT_HAS(errorOf(ErrorKind::Usage, [&] { parseCopies(text); }), "`copies`: expected");
     }
     EXPECT_TRUE(parseCopies("").ranges.empty());
 }

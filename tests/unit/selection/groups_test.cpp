@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
+#include "molsurf/selection/groups.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 
@@ -62,7 +63,7 @@ TEST_F(GroupsFile, BadOnesAreRefused)
     refuse("{\"groups\": [{\"name\": \"a\"}]}", "select");
     refuse("{\"groups\": [{\"name\": \"a\", \"select\": 7}]}", "select");
     refuse("{\"groups\": [{\"name\": \"a\", \"select\": \"A\", \"colour\": \"x\"}]}", "colour");
-    refuse("a A red", "red");
+    refuse("a A redd", "redd");
     refuse("a A #12345", "#12345");
     refuse("a A #12345g", "#12345g");
     refuse("a\n", "line 1");
@@ -73,8 +74,7 @@ TEST_F(GroupsFile, BadOnesAreRefused)
 
 BallLabels labelled(const SelectOptions& options, const std::string& file = "/4at1.ent.gz")
 {
-    const BallSelection out =
-        selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + file), options);
+    const BallSet out = selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + file), options);
     EXPECT_EQ(out.labels->chainOf.size(), out.balls.size());
     return *out.labels;
 }

@@ -111,7 +111,7 @@ const std::string atoms =
 TEST(Radii, UnknownElementsTakeThatOfCarbonWithOneWarning)
 {
     const TempFile file("a.pdb", atoms);
-    const BallSelection selection = selectBalls(readStructure(file.path()), {});
+    const BallSet selection = selectBalls(readStructure(file.path()), {});
     ASSERT_EQ(selection.balls.size(), 3u);
     EXPECT_EQ(selection.balls[1].radius, 1.7f);
     EXPECT_EQ(selection.balls[2].radius, 1.7f);
@@ -124,7 +124,7 @@ TEST(Radii, WhatAFileLacksComesFromBondi)
     const TempFile file("a.pdb", atoms), radii("my.radii", "PM 2.0\n* Q1 3.0\n");
     SelectOptions options;
     options.radii = radii.path();
-    const BallSelection selection = selectBalls(readStructure(file.path()), options);
+    const BallSet selection = selectBalls(readStructure(file.path()), options);
     EXPECT_EQ(selection.balls[0].radius, 1.7f);
     EXPECT_EQ(selection.balls[1].radius, 2.0f);
     EXPECT_EQ(selection.balls[2].radius, 3.0f);
@@ -137,7 +137,7 @@ TEST(Radii, AZeroInAFileLeavesTheAtomOut)
     const TempFile file("a.pdb", atoms), radii("my.radii", "* 1.9\nC 0\n");
     SelectOptions options;
     options.radii = radii.path();
-    const BallSelection selection = selectBalls(readStructure(file.path()), options);
+    const BallSet selection = selectBalls(readStructure(file.path()), options);
     EXPECT_EQ(selection.balls.size(), 2u);
     ASSERT_EQ(selection.drops.size(), 1u);
     EXPECT_EQ(selection.drops[0].reason, "zero radius");

@@ -16,10 +16,10 @@ Structure readText(const std::string& name, const std::string& text)
     return readStructure(TempFile(name, text).path());
 }
 
-std::map<std::string, std::size_t> dropsOf(const BallSelection& selection)
+std::map<std::string, std::size_t> dropsOf(const BallSet& selection)
 {
     std::map<std::string, std::size_t> drops;
-    for (const Drop& drop : selection.drops) drops[drop.reason] = drop.count;
+    for (const Excluded& drop : selection.drops) drops[drop.reason] = drop.count;
     return drops;
 }
 
@@ -28,7 +28,7 @@ using Drops = std::map<std::string, std::size_t>;
 TEST(SelectBalls, GivesEveryAtomItsBall)
 {
     const Structure s = readStructure(dataFile("1crn.pdb"));
-    const BallSelection selection = selectBalls(s, {});
+    const BallSet selection = selectBalls(s, {});
     ASSERT_EQ(selection.balls.size(), 327u);
     EXPECT_TRUE(selection.drops.empty());
     EXPECT_TRUE(selection.warnings.empty());
@@ -71,7 +71,7 @@ TEST(SelectBalls, UsesOneModel)
     SelectOptions options;
     EXPECT_EQ(selectBalls(s, options).model, 1);
     options.model = 4;
-    const BallSelection selection = selectBalls(s, options);
+    const BallSet selection = selectBalls(s, options);
     EXPECT_EQ(selection.model, 4);
     EXPECT_EQ(selection.balls[0].atom, 3 * 1231);
     EXPECT_EQ(describeSelection(s, selection),
@@ -135,7 +135,7 @@ TEST(SelectBalls, RefusesAMoleculeLargerThanAnyGrid)
 TEST(SelectBalls, TellsHowFarPlacesAreRounded)
 {
     EXPECT_TRUE(selectBalls(readText("a.xyzr", "9000 0 0 1\n"), {}).warnings.empty());
-    const BallSelection far = selectBalls(readText("a.xyzr", "0 -800000.11 0 1\n"), {});
+    const BallSet far = selectBalls(readText("a.xyzr", "0 -800000.11 0 1\n"), {});
     ASSERT_EQ(far.warnings.size(), 1u);
     EXPECT_HAS(far.warnings[0], "rounded to 0.1 Å");
 }
@@ -144,7 +144,7 @@ TEST(SelectBalls, PassesOnTheWarningsOfTheFile)
 {
     const std::string atom =
         "ATOM      1  CA  GLY A   1       1.000   2.000   3.000  1.00  0.00           C\n";
-    const BallSelection selection = selectBalls(readText("a.pdb", atom + "END\n" + atom), {});
+    const BallSet selection = selectBalls(readText("a.pdb", atom + "END\n" + atom), {});
     ASSERT_EQ(selection.warnings.size(), 1u);
 }
 

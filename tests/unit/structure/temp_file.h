@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
+#include "molsurf/surface.h"
 #include "molsurf/surface/check_balls.h"
-#include "molsurf/surface/run.h"
 #include "support/molecules.h"
 
 #include <gtest/gtest.h>
@@ -20,12 +20,12 @@ namespace
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 
-/// The line of the error that run() ends with; empty if there is none.
-std::string refusal(const std::vector<Ball>& balls, const Options& options = {})
+/// The line of the error that makeSurface() ends with; empty if there is none.
+std::string refusal(const std::vector<Ball>& balls, const SurfaceOptions& options = {})
 {
     Progress progress;
     try {
-        run(balls, options, progress);
+        makeSurface(balls, options, &progress);
     } catch (const Error& e) {
         EXPECT_EQ(e.kind(), ErrorKind::Input);
         return e.what();
@@ -59,7 +59,7 @@ TEST(CheckBalls, RefusesWhatDoesNotFitTheMemory)
     EXPECT_NE(refusal(balls).find("radius 100000 Å takes at least"), std::string::npos);
 
     // The voxel of the hint is one that is taken.
-    Options options;
+    SurfaceOptions options;
     const std::vector<Ball> large = {{Vec3f(0.0f), 500.0f, 0}};
     std::string line;
     try {
@@ -67,7 +67,7 @@ TEST(CheckBalls, RefusesWhatDoesNotFitTheMemory)
     } catch (const Error& e) {
         line = e.what();
     }
-    const std::size_t hint = line.find("--voxel ");
+    const std::size_t hint = line.find("`voxel` ");
     ASSERT_NE(hint, std::string::npos) << line;
     options.voxel = std::stod(line.substr(hint + 8));
     EXPECT_GT(options.voxel, 0.5);
@@ -76,13 +76,13 @@ TEST(CheckBalls, RefusesWhatDoesNotFitTheMemory)
 
 TEST(CheckBalls, ThePlanOfALargeBallIsItsShell)
 {
-    BallSelection atoms;
+    BallSet atoms;
     atoms.balls = {{Vec3f(3.0f, -2.0f, 1.0f), 100.0f, 0}};
-    Options options;
+    SurfaceOptions options;
     options.kind = SurfaceKind::SolventAccessible;
     Progress progress;
     const BrickPlan plan = planWhole(atoms, options, progress);
-    const Result result = run(atoms, options, progress);
+    const MolecularSurface result = makeSurface(atoms, options, &progress);
     ASSERT_EQ(plan.bricks.size(), 1u);
     EXPECT_EQ(plan.bricks[0].atoms, 1u);
     EXPECT_GT(plan.bricks[0].voxels, result.report.activeVoxels);
@@ -99,13 +99,13 @@ TEST(AnyOrder, HasTheSameBits)
         std::vector<Ball> balls = test::randomBalls(40, 12.0, Vec3d(3.0), 2);
         for (int k = 0; k < 8; ++k) // and a part of a lattice
             balls.push_back({Vec3f(float(2 * (k & 1)), float(k & 2), float(k >> 1 & 2)), 1.5f, 0});
-        Options options;
+        SurfaceOptions options;
         options.kind = kind;
         Progress progress;
-        const Result first = run(balls, options, progress);
+        const MolecularSurface first = makeSurface(balls, options, &progress);
         for (int n = 0; n < 3; ++n) {
             std::shuffle(balls.begin(), balls.end(), random);
-            const Result again = run(balls, options, progress);
+            const MolecularSurface again = makeSurface(balls, options, &progress);
             EXPECT_EQ(again.report.surface.area, first.report.surface.area) << nameOf(kind);
             EXPECT_EQ(again.report.surface.volume, first.report.surface.volume) << nameOf(kind);
             EXPECT_EQ(again.report.surface.eulerCharacteristic,

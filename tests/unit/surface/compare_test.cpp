@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/compare.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/surface/extra_grids.h"
 #include "support/fields.h"
 #include "support/runs.h"
@@ -154,13 +154,13 @@ TEST(OperandOfGrids, BadGrids)
 TEST(OperandOfResult, AgreesWithItsGrids)
 {
     for (const int level : {0, 1}) {
-        Options options;
+        SurfaceOptions options;
         options.voxel = 0.5;
         options.splineLevel = level;
         options.fields = {"spline"};
         const std::vector<Ball> balls = {{{0.1f, 0.2f, 0.3f}, 1.7f, 0},
                                          {{1.5f, 0.4f, 0.1f}, 1.55f, 1}};
-        Result result = test::runOn(balls, options);
+        MolecularSurface result = test::runOn(balls, options);
         const openvdb::GridPtrVec stored = {result.surface, result.fields.at(0)};
         const Operand structure = operandOf(std::move(result));
         EXPECT_EQ(structure.kind, "structure");

@@ -23,7 +23,7 @@ std::vector<Ball> atom()
 }
 
 template<typename Grid>
-typename Grid::Ptr field(const Result& result, const std::string& name)
+typename Grid::Ptr field(const MolecularSurface& result, const std::string& name)
 {
     for (const auto& grid : result.fields)
         if (grid->getName() == name) return openvdb::gridPtrCast<Grid>(grid);
@@ -33,10 +33,10 @@ typename Grid::Ptr field(const Result& result, const std::string& name)
 // A voxel has the curvature of the closest point of the surface, however far it is.
 TEST(CurvatureGrids, HaveTheValueOfTheSurfaceThroughoutTheBand)
 {
-    Options options;
+    SurfaceOptions options;
     options.voxel = 0.25;
     options.fields = fieldNames();
-    const Result result = test::runOn(atom(), options);
+    const MolecularSurface result = test::runOn(atom(), options);
     // Atoms without chains and groups have no labels of these and no colours, and do not move.
     ASSERT_EQ(result.fields.size(), options.fields.size() - 4);
     const double k = 1.0 / radius;
@@ -68,10 +68,10 @@ TEST(CurvatureGrids, HaveTheValueOfTheSurfaceThroughoutTheBand)
 
 TEST(CurvatureGrids, AreFiniteOnAProtein)
 {
-    Options options;
+    SurfaceOptions options;
     options.voxel = 1.0;
     options.fields = fieldNames();
-    const Result result = test::runOn(test::balls("1crn.pdb"), options);
+    const MolecularSurface result = test::runOn(test::balls("1crn.pdb"), options);
     for (const CurvatureField& f : curvatureFields()) {
         if (const auto grid = field<openvdb::FloatGrid>(result, f.name)) {
             for (auto it = grid->cbeginValueOn(); it; ++it) ASSERT_TRUE(std::isfinite(*it));
@@ -92,12 +92,12 @@ TEST(CurvatureFields, BecomeVertexAttributesWhenAskedFor)
         return out;
     };
     using Names = std::vector<std::string>;
-    Options options;
+    SurfaceOptions options;
     options.fields = {"spline", "mean_curvature"};
     EXPECT_EQ(names(test::runOn(atom(), options).mesh),
               (Names{"mean_curvature", "gaussian_curvature"}));
     options.fields = {"principal_curvature_1", "principal_direction_2"};
-    const Result result = test::runOn(atom(), options);
+    const MolecularSurface result = test::runOn(atom(), options);
     EXPECT_EQ(names(result.mesh), (Names{"mean_curvature", "gaussian_curvature",
                                          "principal_curvature_1", "principal_direction_2_x",
                                          "principal_direction_2_y", "principal_direction_2_z"}));
@@ -113,10 +113,10 @@ TEST(CurvatureFields, BecomeVertexAttributesWhenAskedFor)
 // One atom is a ball. Its statistics are always there, the integrals when asked for.
 TEST(CurvatureReport, OfOneAtom)
 {
-    Options options;
+    SurfaceOptions options;
     options.voxel = 0.25;
     EXPECT_FALSE(test::runOn(atom(), options).report.surface.integrals);
-    options.curvatureIntegrals = true;
+    options.curvatureTotals = true;
     const SurfaceReport report = test::runOn(atom(), options).report.surface;
     EXPECT_NEAR(report.meanCurvature.mean, 1.0 / radius, 0.005 / radius);
     EXPECT_NEAR(report.meanCurvature.percentiles[4], 1.0 / radius, 0.01 / radius);
@@ -132,10 +132,10 @@ TEST(CurvatureReport, OfOneAtom)
 TEST(CurvatureReport, GaussBonnetOnAProtein)
 {
     for (const double voxel : {1.0, 0.5}) {
-        Options options;
+        SurfaceOptions options;
         options.voxel = voxel;
-        options.curvatureIntegrals = true;
-        const Result result = test::runOn(test::balls("1a8o.cif.gz", "1"), options);
+        options.curvatureTotals = true;
+        const MolecularSurface result = test::runOn(test::balls("1a8o.cif.gz", "1"), options);
         const SurfaceReport& report = result.report.surface;
         ASSERT_TRUE(report.integrals);
         const double chi = report.eulerCharacteristic;

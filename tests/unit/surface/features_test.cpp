@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/surface/run.h"
+#include "molsurf/surface.h"
 
 #include <gtest/gtest.h>
 
@@ -27,12 +27,12 @@ std::vector<Ball> shellOfBalls(int count, double radius)
 TEST(Run, FillsCavitiesOnRequest)
 {
     const std::vector<Ball> balls = shellOfBalls(220, 9.0);
-    Options options;
+    SurfaceOptions options;
     Progress progress;
-    const Result kept = run(balls, options, progress);
+    const MolecularSurface kept = makeSurface(balls, options, &progress);
     ASSERT_EQ(kept.report.surface.cavities.size(), 1u);
     options.fillCavities = true;
-    const Result filled = run(balls, options, progress);
+    const MolecularSurface filled = makeSurface(balls, options, &progress);
     EXPECT_TRUE(filled.report.surface.cavities.empty());
     EXPECT_EQ(filled.report.surface.components, 1);
     EXPECT_EQ(filled.report.surface.eulerCharacteristic, 2);
@@ -49,11 +49,11 @@ TEST(Run, TakesCoarseSplines)
     const std::vector<Ball> atom = {{openvdb::Vec3f(0.13f, 0.29f, 0.41f), 1.7f, 0}};
     Progress progress;
     for (const int level : {1, 2}) {
-        Options options;
+        SurfaceOptions options;
         options.voxel = 0.25;
         options.splineLevel = level;
         options.fields = {"spline"};
-        const Result result = run(atom, options, progress);
+        const MolecularSurface result = makeSurface(atom, options, &progress);
         EXPECT_NEAR(std::sqrt(result.report.surface.area / (4.0 * M_PI)), 1.7208,
                     level == 1 ? 0.005 : 0.02)
             << level;
@@ -66,11 +66,11 @@ TEST(Run, TakesCoarseSplines)
 TEST(Run, GivesAtomGrids)
 {
     const std::vector<Ball> atom = {{openvdb::Vec3f(0.13f, 0.29f, 0.41f), 1.7f, 7}};
-    Options options;
+    SurfaceOptions options;
     options.voxel = 0.25;
     options.fields = {"atom_id"};
     Progress progress;
-    const Result result = run(atom, options, progress);
+    const MolecularSurface result = makeSurface(atom, options, &progress);
     ASSERT_EQ(result.fields.size(), 1u);
     const auto id = openvdb::gridPtrCast<openvdb::Int32Grid>(result.fields[0]);
     for (auto it = result.surface->cbeginValueOn(); it; ++it)

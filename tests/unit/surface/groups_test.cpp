@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/color/palette.h"
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "support/runs.h"
 
 #include <gtest/gtest.h>
@@ -16,9 +16,9 @@ namespace
 using openvdb::Vec3f;
 
 /// Two balls, each a group of its own.
-BallSelection pair(float distance)
+BallSet pair(float distance)
 {
-    BallSelection atoms;
+    BallSet atoms;
     atoms.balls = {{Vec3f(0.1f, 0.2f, 0.3f), 1.7f, 0},
                    {Vec3f(0.1f + distance, 0.2f, 0.3f), 1.7f, 1}};
     atoms.copyBegin = {0, 2};
@@ -43,13 +43,13 @@ const Attribute<T>* find(const std::vector<Attribute<T>>& all, const std::string
 
 TEST(Groups, ShareAreaAndVolumeOfTwoBalls)
 {
-    Options options;
+    SurfaceOptions options;
     options.kind = SurfaceKind::VanDerWaals;
     options.voxel = 0.25;
     options.color = ColorBy::Group;
     options.fields = {"chain_id", "group_id", "Cd"};
     Progress progress;
-    const Result result = run(pair(2.0f), options, progress);
+    const MolecularSurface result = makeSurface(pair(2.0f), options, &progress);
     const auto& groups = result.report.groups;
     ASSERT_EQ(groups.size(), 2u);
     EXPECT_NEAR(groups[0].area + groups[1].area, result.report.surface.area, 1e-6);
@@ -80,10 +80,10 @@ TEST(Groups, CopiesHaveEqualParts)
     SelectOptions select;
     select.assembly = "1";
     select.groupBy = "copy";
-    const BallSelection atoms =
+    const BallSet atoms =
         selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + "/1a8o.cif.gz"), select);
     Progress progress;
-    const Result result = run(atoms, Options(), progress);
+    const MolecularSurface result = makeSurface(atoms, SurfaceOptions(), &progress);
     ASSERT_EQ(result.report.groups.size(), 2u);
     const double a = result.report.groups[0].area, b = result.report.groups[1].area;
     EXPECT_NEAR(a / b, 1.0, 0.005);
@@ -95,11 +95,11 @@ TEST(Interfaces, OfTwoBallsAreTheirCaps)
 {
     for (const auto& [kind, grown] : {std::pair(SurfaceKind::VanDerWaals, 0.0),
                                       std::pair(SurfaceKind::SolventAccessible, 1.4)}) {
-        Options options;
+        SurfaceOptions options;
         options.kind = kind;
         options.interfaces = true;
         Progress progress;
-        const Report report = run(pair(2.5f), options, progress).report;
+        const Report report = makeSurface(pair(2.5f), options, &progress).report;
         const double R = 1.7 + grown, cap = 2.0 * M_PI * R * (R - 1.25);
         ASSERT_EQ(report.interfaces.size(), 1u);
         EXPECT_EQ(report.interfaces[0].first, "left");
@@ -112,12 +112,12 @@ TEST(Interfaces, OfTwoBallsAreTheirCaps)
 
 TEST(Interfaces, FarGroupsHaveNone)
 {
-    Options options;
+    SurfaceOptions options;
     options.kind = SurfaceKind::SolventExcluded;
     options.interfaces = true;
     Progress progress;
-    EXPECT_TRUE(run(pair(6.5f), options, progress).report.interfaces.empty());
-    const Report near = run(pair(4.0f), options, progress).report;
+    EXPECT_TRUE(makeSurface(pair(6.5f), options, &progress).report.interfaces.empty());
+    const Report near = makeSurface(pair(4.0f), options, &progress).report;
     ASSERT_EQ(near.interfaces.size(), 1u);
     EXPECT_NEAR(near.interfaces[0].area, 36.316811 - 73.076789 / 2.0, 0.1);
 }
@@ -126,15 +126,15 @@ TEST(Interfaces, FarGroupsHaveNone)
 // of both, each alone, is that of two less than 0.005.
 TEST(Interfaces, OfGaussiansAreFoundAsFarAsTheyReach)
 {
-    Options options;
+    SurfaceOptions options;
     options.kind = SurfaceKind::Gaussian;
     options.blobbiness = 0.3;
     options.voxel = 0.25;
     Progress progress;
-    const double alone = run(pair(100.0f), options, progress).report.surface.area;
+    const double alone = makeSurface(pair(100.0f), options, &progress).report.surface.area;
     for (const float apart : {5.3f, 5.5f, 7.0f, 9.0f, 10.0f, 12.0f}) {
         options.interfaces = true;
-        const Report report = run(pair(apart), options, progress).report;
+        const Report report = makeSurface(pair(apart), options, &progress).report;
         options.interfaces = false;
         const double buried = 0.5 * (alone - report.surface.area);
         ASSERT_EQ(report.interfaces.size(), std::abs(buried) > 0.005 ? 1u : 0u) << apart;
@@ -146,13 +146,13 @@ TEST(Interfaces, OfGaussiansAreFoundAsFarAsTheyReach)
 
 TEST(Parts, SplitGivesEveryGroupItsOwnClosedSurface)
 {
-    Options options;
+    SurfaceOptions options;
     options.split = true;
     options.voxel = 0.25;
     options.kind = SurfaceKind::VanDerWaals;
     options.fields = {"group_id"};
     Progress progress;
-    const Result result = run(pair(2.0f), options, progress);
+    const MolecularSurface result = makeSurface(pair(2.0f), options, &progress);
     EXPECT_EQ(result.surface, nullptr);
     std::vector<std::string> names;
     for (const auto& field : result.fields) names.push_back(field->getName());
@@ -186,11 +186,11 @@ TEST(Parts, SplitGivesEveryGroupItsOwnClosedSurface)
 
 TEST(Parts, SurfaceOfAGroup)
 {
-    Options options;
+    SurfaceOptions options;
     options.kind = SurfaceKind::VanDerWaals;
     options.surfaceOf = {{"right", SurfaceKind::SolventAccessible}};
     Progress progress;
-    const Report report = run(pair(2.0f), options, progress).report;
+    const Report report = makeSurface(pair(2.0f), options, &progress).report;
     ASSERT_EQ(report.parts.size(), 2u);
     EXPECT_EQ(report.parts[0].name, "right");
     EXPECT_EQ(report.parts[0].surface.kind, "sas");
@@ -200,20 +200,20 @@ TEST(Parts, SurfaceOfAGroup)
     EXPECT_EQ(report.surface.kind, "mixed");
 
     options.surfaceOf = {{"middle", SurfaceKind::SolventAccessible}};
-    EXPECT_THROW(run(pair(2.0f), options, progress), Error);
-    EXPECT_THROW(run(pair(2.0f).balls, options, progress), Error); // no groups
+    EXPECT_THROW(makeSurface(pair(2.0f), options, &progress), Error);
+    EXPECT_THROW(makeSurface(pair(2.0f).balls, options, &progress), Error); // no groups
 }
 
 // A part has the colours of the whole, though it has fewer neighbours.
 TEST(Parts, KeepTheColorsOfTheWhole)
 {
-    Options options;
+    SurfaceOptions options;
     options.kind = SurfaceKind::VanDerWaals;
     options.color = ColorBy::Chain;
     Progress progress;
     const auto whole = ballColors(pair(2.0f), ColorBy::Chain, progress);
     options.split = true;
-    const Result result = run(pair(2.0f), options, progress);
+    const MolecularSurface result = makeSurface(pair(2.0f), options, &progress);
     const std::set<Color> found(result.mesh.colors.begin(), result.mesh.colors.end());
     EXPECT_EQ(found, std::set<Color>(whole.begin(), whole.end()));
     EXPECT_EQ(found.size(), 2u);
@@ -236,12 +236,12 @@ TEST(Palette, NeighboursDiffer)
 
 TEST(Palette, ElementsAndLabelsOfBalls)
 {
-    const BallSelection atoms = pair(2.0f);
+    const BallSet atoms = pair(2.0f);
     const auto elements = ballColors(atoms, ColorBy::Element, Progress());
     EXPECT_EQ(elements[1], (Color{255, 13, 13})); // oxygen is red
     const auto chains = ballColors(atoms, ColorBy::Chain, Progress());
     EXPECT_NE(chains[0], chains[1]);
-    BallSelection plain;
+    BallSet plain;
     plain.balls = atoms.balls;
     EXPECT_EQ(ballColors(plain, ColorBy::Chain, Progress())[0], neutralColor);
 }

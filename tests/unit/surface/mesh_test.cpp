@@ -15,9 +15,9 @@ namespace
 void expectGood(const std::string& file, const std::string& assembly, double voxel,
                 bool intersections)
 {
-    Options options;
+    SurfaceOptions options;
     options.voxel = voxel;
-    const Result result = test::runOn(test::balls(file, assembly), options);
+    const MolecularSurface result = test::runOn(test::balls(file, assembly), options);
     const test::MeshVerdict verdict = test::judge(result.mesh, intersections);
     EXPECT_TRUE(verdict.polygonMesh);
     EXPECT_TRUE(verdict.valid);

@@ -16,9 +16,9 @@ namespace
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-void expectRefused(const std::string& name, const std::function<void(Options&)>& change)
+void expectRefused(const std::string& name, const std::function<void(SurfaceOptions&)>& change)
 {
-    Options options;
+    SurfaceOptions options;
     change(options);
     try {
         checkOptions(options);
@@ -32,24 +32,24 @@ void expectRefused(const std::string& name, const std::function<void(Options&)>&
 TEST(CheckOptions, RefusesWhatIsOutOfRangeAndNamesTheOption)
 {
     for (const double x : {0.0, -0.5, 0.049, 10.1, inf, nan})
-        expectRefused("--voxel", [x](Options& o) { o.voxel = x; });
+        expectRefused("`voxel`", [x](SurfaceOptions& o) { o.voxel = x; });
     for (const double x : {-0.1, 101.0, inf, nan})
-        expectRefused("--probe", [x](Options& o) { o.probe = x; });
+        expectRefused("`probe`", [x](SurfaceOptions& o) { o.probe = x; });
     for (const double x : {0.0, -1.0, 101.0, inf, nan})
-        expectRefused("--epsilon", [x](Options& o) { o.epsilon = x; });
+        expectRefused("`epsilon`", [x](SurfaceOptions& o) { o.epsilon = x; });
     for (const double x : {-0.01, 1e7, inf, nan})
-        expectRefused("--lambda", [x](Options& o) { o.evolution.lambda = x; });
+        expectRefused("`lambda`", [x](SurfaceOptions& o) { o.evolution.lambda = x; });
     for (const double x : {0.0, -1.0, inf, nan})
-        expectRefused("--tolerance", [x](Options& o) { o.evolution.energyTolerance = x; });
+        expectRefused("`tolerance`", [x](SurfaceOptions& o) { o.evolution.energyTolerance = x; });
     for (const int x : {-1, 3})
-        expectRefused("--spline-level", [x](Options& o) { o.splineLevel = x; });
-    expectRefused("--fields", [](Options& o) { o.fields = {"sas", "colour"}; });
+        expectRefused("`splineLevel`", [x](SurfaceOptions& o) { o.splineLevel = x; });
+    expectRefused("`fields`", [](SurfaceOptions& o) { o.fields = {"sas", "colour"}; });
 }
 
 TEST(CheckOptions, TakesTheDefaultsAndTheEndsOfTheRanges)
 {
-    EXPECT_NO_THROW(checkOptions(Options()));
-    Options options;
+    EXPECT_NO_THROW(checkOptions(SurfaceOptions()));
+    SurfaceOptions options;
     options.voxel = minVoxel;
     options.probe = 0.0;
     options.evolution.lambda = 0.0;
@@ -61,7 +61,7 @@ TEST(CheckOptions, TakesTheDefaultsAndTheEndsOfTheRanges)
 
 TEST(Run, ChecksItsOptionsAndInput)
 {
-    Options options;
+    SurfaceOptions options;
     options.voxel = 0.0;
     try {
         test::runOn(test::balls("1crn.pdb"), options);
@@ -87,12 +87,12 @@ TEST(Run, StopsWhenCancelled)
     };
     const std::vector<Ball> balls = {{openvdb::Vec3f(0.1f, 0.2f, 0.3f), 1.7f, 0}};
     StopAfter count(1 << 30);
-    run(balls, Options(), count);
+    makeSurface(balls, SurfaceOptions(), &count);
     const int questions = (1 << 30) - count.left;
     ASSERT_GT(questions, 20);
     for (int k = 0; k < 10; ++k) {
         StopAfter progress(k * questions / 11);
-        EXPECT_THROW(run(balls, Options(), progress), Cancelled) << k;
+        EXPECT_THROW(makeSurface(balls, SurfaceOptions(), &progress), Cancelled) << k;
     }
 }
 
@@ -107,7 +107,7 @@ TEST(Run, TellsItsProgress)
             good = good && fraction >= 0.0 && fraction <= 1.0;
         }
     } progress;
-    run({{openvdb::Vec3f(0.1f, 0.2f, 0.3f), 1.7f, 0}}, Options(), progress);
+    makeSurface({{openvdb::Vec3f(0.1f, 0.2f, 0.3f), 1.7f, 0}}, SurfaceOptions(), &progress);
     EXPECT_TRUE(progress.good);
     ASSERT_GE(progress.stages.size(), 5u);
     EXPECT_EQ(progress.stages.front(), "density");

@@ -15,7 +15,7 @@ namespace
 
 using openvdb::Vec3d;
 
-void say(const char* what, const Result& r)
+void say(const char* what, const MolecularSurface& r)
 {
     if (!getenv("VERBOSE")) return;
     printf("%s: area %.1f volume %.1f steps %d converged %d rise %.2e residual %.2e euler %d\n",
@@ -28,7 +28,7 @@ TEST(Pipeline, DimerOf1A8O)
 {
     const std::vector<Ball> balls = test::balls("1a8o.cif.gz", "1");
     ASSERT_EQ(balls.size(), 1112u);
-    const Result result = test::runOn(balls);
+    const MolecularSurface result = test::runOn(balls);
     say("1a8o", result);
     const EvolutionReport& flow = *result.report.evolution;
     EXPECT_TRUE(flow.converged);
@@ -46,10 +46,10 @@ TEST(Pipeline, DimerOf1A8O)
 TEST(PipelineSlow, DimerOf1A8OAgreesWithHalfTheVoxel)
 {
     const std::vector<Ball> balls = test::balls("1a8o.cif.gz", "1");
-    const Result coarse = test::runOn(balls);
-    Options options;
+    const MolecularSurface coarse = test::runOn(balls);
+    SurfaceOptions options;
     options.voxel = 0.25;
-    const Result fine = test::runOn(balls, options);
+    const MolecularSurface fine = test::runOn(balls, options);
     say("1a8o h 0.25", fine);
     EXPECT_TRUE(fine.report.evolution->converged);
     EXPECT_LT(test::largestRise(*fine.report.evolution), 1e-4);
@@ -61,16 +61,16 @@ TEST(PipelineSlow, DimerOf1A8OAgreesWithHalfTheVoxel)
 
 TEST(Pipeline, GivesUpOnVoxelsThatAreTooLargeForTheFlowToRest)
 {
-    Options options;
+    SurfaceOptions options;
     options.voxel = 2.0;
     const std::vector<Ball> balls = test::balls("1crn.pdb", "none");
-    const Result early = test::runOn(balls, options);
+    const MolecularSurface early = test::runOn(balls, options);
     const EvolutionReport& flow = *early.report.evolution;
     EXPECT_FALSE(flow.converged);
     EXPECT_LT(flow.steps, 20);
     EXPECT_GT(flow.meanDisplacement.back(), 0.01 * options.voxel);
     options.evolution.maxSteps = 50; // who asks for steps gets them
-    const Result late = test::runOn(balls, options);
+    const MolecularSurface late = test::runOn(balls, options);
     EXPECT_FALSE(late.report.evolution->converged);
     EXPECT_EQ(late.report.evolution->steps, 50);
     EXPECT_NEAR(late.report.surface.volume / early.report.surface.volume, 1.0, 0.01);
@@ -78,9 +78,9 @@ TEST(Pipeline, GivesUpOnVoxelsThatAreTooLargeForTheFlowToRest)
 
 TEST(Pipeline, DimerOf1A8OWithALargeLambda)
 {
-    Options options;
+    SurfaceOptions options;
     options.evolution.lambda = 0.1;
-    const Result result = test::runOn(test::balls("1a8o.cif.gz", "1"), options);
+    const MolecularSurface result = test::runOn(test::balls("1a8o.cif.gz", "1"), options);
     say("1a8o lambda 0.1", result);
     EXPECT_TRUE(result.report.evolution->converged);
     EXPECT_LT(test::largestRise(*result.report.evolution), 1e-4);
@@ -91,9 +91,9 @@ TEST(Pipeline, DimerOf1A8OWithALargeLambda)
 // leaves, in units of voxels: the surface is C2.
 TEST(Pipeline, TheSurfaceIsC2AcrossCellsAndLeaves)
 {
-    Options options;
+    SurfaceOptions options;
     options.fields = {"spline"};
-    const Result result = test::runOn(test::balls("1a8o.cif.gz", "1"), options);
+    const MolecularSurface result = test::runOn(test::balls("1a8o.cif.gz", "1"), options);
     const Spline spline = test::splineFrom(result);
     ASSERT_GT(spline.table.size(), 100u);
     SplineSampler sampler(spline);
@@ -146,15 +146,15 @@ bool sameBits(const Mesh& a, const Mesh& b)
 TEST(Pipeline, GivesTheSameBitsForAnyNumberOfThreads)
 {
     const std::vector<Ball> balls = test::balls("1a8o.cif.gz", "1");
-    std::vector<Result> results;
+    std::vector<MolecularSurface> results;
     for (const int threads : {1, 2, 4}) {
         tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     std::size_t(threads));
         results.push_back(test::runOn(balls));
     }
-    const Result& one = results[0];
+    const MolecularSurface& one = results[0];
     for (std::size_t k = 1; k < results.size(); ++k) {
-        const Result& many = results[k];
+        const MolecularSurface& many = results[k];
         EXPECT_TRUE(sameBits(one.mesh, many.mesh));
         EXPECT_EQ(one.report.evolution->energy, many.report.evolution->energy);
         EXPECT_EQ(one.report.surface.area, many.report.surface.area);

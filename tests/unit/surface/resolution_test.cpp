@@ -11,24 +11,24 @@ namespace molsurf
 namespace
 {
 
-BallSelection crambin(std::vector<ResolutionRule> rules)
+BallSet crambin(std::vector<ResolutionRule> rules)
 {
     SelectOptions options;
     options.resolutions = std::move(rules);
     return selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + "/1crn.pdb"), options);
 }
 
-Result runOn(const BallSelection& atoms, bool matchVolume = false)
+MolecularSurface runOn(const BallSet& atoms, bool matchVolume = false)
 {
-    Options options;
+    SurfaceOptions options;
     options.matchVolume = matchVolume;
     Progress progress;
-    return run(atoms, options, progress);
+    return makeSurface(atoms, options, &progress);
 }
 
 TEST(Resolution, RatesAreThoseOfTheLastRule)
 {
-    const BallSelection atoms = crambin({{"", 10.0}, {"/1/A/1-20", 5.0}, {"/1/A/10-46", 8.0}});
+    const BallSet atoms = crambin({{"", 10.0}, {"/1/A/1-20", 5.0}, {"/1/A/10-46", 8.0}});
     ASSERT_EQ(atoms.decays.size(), atoms.balls.size());
     std::size_t counts[3] = {0, 0, 0};
     for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
@@ -47,8 +47,8 @@ TEST(Resolution, RatesAreThoseOfTheLastRule)
 TEST(Resolution, CoarseSurfacesSwellUnlessTheVolumeIsMatched)
 {
     const double fine = runOn(crambin({})).report.surface.volume;
-    const BallSelection coarse = crambin({{"", 10.0}});
-    const Result swollen = runOn(coarse), matched = runOn(coarse, true);
+    const BallSet coarse = crambin({{"", 10.0}});
+    const MolecularSurface swollen = runOn(coarse), matched = runOn(coarse, true);
     EXPECT_GT(swollen.report.surface.volume, 1.5 * fine);
     EXPECT_NEAR(matched.report.surface.volume, fine, 0.01 * fine);
     EXPECT_LT(matched.report.resolutions.at(0).level, -0.5);
@@ -60,7 +60,7 @@ TEST(Resolution, CoarseSurfacesSwellUnlessTheVolumeIsMatched)
 // Far from the seam each half is what it is when all atoms have its resolution.
 TEST(Resolution, HalvesOfTwoResolutionsJoin)
 {
-    const Result both = runOn(crambin({{"", 10.0}, {"/1/A/1-23", 5.0}}));
+    const MolecularSurface both = runOn(crambin({{"", 10.0}, {"/1/A/1-23", 5.0}}));
     const test::MeshVerdict verdict = test::judge(both.mesh);
     EXPECT_TRUE(verdict.good()) << verdict;
     EXPECT_EQ(both.report.surface.components, 1);

@@ -19,7 +19,7 @@ const Vec3f corner(0.137f, -0.291f, 0.443f);
 
 void expectGood(const std::vector<Ball>& balls, int components, const char* what)
 {
-    const Result result = test::runOn(balls);
+    const MolecularSurface result = test::runOn(balls);
     const SurfaceReport& surface = result.report.surface;
     EXPECT_TRUE(surface.closed && surface.manifold) << what;
     EXPECT_EQ(surface.components, components) << what;
@@ -52,7 +52,7 @@ TEST(SmallMolecules, OneAtomIsABallOfItsExactRadius)
 {
     const double radius = test::minimalRadius(3.1, {}) - 1.4;
     for (const double voxel : {0.5, 0.25}) {
-        Options options;
+        SurfaceOptions options;
         options.voxel = voxel;
         options.evolution.energyTolerance = 1e-7;
         options.evolution.displacementTolerance = 1e-4;
@@ -82,10 +82,10 @@ TEST(SmallMolecules, AreAnErrorWhereTheVoxelIsFarTooLarge)
     int errors = 0;
     for (const double voxel : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 10.0}) {
         for (const float shift : {0.0f, 0.3f, 0.5f}) {
-            Options options;
+            SurfaceOptions options;
             options.voxel = voxel;
             try {
-                const Result result =
+                const MolecularSurface result =
                     test::runOn({{corner + Vec3f(shift * float(voxel)), 1.7f, 0}}, options);
                 EXPECT_TRUE(result.report.surface.closed && result.report.surface.manifold)
                     << voxel << ' ' << shift;
@@ -96,14 +96,14 @@ TEST(SmallMolecules, AreAnErrorWhereTheVoxelIsFarTooLarge)
         }
     }
     EXPECT_GT(errors, 3);
-    Options options;
+    SurfaceOptions options;
     options.voxel = 10.0;
     try {
         test::runOn({{Vec3f(5.0f), 1.7f, 0}}, options);
         FAIL() << "expected an Error";
     } catch (const Error& e) {
         EXPECT_EQ(e.kind(), ErrorKind::Numeric);
-        EXPECT_NE(std::string(e.what()).find("--voxel"), std::string::npos) << e.what();
+        EXPECT_NE(std::string(e.what()).find("`voxel`"), std::string::npos) << e.what();
     }
 }
 

@@ -15,9 +15,9 @@ namespace
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 
-Options optionsFor(SurfaceKind kind, double voxel = 0.5)
+SurfaceOptions optionsFor(SurfaceKind kind, double voxel = 0.5)
 {
-    Options options;
+    SurfaceOptions options;
     options.kind = kind;
     options.voxel = voxel;
     return options;
@@ -86,8 +86,8 @@ TEST(SolventExcluded, AreaAndVolumeInClosedForm)
 // Against the area and volume of NanoShaper 1.5 at 0.125 Å.
 TEST(SolventExcluded, OfProteins)
 {
-    const Options options = optionsFor(SurfaceKind::SolventExcluded);
-    const Result result = test::runOn(test::balls("1crn.pdb"), options);
+    const SurfaceOptions options = optionsFor(SurfaceKind::SolventExcluded);
+    const MolecularSurface result = test::runOn(test::balls("1crn.pdb"), options);
     const SurfaceReport& s = result.report.surface;
     EXPECT_NEAR(s.area, 2317.8, 0.005 * 2317.8);
     EXPECT_NEAR(s.volume, 4664.7, 0.0015 * 4664.7);
@@ -102,8 +102,8 @@ TEST(UnionSurfaces, AreExactAtAnyVoxel)
 {
     const std::vector<Ball> balls = test::balls("1crn.pdb");
     for (const SurfaceKind kind : {SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals}) {
-        const Result coarse = test::runOn(balls, optionsFor(kind, 0.5));
-        const Result fine = test::runOn(balls, optionsFor(kind, 0.3));
+        const MolecularSurface coarse = test::runOn(balls, optionsFor(kind, 0.5));
+        const MolecularSurface fine = test::runOn(balls, optionsFor(kind, 0.3));
         EXPECT_NEAR(coarse.report.surface.area, fine.report.surface.area, 1e-6);
         EXPECT_NEAR(coarse.report.surface.volume, fine.report.surface.volume, 1e-6);
         // The grid knows the volume too.
@@ -123,7 +123,7 @@ TEST(UnionSurfaces, AreExactAtAnyVoxel)
 TEST(Gaussian, OneAtomAndTheSameTwice)
 {
     const Vec3f c(0.137f, -0.291f, 0.443f);
-    Options options = optionsFor(SurfaceKind::Gaussian, 0.25);
+    SurfaceOptions options = optionsFor(SurfaceKind::Gaussian, 0.25);
     const SurfaceReport one = test::runOn({{c, 1.7f, 0}}, options).report.surface;
     EXPECT_NEAR(std::sqrt(one.area / (4.0 * M_PI)), 1.7, 0.002);
     options.blobbiness = 1.0;
@@ -151,15 +151,15 @@ TEST(UnionSurfaces, CavitiesAreListedOrFilled)
 {
     for (const SurfaceKind kind : {SurfaceKind::SolventExcluded, SurfaceKind::SolventAccessible,
                                    SurfaceKind::VanDerWaals, SurfaceKind::Gaussian}) {
-        Options options = optionsFor(kind);
-        const Result hollow = test::runOn(shell(8.0), options);
+        SurfaceOptions options = optionsFor(kind);
+        const MolecularSurface hollow = test::runOn(shell(8.0), options);
         const SurfaceReport& s = hollow.report.surface;
         ASSERT_EQ(s.cavities.size(), 1u) << nameOf(kind);
         EXPECT_EQ(s.components, 1);
         EXPECT_GT(s.cavities[0].volume, 100.0);
 
         options.fillCavities = true;
-        const Result filled = test::runOn(shell(8.0), options);
+        const MolecularSurface filled = test::runOn(shell(8.0), options);
         const SurfaceReport& f = filled.report.surface;
         EXPECT_TRUE(f.cavities.empty()) << nameOf(kind);
         EXPECT_EQ(f.eulerCharacteristic, 2) << nameOf(kind);
@@ -182,7 +182,7 @@ TEST(UnionSurfaces, OfSpecialPositions)
     for (const SurfaceKind kind : {SurfaceKind::SolventExcluded, SurfaceKind::SolventAccessible,
                                    SurfaceKind::VanDerWaals, SurfaceKind::Gaussian}) {
         for (const auto& balls : cases) {
-            const Result result = test::runOn(balls, optionsFor(kind));
+            const MolecularSurface result = test::runOn(balls, optionsFor(kind));
             const SurfaceReport& s = result.report.surface;
             EXPECT_TRUE(s.closed && s.manifold) << nameOf(kind) << " " << balls.size();
             EXPECT_GT(s.volume, 20.0);

@@ -4,6 +4,8 @@
 /// @file
 /// How the library tells how far it is, and how it is asked to stop.
 
+#include "molsurf/error.h"
+
 #include <exception>
 
 namespace molsurf

@@ -20,7 +20,8 @@ enum class ErrorKind {
 };
 
 /// Thrown at the entry points of the stages, never inside a kernel. The message names the step or
-/// the file, what was expected and what was found, in one line without a final full stop.
+/// the file, what was expected and what was found, in one line without a final full stop. Options
+/// stand in it as their members are called, in backticks: "`voxel`: expected 0.05 to 10 Å, got 20".
 class Error : public std::runtime_error
 {
 public:

@@ -77,7 +77,7 @@ struct SurfaceReport {
     double kinkShare = 0.0;       ///< share of vertices within two voxels of a kink of the distance
     Statistics meanCurvature;     ///< [1/Å], at the vertices
     Statistics gaussianCurvature; ///< [1/Å^2], at the vertices
-    std::optional<SurfaceIntegrals> integrals; ///< if Options::curvatureIntegrals
+    std::optional<SurfaceIntegrals> integrals; ///< if SurfaceOptions::curvatureTotals
 };
 
 /// The history of the flow. The interface is the evolving level set's, near the solvent-accessible
@@ -159,6 +159,17 @@ struct Report {
     std::size_t peakMemoryBytes = 0;
     int threads = 0;
     std::vector<std::string> warnings;
+
+    /// Adds to the time of a stage, which may come more than once.
+    void addSeconds(const std::string& stage, double more)
+    {
+        for (auto& [name, sum] : seconds) {
+            if (name != stage) continue;
+            sum += more;
+            return;
+        }
+        seconds.emplace_back(stage, more);
+    }
 };
 
 } // namespace molsurf

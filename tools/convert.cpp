@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
+#include "bricks.h"
 #include "outputs.h"
 #include "terminal.h"
 #include "write_result.h"
 
-#include "molsurf/core/error.h"
+#include "molsurf/error.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/surface/stored_surface.h"
@@ -50,7 +51,7 @@ void writeRecolored(const Call& call, const VdbFile& file, const StoredSurface& 
 
 } // namespace
 
-int stored(const Call& asked, Clock::time_point start)
+int convert(const Call& asked, Clock::time_point start)
 {
     prepareOutputs(asked);
     openvdb::initialize();
@@ -72,6 +73,7 @@ int stored(const Call& asked, Clock::time_point start)
     beginReport(call, report);
     report.warnings = call.warnings;
     report.warnings.insert(report.warnings.end(), surface.warnings.begin(), surface.warnings.end());
+    for (std::string& warning : report.warnings) warning = withOptionNames(warning);
     report.seconds = {{"read", readSeconds}, {"mesh", secondsSince(lapStart)}};
     if (!call.quiet)
         for (const std::string& warning : report.warnings) say("warning: " + warning);
@@ -90,6 +92,7 @@ int stored(const Call& asked, Clock::time_point start)
             report.peakMemoryBytes = peakMemory();
         });
     terminal.erase();
+    if (call.verbose) sayTimes(report);
     if (!call.quiet) {
         char text[160];
         std::snprintf(text, sizeof text, "area %.1f Å^2, volume %.1f Å^3, %zu triangles, %.2f s",

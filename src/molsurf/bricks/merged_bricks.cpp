@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/bricks/merged_bricks.h"
+
+#include "molsurf/bricks/merge_vdb.h"
+#include "molsurf/error.h"
+#include "molsurf/flow/evolve.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <optional>
+
+namespace molsurf
+{
+
+namespace
+{
+
+std::vector<BrickFile> openBricks(const std::vector<std::string>& paths, const std::string& id)
+{
+    std::string missing;
+    std::size_t count = 0;
+    std::error_code ignored;
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+        if (std::filesystem::exists(paths[k], ignored)) continue;
+        if (++count <= 10) missing += (missing.empty() ? "" : ", ") + std::to_string(k + 1);
+    }
+    if (count > 0)
+        throw Error(ErrorKind::Input, "merge: of " + std::to_string(paths.size()) + " bricks " +
+                                          std::to_string(count) + " are missing: " + missing +
+                                          (count > 10 ? ", ..." : ""));
+    std::vector<BrickFile> bricks;
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+        bricks.emplace_back(paths[k]);
+        if (bricks.back().header().plan != id || bricks.back().header().number != k + 1)
+            throw Error(ErrorKind::Input, paths[k] + " belongs to another plan");
+    }
+    return bricks;
+}
+
+/// Groups with the areas of their parts, in proportion to the whole area.
+void addGroups(const std::vector<BrickFile>& bricks, Report& report)
+{
+    std::size_t rest = report.atoms;
+    double sum = 0.0;
+    for (const BrickFile& brick : bricks) {
+        const std::vector<GroupReport>& part = brick.header().sums.groups;
+        if (report.groups.empty() && !part.empty()) {
+            report.groups = part;
+            for (GroupReport& group : report.groups) {
+                group.area = 0.0;
+                group.volume = std::numeric_limits<double>::quiet_NaN(); // not summed by bricks
+                rest -= group.atoms;
+            }
+        }
+        for (std::size_t g = 0; g < part.size(); ++g) {
+            report.groups[g].area += part[g].area;
+            sum += part[g].area;
+        }
+    }
+    if (report.groups.empty()) return;
+    for (GroupReport& group : report.groups) group.area *= report.surface.area / sum;
+    report.groups.back().atoms = rest;
+    if (rest == 0 && report.groups.back().area == 0.0) report.groups.pop_back();
+}
+
+/// The history of the flow: sums over the bricks, and the stopping rule as of its last step.
+std::optional<EvolutionReport> evolutionOf(const std::vector<BrickFile>& bricks,
+                                           const EvolveOptions& options, double voxel)
+{
+    EvolutionReport all;
+    bool any = false;
+    std::vector<double> moved;
+    const auto add = [](const std::vector<double>& from, std::vector<double>& to) {
+        to.resize(std::max(to.size(), from.size()), 0.0);
+        for (std::size_t i = 0; i < from.size(); ++i) to[i] += from[i];
+    };
+    for (const BrickFile& brick : bricks) {
+        const auto& part = brick.header().sums.evolution;
+        if (!part) continue;
+        any = true;
+        all.steps = std::max(all.steps, part->steps);
+        add(part->energy, all.energy);
+        add(part->area, all.area);
+        add(part->volume, all.volume);
+        std::vector<double> displacement = part->meanDisplacement;
+        for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] *= part->area[i];
+        add(displacement, moved);
+        all.maxSpeed.resize(std::max(all.maxSpeed.size(), part->maxSpeed.size()), 0.0);
+        for (std::size_t i = 0; i < part->maxSpeed.size(); ++i)
+            all.maxSpeed[i] = std::max(all.maxSpeed[i], part->maxSpeed[i]);
+        all.creviceVoxels += part->creviceVoxels;
+    }
+    if (!any) return {};
+    for (std::size_t i = 0; i < moved.size(); ++i)
+        all.meanDisplacement.push_back(all.area[i] > 0.0 ? moved[i] / all.area[i] : 0.0);
+    judge(options, voxel, all);
+    return all;
+}
+
+} // namespace
+
+MergedBricks::MergedBricks(const std::vector<std::string>& paths, const std::string& plan,
+                           std::size_t atoms, const SurfaceOptions& options)
+    : bricks_(openBricks(paths, plan)), mesh_(bricks_)
+{
+    report_.surface = mesh_.report();
+    report_.surface.kind = nameOf(options.kind);
+    if (mesh_.triangles() == 0)
+        throw Error(ErrorKind::Numeric,
+                    "merge: nothing of the molecule is left at this resolution [hint: a smaller "
+                    "`voxel`, `lambda` or `epsilon`]");
+    if (!report_.surface.closed)
+        report_.warnings.push_back("merge: the bricks do not fit everywhere: the mesh has gaps");
+    report_.evolution = evolutionOf(bricks_, options.evolution, options.voxel);
+    const MergedSize size = sizeOfMerged(bricks_);
+    report_.activeVoxels = size.activeVoxels;
+    report_.gridBytes = size.bytes;
+    report_.atoms = atoms;
+    report_.voxel = options.voxel;
+    for (const BrickFile& brick : bricks_)
+        for (const auto& [stage, seconds] : brick.header().sums.seconds)
+            report_.addSeconds(stage, seconds);
+    addGroups(bricks_, report_);
+}
+
+void MergedBricks::writeVdb(const openvdb::MetaMap& metadata, OutputFile& file,
+                            const Progress& progress) const
+{
+    writeMergedVdb(bricks_, report_.voxel, "vdb_molsurf " MOLSURF_VERSION, metadata, file,
+                   progress);
+}
+
+void MergedBricks::writePly(OutputFile& file, const Progress& progress) const
+{
+    mesh_.writePly(file, progress);
+}
+
+} // namespace molsurf

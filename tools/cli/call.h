@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What the user asked for, as values.
+
+#include "molsurf/atoms.h"
+#include "molsurf/io/scene.h"
+#include "molsurf/options.h"
+#include "molsurf/picture/draw_mesh.h"
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace molsurf::tool
+{
+
+/// The things that the program does. Their bits make sets.
+enum Verb : unsigned {
+    Build = 1,
+    Batch = 2,
+    Compare = 4,
+    Convert = 8,
+    Info = 16,
+    BricksPlan = 32,
+    BricksRun = 64,
+    BricksMerge = 128
+};
+
+/// Kinds of output files.
+enum class Format { Vdb, Ply, Obj, Stl, Off, Glb, Json, Png, Html, Usda, Csv, ThreeMf };
+
+/// One file to write.
+struct Output {
+    std::string path; ///< "-" is standard output
+    Format format;
+    std::string of;    ///< Usda: the .vdb beside it
+    double turn = 0.0; ///< Png: of a turntable, beside that of the picture [degree]
+};
+
+/// The values of the options that were given, by name; in the order of the command line if one was
+/// given more than once.
+using GivenOptions = std::map<std::string, std::vector<std::string>>;
+
+/// When legends are drawn.
+enum class LegendChoice { Auto, On, Off };
+const char* nameOf(LegendChoice choice);
+
+/// A command line. The first part is set by options, see optionTable(), the second made of it.
+struct Call {
+    Verb verb = Build;
+    std::string command;             ///< the command line as typed, quoted for a shell
+    std::vector<std::string> inputs; ///< the words that are no options
+    GivenOptions given;
+
+    SelectOptions atoms;
+    SurfaceOptions options;
+    std::vector<std::string> paths;       ///< of --output
+    std::string format;                   ///< of standard output; empty: none
+    std::string folder;                   ///< Batch: where the files go
+    std::string formats = "vdb,ply,json"; ///< Batch: of every structure
+    bool force = false;
+    std::string frames;     ///< of --frames; empty: none
+    std::string trajectory; ///< a .dcd or .xtc with the frames; empty: models are
+    bool warm = false;      ///< a frame begins at the surface of the one before
+    std::string groupsFile;
+    Scene scene;             ///< of the .vdb and the node of the .glb
+    bool center = false;     ///< the middle of the surface comes to the origin
+    double printScale = 0.0; ///< of .stl, .obj and .3mf [mm/Å]; 0: they are in Å
+    double wall = 0.0;       ///< least thickness of a print [mm]; 0: none
+    DrawOptions picture;
+    LegendChoice legend = LegendChoice::Auto;
+    int turntable = 0;        ///< number of pictures; 0: one
+    bool colorBySign = false; ///< Compare: by the signed distance
+    double colorRange = 0.0;  ///< Compare: distance at the end of the colours [Å]; 0: choose
+    int bricks = 0;           ///< BricksPlan: how many; 0: by `memory`
+    std::size_t memory = 0;   ///< bytes at most; 0: no limit
+    bool dryRun = false;      ///< only say what it takes
+    int threads = 0;          ///< 0: as many as there are
+    bool quiet = false;
+    bool verbose = false;
+    bool progress = true;
+    std::string config;
+
+    std::string input;                 ///< the first of `inputs`
+    std::size_t brick = 0;             ///< BricksRun: its number, from 1
+    std::vector<Output> outputs;       ///< Batch: extensions in the place of paths
+    int frame = 0;                     ///< the number of the one that is built; 0: none is
+    std::vector<std::string> warnings; ///< one line each
+
+    bool has(const char* option) const { return given.count(option) > 0; }
+    bool drawsLegend() const;
+};
+
+} // namespace molsurf::tool

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "cli/complete.h"
+
+#include "cli/option_table.h"
+#include "frame_source.h"
+#include "sidecar.h"
+
+#include "molsurf/bricks/run_brick.h"
+#include "molsurf/error.h"
+#include "molsurf/selection/groups.h"
+#include "molsurf/spline/curvature.h"
+#include "molsurf/surface/extra_grids.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <set>
+
+namespace molsurf::tool
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr const char* fileNames = "a name that ends in .vdb, .ply, .obj, .stl, .off, .glb, .3mf, "
+                                  ".html, .json or .png";
+
+std::string endOf(const std::string& path)
+{
+    const std::string end = lowered(fs::path(path).extension().string());
+    return end.empty() ? end : end.substr(1);
+}
+
+/// The files of --output.
+/// @param[in] some      formats that the verb writes
+/// @param[in] expected  said of them
+std::vector<Output> outputsOf(const Call& call, std::initializer_list<Format> some,
+                              const std::string& expected)
+{
+    if (!call.format.empty() && std::count(call.paths.begin(), call.paths.end(), "-") == 0)
+        misuse("--format is for -o - only; the extension of a file says what it is");
+    std::vector<Output> outputs;
+    std::set<std::string> seen;
+    for (const std::string& path : call.paths) {
+        if (path == "-" && call.format.empty())
+            misuse("-o -: expected --format too [hint: --format ply, for example]");
+        std::error_code ignored;
+        const std::string real =
+            path == "-" ? path : fs::weakly_canonical(fs::absolute(path), ignored).string();
+        if (!seen.insert(real).second) misuse("-o " + path + " is given twice");
+        const auto found = formatWords.find(path == "-" ? call.format : endOf(path));
+        if (found == formatWords.end()) misuse("-o " + path + ": expected " + fileNames);
+        if (std::count(some.begin(), some.end(), found->second) == 0)
+            misuse("-o " + path + ": " + expected);
+        outputs.push_back({path, found->second, "", 0.0});
+    }
+    return outputs;
+}
+
+std::vector<Output> surfaceOutputs(const Call& call)
+{
+    if (call.paths.empty()) misuse("nothing to write [hint: -o FILE, for example -o surface.vdb]");
+    return outputsOf(call,
+                     {Format::Vdb, Format::Ply, Format::Obj, Format::Stl, Format::Off, Format::Glb,
+                      Format::Json, Format::Png, Format::Html, Format::Csv, Format::ThreeMf},
+                     fileNames);
+}
+
+bool writes(const Call& call, std::initializer_list<Format> some)
+{
+    return std::any_of(call.outputs.begin(), call.outputs.end(), [&](const Output& output) {
+        return std::count(some.begin(), some.end(), output.format) > 0;
+    });
+}
+
+/// The only input.
+/// @param[in] what  "build: expected one INPUT", for example
+void takeInput(Call& call, const std::string& what, const std::string& hint)
+{
+    if (call.inputs.size() == 2 && !call.inputs[0].empty())
+        misuse(what + ", got '" + call.inputs[0] + "' and '" + call.inputs[1] + "'" + hint);
+    if (call.inputs.size() != 1)
+        misuse(what + ", got " + std::to_string(call.inputs.size()) + hint);
+    if (call.inputs[0].empty()) misuse(what + ", got an empty word" + hint);
+    call.input = call.inputs[0];
+}
+
+bool builds(const Call& call, SurfaceKind kind)
+{
+    const auto& others = call.options.surfaceOf;
+    return call.options.kind == kind ||
+           std::any_of(others.begin(), others.end(),
+                       [=](const auto& of) { return of.second == kind; });
+}
+
+void warnIfGiven(Call& call, std::initializer_list<const char*> options, const std::string& is)
+{
+    for (const char* name : options)
+        if (call.has(name)) call.warnings.push_back(std::string("--") + name + " is for " + is);
+}
+
+// To be called before completeSurface().
+void completeScene(Call& call)
+{
+    if (call.scene.known()) {
+        if (!writes(call, {Format::Vdb, Format::Glb}))
+            call.warnings.push_back("--for is for .vdb and .glb");
+        for (const char* field : {"density", "Cd"})
+            if (!hasField(call.options.fields, field)) call.options.fields.push_back(field);
+    }
+    if (call.scene.host == Host::Usd) addSidecars(call);
+    if (!writes(call, {Format::Stl, Format::Obj, Format::ThreeMf}))
+        warnIfGiven(call, {"print-scale"}, ".stl, .obj and .3mf");
+    if (!call.has("min-wall")) return;
+    if (!call.has("print-scale")) misuse("--min-wall: expected --print-scale too");
+    call.options.minWall = call.wall / call.printScale;
+}
+
+// Puts the frames of a turntable in the place of each picture.
+void addTurntable(Call& call)
+{
+    std::vector<Output> outputs;
+    for (const Output& output : call.outputs) {
+        if (output.format != Format::Png) {
+            outputs.push_back(output);
+            continue;
+        }
+        if (output.path == "-") misuse("--turntable: expected a file for the pictures, got -");
+        for (int n = 0; n < call.turntable; ++n) {
+            char number[16];
+            std::snprintf(number, sizeof number, ".%04d", n + 1);
+            Output frame = output;
+            frame.path.insert(frame.path.size() - std::strlen(".png"), number);
+            frame.turn = 360.0 * n / call.turntable;
+            outputs.push_back(std::move(frame));
+        }
+    }
+    call.outputs = std::move(outputs);
+    call.picture.turnable = true;
+}
+
+void completePicture(Call& call)
+{
+    if (call.turntable > 0) addTurntable(call);
+    const bool png = writes(call, {Format::Png});
+    if (!png) warnIfGiven(call, {"size", "background", "legend", "turntable"}, ".png");
+    if (!png && !writes(call, {Format::Html}))
+        warnIfGiven(call, {"view", "turn"}, ".png and .html");
+}
+
+// Says what none of the files can hold.
+void warnOfLosses(Call& call)
+{
+    if (call.outputs.empty()) return;
+    const bool vdb = writes(call, {Format::Vdb}), mesh = writes(call, {Format::Ply, Format::Glb});
+    if (call.has("color") && call.options.color != ColorBy::Nothing && !vdb &&
+        !writes(call, {Format::Ply, Format::Obj, Format::Off, Format::Glb, Format::ThreeMf,
+                       Format::Png, Format::Html}))
+        call.warnings.push_back("--color: none of the files can hold colours [hint: -o .ply, .glb, "
+                                ".png or .html, for example]");
+    if (!call.has("fields") || vdb) return;
+    std::vector<std::string> lost;
+    for (const std::string& field : call.options.fields)
+        if (!mesh || !findCurvatureField(field)) lost.push_back(field);
+    if (!lost.empty())
+        call.warnings.push_back("--fields " + joinWords(lost, ",") +
+                                ": none of the files can hold that [hint: -o .vdb]");
+}
+
+void completeFrames(Call& call)
+{
+    std::vector<std::string>& fields = call.options.fields;
+    if (call.frames.empty() && !call.trajectory.empty()) call.frames = "all";
+    if (call.frames.empty()) {
+        if (writes(call, {Format::Csv})) misuse("-o .csv is for --frames");
+        warnIfGiven(call, {"start"}, "--frames");
+        if (call.has("fields")) {
+            const auto words = splitWords(call.given.at("fields").back());
+            if (std::count(words.begin(), words.end(), "v"))
+                misuse("--fields v: a surface moves from frame to frame [hint: --frames]");
+        }
+        fields.erase(std::remove(fields.begin(), fields.end(), "v"), fields.end());
+        return;
+    }
+    parseFrames(call.frames);
+    if (call.memory > 0 || call.dryRun) misuse("--frames and --memory or --dry-run together");
+    if (call.trajectory.empty() && call.has("model"))
+        misuse("--model and --frames together: frames are models [hint: --trajectory]");
+    if (call.has("turntable")) misuse("--turntable and --frames together");
+    if (call.trajectory == "-") misuse("--trajectory -: expected a file, it is read at random");
+    for (const Output& output : call.outputs)
+        if (output.path == "-") misuse("--frames: expected files to write, got -");
+}
+
+void completeGroups(Call& call)
+{
+    SurfaceOptions& options = call.options;
+    if (!call.groupsFile.empty() && !call.atoms.groupBy.empty())
+        misuse("--groups and --group-by together");
+    if (!call.groupsFile.empty()) call.atoms.groups = readGroups(call.groupsFile);
+    const bool groups = !call.groupsFile.empty() || !call.atoms.groupBy.empty();
+    for (const char* name : {"split", "surface-of", "interfaces"})
+        if (call.has(name) && !groups)
+            misuse("--" + std::string(name) + ": expected --groups or --group-by too");
+    if (options.color == ColorBy::Group && !groups)
+        misuse("--color group: expected --groups or --group-by too");
+    const auto has = [&](const char* field) { return hasField(options.fields, field); };
+    if (has("Cd") && options.color == ColorBy::Nothing) options.color = ColorBy::Chain;
+    call.atoms.labels = options.color != ColorBy::Nothing || has("chain_id") || has("Cd") ||
+                        writes(call, {Format::Html});
+}
+
+void completeResolutions(Call& call)
+{
+    const auto& rules = call.atoms.resolutions;
+    const bool all = std::any_of(rules.begin(), rules.end(),
+                                 [](const ResolutionRule& rule) { return rule.select.empty(); });
+    if (all && call.has("epsilon"))
+        misuse("--epsilon and a --resolution for all atoms together: both say how smooth it is");
+    if (call.options.matchVolume && rules.empty())
+        call.warnings.push_back("--match-volume is for --resolution");
+}
+
+} // namespace
+
+void completeSurface(Call& call)
+{
+    completeResolutions(call);
+    completeGroups(call);
+    SurfaceOptions& options = call.options;
+    if (call.has("steps") && call.has("max-steps")) misuse("--steps and --max-steps together");
+    // Near its minimum the energy is quadratic in the displacement.
+    options.evolution.displacementTolerance = std::sqrt(options.evolution.energyTolerance);
+    checkOptions(call.atoms);
+    checkOptions(options);
+
+    if (!builds(call, SurfaceKind::Variational))
+        warnIfGiven(call,
+                    {"epsilon", "resolution", "match-volume", "lambda", "regularizer", "flow",
+                     "max-steps", "steps", "tolerance"},
+                    "--surface variational");
+    if (!builds(call, SurfaceKind::Gaussian))
+        warnIfGiven(call, {"blobbiness"}, "--surface gaussian");
+    if (options.voxel > coarseVoxel)
+        call.warnings.push_back("--voxel " + shortest(options.voxel) +
+                                ": voxels this large cannot show the atoms");
+    if (builds(call, SurfaceKind::Variational) && options.epsilon < 0.5 * options.voxel)
+        call.warnings.push_back("--epsilon " + shortest(options.epsilon) +
+                                ": a tolerance below half a voxel is not resolved");
+}
+
+void completeBuild(Call& call)
+{
+    takeInput(call, "expected one INPUT", " [hint: vdb_molsurf molecule.pdb -o surface.vdb]");
+    if (!call.dryRun || !call.paths.empty()) call.outputs = surfaceOutputs(call);
+    completeFrames(call);
+    completeScene(call);
+    completeSurface(call);
+    completePicture(call);
+    warnOfLosses(call);
+}
+
+void completeBatch(Call& call)
+{
+    takeInput(call, "batch: expected one list of structure files",
+              " [hint: vdb_molsurf batch list.txt -O surfaces]");
+    if (call.folder.empty()) misuse("batch: nowhere to write to [hint: -O DIR]");
+    std::set<std::string> seen;
+    for (const std::string& word : splitWords(lowered(call.formats))) {
+        const auto found = formatWords.find(word);
+        if (found == formatWords.end() || found->second == Format::Csv || !seen.insert(word).second)
+            misuse("--formats: expected some of vdb, ply, obj, stl, off, glb, 3mf, html, json, "
+                   "png, got '" +
+                   call.formats + "'");
+        call.outputs.push_back({"." + word, found->second, "", 0.0});
+    }
+    std::vector<std::string>& fields = call.options.fields;
+    fields.erase(std::remove(fields.begin(), fields.end(), "v"), fields.end());
+    completeScene(call);
+    completeSurface(call);
+    completePicture(call);
+    warnOfLosses(call);
+}
+
+void completeCompare(Call& call)
+{
+    if (call.inputs.size() != 2)
+        misuse("compare: expected two surfaces, A and B, got " +
+               std::to_string(call.inputs.size()) +
+               " [hint: vdb_molsurf compare a.vdb b.ply -o difference.ply]");
+    for (const std::string& file : call.inputs)
+        if (file.empty()) misuse("compare: expected the name of a file, got an empty word");
+    if (call.inputs[0] == "-" && call.inputs[1] == "-")
+        misuse("compare: - - : standard input can be only one of the two");
+    call.outputs = outputsOf(call, {Format::Ply, Format::Vdb, Format::Json},
+                             "compare writes .ply, .vdb or .json");
+    completeSurface(call);
+}
+
+void completeConvert(Call& call)
+{
+    takeInput(call, "convert: expected one .vdb file",
+              " [hint: vdb_molsurf convert surface.vdb -o surface.ply]");
+    call.outputs = surfaceOutputs(call);
+    if (writes(call, {Format::Csv})) misuse("-o .csv is for --frames");
+    if (writes(call, {Format::Vdb}) && call.options.color == ColorBy::Nothing)
+        misuse("-o .vdb: expected --color too, without which it would be a copy");
+    completePicture(call);
+    warnOfLosses(call);
+}
+
+void completePlan(Call& call)
+{
+    takeInput(call, "bricks plan: expected one structure file",
+              " [hint: vdb_molsurf bricks plan molecule.cif -o plan.json --bricks 8]");
+    if (call.input == "-") misuse("bricks plan: expected a file, got standard input");
+    if (call.paths.size() != 1)
+        misuse("bricks plan: expected one file to write [hint: -o plan.json]");
+    if (call.paths[0] == "-" || endOf(call.paths[0]) != "json")
+        misuse("-o " + call.paths[0] + ": expected a name that ends in .json");
+    call.outputs = {{call.paths[0], Format::Json, "", 0.0}};
+    if ((call.bricks > 0) == (call.memory > 0))
+        misuse("bricks plan: expected either --bricks N or --memory SIZE");
+    completeSurface(call);
+    checkBrickOptions(call.options);
+}
+
+void completeBrick(Call& call)
+{
+    const std::string hint = " [hint: vdb_molsurf bricks run plan.json 1]";
+    if (call.inputs.size() != 2)
+        misuse("bricks run: expected a plan and the number of a brick" + hint);
+    call.input = call.inputs[0];
+    const std::string& word = call.inputs[1];
+    const char* end = word.data() + word.size();
+    const auto [stop, problem] = std::from_chars(word.data(), end, call.brick);
+    if (problem != std::errc() || stop != end || call.brick == 0)
+        misuse("bricks run: expected a number from 1 on, got '" + word + "'" + hint);
+}
+
+void completeMerge(Call& call)
+{
+    takeInput(call, "bricks merge: expected one plan",
+              " [hint: vdb_molsurf bricks merge plan.json -o surface.vdb]");
+    if (call.paths.empty()) misuse("nothing to write [hint: -o FILE, for example -o surface.vdb]");
+    call.outputs = outputsOf(call, {Format::Vdb, Format::Ply, Format::Json},
+                             "bricks merge writes .vdb, .ply or .json");
+}
+
+void completeInfo(Call& call)
+{
+    if (call.inputs.empty()) misuse("info: expected a FILE");
+}
+
+} // namespace molsurf::tool

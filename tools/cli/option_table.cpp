@@ -1,0 +1,858 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "cli/option_table.h"
+
+#include "molsurf/bricks.h"
+#include "molsurf/error.h"
+#include "molsurf/selection/choose_copies.h"
+#include "molsurf/selection/coarse_grain.h"
+#include "molsurf/selection/groups.h"
+#include "molsurf/surface/extra_grids.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+namespace molsurf::tool
+{
+
+const std::map<std::string, Format> formatWords = {
+    {"vdb", Format::Vdb},   {"ply", Format::Ply}, {"obj", Format::Obj},    {"stl", Format::Stl},
+    {"off", Format::Off},   {"glb", Format::Glb}, {"json", Format::Json},  {"png", Format::Png},
+    {"html", Format::Html}, {"csv", Format::Csv}, {"3mf", Format::ThreeMf}};
+
+const std::vector<std::string>& knownFields()
+{
+    static const std::vector<std::string> all = [] {
+        std::vector<std::string> names = fieldNames();
+        names.insert(names.begin(), "surface");
+        return names;
+    }();
+    return all;
+}
+
+std::string shortest(double number)
+{
+    char digits[32];
+    return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
+void misuse(const std::string& message)
+{
+    throw Error(ErrorKind::Usage, message);
+}
+
+std::string lowered(std::string text)
+{
+    for (char& letter : text)
+        if (letter >= 'A' && letter <= 'Z') letter = char(letter - 'A' + 'a');
+    return text;
+}
+
+std::vector<std::string> splitWords(const std::string& list)
+{
+    std::vector<std::string> words;
+    for (std::size_t begin = 0; begin <= list.size();) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        words.push_back(list.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return words;
+}
+
+std::string joinWords(const std::vector<std::string>& words, const char* between)
+{
+    std::string all;
+    for (const std::string& word : words) all += (all.empty() ? "" : between) + word;
+    return all;
+}
+
+std::string didYouMean(const std::string& typed, const std::vector<std::string>& words)
+{
+    const auto distance = [](const std::string& a, const std::string& b) { // Levenshtein's
+        std::vector<std::size_t> row(b.size() + 1);
+        std::iota(row.begin(), row.end(), std::size_t(0));
+        for (std::size_t i = 1; i <= a.size(); ++i) {
+            std::size_t diagonal = row[0]++;
+            for (std::size_t j = 1; j <= b.size(); ++j) {
+                const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
+                diagonal = row[j];
+                row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+            }
+        }
+        return row.back();
+    };
+    std::string best;
+    std::size_t least = std::max<std::size_t>(1, typed.size() / 3) + 1;
+    for (const std::string& word : words) {
+        const std::size_t d = distance(lowered(typed), lowered(word));
+        const bool begins = typed.size() >= 3 && word.rfind(lowered(typed), 0) == 0;
+        if (d < least || (begins && best.empty())) {
+            least = std::min(least, d);
+            best = word;
+        }
+    }
+    return best.empty() ? "" : " [hint: did you mean " + best + "?]";
+}
+
+const char* nameOf(LegendChoice choice)
+{
+    return choice == LegendChoice::On ? "on" : choice == LegendChoice::Off ? "off" : "auto";
+}
+
+using molsurf::nameOf;
+
+namespace
+{
+
+using Values = std::vector<std::string>;
+
+[[noreturn]] void wrong(const std::string& option, const std::string& expected,
+                        const std::string& got, const std::string& hint = "")
+{
+    misuse("--" + option + ": expected " + expected + ", got '" + got + "'" + hint);
+}
+
+template<typename T>
+T parsed(const std::string& option, const std::string& expected, const std::string& word)
+{
+    T value{};
+    const char* end = word.data() + word.size();
+    const auto [stop, failure] = std::from_chars(word.data(), end, value);
+    if (failure != std::errc() || stop != end || !std::isfinite(double(value)))
+        wrong(option, expected, word);
+    return value;
+}
+
+// Rows by the type of their value. `of` gives the variable of a call that the option sets.
+
+template<typename Of>
+Option number(const char* name, const char* value, std::string text, unsigned verbs, const Of& of)
+{
+    const Call preset;
+    Option o{name, 0, value, std::move(text), shortest(of(preset)), verbs};
+    o.set = [=](Call& call, const Values& v) {
+        of(call) = parsed<double>(name, "a number", v.back());
+    };
+    o.stored = [=](const Call& call) { return openvdb::DoubleMetadata(of(call)).copy(); };
+    return o;
+}
+
+/// A number in a range that the library does not check.
+template<typename Of>
+Option number(const char* name, const char* value, std::string text, std::string preset,
+              unsigned verbs, double low, double high, const char* range, const Of& of)
+{
+    Option o{name, 0, value, std::move(text), std::move(preset), verbs};
+    o.set = [=](Call& call, const Values& v) {
+        of(call) = parsed<double>(name, range, v.back());
+        if (!(of(call) >= low && of(call) <= high)) wrong(name, range, v.back());
+    };
+    return o;
+}
+
+template<typename Of>
+Option count(const char* name, const char* value, std::string text, std::string preset,
+             unsigned verbs, int low, int high, const Of& of)
+{
+    Option o{name, 0, value, std::move(text), std::move(preset), verbs};
+    o.set = [=](Call& call, const Values& v) {
+        const std::string range =
+            "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+        of(call) = parsed<int>(name, range, v.back());
+        if (of(call) < low || of(call) > high) wrong(name, range, v.back());
+    };
+    return o;
+}
+
+/// @param[in] on  what the switch sets
+template<typename Of>
+Option flag(const char* name, std::string text, unsigned verbs, const Of& of, bool on = true)
+{
+    Option o{name, 0, nullptr, std::move(text), "", verbs};
+    o.set = [=](Call& call, const Values&) { of(call) = on; };
+    o.stored = [=](const Call& call) { return openvdb::BoolMetadata(of(call) == on).copy(); };
+    return o;
+}
+
+openvdb::Metadata::Ptr stored(const std::string& text)
+{
+    return openvdb::StringMetadata(text).copy();
+}
+
+/// @param[in] none  what an empty text means
+template<typename Of>
+Option text(const char* name, const char* value, std::string help, const char* none, unsigned verbs,
+            const Of& of)
+{
+    const Call preset;
+    Option o{name, 0, value, std::move(help), of(preset).empty() ? none : of(preset), verbs};
+    o.set = [=](Call& call, const Values& v) { of(call) = v.back(); };
+    o.stored = [=](const Call& call) { return stored(of(call).empty() ? none : of(call)); };
+    return o;
+}
+
+/// One of a few values that nameOf() names.
+template<typename Of, typename Enum>
+Option word(const char* name, const char* value, std::string help, unsigned verbs, const Of& of,
+            std::initializer_list<Enum> choices)
+{
+    const Call preset;
+    Option o{name, 0, value, std::move(help), nameOf(of(preset)), verbs};
+    for (const Enum choice : choices) o.words.push_back(nameOf(choice));
+    o.set = [=, all = std::vector<Enum>(choices), words = o.words](Call& call, const Values& v) {
+        for (const Enum choice : all) {
+            if (lowered(v.back()) != nameOf(choice)) continue;
+            of(call) = choice;
+            return;
+        }
+        wrong(name, joinWords(words, " or "), v.back(), didYouMean(v.back(), words));
+    };
+    o.stored = [=](const Call& call) { return stored(nameOf(of(call))); };
+    return o;
+}
+
+/// A choice of two words, the second one the default.
+template<typename Of>
+Option either(const char* name, std::string help, const char* on, const char* off, unsigned verbs,
+              const Of& of)
+{
+    Option o{name, 0, "WORD", std::move(help), off, verbs, {off, on}};
+    o.set = [=, words = o.words](Call& call, const Values& v) {
+        const std::string got = lowered(v.back());
+        if (got != on && got != off)
+            wrong(name, std::string(off) + " or " + on, v.back(), didYouMean(v.back(), words));
+        of(call) = got == on;
+    };
+    return o;
+}
+
+constexpr auto surfaceKinds = {SurfaceKind::Variational, SurfaceKind::SolventExcluded,
+                               SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals,
+                               SurfaceKind::Gaussian};
+
+constexpr auto colorings = {ColorBy::Nothing,          ColorBy::Chain,   ColorBy::Group,
+                            ColorBy::Element,          ColorBy::Residue, ColorBy::MeanCurvature,
+                            ColorBy::GaussianCurvature};
+
+/// GROUP=KIND, the group ending at the last =.
+std::pair<std::string, SurfaceKind> parseSurfaceOf(const std::string& text)
+{
+    const std::size_t split = text.rfind('=');
+    for (const SurfaceKind kind : surfaceKinds) {
+        if (split != std::string::npos && split > 0 &&
+            lowered(text.substr(split + 1)) == nameOf(kind))
+            return {text.substr(0, split), kind};
+    }
+    wrong("surface-of", "GROUP=KIND with a kind of --surface", text);
+}
+
+/// D or SELECTION=D, the selection ending at the last =.
+ResolutionRule parseResolution(const std::string& text)
+{
+    const std::size_t split = text.rfind('=');
+    const std::string digits = split == std::string::npos ? text : text.substr(split + 1);
+    ResolutionRule rule;
+    if (split != std::string::npos) rule.select = text.substr(0, split);
+    const char* end = digits.data() + digits.size();
+    const auto [stop, problem] = std::from_chars(digits.data(), end, rule.resolution);
+    if (problem != std::errc() || stop != end || split == 0 ||
+        !(rule.resolution >= minResolution && rule.resolution <= maxResolution))
+        wrong("resolution", "D or SELECTION=D with D from 1 to 50 Å", text);
+    return rule;
+}
+
+void setFields(Call& call, const Values& values)
+{
+    std::vector<std::string> wanted;
+    for (const std::string& field : splitWords(values.back())) {
+        const auto same = [&](const std::string& known) {
+            return lowered(known) == lowered(field);
+        };
+        const auto found = std::find_if(knownFields().begin(), knownFields().end(), same);
+        if (lowered(field) == "all")
+            wanted = knownFields();
+        else if (found != knownFields().end())
+            wanted.push_back(*found);
+        else
+            misuse("--fields: unknown field '" + field + "'" +
+                   (didYouMean(field, knownFields()).empty()
+                        ? " [hint: all, or some of " + joinWords(knownFields(), ",") + "]"
+                        : didYouMean(field, knownFields())));
+    }
+    call.options.fields.clear();
+    for (const std::string& field : knownFields()) // `surface` is always written
+        if (field != "surface" && std::count(wanted.begin(), wanted.end(), field))
+            call.options.fields.push_back(field);
+}
+
+/// "4G", "500M": bytes. K, M, G and T are powers of 1024.
+std::size_t parseSize(const std::string& text)
+{
+    const std::string expected = "a size such as 500M or 4G";
+    double size = 0.0;
+    const char* end = text.data() + text.size();
+    const auto [stop, problem] = std::from_chars(text.data(), end, size);
+    const std::string unit(stop, end), letters = "KMGT";
+    const std::size_t place = unit.empty() ? 0 : letters.find(unit[0]);
+    const std::string rest = unit.empty() ? "" : unit.substr(1);
+    if (problem != std::errc() || !std::isfinite(size) || place == std::string::npos ||
+        !(rest.empty() || rest == "B" || rest == "iB"))
+        wrong("memory", expected, text);
+    const double bytes = size * (unit.empty() ? 1.0 : std::pow(1024.0, double(place + 1)));
+    if (!(bytes >= 1.0 && bytes < 1e18)) wrong("memory", expected, text);
+    return std::size_t(bytes);
+}
+
+void setView(Call& call, const Values& values)
+{
+    const std::string& view = values.back();
+    if (lowered(view) == "auto") return;
+    DrawOptions& picture = call.picture;
+    const char *from = view.data(), *end = from + view.size();
+    for (int i = 0; i < 3; ++i) {
+        const auto [stop, problem] = std::from_chars(from, end, picture.toEye[i]);
+        if (problem != std::errc() || (i < 2 ? stop == end || *stop != ',' : stop != end) ||
+            !std::isfinite(picture.toEye[i]))
+            wrong("view", "auto or a direction X,Y,Z", view);
+        from = stop + 1;
+    }
+    if (!(picture.toEye.lengthSqr() > 0.0)) wrong("view", "auto or a direction X,Y,Z", view);
+    // Up is y, or z when looking along y.
+    const openvdb::Vec3d eye = picture.toEye.unit();
+    picture.up = std::abs(eye.y()) < 0.99 ? openvdb::Vec3d(0, 1, 0) : openvdb::Vec3d(0, 0, 1);
+}
+
+void setBackground(Call& call, const Values& values)
+{
+    call.picture.transparent = lowered(values.back()) == "transparent";
+    if (call.picture.transparent) return;
+    const auto color = parseColor(values.back());
+    if (!color)
+        wrong("background", "a colour as #rrggbb or #rgb, a name such as black, or transparent",
+              values.back(), didYouMean(values.back(), colorNames()));
+    call.picture.background = *color;
+}
+
+void setScene(Call& call, const Values& values)
+{
+    const auto scene = parseScene(values.back());
+    if (!scene)
+        wrong("for", "blender, houdini or usd, perhaps with =mn-0.01, =mn-0.1, =nm or =UNITS_PER_Å",
+              values.back(), didYouMean(values.back(), {"blender", "houdini", "usd"}));
+    call.scene = *scene;
+}
+
+/// Words with commas between, in lines for the help text.
+std::string inLines(const std::vector<std::string>& words)
+{
+    constexpr std::size_t width = 62;
+    std::string all, line;
+    for (const std::string& word : words) {
+        if (!line.empty() && line.size() + word.size() > width) {
+            all += line + "\n";
+            line.clear();
+        }
+        line += word + ",";
+    }
+    all += line;
+    all.pop_back();
+    return all;
+}
+
+/// The option with more than its type says.
+Option with(Option option, const std::function<void(Option&)>& change)
+{
+    change(option);
+    return option;
+}
+
+// Sets of verbs.
+constexpr unsigned surfaces = Build | Batch | BricksPlan;           // they build surfaces
+constexpr unsigned structures = surfaces | Compare;                 // they read structures
+constexpr unsigned wholes = Build | Batch;                          // of whole molecules
+constexpr unsigned files = Build | Compare | Convert | BricksMerge; // with -o
+constexpr unsigned runs = 0xff & ~Info;
+const char* const meshFormats = "vdb, ply, obj, stl, off, glb, 3mf, html, json or png";
+
+OptionGroup outputOptions()
+{
+    const auto output = [](unsigned verbs, std::string text) {
+        Option o{"output", 'o', "FILE", std::move(text), "", verbs, {}, true};
+        o.set = [](Call& call, const Values& values) { call.paths = values; };
+        return o;
+    };
+    const auto format = [](unsigned verbs, const std::string& words) {
+        Option o{"format", 0, "WORD", "what -o - writes: " + words, "", verbs};
+        for (const auto& [name, ignored] : formatWords)
+            if (words.find(name) != std::string::npos) o.words.push_back(name);
+        o.set = [=, known = o.words](Call& call, const Values& values) {
+            call.format = lowered(values.back());
+            if (!std::count(known.begin(), known.end(), call.format))
+                wrong("format", words, values.back(), didYouMean(values.back(), known));
+        };
+        return o;
+    };
+    const auto force = [](unsigned verbs, const char* text) {
+        Option o = flag(
+            "force", text, verbs, [](auto& c) -> auto& { return c.force; });
+        o.stored = nullptr;
+        return o;
+    };
+    Option folder{"folder", 'O',  "DIR", "where the files go, with the names of the structures",
+                  "",       Batch};
+    folder.set = [](Call& call, const Values& values) { call.folder = values.back(); };
+    Option formats{"formats",
+                   0,
+                   "LIST",
+                   "files to write, by commas: vdb, ply, obj, stl, off,\nglb, 3mf, html, json, png",
+                   Call().formats,
+                   Batch};
+    formats.set = [](Call& call, const Values& values) { call.formats = values.back(); };
+    Option shown = either(
+        "color",
+        "distance (viridis) or signed-distance (blue: A is\ninside B, red: "
+        "outside)",
+        "signed-distance", "distance", Compare, [](auto& c) -> auto& { return c.colorBySign; });
+    return {"Output",
+            {output(Build, "file to write; repeats; the extension says what:\n"
+                           ".vdb level set and fields; .ply .obj .stl .off .glb\n"
+                           ".3mf mesh; .html page that shows it; .json report;\n"
+                           ".png picture; - is standard output"),
+             output(Convert, "file to write; repeats; the extension says what:\n"
+                             ".ply .obj .stl .off .glb .3mf mesh; .html page;\n"
+                             ".json report; .png picture; with --color .vdb, the\n"
+                             "grids with Cd anew; - is standard output"),
+             output(Compare, "file to write; repeats; the extension says what:\n"
+                             ".ply mesh of A with distances and colours,\n"
+                             ".vdb distances on the band of A, .json report;\n"
+                             "- is standard output; without it numbers are printed"),
+             output(BricksPlan, "the manifest, a name that ends in .json"),
+             output(BricksMerge, "file to write; repeats; the extension says what:\n"
+                                 ".vdb level set and fields, .ply mesh, .json report"),
+             folder, formats, format(Build | Convert, meshFormats),
+             format(Compare | BricksMerge, "vdb, ply or json"),
+             force(files | BricksPlan, "replace existing files"),
+             force(Batch, "do all again, and replace existing files"),
+             force(BricksRun, "do it again if it is done"), shown,
+             number(
+                 "range", "D", "distance at the end of the colours [Å]",
+                 "that of 99 % of the vertices", Compare, 1e-300, 1e300, "a positive number of Å",
+                 [](auto& c) -> auto& { return c.colorRange; })}};
+}
+
+OptionGroup atomOptions()
+{
+    const auto of = [](auto member) {
+        return [=](auto& c) -> auto&
+        {
+            return c.atoms.*member;
+        };
+    };
+    return {
+        "Atoms",
+        {text("select", "EXPR", "gemmi selections joined by |, e.g. \"/1/A/53-132|*;polymer\"",
+              "all", structures, of(&SelectOptions::select)),
+         with(count("model", "N", "number of the model in the file", "the first", structures, 1,
+                    1000000000, of(&SelectOptions::model)),
+              [](Option& o) {
+                  o.stored = [](const Call& c) {
+                      return stored(c.atoms.model ? std::to_string(c.atoms.model) : "first");
+                  };
+              }),
+         text("assembly", "ID",
+              "biological assembly to build; none: as in the file;\n"
+              "ncs: with the copies of MTRIX records or struct_ncs_oper",
+              "", structures, of(&SelectOptions::assembly)),
+         text("copies", "LIST",
+              "copies of the assembly: numbers such as 1,7,20-25, or\n"
+              "fold:N, those about the nearest N-fold axis, with copy 1",
+              "all", structures, of(&SelectOptions::copies)),
+         text("altloc", "A", "alternate location to take, or all", "highest occupancy", structures,
+              of(&SelectOptions::altloc)),
+         flag("no-hydrogens", "drop hydrogens", structures, of(&SelectOptions::hydrogens), false),
+         flag("no-hetero", "drop ligands and ions", structures, of(&SelectOptions::hetero), false),
+         flag("waters", "keep waters", structures, of(&SelectOptions::waters)),
+         text("radii", "SET", "van der Waals radii: a name of --list-radii, or a file", "",
+              structures, of(&SelectOptions::radii)),
+         number(
+             "probe", "R", "probe radius [Å]", structures,
+             [](auto& c) -> auto& { return c.options.probe; })}};
+}
+
+OptionGroup frameOptions()
+{
+    const auto quiet = [](Option& o) { o.stored = nullptr; };
+    return {
+        "Frames",
+        {with(text(
+                  "frames", "A-B:S",
+                  "a surface for every S-th frame from A to B: models of\n"
+                  "INPUT by their numbers, or frames of --trajectory; also\n"
+                  "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
+                  "name.csv: a table of all",
+                  "", Build, [](auto& c) -> auto& { return c.frames; }),
+              quiet),
+         with(text(
+                  "trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
+                  "", Build, [](auto& c) -> auto& { return c.trajectory; }),
+              quiet),
+         either(
+             "start",
+             "cold: each frame as a run of its own; warm: its flow\n"
+             "begins at the surface of the one before",
+             "warm", "cold", Build, [](auto& c) -> auto& { return c.warm; })}};
+}
+
+OptionGroup surfaceOptions()
+{
+    Option fields{"fields",
+                  0,
+                  "LIST",
+                  "grids of the .vdb, by commas, or all of\n" + inLines(knownFields()) +
+                      ";\ncurvatures also at the vertices of a .ply; positive\n"
+                      "where convex, 1/R on a ball; shape_index 1: a cap",
+                  "surface",
+                  surfaces,
+                  knownFields()};
+    fields.words.insert(fields.words.begin(), "all");
+    fields.set = setFields;
+    fields.stored = [](const Call& c) {
+        std::string all = "surface";
+        for (const std::string& field : c.options.fields) all += "," + field;
+        return stored(all);
+    };
+    Option attributes = fields;
+    attributes.text =
+        "curvatures for the vertices of a .ply or .glb, by commas,\nas of vdb_molsurf --help";
+    attributes.verbs = Convert;
+    return {"Surface",
+            {word(
+                 "surface", "KIND",
+                 "variational; ses, sas: solvent-excluded, -accessible;\n"
+                 "vdw: van der Waals; gaussian",
+                 structures, [](auto& c) -> auto& { return c.options.kind; }, surfaceKinds),
+             number(
+                 "voxel", "H", "edge of a voxel [Å], 0.05 to 10", structures,
+                 [](auto& c) -> auto& { return c.options.voxel; }),
+             number(
+                 "blobbiness", "D", "decay of the Gaussians of --surface gaussian", structures,
+                 [](auto& c) -> auto& { return c.options.blobbiness; }),
+             flag(
+                 "fill-cavities", "drop the inner walls", wholes | Compare,
+                 [](auto& c) -> auto& { return c.options.fillCavities; }),
+             fields, attributes,
+             flag(
+                 "curvature-totals", "integrate curvature over the surface, for the report", wholes,
+                 [](auto& c) -> auto& { return c.options.curvatureTotals; })}};
+}
+
+OptionGroup resolutionOptions()
+{
+    Option resolution{"resolution",
+                      0,
+                      "[SEL=]D",
+                      "blur to D [Å], 1 to 50, all atoms or those of a\n"
+                      "selection; repeats, later ones win",
+                      "",
+                      structures,
+                      {},
+                      true};
+    resolution.set = [](Call& call, const Values& values) {
+        for (const std::string& value : values)
+            call.atoms.resolutions.push_back(parseResolution(value));
+    };
+    resolution.stored = [](const Call& c) {
+        Values all;
+        for (const ResolutionRule& rule : c.atoms.resolutions)
+            all.push_back((rule.select.empty() ? "" : rule.select + "=") +
+                          shortest(rule.resolution));
+        return stored(joinWords(all, ", "));
+    };
+    Option coarse{"coarse",
+                  0,
+                  "[SEL=]WORD",
+                  "beads in the place of atoms: residue (its backbone and\n"
+                  "side chain), N (about N atoms each) or atom; all or\n"
+                  "those of a selection; repeats, later ones win",
+                  "atom",
+                  structures,
+                  {"atom", "residue"},
+                  true};
+    coarse.set = [](Call& call, const Values& values) {
+        for (const std::string& value : values) call.atoms.coarse.push_back(parseCoarse(value));
+    };
+    coarse.stored = [](const Call& c) {
+        Values all;
+        for (const CoarseRule& rule : c.atoms.coarse) all.push_back(nameOf(rule));
+        return stored(all.empty() ? "atom" : joinWords(all, ", "));
+    };
+    return {"Resolution",
+            {number(
+                 "epsilon", "E", "tolerance of the Gaussian sum [Å]; larger is smoother",
+                 structures, [](auto& c) -> auto& { return c.options.epsilon; }),
+             resolution, coarse,
+             flag(
+                 "match-volume", "resolutions keep the volume of the fine surface",
+                 wholes | Compare, [](auto& c) -> auto& { return c.options.matchVolume; })}};
+}
+
+OptionGroup groupOptions()
+{
+    Option surfaceOf{"surface-of",
+                     0,
+                     "GROUP=KIND",
+                     "this group alone, by another --surface; repeats; the\n"
+                     "other atoms together",
+                     "",
+                     wholes,
+                     {},
+                     true};
+    surfaceOf.set = [](Call& call, const Values& values) {
+        for (const std::string& value : values)
+            call.options.surfaceOf.push_back(parseSurfaceOf(value));
+    };
+    surfaceOf.stored = [](const Call& c) {
+        Values all;
+        for (const auto& [name, kind] : c.options.surfaceOf)
+            all.push_back(name + "=" + nameOf(kind));
+        return stored(joinWords(all, ","));
+    };
+    Option split{"split", 0,      "group",  "a level set and a closed mesh for every group, alone",
+                 "",      wholes, {"group"}};
+    split.set = [](Call& call, const Values& values) {
+        if (lowered(values.back()) != "group") wrong("split", "group", values.back());
+        call.options.split = true;
+    };
+    split.stored = [](const Call& c) { return stored(c.options.split ? "group" : "none"); };
+    const auto color = [](std::string text, std::string preset, unsigned verbs) {
+        Option o = word(
+            "color", "WORD", std::move(text), verbs,
+            [](auto& c) -> auto& { return c.options.color; }, colorings);
+        o.preset = std::move(preset);
+        return o;
+    };
+    return {"Groups",
+            {with(text(
+                      "groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]",
+                      "", surfaces, [](auto& c) -> auto& { return c.groupsFile; }),
+                  [](Option& o) {
+                      o.stored = [](const Call& c) {
+                          Values all;
+                          for (const GroupRule& group : c.atoms.groups)
+                              all.push_back(group.name + " " + group.select);
+                          return stored(joinWords(all, ", "));
+                      };
+                  }),
+             with(text(
+                      "group-by", "WORD", "groups by chain, entity, copy or residues:N instead", "",
+                      surfaces, [](auto& c) -> auto& { return c.atoms.groupBy; }),
+                  [](Option& o) {
+                      o.words = {"chain", "entity", "copy"};
+                  }),
+             split, surfaceOf,
+             with(flag(
+                      "interfaces", "buried areas between groups, for the report", wholes,
+                      [](auto& c) -> auto& { return c.options.interfaces; }),
+                  [](Option& o) { o.stored = nullptr; }),
+             color("colours of the mesh and the grid Cd: chain, group,\n"
+                   "element, residue, mean-curvature, gaussian-curvature",
+                   "none", surfaces),
+             color("chain, group (of grids chain_id, group_id), element,\n"
+                   "residue (of Cd so coloured), mean-curvature,\n"
+                   "gaussian-curvature; those of Cd unless given",
+                   "", Convert)}};
+}
+
+OptionGroup sceneOptions()
+{
+    Option host{"for",
+                0,
+                "PROGRAM[=SCALE]",
+                "blender, houdini or usd: a .vdb with density and Cd as\n"
+                "that program takes it; SCALE mn-0.01, mn-0.1, nm, or\n"
+                "units per Å; usd: a .usda beside the .vdb",
+                "",
+                wholes,
+                {"blender", "houdini", "usd"}};
+    host.set = setScene;
+    host.stored = [](const Call& c) { return stored(nameOf(c.scene.host)); };
+    return {"Scene",
+            {host,
+             flag(
+                 "center", "the middle of the surface comes to the origin", wholes,
+                 [](auto& c) -> auto& { return c.center; }),
+             number(
+                 "print-scale", "S", ".stl, .obj, .3mf in mm, S of them per Å", "",
+                 wholes | Convert, 1e-6, 1e6, "mm per Å, from 1e-6 to 1e6",
+                 [](auto& c) -> auto& { return c.printScale; }),
+             with(number(
+                      "min-wall", "W", "thicken what is thinner than W mm; with --print-scale", "",
+                      wholes, 1e-300, 1e300, "a positive number of mm",
+                      [](auto& c) -> auto& { return c.wall; }),
+                  [](Option& o) {
+                      o.stored = [](const Call& c) {
+                          return openvdb::DoubleMetadata(c.options.minWall).copy();
+                      };
+                  })}};
+}
+
+OptionGroup pictureOptions()
+{
+    constexpr unsigned draw = wholes | Convert;
+    Option view{"view",
+                0,
+                "X,Y,Z",
+                "direction toward the eye, or auto: the shortest extent\n"
+                "toward the eye, the longest across",
+                "auto",
+                draw,
+                {"auto"}};
+    view.set = setView;
+    Option background{"background",   0,
+                      "COLOR",        "as #rrggbb or #rgb, a name such as black, or transparent",
+                      "#ffffff",      draw,
+                      {"transparent"}};
+    background.set = setBackground;
+    return {"Picture",
+            {view,
+             number(
+                 "turn", "A", "turned by so many degrees about the upright", "0", draw, -1e9, 1e9,
+                 "a number of degrees", [](auto& c) -> auto& { return c.picture.turn; }),
+             count(
+                 "size", "N", "width in pixels; the height follows the shape", "1200", draw, 16,
+                 16384, [](auto& c) -> auto& { return c.picture.width; }),
+             background,
+             with(word("legend", "WORD",
+                       "on or off; auto: beside colours, if 600 pixels wide\n"
+                       "or more",
+                       draw, [](auto& c) -> auto& { return c.legend; },
+                       {LegendChoice::Auto, LegendChoice::On, LegendChoice::Off}),
+                  [](Option& o) { o.stored = nullptr; }),
+             count(
+                 "turntable", "N", "N pictures round the upright: name.0001.png, ...", "", draw, 2,
+                 9999, [](auto& c) -> auto& { return c.turntable; })}};
+}
+
+OptionGroup flowOptions()
+{
+    const auto of = [](auto member) {
+        return [=](auto& c) -> auto&
+        {
+            return c.options.evolution.*member;
+        };
+    };
+    const auto steps = [](const char* none, auto member) {
+        return [=](Option& o) {
+            o.stored = [=](const Call& c) {
+                const int n = c.options.evolution.*member;
+                return stored(n >= 0 ? std::to_string(n) : none);
+            };
+        };
+    };
+    return {
+        "Evolution",
+        {number("lambda", "L", "weight of the regulariser [Å^2 for gradient, 1 for area]",
+                structures, of(&EvolveOptions::lambda)),
+         word("regularizer", "KIND", "gradient or area", structures,
+              of(&EvolveOptions::regularizer), {Regularizer::Gradient, Regularizer::Area}),
+         word("flow", "KIND", "preconditioned or plain", structures, of(&EvolveOptions::flow),
+              {Flow::Preconditioned, Flow::Plain}),
+         with(count("max-steps", "N", "steps at most", "50; plain: 2000", structures, 0, 1000000,
+                    of(&EvolveOptions::maxSteps)),
+              steps("default of the flow", &EvolveOptions::maxSteps)),
+         with(count("steps", "N", "so many steps, converged or not",
+                    std::to_string(defaultBrickSteps) + " in bricks", structures, 0, 1000000,
+                    of(&EvolveOptions::steps)),
+              steps("by the stopping rule", &EvolveOptions::steps)),
+         number("tolerance", "T",
+                "converged when the energy changes by less, relative\n"
+                "(and the mean displacement is below sqrt(T) voxels)",
+                structures, of(&EvolveOptions::energyTolerance)),
+         with(count(
+                  "spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2", "0",
+                  wholes | Compare, 0, 2, [](auto& c) -> auto& { return c.options.splineLevel; }),
+              [](Option& o) {
+                  o.stored = [](const Call& c) {
+                      return openvdb::Int64Metadata(c.options.splineLevel).copy();
+                  };
+              })}};
+}
+
+OptionGroup runOptions()
+{
+    const auto memory = [](unsigned verbs, std::string text) {
+        Option o{"memory", 0, "SIZE", std::move(text), "", verbs};
+        o.set = [](Call& call, const Values& values) { call.memory = parseSize(values.back()); };
+        return o;
+    };
+    const auto flagOf = [](const char* name, char letter, const char* text, unsigned verbs,
+                           const auto& of, bool on = true) {
+        Option o = flag(name, text, verbs, of, on);
+        o.letter = letter;
+        o.stored = nullptr;
+        return o;
+    };
+    return {"Run",
+            {count(
+                 "bricks", "N", "how many bricks, about as large each", "", BricksPlan, 1, 1000000,
+                 [](auto& c) -> auto& { return c.bricks; }),
+             memory(BricksPlan, "or as many bricks as it takes for each to need no more,\n"
+                                "such as 500M or 4G"),
+             memory(Build, "memory at most, such as 4G: in bricks, one by one, if\n"
+                           "the whole takes more; the flow then takes so many --steps"),
+             flagOf(
+                 "dry-run", 0, "say what it takes, and stop", Build,
+                 [](auto& c) -> auto& { return c.dryRun; }),
+             with(count(
+                      "threads", "N", "threads at most", "all", runs, 1, 4096,
+                      [](auto& c) -> auto& { return c.threads; }),
+                  [](Option& o) { o.letter = 'j'; }),
+             flagOf(
+                 "quiet", 'q', "print errors only", runs, [](auto& c) -> auto& { return c.quiet; }),
+             flagOf(
+                 "verbose", 'v', "print the time of every stage",
+                 Build | Batch | Compare | Convert | BricksMerge,
+                 [](auto& c) -> auto& { return c.verbose; }),
+             flagOf(
+                 "no-progress", 0, "no progress bar", runs,
+                 [](auto& c) -> auto& { return c.progress; }, false),
+             with(text(
+                      "config", "FILE", "options as lines \"name = value\"; the command line wins",
+                      "", structures | Convert, [](auto& c) -> auto& { return c.config; }),
+                  [](Option& o) { o.stored = nullptr; })}};
+}
+
+} // namespace
+
+bool Call::drawsLegend() const
+{
+    constexpr int wide = 600; // pixels; in smaller pictures letters would take too much room
+    return legend == LegendChoice::On || (legend == LegendChoice::Auto && picture.width >= wide);
+}
+
+const std::vector<OptionGroup>& optionTable()
+{
+    static const std::vector<OptionGroup> all = {
+        outputOptions(), atomOptions(),  frameOptions(),   surfaceOptions(), resolutionOptions(),
+        groupOptions(),  sceneOptions(), pictureOptions(), flowOptions(),    runOptions()};
+    return all;
+}
+
+const Option* findOption(Verb verb, const std::string& name)
+{
+    for (const OptionGroup& group : optionTable())
+        for (const Option& option : group.options)
+            if ((option.verbs & verb) && option.name == name) return &option;
+    return nullptr;
+}
+
+void addOptions(const Call& call, openvdb::MetaMap& map)
+{
+    for (const OptionGroup& group : optionTable())
+        for (const Option& option : group.options)
+            if (option.stored && (option.verbs & Build))
+                map.insertMeta(std::string("option.") + option.name, *option.stored(call));
+}
+
+} // namespace molsurf::tool

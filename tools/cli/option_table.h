@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Every option of the program, a row each: the parser, the help texts, the manual, the completion,
+/// the metadata of files, the digest of frames and the plan of bricks come from it.
+
+#include "cli/call.h"
+
+#include <openvdb/openvdb.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace molsurf::tool
+{
+
+/// One option.
+struct Option {
+    const char* name;                    ///< "output"
+    char letter;                         ///< 'o', or 0
+    const char* value;                   ///< what follows it in a help text; nullptr for a switch
+    std::string text;                    ///< what --help says of it; '\n' starts a new line
+    std::string preset;                  ///< the default as --help shows it; empty for none
+    unsigned verbs;                      ///< that take it
+    std::vector<std::string> words = {}; ///< the values that are words, for completion
+    bool repeats = false;
+    /// Sets it.
+    /// @throws Error(ErrorKind::Usage) for a value that it cannot have
+    std::function<void(Call&, const std::vector<std::string>& values)> set = nullptr;
+    /// Its value as metadata of a file; null: it is not stored.
+    std::function<openvdb::Metadata::Ptr(const Call&)> stored = nullptr;
+};
+
+/// Options under a title.
+struct OptionGroup {
+    const char* title;
+    std::vector<Option> options;
+};
+
+/// The whole table.
+const std::vector<OptionGroup>& optionTable();
+
+/// The option of a verb, or null.
+const Option* findOption(Verb verb, const std::string& name);
+
+/// Adds the options as metadata "option.NAME".
+void addOptions(const Call& call, openvdb::MetaMap& map);
+
+/// What --fields takes, `surface` first.
+const std::vector<std::string>& knownFields();
+
+/// The formats that a word or the end of a file's name can mean.
+extern const std::map<std::string, Format> formatWords;
+
+/// A number with the fewest digits that give it back.
+std::string shortest(double number);
+
+/// @throws Error(ErrorKind::Usage)
+[[noreturn]] void misuse(const std::string& message);
+
+/// " [hint: did you mean WORD?]" for the word nearest to what was typed; empty if none is near.
+std::string didYouMean(const std::string& typed, const std::vector<std::string>& words);
+
+/// The words between commas.
+std::vector<std::string> splitWords(const std::string& list);
+
+std::string joinWords(const std::vector<std::string>& words, const char* between);
+
+/// The text in small letters of ASCII.
+std::string lowered(std::string text);
+
+} // namespace molsurf::tool

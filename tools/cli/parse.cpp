@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "cli/parse.h"
+
+#include "cli/help.h"
+#include "cli/option_table.h"
+#include "cli/verb_table.h"
+
+#include "molsurf/error.h"
+#include "molsurf/selection/select_balls.h"
+
+#include <boost/program_options.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace molsurf::tool
+{
+
+namespace po = boost::program_options;
+
+namespace
+{
+
+/// Options that end the program after a text.
+constexpr const char* texts[] = {"help", "version", "list-radii"};
+
+po::options_description describe(Verb verb)
+{
+    po::options_description all;
+    for (const OptionGroup& group : optionTable()) {
+        for (const Option& option : group.options) {
+            if (!(option.verbs & verb)) continue;
+            const std::string names =
+                option.name + (option.letter ? std::string(",") + option.letter : "");
+            if (option.value)
+                all.add_options()(names.c_str(), po::value<std::string>());
+            else
+                all.add_options()(names.c_str(), po::bool_switch());
+        }
+    }
+    all.add_options()("help,h", po::bool_switch())("version,V", po::bool_switch());
+    if (verb == Build) all.add_options()("list-radii", po::bool_switch());
+    all.add_options()("input", po::value<std::vector<std::string>>());
+    return all;
+}
+
+/// The verb that the first words of a command line name; takes them away.
+Verb takeVerb(std::vector<std::string>& words)
+{
+    if (words.empty()) return Build;
+    std::vector<std::string> names, second;
+    for (const VerbInfo& info : verbTable()) {
+        const std::string name = info.name;
+        const std::size_t space = name.find(' ');
+        const std::string first = name.substr(0, space);
+        if (std::count(names.begin(), names.end(), first) == 0) names.push_back(first);
+        if (lowered(words[0]) != first) continue;
+        if (space == std::string::npos) {
+            words.erase(words.begin());
+            return info.verb;
+        }
+        second.push_back(name.substr(space + 1));
+        if (words.size() < 2 || lowered(words[1]) != second.back()) continue;
+        words.erase(words.begin(), words.begin() + 2);
+        return info.verb;
+    }
+    if (!second.empty())
+        misuse(
+            words[0] + ": expected " + joinWords(second, ", ") + " after it, got " +
+            (words.size() > 1 ? "'" + words[1] + "'" + didYouMean(words[1], second) : "nothing") +
+            (words.size() > 1 ? "" : " [hint: vdb_molsurf help]"));
+    // A word that is nearly a verb, and no file.
+    std::error_code ignored;
+    const std::string hint = didYouMean(words[0], names);
+    if (!hint.empty() && words[0][0] != '-' && words[0].find_first_of("./") == std::string::npos &&
+        !std::filesystem::exists(words[0], ignored))
+        misuse("unknown verb '" + words[0] + "'" + hint);
+    return Build;
+}
+
+/// What is wrong with an option that a verb does not have.
+[[noreturn]] void refuse(Verb verb, const std::string& typed)
+{
+    const std::string name = typed.substr(std::min(typed.find_first_not_of('-'), typed.size()));
+    std::vector<std::string> known, others;
+    for (const OptionGroup& group : optionTable()) {
+        for (const Option& option : group.options) {
+            if (option.verbs & verb) known.push_back(std::string("--") + option.name);
+            if (option.name != name) continue;
+            for (const VerbInfo& info : verbTable())
+                if (option.verbs & info.verb) others.push_back(info.name);
+        }
+    }
+    if (!others.empty())
+        misuse("--" + name + " is for " + joinWords(others, ", ") + ", not for " +
+               infoOf(verb).name);
+    const std::string hint = didYouMean("--" + name, known);
+    misuse("unknown option '" + typed + "'" +
+           (hint.empty()
+                ? std::string(" [hint: vdb_molsurf ") +
+                      (verb == Build ? "" : std::string(infoOf(verb).name) + " ") + "--help]"
+                : hint));
+}
+
+/// Adds what was parsed; what is there already stays.
+void add(Verb verb, const po::parsed_options& parsed, GivenOptions& given,
+         std::vector<std::string>& inputs)
+{
+    GivenOptions fresh;
+    for (const auto& option : parsed.options) {
+        const std::string& name = option.string_key;
+        if (name == "input") {
+            inputs.insert(inputs.end(), option.value.begin(), option.value.end());
+            continue;
+        }
+        const Option* known = findOption(verb, name);
+        if (!known && std::find(std::begin(texts), std::end(texts), name) == std::end(texts))
+            refuse(verb, "--" + name);
+        const bool on = !(known && known->value) && !option.value.empty()
+                            ? option.value[0] != "false" && option.value[0] != "no" &&
+                                  option.value[0] != "off" && option.value[0] != "0"
+                            : true;
+        if (!on) continue;
+        std::vector<std::string>& values = fresh[name];
+        if (known && known->value && !known->repeats && !values.empty())
+            misuse("--" + name + " is given twice");
+        if (known && known->value) {
+            if (option.value.empty() || option.value[0].empty())
+                misuse("--" + name + ": expected a value, got none");
+            values.insert(values.end(), option.value.begin(), option.value.end());
+        }
+    }
+    for (auto& [name, values] : fresh) given.emplace(name, std::move(values));
+}
+
+void readConfig(const std::string& path, const po::options_description& all, Call& call)
+{
+    std::error_code ignored;
+    errno = std::filesystem::is_directory(path, ignored) ? EISDIR : 0;
+    std::ifstream file(path);
+    if (errno == EISDIR || !file)
+        throw Error(ErrorKind::Input, "cannot read " + path + ": " + std::strerror(errno));
+    try {
+        add(call.verb, po::parse_config_file(file, all), call.given, call.inputs);
+    } catch (const po::error& e) {
+        misuse("--config " + path + ": " + e.what());
+    } catch (const Error& e) {
+        throw Error(e.kind(), "--config " + path + ": " + e.what());
+    }
+}
+
+/// A word as a shell takes it.
+std::string quoted(const std::string& word)
+{
+    const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,@%+-";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+    std::string all = "'";
+    for (const char letter : word)
+        all += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    return all + "'";
+}
+
+} // namespace
+
+void setOptions(const GivenOptions& given, Call& call)
+{
+    call.given = given;
+    for (const OptionGroup& group : optionTable()) {
+        for (const Option& option : group.options) {
+            if (!(option.verbs & call.verb)) continue;
+            const auto found = given.find(option.name);
+            if (found != given.end()) option.set(call, found->second);
+        }
+    }
+    if (call.quiet && call.verbose) misuse("--quiet and --verbose together");
+    call.progress = call.progress && !call.quiet;
+}
+
+Parsed parse(int argc, const char* const* argv)
+{
+    std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    Call call;
+    for (int i = 0; i < argc; ++i) call.command += (i ? " " : "") + quoted(argv[i]);
+    if (words.size() == 1 && words[0] == "--man") return {{}, manPage()};
+    if (words.size() == 1 && words[0] == "--bash-completion") return {{}, bashCompletion()};
+    if (words.size() == 1 && words[0] == "--options-page") return {{}, optionsPage()};
+    if (!words.empty() && lowered(words[0]) == "help") {
+        words.erase(words.begin());
+        return {{}, words.empty() ? overview() : helpText(takeVerb(words))};
+    }
+    call.verb = takeVerb(words);
+
+    const po::options_description all = describe(call.verb);
+    po::positional_options_description positional;
+    positional.add("input", -1);
+    // Without guessing: --vox must not come to mean something else when an option is added.
+    const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+    try {
+        add(call.verb,
+            po::command_line_parser(words).options(all).positional(positional).style(style).run(),
+            call.given, call.inputs);
+    } catch (const po::unknown_option& e) {
+        refuse(call.verb, e.get_option_name());
+    } catch (const po::error& e) {
+        misuse(std::string(e.what()) + " [hint: vdb_molsurf --help]");
+    }
+    if (call.has("help")) return {{}, helpText(call.verb)};
+    if (call.has("version")) return {{}, "vdb_molsurf " MOLSURF_VERSION "\n"};
+    if (call.has("list-radii")) return {{}, describeRadii()};
+    if (call.has("config")) readConfig(call.given["config"].back(), all, call);
+    setOptions(GivenOptions(call.given), call);
+    infoOf(call.verb).complete(call);
+    return {std::move(call), ""};
+}
+
+} // namespace molsurf::tool

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// From the words of a command line to a call.
+
+#include "cli/call.h"
+
+#include <optional>
+#include <string>
+
+namespace molsurf::tool
+{
+
+/// A call, or a text to print in its place: help, version and the like.
+struct Parsed {
+    std::optional<Call> call;
+    std::string text;
+};
+
+/// @throws Error(ErrorKind::Usage) if the command line is wrong
+/// @throws Error(ErrorKind::Input) if the file of --config cannot be read
+Parsed parse(int argc, const char* const* argv);
+
+/// Sets options of a call; the order of their names does not matter.
+/// @throws Error(ErrorKind::Usage) for a value that an option cannot have
+void setOptions(const GivenOptions& given, Call& call);
+
+} // namespace molsurf::tool

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Every verb of the program, a row each.
+
+#include "cli/call.h"
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace molsurf::tool
+{
+
+/// One verb.
+struct VerbInfo {
+    Verb verb;
+    const char* name;     ///< "compare", "bricks plan"
+    const char* synopsis; ///< what follows the name
+    const char* text;     ///< what it does, one line for the manual and the list of verbs
+    const char* more;     ///< further lines of its help text; may be empty
+    const char* status;   ///< its exit status, beside those that all have; may be empty
+    /// Makes what is meant of what was given, and refuses what makes no sense.
+    /// @throws Error(ErrorKind::Usage)
+    void (*complete)(Call& call);
+    /// @return the exit status
+    int (*perform)(const Call& call, std::chrono::steady_clock::time_point start);
+};
+
+/// All of them; the first one is the verb of a command line without one.
+const std::vector<VerbInfo>& verbTable();
+
+const VerbInfo& infoOf(Verb verb);
+
+} // namespace molsurf::tool
