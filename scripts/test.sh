@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/install_deps.sh
+scripts/install_deps.sh --test
 cmake --preset release "$@"
 cmake --build --preset release
 ctest --preset release --parallel "$(nproc)"
