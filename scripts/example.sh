@@ -1,5 +1,5 @@
 #!/bin/bash
-# Installs what is needed, builds, and makes the surface of a small protein (the C-terminal domain of
+# Installs what building needs, builds, and makes the surface of a small protein (the C-terminal domain of
 # the HIV capsid, a dimer) in example/.
 set -euo pipefail
 cd "$(dirname "$0")/.."

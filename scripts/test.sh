@@ -1,10 +1,20 @@
 #!/bin/bash
-# Installs what is needed, builds, and runs all tests. Arguments go to the configuration, for example
-#     scripts/test.sh -DMOLSURF_WERROR=ON
+# Installs what is needed, builds, runs the tests, and lists at the end what was not tested:
+#     scripts/test.sh [--all] [ARGUMENT...]
+# --all installs the optional programs too, Blender and a browser among them. The other arguments go
+# to the configuration, for example -DMOLSURF_WERROR=ON.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/install_deps.sh
+sets=(--test)
+if [[ ${1:-} == --all ]]; then
+  sets+=(--optional)
+  shift
+fi
+scripts/install_deps.sh "${sets[@]}"
 cmake --preset release "$@"
 cmake --build --preset release
-ctest --preset release --parallel "$(nproc)"
+status=0
+ctest --preset release --parallel "$(nproc)" --output-junit "$PWD/build-release/tests.xml" || status=$?
+python3 scripts/not_tested.py build-release/tests.xml
+exit $status

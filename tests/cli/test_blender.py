@@ -3,13 +3,12 @@
 
 import json
 import pathlib
-import shutil
 import subprocess
 import unittest
 
+from needs import needs
 from tool import CRAMBIN, DATA, ROOT, ToolTest, read_ply
 
-BLENDER = shutil.which("blender")
 SCENES = pathlib.Path(__file__).resolve().parent / "blender_scenes.py"
 SCRIPT = ROOT / "scripts" / "blender" / "open_in_blender.py"
 DIMER = [DATA / "1a8o.cif.gz", "--assembly", "1"]
@@ -30,11 +29,11 @@ def volume_and_centroid(path):
     return volume, [m / volume for m in moment]
 
 
-@unittest.skipUnless(BLENDER, "no blender")
+@needs("blender")
 class Blender(ToolTest):
     def blender(self, script, *words):
         done = subprocess.run(
-            [BLENDER, "-b", "--factory-startup", "--python-exit-code", "1", "--python", str(script),
+            ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "--python", str(script),
              "--", *map(str, words)],
             cwd=self.folder, capture_output=True, text=True, timeout=500)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
@@ -100,7 +99,7 @@ class Blender(ToolTest):
     def test_missing_frame(self):
         for frame in (1, 2, 4):
             (self.folder / f"a.000{frame}.vdb").write_bytes(b"")
-        done = subprocess.run([BLENDER, "-b", "--factory-startup", "--python", str(SCRIPT), "--",
+        done = subprocess.run(["blender", "-b", "--factory-startup", "--python", str(SCRIPT), "--",
                                "a.0001.vdb"], cwd=self.folder, capture_output=True, text=True,
                               timeout=100)
         self.assertIn("frames are missing between 1 and 4", done.stdout + done.stderr)

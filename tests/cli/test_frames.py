@@ -7,10 +7,10 @@ import json
 import struct
 import unittest
 
+from needs import needs
 from tool import CRAMBIN, DATA, FAST, ToolTest
 
 try:
-    import numpy
     import pyopenvdb
 except ImportError:
     pyopenvdb = None
@@ -143,7 +143,7 @@ class Frames(ToolTest):
         self.assertNotAlmostEqual(float(self.table("a.csv")[0]["volume"]) /
                                   float(self.table("a.csv")[1]["volume"]), 1, delta=4e-4)
 
-    @unittest.skipUnless(pyopenvdb, "no python3-openvdb")
+    @needs("openvdb")
     def test_one_transform_and_velocity(self):
         (self.folder / "t.dcd").write_bytes(dcd(self.moved(3)))
         self.check(0, CRAMBIN, *FAST, "--trajectory", "t.dcd", "--center", "--fields", "v,Cd",

@@ -6,31 +6,16 @@ import math
 import os
 import pathlib
 import re
-import shutil
 import struct
 import subprocess
 import unittest
 import xml.etree.ElementTree
 import zipfile
 
+from needs import NODE, NODE_ENVIRONMENT, needs
 from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply
 
-NODE = shutil.which("node")
 VALIDATE = pathlib.Path(__file__).resolve().parent / "gltf_validate.js"
-
-
-def has_validator():
-    """Khronos' gltf-validator of npm, globally installed or on NODE_PATH."""
-    if not NODE:
-        return False
-    return subprocess.run([NODE, "-e", "require('gltf-validator')"], capture_output=True,
-                          env=node_environment()).returncode == 0
-
-
-def node_environment():
-    paths = [os.environ.get("NODE_PATH", ""), "/usr/local/lib/node_modules",
-             "/usr/lib/node_modules"]
-    return {**os.environ, "NODE_PATH": ":".join(p for p in paths if p)}
 
 
 def read_glb(data):
@@ -113,14 +98,14 @@ class Glb(ToolTest):
             self.assertEqual(len(indices), 3 * part["surface"]["triangles"])
             self.assertEqual(max(indices)[0], count - 1)
 
-    @unittest.skipUnless(has_validator(), "no gltf-validator of npm")
+    @needs("gltf-validator")
     def test_khronos_validator(self):
         dimer = [DATA / "1a8o.cif.gz", "--assembly", "1", *FAST]
         for words in ([], ["--color", "chain"], ["--group-by", "copy", "--split", "group"],
                       ["--for", "blender=mn-0.01", "--fields", "shape_index"]):
             self.check(0, *dimer, *words, "-o", "a.glb", "--force")
             done = subprocess.run([NODE, str(VALIDATE), "a.glb"], cwd=self.folder, check=True,
-                                  capture_output=True, text=True, env=node_environment())
+                                  capture_output=True, text=True, env=NODE_ENVIRONMENT)
             issues = json.loads(done.stdout)
             self.assertEqual((issues["numErrors"], issues["numWarnings"]), (0, 0), done.stdout)
 

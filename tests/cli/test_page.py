@@ -4,14 +4,13 @@
 import base64
 import json
 import re
-import shutil
 import subprocess
 import unittest
 import zlib
 
+from needs import CHROMIUM, needs
 from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply, read_png
 
-BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
 DIMER = [DATA / "1a8o.cif.gz", "--assembly", "1"]
 
 
@@ -85,7 +84,7 @@ class Page(ToolTest):
         mesh = (self.folder / "a.html").stat().st_size - viewer
         self.assertLess(mesh, 0.3 * (self.folder / "a.ply").stat().st_size)
 
-    @unittest.skipUnless(BROWSER, "no chromium")
+    @needs("chromium")
     def test_in_a_browser(self):
         self.page(*DIMER, "--color", "chain")
         for mode, colors in (("", ((86, 180, 233), (230, 159, 0))),
@@ -93,7 +92,7 @@ class Page(ToolTest):
             with self.subTest(mode):
                 url = f"file://{self.folder}/a.html" + (f"?color={mode}" if mode else "")
                 done = subprocess.run(
-                    [BROWSER, "--headless=new", "--no-sandbox", "--disable-gpu-sandbox",
+                    [CHROMIUM, "--headless=new", "--no-sandbox", "--disable-gpu-sandbox",
                      "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
                      "--enable-logging=stderr", "--window-size=800,600", "--hide-scrollbars",
                      f"--user-data-dir={self.folder / 'profile'}", "--virtual-time-budget=8000",

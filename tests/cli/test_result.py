@@ -8,6 +8,7 @@ import shlex
 import subprocess
 import unittest
 
+from needs import needs
 from tool import CRAMBIN, FAST, TOOL, ToolTest, read_ply
 
 try:
@@ -15,8 +16,6 @@ try:
     import pyopenvdb
 except ImportError:
     pyopenvdb = None
-
-needs_openvdb = unittest.skipUnless(pyopenvdb, "no python3-openvdb")
 
 
 CURVATURES = ("mean_curvature", "gaussian_curvature", "principal_curvature_1",
@@ -166,7 +165,7 @@ class Vdb(ToolTest):
                      r"volume +[\d.]+ Å\^3", r"active voxels +\d+", r"option.voxel +1"):
             self.assertRegex(text, rf"\n    {line}\n")
 
-    @needs_openvdb
+    @needs("openvdb")
     def test_surface(self):
         self.build()
         grid = pyopenvdb.read(self.path, "surface")
@@ -189,7 +188,7 @@ class Vdb(ToolTest):
         self.assertGreater(deep, 0)
         self.assertEqual(voxels.probeValue((10000, 0, 0)), (grid.background, False))
 
-    @needs_openvdb
+    @needs("openvdb")
     def test_metadata(self):
         self.build("--epsilon", "0.6", *FAST)
         metadata = pyopenvdb.readMetadata(self.path)
@@ -203,7 +202,7 @@ class Vdb(ToolTest):
         self.assertGreater(metadata["area"], 0)
         self.assertGreater(metadata["volume"], 0)
 
-    @needs_openvdb
+    @needs("openvdb")
     def test_fields(self):
         # By name: pyopenvdb lacks int32 grids, and reading all would refuse atom_id.
         self.build("--fields", "all", *FAST)
@@ -229,7 +228,7 @@ class Threads(ToolTest):
     def test_same_mesh(self):
         self.assertEqual((self.folder / "1.ply").read_bytes(), (self.folder / "2.ply").read_bytes())
 
-    @needs_openvdb
+    @needs("openvdb")
     def test_same_grid(self):
         arrays = []
         for threads in ("1", "2"):

@@ -6,6 +6,7 @@ import re
 import struct
 import unittest
 
+from needs import needs
 from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply
 
 try:
@@ -47,7 +48,7 @@ class Refused(ToolTest):
         self.assertEqual((self.folder / "a.usda").read_text(), "mine")
 
 
-@unittest.skipUnless(vdb, "no pyopenvdb")
+@needs("openvdb")
 class Grids(ToolTest):
     def grids(self, name):
         return {grid.name: grid for grid in

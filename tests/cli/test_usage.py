@@ -2,15 +2,15 @@
 """Wrong calls have status 2, say why in one line, and leave nothing behind."""
 
 import os
-import shutil
 import subprocess
 import unittest
 
+from needs import needs
 from tool import CRAMBIN, FAST, ROOT, TOOL, ToolTest
 
 
 class Program(unittest.TestCase):
-    @unittest.skipUnless(shutil.which("readelf"), "needs readelf: apt-get install binutils")
+    @needs("readelf")
     def test_loader_does_not_look_in_the_current_folder(self):
         dynamic = subprocess.run(["readelf", "-d", TOOL], capture_output=True, text=True, check=True)
         for line in dynamic.stdout.splitlines():
@@ -199,7 +199,7 @@ class Information(ToolTest):
     def test_radii(self):
         self.assertIn(b"bondi", self.check(0, "--list-radii").stdout)
 
-    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
+    @needs("full")
     def test_help_that_cannot_be_printed(self):
         with open("/dev/full", "wb") as full:
             self.check(1, "--help", capture_output=False, stdout=full, stderr=-1)
@@ -252,10 +252,7 @@ class Talk(ToolTest):
 
     def on_terminal(self, *words):
         """What a terminal gets as standard error."""
-        try:
-            ours, theirs = os.openpty()
-        except OSError as error:
-            self.skipTest(f"no pseudo-terminal here: {error}")
+        ours, theirs = os.openpty()
         self.check(0, CRAMBIN, "-o", "a.ply", "--force", *FAST, *words,
                    capture_output=False, stderr=theirs)
         os.close(theirs)
@@ -268,6 +265,7 @@ class Talk(ToolTest):
         os.close(ours)
         return text.decode()
 
+    @needs("terminal")
     def test_bar_on_a_terminal_is_erased(self):
         text = self.on_terminal()
         self.assertIn("[...", text)
@@ -275,6 +273,7 @@ class Talk(ToolTest):
         for line in text.split("\n"):  # what is still there after the last erasure
             self.assertNotIn("%", line.split("\x1b[K")[-1])
 
+    @needs("terminal")
     def test_no_bar_if_not_wanted(self):
         self.assertNotIn("%", self.on_terminal("--no-progress"))
         self.assertEqual(self.on_terminal("-q"), "")

@@ -9,13 +9,13 @@ import shutil
 import subprocess
 import unittest
 
+from needs import needs
 from tool import CRAMBIN, DATA, ROOT, TOOL, ToolTest
 
-SNAKEMAKE = shutil.which("snakemake")
 WORKFLOW = ROOT / "scripts" / "workflow"
 
 
-@unittest.skipUnless(SNAKEMAKE, "no snakemake")
+@needs("snakemake")
 class Workflow(ToolTest):
     def setUp(self):
         super().setUp()
@@ -25,7 +25,7 @@ class Workflow(ToolTest):
                             "XDG_CACHE_HOME": str(self.folder / "cache")}
 
     def flow(self, status, *words, says=()):
-        done = subprocess.run([SNAKEMAKE, *words[:1], "-s", WORKFLOW / "Snakefile", "--cores", "2", *words[1:]],
+        done = subprocess.run(["snakemake", *words[:1], "-s", WORKFLOW / "Snakefile", "--cores", "2", *words[1:]],
                               cwd=self.folder, env=self.environment, capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, status, done.stderr)
         for word in [says] if isinstance(says, str) else says:

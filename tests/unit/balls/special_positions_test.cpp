@@ -42,9 +42,22 @@ Totals measured(const std::vector<Ball>& balls, double probe = 0.0)
     return t;
 }
 
-/// Area and volume by points spread evenly over every sphere. A point on several spheres counts for
-/// the first of equal balls; places are turned, so that points do not lie on symmetry planes.
-Totals sampled(const std::vector<Ball>& all, double probe, int count)
+/// Spread evenly, and turned, so that points do not lie on symmetry planes.
+std::vector<Vec3d> spreadDirections(int count)
+{
+    std::vector<Vec3d> out;
+    for (int k = 0; k < count; ++k) {
+        const double z = 1.0 - (2.0 * k + 1.0) / count, a = k * M_PI * (3.0 - std::sqrt(5.0));
+        const double s = std::sqrt(1.0 - z * z), x = s * std::cos(a), y = s * std::sin(a);
+        out.emplace_back(0.48 * x + 0.6 * y + 0.64 * z, -0.8 * x + 0.6 * z,
+                         0.36 * x - 0.8 * y + 0.48 * z);
+    }
+    return out;
+}
+
+/// Area and volume by points in `directions` on every sphere. A point on several spheres counts for
+/// the first of equal balls.
+Totals sampled(const std::vector<Ball>& all, double probe, const std::vector<Vec3d>& directions)
 {
     std::vector<Ball> balls;
     for (const Ball& b : all) {
@@ -65,16 +78,12 @@ Totals sampled(const std::vector<Ball>& all, double probe, int count)
             if (j == i || d2 >= (R + other) * (R + other)) continue;
             near.push_back({way.x(), way.y(), way.z(), 0.5 * (d2 + R * R - other * other)});
         }
-        for (int k = 0; k < count; ++k) {
-            const double z = 1.0 - (2.0 * k + 1.0) / count, a = k * M_PI * (3.0 - std::sqrt(5.0));
-            const double s = std::sqrt(1.0 - z * z), x = s * std::cos(a), y = s * std::sin(a);
-            const Vec3d u(0.48 * x + 0.6 * y + 0.64 * z, -0.8 * x + 0.6 * z,
-                          0.36 * x - 0.8 * y + 0.48 * z);
+        for (const Vec3d& u : directions) {
             const bool covered = std::any_of(near.begin(), near.end(), [&](const auto& n) {
                 return R * (u.x() * n[0] + u.y() * n[1] + u.z() * n[2]) > n[3];
             });
             if (covered) continue;
-            const double dA = 4.0 * M_PI * R * R / count;
+            const double dA = 4.0 * M_PI * R * R / double(directions.size());
             t.area += dA;
             t.volume += dA * (c - origin + R * u).dot(u) / 3.0;
         }
@@ -119,7 +128,7 @@ TEST(SpecialPositions, KnownAreas)
         EXPECT_EQ(got.euler, c.euler) << c.what;
         EXPECT_EQ(got.outer, c.outer) << c.what;
         EXPECT_EQ(got.cavities, c.cavities) << c.what;
-        const Totals points = sampled(c.balls, c.probe, 100000);
+        const Totals points = sampled(c.balls, c.probe, spreadDirections(100000));
         EXPECT_NEAR(got.area, points.area, 1e-3 * c.area) << c.what;
         EXPECT_NEAR(got.volume, points.volume, 1e-3 * c.volume) << c.what;
     }
@@ -138,7 +147,7 @@ TEST(SpecialPositions, CirclesInCommonAndTouching)
 
     const std::vector<Ball> through = {ball(0, 0, 0, 1.5), ball(1.5, 0, 0, 1.5),
                                        ball(0, 1.5, 0, 1.5), ball(0, 0, 1.5, 1.5)};
-    EXPECT_NEAR(measured(through).area, sampled(through, 0.0, 100000).area, 0.05);
+    EXPECT_NEAR(measured(through).area, sampled(through, 0.0, spreadDirections(100000)).area, 0.05);
 
     const std::vector<Ball> outside = {ball(0, 0, 0, 1.5), ball(3, 0, 0, 1.5), ball(0, 3, 0, 1.5)};
     const Totals apart = measured(outside);
@@ -252,10 +261,11 @@ std::vector<Ball> touchingCaps(Random& random)
 void expectRight(const char* what, const std::function<std::vector<Ball>(Random&)>& make)
 {
     Random random(1);
+    const std::vector<Vec3d> directions = spreadDirections(4000);
     for (int n = 0; n < 1000; ++n) {
         const std::vector<Ball> balls = make(random);
         const double probe = n % 2 ? 1.4 : 0.0;
-        const Totals got = measured(balls, probe), points = sampled(balls, probe, 4000);
+        const Totals got = measured(balls, probe), points = sampled(balls, probe, directions);
         ASSERT_NEAR(got.area, points.area, 0.005 * points.area) << what << " " << n;
         ASSERT_NEAR(got.volume, points.volume, 0.005 * points.volume + 0.1) << what << " " << n;
         ASSERT_GE(got.outer, 1) << what << " " << n;
@@ -327,7 +337,7 @@ TEST(SpecialPositions, ManyInOnePlace)
             const double x = at(), y = at(), z = at();
             balls.push_back(ball(x, y, z, 1.7));
         }
-        const Totals got = measured(balls), points = sampled(balls, 0.0, 4000);
+        const Totals got = measured(balls), points = sampled(balls, 0.0, spreadDirections(4000));
         EXPECT_NEAR(got.area, points.area, 0.005 * points.area);
         EXPECT_NEAR(got.volume, points.volume, 0.005 * points.volume);
         EXPECT_EQ(got.outer, 1);

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MPL-2.0
+"""What some tests need and a machine may lack. @needs("chromium") before a test or a class of them
+skips it there; tests/cli/CMakeLists.txt makes what has a need a test of its own, so that ctest tells
+which ones were skipped."""
+
+import functools
+import importlib.util
+import os
+import pathlib
+import resource
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+NODE = shutil.which("node")
+# Where scripts/install_deps.sh puts packages of npm, and where npm does with --global.
+NODE_ENVIRONMENT = {**os.environ, "NODE_PATH": os.pathsep.join(filter(None, [
+    os.environ.get("NODE_PATH"), str(ROOT / "build-tools" / "node_modules"),
+    "/usr/local/lib/node_modules", "/usr/lib/node_modules"]))}
+
+
+def runs(*words, **options):
+    try:
+        return subprocess.run(words, capture_output=True, **options).returncode == 0
+    except (OSError, subprocess.SubprocessError):
+        return False
+
+
+def small_address_space():
+    resource.setrlimit(resource.RLIMIT_AS, (600 << 20, 600 << 20))
+
+
+def other_user():
+    """How subprocess runs a program that may not write everywhere."""
+    return {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+
+
+def can_mount():
+    with tempfile.TemporaryDirectory() as folder:
+        return runs("mount", "-t", "tmpfs", "tmpfs", folder) and runs("umount", folder)
+
+
+def has_terminal():
+    try:
+        for end in os.openpty():
+            os.close(end)
+    except OSError:
+        return False
+    return True
+
+
+def program(*names):
+    return lambda: all(map(shutil.which, names))
+
+
+# Name: (whether it is here, what to do if not).
+NEEDS = {
+    "blender": (program("blender"), "scripts/install_deps.sh blender"),
+    "chromium": (lambda: CHROMIUM, "scripts/install_deps.sh chromium"),
+    "gltf-validator": (
+        lambda: NODE and runs(NODE, "-e", "require('gltf-validator')", env=NODE_ENVIRONMENT),
+        "npm install --prefix build-tools gltf-validator"),
+    "groff": (program("groff", "preconv"), "scripts/install_deps.sh groff"),
+    "openvdb": (lambda: all(map(importlib.util.find_spec, ("numpy", "pyopenvdb"))),
+                "scripts/install_deps.sh python3-openvdb python3-numpy"),
+    "readelf": (program("readelf"), "scripts/install_deps.sh binutils"),
+    "snakemake": (program("snakemake"), "scripts/install_deps.sh snakemake"),
+    "full": (lambda: os.path.exists("/dev/full"), "a system with /dev/full"),
+    "mount": (can_mount, "the right to mount a file system, as root has it"),
+    "memory": (lambda: runs(os.environ["VDB_MOLSURF"], "--version", preexec_fn=small_address_space),
+               "a build without sanitizers, which take memory of their own"),
+    "terminal": (has_terminal, "a system with pseudo-terminals"),
+    "user": (lambda: runs(os.environ["VDB_MOLSURF"], "--version", **other_user()),
+             "a build folder that every user may read"),
+}
+
+
+@functools.cache
+def lacks(name):
+    """None, or what to do."""
+    here, remedy = NEEDS[name]
+    return None if here() else f"needs {name}: {remedy}"
+
+
+def needs(name):
+    def mark(item):
+        item.need = name
+        return unittest.skipIf(lacks(name), lacks(name))(item)
+    return mark
+
+
+def need_of(test):
+    """The need of a test, or of its class, or None."""
+    return getattr(getattr(test, test.id().rsplit(".", 1)[1], None), "need", None) or getattr(
+        test, "need", None)
