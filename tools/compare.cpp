@@ -6,19 +6,15 @@
 #include "sha256.h"
 #include "terminal.h"
 
-#include "molsurf/color/color_map.h"
 #include "molsurf/error.h"
 #include "molsurf/io/read_mesh.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/write_comparison.h"
-#include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/compare.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <iostream>
 
 namespace molsurf::tool
@@ -109,23 +105,6 @@ std::vector<std::string> warningsOf(const Call& call, const Read& a, const Read&
     return all;
 }
 
-/// The distance that 99 % of the vertices do not exceed; at least a thousandth of an Å, below which
-/// differences are rounding.
-double usualRange(const std::vector<float>& distances)
-{
-    constexpr double share = 0.99, least = 1e-3;
-    std::vector<float> sorted = distances;
-    const auto place = sorted.begin() + std::ptrdiff_t(share * double(sorted.size() - 1));
-    std::nth_element(sorted.begin(), place, sorted.end());
-    return std::max(double(*place), least);
-}
-
-std::string number(double value)
-{
-    char digits[32];
-    return std::string(digits, std::to_chars(digits, digits + sizeof digits, float(value)).ptr);
-}
-
 ComparedFile described(const Read& read)
 {
     const Operand& operand = read.operand;
@@ -139,20 +118,6 @@ ComparedFile described(const Read& read)
             mesh.positions.size(),
             mesh.triangles.size(),
             operand.surface.closed};
-}
-
-/// What a reader of the mesh file must know of its colours.
-std::vector<std::string> colorComments(const ComparisonReport& report)
-{
-    const ColorScale& color = report.color;
-    std::vector<std::string> lines = {"colors: " + report.shown + " in Angstrom, map " + color.map +
-                                      " from " + number(color.low) + " to " + number(color.high)};
-    for (std::size_t i = 0; i < color.stops.size(); ++i) {
-        std::string line = "color " + number(color.valueOf(i));
-        for (const std::uint8_t part : color.stops[i]) line += " " + std::to_string(int(part));
-        lines.push_back(line);
-    }
-    return lines;
 }
 
 openvdb::MetaMap metadata(const Call& call, const ComparisonReport& report)
@@ -195,6 +160,39 @@ openvdb::GridCPtrVec grids(const Call& call, const Operand& a, const DistanceTo&
     return {all.begin(), all.end()};
 }
 
+/// Says what cannot be done with these two surfaces.
+void refuse(const Call& call, const Read& a, const Read& b)
+{
+    const bool vdb = std::any_of(call.outputs.begin(), call.outputs.end(),
+                                 [](const Output& o) { return o.format == Format::Vdb; });
+    if (call.colorBySign && !b.operand.surface.closed)
+        throw Error(ErrorKind::Input, b.path + ": expected a closed surface for --color "
+                                               "signed-distance, got one without an inside");
+    if (vdb && !a.operand.levelSet && !a.operand.surface.closed)
+        throw Error(ErrorKind::Input, a.path + ": expected a closed mesh for -o .vdb, got an open "
+                                               "one [hint: -o .ply]");
+}
+
+/// Prints the numbers that no file holds.
+void sayResult(const Call& call, const ComparisonReport& report)
+{
+    if (call.outputs.empty()) std::cout << comparisonTable(report);
+    if (call.verbose) {
+        for (const auto& [stage, time] : report.seconds) {
+            char text[64];
+            std::snprintf(text, sizeof text, "%-11s %9.3f s", stage.c_str(), time);
+            say(text);
+        }
+    }
+    if (call.quiet || call.outputs.empty()) return;
+    const Comparison& both = report.distances;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "mean distance %.4f Å there, %.4f Å back, Hausdorff %.4f Å, %.2f s",
+                  both.aToB.mean, both.bToA.mean, both.hausdorff, report.seconds.back().second);
+    say(text);
+}
+
 } // namespace
 
 int compare(const Call& call, Clock::time_point start)
@@ -202,96 +200,55 @@ int compare(const Call& call, Clock::time_point start)
     prepareOutputs(call);
     openvdb::initialize();
     const auto limit = limitThreads(call);
-    const auto wanted = [&](Format format) {
-        return std::any_of(call.outputs.begin(), call.outputs.end(),
-                           [&](const Output& output) { return output.format == format; });
-    };
-
     Terminal terminal(call.progress);
-    ComparisonReport all;
+    ComparisonReport report;
     Clock::time_point lapStart = Clock::now();
     const auto lap = [&](const char* stage) {
-        all.seconds.emplace_back(stage, secondsSince(lapStart));
+        report.seconds.emplace_back(stage, secondsSince(lapStart));
         lapStart = Clock::now();
     };
     std::vector<std::string> said;
-    Read a = readOne(call, call.inputs[0], terminal, said);
-    Read b = readOne(call, call.inputs[1], terminal, said);
+    const Read a = readOne(call, call.inputs[0], terminal, said);
+    const Read b = readOne(call, call.inputs[1], terminal, said);
     lap("surfaces");
     for (const std::string& warning : warningsOf(call, a, b))
-        all.warnings.push_back(withOptionNames(warning));
+        report.warnings.push_back(withOptionNames(warning));
     terminal.erase();
     if (!call.quiet) {
         for (const std::string& line : said) say(line);
-        for (const std::string& warning : all.warnings) say("warning: " + warning);
+        for (const std::string& warning : report.warnings) say("warning: " + warning);
     }
-    if (call.colorBySign && !b.operand.surface.closed)
-        throw Error(ErrorKind::Input, b.path + ": expected a closed surface for --color "
-                                               "signed-distance, got one without an inside");
-    if (wanted(Format::Vdb) && !a.operand.levelSet && !a.operand.surface.closed)
-        throw Error(ErrorKind::Input, a.path + ": expected a closed mesh for -o .vdb, got an open "
-                                               "one [hint: -o .ply]");
+    refuse(call, a, b);
     stopIfAsked();
 
     const DistanceTo toA(a.operand.surface), toB(b.operand.surface);
     lap("search tree");
-    all.distances = molsurf::compare(a.operand, toA, b.operand, toB, terminal);
+    report.distances = molsurf::compare(a.operand, toA, b.operand, toB, terminal);
     lap("distance");
-
-    const OneWay& there = all.distances.aToB;
-    const std::vector<float>& shown = there.distance;
-    const double range = call.colorRange > 0.0 ? call.colorRange : usualRange(shown);
-    const ColorScale& scale = all.color =
-        call.colorBySign ? signedScale(range) : magnitudeScale(range);
-    all.version = MOLSURF_VERSION;
-    all.command = call.command;
-    all.a = described(a);
-    all.b = described(b);
-    all.shown = call.colorBySign ? "signed_distance" : "distance";
-    all.threads =
+    chooseColors(call.colorBySign, call.colorRange, report);
+    report.version = MOLSURF_VERSION;
+    report.command = call.command;
+    report.a = described(a);
+    report.b = described(b);
+    report.threads =
         int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-
     writeOutputs(
         call, terminal,
         [&](const Output& output, OutputFile& file) {
-            const Format format = output.format;
-            if (format == Format::Ply) {
-                Mesh mesh = a.operand.surface.mesh;
-                const auto& values = call.colorBySign ? there.signedDistance : shown;
-                mesh.colors.reserve(values.size());
-                for (const float value : values) mesh.colors.push_back(scale.at(value));
-                mesh.scalars.insert(mesh.scalars.begin(), {"distance", shown});
-                if (!there.signedDistance.empty())
-                    mesh.scalars.insert(mesh.scalars.begin() + 1,
-                                        {"signed_distance", there.signedDistance});
-                writePly(mesh, file, colorComments(all));
-            } else if (format == Format::Vdb) {
-                writeVdb(grids(call, a.operand, toB, terminal), metadata(call, all), file);
-            } else {
-                writeComparison(all, file);
-            }
+            if (output.format == Format::Ply)
+                writeComparisonMesh(a.operand.surface.mesh, report, file);
+            else if (output.format == Format::Vdb)
+                writeVdb(grids(call, a.operand, toB, terminal), metadata(call, report), file);
+            else
+                writeComparison(report, file);
         },
         [&](double seconds) {
-            all.seconds.emplace_back("write", seconds);
-            all.seconds.emplace_back("total", secondsSince(start));
-            all.peakMemoryBytes = peakMemory();
+            report.seconds.emplace_back("write", seconds);
+            report.seconds.emplace_back("total", secondsSince(start));
+            report.peakMemoryBytes = peakMemory();
         });
     terminal.erase();
-    if (call.outputs.empty()) std::cout << comparisonTable(all);
-    if (call.verbose)
-        for (const auto& [stage, time] : all.seconds) {
-            char text[64];
-            std::snprintf(text, sizeof text, "%-11s %9.3f s", stage.c_str(), time);
-            say(text);
-        }
-    if (!call.quiet && !call.outputs.empty()) {
-        char text[160];
-        std::snprintf(text, sizeof text,
-                      "mean distance %.4f Å there, %.4f Å back, Hausdorff %.4f Å, %.2f s",
-                      all.distances.aToB.mean, all.distances.bToA.mean, all.distances.hausdorff,
-                      all.seconds.back().second);
-        say(text);
-    }
+    sayResult(call, report);
     for (const Read* read : {&a, &b})
         if (!read->converged)
             say(read->path + ": not converged; the files are written [hint: --max-steps or "

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
-#include "frame_source.h"
-#include "frame_table.h"
 #include "outputs.h"
 #include "sidecar.h"
 #include "write_result.h"
 
 #include "molsurf/error.h"
+#include "molsurf/io/frame_table.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/frame_source.h"
 #include "molsurf/surface/velocity.h"
 
 #include <algorithm>
@@ -121,93 +121,130 @@ void addVelocity(const Call& call, const BallSet& selection,
         velocityGrid(*result.surface, selection, displacement, call.options, progress));
 }
 
+/// All frames of a call, one after the other.
+class FrameRun
+{
+public:
+    FrameRun(const Call& asked, Terminal& terminal)
+        : call_(asked), terminal_(terminal), source_(call_.input, call_.trajectory, call_.frames,
+                                                     call_.atoms, probeOf(call_.options), terminal),
+          moves_(hasField(call_.options.fields, "v")), tableName_(tableOf(call_))
+    {
+        if (call_.center) call_.scene.center = centerOf(source_.balls(0).balls);
+        options_ = optionsDigest(call_);
+        if (!tableName_.empty()) checkWritable(tableName_, true);
+        if (!tableName_.empty() && !call_.force) table_ = readFrameTable(tableName_);
+        for (std::size_t i = 0; i < source_.size(); ++i) {
+            calls_.push_back(callOf(call_, i + 1, source_.number(i)));
+            done_.push_back(!call_.force && isDone(calls_[i], options_, table_, tableName_, i + 1));
+            if (done_[i]) continue;
+            for (const Output& output : calls_[i].outputs) checkOutput(call_, output);
+        }
+    }
+
+    std::size_t size() const { return source_.size(); }
+
+    void introduce()
+    {
+        if (call_.quiet) return;
+        say(source_.description());
+        const BallSet& first = source_.balls(0);
+        std::vector<std::string> warnings = call_.warnings;
+        warnings.insert(warnings.end(), first.warnings.begin(), first.warnings.end());
+        const bool parts = call_.options.split || !call_.options.surfaceOf.empty();
+        if (moves_ && parts) warnings.push_back("no grid v: groups have surfaces of their own");
+        for (const std::string& warning : warnings) say("warning: " + warning);
+        const auto kept = std::count(done_.begin(), done_.end(), true);
+        say(counted(size(), "frame", "frames") +
+            (kept > 0 ? ", " + std::to_string(kept) + " done before" : ""));
+    }
+
+    /// Builds frame i, or takes over what is known of it.
+    void build(std::size_t i)
+    {
+        if (!done_[i]) {
+            make(i);
+            return;
+        }
+        warm_ = WarmStart();
+        const auto known = table_.find(i + 1);
+        euler_.reset();
+        if (known == table_.end()) return;
+        creeping_ += !known->second.rests;
+        euler_ = known->second.euler;
+    }
+
+    /// @return the exit status
+    int finish(Clock::time_point start) const
+    {
+        if (!call_.quiet) {
+            if (!changes_.empty())
+                say("the topology is another than that before in frames " + changes_);
+            char text[32];
+            std::snprintf(text, sizeof text, ", %.2f s", secondsSince(start));
+            say(counted(size(), "frame", "frames") + text);
+        }
+        if (creeping_ == 0) return 0;
+        say("not converged: " + counted(creeping_, "frame", "frames") +
+            "; the files are written [hint: --max-steps or --tolerance]");
+        return notConvergedStatus;
+    }
+
+private:
+    void make(std::size_t i)
+    {
+        const Clock::time_point start = Clock::now();
+        prepareOutputs(calls_[i]);
+        terminal_.setPrefix("frame " + std::to_string(i + 1) + "/" + std::to_string(size()) + ": ");
+        std::vector<openvdb::Vec3f> displacement;
+        if (moves_) displacement = source_.displacement(i);
+        const BallSet& balls = source_.balls(i);
+        const bool begun = call_.warm && !warm_.empty();
+        Report read;
+        read.warnings = call_.warnings;
+        read.seconds = {{"read", secondsSince(start)}};
+        const auto extend = [&](MolecularSurface& result) {
+            if (moves_) addVelocity(call_, balls, displacement, terminal_, result);
+        };
+        const Report report = surfaceOf(calls_[i], balls, read, terminal_, start,
+                                        call_.warm ? &warm_ : nullptr, extend);
+        const FrameRow row = frameRow(i + 1, source_.number(i), begun, options_, report);
+        table_[i + 1] = row;
+        if (!tableName_.empty()) saveFrameTable(table_, tableName_);
+        creeping_ += !row.rests;
+        if (euler_ && *euler_ != row.euler)
+            changes_ += (changes_.empty() ? "" : ", ") + std::to_string(row.frame);
+        euler_ = row.euler;
+        if (!call_.quiet) say(describe(row, report, begun));
+    }
+
+    Call call_;
+    Terminal& terminal_;
+    FrameSource source_;
+    bool moves_;
+    std::string tableName_, options_;
+    FrameTable table_;
+    std::vector<Call> calls_;
+    std::vector<bool> done_;
+    WarmStart warm_;
+    std::size_t creeping_ = 0;
+    std::optional<int> euler_; // of the frame before
+    std::string changes_;      // of the topology: frames
+};
+
 } // namespace
 
-int frames(const Call& asked, Clock::time_point start)
+int frames(const Call& call, Clock::time_point start)
 {
-    Call call = asked;
     openvdb::initialize();
     const auto limit = limitThreads(call);
     Terminal terminal(call.progress);
     terminal.update("read", 0.0);
-    FrameSource source(call, terminal);
+    FrameRun run(call, terminal);
     terminal.erase();
-    const BallSet& first = source.balls(0);
-    if (call.center) call.scene.center = centerOf(first.balls);
-    const std::string options = optionsDigest(call), tableName = tableOf(call);
-    if (!tableName.empty()) checkWritable(tableName, true);
-    FrameTable table;
-    if (!tableName.empty() && !call.force) table = readTable(tableName);
-
-    const bool moves = hasField(call.options.fields, "v");
-    std::vector<Call> calls;
-    std::vector<bool> done;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < source.size(); ++i) {
-        calls.push_back(callOf(call, i + 1, source.number(i)));
-        done.push_back(!call.force && isDone(calls[i], options, table, tableName, i + 1));
-        kept += done[i];
-        if (done[i]) continue;
-        for (const Output& output : calls[i].outputs) checkOutput(call, output);
-    }
-    if (!call.quiet) {
-        say(source.description());
-        std::vector<std::string> warnings = call.warnings;
-        warnings.insert(warnings.end(), first.warnings.begin(), first.warnings.end());
-        const bool parts = call.options.split || !call.options.surfaceOf.empty();
-        if (moves && parts) warnings.push_back("no grid v: groups have surfaces of their own");
-        for (const std::string& warning : warnings) say("warning: " + warning);
-        say(counted(source.size(), "frame", "frames") +
-            (kept > 0 ? ", " + std::to_string(kept) + " done before" : ""));
-    }
-
-    WarmStart warm;
-    std::size_t creeping = 0;
-    std::optional<int> euler; // of the frame before
-    std::string changes;
-    for (std::size_t i = 0; i < source.size(); ++i) {
-        const auto known = table.find(i + 1);
-        if (done[i]) {
-            warm = WarmStart();
-            if (known != table.end()) creeping += !known->second.rests;
-            euler = known != table.end() ? std::optional<int>(known->second.euler) : std::nullopt;
-            continue;
-        }
-        const Clock::time_point frameStart = Clock::now();
-        prepareOutputs(calls[i]);
-        terminal.setPrefix("frame " + std::to_string(i + 1) + "/" + std::to_string(source.size()) +
-                           ": ");
-        std::vector<openvdb::Vec3f> displacement;
-        if (moves) displacement = source.displacement(i);
-        const BallSet& selection = source.balls(i);
-        const bool begun = call.warm && !warm.empty();
-        Report read;
-        read.warnings = call.warnings;
-        read.seconds = {{"read", secondsSince(frameStart)}};
-        const Report report =
-            surfaceOf(calls[i], selection, read, terminal, frameStart, call.warm ? &warm : nullptr,
-                      [&](MolecularSurface& result) {
-                          if (moves) addVelocity(call, selection, displacement, terminal, result);
-                      });
-        const FrameRow row = rowOf(i + 1, source.number(i), begun, options, report);
-        table[i + 1] = row;
-        if (!tableName.empty()) saveTable(table, tableName);
-        creeping += !row.rests;
-        if (euler && *euler != row.euler)
-            changes += (changes.empty() ? "" : ", ") + std::to_string(row.frame);
-        euler = row.euler;
-        if (!call.quiet) say(describe(row, report, begun));
-    }
-    if (!call.quiet) {
-        if (!changes.empty()) say("the topology is another than that before in frames " + changes);
-        char text[32];
-        std::snprintf(text, sizeof text, ", %.2f s", secondsSince(start));
-        say(counted(source.size(), "frame", "frames") + text);
-    }
-    if (creeping == 0) return 0;
-    say("not converged: " + counted(creeping, "frame", "frames") +
-        "; the files are written [hint: --max-steps or --tolerance]");
-    return notConvergedStatus;
+    run.introduce();
+    for (std::size_t i = 0; i < run.size(); ++i) run.build(i);
+    return run.finish(start);
 }
 
 } // namespace molsurf::tool

@@ -87,13 +87,4 @@ int buildInBricks(const Call& call, std::chrono::steady_clock::time_point start)
 /// @param[in] start  when the program began, for the total time
 int convert(const Call& call, std::chrono::steady_clock::time_point start);
 
-/// Prints what files hold: info.cpp.
-int info(const Call& call);
-
-/// The part of it for a structure file: info_structure.cpp.
-void infoStructure(const std::string& path);
-
-/// Prints one line of it.
-void line(const char* name, const std::string& value);
-
 } // namespace molsurf::tool

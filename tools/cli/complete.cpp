@@ -2,7 +2,6 @@
 #include "cli/complete.h"
 
 #include "cli/option_table.h"
-#include "frame_source.h"
 #include "sidecar.h"
 
 #include "molsurf/bricks/run_brick.h"
@@ -10,6 +9,7 @@
 #include "molsurf/selection/groups.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/frame_source.h"
 
 #include <algorithm>
 #include <charconv>

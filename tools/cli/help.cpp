@@ -141,36 +141,30 @@ std::string escaped(const std::string& text)
     return out;
 }
 
+/// The verbs that take an option, if it is not for all: " (build, batch)".
+std::string takersOf(const Option& option)
+{
+    std::vector<std::string> names;
+    for (const VerbInfo& info : verbTable())
+        if (option.verbs & info.verb) names.push_back(info.name);
+    return names.size() == verbTable().size() ? "all" : joinWords(names, ", ");
+}
+
+/// All groups, those that are not in the table of options too.
+std::vector<OptionGroup> allGroups()
+{
+    std::vector<OptionGroup> all = optionTable();
+    all.push_back(information());
+    return all;
+}
+
 std::string manItem(const Option& option)
 {
     std::string head = option.letter ? std::string("\\fB\\-") + option.letter + "\\fR, " : "";
     head += "\\fB" + escaped(std::string("--") + option.name) + "\\fR";
     if (option.value) head += " \\fI" + escaped(option.value) + "\\fR";
-    return ".TP\n" + head + "\n" + escaped(textOf(option)) + "\n";
-}
-
-/// The options that a verb has and the main job has not, or has otherwise.
-std::vector<OptionGroup> ownGroups(Verb verb)
-{
-    std::vector<OptionGroup> all = groupsOf(verb);
-    for (OptionGroup& group : all) {
-        std::vector<Option>& options = group.options;
-        options.erase(std::remove_if(options.begin(), options.end(),
-                                     [](const Option& o) { return (o.verbs & Build) != 0; }),
-                      options.end());
-    }
-    return all;
-}
-
-/// The options that a verb shares with the main job, by name.
-std::string sharedOptions(Verb verb)
-{
-    std::vector<std::string> names;
-    for (const OptionGroup& group : optionTable())
-        for (const Option& option : group.options)
-            if ((option.verbs & verb) && (option.verbs & Build))
-                names.push_back(std::string("--") + option.name);
-    return joinWords(names, ", ");
+    return ".TP\n" + head + " (" + escaped(takersOf(option)) + ")\n" + escaped(textOf(option)) +
+           "\n";
 }
 
 } // namespace
@@ -183,21 +177,14 @@ std::string manPage()
     for (const VerbInfo& info : verbTable())
         page += "\\fBvdb_molsurf " + nameOf(info) + "\\fR" + escaped(info.synopsis) + "\n";
     page += std::string(".fi\n.SH DESCRIPTION\n") + escaped(infoOf(Build).text) +
-            "\nLengths are in Å. Defaults are in brackets.\n.SH OPTIONS\n";
-    for (const OptionGroup& group : groupsOf(Build)) {
+            "\nLengths are in Å. Defaults are in brackets.\n.SH VERBS\n";
+    for (const VerbInfo& info : verbTable())
+        page += std::string(".TP\n\\fB") + info.name + "\\fR\n" + escaped(info.text) + "\n" +
+                escaped(info.more);
+    page += ".SH OPTIONS\nThe verbs that take an option stand behind it.\n";
+    for (const OptionGroup& group : allGroups()) {
         page += ".SS " + escaped(group.title) + "\n";
         for (const Option& option : group.options) page += manItem(option);
-    }
-    for (const VerbInfo& info : verbTable()) {
-        if (info.verb == Build) continue;
-        std::string title = info.name;
-        for (char& letter : title)
-            if (letter != ' ') letter = char(letter - 'a' + 'A');
-        page += ".SH " + title + "\n" + escaped(info.text) + "\n" + escaped(info.more);
-        for (const OptionGroup& group : ownGroups(info.verb))
-            for (const Option& option : group.options) page += manItem(option);
-        const std::string shared = sharedOptions(info.verb);
-        if (!shared.empty()) page += ".P\nAs above: " + escaped(shared) + ".\n";
     }
     return page +
            ".SH EXIT STATUS\n"
@@ -272,28 +259,22 @@ std::string optionsPage()
         }
         return out;
     };
-    std::string page = "# Options\n\nThe program makes this page out of its table of options: "
-                       "every option of every verb.\n"
-                       "Lengths are in Å.\n";
-    for (const VerbInfo& info : verbTable()) {
-        const bool main = info.verb == Build;
-        page += "\n## " + std::string(info.name) + "\n\n```\nvdb_molsurf " + nameOf(info) +
-                info.synopsis + "\n```\n\n" + info.text + "\n" +
-                (*info.more ? std::string("\n") + info.more : "");
-        for (const OptionGroup& group : main ? groupsOf(Build) : ownGroups(info.verb)) {
-            if (group.options.empty()) continue;
-            if (main) page += std::string("\n### ") + group.title + "\n";
-            page += "\n| option | meaning | default |\n|---|---|---|\n";
-            for (const Option& option : group.options) {
-                page += "| `--" + std::string(option.name) +
-                        (option.value ? cell(std::string(" ") + option.value) : "") + "`" +
-                        (option.letter ? std::string(", `-") + option.letter + "`" : "") + " | " +
-                        cell(option.text) + " | " + cell(option.preset) + " |\n";
-            }
-        }
-        const std::string shared = sharedOptions(info.verb);
-        if (!main && !shared.empty()) page += "\nIt shares with the main job: `" + shared + "`.\n";
-        page += "\nExit status: " + statusOf(info) + "\n";
+    std::string page =
+        "# Options\n\nThe program makes this page out of its tables of verbs and options. "
+        "Lengths are in Å.\n\n## Verbs\n\nThe verb `build` may be left out.\n";
+    for (const VerbInfo& info : verbTable())
+        page += "\n### " + std::string(info.name) + "\n\n```\nvdb_molsurf " + nameOf(info) +
+                info.synopsis + "\n```\n\n" + info.text + "\n" + info.more +
+                "Exit status: " + statusOf(info) + "\n";
+    for (const OptionGroup& group : allGroups()) {
+        page += std::string("\n## ") + group.title +
+                "\n\n| option | meaning | default | verbs |\n|---|---|---|---|\n";
+        for (const Option& option : group.options)
+            page += "| `--" + std::string(option.name) +
+                    (option.value ? cell(std::string(" ") + option.value) : "") + "`" +
+                    (option.letter ? std::string(", `-") + option.letter + "`" : "") + " | " +
+                    cell(option.text) + " | " + cell(option.preset) + " | " + takersOf(option) +
+                    " |\n";
     }
     return page;
 }

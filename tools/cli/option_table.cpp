@@ -124,7 +124,13 @@ T parsed(const std::string& option, const std::string& expected, const std::stri
     return value;
 }
 
-// Rows by the type of their value. `of` gives the variable of a call that the option sets.
+// Rows by the type of their value. `of` gives the variable of a call that the option sets:
+// OF(options.voxel).
+#define OF(variable)                                                                               \
+    [](auto& call) -> auto&                                                                        \
+    {                                                                                              \
+        return call.variable;                                                                      \
+    }
 
 template<typename Of>
 Option number(const char* name, const char* value, std::string text, unsigned verbs, const Of& of)
@@ -394,8 +400,7 @@ OptionGroup outputOptions()
         return o;
     };
     const auto force = [](unsigned verbs, const char* text) {
-        Option o = flag(
-            "force", text, verbs, [](auto& c) -> auto& { return c.force; });
+        Option o = flag("force", text, verbs, OF(force));
         o.stored = nullptr;
         return o;
     };
@@ -409,11 +414,10 @@ OptionGroup outputOptions()
                    Call().formats,
                    Batch};
     formats.set = [](Call& call, const Values& values) { call.formats = values.back(); };
-    Option shown = either(
-        "color",
-        "distance (viridis) or signed-distance (blue: A is\ninside B, red: "
-        "outside)",
-        "signed-distance", "distance", Compare, [](auto& c) -> auto& { return c.colorBySign; });
+    Option shown = either("color",
+                          "distance (viridis) or signed-distance (blue: A is\ninside B, red: "
+                          "outside)",
+                          "signed-distance", "distance", Compare, OF(colorBySign));
     return {"Output",
             {output(Build, "file to write; repeats; the extension says what:\n"
                            ".vdb level set and fields; .ply .obj .stl .off .glb\n"
@@ -435,10 +439,9 @@ OptionGroup outputOptions()
              force(files | BricksPlan, "replace existing files"),
              force(Batch, "do all again, and replace existing files"),
              force(BricksRun, "do it again if it is done"), shown,
-             number(
-                 "range", "D", "distance at the end of the colours [Å]",
-                 "that of 99 % of the vertices", Compare, 1e-300, 1e300, "a positive number of Å",
-                 [](auto& c) -> auto& { return c.colorRange; })}};
+             number("range", "D", "distance at the end of the colours [Å]",
+                    "that of 99 % of the vertices", Compare, 1e-300, 1e300,
+                    "a positive number of Å", OF(colorRange))}};
 }
 
 OptionGroup atomOptions()
@@ -475,9 +478,7 @@ OptionGroup atomOptions()
          flag("waters", "keep waters", structures, of(&SelectOptions::waters)),
          text("radii", "SET", "van der Waals radii: a name of --list-radii, or a file", "",
               structures, of(&SelectOptions::radii)),
-         number(
-             "probe", "R", "probe radius [Å]", structures,
-             [](auto& c) -> auto& { return c.options.probe; })}};
+         number("probe", "R", "probe radius [Å]", structures, OF(options.probe))}};
 }
 
 OptionGroup frameOptions()
@@ -485,23 +486,20 @@ OptionGroup frameOptions()
     const auto quiet = [](Option& o) { o.stored = nullptr; };
     return {
         "Frames",
-        {with(text(
-                  "frames", "A-B:S",
-                  "a surface for every S-th frame from A to B: models of\n"
-                  "INPUT by their numbers, or frames of --trajectory; also\n"
-                  "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
-                  "name.csv: a table of all",
-                  "", Build, [](auto& c) -> auto& { return c.frames; }),
+        {with(text("frames", "A-B:S",
+                   "a surface for every S-th frame from A to B: models of\n"
+                   "INPUT by their numbers, or frames of --trajectory; also\n"
+                   "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
+                   "name.csv: a table of all",
+                   "", Build, OF(frames)),
               quiet),
-         with(text(
-                  "trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
-                  "", Build, [](auto& c) -> auto& { return c.trajectory; }),
+         with(text("trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
+                   "", Build, OF(trajectory)),
               quiet),
-         either(
-             "start",
-             "cold: each frame as a run of its own; warm: its flow\n"
-             "begins at the surface of the one before",
-             "warm", "cold", Build, [](auto& c) -> auto& { return c.warm; })}};
+         either("start",
+                "cold: each frame as a run of its own; warm: its flow\n"
+                "begins at the surface of the one before",
+                "warm", "cold", Build, OF(warm))}};
 }
 
 OptionGroup surfaceOptions()
@@ -526,25 +524,19 @@ OptionGroup surfaceOptions()
     attributes.text =
         "curvatures for the vertices of a .ply or .glb, by commas,\nas of vdb_molsurf --help";
     attributes.verbs = Convert;
-    return {"Surface",
-            {word(
-                 "surface", "KIND",
-                 "variational; ses, sas: solvent-excluded, -accessible;\n"
-                 "vdw: van der Waals; gaussian",
-                 structures, [](auto& c) -> auto& { return c.options.kind; }, surfaceKinds),
-             number(
-                 "voxel", "H", "edge of a voxel [Å], 0.05 to 10", structures,
-                 [](auto& c) -> auto& { return c.options.voxel; }),
-             number(
-                 "blobbiness", "D", "decay of the Gaussians of --surface gaussian", structures,
-                 [](auto& c) -> auto& { return c.options.blobbiness; }),
-             flag(
-                 "fill-cavities", "drop the inner walls", wholes | Compare,
-                 [](auto& c) -> auto& { return c.options.fillCavities; }),
-             fields, attributes,
-             flag(
-                 "curvature-totals", "integrate curvature over the surface, for the report", wholes,
-                 [](auto& c) -> auto& { return c.options.curvatureTotals; })}};
+    return {
+        "Surface",
+        {word("surface", "KIND",
+              "variational; ses, sas: solvent-excluded, -accessible;\n"
+              "vdw: van der Waals; gaussian",
+              structures, OF(options.kind), surfaceKinds),
+         number("voxel", "H", "edge of a voxel [Å], 0.05 to 10", structures, OF(options.voxel)),
+         number("blobbiness", "D", "decay of the Gaussians of --surface gaussian", structures,
+                OF(options.blobbiness)),
+         flag("fill-cavities", "drop the inner walls", wholes | Compare, OF(options.fillCavities)),
+         fields, attributes,
+         flag("curvature-totals", "integrate curvature over the surface, for the report", wholes,
+              OF(options.curvatureTotals))}};
 }
 
 OptionGroup resolutionOptions()
@@ -588,13 +580,11 @@ OptionGroup resolutionOptions()
         return stored(all.empty() ? "atom" : joinWords(all, ", "));
     };
     return {"Resolution",
-            {number(
-                 "epsilon", "E", "tolerance of the Gaussian sum [Å]; larger is smoother",
-                 structures, [](auto& c) -> auto& { return c.options.epsilon; }),
+            {number("epsilon", "E", "tolerance of the Gaussian sum [Å]; larger is smoother",
+                    structures, OF(options.epsilon)),
              resolution, coarse,
-             flag(
-                 "match-volume", "resolutions keep the volume of the fine surface",
-                 wholes | Compare, [](auto& c) -> auto& { return c.options.matchVolume; })}};
+             flag("match-volume", "resolutions keep the volume of the fine surface",
+                  wholes | Compare, OF(options.matchVolume))}};
 }
 
 OptionGroup groupOptions()
@@ -626,16 +616,13 @@ OptionGroup groupOptions()
     };
     split.stored = [](const Call& c) { return stored(c.options.split ? "group" : "none"); };
     const auto color = [](std::string text, std::string preset, unsigned verbs) {
-        Option o = word(
-            "color", "WORD", std::move(text), verbs,
-            [](auto& c) -> auto& { return c.options.color; }, colorings);
+        Option o = word("color", "WORD", std::move(text), verbs, OF(options.color), colorings);
         o.preset = std::move(preset);
         return o;
     };
     return {"Groups",
-            {with(text(
-                      "groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]",
-                      "", surfaces, [](auto& c) -> auto& { return c.groupsFile; }),
+            {with(text("groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]",
+                       "", surfaces, OF(groupsFile)),
                   [](Option& o) {
                       o.stored = [](const Call& c) {
                           Values all;
@@ -644,16 +631,14 @@ OptionGroup groupOptions()
                           return stored(joinWords(all, ", "));
                       };
                   }),
-             with(text(
-                      "group-by", "WORD", "groups by chain, entity, copy or residues:N instead", "",
-                      surfaces, [](auto& c) -> auto& { return c.atoms.groupBy; }),
+             with(text("group-by", "WORD", "groups by chain, entity, copy or residues:N instead",
+                       "", surfaces, OF(atoms.groupBy)),
                   [](Option& o) {
                       o.words = {"chain", "entity", "copy"};
                   }),
              split, surfaceOf,
-             with(flag(
-                      "interfaces", "buried areas between groups, for the report", wholes,
-                      [](auto& c) -> auto& { return c.options.interfaces; }),
+             with(flag("interfaces", "buried areas between groups, for the report", wholes,
+                       OF(options.interfaces)),
                   [](Option& o) { o.stored = nullptr; }),
              color("colours of the mesh and the grid Cd: chain, group,\n"
                    "element, residue, mean-curvature, gaussian-curvature",
@@ -679,17 +664,11 @@ OptionGroup sceneOptions()
     host.stored = [](const Call& c) { return stored(nameOf(c.scene.host)); };
     return {"Scene",
             {host,
-             flag(
-                 "center", "the middle of the surface comes to the origin", wholes,
-                 [](auto& c) -> auto& { return c.center; }),
-             number(
-                 "print-scale", "S", ".stl, .obj, .3mf in mm, S of them per Å", "",
-                 wholes | Convert, 1e-6, 1e6, "mm per Å, from 1e-6 to 1e6",
-                 [](auto& c) -> auto& { return c.printScale; }),
-             with(number(
-                      "min-wall", "W", "thicken what is thinner than W mm; with --print-scale", "",
-                      wholes, 1e-300, 1e300, "a positive number of mm",
-                      [](auto& c) -> auto& { return c.wall; }),
+             flag("center", "the middle of the surface comes to the origin", wholes, OF(center)),
+             number("print-scale", "S", ".stl, .obj, .3mf in mm, S of them per Å", "",
+                    wholes | Convert, 1e-6, 1e6, "mm per Å, from 1e-6 to 1e6", OF(printScale)),
+             with(number("min-wall", "W", "thicken what is thinner than W mm; with --print-scale",
+                         "", wholes, 1e-300, 1e300, "a positive number of mm", OF(wall)),
                   [](Option& o) {
                       o.stored = [](const Call& c) {
                           return openvdb::DoubleMetadata(c.options.minWall).copy();
@@ -716,22 +695,18 @@ OptionGroup pictureOptions()
     background.set = setBackground;
     return {"Picture",
             {view,
-             number(
-                 "turn", "A", "turned by so many degrees about the upright", "0", draw, -1e9, 1e9,
-                 "a number of degrees", [](auto& c) -> auto& { return c.picture.turn; }),
-             count(
-                 "size", "N", "width in pixels; the height follows the shape", "1200", draw, 16,
-                 16384, [](auto& c) -> auto& { return c.picture.width; }),
+             number("turn", "A", "turned by so many degrees about the upright", "0", draw, -1e9,
+                    1e9, "a number of degrees", OF(picture.turn)),
+             count("size", "N", "width in pixels; the height follows the shape", "1200", draw, 16,
+                   16384, OF(picture.width)),
              background,
              with(word("legend", "WORD",
                        "on or off; auto: beside colours, if 600 pixels wide\n"
                        "or more",
-                       draw, [](auto& c) -> auto& { return c.legend; },
-                       {LegendChoice::Auto, LegendChoice::On, LegendChoice::Off}),
+                       draw, OF(legend), {LegendChoice::Auto, LegendChoice::On, LegendChoice::Off}),
                   [](Option& o) { o.stored = nullptr; }),
-             count(
-                 "turntable", "N", "N pictures round the upright: name.0001.png, ...", "", draw, 2,
-                 9999, [](auto& c) -> auto& { return c.turntable; })}};
+             count("turntable", "N", "N pictures round the upright: name.0001.png, ...", "", draw,
+                   2, 9999, OF(turntable))}};
 }
 
 OptionGroup flowOptions()
@@ -750,33 +725,31 @@ OptionGroup flowOptions()
             };
         };
     };
-    return {
-        "Evolution",
-        {number("lambda", "L", "weight of the regulariser [Å^2 for gradient, 1 for area]",
-                structures, of(&EvolveOptions::lambda)),
-         word("regularizer", "KIND", "gradient or area", structures,
-              of(&EvolveOptions::regularizer), {Regularizer::Gradient, Regularizer::Area}),
-         word("flow", "KIND", "preconditioned or plain", structures, of(&EvolveOptions::flow),
-              {Flow::Preconditioned, Flow::Plain}),
-         with(count("max-steps", "N", "steps at most", "50; plain: 2000", structures, 0, 1000000,
-                    of(&EvolveOptions::maxSteps)),
-              steps("default of the flow", &EvolveOptions::maxSteps)),
-         with(count("steps", "N", "so many steps, converged or not",
-                    std::to_string(defaultBrickSteps) + " in bricks", structures, 0, 1000000,
-                    of(&EvolveOptions::steps)),
-              steps("by the stopping rule", &EvolveOptions::steps)),
-         number("tolerance", "T",
-                "converged when the energy changes by less, relative\n"
-                "(and the mean displacement is below sqrt(T) voxels)",
-                structures, of(&EvolveOptions::energyTolerance)),
-         with(count(
-                  "spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2", "0",
-                  wholes | Compare, 0, 2, [](auto& c) -> auto& { return c.options.splineLevel; }),
-              [](Option& o) {
-                  o.stored = [](const Call& c) {
-                      return openvdb::Int64Metadata(c.options.splineLevel).copy();
-                  };
-              })}};
+    return {"Evolution",
+            {number("lambda", "L", "weight of the regulariser [Å^2 for gradient, 1 for area]",
+                    structures, of(&EvolveOptions::lambda)),
+             word("regularizer", "KIND", "gradient or area", structures,
+                  of(&EvolveOptions::regularizer), {Regularizer::Gradient, Regularizer::Area}),
+             word("flow", "KIND", "preconditioned or plain", structures, of(&EvolveOptions::flow),
+                  {Flow::Preconditioned, Flow::Plain}),
+             with(count("max-steps", "N", "steps at most", "50; plain: 2000", structures, 0,
+                        1000000, of(&EvolveOptions::maxSteps)),
+                  steps("default of the flow", &EvolveOptions::maxSteps)),
+             with(count("steps", "N", "so many steps, converged or not",
+                        std::to_string(defaultBrickSteps) + " in bricks", structures, 0, 1000000,
+                        of(&EvolveOptions::steps)),
+                  steps("by the stopping rule", &EvolveOptions::steps)),
+             number("tolerance", "T",
+                    "converged when the energy changes by less, relative\n"
+                    "(and the mean displacement is below sqrt(T) voxels)",
+                    structures, of(&EvolveOptions::energyTolerance)),
+             with(count("spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2",
+                        "0", wholes | Compare, 0, 2, OF(options.splineLevel)),
+                  [](Option& o) {
+                      o.stored = [](const Call& c) {
+                          return openvdb::Int64Metadata(c.options.splineLevel).copy();
+                      };
+                  })}};
 }
 
 OptionGroup runOptions()
@@ -794,32 +767,21 @@ OptionGroup runOptions()
         return o;
     };
     return {"Run",
-            {count(
-                 "bricks", "N", "how many bricks, about as large each", "", BricksPlan, 1, 1000000,
-                 [](auto& c) -> auto& { return c.bricks; }),
+            {count("bricks", "N", "how many bricks, about as large each", "", BricksPlan, 1,
+                   1000000, OF(bricks)),
              memory(BricksPlan, "or as many bricks as it takes for each to need no more,\n"
                                 "such as 500M or 4G"),
              memory(Build, "memory at most, such as 4G: in bricks, one by one, if\n"
                            "the whole takes more; the flow then takes so many --steps"),
-             flagOf(
-                 "dry-run", 0, "say what it takes, and stop", Build,
-                 [](auto& c) -> auto& { return c.dryRun; }),
-             with(count(
-                      "threads", "N", "threads at most", "all", runs, 1, 4096,
-                      [](auto& c) -> auto& { return c.threads; }),
+             flagOf("dry-run", 0, "say what it takes, and stop", Build, OF(dryRun)),
+             with(count("threads", "N", "threads at most", "all", runs, 1, 4096, OF(threads)),
                   [](Option& o) { o.letter = 'j'; }),
-             flagOf(
-                 "quiet", 'q', "print errors only", runs, [](auto& c) -> auto& { return c.quiet; }),
-             flagOf(
-                 "verbose", 'v', "print the time of every stage",
-                 Build | Batch | Compare | Convert | BricksMerge,
-                 [](auto& c) -> auto& { return c.verbose; }),
-             flagOf(
-                 "no-progress", 0, "no progress bar", runs,
-                 [](auto& c) -> auto& { return c.progress; }, false),
-             with(text(
-                      "config", "FILE", "options as lines \"name = value\"; the command line wins",
-                      "", structures | Convert, [](auto& c) -> auto& { return c.config; }),
+             flagOf("quiet", 'q', "print errors only", runs, OF(quiet)),
+             flagOf("verbose", 'v', "print the time of every stage",
+                    Build | Batch | Compare | Convert | BricksMerge, OF(verbose)),
+             flagOf("no-progress", 0, "no progress bar", runs, OF(progress), false),
+             with(text("config", "FILE", "options as lines \"name = value\"; the command line wins",
+                       "", structures | Convert, OF(config)),
                   [](Option& o) { o.stored = nullptr; })}};
 }
 

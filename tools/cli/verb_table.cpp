@@ -5,7 +5,12 @@
 
 #include "verbs.h"
 
+#include "molsurf/io/describe_vdb.h"
+#include "molsurf/io/read_vdb.h"
+#include "molsurf/selection/describe_structure.h"
+
 #include <algorithm>
+#include <iostream>
 
 namespace molsurf::tool
 {
@@ -79,7 +84,12 @@ const std::vector<VerbInfo>& verbTable()
          "every\n"
          "fold the copies that --copies fold:N takes. The content says which it is, not the "
          "name.\n",
-         "", completeInfo, [](const Call& call, auto) { return info(call); }}};
+         "", completeInfo, [](const Call& call, auto) {
+             openvdb::initialize();
+             for (const std::string& path : call.inputs)
+                 std::cout << (isVdbFile(path) ? describeVdb(path) : describeStructure(path));
+             return 0;
+         }}};
     return all;
 }
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_comparison.h"
 
+#include "molsurf/io/write_mesh.h"
+
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <charconv>
 #include <cstdio>
 
 namespace molsurf
@@ -139,6 +143,63 @@ std::string comparisonTable(const ComparisonReport& report)
         {cell(report.a.volume, "%.2f"), cell(report.b.volume, "%.2f"),
          cell(ratio(report.a.volume, report.b.volume), "%.5f")});
     return table;
+}
+
+namespace
+{
+
+/// The distance that 99 % of the vertices do not exceed; at least a thousandth of an Å, below which
+/// differences are rounding.
+double usualRange(const std::vector<float>& distances)
+{
+    constexpr double share = 0.99, least = 1e-3;
+    std::vector<float> sorted = distances;
+    const auto place = sorted.begin() + std::ptrdiff_t(share * double(sorted.size() - 1));
+    std::nth_element(sorted.begin(), place, sorted.end());
+    return std::max(double(*place), least);
+}
+
+std::string shortest(double value)
+{
+    char digits[32];
+    return std::string(digits, std::to_chars(digits, digits + sizeof digits, float(value)).ptr);
+}
+
+/// What a reader of the mesh file must know of its colours.
+std::vector<std::string> colorComments(const ComparisonReport& report)
+{
+    const ColorScale& color = report.color;
+    std::vector<std::string> lines = {"colors: " + report.shown + " in Angstrom, map " + color.map +
+                                      " from " + shortest(color.low) + " to " +
+                                      shortest(color.high)};
+    for (std::size_t i = 0; i < color.stops.size(); ++i) {
+        std::string line = "color " + shortest(color.valueOf(i));
+        for (const std::uint8_t part : color.stops[i]) line += " " + std::to_string(int(part));
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+} // namespace
+
+void chooseColors(bool bySign, double range, ComparisonReport& report)
+{
+    const double end = range > 0.0 ? range : usualRange(report.distances.aToB.distance);
+    report.shown = bySign ? "signed_distance" : "distance";
+    report.color = bySign ? signedScale(end) : magnitudeScale(end);
+}
+
+void writeComparisonMesh(const Mesh& a, const ComparisonReport& report, OutputFile& file)
+{
+    const OneWay& there = report.distances.aToB;
+    const bool bySign = report.shown == "signed_distance";
+    Mesh mesh = a;
+    for (const float value : bySign ? there.signedDistance : there.distance)
+        mesh.colors.push_back(report.color.at(value));
+    mesh.scalars.insert(mesh.scalars.begin(), {"distance", there.distance});
+    if (!there.signedDistance.empty())
+        mesh.scalars.insert(mesh.scalars.begin() + 1, {"signed_distance", there.signedDistance});
+    writePly(mesh, file, colorComments(report));
 }
 
 } // namespace molsurf

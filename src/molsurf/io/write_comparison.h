@@ -7,6 +7,7 @@
 #include "molsurf/color/color_map.h"
 #include "molsurf/compare.h"
 #include "molsurf/io/output_file.h"
+#include "molsurf/mesh.h"
 
 #include <cstddef>
 #include <optional>
@@ -54,5 +55,14 @@ void writeComparison(const ComparisonReport& report, OutputFile& file);
 
 /// A table of the numbers, some ten lines.
 std::string comparisonTable(const ComparisonReport& report);
+
+/// Chooses the scale of the colours.
+/// @param[in] bySign  whether they show the signed distance
+/// @param[in] range   distance at the end of the colours [Å]; 0: that of 99 % of the vertices
+void chooseColors(bool bySign, double range, ComparisonReport& report);
+
+/// Writes the mesh of A with the distances of its vertices from B, and their colours, as .ply. A
+/// comment in the file tells the scale.
+void writeComparisonMesh(const Mesh& a, const ComparisonReport& report, OutputFile& file);
 
 } // namespace molsurf

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "frame_source.h"
+#include "molsurf/surface/frame_source.h"
 
 #include "molsurf/color/palette.h"
 #include "molsurf/error.h"
+#include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 
 #include <algorithm>
 #include <charconv>
 
-namespace molsurf::tool
+namespace molsurf
 {
 
 FrameRange parseFrames(const std::string& text)
@@ -16,7 +17,7 @@ FrameRange parseFrames(const std::string& text)
     FrameRange range;
     if (text == "all") return range;
     const auto wrong = [&]() -> void {
-        throw Error(ErrorKind::Usage, "--frames: expected all, or FIRST-LAST:STEP with whole "
+        throw Error(ErrorKind::Usage, "`frames`: expected all, or FIRST-LAST:STEP with whole "
                                       "numbers from 1, FIRST not above LAST, got '" +
                                           text + "'");
     };
@@ -40,33 +41,36 @@ FrameRange parseFrames(const std::string& text)
     return range;
 }
 
-FrameSource::FrameSource(const Call& call, Progress& progress) : call_(call), progress_(progress)
+FrameSource::FrameSource(const std::string& input, const std::string& trajectory,
+                         const std::string& frames, const SelectOptions& atoms, double probe,
+                         const Progress& progress)
+    : input_(input), trajectoryName_(trajectory), atoms_(atoms), probe_(probe), progress_(progress)
 {
-    const FrameRange range = parseFrames(call.frames.empty() ? "all" : call.frames);
-    structure_ = readStructure(call.input);
-    if (call.trajectory.empty()) {
+    const FrameRange range = parseFrames(frames);
+    structure_ = readStructure(input);
+    if (trajectory.empty()) {
         chooseModels(range);
     } else {
-        const int wanted = call.atoms.model;
+        const int wanted = atoms.model;
         const auto& models = structure_.models;
         const auto model = std::find_if(models.begin(), models.end(), [&](const Model& m) {
             return wanted == 0 || m.number == wanted;
         });
         if (model == models.end())
-            throw Error(ErrorKind::Input, call.input + ": has no model " + std::to_string(wanted));
+            throw Error(ErrorKind::Input, input + ": has no model " + std::to_string(wanted));
         model_ = std::size_t(model - models.begin());
-        trajectory_ = openTrajectory(call.trajectory);
-        const std::size_t atoms = model->end - model->begin;
-        if (trajectory_->atoms() != atoms)
+        trajectory_ = openTrajectory(trajectory);
+        const std::size_t count = model->end - model->begin;
+        if (trajectory_->atoms() != count)
             throw Error(ErrorKind::Input,
-                        call.trajectory + ": expected the " + std::to_string(atoms) + " atoms of " +
-                            call.input + ", got " + std::to_string(trajectory_->atoms()) +
+                        trajectory + ": expected the " + std::to_string(count) + " atoms of " +
+                            input + ", got " + std::to_string(trajectory_->atoms()) +
                             " [hint: the structure has to hold the atoms of the trajectory, in "
                             "their order]");
-        const int count = int(trajectory_->frames());
-        if (range.first > count || range.last > count)
-            missing(std::max(range.first, range.last), "1-" + std::to_string(count));
-        for (int i = range.first; i <= (range.last ? range.last : count); i += range.step)
+        const int frameCount = int(trajectory_->frames());
+        if (range.first > frameCount || range.last > frameCount)
+            missing(std::max(range.first, range.last), "1-" + std::to_string(frameCount));
+        for (int i = range.first; i <= (range.last ? range.last : frameCount); i += range.step)
             numbers_.push_back(i);
     }
     first_ = load(0);
@@ -80,9 +84,9 @@ FrameSource::FrameSource(const Call& call, Progress& progress) : call_(call), pr
 
 void FrameSource::missing(int number, const std::string& there) const
 {
-    throw Error(ErrorKind::Input, (trajectory_ ? call_.trajectory : call_.input) +
-                                      ": has no frame " + std::to_string(number) + ", only " +
-                                      there + " [hint: --frames FIRST- goes to the end]");
+    throw Error(ErrorKind::Input, (trajectory_ ? trajectoryName_ : input_) + ": has no frame " +
+                                      std::to_string(number) + ", only " + there +
+                                      " [hint: `frames` FIRST- goes to the end]");
 }
 
 void FrameSource::chooseModels(const FrameRange& range)
@@ -117,7 +121,7 @@ void FrameSource::chooseModels(const FrameRange& range)
 
 BallSet FrameSource::load(std::size_t i)
 {
-    SelectOptions options = call_.atoms;
+    SelectOptions options = atoms_;
     const Model& model = structure_.models[model_];
     if (trajectory_) {
         const std::vector<openvdb::Vec3f> positions = trajectory_->read(std::size_t(number(i)) - 1);
@@ -127,7 +131,7 @@ BallSet FrameSource::load(std::size_t i)
     } else {
         options.model = number(i);
     }
-    return selectBalls(structure_, options, probeOf(call_.options), progress_);
+    return selectBalls(structure_, options, probe_, progress_);
 }
 
 void FrameSource::keepColors(BallSet& selection)
@@ -171,4 +175,4 @@ std::string FrameSource::description()
     return describeSelection(structure_, first_);
 }
 
-} // namespace molsurf::tool
+} // namespace molsurf

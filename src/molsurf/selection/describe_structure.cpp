@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "verbs.h"
+#include "molsurf/selection/describe_structure.h"
 
+#include "molsurf/core/info_line.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/structure/read_structure.h"
@@ -8,10 +9,9 @@
 
 #include <cmath>
 #include <cstdio>
-#include <iostream>
 #include <set>
 
-namespace molsurf::tool
+namespace molsurf
 {
 
 namespace
@@ -82,10 +82,10 @@ std::string ranges(const std::vector<std::size_t>& indices)
     return joined(words);
 }
 
-void describe(const Structure& structure, const Assembly& assembly)
+std::string describe(const Structure& structure, const Assembly& assembly)
 {
-    std::cout << "  assembly " << assembly.name << "\n";
-    if (!assembly.problem.empty()) return line("problem", assembly.problem);
+    std::string out = "  assembly " + assembly.name + "\n";
+    if (!assembly.problem.empty()) return out + infoLine("problem", assembly.problem);
     std::size_t atoms = 0;
     std::vector<openvdb::Vec3d> centroids;
     for (const AssemblyPart& part : assembly.parts) {
@@ -93,22 +93,22 @@ void describe(const Structure& structure, const Assembly& assembly)
         atoms += of.count * part.operators.size();
         if (of.count > 0) centroids.push_back(of.centroid);
         const std::string chains = part.chains.empty() ? "all" : joined(part.chains);
-        line("copies", std::to_string(part.operators.size()) + " of chains " + chains);
+        out += infoLine("copies", std::to_string(part.operators.size()) + " of chains " + chains);
     }
-    line("atoms", std::to_string(atoms));
+    out += infoLine("atoms", std::to_string(atoms));
     const std::vector<Operator> operators = operatorsOf(assembly);
-    if (operators.empty() || centroids.empty()) return;
+    if (operators.empty() || centroids.empty()) return out;
     Symmetry symmetry;
     try {
         symmetry = findSymmetry(assembly, centroids[0]);
     } catch (const Error& error) {
-        return line("problem", error.what());
+        return out + infoLine("problem", error.what());
     }
-    line("point group",
-         symmetry.pointGroup.empty() ? "not one of C, D, T, O and I" : symmetry.pointGroup);
-    line("symmetry", describeSymmetry(symmetry));
-    if (symmetry.axes.empty()) return;
-    line("centre", vectorText(symmetry.centre, 2) + " Å");
+    out += infoLine("point group", symmetry.pointGroup.empty() ? "not one of C, D, T, O and I"
+                                                               : symmetry.pointGroup);
+    out += infoLine("symmetry", describeSymmetry(symmetry));
+    if (symmetry.axes.empty()) return out;
+    out += infoLine("centre", vectorText(symmetry.centre, 2) + " Å");
     const openvdb::Vec3d home = moved(operators[0], centroids[0]);
     std::set<int> folds;
     for (const RotationAxis& axis : symmetry.axes) folds.insert(-axis.fold);
@@ -116,26 +116,27 @@ void describe(const Structure& structure, const Assembly& assembly)
         const RotationAxis& axis = *nearestAxis(symmetry, -fold, home);
         CopyChoice choice;
         choice.fold = -fold;
-        line(("fold:" + std::to_string(-fold)).c_str(),
-             "axis " + vectorText(axis.direction, 4) + ", copies " +
-                 ranges(chooseCopies(structure, assembly, choice, centroids[0])));
+        out += infoLine(("fold:" + std::to_string(-fold)).c_str(),
+                        "axis " + vectorText(axis.direction, 4) + ", copies " +
+                            ranges(chooseCopies(structure, assembly, choice, centroids[0])));
     }
+    return out;
 }
 
 } // namespace
 
-void infoStructure(const std::string& path)
+std::string describeStructure(const std::string& path)
 {
     const Structure structure = readStructure(path);
-    std::cout << path << "\n  structure\n";
-    line("format", structure.format);
+    std::string out = path + "\n  structure\n";
+    out += infoLine("format", structure.format);
     std::vector<std::string> models;
     for (const Model& model : structure.models) models.push_back(std::to_string(model.number));
-    line("models",
-         std::to_string(models.size()) + (models.size() > 1 ? " (" + joined(models) + ")" : ""));
-    if (structure.beads == BeadKind::Martini2) line("beads", "Martini 2");
-    if (structure.beads == BeadKind::Martini3) line("beads", "Martini 3");
-    if (structure.beads == BeadKind::Unnamed) line("beads", "one or a few a residue");
+    out += infoLine("models", std::to_string(models.size()) +
+                                  (models.size() > 1 ? " (" + joined(models) + ")" : ""));
+    if (structure.beads == BeadKind::Martini2) out += infoLine("beads", "Martini 2");
+    if (structure.beads == BeadKind::Martini3) out += infoLine("beads", "Martini 3");
+    if (structure.beads == BeadKind::Unnamed) out += infoLine("beads", "one or a few a residue");
     const Model& first = structure.models[0];
     std::size_t water = 0, hetero = 0, hydrogen = 0;
     std::set<std::int32_t> used;
@@ -148,13 +149,14 @@ void infoStructure(const std::string& path)
     }
     std::vector<std::string> chains;
     for (const std::int32_t i : used) chains.push_back(structure.chains[std::size_t(i)]);
-    line("chains", std::to_string(chains.size()) + " (" + joined(chains) + ")");
-    line("atoms", std::to_string(first.end - first.begin) + " (" + std::to_string(water) +
-                      " water, " + std::to_string(hetero) + " ligand or ion, " +
-                      std::to_string(hydrogen) + " hydrogen)");
-    for (const std::string& warning : structure.warnings) line("warning", warning);
-    if (structure.assemblies.empty()) line("assemblies", "none");
-    for (const Assembly& assembly : structure.assemblies) describe(structure, assembly);
+    out += infoLine("chains", std::to_string(chains.size()) + " (" + joined(chains) + ")");
+    out += infoLine("atoms", std::to_string(first.end - first.begin) + " (" +
+                                 std::to_string(water) + " water, " + std::to_string(hetero) +
+                                 " ligand or ion, " + std::to_string(hydrogen) + " hydrogen)");
+    for (const std::string& warning : structure.warnings) out += infoLine("warning", warning);
+    if (structure.assemblies.empty()) out += infoLine("assemblies", "none");
+    for (const Assembly& assembly : structure.assemblies) out += describe(structure, assembly);
+    return out;
 }
 
-} // namespace molsurf::tool
+} // namespace molsurf

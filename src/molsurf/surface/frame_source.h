@@ -4,8 +4,8 @@
 /// @file
 /// The atoms of frames: models of a structure, or a trajectory beside it.
 
-#include "cli/call.h"
-
+#include "molsurf/atoms.h"
+#include "molsurf/progress.h"
 #include "molsurf/structure/structure.h"
 #include "molsurf/structure/trajectory.h"
 
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace molsurf::tool
+namespace molsurf
 {
 
 /// Some frames, by their numbers: "1-100:5", "7", "20-" or "all".
@@ -26,14 +26,20 @@ struct FrameRange {
 /// @throws Error(ErrorKind::Usage) if the text is none of these, or empty from first to last
 FrameRange parseFrames(const std::string& text);
 
-/// Frames of a call, loaded when they are asked for; all have the same atoms.
+/// The atoms of some frames, loaded when they are asked for; all have the same atoms.
 class FrameSource
 {
 public:
     /// Reads the structure and finds the frames.
+    /// @param[in] input       a structure file, or "-"
+    /// @param[in] trajectory  a .dcd or .xtc file; empty: the frames are models of the structure
+    /// @param[in] frames      see parseFrames()
+    /// @param[in] probe       that the surfaces are made with, see readAtoms() [Å]
+    /// @param[in] progress    is kept by reference
     /// @throws Error(ErrorKind::Input) if a file cannot be read, a frame of the range is not there,
     ///         or the trajectory has another number of atoms than the structure
-    FrameSource(const Call& call, Progress& progress);
+    FrameSource(const std::string& input, const std::string& trajectory, const std::string& frames,
+                const SelectOptions& atoms, double probe, const Progress& progress);
 
     std::size_t size() const { return numbers_.size(); }
 
@@ -56,8 +62,10 @@ private:
     [[noreturn]] void missing(int number, const std::string& there) const;
     void chooseModels(const FrameRange& range);
 
-    const Call& call_;
-    Progress& progress_;
+    std::string input_, trajectoryName_;
+    SelectOptions atoms_;
+    double probe_;
+    const Progress& progress_;
     Structure structure_;
     std::unique_ptr<Trajectory> trajectory_;
     std::size_t model_ = 0; ///< of the structure, for a trajectory
@@ -66,4 +74,4 @@ private:
     BallSet first_;
 };
 
-} // namespace molsurf::tool
+} // namespace molsurf

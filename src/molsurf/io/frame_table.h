@@ -10,7 +10,7 @@
 #include <map>
 #include <string>
 
-namespace molsurf::tool
+namespace molsurf
 {
 
 /// A line of the table.
@@ -18,7 +18,7 @@ struct FrameRow {
     int frame = 0;       ///< its number in the input
     int euler = 0;       ///< Euler characteristic
     bool rests = true;   ///< the flow converged
-    std::string options; ///< see optionsDigest()
+    std::string options; ///< a digest of those that the surface depends on
     std::string line;    ///< all of it as it stands in the file
 };
 
@@ -26,15 +26,15 @@ struct FrameRow {
 using FrameTable = std::map<std::size_t, FrameRow>;
 
 /// @param[in] warm  whether the flow began at the surface of the frame before
-FrameRow rowOf(std::size_t file, int frame, bool warm, const std::string& options,
-               const Report& report);
+FrameRow frameRow(std::size_t file, int frame, bool warm, const std::string& options,
+                  const Report& report);
 
-/// Reads what saveTable() wrote; empty if the file does not exist.
+/// Reads what saveFrameTable() wrote; empty if the file does not exist.
 /// @throws Error(ErrorKind::Output) if it is another file
-FrameTable readTable(const std::string& path);
+FrameTable readFrameTable(const std::string& path);
 
 /// Replaces the file.
 /// @throws Error(ErrorKind::Output) if it cannot be written
-void saveTable(const FrameTable& table, const std::string& path);
+void saveFrameTable(const FrameTable& table, const std::string& path);
 
-} // namespace molsurf::tool
+} // namespace molsurf

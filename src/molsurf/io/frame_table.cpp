@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "frame_table.h"
+#include "molsurf/io/frame_table.h"
 
 #include "molsurf/error.h"
 #include "molsurf/io/output_file.h"
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <vector>
 
-namespace molsurf::tool
+namespace molsurf
 {
 
 namespace
@@ -52,8 +52,8 @@ bool parse(const std::string& line, FrameTable& table)
 
 } // namespace
 
-FrameRow rowOf(std::size_t file, int frame, bool warm, const std::string& options,
-               const Report& report)
+FrameRow frameRow(std::size_t file, int frame, bool warm, const std::string& options,
+                  const Report& report)
 {
     const SurfaceReport& s = report.surface;
     FrameRow row{frame, s.eulerCharacteristic, !report.evolution || report.evolution->converged,
@@ -67,7 +67,7 @@ FrameRow rowOf(std::size_t file, int frame, bool warm, const std::string& option
     return row;
 }
 
-FrameTable readTable(const std::string& path)
+FrameTable readFrameTable(const std::string& path)
 {
     FrameTable table;
     std::error_code ignored;
@@ -78,11 +78,11 @@ FrameTable readTable(const std::string& path)
     while (known && std::getline(file, line)) known = parse(line, table);
     if (!known)
         throw Error(ErrorKind::Output,
-                    path + ": exists, and is no table of frames [hint: --force]");
+                    path + ": exists, and is no table of frames [hint: `force`]");
     return table;
 }
 
-void saveTable(const FrameTable& table, const std::string& path)
+void saveFrameTable(const FrameTable& table, const std::string& path)
 {
     std::string text = std::string(title) + "\n";
     for (const auto& [file, row] : table) text += row.line + "\n";
@@ -91,4 +91,4 @@ void saveTable(const FrameTable& table, const std::string& path)
     file.commit();
 }
 
-} // namespace molsurf::tool
+} // namespace molsurf

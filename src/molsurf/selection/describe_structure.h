@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// A text on a structure file: models, chains, atoms, assemblies and their symmetry.
+
+#include <string>
+
+namespace molsurf
+{
+
+/// Reads a structure file and describes it in lines of name and value. Of every assembly it tells
+/// the point group, the axes and the copies about them.
+/// @throws Error(ErrorKind::Input) if the file cannot be read
+std::string describeStructure(const std::string& path);
+
+} // namespace molsurf

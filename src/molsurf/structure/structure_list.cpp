@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/structure/structure_list.h"
+
+#include "molsurf/error.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+namespace molsurf
+{
+
+namespace
+{
+
+/// Whether a file is a structure, by its name.
+bool isStructure(const std::filesystem::path& path)
+{
+    const std::filesystem::path name = path.extension() == ".gz" ? path.stem() : path.filename();
+    const std::string extension = name.extension().string();
+    const char* const known[] = {".pdb", ".ent", ".cif", ".mmcif", ".pqr", ".xyzr"};
+    return std::any_of(std::begin(known), std::end(known),
+                       [&](const char* word) { return extension == word; });
+}
+
+/// The structures of a folder, by name.
+std::vector<std::string> structuresIn(const std::string& folder)
+{
+    std::vector<std::string> inputs;
+    for (const std::filesystem::directory_entry& entry :
+         std::filesystem::directory_iterator(folder)) {
+        if (entry.is_regular_file() && isStructure(entry.path()))
+            inputs.push_back(entry.path().string());
+    }
+    std::sort(inputs.begin(), inputs.end());
+    if (inputs.empty()) throw Error(ErrorKind::Input, folder + ": no structures in this folder");
+    return inputs;
+}
+
+} // namespace
+
+std::vector<std::string> readStructureList(const std::string& path)
+{
+    std::ifstream file;
+    std::error_code ignored;
+    if (path != "-") {
+        if (std::filesystem::is_directory(path, ignored)) return structuresIn(path);
+        if (isStructure(path))
+            throw Error(
+                ErrorKind::Input,
+                path +
+                    ": it is a structure, expected a list of them or a folder [hint: vdb_molsurf " +
+                    path + " -o FILE]");
+        file.open(path);
+        if (!file) throw Error(ErrorKind::Input, "cannot read " + path);
+    }
+    std::istream& in = path == "-" ? std::cin : file;
+    std::vector<std::string> inputs;
+    for (std::string line; std::getline(in, line);) {
+        const char* blank = " \t\r";
+        const std::size_t begin = line.find_first_not_of(blank);
+        if (begin == std::string::npos || line[begin] == '#') continue;
+        inputs.push_back(line.substr(begin, line.find_last_not_of(blank) + 1 - begin));
+    }
+    if (in.bad()) throw Error(ErrorKind::Input, "cannot read " + path);
+    if (inputs.empty())
+        throw Error(ErrorKind::Input, path + ": expected the name of a structure file a line");
+    return inputs;
+}
+
+} // namespace molsurf
