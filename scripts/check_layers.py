@@ -40,6 +40,7 @@ LIBRARIES = {
     "boost/program_options": ["tools/cli/parse.cpp"],
 }
 
+OPTION = re.compile(r'"[^"]*--[a-z]')  # in a text
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
@@ -85,6 +86,9 @@ def main():
         for number, line in enumerate(path.read_text().splitlines(), 1):
             match = INCLUDE.match(line)
             if not match:
+                if stage_of(path) != "tools" and OPTION.search(line):
+                    faults += 1
+                    print(f"{path.relative_to(ROOT)}:{number}: the library knows no options of the command line")
                 continue
             edges += 1
             why = complaint(path, *match.groups())

@@ -122,6 +122,21 @@ class Bricks(ToolTest):
         self.check(1, "bricks", "run", "plan.json", 1, says="belongs to another plan")
         self.assertNotIn("m.ply", self.names())
 
+    def test_from_any_folder(self):
+        """A plan finds its files from its own folder, wherever it is used and wherever both are moved."""
+        (self.folder / "g").write_text("first /1/A/151-180\n")
+        (self.folder / "deep").mkdir()
+        self.check(0, "bricks", "plan", "dimer.cif.gz", "-o", "deep/plan.json", "--bricks", 2, "--groups", "g",
+                   "--color", "group", *FAST, *STEPS)
+        moved = self.folder / "moved"
+        moved.mkdir()
+        for name in ("dimer.cif.gz", "g", "deep"):
+            (self.folder / name).rename(moved / name)
+        for k in (1, 2):
+            self.check(0, "bricks", "run", "moved/deep/plan.json", k)
+        self.run_tool("bricks", "merge", moved / "deep" / "plan.json", "-o", "m.ply")
+        self.assertIn("m.ply", self.names())
+
     def test_a_missing_input_is_named(self):
         self.plan()
         self.input.unlink()
