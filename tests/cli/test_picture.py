@@ -86,6 +86,14 @@ class Pictures(ToolTest):
                 if a == 255:
                     self.assertEqual(tuple(row[4 * x:4 * x + 3]), white[y][x])
 
+    def test_plain_color(self):
+        for color, share in (("red", 0), ("#00f", 2)):
+            _, rows = self.picture(CRAMBIN, *FAST, "--plain-color", color, "--size", "200")
+            shown = [pixel for row in rows for pixel in row if pixel != WHITE]
+            for pixel in shown:
+                self.assertEqual(max(pixel), pixel[share])
+        self.check(2, CRAMBIN, "-o", "b.png", "--plain-color", "gren", says="did you mean green?")
+
     def test_turntable(self):
         self.check(0, CRAMBIN, *FAST, "-o", "a.png", "-o", "a.ply", "--turntable", "4", "--size",
                    "120")

@@ -329,15 +329,21 @@ void setView(Call& call, const Values& values)
     picture.up = std::abs(eye.y()) < 0.99 ? openvdb::Vec3d(0, 1, 0) : openvdb::Vec3d(0, 0, 1);
 }
 
+/// @param[in] more  what else the option takes
+Color colorOf(const char* option, const std::string& more, const std::string& word)
+{
+    const auto color = parseColor(word);
+    if (!color)
+        wrong(option, "a colour as #rrggbb or #rgb, or a name such as black" + more, word,
+              didYouMean(word, colorNames()));
+    return *color;
+}
+
 void setBackground(Call& call, const Values& values)
 {
     call.picture.transparent = lowered(values.back()) == "transparent";
     if (call.picture.transparent) return;
-    const auto color = parseColor(values.back());
-    if (!color)
-        wrong("background", "a colour as #rrggbb or #rgb, a name such as black, or transparent",
-              values.back(), didYouMean(values.back(), colorNames()));
-    call.picture.background = *color;
+    call.picture.background = colorOf("background", ", or transparent", values.back());
 }
 
 void setScene(Call& call, const Values& values)
@@ -693,13 +699,17 @@ OptionGroup pictureOptions()
                       "#ffffff",      draw,
                       {"transparent"}};
     background.set = setBackground;
+    Option plain{"plain-color", 0, "COLOR", "of a surface without --color", "#8cb5de", draw};
+    plain.set = [](Call& call, const Values& values) {
+        call.picture.plain = colorOf("plain-color", "", values.back());
+    };
     return {"Picture",
             {view,
              number("turn", "A", "turned by so many degrees about the upright", "0", draw, -1e9,
                     1e9, "a number of degrees", OF(picture.turn)),
              count("size", "N", "width in pixels; the height follows the shape", "1200", draw, 16,
                    16384, OF(picture.width)),
-             background,
+             background, plain,
              with(word("legend", "WORD",
                        "on or off; auto: beside colours, if 600 pixels wide\n"
                        "or more",
