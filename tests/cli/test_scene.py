@@ -207,6 +207,10 @@ class Print(ToolTest):
         _, vertices, _ = read_ply((self.folder / "b.ply").read_bytes())
         self.assertAlmostEqual(vertices[0][0], float(first[0].split()[1]), places=4)
 
+    def test_walls_are_millimetres_of_the_print(self):
+        self.check(0, CRAMBIN, *FAST, "--print-scale", "2", "--min-wall", "3", "-o", "wall.vdb", "-o", "wall.stl")
+        self.assertRegex(self.check(0, "info", "wall.vdb").stdout.decode(), r"option\.min-wall +1\.5\n")
+
     def test_a_thread_gets_the_wall(self):
         """Two large balls and a row of small ones between them."""
         balls = ["0 0 0 4", "20 0 0 4"] + [f"{x} 0 0 0.6" for x in range(4, 17)]

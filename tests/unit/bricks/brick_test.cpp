@@ -10,6 +10,7 @@
 #include "support/mesh_checks.h"
 
 #include <gtest/gtest.h>
+#include <openvdb/tools/SignedFloodFill.h>
 
 #include <cmath>
 #include <filesystem>
@@ -263,6 +264,47 @@ TEST_F(Bricks, ACutFileIsRefused)
     EXPECT_THROW(BrickFile(path("cut.brick")), Error);
     std::ofstream(path("other.brick"), std::ios::binary) << "something else, of some length";
     EXPECT_THROW(BrickFile(path("other.brick")), Error);
+}
+
+// Beyond 4096 voxels a tree has another node under its root: what lies between two of them along z
+// is inside, if both ends are.
+TEST_F(Bricks, MergedTreesAreFilledBetweenTheNodesUnderTheirRoot)
+{
+    constexpr int node = openvdb::FloatTree::RootNodeType::ChildNodeType::DIM;
+    const float outside = 3.0f;
+    auto grid = openvdb::FloatGrid::create(outside);
+    grid->setName("surface");
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    using Leaf = openvdb::FloatTree::LeafNodeType;
+    const auto add = [&](int xy, int z, bool entering) {
+        auto* leaf = new Leaf(openvdb::Coord(xy, xy, z), outside);
+        for (openvdb::Index v = 0; v < Leaf::SIZE; ++v)
+            leaf->setValueOn(v, (entering ? 3.5f - float(v & 7) : float(v & 7) - 3.5f) * 0.5f);
+        grid->tree().addLeaf(leaf);
+    };
+    add(node - 8, node - 8, true); // the last leaf of its node
+    add(0, 3 * node, false);       // the first one
+    Brick brick;
+    brick.grids = {grid->deepCopyGrid()};
+    OutputFile file(path("1.brick"), true);
+    Progress progress;
+    writeBrick(brick, "test", 1, false, file, progress);
+    file.commit();
+    std::vector<BrickFile> bricks;
+    bricks.emplace_back(path("1.brick"));
+    OutputFile vdb(path("a.vdb"), true);
+    writeMergedVdb(bricks, 0.5, "test", {}, vdb, progress);
+    vdb.commit();
+    openvdb::io::File in(path("a.vdb"));
+    in.open();
+    const auto merged = openvdb::gridPtrCast<openvdb::FloatGrid>(in.readGrid("surface"));
+    const auto at = [&](int z) { return merged->getConstAccessor().getValue({0, 0, z}); };
+    openvdb::tools::signedFloodFill(grid->tree());
+    for (const int z : {node + 5, 2 * node + 5, 3 * node - 5}) {
+        EXPECT_EQ(at(z), -outside) << z;
+        EXPECT_EQ(at(z), grid->getConstAccessor().getValue({0, 0, z})) << z;
+    }
+    EXPECT_EQ(at(5 * node), outside);
 }
 
 } // namespace

@@ -221,5 +221,28 @@ TEST(GaussianSum, DecaysOfSingleBalls)
     EXPECT_NEAR(field.tolerance(), M_LN2 / (0.1 * (1.7 + 1.4)), 0.01);
 }
 
+// Narrow Gaussians on coarse voxels: the exponents differ so much within a leaf that products
+// underflow, and the largest one of each voxel has to be the scale.
+TEST(GaussianSum, AgreesWithTheDefinitionWhereProductsUnderflow)
+{
+    const std::vector<Ball> balls = test::randomBalls(40, 12.0, Vec3d(0.7, -1.1, 0.3), 5);
+    GaussianOptions options = optionsFor(0.05, 1.0);
+    options.reach = 8.0;
+    const GaussianSum sum(balls, options);
+    const LeafTable table = sum.band(2, Progress());
+    const LeafField psi = sum.evaluate(table, Progress());
+    std::size_t low = 0;
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        for (int v = 0; v < leafSize; ++v) {
+            const Vec3d x = table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d();
+            const double wanted = std::max(directPsi(balls, options, x), -60.0); // the least psi
+            const double got = psi.leaf(n)[v];
+            low += wanted > -60.0 && wanted < -30.0;
+            EXPECT_NEAR(got, wanted, 0.01 + 1e-4 * std::abs(wanted)) << x;
+        }
+    }
+    EXPECT_GT(low, 100u);
+}
+
 } // namespace
 } // namespace molsurf

@@ -216,5 +216,27 @@ TEST(Redistance, OfNothingIsNothing)
     EXPECT_EQ(band.table.size(), 0u);
 }
 
+// Where two balls of radius 10 meet in an edge at which the normal turns by 40 degrees; 51 degrees
+// two Å below it.
+TEST(Redistance, MarksAKinkOfFortyDegrees)
+{
+    const double voxel = 0.5, R = 10.0, apart = R * std::sin(20.0 * M_PI / 180.0);
+    const Vec3d shift(0.13, -0.21, 0.08);
+    const auto lens = [&](const Vec3d& world) {
+        const Vec3d x = world - shift;
+        return std::max((x - Vec3d(apart, 0, 0)).length(), (x + Vec3d(apart, 0, 0)).length()) - R;
+    };
+    const DistanceBand band = redistanced(lens, shift, 11.0, voxel, 3.0, 0.5);
+    std::size_t beside = 0, marked = 0;
+    test::forEachActive(band.table, voxel, [&](std::size_t n, int v, const Vec3d& world) {
+        const double depth = -lens(world), x = world.x() - shift.x();
+        if (depth < 1.0 || depth > 2.0 || x > 0.0 || x + voxel <= 0.0) return;
+        ++beside;
+        marked += band.kinks[n].on(v);
+    });
+    ASSERT_GT(beside, 200u);
+    EXPECT_GT(double(marked), 0.9 * double(beside)) << marked << " of " << beside;
+}
+
 } // namespace
 } // namespace molsurf

@@ -71,5 +71,15 @@ TEST(ThickenWalls, WhatIsThickStaysAsItIs)
     EXPECT_LT(errorOf(S, voxel, distance), 1e-6);
 }
 
+// Half a wall is what counts: the middle of what is between one and two walls thick is left alone.
+TEST(ThickenWalls, WhatIsBarelyThickEnoughStays)
+{
+    const double voxel = 0.25, wall = 2.0, width = 1.0;
+    const auto distance = [](const Vec3d& x) { return toThread(x) - 1.5; };
+    DistanceBand S = bandOf(distance, voxel, wall + width, wall + width);
+    thickenWalls(S, voxel, wall, width, Progress());
+    EXPECT_LT(errorOf(S, voxel, distance), 1e-6);
+}
+
 } // namespace
 } // namespace molsurf

@@ -116,5 +116,23 @@ TEST(IntegrateSurface, OfNothingIsZero)
     EXPECT_EQ(integrateSurface(Mesh(), Spline(), 0.1, Progress()).area, 0.0);
 }
 
+// A mesh too coarse for the surface: no triangle is a graph over it. They count as flat then, with
+// the spherical images of their normals, which cover the sphere once.
+TEST(IntegrateSurface, OfWhatIsNotResolvedIsTheImageOfTheNormals)
+{
+    const test::Shape shape = test::sphere(5.0);
+    Sampled s = sampled(shape.distance, shape.centre, shape.extent, 0.125);
+    s.mesh = Mesh();
+    for (const auto& corner :
+         {Vec3d(1, 1, 1), Vec3d(1, -1, -1), Vec3d(-1, 1, -1), Vec3d(-1, -1, 1)}) {
+        s.mesh.positions.emplace_back(shape.centre + 5.0 * corner.unit());
+        s.mesh.normals.emplace_back(corner.unit());
+    }
+    s.mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+    const SurfaceIntegrals sums = integrateSurface(s.mesh, s.spline, 0.05, Progress());
+    EXPECT_GT(sums.unresolvedArea, 0.2 * sums.area);
+    EXPECT_NEAR(sums.gaussianCurvature, 4.0 * M_PI, 1e-3);
+}
+
 } // namespace
 } // namespace molsurf

@@ -143,5 +143,21 @@ TEST(Radii, AZeroInAFileLeavesTheAtomOut)
     EXPECT_EQ(selection.drops[0].reason, "zero radius");
 }
 
+// Every radius of the publications, written once more.
+TEST(Radii, AreThosePublished)
+{
+    const RadiiSet bondi = readRadii("bondi");
+    const std::pair<int, float> published[] = {
+        {1, 1.20f},  {2, 1.40f},  {3, 1.82f},  {4, 1.53f},  {5, 1.92f},  {6, 1.70f},  {7, 1.55f},
+        {8, 1.52f},  {9, 1.47f},  {10, 1.54f}, {11, 2.27f}, {12, 1.73f}, {13, 1.84f}, {14, 2.10f},
+        {15, 1.80f}, {16, 1.80f}, {17, 1.75f}, {18, 1.88f}, {19, 2.75f}, {20, 2.31f}, {28, 1.63f},
+        {29, 1.40f}, {30, 1.39f}, {31, 1.87f}, {32, 2.11f}, {33, 1.85f}, {34, 1.90f}, {35, 1.85f},
+        {36, 2.02f}, {37, 3.03f}, {38, 2.49f}, {46, 1.63f}, {47, 1.72f}, {48, 1.58f}, {49, 1.93f},
+        {50, 2.17f}, {51, 2.06f}, {52, 2.06f}, {53, 1.98f}, {54, 2.16f}, {55, 3.43f}, {56, 2.68f},
+        {78, 1.75f}, {79, 1.66f}, {80, 1.55f}, {81, 1.96f}, {82, 2.02f}, {83, 2.07f}, {92, 1.86f}};
+    for (const auto& [element, radius] : published)
+        EXPECT_EQ(bondi.find("XXX", "X", std::uint8_t(element)), radius) << element;
+}
+
 } // namespace
 } // namespace molsurf::test

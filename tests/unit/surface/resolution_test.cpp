@@ -70,5 +70,24 @@ TEST(Resolution, HalvesOfTwoResolutionsJoin)
     EXPECT_LT(both.report.surface.volume, 0.9 * high);
 }
 
+// A blurred surface lies far from the balls; its vertices still know their atoms.
+TEST(Resolution, VerticesKnowTheirAtomsHoweverBlurred)
+{
+    SelectOptions select;
+    select.resolutions = {{"", 20.0}};
+    SurfaceOptions options;
+    options.voxel = 2.0;
+    options.fields = {"atom_id"};
+    Progress progress;
+    const MolecularSurface result = makeSurface(
+        selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + "/1crn.pdb"), select), options,
+        &progress);
+    ASSERT_FALSE(result.mesh.labels.empty());
+    EXPECT_EQ(result.mesh.labels[0].name, "atom_id");
+    for (const std::int32_t atom : result.mesh.labels[0].values) ASSERT_GE(atom, 0);
+    const auto grid = openvdb::gridPtrCast<openvdb::Int32Grid>(result.fields.at(0));
+    for (auto it = grid->cbeginValueOn(); it; ++it) ASSERT_GE(*it, 0);
+}
+
 } // namespace
 } // namespace molsurf
