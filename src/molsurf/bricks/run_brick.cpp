@@ -3,6 +3,7 @@
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
+#include "molsurf/levelset/round_ridges.h"
 #include "molsurf/levelset/union_distance.h"
 #include "molsurf/mesh/extract.h"
 #include "molsurf/spline/fit.h"
@@ -169,13 +170,15 @@ Scope brickScope(const SurfaceOptions& options, const Region& region, const Gaus
     scope.extent = extent;
     // A point on the brick's face needs the spline of the next leaf, whose coefficients come from
     // the one beyond it.
-    scope.splineHalo = 2;
+    scope.splineHalo = scope.ridgeHalo = 2;
     if (isUnion(options.kind)) return scope;
+    if (options.kind == SurfaceKind::Variational)
+        scope.ridgeHalo += leavesFor(ridgeReach(options.voxel));
     // S is the distance to closest points, which lie on a spline of their own.
     const auto [inside, outside] = depthOf(options);
     constexpr double overhang = 2.5; // [voxel]
     scope.distanceHalo =
-        scope.splineHalo + leavesFor(std::max(inside, outside) / options.voxel + overhang);
+        scope.ridgeHalo + leavesFor(std::max(inside, outside) / options.voxel + overhang);
     // What a step does at a voxel depends on the three voxels about it, and less by some orders of
     // magnitude on those of earlier steps, farther out (docs/adr/0013-bricks.md).
     scope.flowHalo = scope.distanceHalo + flowLeaves;
@@ -263,12 +266,16 @@ Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope&
     Report report;
     Stopwatch watch(report);
     NarrowBand band;
+    LeafField carrier;
     DistanceBand S;
     if (!atoms.balls.empty()) {
         band = makeBand(atoms, options, scope, progress, report, watch);
         if (band.table.size() > 0) {
+            carrier = carrierOf(atoms, options, scope, band, progress);
             const LeafTable near = clipped(band.table, scope.region.grown(scope.distanceHalo));
+            carrier = restricted(band.table, carrier, near, progress);
             band.phi = restricted(band.table, band.phi, near, progress);
+            band.psi = LeafField();
             band.table = near;
         }
         progress.update("redistance", 0.0);
@@ -277,8 +284,8 @@ Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope&
             S = distanceBand(atoms.balls, ballBoundary(atoms.balls, grownBy(options), progress),
                              options, scope, progress);
         } else if (band.table.size() > 0) {
-            S = distanceBand(band.table, kept ? copied(band.phi) : std::move(band.phi), options,
-                             scope, progress);
+            if (!kept) band.phi = LeafField();
+            S = distanceBand(band.table, std::move(carrier), options, scope, progress);
         }
         watch.stop("redistance");
     }

@@ -50,8 +50,9 @@ void JetLanes::set(int lane, const Jet& jet)
     for (int i = 0; i < 6; ++i) hessian[i][lane] = float(H[entries[i]]);
 }
 
-MOLSURF_KERNEL void shapeFrom(const JetLanes& jets, FootPoints& feet)
+MOLSURF_KERNEL void shapeFrom(const JetLanes& jets, FootPoints& feet, float largest)
 {
+    const float largest2 = largest * largest;
     for (int l = 0; l < lanes; ++l) {
         const float gx = jets.gradient[0][l], gy = jets.gradient[1][l], gz = jets.gradient[2][l];
         const float scale = 1.0f / larger(std::sqrt(gx * gx + gy * gy + gz * gz), 1e-3f);
@@ -68,14 +69,14 @@ MOLSURF_KERNEL void shapeFrom(const JetLanes& jets, FootPoints& feet)
                       xy - nx * my - ny * mx, yz - ny * mz - nz * my, xz - nx * mz - nz * mx};
         const float square = A[0] * A[0] + A[1] * A[1] + A[2] * A[2] + // tr A^2 = kappa^2 - 2 K
                              2.0f * (A[3] * A[3] + A[4] * A[4] + A[5] * A[5]);
-        const float limit = 1.0f / std::sqrt(larger(square, 1.0f));
+        const float limit = largest / std::sqrt(larger(square, largest2));
         const float kappa = (A[0] + A[1] + A[2]) * limit;
         for (int i = 0; i < 6; ++i) feet.A[i][l] = A[i] * limit;
         feet.n[0][l] = nx;
         feet.n[1][l] = ny;
         feet.n[2][l] = nz;
         feet.kappa[l] = kappa;
-        feet.gauss[l] = 0.5f * (kappa * kappa - smaller(square, 1.0f));
+        feet.gauss[l] = 0.5f * (kappa * kappa - smaller(square, largest2));
     }
 }
 

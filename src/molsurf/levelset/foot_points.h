@@ -38,7 +38,8 @@ struct JetLanes {
 /// Shape of the level set through each point from its derivatives: the normal, and the Hessian over
 /// the gradient's length projected to the tangent plane, with principal curvatures limited to one a
 /// voxel, which is all a grid can hold.
-void shapeFrom(const JetLanes& jets, FootPoints& feet);
+/// @param[in] largest  that limit [1/voxel]
+void shapeFrom(const JetLanes& jets, FootPoints& feet, float largest = 1.0f);
 
 /// The steps along the surface, to second order, that bring points of it closest to voxels x: d
 /// solves (I + s A) d = t on the tangent plane, s and t being the normal and the tangential part of

@@ -98,6 +98,13 @@ float distanceToLeaf(float centre)
 
 } // namespace
 
+double rateOf(const Ball& ball, const GaussianOptions& options, double rate)
+{
+    if (rate > 0.0) return rate;
+    const double R = ball.radius + options.probe;
+    return options.blobbiness > 0.0 ? options.blobbiness / (R * R) : M_LN2 / (options.epsilon * R);
+}
+
 GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& options,
                         const std::vector<Decay>& decays)
 {
@@ -107,9 +114,7 @@ GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& o
     double slowest = 1e30;
     for (std::size_t i = 0; i < decays.size(); ++i) {
         const double R = balls[i].radius + options.probe;
-        const double rate = decays[i].rate > 0.0f      ? double(decays[i].rate)
-                            : options.blobbiness > 0.0 ? options.blobbiness / (R * R)
-                                                       : M_LN2 / (options.epsilon * R);
+        const double rate = rateOf(balls[i], options, decays[i].rate);
         if (decays[i].rate > 0.0f) slowest = std::min(slowest, rate);
         const double square = R * R + decays[i].level / rate;
         extent.swollen = std::max(extent.swollen, std::sqrt(std::max(square, 0.0)));

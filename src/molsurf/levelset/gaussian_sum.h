@@ -41,6 +41,10 @@ struct GaussianOptions {
 GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& options,
                         const std::vector<Decay>& decays);
 
+/// The rate C at which the Gaussian of a ball falls off [1/Å^2].
+/// @param[in] rate  of its Decay; 0: by the options
+double rateOf(const Ball& ball, const GaussianOptions& options, double rate);
+
 /// How far from a leaf the balls may lie whose terms count there [Å].
 double cutoff(const GaussianExtent& extent, double reach);
 

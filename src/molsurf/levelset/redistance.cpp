@@ -375,27 +375,38 @@ public:
             for (int l = 0; l < used; ++l) {
                 // What the expansion leaves out is of third order in the distance to the normal,
                 // and of the size of the change of curvature, at most some curvature a voxel.
-                constexpr float negligible = 2e-4f, farthest = 2.0f;
+                constexpr float farthest = 2.0f;
                 const float a2 = aside2[l];
                 const float curvature2 = feet.kappa[l] * feet.kappa[l] - 2.0f * feet.gauss[l];
                 const Vec3f d = lane(step, l);
                 if (std::abs(sign[l] * distance[l] - level) >= sharp ||
-                    a2 * a2 * a2 * curvature2 < negligible * negligible ||
-                    d.lengthSqr() > farthest * farthest) {
+                    a2 * a2 * a2 * curvature2 < negligible * negligible) {
                     continue;
                 }
                 const int v = voxels[first + l];
                 const Seed& seed = seeds_[index[v]];
-                wait_[waiting_++] = {v, index[v], sign[l], a2,
-                                     lane(feet.y, l) + d - 0.5f * d.dot(seed.bend(d)) * seed.n};
-                if (waiting_ == lanes) polish(out);
+                if (d.lengthSqr() > farthest * farthest) {
+                    settle(index[v], v, out);
+                    continue;
+                }
+                wait_[waiting_++] = {v,
+                                     index[v],
+                                     sign[l],
+                                     a2,
+                                     lane(feet.y, l) + d - 0.5f * d.dot(seed.bend(d)) * seed.n,
+                                     offset(index[v], v).lengthSqr(),
+                                     0};
+                while (waiting_ == lanes) polish(out);
             }
         }
-        if (waiting_ > 0) polish(out);
+        while (waiting_ > 0) polish(out);
     }
 
 private:
-    static constexpr int ahead = 24; // of reading a seed, to ask for it
+    static constexpr float negligible = 2e-4f;
+    static constexpr float settledEnough = 5e-4f; // after a step
+    static constexpr float sharpest = 4.0f;       // curvature of a crease [1/voxel]
+    static constexpr int ahead = 24;              // of reading a seed, to ask for it
 
     /// Closest points lie scattered in memory.
     inline __attribute__((always_inline)) void prefetch(std::int32_t seed) const
@@ -408,7 +419,9 @@ private:
         int v;
         std::int32_t seed;
         float sign, aside2;
-        Vec3f y; // where to
+        Vec3f y;      // where to
+        float least2; // squared distance of the point so far
+        int rounds;
     };
 
     Vec3f shift(const Seed& seed) const
@@ -424,6 +437,7 @@ private:
         FootPoints feet;
         JetLanes jets;
         alignas(64) Lanes x[3], sign, distance, aside2;
+        alignas(64) Lanes step[3];
         bool good[lanes];
         for (int l = 0; l < lanes; ++l) {
             const Waiting& w = wait_[std::min(l, waiting_ - 1)];
@@ -437,19 +451,108 @@ private:
             }
             const Jet jet = jetBeside(table_, coefficients_, voxel_, seed.leaf, w.y - shift(seed));
             const double slope2 = jet.gradient.lengthSqr();
-            good[l] = slope2 >= 0.25;
-            setLane(w.y - Vec3f(jet.value / std::max(slope2, 0.25) * jet.gradient), l, feet.y);
+            good[l] = slope2 >= 0.04;
+            setLane(w.y - Vec3f(jet.value / std::max(slope2, 0.04) * jet.gradient), l, feet.y);
             jets.set(l, jet);
         }
-        shapeFrom(jets, feet);
+        shapeFrom(jets, feet, sharpest);
         distances(feet, x, sign, distance, aside2);
+        stepsAlong(feet, x, step);
+        int again = 0;
         for (int l = 0; l < waiting_; ++l) {
-            const Waiting& w = wait_[l];
-            const bool nearer =
-                (lane(x, l) - lane(feet.y, l)).lengthSqr() < offset(w.seed, w.v).lengthSqr();
-            if (good[l] && nearer && aside2[l] < w.aside2) out[w.v] = distance[l];
+            Waiting w = wait_[l];
+            const float r2 = (lane(x, l) - lane(feet.y, l)).lengthSqr();
+            const float curvature2 = feet.kappa[l] * feet.kappa[l] - 2.0f * feet.gauss[l];
+            const float a2 = aside2[l];
+            const Vec3f d = lane(step, l);
+            constexpr int mostRounds = 3;
+            if (good[l] && r2 < w.least2 && a2 < w.aside2) {
+                if (a2 * a2 * a2 * curvature2 < settledEnough * settledEnough) {
+                    out[w.v] = distance[l];
+                    continue;
+                }
+                if (++w.rounds < mostRounds && d.lengthSqr() < 1.0f) {
+                    w.aside2 = a2;
+                    w.least2 = r2;
+                    const Vec3f Ad(
+                        feet.A[0][l] * d.x() + feet.A[3][l] * d.y() + feet.A[5][l] * d.z(),
+                        feet.A[3][l] * d.x() + feet.A[1][l] * d.y() + feet.A[4][l] * d.z(),
+                        feet.A[5][l] * d.x() + feet.A[4][l] * d.y() + feet.A[2][l] * d.z());
+                    w.y = lane(feet.y, l) + d - 0.5f * d.dot(Ad) * lane(feet.n, l);
+                    wait_[again++] = w;
+                    continue;
+                }
+            }
+            settle(w.seed, w.v, out);
         }
-        waiting_ = 0;
+        waiting_ = again;
+    }
+
+    /// Moves a point onto the zero set along the gradient.
+    /// @return whether it got there
+    bool project(std::int32_t leaf, Vec3d& y, Jet& jet) const
+    {
+        constexpr double tolerance = 1e-5, leastSlope2 = 0.01, longest = 0.5;
+        for (int i = 0; i < 6; ++i) {
+            jet = jetBeside(table_, coefficients_, voxel_, leaf, Vec3f(y));
+            const double slope2 = jet.gradient.lengthSqr();
+            if (slope2 < leastSlope2) return false;
+            if (std::abs(jet.value) < tolerance) return true;
+            const double fall = jet.value / slope2,
+                         length = std::abs(jet.value) / std::sqrt(slope2);
+            y -= (length > longest ? fall * longest / length : fall) * jet.gradient;
+        }
+        return false;
+    }
+
+    /// The distance by a closest point that is sought until it is found: beside creases and ridges
+    /// of the interface, where the surface turns within a voxel, no one step leads there. Newton's
+    /// method along the surface where the squared distance is convex, else descent; each step is
+    /// shortened until the point is nearer.
+    void settle(std::int32_t index, int v, float* out) const
+    {
+        constexpr double close = 3e-3, longest = 0.7, farthest = 3.0; // [voxel]
+        constexpr int steps = 20, halvings = 6;
+        const Seed& seed = seeds_[std::size_t(index)];
+        const Vec3d x(placeOf(v) - shift(seed)), start(seed.y);
+        Vec3d y = start;
+        Jet jet;
+        if (!project(seed.leaf, y, jet)) return;
+        double least2 = (x - y).lengthSqr();
+        for (int i = 0; i < steps; ++i) {
+            const double slope = jet.gradient.length();
+            const Vec3d n = jet.gradient / slope, offset = x - y;
+            const double s = n.dot(offset);
+            const Vec3d t = offset - s * n;
+            if (t.lengthSqr() < close * close) break;
+            Vec3d u = std::abs(n.x()) < 0.6 ? n.cross(Vec3d(1.0, 0.0, 0.0))
+                                            : n.cross(Vec3d(0.0, 1.0, 0.0));
+            u.normalize();
+            const Vec3d w = n.cross(u), Hu = jet.hessian * u, Hw = jet.hessian * w;
+            const double k = s / slope;
+            const double a = 1.0 + k * u.dot(Hu), b = k * u.dot(Hw), c = 1.0 + k * w.dot(Hw);
+            const double det = a * c - b * b, tu = t.dot(u), tw = t.dot(w);
+            Vec3d d = a + c > 0.0 && det > 0.01
+                          ? ((c * tu - b * tw) * u + (a * tw - b * tu) * w) / det
+                          : t;
+            const double length = d.length();
+            if (length > longest) d *= longest / length;
+            bool nearer = false;
+            for (int k = 0; k < halvings && !nearer; ++k, d *= 0.4) {
+                Vec3d next = y + d;
+                Jet there;
+                if ((next - start).lengthSqr() > farthest * farthest) continue;
+                if (!project(seed.leaf, next, there)) continue;
+                const double r2 = (x - next).lengthSqr();
+                if (r2 >= least2) continue;
+                nearer = true;
+                least2 = r2;
+                y = next;
+                jet = there;
+            }
+            if (!nearer) break;
+        }
+        out[v] = float(std::sqrt(least2));
     }
 
     const LeafTable& table_;

@@ -198,9 +198,10 @@ MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, P
         progress.update("redistance", 0.0);
         if (!unionOfBalls) {
             const bool kept = options.fillCavities || hasField(options.fields, "sas");
-            S = distanceBand(band.table, kept ? copied(band.phi) : std::move(band.phi), options,
-                             everything, progress);
+            LeafField carrier = carrierOf(atoms, options, everything, band, progress);
+            const LeafTable table = band.table;
             if (!kept) band = NarrowBand();
+            S = distanceBand(table, std::move(carrier), options, everything, progress);
         }
         watch.stop("redistance");
 

@@ -3,9 +3,11 @@
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
+#include "molsurf/levelset/carrier.h"
 #include "molsurf/levelset/initial_surface.h"
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
+#include "molsurf/levelset/round_ridges.h"
 #include "molsurf/levelset/thicken.h"
 #include "molsurf/levelset/union_distance.h"
 #include "molsurf/surface/warm_start.h"
@@ -147,8 +149,67 @@ NarrowBand makeBand(const BallSet& atoms, const SurfaceOptions& options, const S
         evolveBand(field, options, scope, band, progress, report, warm);
         watch.stop("evolve");
     }
-    band.psi = LeafField();
     return band;
+}
+
+namespace
+{
+
+/// |grad psi| on the surface of each ball alone [1/Å].
+std::vector<double> slopesOf(const std::vector<Ball>& balls, const GaussianOptions& options,
+                             const std::vector<Decay>& decays)
+{
+    std::vector<double> slopes;
+    slopes.reserve(balls.size());
+    for (std::size_t i = 0; i < balls.size(); ++i)
+        slopes.push_back(2.0 * rateOf(balls[i], options, decays.empty() ? 0.0 : decays[i].rate) *
+                         (balls[i].radius + options.probe));
+    return slopes;
+}
+
+/// The slopes of the balls, at each voxel weighted by their terms of the sum: psi of the sum with
+/// the slopes as factors, less psi.
+LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
+                     const NarrowBand& band, Progress& progress)
+{
+    GaussianOptions gaussian = gaussianOptions(options);
+    std::vector<Decay> decays =
+        options.kind == SurfaceKind::Variational ? atoms.decays : std::vector<Decay>();
+    const std::vector<double> slopes = slopesOf(atoms.balls, gaussian, decays);
+    LeafField out(band.table.size());
+    const auto [least, most] = std::minmax_element(slopes.begin(), slopes.end());
+    if (*most - *least < 1e-4 * *most) {
+        parallelFor(band.table.size(), progress,
+                    [&](std::size_t n) { std::fill_n(out.leaf(n), leafSize, float(*most)); });
+        return out;
+    }
+    gaussian.extent = scope.extent ? scope.extent : extentOf(atoms.balls, gaussian, decays);
+    decays.resize(atoms.balls.size());
+    for (std::size_t i = 0; i < slopes.size(); ++i)
+        decays[i].level += float(std::log(slopes[i] / *most));
+    const LeafField weighted =
+        GaussianSum(atoms.balls, gaussian, decays).evaluate(band.table, progress);
+    parallelFor(band.table.size(), progress, [&](std::size_t n) {
+        const float *w = weighted.leaf(n), *psi = band.psi.leaf(n);
+        for (int v = 0; v < leafSize; ++v)
+            out.leaf(n)[v] =
+                std::clamp(float(*most) * std::exp(w[v] - psi[v]), float(*least), float(*most));
+    });
+    return out;
+}
+
+} // namespace
+
+LeafField carrierOf(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
+                    const NarrowBand& band, Progress& progress)
+{
+    const double h = options.voxel, width = bandWidthVox * h;
+    const LeafField slope = slopeField(atoms, options, scope, band, progress);
+    const EvolveOptions& evolution = options.evolution;
+    const bool valley =
+        options.kind == SurfaceKind::Variational && evolution.regularizer == Regularizer::Gradient;
+    return smoothCarrier(band.table, band.phi, {band.psi, slope, valley ? evolution.lambda : 0.0},
+                         h, width, progress);
 }
 
 bool isUnion(SurfaceKind kind)
@@ -188,6 +249,7 @@ DistanceBand offsetBand(DistanceBand S, const SurfaceOptions& options, Progress&
             for (int v = 0; v < leafSize; ++v) S.phi.leaf(n)[v] += float(offset);
         });
     }
+    if (options.kind == SurfaceKind::Variational) roundRidges(S, h, progress);
     if (options.minWall > 0.0) {
         const double width = splineWidthVox * h * (1 << options.splineLevel);
         thickenWalls(S, h, options.minWall, width, progress);
@@ -202,8 +264,7 @@ DistanceBand distanceBand(const LeafTable& table, LeafField phi, const SurfaceOp
 {
     const auto [inside, outside] = depthOf(options);
     return offsetBand(redistance(table, std::move(phi), options.voxel, inside, outside,
-                                 -offsetOf(options), progress,
-                                 scope.region.grown(scope.splineHalo)),
+                                 -offsetOf(options), progress, scope.region.grown(scope.ridgeHalo)),
                       options, progress);
 }
 
@@ -213,7 +274,7 @@ DistanceBand distanceBand(const std::vector<Ball>& balls, BallBoundary boundary,
     const auto [inside, outside] = depthOf(options);
     return offsetBand(distanceToUnion(balls, grownBy(options), std::move(boundary), options.voxel,
                                       inside, outside, progress,
-                                      scope.region.grown(scope.splineHalo)),
+                                      scope.region.grown(scope.ridgeHalo)),
                       options, progress);
 }
 

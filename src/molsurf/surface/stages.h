@@ -44,6 +44,7 @@ struct Scope {
     std::optional<GaussianExtent> extent; ///< of all balls of the molecule
     int flowHalo = 0;                     ///< of the evolved level set
     int distanceHalo = 0;                 ///< of the part of it that distances are taken to
+    int ridgeHalo = 0;                    ///< of S before its ridges are rounded
     int splineHalo = 0;                   ///< of S and its spline; a leaf less of the mesh
 };
 
@@ -71,6 +72,11 @@ GaussianExtent extentOf(const BallSet& atoms, const SurfaceOptions& options);
 NarrowBand makeBand(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
                     Progress& progress, Report& report, Stopwatch& watch,
                     WarmStart* warm = nullptr);
+
+/// The interface of a smooth surface as the zero set of a function that is smoother than its
+/// distance: see smoothCarrier(). Closest points are found on this one.
+LeafField carrierOf(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
+                    const NarrowBand& band, Progress& progress);
 
 /// Whether a surface is that of a union of balls.
 bool isUnion(SurfaceKind kind);

@@ -3,8 +3,10 @@
 
 #include "support/convergence.h"
 #include "support/fields.h"
+#include "support/molecules.h"
 
 #include <gtest/gtest.h>
+#include <openvdb/tools/VolumeToMesh.h>
 
 #include <cmath>
 
@@ -15,6 +17,15 @@ namespace
 
 using openvdb::Coord;
 using openvdb::Vec3d;
+
+/// Vertices of OpenVDB's mesh of a level set.
+std::vector<openvdb::Vec3f> verticesOf(const openvdb::FloatGrid& grid)
+{
+    std::vector<openvdb::Vec3s> points;
+    std::vector<openvdb::Vec4I> quads;
+    openvdb::tools::volumeToMesh(grid, points, quads);
+    return points;
+}
 
 /// The distance of a shape in a band of four voxels, redistanced.
 DistanceBand redistanced(const test::Function& distance, const Vec3d& centre, double extent,
@@ -208,6 +219,50 @@ TEST(Redistance, MarksNoKinkInASphereAboveItsCentre)
         kinksWhere(band, voxel, everywhere, total);
         EXPECT_EQ(total, 0u);
     }
+}
+
+// The surface of some Gaussians, which has creases: a voxel has the distance of the closest point
+// itself, also where one step from the nearest point known does not lead there.
+TEST(Redistance, IsExactBesideCreases)
+{
+    constexpr double voxel = 0.5, fine = 0.1, R = 3.1, slope = 4.0 * M_LN2;
+    const std::vector<Ball> balls = test::randomBalls(14, 9.0, Vec3d(0.1, -0.2, 0.3), 3);
+    const auto f = [&](const Vec3d& x) {
+        std::vector<double> terms;
+        for (const Ball& ball : balls)
+            terms.push_back(-slope / (2.0 * R) * ((x - Vec3d(ball.center)).lengthSqr() - R * R));
+        const double top = *std::max_element(terms.begin(), terms.end());
+        double sum = 0.0;
+        for (const double t : terms) sum += std::exp(t - top);
+        return -(top + std::log(sum)) / slope;
+    };
+    const DistanceBand band = redistanced(f, Vec3d(0.0), 9.0, voxel, 2.0, 1.0);
+    // The zero set of the spline is the surface.
+    const Spline spline = test::splineOf(f, f, Vec3d(0.0), 9.0, voxel, 4.0 * voxel);
+    SplineSampler sampler(spline);
+    const auto value = [&](const Vec3d& x) { return sampler.at(x).value; };
+    const LeafTable table = test::bandTable(f, Vec3d(0.0), 9.0, fine, 5.0 * fine);
+    const auto grid =
+        toLevelSet(table, test::filled(table, fine, value), 2.0 * fine, fine, Progress());
+    std::vector<Vec3d> points;
+    for (const openvdb::Vec3f& p : verticesOf(*grid)) points.emplace_back(p);
+    ASSERT_GT(points.size(), 20000u);
+
+    double worst = 0.0;
+    std::size_t count = 0, off = 0;
+    test::forEachActive(band.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+        // Some of those near the level that is wanted, which get the best distances.
+        if (v % 3 != 0 || std::abs(band.phi.leaf(n)[v] + 1.0) > 0.9) return;
+        double least2 = 1e9;
+        for (const Vec3d& p : points) least2 = std::min(least2, (x - p).lengthSqr());
+        const double e = std::abs(std::abs(band.phi.leaf(n)[v]) - std::sqrt(least2));
+        ++count;
+        worst = std::max(worst, e);
+        off += e > 0.05 * voxel;
+    });
+    EXPECT_GT(count, 500u);
+    EXPECT_LT(double(off), 0.004 * double(count)) << off << " of " << count;
+    EXPECT_LT(worst, 0.05); // [Å]
 }
 
 TEST(Redistance, OfNothingIsNothing)

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/carrier.h"
+
+#include "molsurf/core/parallel.h"
+#include "molsurf/core/simd.h"
+#include "molsurf/grid/leaf_block.h"
+#include "molsurf/levelset/stencil.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace molsurf
+{
+
+namespace
+{
+
+constexpr float unknown = 1e9f; // v where it is not known
+constexpr float near = 0.7f;    // of the interface: where v is taken [voxel]
+
+/// psi at the foot on the interface of each voxel of a mask, by its second-order expansion; left
+/// alone where the distance has no clear normal.
+void levelsAtFeet(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi,
+                  const LeafMask& mask, float voxel, float* out)
+{
+    constexpr float least = -3.0f, most = 1.0f, leastSlope = 0.3f;
+    const float inverse = 1.0f / voxel;
+    mask.forEach([&](int v) {
+        const float* p = psi.at(v >> 6, v >> 3 & 7, v & 7);
+        const float* f = phi.at(v >> 6, v >> 3 & 7, v & 7);
+        float nx = f[phi.strideX] - f[-phi.strideX], ny = f[phi.strideY] - f[-phi.strideY],
+              nz = f[1] - f[-1];
+        const float slope = std::sqrt(nx * nx + ny * ny + nz * nz);
+        if (slope * 0.5f * inverse < leastSlope) return;
+        nx /= slope;
+        ny /= slope;
+        nz /= slope;
+        const Derivatives d = derivatives<1>(p, inverse);
+        const float along = d.x * nx + d.y * ny + d.z * nz;
+        const float bend = nx * nx * d.xx + ny * ny * d.yy + nz * nz * d.zz +
+                           2.0f * (nx * ny * d.xy + ny * nz * d.yz + nx * nz * d.xz);
+        out[v] = std::clamp(*p - *f * along + 0.5f * *f * *f * bend, least, most);
+    });
+}
+
+using Block = LeafBlock<float, 3>;
+constexpr int blockSize = Block::dim * Block::dim * Block::dim;
+
+/// Sums with the weights (1, 2, 1) along each axis; the outermost voxels get nothing of use.
+MOLSURF_KERNEL void spread(const float* __restrict in, float* __restrict a, float* __restrict out)
+{
+    constexpr int x = Block::strideX, y = Block::strideY;
+    for (int i = 1; i < blockSize - 1; ++i) out[i] = in[i - 1] + 2.0f * in[i] + in[i + 1];
+    for (int i = y; i < blockSize - y; ++i) a[i] = out[i - y] + 2.0f * out[i] + out[i + y];
+    for (int i = x; i < blockSize - x; ++i) out[i] = a[i - x] + 2.0f * a[i] + a[i + x];
+}
+
+/// Splits v into values and weights, both 0 where it is not known.
+MOLSURF_KERNEL void split(const float* __restrict v, float* __restrict sum,
+                          float* __restrict weight)
+{
+    for (int i = 0; i < blockSize; ++i) {
+        const float on = v[i] < 0.5f * unknown ? 1.0f : 0.0f;
+        weight[i] = on;
+        sum[i] = on * v[i];
+    }
+}
+
+/// Unknown voxels become the mean of the known ones about them.
+/// @param[in] keep  1: known ones stay; 0: they become the mean, too
+MOLSURF_KERNEL void settleMeans(float* __restrict sum, float* __restrict weight,
+                                const float* __restrict sums, const float* __restrict weights,
+                                float keep)
+{
+    for (int i = 0; i < blockSize; ++i) {
+        const float has = weights[i] > 0.0f ? 1.0f : 0.0f;
+        const float mean = sums[i] / larger(weights[i], 1e-6f);
+        sum[i] += (1.0f - keep * weight[i]) * has * (mean - sum[i]);
+        weight[i] = larger(weight[i], has);
+    }
+}
+
+} // namespace
+
+LeafField smoothCarrier(const LeafTable& table, const LeafField& phi, const CarrierSource& source,
+                        double voxelSize, double width, const Progress& progress)
+{
+    LeafField levels(table.size()), out(table.size());
+    parallelFor(table.size(), progress, [&](std::size_t n) {
+        std::fill_n(levels.leaf(n), leafSize, unknown);
+        const LeafMask mask = table.active(n) & within(phi.leaf(n), near * float(voxelSize));
+        if (!mask.any()) return;
+        LeafBlock<float, 1> f, p;
+        f.gather(table, phi, n);
+        p.gather(table, source.psi, n);
+        levelsAtFeet(f, p, mask, float(voxelSize), levels.leaf(n));
+    });
+    const float limit = float(2.0 * width), lambda = float(source.lambda);
+    parallelFor(table.size(), progress, [&](std::size_t n) {
+        Block v;
+        v.gather(table, levels, n);
+        alignas(64) float sum[blockSize], weight[blockSize],
+            sums[blockSize] = {}, weights[blockSize] = {}, scratch[blockSize] = {};
+        split(v.values, sum, weight);
+        for (int round = 0; round < 3; ++round) { // two of extension, one of smoothing
+            spread(sum, scratch, sums);
+            spread(weight, scratch, weights);
+            settleMeans(sum, weight, sums, weights, round == 2 ? 0.0f : 1.0f);
+        }
+        const float *psi = source.psi.leaf(n), *slope = source.slope.leaf(n),
+                    *distance = phi.leaf(n);
+        float* to = out.leaf(n);
+        for (int i = 0; i < leafSize; ++i) {
+            const int at = v.at(i >> 6, i >> 3 & 7, i & 7) - v.values;
+            // Far from the interface, where v is not known, the bottom of the valley serves, unless
+            // it is on the other side: in a cavity that was filled.
+            const bool known = weight[at] > 0.0f;
+            const float level = known ? sum[at] : -std::log1p(lambda * slope[i] * slope[i]);
+            const float value = std::clamp((level - psi[i]) / slope[i], -limit, limit);
+            to[i] = known || value * distance[i] > 0.0f ? value : distance[i];
+        }
+    });
+    return out;
+}
+
+} // namespace molsurf

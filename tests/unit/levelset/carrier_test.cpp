@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/carrier.h"
+
+#include "molsurf/levelset/gaussian_sum.h"
+#include "molsurf/levelset/initial_surface.h"
+#include "support/fields.h"
+#include "support/molecules.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3d;
+
+constexpr double epsilon = 0.5, slope = 2.0 * M_LN2 / epsilon;
+
+/// psi of some balls, phi of psi = 0, and the carrier of that.
+struct Fields {
+    LeafTable table;
+    LeafField psi, phi, carrier;
+};
+
+Fields fieldsOf(const std::vector<Ball>& balls, double voxel,
+                const std::function<void(Fields&)>& change = nullptr)
+{
+    constexpr int width = 3;
+    GaussianOptions options;
+    options.voxel = voxel;
+    options.reach = (width + 1.5) * voxel;
+    const GaussianSum sum(balls, options);
+    Fields f;
+    f.table = sum.band(width, Progress());
+    f.psi = sum.evaluate(f.table, Progress());
+    f.phi = initialSurface(f.table, f.psi, voxel, width * voxel, Progress());
+    if (change) change(f);
+    LeafField slopes(f.table.size());
+    for (std::size_t n = 0; n < f.table.size(); ++n)
+        std::fill_n(slopes.leaf(n), leafSize, float(slope));
+    f.carrier =
+        smoothCarrier(f.table, f.phi, {f.psi, slopes, 0.0}, voxel, width * voxel, Progress());
+    return f;
+}
+
+const std::vector<Ball> pair = {{{-2.13f, 0.2f, 0.1f}, 1.7f, 0}, {{2.21f, -0.1f, 0.3f}, 1.7f, 1}};
+
+// On psi = 0 itself v is 0, and nothing but psi is left.
+TEST(SmoothCarrier, IsPsiOverItsSlopeOnPsiZero)
+{
+    for (const double voxel : {0.5, 0.25}) {
+        const Fields f = fieldsOf(pair, voxel);
+        double worst = 0.0;
+        std::size_t near = 0;
+        test::forEachActive(f.table, voxel, [&](std::size_t n, int v, const Vec3d&) {
+            if (std::abs(f.phi.leaf(n)[v]) > voxel) return;
+            ++near;
+            worst = std::max(worst, std::abs(f.carrier.leaf(n)[v] + f.psi.leaf(n)[v] / slope));
+        });
+        EXPECT_GT(near, 500u);
+        EXPECT_LT(worst, 0.02) << voxel; // [Å]
+    }
+}
+
+// The third difference along an axis across the crease between the balls: that of the distance
+// does not fall with the voxel, since it has a ridge there.
+TEST(SmoothCarrier, HasNoRidgeOutsideACrease)
+{
+    constexpr double voxel = 0.25;
+    const Fields f = fieldsOf(pair, voxel);
+    const auto rough = [&](const LeafField& field) {
+        double worst = 0.0;
+        for (std::size_t n = 0; n < f.table.size(); ++n) {
+            for (int v = 0; v < leafSize; ++v) {
+                const int x = v >> 6;
+                if (x > 4 || std::abs(f.phi.leaf(n)[v + 64]) > 1.5 * voxel ||
+                    std::abs(f.phi.leaf(n)[v + 128]) > 1.5 * voxel)
+                    continue;
+                const float* p = field.leaf(n) + v;
+                worst =
+                    std::max(worst, double(std::abs(p[192] - 3.0f * p[128] + 3.0f * p[64] - p[0])));
+            }
+        }
+        return worst / voxel;
+    };
+    EXPECT_LT(rough(f.carrier), 0.5 * rough(f.phi)) << rough(f.phi);
+}
+
+// A hollow that was filled has no interface any more: psi alone would bring it back.
+TEST(SmoothCarrier, KeepsFilledHollowsFilled)
+{
+    std::vector<Ball> shell;
+    for (int i = 0; i < 60; ++i) { // a Fibonacci lattice
+        const double z = 1.0 - (2.0 * i + 1.0) / 60, angle = 2.399963229728653 * i;
+        const Vec3d c(std::sqrt(1.0 - z * z) * Vec3d(std::cos(angle), std::sin(angle), 0.0) +
+                      Vec3d(0.0, 0.0, z));
+        shell.push_back({openvdb::Vec3f(6.0 * c), 1.7f, i});
+    }
+    constexpr double voxel = 0.5, width = 3.0 * voxel;
+    const auto fill = [&](Fields& f) {
+        for (std::size_t n = 0; n < f.table.size(); ++n) {
+            for (int v = 0; v < leafSize; ++v) {
+                const openvdb::Coord c = f.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+                if ((c.asVec3d() * voxel).length() < 5.0) f.phi.leaf(n)[v] = -float(width);
+            }
+        }
+    };
+    std::size_t hollow = 0, wrong = 0;
+    const Fields f = fieldsOf(shell, voxel, fill);
+    for (std::size_t n = 0; n < f.table.size(); ++n) {
+        for (int v = 0; v < leafSize; ++v) {
+            const openvdb::Coord c = f.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+            if ((c.asVec3d() * voxel).length() > 4.5) continue;
+            hollow += f.psi.leaf(n)[v] < -0.5f;
+            wrong += f.carrier.leaf(n)[v] >= 0.0f;
+        }
+    }
+    EXPECT_GT(hollow, 100u);
+    EXPECT_EQ(wrong, 0u);
+}
+
+} // namespace
+} // namespace molsurf
