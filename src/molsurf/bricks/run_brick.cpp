@@ -85,12 +85,12 @@ openvdb::GridBase::Ptr sasGrid(const BallSet& atoms, const SurfaceOptions& optio
     const double width = surfaceWidthVox * options.voxel;
     openvdb::FloatGrid::Ptr grid;
     if (options.kind == SurfaceKind::Variational) {
-        grid = toLevelSet(band.table, band.phi, width, options.voxel, progress);
+        grid = toLevelSet(band.phi, width, progress);
     } else {
-        const DistanceBand exact = distanceToUnion(
-            atoms.balls, options.probe, ballBoundary(atoms.balls, options.probe, progress),
-            options.voxel, width, width, progress, scope.region.owned);
-        grid = toLevelSet(exact.table, exact.phi, width, options.voxel, progress);
+        const DistanceBand exact =
+            distanceToUnion(unionOf(atoms.balls, options.probe, progress), options.voxel,
+                            {width, width}, progress, scope.region.owned);
+        grid = toLevelSet(exact.phi, width, progress);
     }
     grid->setName("sas");
     return owned(grid, scope.region.owned);
@@ -103,9 +103,9 @@ void finish(const BallSet& atoms, const SurfaceOptions& options, const Scope& sc
 {
     const CoordBBox& box = scope.region.owned;
     progress.update("spline", 0.0);
-    Spline spline = fitSpline(S.table, S.phi, options.voxel, 0, progress);
+    Spline spline = fitSpline(S.phi, 0, progress);
     watch.stop("spline");
-    auto surface = surfaceGrid(S.table, std::move(S.phi), options.voxel, scope, progress);
+    auto surface = surfaceGrid(std::move(S.phi), scope, progress);
     closeSides(*surface);
     if (!keepsMemory) releasePages(); // grids and meshes have memory of their own
     watch.stop("redistance");
@@ -133,10 +133,10 @@ void finish(const BallSet& atoms, const SurfaceOptions& options, const Scope& sc
                           scope.region.anchor.asVec3d() * options.voxel, sources, progress);
     result.mesh = std::move(brick.mesh.mesh);
     std::vector<float> slopes;
-    slopes.reserve(sources.size());
-    for (const std::uint32_t v : sources) slopes.push_back(stats.slopes[v]);
+    slopes.reserve(brick.mesh.owned);
+    for (std::size_t v = 0; v < brick.mesh.owned; ++v) slopes.push_back(stats.slopes[sources[v]]);
     const GradientCounts counts =
-        countGradients(result.mesh, slopes, brick.mesh.owned, S, options.voxel, progress);
+        countGradients(result.mesh, slopes, S.kinks, options.voxel, progress);
     brick.kinkVertices = counts.kink;
     brick.unitVertices = counts.unit;
     for (std::size_t v = 0; v < brick.mesh.owned; ++v)
@@ -172,7 +172,7 @@ Scope brickScope(const SurfaceOptions& options, const Region& region, const Gaus
     scope.splineHalo = 2;
     if (isUnion(options.kind)) return scope;
     // S is the distance to closest points, which lie on a spline of their own.
-    const auto [inside, outside] = depthOf(options);
+    const auto [inside, outside] = widthsOf(options);
     constexpr double overhang = 2.5; // [voxel]
     scope.distanceHalo =
         scope.splineHalo + leavesFor(std::max(inside, outside) / options.voxel + overhang);
@@ -187,7 +187,7 @@ double ballReach(const SurfaceOptions& options, const GaussianExtent& extent)
     const double h = options.voxel, R = extent.largest + options.probe;
     const double leaf = leafDim * h, tolerance = extent.tolerance;
     // A ball's boundary takes part in the distance of its depth, and is cut by balls two radii off.
-    const double unions = 3.0 * R + depthOf(options).inside + leaf;
+    const double unions = 3.0 * R + widthsOf(options).inside + leaf;
     const double sums =
         std::max(cutoff(extent, std::max(gaussianOptions(options).reach, 2.0 * tolerance)),
                  extent.swollen + 3.0 * tolerance + h + 2.0 * leaf);
@@ -264,21 +264,18 @@ Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope&
     Stopwatch watch(report);
     NarrowBand band;
     DistanceBand S;
+    band.phi.voxelSize = S.phi.voxelSize = options.voxel;
     if (!atoms.balls.empty()) {
         band = makeBand(atoms, options, scope, progress, report, watch);
-        if (band.table.size() > 0) {
-            const LeafTable near = clipped(band.table, scope.region.grown(scope.distanceHalo));
-            band.phi = restricted(band.table, band.phi, near, progress);
-            band.table = near;
-        }
+        band.phi = clipped(std::move(band.phi), scope.region.grown(scope.distanceHalo), progress);
         progress.update("redistance", 0.0);
         const bool kept = hasField(options.fields, "sas");
         if (isUnion(options.kind)) {
-            S = distanceBand(atoms.balls, ballBoundary(atoms.balls, grownBy(options), progress),
-                             options, scope, progress);
-        } else if (band.table.size() > 0) {
-            S = distanceBand(band.table, kept ? copied(band.phi) : std::move(band.phi), options,
-                             scope, progress);
+            S = distanceBand(unionOf(atoms.balls, grownBy(options), progress), options, scope,
+                             progress);
+        } else {
+            S = distanceBand(kept ? copied(band.phi) : std::move(band.phi), options, scope,
+                             progress);
         }
         watch.stop("redistance");
     }

@@ -38,8 +38,7 @@ namespace
 /// The voxels of the cavities of a surface.
 /// @param[in] mesh  of S = 0
 /// @return one mask a leaf of S; empty if there are none
-std::vector<LeafMask> cavityVoxels(const Mesh& mesh, const DistanceBand& S, double voxel,
-                                   const Progress& progress)
+std::vector<LeafMask> cavityVoxels(const Mesh& mesh, const SparseField& S, const Progress& progress)
 {
     std::size_t count = 0;
     const std::vector<std::uint32_t> pieces = connectedPieces(mesh, count, progress);
@@ -49,13 +48,13 @@ std::vector<LeafMask> cavityVoxels(const Mesh& mesh, const DistanceBand& S, doub
     // hang together with the outer surface, where a wall is thinner than a voxel, are no cavity.
     std::vector<LeafMask> positive(S.table.size()), walls(S.table.size()), skin(S.table.size());
     for (std::size_t n = 0; n < S.table.size(); ++n) {
-        positive[n] = ~lessThan(S.phi.leaf(n), 0.0f);
+        positive[n] = ~lessThan(S.leaf(n), 0.0f);
     }
     bool any = false;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const bool cavity = volumes[pieces[i]] < 0.0;
         any = any || cavity;
-        const openvdb::Vec3d x = openvdb::Vec3d(mesh.positions[i]) / voxel;
+        const openvdb::Vec3d x = openvdb::Vec3d(mesh.positions[i]) / S.voxelSize;
         const openvdb::Coord cell = openvdb::Coord::floor(x);
         for (int k = 0; k < 8; ++k) {
             const openvdb::Coord corner = cell.offsetBy(k >> 2, k >> 1 & 1, k & 1);
@@ -74,43 +73,44 @@ std::vector<LeafMask> cavityVoxels(const Mesh& mesh, const DistanceBand& S, doub
 }
 
 /// Makes voxels inner ones, and the level set a distance again.
-void turnInside(const LeafTable& table, const std::vector<LeafMask>& voxels, double voxel,
-                double width, LeafField& phi, Progress& progress)
+/// @param[in] voxels  one mask a leaf
+/// @param[in] width   half width of the level set's band [Å]
+void fillVoxels(const std::vector<LeafMask>& voxels, double width, SparseField& phi,
+                Progress& progress)
 {
-    for (std::size_t n = 0; n < table.size(); ++n) {
+    for (std::size_t n = 0; n < phi.table.size(); ++n) {
         voxels[n].forEach([&](int v) { phi.leaf(n)[v] = float(-width); });
     }
-    LeafField scratch;
-    reinitialize(table, phi, voxel, width, int(std::ceil(2.0 * width / voxel)), scratch, progress);
+    reinitialize(phi, width, int(std::ceil(2.0 * width / phi.voxelSize)), progress);
 }
 
 /// Closes the cavities of a surface in the level set that it was offset from, which holds them.
-void fillCavities(const std::vector<LeafMask>& cavities, const DistanceBand& S, double voxel,
-                  NarrowBand& band, Progress& progress)
+/// @param[in] cavities  one mask a leaf of S
+void fillCavities(const std::vector<LeafMask>& cavities, const LeafTable& S, SparseField& phi,
+                  Progress& progress)
 {
-    std::vector<LeafMask> outside(band.table.size()), start(band.table.size());
-    for (std::size_t n = 0; n < band.table.size(); ++n) {
-        outside[n] = ~lessThan(band.phi.leaf(n), 0.0f);
-        const std::int32_t m = S.table.find(band.table.origin(n));
+    std::vector<LeafMask> outside(phi.table.size()), start(phi.table.size());
+    for (std::size_t n = 0; n < phi.table.size(); ++n) {
+        outside[n] = ~lessThan(phi.leaf(n), 0.0f);
+        const std::int32_t m = S.find(phi.table.origin(n));
         if (m != noLeaf) start[n] = cavities[m];
     }
-    turnInside(band.table, connectedTo(band.table, outside, start), voxel, bandWidthVox * voxel,
-               band.phi, progress);
+    fillVoxels(connectedTo(phi.table, outside, start), bandWidthVox * phi.voxelSize, phi, progress);
 }
 
 /// Closes the cavities of a surface in its own distance, which changes about them alone.
-void fillCavities(const std::vector<LeafMask>& cavities, double voxel, DistanceBand& S,
-                  Progress& progress)
+/// @param[in] cavities  one mask a leaf of S
+void fillCavities(const std::vector<LeafMask>& cavities, SparseField& S, Progress& progress)
 {
-    LeafField filled = copied(S.phi);
-    turnInside(S.table, cavities, voxel, splineWidthVox * voxel, filled, progress);
+    SparseField filled = copied(S);
+    fillVoxels(cavities, splineWidthVox * S.voxelSize, filled, progress);
     LeafTable about = S.table;
     for (std::size_t n = 0; n < about.size(); ++n) about.active(n) = cavities[n];
     about = dilated(about, 2 * int(splineWidthVox), Spread::Ball, progress);
     parallelFor(S.table.size(), progress, [&](std::size_t n) {
         const std::int32_t m = about.find(S.table.origin(n));
         if (m == noLeaf) return;
-        about.active(m).forEach([&](int v) { S.phi.leaf(n)[v] = filled.leaf(n)[v]; });
+        about.active(m).forEach([&](int v) { S.leaf(n)[v] = filled.leaf(n)[v]; });
     });
 }
 
@@ -184,13 +184,13 @@ MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, P
     MeshTolerance tolerance{};
     if (unionOfBalls) {
         progress.update("redistance", 0.0);
-        BallBoundary boundary = ballBoundary(balls, grownBy(options), progress);
+        BallUnion set = unionOf(balls, grownBy(options), progress);
         if (isClosedForm(options)) {
-            exact = measureBoundary(boundary, progress);
-            checkBoundary(boundary, exact, progress);
-            tolerance = meshTolerance(boundary, exact, options.voxel);
+            exact = measureBoundary(set.boundary, progress);
+            checkBoundary(set.boundary, exact, progress);
+            tolerance = meshTolerance(set.boundary, exact, options.voxel);
         }
-        S = distanceBand(balls, std::move(boundary), options, everything, progress);
+        S = distanceBand(std::move(set), options, everything, progress);
     }
     Spline spline;
     ExtractStats stats;
@@ -198,21 +198,20 @@ MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, P
         progress.update("redistance", 0.0);
         if (!unionOfBalls) {
             const bool kept = options.fillCavities || hasField(options.fields, "sas");
-            S = distanceBand(band.table, kept ? copied(band.phi) : std::move(band.phi), options,
-                             everything, progress);
+            S = distanceBand(kept ? copied(band.phi) : std::move(band.phi), options, everything,
+                             progress);
             if (!kept) band = NarrowBand();
         }
         watch.stop("redistance");
 
         progress.update("spline", 0.0);
-        spline = fitSpline(S.table, S.phi, options.voxel, options.splineLevel, progress);
-        if (options.splineLevel > 0) resample(S, spline, options.voxel, progress);
+        spline = fitSpline(S.phi, options.splineLevel, progress);
+        if (options.splineLevel > 0) resample(S.phi, spline, progress);
         watch.stop("spline");
 
         progress.update("redistance", 0.6);
-        result.surface =
-            surfaceGrid(S.table, options.fillCavities ? copied(S.phi) : std::move(S.phi),
-                        options.voxel, everything, progress);
+        result.surface = surfaceGrid(options.fillCavities ? copied(S.phi) : std::move(S.phi),
+                                     everything, progress);
         releasePages(); // grids and meshes have memory of their own
         watch.stop("redistance");
 
@@ -225,13 +224,12 @@ MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, P
                         "`voxel`, `lambda` or `epsilon`]");
         }
         if (filled || !options.fillCavities) break;
-        const std::vector<LeafMask> cavities =
-            cavityVoxels(result.mesh, S, options.voxel, progress);
+        const std::vector<LeafMask> cavities = cavityVoxels(result.mesh, S.phi, progress);
         if (cavities.empty()) break;
         if (unionOfBalls) {
-            fillCavities(cavities, options.voxel, S, progress);
+            fillCavities(cavities, S.phi, progress);
         } else {
-            fillCavities(cavities, S, options.voxel, band, progress);
+            fillCavities(cavities, S.phi.table, band.phi, progress);
         }
     }
 
@@ -244,7 +242,7 @@ MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, P
     report.surface.maxResidual = stats.maxResidual;
     const std::size_t vertices = stats.slopes.size();
     const GradientCounts counts =
-        countGradients(result.mesh, stats.slopes, vertices, S, options.voxel, progress);
+        countGradients(result.mesh, stats.slopes, S.kinks, options.voxel, progress);
     report.surface.kinkShare = vertices ? double(counts.kink) / vertices : 0.0;
     report.surface.gradientShare = double(counts.unit) / double(vertices - counts.kink); // or 0/0
     addCurvature(spline, options.fields, result.mesh, progress);
@@ -259,13 +257,10 @@ MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, P
     if (hasField(options.fields, "sas")) {
         const double width = surfaceWidthVox * options.voxel;
         if (options.kind != SurfaceKind::Variational) {
-            DistanceBand exact =
-                distanceToUnion(balls, options.probe, ballBoundary(balls, options.probe, progress),
-                                options.voxel, width, width, progress);
-            band.table = std::move(exact.table);
-            band.phi = std::move(exact.phi);
+            BallUnion set = unionOf(balls, options.probe, progress);
+            band.phi = distanceToUnion(std::move(set), options.voxel, {width, width}, progress).phi;
         }
-        auto sas = toLevelSet(band.table, band.phi, width, options.voxel, progress);
+        auto sas = toLevelSet(band.phi, width, progress);
         sas->setName("sas");
         result.fields.push_back(sas);
     }

@@ -28,26 +28,24 @@ namespace
 {
 
 /// psi and the level set of psi = 0.
-NarrowBand gaussianBand(const GaussianSum& field, double voxel, const Scope& scope,
-                        Progress& progress, Stopwatch& watch)
+NarrowBand gaussianBand(const GaussianSum& field, const Scope& scope, Progress& progress,
+                        Stopwatch& watch)
 {
     progress.update("density", 0.0);
-    NarrowBand band;
-    band.table = field.band(bandWidthVox, progress, scope.region.grown(scope.flowHalo));
-    if (band.table.size() == 0) {
-        if (!scope.region.whole()) return band;
+    LeafTable table = field.band(bandWidthVox, progress, scope.region.grown(scope.flowHalo));
+    if (table.size() == 0 && scope.region.whole()) {
         throw Error(ErrorKind::Numeric,
                     "density: no voxel lies inside the surface [hint: a smaller "
                     "`voxel`]");
     }
     progress.update("density", 0.6);
-    band.psi = field.evaluate(band.table, progress);
+    SparseField psi = field.evaluate(std::move(table), progress);
     watch.stop("density");
 
     progress.update("initial", 0.0);
-    band.phi = initialSurface(band.table, band.psi, voxel, bandWidthVox * voxel, progress);
+    SparseField phi = initialSurface(psi, bandWidthVox * psi.voxelSize, progress);
     watch.stop("initial");
-    return band;
+    return {std::move(phi), std::move(psi.values)};
 }
 
 /// How far from the balls of a sum psi is wanted [Å]: stencils reach a voxel beyond the band, along
@@ -57,43 +55,39 @@ double gaussianReach(double voxel)
     return (bandWidthVox + 1.5) * voxel;
 }
 
-/// Adds to the surface of psi = 0 what the flow of the frame before added to its own, and keeps it
-/// as it was in `cold`.
-void addCorrection(const WarmStart& warm, double voxel, NarrowBand& band, LeafField& cold,
-                   Progress& progress)
+/// Adds to the surface of psi = 0 what the flow of the frame before added to its own.
+/// @return the surface as it was
+SparseField addCorrection(const WarmStart& warm, SparseField& phi, Progress& progress)
 {
     constexpr int repairs = 2; // the sum is nearly a distance
-    const float width = float(bandWidthVox * voxel);
-    cold = LeafField(band.table.size());
-    parallelFor(band.table.size(), progress, [&](std::size_t n) {
-        float* phi = band.phi.leaf(n);
-        std::copy_n(phi, leafSize, cold.leaf(n));
-        const std::int32_t m = warm.empty() ? noLeaf : warm.state->table.find(band.table.origin(n));
+    const float width = float(bandWidthVox * phi.voxelSize);
+    SparseField cold = copied(phi);
+    if (warm.empty()) return cold;
+    const SparseField& correction = warm.state->correction;
+    parallelFor(phi.table.size(), progress, [&](std::size_t n) {
+        const std::int32_t m = correction.table.find(phi.table.origin(n));
         if (m == noLeaf) return;
-        const float* correction = warm.state->correction.leaf(m);
         for (int v = 0; v < leafSize; ++v)
-            phi[v] = std::clamp(phi[v] + correction[v], -width, width);
+            phi.leaf(n)[v] = std::clamp(phi.leaf(n)[v] + correction.leaf(m)[v], -width, width);
     });
-    if (warm.empty()) return;
-    LeafField scratch;
-    reinitialize(band.table, band.phi, voxel, width, repairs, scratch, progress);
+    reinitialize(phi, width, repairs, progress);
+    return cold;
 }
 
 /// What the next frame wants: how far the flow went from `cold`, where both are known.
-WarmStart correctionOf(const LeafTable& before, const LeafField& cold, const NarrowBand& band,
-                       double voxel, Progress& progress)
+WarmStart correctionOf(const SparseField& cold, const SparseField& phi, Progress& progress)
 {
-    const float width = float(bandWidthVox * voxel) * 0.999f;
+    const float width = float(bandWidthVox * phi.voxelSize) * 0.999f;
     WarmStart warm;
     warm.state = std::make_unique<WarmStart::State>();
-    warm.state->table = band.table;
-    warm.state->correction = LeafField(band.table.size());
-    parallelFor(band.table.size(), progress, [&](std::size_t n) {
-        float* out = warm.state->correction.leaf(n);
+    SparseField& correction = warm.state->correction;
+    correction = {phi.table, LeafField(phi.table.size()), phi.voxelSize};
+    parallelFor(phi.table.size(), progress, [&](std::size_t n) {
+        float* out = correction.leaf(n);
         std::fill_n(out, leafSize, 0.0f);
-        const std::int32_t m = before.find(band.table.origin(n));
+        const std::int32_t m = cold.table.find(phi.table.origin(n));
         if (m == noLeaf) return;
-        const float *from = cold.leaf(m), *to = band.phi.leaf(n);
+        const float *from = cold.leaf(m), *to = phi.leaf(n);
         for (int v = 0; v < leafSize; ++v)
             if (std::abs(from[v]) < width && std::abs(to[v]) < width) out[v] = to[v] - from[v];
     });
@@ -105,16 +99,15 @@ void evolveBand(const GaussianSum& field, const SurfaceOptions& options, const S
                 NarrowBand& band, Progress& progress, Report& report, WarmStart* warm)
 {
     const double h = options.voxel, reach = gaussianReach(h);
-    const LeafTable before = band.table;
-    LeafField cold;
-    if (warm) addCorrection(*warm, h, band, cold, progress);
+    SparseField cold;
+    if (warm) cold = addCorrection(*warm, band.phi, progress);
     const auto source = [&](const openvdb::Coord& origin, float* psi) {
         field.evaluate(origin, reach, psi);
     };
     EvolveOptions evolution = options.evolution;
     evolution.splineLevel = options.splineLevel;
-    report.evolution = evolve(band, source, h, evolution, progress, scope.region, scope.flowHalo);
-    if (warm) *warm = correctionOf(before, cold, band, h, progress);
+    report.evolution = evolve(band, source, evolution, progress, scope.region, scope.flowHalo);
+    if (warm) *warm = correctionOf(cold, band.phi, progress);
     constexpr double noticeable = 0.1; // [voxel]
     if (report.evolution->converged && report.evolution->remainingWay > noticeable * h) {
         report.warnings.push_back(
@@ -141,7 +134,7 @@ NarrowBand makeBand(const BallSet& atoms, const SurfaceOptions& options, const S
     GaussianOptions gaussian = gaussianOptions(options);
     gaussian.extent = scope.extent;
     const GaussianSum field(atoms.balls, gaussian, evolves ? atoms.decays : std::vector<Decay>());
-    NarrowBand band = gaussianBand(field, options.voxel, scope, progress, watch);
+    NarrowBand band = gaussianBand(field, scope, progress, watch);
     if (evolves) {
         progress.update("evolve", 0.0);
         evolveBand(field, options, scope, band, progress, report, warm);
@@ -168,7 +161,7 @@ double grownBy(const SurfaceOptions& options)
     return options.kind == SurfaceKind::VanDerWaals ? 0.0 : options.probe;
 }
 
-Depth depthOf(const SurfaceOptions& options)
+BandWidths widthsOf(const SurfaceOptions& options)
 {
     const double h = options.voxel, width = splineWidthVox * h * (1 << options.splineLevel);
     const double offset = offsetOf(options);
@@ -184,96 +177,84 @@ DistanceBand offsetBand(DistanceBand S, const SurfaceOptions& options, Progress&
 {
     const double h = options.voxel, offset = offsetOf(options);
     if (offset > 0.0) {
-        parallelFor(S.table.size(), progress, [&](std::size_t n) {
+        parallelFor(S.phi.table.size(), progress, [&](std::size_t n) {
             for (int v = 0; v < leafSize; ++v) S.phi.leaf(n)[v] += float(offset);
         });
     }
     if (options.minWall > 0.0) {
         const double width = splineWidthVox * h * (1 << options.splineLevel);
-        thickenWalls(S, h, options.minWall, width, progress);
+        thickenWalls(S, options.minWall, width, progress);
     }
     return S;
 }
 
 } // namespace
 
-DistanceBand distanceBand(const LeafTable& table, LeafField phi, const SurfaceOptions& options,
-                          const Scope& scope, Progress& progress)
+DistanceBand distanceBand(SparseField phi, const SurfaceOptions& options, const Scope& scope,
+                          Progress& progress)
 {
-    const auto [inside, outside] = depthOf(options);
-    return offsetBand(redistance(table, std::move(phi), options.voxel, inside, outside,
-                                 -offsetOf(options), progress,
+    return offsetBand(redistance(std::move(phi), widthsOf(options), -offsetOf(options), progress,
                                  scope.region.grown(scope.splineHalo)),
                       options, progress);
 }
 
-DistanceBand distanceBand(const std::vector<Ball>& balls, BallBoundary boundary,
-                          const SurfaceOptions& options, const Scope& scope, Progress& progress)
+DistanceBand distanceBand(BallUnion set, const SurfaceOptions& options, const Scope& scope,
+                          Progress& progress)
 {
-    const auto [inside, outside] = depthOf(options);
-    return offsetBand(distanceToUnion(balls, grownBy(options), std::move(boundary), options.voxel,
-                                      inside, outside, progress,
+    return offsetBand(distanceToUnion(std::move(set), options.voxel, widthsOf(options), progress,
                                       scope.region.grown(scope.splineHalo)),
                       options, progress);
 }
 
-void resample(DistanceBand& S, const Spline& spline, double voxel, Progress& progress)
+void resample(SparseField& S, const Spline& spline, Progress& progress)
 {
-    const float width = float(splineWidthVox * voxel);
+    const float width = float(splineWidthVox * S.voxelSize);
     parallelFor(S.table.size(), progress, [&](std::size_t n) {
         SplineSampler sampler(spline);
         LeafMask near;
         S.table.active(n).forEach([&](int v) {
-            float& value = S.phi.leaf(n)[v];
+            float& value = S.leaf(n)[v];
             if (std::abs(value) >= width) return;
             const openvdb::Coord ijk = S.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
-            value = float(sampler.at(ijk.asVec3d() * voxel).value);
+            value = float(sampler.at(ijk.asVec3d() * S.voxelSize).value);
             near.set(v);
         });
         S.table.active(n) = near;
     });
 }
 
-openvdb::FloatGrid::Ptr surfaceGrid(LeafTable table, LeafField phi, double voxel,
-                                    const Scope& scope, Progress& progress)
+openvdb::FloatGrid::Ptr surfaceGrid(SparseField S, const Scope& scope, Progress& progress)
 {
-    const double width = surfaceWidthVox * voxel;
-    parallelFor(table.size(), progress,
-                [&](std::size_t n) { table.active(n) &= within(phi.leaf(n), float(width)); });
+    const double width = surfaceWidthVox * S.voxelSize;
+    parallelFor(S.table.size(), progress,
+                [&](std::size_t n) { S.table.active(n) &= within(S.leaf(n), float(width)); });
     // Two voxels outward from where sheets of S meet: farther out few of them are still wrong.
-    LeafField scratch;
-    reinitialize(table, phi, voxel, width, 4, scratch, progress);
-    if (!scope.region.whole()) {
-        // A leaf inside the cut, values are those of the whole surface.
-        const LeafTable inner = clipped(table, scope.region.grown(scope.splineHalo - 1));
-        phi = restricted(table, phi, inner, progress);
-        table = inner;
-    }
-    auto grid = toLevelSet(table, phi, width, voxel, progress);
+    reinitialize(S, width, 4, progress);
+    // A leaf inside the cut, values are those of the whole surface.
+    S = clipped(std::move(S), scope.region.grown(scope.splineHalo - 1), progress);
+    auto grid = toLevelSet(S, width, progress);
     grid->setName("surface");
     return grid;
 }
 
 GradientCounts countGradients(const Mesh& mesh, const std::vector<float>& slopes,
-                              std::size_t vertices, const DistanceBand& S, double voxel,
-                              Progress& progress)
+                              const LeafTable& kinks, double voxelSize, Progress& progress)
 {
     constexpr int kinkVox = 2;
     constexpr double gradientTolerance = 0.03;
-    LeafTable kinks = S.table;
-    for (std::size_t n = 0; n < kinks.size(); ++n) kinks.active(n) = S.kinks[n];
-    kinks = dilated(kinks, kinkVox, Spread::Ball, progress);
+    const LeafTable nearKinks = dilated(kinks, kinkVox, Spread::Ball, progress);
 
     constexpr std::size_t chunk = 512;
+    const std::size_t vertices = slopes.size();
     const auto count = [&](std::size_t c) {
         GradientCounts sum;
         for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v) {
             const openvdb::Vec3d x(mesh.positions[v]);
-            const openvdb::Coord near = openvdb::Coord::round(x / voxel);
-            const std::int32_t n = kinks.find(near);
+            const openvdb::Coord near = openvdb::Coord::round(x / voxelSize);
+            const std::int32_t n = nearKinks.find(near);
             const bool kink =
                 n != noLeaf &&
-                kinks.active(n).on(int(openvdb::FloatTree::LeafNodeType::coordToOffset(near)));
+                nearKinks.active(n).on(int(openvdb::FloatTree::LeafNodeType::coordToOffset(near)));
             sum += {std::size_t(kink),
                     std::size_t(!kink && std::abs(slopes[v] - 1.0f) < gradientTolerance)};
         }

@@ -5,11 +5,11 @@
 /// The stages that a run of a whole molecule and that of a brick of it have in common.
 
 #include "molsurf/atoms.h"
-#include "molsurf/balls/ball_boundary.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/grid/distance_band.h"
 #include "molsurf/grid/region.h"
 #include "molsurf/levelset/gaussian_sum.h"
+#include "molsurf/levelset/union_distance.h"
 #include "molsurf/mesh.h"
 #include "molsurf/options.h"
 #include "molsurf/progress.h"
@@ -81,30 +81,25 @@ double offsetOf(const SurfaceOptions& options);
 /// The probe that the balls of a union surface are grown by [Å].
 double grownBy(const SurfaceOptions& options);
 
-/// How far from the surface of its set the distance is computed [Å].
-struct Depth {
-    double inside, outside;
-};
-Depth depthOf(const SurfaceOptions& options);
+/// How far from the surface of its set the distance is computed.
+BandWidths widthsOf(const SurfaceOptions& options);
 
 /// S = Phi + r_b on a band that holds the coefficients of every point of the surface.
-/// @param[in] table,phi  the level set that a smooth surface is offset from
-DistanceBand distanceBand(const LeafTable& table, LeafField phi, const SurfaceOptions& options,
-                          const Scope& scope, Progress& progress);
+/// @param[in] phi  the level set that a smooth surface is offset from
+DistanceBand distanceBand(SparseField phi, const SurfaceOptions& options, const Scope& scope,
+                          Progress& progress);
 
 /// The same of a surface that is offset from a union of balls.
-/// @param[in] boundary  of balls that are grown by grownBy()
-DistanceBand distanceBand(const std::vector<Ball>& balls, BallBoundary boundary,
-                          const SurfaceOptions& options, const Scope& scope, Progress& progress);
+/// @param[in] set  of balls that are grown by grownBy()
+DistanceBand distanceBand(BallUnion set, const SurfaceOptions& options, const Scope& scope,
+                          Progress& progress);
 
 /// Replaces S near its zero set by the values of a coarser spline, so that signs and values agree
 /// with it.
-void resample(DistanceBand& S, const Spline& spline, double voxel, Progress& progress);
+void resample(SparseField& S, const Spline& spline, Progress& progress);
 
 /// The level set grid: S made a distance on both sides.
-/// @param[in] table,phi  of S
-openvdb::FloatGrid::Ptr surfaceGrid(LeafTable table, LeafField phi, double voxel,
-                                    const Scope& scope, Progress& progress);
+openvdb::FloatGrid::Ptr surfaceGrid(SparseField S, const Scope& scope, Progress& progress);
 
 /// Vertices near kinks of the distance, and those of the others with a unit gradient.
 struct GradientCounts {
@@ -117,11 +112,11 @@ struct GradientCounts {
     }
 };
 
-/// @param[in] slopes    |grad S| at the vertices
-/// @param[in] vertices  the first ones are counted
+/// @param[in] slopes     |grad S| at the first vertices of the mesh, those that are counted
+/// @param[in] kinks      of the distance
+/// @param[in] voxelSize  edge of their voxels [Å]
 GradientCounts countGradients(const Mesh& mesh, const std::vector<float>& slopes,
-                              std::size_t vertices, const DistanceBand& S, double voxel,
-                              Progress& progress);
+                              const LeafTable& kinks, double voxelSize, Progress& progress);
 
 /// How far a point of the surface, or of its grid's band, may lie from its ball [Å].
 double labelReach(const BallSet& atoms, const SurfaceOptions& options);

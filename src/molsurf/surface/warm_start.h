@@ -4,7 +4,7 @@
 /// @file
 /// The content of a WarmStart.
 
-#include "molsurf/grid/leaf_table.h"
+#include "molsurf/grid/sparse_field.h"
 #include "molsurf/surface.h"
 
 namespace molsurf
@@ -12,8 +12,7 @@ namespace molsurf
 
 /// How far the surface at rest lies from the one that the flow began at, in the band.
 struct WarmStart::State {
-    LeafTable table;
-    LeafField correction; ///< phi at rest minus that of psi = 0 [Å]
+    SparseField correction; ///< phi at rest minus that of psi = 0 [Å]
 };
 
 } // namespace molsurf
