@@ -28,8 +28,7 @@ using namespace molsurf;
 constexpr double voxel = 0.5, radius = 60.0, width = 2.0; // Å; a shell of some 1.4 million voxels
 
 struct Shell {
-    LeafTable table;
-    LeafField phi;
+    SparseField phi;
 
     Shell()
     {
@@ -51,8 +50,8 @@ struct Shell {
             for (int v = 0; v < leafSize; ++v)
                 all.active(n).set(v, std::abs(at(all, n, v)) < width);
         }
-        table = pruned(all);
-        phi = LeafField(table.size());
+        const LeafTable table = pruned(all);
+        phi = {table, LeafField(table.size()), voxel};
         for (std::size_t n = 0; n < table.size(); ++n) {
             for (int v = 0; v < leafSize; ++v) phi.leaf(n)[v] = float(at(table, n, v));
         }
@@ -81,14 +80,14 @@ void require(bool good, const char* what)
 void countVoxels(benchmark::State& state)
 {
     state.counters["voxels/s"] =
-        benchmark::Counter(double(state.iterations()) * double(shell().table.activeCount()),
+        benchmark::Counter(double(state.iterations()) * double(shell().phi.table.activeCount()),
                            benchmark::Counter::kIsRate);
 }
 
 void memoryCopy(benchmark::State& state)
 {
-    const std::size_t bytes = shell().phi.bytes();
-    LeafField copy(shell().table.size());
+    const std::size_t bytes = shell().phi.values.bytes();
+    LeafField copy(shell().phi.table.size());
     for (auto _ : state) {
         for (std::size_t n = 0; n < copy.leafCount(); ++n)
             std::memcpy(copy.leaf(n), shell().phi.leaf(n), leafSize * sizeof(float));
@@ -105,8 +104,8 @@ void gatherPass(benchmark::State& state)
 {
     LeafBlock<float, Halo> block;
     for (auto _ : state) {
-        for (std::size_t n = 0; n < shell().table.size(); ++n) {
-            block.gather(shell().table, shell().phi, n);
+        for (std::size_t n = 0; n < shell().phi.table.size(); ++n) {
+            block.gather(shell().phi, n);
             benchmark::ClobberMemory();
         }
     }
@@ -118,13 +117,13 @@ BENCHMARK(gatherPass<2>);
 /// Mean and Gaussian curvature by 19 points of the 27 around each voxel.
 void curvaturePass(benchmark::State& state)
 {
-    const LeafTable& table = shell().table;
+    const LeafTable& table = shell().phi.table;
     LeafField mean(table.size());
     const auto pass = [&] {
         LeafCurvature shape;
         LeafBlock<float, 1> block;
         for (std::size_t n = 0; n < table.size(); ++n) {
-            block.gather(table, shell().phi, n);
+            block.gather(shell().phi, n);
             mean.prefetchAfter(n);
             curvature(block, table.active(n), float(voxel), shape);
             std::memcpy(mean.leaf(n), shape.mean, sizeof shape.mean);
@@ -145,12 +144,13 @@ BENCHMARK(curvaturePass);
 /// One iteration of reinitialize().
 void redistancingPass(benchmark::State& state)
 {
-    LeafField phi = copied(shell().phi), scratch;
+    SparseField phi = copied(shell().phi);
+    LeafField scratch;
     Progress progress;
-    for (auto _ : state) reinitialize(shell().table, phi, voxel, width, 1, scratch, progress);
-    const std::size_t n = shell().table.size() / 2;
+    for (auto _ : state) reinitialize(phi, width, 1, progress, scratch);
+    const std::size_t n = shell().phi.table.size() / 2;
     within(phi.leaf(n), float(width - voxel)).forEach([&](int v) {
-        require(std::abs(phi.leaf(n)[v] - Shell::at(shell().table, n, v)) < 0.01, "distance");
+        require(std::abs(phi.leaf(n)[v] - Shell::at(shell().phi.table, n, v)) < 0.01, "distance");
     });
     countVoxels(state);
 }
@@ -162,9 +162,8 @@ void closestPoints(benchmark::State& state)
     Progress progress;
     std::size_t voxels = 0;
     for (auto _ : state) {
-        const DistanceBand band =
-            redistance(shell().table, copied(shell().phi), voxel, 3.4, 0.6, -1.4, progress);
-        voxels = band.table.activeCount();
+        const DistanceBand band = redistance(copied(shell().phi), {3.4, 0.6}, -1.4, progress);
+        voxels = band.phi.table.activeCount();
     }
     state.counters["voxels/s"] = benchmark::Counter(double(state.iterations()) * double(voxels),
                                                     benchmark::Counter::kIsRate);
@@ -174,7 +173,7 @@ BENCHMARK(closestPoints)->Unit(benchmark::kMillisecond);
 void prefilterPass(benchmark::State& state)
 {
     Progress progress;
-    for (auto _ : state) benchmark::DoNotOptimize(prefilter(shell().table, shell().phi, progress));
+    for (auto _ : state) benchmark::DoNotOptimize(prefilter(shell().phi, progress));
     countVoxels(state);
 }
 BENCHMARK(prefilterPass)->Unit(benchmark::kMillisecond);

@@ -239,13 +239,13 @@ LeafTable bandTable(const Function& f, const Vec3d& centre, double extent, doubl
     return table;
 }
 
-LeafField filled(const LeafTable& table, double voxel, const Function& f)
+SparseField filled(const LeafTable& table, double voxelSize, const Function& f)
 {
-    LeafField field(table.size());
+    SparseField field{table, LeafField(table.size()), voxelSize};
     for (std::size_t n = 0; n < table.size(); ++n) {
         for (int v = 0; v < leafSize; ++v) {
             const Coord c = table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
-            field.leaf(n)[v] = float(f(c.asVec3d() * voxel));
+            field.leaf(n)[v] = float(f(c.asVec3d() * voxelSize));
         }
     }
     return field;
@@ -254,11 +254,8 @@ LeafField filled(const LeafTable& table, double voxel, const Function& f)
 Spline splineOf(const Function& f, const Function& distance, const Vec3d& centre, double extent,
                 double voxel, double width)
 {
-    Spline spline;
-    spline.voxel = voxel;
-    spline.table = bandTable(distance, centre, extent, voxel, width);
-    spline.coefficients = prefilter(spline.table, filled(spline.table, voxel, f), Progress());
-    return spline;
+    const LeafTable table = bandTable(distance, centre, extent, voxel, width);
+    return {prefilter(filled(table, voxel, f), Progress())};
 }
 
 double zeroOnRay(const Spline& spline, const Vec3d& centre, const Vec3d& direction, double low,

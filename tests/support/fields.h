@@ -80,7 +80,7 @@ LeafTable bandTable(const Function& f, const openvdb::Vec3d& centre, double exte
                     double below, double above);
 
 /// f at all voxels of all leaves.
-LeafField filled(const LeafTable& table, double voxel, const Function& f);
+SparseField filled(const LeafTable& table, double voxelSize, const Function& f);
 
 /// Calls f(n, v, x) for every active voxel: leaf, voxel of the leaf, position [Å].
 template<typename F>

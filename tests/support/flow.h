@@ -9,6 +9,7 @@
 #include "molsurf/levelset/initial_surface.h"
 #include "molsurf/spline/spline.h"
 
+#include <utility>
 #include <vector>
 
 namespace molsurf::test
@@ -30,17 +31,14 @@ inline Evolved evolveBalls(const std::vector<Ball>& balls, double epsilon, doubl
     const GaussianSum field(balls, gaussian);
     Progress progress;
     Evolved out;
-    out.band.table = field.band(bandWidthVox, progress);
-    out.band.psi = field.evaluate(out.band.table, progress);
-    out.band.phi =
-        initialSurface(out.band.table, out.band.psi, voxel, bandWidthVox * voxel, progress);
+    SparseField psi = field.evaluate(field.band(bandWidthVox, progress), progress);
+    out.band.phi = initialSurface(psi, bandWidthVox * voxel, progress);
+    out.band.psi = std::move(psi.values);
     const auto source = [&](const openvdb::Coord& origin, float* psi) {
         field.evaluate(origin, gaussian.reach, psi);
     };
-    out.report = evolve(out.band, source, voxel, options, progress);
-    out.spline.voxel = voxel;
-    out.spline.table = out.band.table;
-    out.spline.coefficients = prefilter(out.band.table, out.band.phi, progress);
+    out.report = evolve(out.band, source, options, progress);
+    out.spline = {prefilter(out.band.phi, progress)};
     return out;
 }
 

@@ -22,29 +22,11 @@ inline MolecularSurface runOn(const std::vector<Ball>& balls, const SurfaceOptio
 }
 
 /// S as the field "spline" holds it.
-inline Spline splineFrom(const openvdb::FloatGrid& grid)
-{
-    std::vector<openvdb::Coord> origins;
-    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) origins.push_back(leaf->origin());
-    Spline spline;
-    spline.voxel = grid.voxelSize()[0];
-    spline.table = LeafTable(origins);
-    spline.coefficients = LeafField(origins.size());
-    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
-        const std::int32_t n = spline.table.find(leaf->origin());
-        for (int v = 0; v < leafSize; ++v) {
-            spline.coefficients.leaf(n)[v] = leaf->getValue(openvdb::Index(v));
-            spline.table.active(n).set(v, leaf->isValueOn(openvdb::Index(v)));
-        }
-    }
-    return spline;
-}
-
 inline Spline splineFrom(const MolecularSurface& result)
 {
     for (const auto& field : result.fields) {
         if (field->getName() == "spline")
-            return splineFrom(dynamic_cast<const openvdb::FloatGrid&>(*field));
+            return {fromGrid(dynamic_cast<const openvdb::FloatGrid&>(*field))};
     }
     return Spline();
 }

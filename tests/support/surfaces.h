@@ -19,7 +19,7 @@ inline Mesh meshOf(const Function& f, const openvdb::Vec3d& centre, double exten
 {
     const Spline spline = splineOf(f, f, centre, extent, voxel, 6.0 * voxel);
     const LeafTable band = bandTable(f, centre, extent, voxel, 3.0 * voxel);
-    const auto grid = toLevelSet(band, filled(band, voxel, f), 3.0 * voxel, voxel, Progress());
+    const auto grid = toLevelSet(filled(band, voxel, f), 3.0 * voxel, Progress());
     return extractMesh(*grid, spline, Progress(), stats);
 }
 

@@ -94,7 +94,7 @@ std::optional<EvolutionReport> evolutionOf(const std::vector<BrickFile>& bricks,
     if (!any) return {};
     for (std::size_t i = 0; i < moved.size(); ++i)
         all.meanDisplacement.push_back(all.area[i] > 0.0 ? moved[i] / all.area[i] : 0.0);
-    judge(options, voxel, all);
+    checkConvergence(options, voxel, all);
     return all;
 }
 

@@ -374,7 +374,9 @@ GaussianExtent extentOf(const BrickPlan& plan)
 
 Scope scopeOf(const BrickPlan& plan, std::size_t k, const SurfaceOptions& options)
 {
-    return brickScope(options, {plan.bricks[k].box, plan.anchor}, extentOf(plan));
+    Scope scope = brickScope(options, {plan.bricks[k].box, plan.anchor}, extentOf(plan));
+    scope.keepsMemory = plan.keepsMemory;
+    return scope;
 }
 
 void computeBrick(const BallSet& balls, const SurfaceOptions& options, const BrickPlan& plan,
@@ -384,8 +386,7 @@ void computeBrick(const BallSet& balls, const SurfaceOptions& options, const Bri
     SurfaceOptions fixed = options;
     fixed.evolution.steps = plan.steps;
     const Scope scope = scopeOf(plan, number - 1, fixed);
-    const Brick brick =
-        runBrick(ballsNear(balls, fixed, scope), fixed, scope, progress, plan.keepsMemory);
+    const Brick brick = runBrick(ballsNear(balls, fixed, scope), fixed, scope, progress);
     progress.update("write", 0.0);
     OutputFile file(path, true);
     writeBrick(brick, id, number, meshed, file, progress);

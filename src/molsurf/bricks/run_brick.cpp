@@ -4,12 +4,7 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
 #include "molsurf/levelset/round_ridges.h"
-#include "molsurf/levelset/union_distance.h"
-#include "molsurf/mesh/extract.h"
-#include "molsurf/spline/fit.h"
-#include "molsurf/surface.h"
 #include "molsurf/surface/extra_grids.h"
-#include "molsurf/surface/label_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +18,10 @@ using openvdb::Vec3d;
 
 namespace
 {
+
+/// Leaves of the halo for the initial level set and for the way that information takes along the
+/// interface during the flow.
+constexpr int flowLeaves = 2;
 
 /// Whole leaves that hold so many voxels.
 int leavesFor(double voxels)
@@ -79,86 +78,25 @@ openvdb::GridBase::Ptr owned(const openvdb::GridBase::Ptr& grid, const CoordBBox
     return ownedPart(*openvdb::gridPtrCast<openvdb::Vec3SGrid>(grid), box);
 }
 
-/// The grid `sas` of what a brick owns.
-openvdb::GridBase::Ptr sasGrid(const BallSet& atoms, const SurfaceOptions& options,
-                               const NarrowBand& band, const Scope& scope, Progress& progress)
+/// Cuts the mesh of a run to what a brick owns, and measures how well that fits S.
+void cutMesh(SurfaceRun& run, const SurfaceOptions& options, const Region& region, Brick& brick,
+             Progress& progress)
 {
-    const double width = surfaceWidthVox * options.voxel;
-    openvdb::FloatGrid::Ptr grid;
-    if (options.kind == SurfaceKind::Variational) {
-        grid = toLevelSet(band.table, band.phi, width, options.voxel, progress);
-    } else {
-        const DistanceBand exact = distanceToUnion(
-            atoms.balls, options.probe, ballBoundary(atoms.balls, options.probe, progress),
-            options.voxel, width, width, progress, scope.region.owned);
-        grid = toLevelSet(exact.table, exact.phi, width, options.voxel, progress);
-    }
-    grid->setName("sas");
-    return owned(grid, scope.region.owned);
-}
-
-/// The mesh, what is known at its vertices, and the grids.
-void finish(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
-            NarrowBand& band, DistanceBand& S, bool keepsMemory, Progress& progress,
-            Stopwatch& watch, Brick& brick)
-{
-    const CoordBBox& box = scope.region.owned;
-    progress.update("spline", 0.0);
-    Spline spline = fitSpline(S.table, S.phi, options.voxel, 0, progress);
-    watch.stop("spline");
-    auto surface = surfaceGrid(S.table, std::move(S.phi), options.voxel, scope, progress);
-    closeSides(*surface);
-    if (!keepsMemory) releasePages(); // grids and meshes have memory of their own
-    watch.stop("redistance");
-
-    progress.update("mesh", 0.0);
-    ExtractStats stats;
-    stats.keepCells = true;
-    Mesh whole = extractMesh(*surface, spline, progress, stats);
-    addCurvature(spline, options.fields, whole, progress);
-    MolecularSurface result;
-    result.surface = openvdb::gridPtrCast<openvdb::FloatGrid>(owned(surface, box));
-    surface.reset();
-    brick.grids = {result.surface};
-    if (hasField(options.fields, "sas"))
-        brick.grids.push_back(sasGrid(atoms, options, band, scope, progress));
-    if (hasField(options.fields, "spline")) brick.grids.push_back(owned(splineGrid(spline), box));
-    for (auto& grid : curvatureGrids(*result.surface, spline, options.fields, progress))
-        brick.grids.push_back(std::move(grid));
-    band = NarrowBand();
-    spline = Spline();
-    if (!keepsMemory) releasePages();
-
+    Mesh& mesh = run.result().mesh;
+    ExtractStats& stats = run.stats();
     std::vector<std::uint32_t> sources;
-    brick.mesh = cutBrick(std::move(whole), std::move(stats.cells), box,
-                          scope.region.anchor.asVec3d() * options.voxel, sources, progress);
-    result.mesh = std::move(brick.mesh.mesh);
+    brick.mesh = cutBrick(std::move(mesh), std::move(stats.cells), region.owned,
+                          region.anchor.asVec3d() * options.voxel, sources, progress);
+    mesh = std::move(brick.mesh.mesh);
     std::vector<float> slopes;
-    slopes.reserve(sources.size());
-    for (const std::uint32_t v : sources) slopes.push_back(stats.slopes[v]);
-    const GradientCounts counts =
-        countGradients(result.mesh, slopes, brick.mesh.owned, S, options.voxel, progress);
+    slopes.reserve(brick.mesh.owned);
+    for (std::size_t v = 0; v < brick.mesh.owned; ++v) {
+        slopes.push_back(stats.slopes[sources[v]]);
+        brick.maxResidual = std::max(brick.maxResidual, double(stats.residuals[sources[v]]));
+    }
+    const GradientCounts counts = run.countGradients(slopes);
     brick.kinkVertices = counts.kink;
     brick.unitVertices = counts.unit;
-    for (std::size_t v = 0; v < brick.mesh.owned; ++v)
-        brick.maxResidual = std::max(brick.maxResidual, double(stats.residuals[sources[v]]));
-    watch.stop("mesh");
-
-    progress.update("color", 0.0);
-    const std::vector<double> areas =
-        labelPart(atoms, options, labelReach(atoms, options), progress, result);
-    for (std::size_t g = 0; g < areas.size(); ++g) {
-        const bool other = g + 1 == areas.size();
-        const Group* group = other ? nullptr : &atoms.labels->groups[g];
-        GroupReport part;
-        part.name = other ? "other" : group->name;
-        part.atoms = other ? 0 : group->balls;
-        part.area = areas[g];
-        brick.groups.push_back(part);
-    }
-    brick.grids.insert(brick.grids.end(), result.fields.begin(), result.fields.end());
-    brick.mesh.mesh = std::move(result.mesh);
-    watch.stop("color");
 }
 
 } // namespace
@@ -175,7 +113,7 @@ Scope brickScope(const SurfaceOptions& options, const Region& region, const Gaus
     if (options.kind == SurfaceKind::Variational)
         scope.ridgeHalo += leavesFor(ridgeReach(options.voxel));
     // S is the distance to closest points, which lie on a spline of their own.
-    const auto [inside, outside] = depthOf(options);
+    const auto [inside, outside] = widthsOf(options);
     constexpr double overhang = 2.5; // [voxel]
     scope.distanceHalo =
         scope.ridgeHalo + leavesFor(std::max(inside, outside) / options.voxel + overhang);
@@ -190,7 +128,7 @@ double ballReach(const SurfaceOptions& options, const GaussianExtent& extent)
     const double h = options.voxel, R = extent.largest + options.probe;
     const double leaf = leafDim * h, tolerance = extent.tolerance;
     // A ball's boundary takes part in the distance of its depth, and is cut by balls two radii off.
-    const double unions = 3.0 * R + depthOf(options).inside + leaf;
+    const double unions = 3.0 * R + widthsOf(options).inside + leaf;
     const double sums =
         std::max(cutoff(extent, std::max(gaussianOptions(options).reach, 2.0 * tolerance)),
                  extent.swollen + 3.0 * tolerance + h + 2.0 * leaf);
@@ -260,38 +198,35 @@ void checkBrickOptions(const SurfaceOptions& options)
 }
 
 Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
-               Progress& progress, bool keepsMemory)
+               Progress& progress)
 {
-    Brick brick;
-    Report report;
-    Stopwatch watch(report);
-    NarrowBand band;
-    LeafField carrier;
-    DistanceBand S;
+    const CoordBBox& box = scope.region.owned;
+    SurfaceRun run(atoms, options, scope, progress);
+    MolecularSurface& result = run.result();
     if (!atoms.balls.empty()) {
-        band = makeBand(atoms, options, scope, progress, report, watch);
-        if (band.table.size() > 0) {
-            carrier = carrierOf(atoms, options, scope, band, progress);
-            const LeafTable near = clipped(band.table, scope.region.grown(scope.distanceHalo));
-            carrier = restricted(band.table, carrier, near, progress);
-            band.phi = restricted(band.table, band.phi, near, progress);
-            band.psi = LeafField();
-            band.table = near;
-        }
-        progress.update("redistance", 0.0);
-        const bool kept = hasField(options.fields, "sas");
-        if (isUnion(options.kind)) {
-            S = distanceBand(atoms.balls, ballBoundary(atoms.balls, grownBy(options), progress),
-                             options, scope, progress);
-        } else if (band.table.size() > 0) {
-            if (!kept) band.phi = LeafField();
-            S = distanceBand(band.table, std::move(carrier), options, scope, progress);
-        }
-        watch.stop("redistance");
+        run.density();
+        run.flow(nullptr);
+        run.distance();
     }
-    brick.evolution = report.evolution;
-    finish(atoms, options, scope, band, S, keepsMemory, progress, watch, brick);
-    brick.seconds = report.seconds;
+    run.spline();
+    run.levelSet();
+    closeSides(*result.surface);
+    run.mesh();
+    run.curvatures();
+    result.surface = openvdb::gridPtrCast<openvdb::FloatGrid>(owned(result.surface, box));
+    run.grids();
+    for (auto& grid : result.fields) grid = owned(grid, box);
+    run.freeFields();
+
+    Brick brick;
+    cutMesh(run, options, scope.region, brick, progress);
+    run.labels();
+    brick.mesh.mesh = std::move(result.mesh);
+    brick.grids = {result.surface};
+    brick.grids.insert(brick.grids.end(), result.fields.begin(), result.fields.end());
+    brick.evolution = result.report.evolution;
+    brick.groups = result.report.groups;
+    brick.seconds = result.report.seconds;
     return brick;
 }
 

@@ -7,7 +7,7 @@
 #include "molsurf/atoms.h"
 #include "molsurf/bricks/brick.h"
 #include "molsurf/options.h"
-#include "molsurf/surface/stages.h"
+#include "molsurf/surface/surface_run.h"
 
 namespace molsurf
 {
@@ -30,8 +30,7 @@ void checkBrickOptions(const SurfaceOptions& options);
 /// Computes what a brick owns of a surface.
 /// @param[in] atoms    those that ballsNear() gives, or more; coloured if colours are wanted
 /// @param[in] options  as checkBrickOptions() lets them pass, with a number of steps
-/// @param[in] keepsMemory  does not give unused pages back to the system, for the next brick
 Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
-               Progress& progress, bool keepsMemory = false);
+               Progress& progress);
 
 } // namespace molsurf

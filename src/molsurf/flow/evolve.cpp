@@ -25,12 +25,13 @@ namespace
 constexpr int reinitializations = 1;
 
 /// Takes the curvatures of a leaf from a spline.
-void curvatureFromSpline(const Spline& spline, const openvdb::Coord& origin, double voxel,
+void curvatureFromSpline(const Spline& spline, const openvdb::Coord& origin, double voxelSize,
                          const LeafMask& active, LeafCurvature& shape)
 {
     SplineSampler sampler(spline);
     active.forEach([&](int v) {
-        const Jet jet = sampler.at(origin.offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() * voxel);
+        const Jet jet =
+            sampler.at(origin.offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() * voxelSize);
         if (jet.gradient.lengthSqr() < 1e-6) return;
         shape.mean[v] = float(2.0 * meanCurvature(jet));
         shape.gauss[v] = float(gaussianCurvature(jet));
@@ -38,47 +39,56 @@ void curvatureFromSpline(const Spline& spline, const openvdb::Coord& origin, dou
 }
 
 /// The spline of phi on voxels of edge 2^level h, on a band wide enough for it.
-Spline coarseSpline(const NarrowBand& band, double voxel, int level, const Progress& progress)
+Spline coarseSpline(const SparseField& phi, int level, const Progress& progress)
 {
-    const double width = (flowWidthVox + 3.5 * (1 << level)) * voxel;
-    const DistanceBand wide =
-        redistance(band.table, copied(band.phi), voxel, width, width, 0.0, progress);
-    return fitSpline(wide.table, wide.phi, voxel, level, progress);
+    const double width = (flowWidthVox + 3.5 * (1 << level)) * phi.voxelSize;
+    const DistanceBand wide = redistance(copied(phi), {width, width}, 0.0, progress);
+    return fitSpline(wide.phi, level, progress);
 }
 
+/// What a step of the flow depends on besides the band.
+struct Step {
+    Weights weights;
+    StepSize size;
+    const Spline* coarse; ///< that gives the curvature, or null for differences
+};
+
 /// One step of the flow on all leaves.
-/// @param[in]  coarse  the spline that gives the curvature, or null for differences
-/// @param[out] next    phi after it
-StepSums step(const NarrowBand& band, double voxel, const Spline* coarse, const Weights& weights,
-              const StepSize& size, LeafField& next, const Region& region, const Progress& progress)
+/// @param[out] next  phi after it
+/// @return sums over the region's own voxels
+StepSums takeStep(const NarrowBand& band, const Step& step, const Region& region, LeafField& next,
+                  const Progress& progress)
 {
+    const LeafTable& table = band.phi.table;
+    const double h = band.phi.voxelSize;
     // Positions are taken from the first leaf: volumes then do not cancel far from the origin.
-    const openvdb::Coord first = !region.whole()     ? region.anchor
-                                 : band.table.size() ? band.table.origin(0)
-                                                     : openvdb::Coord();
-    return parallelSum<StepSums>(band.table.size(), progress, [&](std::size_t n) {
-        const LeafMask active =
-            band.table.active(n) & within(band.phi.leaf(n), float(flowWidthVox * voxel));
+    const openvdb::Coord first = !region.whole() ? region.anchor
+                                 : table.size()  ? table.origin(0)
+                                                 : openvdb::Coord();
+    return parallelSum<StepSums>(table.size(), progress, [&](std::size_t n) {
+        const LeafMask active = table.active(n) & within(band.phi.leaf(n), float(flowWidthVox * h));
         if (!active.any()) {
             std::copy_n(band.phi.leaf(n), leafSize, next.leaf(n));
             return StepSums();
         }
         LeafBlock<float, 1> phi, psi;
-        phi.gather(band.table, band.phi, n);
-        psi.gather(band.table, band.psi, n);
+        phi.gather(band.phi, n);
+        psi.gather(table, band.psi, n);
         next.prefetchAfter(n);
         LeafCurvature shape;
-        curvature(phi, active, float(voxel), shape);
-        if (coarse) curvatureFromSpline(*coarse, band.table.origin(n), voxel, active, shape);
+        curvature(phi, active, float(h), shape);
+        if (step.coarse) curvatureFromSpline(*step.coarse, table.origin(n), h, active, shape);
         const StepSums sums =
-            flowStep(phi, psi, shape, active, (band.table.origin(n) - first).asVec3d() * voxel,
-                     float(voxel), weights, size, next.leaf(n));
-        return region.owned.isInside(band.table.origin(n)) ? sums : StepSums();
+            flowStep(phi, psi, shape, active, (table.origin(n) - first).asVec3d() * h, float(h),
+                     step.weights, step.size, next.leaf(n));
+        return region.owned.isInside(table.origin(n)) ? sums : StepSums();
     });
 }
 
-/// The sign at each voxel of a new leaf: that of the nearest voxel of an old leaf.
-void fillFromNeighbours(const NarrowBand& old, const LeafTable& table, std::size_t n, float width,
+/// Gives each voxel of a new leaf the sign of the nearest voxel of an old leaf.
+/// @param[in]  n    index of the leaf in the new table
+/// @param[out] phi  512 values, -width or width
+void fillFromNeighbours(const SparseField& old, const LeafTable& table, std::size_t n, float width,
                         float* phi)
 {
     const auto& near = table.neighbours(n);
@@ -98,61 +108,45 @@ void fillFromNeighbours(const NarrowBand& old, const LeafTable& table, std::size
             const int distance = (x - qx) * (x - qx) + (y - qy) * (y - qy) + (z - qz) * (z - qz);
             if (distance >= nearest) continue;
             nearest = distance;
-            const float value = old.phi.leaf(known[k])[64 * (qx & 7) + 8 * (qy & 7) + (qz & 7)];
+            const float value = old.leaf(known[k])[64 * (qx & 7) + 8 * (qy & 7) + (qz & 7)];
             phi[v] = std::copysign(width, value);
         }
     }
 }
 
-/// Makes the active voxels those within the band of the interface; adds leaves as needed. None is
-/// dropped: that would change what stencils beside it see, and what happens at a voxel would depend
-/// on whether any leaf, anywhere, has to be added in the same step.
-/// @param[in]     domain   where leaves may be
-/// @param[in,out] scratch  a field that grows with the band; its values are lost
-void track(NarrowBand& band, const PsiSource& source, double voxel, double width,
-           const openvdb::CoordBBox& domain, LeafField& scratch, Progress& progress)
+/// Whether a leaf of a table lacks a neighbour, in a domain, that a step from its voxels leads to.
+bool lacksNeighbour(const LeafTable& table, std::size_t n, const LeafMask& inside,
+                    const openvdb::CoordBBox& domain)
 {
-    // The voxels that are certainly within the band, and one step around them.
-    const float core = float(width - voxel);
-    std::vector<LeafMask> inside(band.table.size());
-    parallelFor(band.table.size(), progress, [&](std::size_t n) {
-        const float* phi = band.phi.leaf(n);
-        inside[n] = within(phi, core) & band.table.active(n);
-    });
-    bool complete = true;
-    std::vector<LeafMask> wanted(band.table.size());
-    for (std::size_t n = 0; n < band.table.size(); ++n) {
-        band.table.active(n) = inside[n];
-        if (!inside[n].any()) continue;
-        const auto& near = band.table.neighbours(n);
-        const auto& w = inside[n].words;
-        std::uint64_t all = 0;
-        for (const std::uint64_t word : w) all |= word;
-        const auto lacks = [&](int k) {
-            return near[k] == noLeaf &&
-                   domain.isInside(band.table.origin(n).offsetBy(
-                       leafDim * (k / 9 - 1), leafDim * (k / 3 % 3 - 1), leafDim * (k % 3 - 1)));
-        };
-        complete = complete && !(w[0] && lacks(4)) && !(w[7] && lacks(22)) &&
-                   !((all & 0xff) && lacks(10)) && !((all >> 56) && lacks(16)) &&
-                   !((all & 0x0101010101010101ull) && lacks(12)) &&
-                   !((all & 0x8080808080808080ull) && lacks(14));
-    }
-    if (complete) {
-        parallelFor(band.table.size(), progress,
-                    [&](std::size_t n) { wanted[n] = dilatedMask(band.table, inside, n, false); });
-        for (std::size_t n = 0; n < band.table.size(); ++n) band.table.active(n) = wanted[n];
-        return;
-    }
-    // The leaves of the band stay, where none of their voxels is active, too.
-    LeafTable table =
-        joined(clipped(dilated(band.table, 1, Spread::Ball, progress), domain), band.table);
+    const auto& near = table.neighbours(n);
+    const auto& w = inside.words;
+    std::uint64_t all = 0;
+    for (const std::uint64_t word : w) all |= word;
+    const auto lacks = [&](int k) {
+        return near[k] == noLeaf &&
+               domain.isInside(table.origin(n).offsetBy(
+                   leafDim * (k / 9 - 1), leafDim * (k / 3 % 3 - 1), leafDim * (k % 3 - 1)));
+    };
+    return (w[0] && lacks(4)) || (w[7] && lacks(22)) || ((all & 0xff) && lacks(10)) ||
+           ((all >> 56) && lacks(16)) || ((all & 0x0101010101010101ull) && lacks(12)) ||
+           ((all & 0x8080808080808080ull) && lacks(14));
+}
+
+/// Adds leaves about the active voxels. The leaves of the band stay, where none of their voxels is
+/// active, too.
+/// @param[in,out] scratch  a field that grows with the band; its values are lost
+void addLeaves(NarrowBand& band, const PsiSource& source, const openvdb::CoordBBox& domain,
+               LeafField& scratch, Progress& progress)
+{
+    const LeafTable& old = band.phi.table;
+    const float width = float(bandWidthVox * band.phi.voxelSize);
+    LeafTable table = joined(clipped(dilated(old, 1, Spread::Ball, progress), domain), old);
     // One field after the other: at no time are there both twice.
     scratch = LeafField();
     const auto extend = [&](LeafField& field, const auto& fill) {
         LeafField out(table.size());
         parallelFor(table.size(), progress, [&](std::size_t n) {
-            const std::int32_t m = band.table.find(table.origin(n));
+            const std::int32_t m = old.find(table.origin(n));
             if (m != noLeaf) {
                 std::copy_n(field.leaf(std::size_t(m)), leafSize, out.leaf(n));
             } else {
@@ -162,11 +156,38 @@ void track(NarrowBand& band, const PsiSource& source, double voxel, double width
         field = std::move(out);
     };
     extend(band.psi, [&](std::size_t n, float* psi) { source(table.origin(n), psi); });
-    extend(band.phi, [&](std::size_t n, float* phi) {
-        fillFromNeighbours(band, table, n, float(width), phi);
-    });
+    extend(band.phi.values,
+           [&](std::size_t n, float* phi) { fillFromNeighbours(band.phi, table, n, width, phi); });
     scratch = LeafField(table.size());
-    band.table = std::move(table);
+    band.phi.table = std::move(table);
+}
+
+/// Makes the active voxels those within the band of the interface; adds leaves as needed. None is
+/// dropped: that would change what stencils beside it see, and what happens at a voxel would depend
+/// on whether any leaf, anywhere, has to be added in the same step.
+/// @param[in]     domain   where leaves may be
+/// @param[in,out] scratch  a field that grows with the band; its values are lost
+void updateBand(NarrowBand& band, const PsiSource& source, const openvdb::CoordBBox& domain,
+                LeafField& scratch, Progress& progress)
+{
+    LeafTable& table = band.phi.table;
+    // The voxels that are certainly within the band, and one step around them.
+    const float core = float(bandWidthVox * band.phi.voxelSize - band.phi.voxelSize);
+    std::vector<LeafMask> inside(table.size());
+    parallelFor(table.size(), progress, [&](std::size_t n) {
+        inside[n] = within(band.phi.leaf(n), core) & table.active(n);
+    });
+    bool complete = true;
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        table.active(n) = inside[n];
+        complete = complete && !(inside[n].any() && lacksNeighbour(table, n, inside[n], domain));
+    }
+    if (!complete) {
+        addLeaves(band, source, domain, scratch, progress);
+        return;
+    }
+    parallelFor(table.size(), progress,
+                [&](std::size_t n) { table.active(n) = dilatedMask(table, inside, n, false); });
 }
 
 /// How far the interface has yet to go if the displacements of the last two steps go on to shrink
@@ -183,22 +204,22 @@ double remainingWay(const std::vector<double>& displacement)
 /// Whether the steps, though small, will not meet the tolerance, since they no longer fall: on
 /// voxels that are too large for the metric's valley the discretisation keeps the flow moving for
 /// ever.
-bool stalled(const EvolutionReport& report, const EvolveOptions& options, double voxel)
+bool stalled(const EvolutionReport& report, const EvolveOptions& options, double voxelSize)
 {
     constexpr std::size_t steps = 5; // over which they are compared
     const std::vector<double>&d = report.meanDisplacement, &E = report.energy;
     const std::size_t n = d.size();
-    return n > steps && d[n - 1] >= options.displacementTolerance * voxel &&
-           d[n - 1] < 0.05 * voxel && d[n - 1] > 0.99 * d[n - 1 - steps] &&
+    return n > steps && d[n - 1] >= options.displacementTolerance * voxelSize &&
+           d[n - 1] < 0.05 * voxelSize && d[n - 1] > 0.99 * d[n - 1 - steps] &&
            std::abs(E[n] - E[n - steps]) < 0.01 * E[n];
 }
 
 } // namespace
 
-EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
-                       const EvolveOptions& options, Progress& progress, const Region& region,
-                       int halo)
+EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOptions& options,
+                       Progress& progress, const Region& region, int halo)
 {
+    const double h = band.phi.voxelSize;
     const bool preconditioned = options.flow == Flow::Preconditioned;
     const bool gradient = options.regularizer == Regularizer::Gradient;
     const bool fixed = options.steps >= 0;
@@ -207,28 +228,26 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
                          : preconditioned        ? 50
                                                  : 2000;
     const bool mayGiveUp = preconditioned && !fixed && options.maxSteps < 0;
-    const Weights weights{gradient ? float(options.lambda) : 0.0f,
-                          gradient ? 0.0f : float(options.lambda)};
-    const double width = bandWidthVox * voxel;
+    const float lambda = float(options.lambda);
+    Step step{gradient ? Weights{lambda, 0.0f} : Weights{0.0f, lambda}, {}, nullptr};
 
     EvolutionReport report;
-    LeafField next(band.table.size());
+    LeafField next(band.phi.table.size());
     double lastDisplacement = 0.0;
     for (;;) {
         Spline coarse;
         if (options.splineLevel > 0) {
-            coarse = coarseSpline(band, voxel, options.splineLevel, progress);
+            coarse = coarseSpline(band.phi, options.splineLevel, progress);
+            step.coarse = &coarse;
         }
-        const Spline* spline = options.splineLevel > 0 ? &coarse : nullptr;
-        StepSize size;
+        step.size = {true, 0.0f};
         if (!preconditioned) {
             // Explicit Euler for a stiffness P is stable up to 2/P; the longest step is limited
             // anyway.
-            const StepSums before =
-                step(band, voxel, spline, weights, {true, 0.0f}, next, region, progress);
-            size = {false, 0.8f / before.maxSecond};
+            const StepSums before = takeStep(band, step, region, next, progress);
+            step.size = {false, 0.8f / before.maxSecond};
         }
-        const StepSums sums = step(band, voxel, spline, weights, size, next, region, progress);
+        const StepSums sums = takeStep(band, step, region, next, progress);
         if (!std::isfinite(sums.energy) || !std::isfinite(sums.displacement)) {
             throw Error(ErrorKind::Numeric, "evolve: step " + std::to_string(report.steps) +
                                                 ": the energy is not a number");
@@ -241,7 +260,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
         if (!report.energy.empty() && sums.energy > 0.0) {
             const double change = std::abs(sums.energy - report.energy.back()) / sums.energy;
             report.converged = change < options.energyTolerance &&
-                               lastDisplacement < options.displacementTolerance * voxel;
+                               lastDisplacement < options.displacementTolerance * h;
         }
         report.energy.push_back(sums.energy);
         report.area.push_back(sums.area);
@@ -249,28 +268,28 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, double voxel,
         report.creviceVoxels = sums.crevices;
         report.remainingWay = remainingWay(report.meanDisplacement);
         if ((report.converged && !fixed) || report.steps == maxSteps) break;
-        if (mayGiveUp && stalled(report, options, voxel)) break;
+        if (mayGiveUp && stalled(report, options, h)) break;
 
         lastDisplacement = sums.area > 0.0 ? sums.displacement / sums.area : 0.0;
         report.meanDisplacement.push_back(lastDisplacement);
         report.maxSpeed.push_back(sums.maxSpeed);
         ++report.steps;
         progress.update("evolve", double(report.steps) / maxSteps);
-        std::swap(band.phi, next);
-        reinitialize(band.table, band.phi, voxel, width, reinitializations, next, progress);
-        track(band, source, voxel, width, region.grown(halo), next, progress);
+        std::swap(band.phi.values, next);
+        reinitialize(band.phi, bandWidthVox * h, reinitializations, progress, next);
+        updateBand(band, source, region.grown(halo), next, progress);
     }
     return report;
 }
 
-void judge(const EvolveOptions& options, double voxel, EvolutionReport& report)
+void checkConvergence(const EvolveOptions& options, double voxelSize, EvolutionReport& report)
 {
     report.remainingWay = remainingWay(report.meanDisplacement);
     const std::size_t n = report.energy.size();
     if (n < 2) return;
     const double change = std::abs(report.energy[n - 1] - report.energy[n - 2]);
     report.converged = change < options.energyTolerance * report.energy[n - 1] &&
-                       report.meanDisplacement[n - 2] < options.displacementTolerance * voxel;
+                       report.meanDisplacement[n - 2] < options.displacementTolerance * voxelSize;
 }
 
 } // namespace molsurf

@@ -4,19 +4,21 @@
 /// @file
 /// The signed distance of a surface in a band about it.
 
-#include "molsurf/grid/leaf_table.h"
-
-#include <vector>
+#include "molsurf/grid/sparse_field.h"
 
 namespace molsurf
 {
 
+/// How far a band reaches on either side of its surface [Å]; both are positive.
+struct BandWidths {
+    double inside, outside;
+};
+
 /// A signed distance in a band that need not be symmetric.
 struct DistanceBand {
-    LeafTable table; ///< active: -inside < phi < outside
-    LeafField phi;   ///< [Å]; at inactive voxels -inside or outside
-    std::vector<LeafMask>
-        kinks; ///< active voxels beside which the gradient turns by more than 20 degrees
+    SparseField phi; ///< [Å]; active: -inside < phi < outside, elsewhere -inside or outside
+    LeafTable kinks; ///< the same leaves; active: active voxels of phi beside which the gradient
+                     ///< turns by more than 20 degrees
 };
 
 } // namespace molsurf

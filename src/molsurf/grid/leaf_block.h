@@ -5,7 +5,7 @@
 /// A leaf and the rim of its 26 neighbours as one small array on the stack: the building block of
 /// every hot pass. Gather once, then sweep rows of 8 voxels with plain loops that vectorise.
 
-#include "molsurf/grid/leaf_table.h"
+#include "molsurf/grid/sparse_field.h"
 
 #include <algorithm>
 #include <cstring>
@@ -47,6 +47,8 @@ struct LeafBlock {
         gatherColumn<1, 0>(from);
         gatherColumn<1, 1>(from);
     }
+
+    void gather(const SparseField& field, std::size_t n) { gather(field.table, field.values, n); }
 
 private:
     struct Source {

@@ -4,8 +4,6 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"
 
-#include <openvdb/tools/SignedFloodFill.h>
-
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
@@ -333,47 +331,6 @@ LeafTable clipped(const LeafTable& table, const openvdb::CoordBBox& box)
 {
     if (box == openvdb::CoordBBox::inf()) return table;
     return filtered(table, [&](std::size_t n) { return box.isInside(table.origin(n)); });
-}
-
-LeafField restricted(const LeafTable& table, const LeafField& field, const LeafTable& to,
-                     const Progress& progress)
-{
-    LeafField out(to.size());
-    parallelFor(to.size(), progress, [&](std::size_t n) {
-        const std::int32_t m = table.find(to.origin(n));
-        std::copy_n(field.leaf(std::size_t(m)), leafSize, out.leaf(n));
-    });
-    return out;
-}
-
-openvdb::FloatGrid::Ptr toLevelSet(const LeafTable& table, const LeafField& field, double halfWidth,
-                                   double voxel, const Progress& progress)
-{
-    using Leaf = openvdb::FloatTree::LeafNodeType;
-    const float background = float(halfWidth);
-    std::vector<Leaf*> leaves(table.size(), nullptr);
-    parallelFor(table.size(), progress, [&](std::size_t n) {
-        const LeafMask& active = table.active(n);
-        if (!active.any()) return;
-        auto* leaf = new Leaf(table.origin(n), background);
-        float* out = leaf->buffer().data();
-        const float* in = field.leaf(n);
-        for (int v = 0; v < leafSize; ++v) {
-            const float value = active.on(v) ? in[v] : std::copysign(background, in[v]);
-            out[v] = std::min(std::max(value, -background), background);
-        }
-        Leaf::NodeMaskType mask;
-        for (int x = 0; x < 8; ++x) mask.getWord<openvdb::Index64>(x) = active.words[x];
-        leaf->setValueMask(mask);
-        leaves[n] = leaf;
-    });
-    auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(voxel, 3.0);
-    grid->setTree(std::make_shared<openvdb::FloatTree>(background));
-    for (Leaf* leaf : leaves) {
-        if (leaf) grid->tree().addLeaf(leaf);
-    }
-    openvdb::tools::signedFloodFill(grid->tree());
-    return grid;
 }
 
 } // namespace molsurf

@@ -164,16 +164,4 @@ LeafTable joined(const LeafTable& a, const LeafTable& b);
 /// The leaves of a table that lie in a box of whole leaves, with their active voxels.
 LeafTable clipped(const LeafTable& table, const openvdb::CoordBBox& box);
 
-/// The values of a field at the leaves of another table, which are all leaves of the first.
-LeafField restricted(const LeafTable& table, const LeafField& field, const LeafTable& to,
-                     const Progress& progress);
-
-/// A level set grid from a field. Active values are copied; inactive ones become plus or minus
-/// background, by the sign of the field in leaves, by flood fill elsewhere.
-///
-/// @param[in] halfWidth  background [Å]; values are clamped to it
-/// @param[in] voxel      voxel edge [Å]
-openvdb::FloatGrid::Ptr toLevelSet(const LeafTable& table, const LeafField& field, double halfWidth,
-                                   double voxel, const Progress& progress);
-
 } // namespace molsurf

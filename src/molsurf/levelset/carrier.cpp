@@ -82,18 +82,21 @@ MOLSURF_KERNEL void settleMeans(float* __restrict sum, float* __restrict weight,
 
 } // namespace
 
-LeafField smoothCarrier(const LeafTable& table, const LeafField& phi, const CarrierSource& source,
-                        double voxelSize, double width, const Progress& progress)
+SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, double width,
+                          const Progress& progress)
 {
-    LeafField levels(table.size()), out(table.size());
+    const LeafTable& table = phi.table;
+    const float voxelSize = float(phi.voxelSize);
+    LeafField levels(table.size());
+    SparseField out{table, LeafField(table.size()), phi.voxelSize};
     parallelFor(table.size(), progress, [&](std::size_t n) {
         std::fill_n(levels.leaf(n), leafSize, unknown);
-        const LeafMask mask = table.active(n) & within(phi.leaf(n), near * float(voxelSize));
+        const LeafMask mask = table.active(n) & within(phi.leaf(n), near * voxelSize);
         if (!mask.any()) return;
         LeafBlock<float, 1> f, p;
-        f.gather(table, phi, n);
+        f.gather(table, phi.values, n);
         p.gather(table, source.psi, n);
-        levelsAtFeet(f, p, mask, float(voxelSize), levels.leaf(n));
+        levelsAtFeet(f, p, mask, voxelSize, levels.leaf(n));
     });
     const float limit = float(2.0 * width), lambda = float(source.lambda);
     parallelFor(table.size(), progress, [&](std::size_t n) {

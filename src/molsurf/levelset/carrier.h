@@ -4,7 +4,7 @@
 /// @file
 /// A function that carries an interface and is smoother than the distance to it.
 
-#include "molsurf/grid/leaf_table.h"
+#include "molsurf/grid/sparse_field.h"
 #include "molsurf/progress.h"
 
 namespace molsurf
@@ -12,7 +12,7 @@ namespace molsurf
 
 /// The function psi of a sum of Gaussians, and how steep it is.
 struct CarrierSource {
-    const LeafField& psi;
+    const LeafField& psi; ///< on the leaves of phi
     /// |grad psi| where the balls around are flat [1/Å], at each voxel; psi varies by nearly that
     /// where one ball is near, whatever lies beside it.
     const LeafField& slope;
@@ -27,11 +27,10 @@ struct CarrierSource {
 /// curvatures of the offset surface. psi has no ridges.
 ///
 /// @param[in] phi    signed distance to the interface [Å]
-/// @param[in] voxelSize  [Å]
 /// @param[in] width  the result lies within two of it about 0 [Å]
-/// @return a field on the table: < 0 inside, with a slope of 1 where the interface is flat and of
+/// @return a field on the leaves of phi: < 0 inside, with a slope of 1 where the interface is flat and of
 ///         0.2 to 1 in creases
-LeafField smoothCarrier(const LeafTable& table, const LeafField& phi, const CarrierSource& source,
-                        double voxelSize, double width, const Progress& progress);
+SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, double width,
+                          const Progress& progress);
 
 } // namespace molsurf

@@ -250,11 +250,12 @@ void GaussianSum::evaluate(const Coord& origin, double reach, float* psi) const
     });
 }
 
-LeafField GaussianSum::evaluate(const LeafTable& table, const Progress& progress) const
+SparseField GaussianSum::evaluate(LeafTable table, const Progress& progress) const
 {
-    LeafField psi(table.size());
-    parallelFor(table.size(), progress,
-                [&](std::size_t n) { evaluate(table.origin(n), options_.reach, psi.leaf(n)); });
+    SparseField psi{std::move(table), LeafField(), options_.voxel};
+    psi.values = LeafField(psi.table.size());
+    parallelFor(psi.table.size(), progress,
+                [&](std::size_t n) { evaluate(psi.table.origin(n), options_.reach, psi.leaf(n)); });
     return psi;
 }
 

@@ -10,7 +10,7 @@
 
 #include "molsurf/ball.h"
 #include "molsurf/balls/ball_index.h"
-#include "molsurf/grid/leaf_table.h"
+#include "molsurf/grid/sparse_field.h"
 #include "molsurf/progress.h"
 
 #include <optional>
@@ -78,7 +78,7 @@ public:
     std::size_t termCount(const openvdb::Coord& origin, double reach) const;
 
     /// psi at all voxels of all leaves, with the reach of the options.
-    LeafField evaluate(const LeafTable& table, const Progress& progress) const;
+    SparseField evaluate(LeafTable table, const Progress& progress) const;
 
 private:
     /// One ball in units of voxels, relative to a leaf.

@@ -42,19 +42,18 @@ MOLSURF_KERNEL void firstGuess(const float* __restrict block, float voxel, float
 
 } // namespace
 
-LeafField initialSurface(const LeafTable& table, const LeafField& psi, double voxel, double width,
-                         const Progress& progress)
+SparseField initialSurface(const SparseField& psi, double width, const Progress& progress)
 {
-    LeafField phi(table.size());
-    parallelFor(table.size(), progress, [&](std::size_t n) {
+    const double h = psi.voxelSize;
+    SparseField phi{psi.table, LeafField(psi.table.size()), h};
+    parallelFor(phi.table.size(), progress, [&](std::size_t n) {
         LeafBlock<float, 1> block;
-        block.gather(table, psi, n);
-        firstGuess(block.values, float(voxel), float(width), phi.leaf(n));
+        block.gather(psi, n);
+        firstGuess(block.values, float(h), float(width), phi.leaf(n));
     });
     // Half a voxel an iteration, from the interface to the rim of the band.
-    const int iterations = int(std::ceil(2.0 * width / voxel)) - 1;
-    LeafField scratch;
-    reinitialize(table, phi, voxel, width, iterations, scratch, progress);
+    const int iterations = int(std::ceil(2.0 * width / h)) - 1;
+    reinitialize(phi, width, iterations, progress);
     return phi;
 }
 

@@ -4,7 +4,7 @@
 /// @file
 /// The level set that the flow starts from: the zero set of the smooth field psi.
 
-#include "molsurf/grid/leaf_table.h"
+#include "molsurf/grid/sparse_field.h"
 #include "molsurf/progress.h"
 
 namespace molsurf
@@ -15,12 +15,9 @@ namespace molsurf
 /// Near it the distance of the zero of psi's second-order Taylor polynomial along its gradient;
 /// from there outward by reinitialize().
 ///
-/// @param[in] table  active voxels: the band
-/// @param[in] psi    > 0 inside; smooth near its zero set
-/// @param[in] voxel  voxel edge h [Å]
+/// @param[in] psi    > 0 inside, smooth near its zero set; active voxels: the band
 /// @param[in] width  half width of the band [Å]
-/// @return phi [Å], < 0 inside, within [-width, width]
-LeafField initialSurface(const LeafTable& table, const LeafField& psi, double voxel, double width,
-                         const Progress& progress);
+/// @return phi [Å] on the same leaves, < 0 inside, within [-width, width]
+SparseField initialSurface(const SparseField& psi, double width, const Progress& progress);
 
 } // namespace molsurf

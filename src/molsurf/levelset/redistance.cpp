@@ -134,12 +134,11 @@ void closestPoints(const LeafBlock<float, 3>& c, const std::uint16_t* voxels, in
 }
 
 /// The spline of phi/h at a point [voxel] in or beside a leaf, from the leaf's first voxel.
-Jet jetBeside(const LeafTable& table, const LeafField& coefficients, float voxel, std::int32_t leaf,
-              const Vec3f& y)
+Jet jetBeside(const SparseField& coefficients, std::int32_t leaf, const Vec3f& y)
 {
     const Vec3d place(y);
     const Coord cell = Coord::floor(place), first = cell - Coord(1);
-    const auto& near = table.neighbours(leaf);
+    const auto& near = coefficients.table.neighbours(leaf);
     const int z0 = first.z() & 7, below = (first.z() >> 3) + 1; // where the four along z begin
     float c[4][4][4];
     for (int i = 0; i < 4; ++i) {
@@ -158,7 +157,7 @@ Jet jetBeside(const LeafTable& table, const LeafField& coefficients, float voxel
         }
     }
     Jet jet = evaluateSpline(&c[1][1][1], 16, 4, place - cell.asVec3d());
-    const double inverse = 1.0 / voxel;
+    const double inverse = 1.0 / float(coefficients.voxelSize);
     jet.value *= inverse;
     jet.gradient *= inverse;
     jet.hessian *= inverse;
@@ -230,18 +229,18 @@ int listOf(const LeafMask& mask, std::uint16_t* voxels)
 }
 
 /// The seeds of all interface voxels, leaf by leaf, and where those of each leaf begin.
-PagedArray<Seed> findSeeds(const LeafTable& table, const LeafField& coefficients, double voxel,
-                           const std::vector<LeafMask>& interface, std::vector<std::size_t>& begins,
-                           const Progress& progress)
+PagedArray<Seed> findSeeds(const SparseField& coefficients, const std::vector<LeafMask>& interface,
+                           std::vector<std::size_t>& begins, const Progress& progress)
 {
+    const LeafTable& table = coefficients.table;
     begins.assign(table.size() + 1, 0);
     for (std::size_t n = 0; n < table.size(); ++n) begins[n + 1] = begins[n] + interface[n].count();
     PagedArray<Seed> seeds(begins.back());
     parallelFor(table.size(), progress, [&](std::size_t n) {
         if (!interface[n].any()) return;
         LeafBlock<float, 3> block;
-        block.gather(table, coefficients, n);
-        for (float& c : block.values) c *= float(1.0 / voxel);
+        block.gather(coefficients, n);
+        for (float& c : block.values) c *= float(1.0 / coefficients.voxelSize);
         std::uint16_t voxels[leafSize];
         const int count = listOf(interface[n], voxels);
         for (int first = 0; first < count; first += lanes) {
@@ -279,10 +278,9 @@ LeafTable reachable(const LeafTable& table, const std::vector<LeafMask>& interfa
 class LeafDistances
 {
 public:
-    LeafDistances(const LeafTable& table, const LeafField& coefficients, double voxel,
-                  const PagedArray<Seed>& seeds, const Coord& origin)
-        : table_(table), coefficients_(coefficients), voxel_(float(voxel)), seeds_(seeds),
-          origin_(origin)
+    LeafDistances(const SparseField& coefficients, const PagedArray<Seed>& seeds,
+                  const Coord& origin)
+        : coefficients_(coefficients), seeds_(seeds), origin_(origin)
     {
     }
 
@@ -426,7 +424,7 @@ private:
 
     Vec3f shift(const Seed& seed) const
     {
-        return Vec3f((table_.origin(seed.leaf) - origin_).asVec3s());
+        return Vec3f((coefficients_.table.origin(seed.leaf) - origin_).asVec3s());
     }
 
     /// Moves closest points along the surface: one Newton step on the spline, which leaves an error
@@ -449,7 +447,7 @@ private:
                 jets.set(l, Jet{0.0, Vec3d(1.0, 0.0, 0.0), openvdb::Mat3d::zero()});
                 continue;
             }
-            const Jet jet = jetBeside(table_, coefficients_, voxel_, seed.leaf, w.y - shift(seed));
+            const Jet jet = jetBeside(coefficients_, seed.leaf, w.y - shift(seed));
             const double slope2 = jet.gradient.lengthSqr();
             good[l] = slope2 >= 0.04;
             setLane(w.y - Vec3f(jet.value / std::max(slope2, 0.04) * jet.gradient), l, feet.y);
@@ -494,7 +492,7 @@ private:
     {
         constexpr double tolerance = 1e-5, leastSlope2 = 0.01, longest = 0.5;
         for (int i = 0; i < 6; ++i) {
-            jet = jetBeside(table_, coefficients_, voxel_, leaf, Vec3f(y));
+            jet = jetBeside(coefficients_, leaf, Vec3f(y));
             const double slope2 = jet.gradient.lengthSqr();
             if (slope2 < leastSlope2) return false;
             if (std::abs(jet.value) < tolerance) return true;
@@ -555,40 +553,17 @@ private:
         out[v] = float(std::sqrt(least2));
     }
 
-    const LeafTable& table_;
-    const LeafField& coefficients_;
-    const float voxel_;
+    const SparseField& coefficients_;
     const PagedArray<Seed>& seeds_;
     const Coord origin_;
     Waiting wait_[lanes];
     int waiting_ = 0;
 };
 
-} // namespace
-
-DistanceBand redistance(const LeafTable& table, LeafField phi, double voxel, double inside,
-                        double outside, double level, const Progress& progress,
-                        const openvdb::CoordBBox& box)
+/// The seeds' places, for the search of the nearest.
+LeafPoints pointsOf(const LeafTable& table, const PagedArray<Seed>& seeds,
+                    std::vector<std::size_t> begins, const Progress& progress)
 {
-    std::vector<LeafMask> inner(table.size()), outer(table.size());
-    parallelFor(table.size(), progress, [&](std::size_t n) {
-        inner[n] = lessThan(phi.leaf(n), 0.0f);
-        outer[n] = ~inner[n];
-    });
-    const std::vector<LeafMask> interface = interfaceVoxels(table, inner, progress);
-    std::vector<std::size_t> begins;
-    const LeafField coefficients = prefilter(table, phi, progress);
-    phi = LeafField();
-    const PagedArray<Seed> seeds =
-        findSeeds(table, coefficients, voxel, interface, begins, progress);
-    if (seeds.empty()) return DistanceBand();
-
-    const auto steps = [&](double width) { return int(std::ceil(width / voxel)); };
-    const LeafTable domain =
-        clipped(joined(reachable(table, interface, outer, steps(inside), progress),
-                       reachable(table, interface, inner, steps(outside), progress)),
-                box);
-
     LeafPoints points{table, std::move(begins), {}, {}, {}};
     for (auto* v : {&points.x, &points.y, &points.z}) v->resize(seeds.size() + LeafPoints::padding);
     parallelFor(table.size(), progress, [&](std::size_t n) {
@@ -598,7 +573,72 @@ DistanceBand redistance(const LeafTable& table, LeafField phi, double voxel, dou
             points.z[i] = seeds[i].y.z();
         }
     });
-    const double reach = std::max(inside, outside) / voxel + 1.0;
+    return points;
+}
+
+/// Replaces the nearest seed of each voxel of a leaf by its signed distance; makes voxels of the
+/// band active.
+/// @param[in]     inner  whether voxels of the given level set's leaf are inside; null: there is no
+///                       such leaf
+/// @param[in]     level  that gets the best distances [Å]
+/// @param[in,out] band   the leaf's active voxels and kinks are set, and its values: bytes of the
+///                       seeds' indices before
+void takeDistances(LeafDistances leaf, const LeafMask* inner, const BandWidths& width, double level,
+                   std::size_t n, DistanceBand& band)
+{
+    const float h = float(band.phi.voxelSize);
+    float* phi = band.phi.leaf(n);
+    std::int32_t own[leafSize];
+    std::memcpy(own, phi, sizeof own);
+    const LeafMask negative = inner ? *inner : leaf.side(own);
+    LeafMask reached;
+    for (int v = 0; v < leafSize; ++v) {
+        phi[v] = negative.on(v) ? float(-width.inside) : float(width.outside);
+        reached.set(v, own[v] != noSeed);
+    }
+    std::uint16_t voxels[leafSize];
+    const int count = listOf(reached, voxels);
+    float distance[leafSize];
+    leaf.compute(own, voxels, count, negative, float(level) / h, distance);
+    LeafMask active;
+    for (int k = 0; k < count; ++k) {
+        const int v = voxels[k];
+        const float d = std::max(distance[v], 1e-6f) * h;
+        if (d >= float(negative.on(v) ? width.inside : width.outside)) continue;
+        phi[v] = negative.on(v) ? -d : d;
+        active.set(v);
+    }
+    band.phi.table.active(n) = active;
+    band.kinks.active(n) &= active;
+}
+
+} // namespace
+
+DistanceBand redistance(SparseField phi, const BandWidths& width, double level,
+                        const Progress& progress, const openvdb::CoordBBox& box)
+{
+    std::vector<LeafMask> inner(phi.table.size()), outer(phi.table.size());
+    parallelFor(phi.table.size(), progress, [&](std::size_t n) {
+        inner[n] = lessThan(phi.leaf(n), 0.0f);
+        outer[n] = ~inner[n];
+    });
+    const std::vector<LeafMask> interface = interfaceVoxels(phi.table, inner, progress);
+    std::vector<std::size_t> begins;
+    const SparseField coefficients = prefilter(phi, progress);
+    phi.values = LeafField();
+    const LeafTable& table = coefficients.table;
+    const PagedArray<Seed> seeds = findSeeds(coefficients, interface, begins, progress);
+    DistanceBand band;
+    band.phi.voxelSize = phi.voxelSize;
+    if (seeds.empty()) return band;
+
+    const auto steps = [&](double w) { return int(std::ceil(w / phi.voxelSize)); };
+    const LeafTable domain =
+        clipped(joined(reachable(table, interface, outer, steps(width.inside), progress),
+                       reachable(table, interface, inner, steps(width.outside), progress)),
+                box);
+    const LeafPoints points = pointsOf(table, seeds, std::move(begins), progress);
+    const double reach = std::max(width.inside, width.outside) / phi.voxelSize + 1.0;
     SeedIndex index(domain.size());
     tbb::enumerable_thread_specific<NearestScratch> scratches;
     parallelFor(domain.size(), progress, [&](std::size_t n) {
@@ -607,44 +647,17 @@ DistanceBand redistance(const LeafTable& table, LeafField phi, double voxel, dou
                       index.leaf(n));
     });
 
-    DistanceBand band;
-    band.table = domain;
-    band.kinks.resize(domain.size());
+    band.phi.table = band.kinks = domain;
     parallelFor(domain.size(), progress, [&](std::size_t n) {
-        const LeafDistances leaf(table, coefficients, voxel, seeds, domain.origin(n));
         SeedBlock block;
         block.gather(domain, index, n);
-        band.kinks[n] = leaf.kinks(block);
+        band.kinks.active(n) = LeafDistances(coefficients, seeds, domain.origin(n)).kinks(block);
     });
-
-    band.phi = std::move(index).reused<float>();
-    const float h = float(voxel);
+    band.phi.values = std::move(index).reused<float>();
     parallelFor(domain.size(), progress, [&](std::size_t n) {
-        float* phi = band.phi.leaf(n);
-        std::int32_t own[leafSize];
-        std::memcpy(own, phi, sizeof own);
-        LeafDistances leaf(table, coefficients, voxel, seeds, domain.origin(n));
         const std::int32_t m = table.find(domain.origin(n));
-        const LeafMask negative = m != noLeaf ? inner[std::size_t(m)] : leaf.side(own);
-        LeafMask reached;
-        for (int v = 0; v < leafSize; ++v) {
-            phi[v] = negative.on(v) ? float(-inside) : float(outside);
-            reached.set(v, own[v] != noSeed);
-        }
-        std::uint16_t voxels[leafSize];
-        const int count = listOf(reached, voxels);
-        float distance[leafSize];
-        leaf.compute(own, voxels, count, negative, float(level) / h, distance);
-        LeafMask active;
-        for (int k = 0; k < count; ++k) {
-            const int v = voxels[k];
-            const float d = std::max(distance[v], 1e-6f) * h;
-            if (d >= float(negative.on(v) ? inside : outside)) continue;
-            phi[v] = negative.on(v) ? -d : d;
-            active.set(v);
-        }
-        band.table.active(n) = active;
-        band.kinks[n] &= active;
+        takeDistances(LeafDistances(coefficients, seeds, domain.origin(n)),
+                      m != noLeaf ? &inner[std::size_t(m)] : nullptr, width, level, n, band);
     });
     return band;
 }

@@ -124,7 +124,7 @@ MOLSURF_KERNEL void nextToInterface(const float* __restrict block, const LeafMas
 constexpr float stencilError = 0.02f;
 
 /// Signed distance of the zero of the second-order Taylor polynomial along the gradient, where a
-/// mask is on; the value itself where the polynomial has no zero nearby (in crevices that the grid
+/// mask is on; the value itself where the polynomial has no zero nearby (in gaps that the grid
 /// does not resolve).
 MOLSURF_KERNEL void taylorDistance(const float* __restrict block, const LeafMask& mask,
                                    float inverse, float* __restrict out)
@@ -158,17 +158,18 @@ MOLSURF_KERNEL void taylorDistance(const float* __restrict block, const LeafMask
 
 } // namespace
 
-void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double width,
-                  int iterations, LeafField& scratch, const Progress& progress)
+void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress,
+                  LeafField& scratch)
 {
-    const float h = float(voxel), w = float(width);
+    const LeafTable& table = phi.table;
+    const float h = float(phi.voxelSize), w = float(width);
     std::vector<LeafMask> interface(table.size());
     if (scratch.leafCount() != table.size()) scratch = LeafField(table.size());
     for (int i = 0; i < iterations; ++i) {
         // scratch <- phi after one step; interface voxels keep the value that step 0 has given them
         parallelFor(table.size(), progress, [&](std::size_t n) {
             Block block;
-            block.gather(table, phi, n);
+            block.gather(phi, n);
             scratch.prefetchAfter(n);
             LeafMask& fixed = interface[n];
             if (i == 0) nextToInterface(block.values, table.active(n), fixed);
@@ -176,8 +177,14 @@ void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double w
             if (i == 0 && fixed.any())
                 taylorDistance(block.values, fixed, 1.0f / h, scratch.leaf(n));
         });
-        std::swap(phi, scratch);
+        std::swap(phi.values, scratch);
     }
+}
+
+void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress)
+{
+    LeafField scratch;
+    reinitialize(phi, width, iterations, progress, scratch);
 }
 
 } // namespace molsurf

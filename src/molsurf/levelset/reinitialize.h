@@ -5,7 +5,7 @@
 /// Keeps a level set a signed distance while its interface moves: Hamilton-Jacobi iterations by
 /// leaf block.
 
-#include "molsurf/grid/leaf_table.h"
+#include "molsurf/grid/sparse_field.h"
 #include "molsurf/progress.h"
 
 namespace molsurf
@@ -23,12 +23,15 @@ namespace molsurf
 /// what plagues the plain iteration: Russo and Smereka, A remark on computing distance functions,
 /// J. Comput. Phys. 163:51-67, 2000). One iteration carries the distance half a voxel outward.
 ///
-/// @param[in,out] phi         level set [Å]; afterwards within [-width, width]
-/// @param[in]     voxel       voxel edge h [Å]
+/// @param[in,out] phi         level set [Å], iterated at its active voxels; afterwards within
+///                            [-width, width]
 /// @param[in]     width       half width of the band [Å]
 /// @param[in]     iterations  number of Euler steps
-/// @param         scratch     storage; made to fit the table if it does not
-void reinitialize(const LeafTable& table, LeafField& phi, double voxel, double width,
-                  int iterations, LeafField& scratch, const Progress& progress);
+/// @param         scratch     storage, to be kept from call to call; made to fit if it does not
+void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress,
+                  LeafField& scratch);
+
+/// As above, with storage of its own.
+void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress);
 
 } // namespace molsurf

@@ -26,15 +26,16 @@ int stepsFor(double voxelSize)
 }
 
 /// The voxels near kinks and near the zero set, of those that S has.
-LeafTable ridgesOf(const DistanceBand& S, float voxelSize, const Progress& progress)
+LeafTable ridgesOf(const DistanceBand& S, const Progress& progress)
 {
-    LeafTable ridges = S.table;
+    LeafTable ridges = S.kinks;
+    const float width = (reach + 0.5f) * float(S.phi.voxelSize);
     for (std::size_t n = 0; n < ridges.size(); ++n)
-        ridges.active(n) = S.kinks[n] & within(S.phi.leaf(n), (reach + 0.5f) * voxelSize);
+        ridges.active(n) &= within(S.phi.leaf(n), width);
     ridges = dilated(pruned(ridges), about, Spread::Ball, progress);
     for (std::size_t n = 0; n < ridges.size(); ++n) {
-        const std::int32_t m = S.table.find(ridges.origin(n));
-        ridges.active(n) = m == noLeaf ? LeafMask() : ridges.active(n) & S.table.active(m);
+        const std::int32_t m = S.phi.table.find(ridges.origin(n));
+        ridges.active(n) = m == noLeaf ? LeafMask() : ridges.active(n) & S.phi.table.active(m);
     }
     return pruned(ridges);
 }
@@ -60,20 +61,20 @@ int ridgeReach(double voxelSize)
     return steps > 0 ? steps + about + 1 : 0; // a kink depends on the next voxel
 }
 
-void roundRidges(DistanceBand& S, double voxelSize, const Progress& progress)
+void roundRidges(DistanceBand& S, const Progress& progress)
 {
-    const int steps = stepsFor(voxelSize);
+    const int steps = stepsFor(S.phi.voxelSize);
     if (steps == 0) return;
-    const float h = float(voxelSize), inverse = 1.0f / h, time = 0.125f * h * h;
-    const LeafTable ridges = ridgesOf(S, h, progress);
+    const float h = float(S.phi.voxelSize), inverse = 1.0f / h, time = 0.125f * h * h;
+    const LeafTable ridges = ridgesOf(S, progress);
     std::vector<std::size_t> leaf(ridges.size());
     for (std::size_t n = 0; n < ridges.size(); ++n)
-        leaf[n] = std::size_t(S.table.find(ridges.origin(n)));
+        leaf[n] = std::size_t(S.phi.table.find(ridges.origin(n)));
     LeafField next(ridges.size());
     for (int i = 0; i < steps; ++i) {
         parallelFor(ridges.size(), progress, [&](std::size_t n) {
             LeafBlock<float, 1> block;
-            block.gather(S.table, S.phi, leaf[n]);
+            block.gather(S.phi.table, S.phi.values, leaf[n]);
             float* out = next.leaf(n);
             std::copy_n(S.phi.leaf(leaf[n]), leafSize, out);
             ridges.active(n).forEach([&](int v) {

@@ -23,6 +23,6 @@ int ridgeReach(double voxelSize);
 ///
 /// A ridge is a true crease of the offset surface, whose curvature is infinite; without rounding,
 /// what a spline makes of it depends on the voxel.
-void roundRidges(DistanceBand& S, double voxelSize, const Progress& progress);
+void roundRidges(DistanceBand& S, const Progress& progress);
 
 } // namespace molsurf

@@ -19,7 +19,7 @@ namespace
 /// the nearest voxel 0.5 at most, by central differences.
 constexpr float middleSlope = 0.7f;
 
-float valueAt(const DistanceBand& S, std::size_t n, const Coord& voxel)
+float valueAt(const SparseField& S, std::size_t n, const Coord& voxel)
 {
     const Coord at = voxel - S.table.origin(n);
     const auto side = [](int i) { return i < 0 ? -1 : i >= leafDim ? 1 : 0; };
@@ -27,15 +27,15 @@ float valueAt(const DistanceBand& S, std::size_t n, const Coord& voxel)
     const std::int32_t m = S.table.neighbours(n)[std::size_t(d)];
     const auto v = openvdb::FloatTree::LeafNodeType::coordToOffset(voxel);
     // Beyond the band the value does not count: no voxel there is thin.
-    return m == noLeaf ? 1e6f : S.phi.leaf(std::size_t(m))[v];
+    return m == noLeaf ? 1e6f : S.leaf(std::size_t(m))[v];
 }
 
 /// Voxels in the middle of what is thinner than a wall.
-std::vector<Coord> middleOf(const DistanceBand& S, std::size_t n, double voxel, double wall)
+std::vector<Coord> middleOf(const SparseField& S, std::size_t n, double wall)
 {
     std::vector<Coord> out;
     S.table.active(n).forEach([&](int v) {
-        const float depth = -S.phi.leaf(n)[v];
+        const float depth = -S.leaf(n)[v];
         if (depth <= 0.0f || depth >= float(0.5 * wall)) return;
         const Coord at = S.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
         float slope = 0.0f;
@@ -43,7 +43,7 @@ std::vector<Coord> middleOf(const DistanceBand& S, std::size_t n, double voxel, 
             Coord low = at, high = at;
             --low[axis];
             ++high[axis];
-            const float d = (valueAt(S, n, high) - valueAt(S, n, low)) / float(2.0 * voxel);
+            const float d = (valueAt(S, n, high) - valueAt(S, n, low)) / float(2.0 * S.voxelSize);
             slope += d * d;
         }
         if (slope < middleSlope * middleSlope) out.push_back(at);
@@ -53,17 +53,18 @@ std::vector<Coord> middleOf(const DistanceBand& S, std::size_t n, double voxel, 
 
 } // namespace
 
-void thickenWalls(DistanceBand& S, double voxel, double wall, double width,
-                  const Progress& progress)
+void thickenWalls(DistanceBand& S, double wall, double width, const Progress& progress)
 {
-    std::vector<std::vector<Coord>> middle(S.table.size());
-    parallelFor(S.table.size(), progress,
-                [&](std::size_t n) { middle[n] = middleOf(S, n, voxel, wall); });
+    LeafTable& table = S.phi.table;
+    const double h = S.phi.voxelSize;
+    std::vector<std::vector<Coord>> middle(table.size());
+    parallelFor(table.size(), progress,
+                [&](std::size_t n) { middle[n] = middleOf(S.phi, n, wall); });
 
-    const double radius = 0.5 * wall / voxel, reach = radius + width / voxel; // [voxel]
+    const double radius = 0.5 * wall / h, reach = radius + width / h; // [voxel]
     const int leaves = int(std::ceil(reach / leafDim));
-    parallelFor(S.table.size(), progress, [&](std::size_t n) {
-        const Coord origin = S.table.origin(n);
+    parallelFor(table.size(), progress, [&](std::size_t n) {
+        const Coord origin = table.origin(n);
         const openvdb::Vec3d mid = origin.asVec3d() + 0.5 * (leafDim - 1);
         const double leafReach = 0.5 * std::sqrt(3.0) * (leafDim - 1) + reach;
         std::vector<openvdb::Vec3f> near; // from the origin [voxel]
@@ -71,7 +72,7 @@ void thickenWalls(DistanceBand& S, double voxel, double wall, double width,
         for (int k = 0; k < w * w * w; ++k) {
             const auto step = [&](int i) { return leafDim * (i % w - leaves); };
             const std::int32_t m =
-                S.table.find(origin.offsetBy(step(k / w / w), step(k / w), step(k)));
+                table.find(origin.offsetBy(step(k / w / w), step(k / w), step(k)));
             if (m == noLeaf) continue;
             for (const Coord& c : middle[std::size_t(m)]) {
                 if ((c.asVec3d() - mid).lengthSqr() < leafReach * leafReach)
@@ -80,17 +81,17 @@ void thickenWalls(DistanceBand& S, double voxel, double wall, double width,
         }
         float* phi = S.phi.leaf(n);
         if (!near.empty()) {
-            S.table.active(n).forEach([&](int v) {
+            table.active(n).forEach([&](int v) {
                 const openvdb::Vec3f at(float(v >> 6), float(v >> 3 & 7), float(v & 7));
                 float least = float(reach * reach);
                 for (const openvdb::Vec3f& c : near) least = std::min(least, (at - c).lengthSqr());
-                const float ball = float(voxel) * (std::sqrt(least) - float(radius));
+                const float ball = float(h) * (std::sqrt(least) - float(radius));
                 if (ball >= phi[v]) return;
                 phi[v] = ball;
-                S.kinks[n].set(v);
+                S.kinks.active(n).set(v);
             });
         }
-        S.table.active(n) &= within(phi, float(width));
+        table.active(n) &= within(phi, float(width));
     });
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// A least thickness for what is thin.
+/// Thickens walls that are thinner than a minimum, for 3D printing.
 
 #include "molsurf/grid/distance_band.h"
 #include "molsurf/progress.h"
@@ -18,10 +18,8 @@ namespace molsurf
 ///
 /// @param[in,out] S   signed distance, at least wall/2 deep and wall/2 + width high; on return the
 ///                    active voxels are those with |S| < width
-/// @param[in] voxel   voxel edge h [Å]
-/// @param[in] wall    [Å], > 0
-/// @param[in] width   [Å]
-void thickenWalls(DistanceBand& S, double voxel, double wall, double width,
-                  const Progress& progress);
+/// @param[in] wall    least thickness [Å], > 0
+/// @param[in] width   half width of the band that is left [Å], > 0
+void thickenWalls(DistanceBand& S, double wall, double width, const Progress& progress);
 
 } // namespace molsurf

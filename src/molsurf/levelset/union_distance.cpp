@@ -249,12 +249,12 @@ struct Near {
 class Evaluator
 {
 public:
-    /// @param[in,out] boundary  its caps are taken
-    Evaluator(const std::vector<Ball>& balls, double probe, BallBoundary& boundary, double voxel,
-              double inside, double outside)
-        : boundary_(boundary), probe_(probe), voxel_(voxel), inside_(inside), outside_(outside),
-          caps_(arraysOf(std::move(boundary.caps))), spheres_(patchBalls(boundary)),
-          patchIndex_(spheres_, {1.0 / 1.5, 0.0, 2.0}), ballIndex_(balls, {1.0 / 1.5, probe, 2.0})
+    /// @param[in,out] set  the caps of its boundary are taken
+    Evaluator(BallUnion& set, double voxelSize, const BandWidths& width)
+        : boundary_(set.boundary), probe_(set.probe), voxel_(voxelSize), inside_(width.inside),
+          outside_(width.outside), caps_(arraysOf(std::move(set.boundary.caps))),
+          spheres_(patchBalls(set.boundary)), patchIndex_(spheres_, {1.0 / 1.5, 0.0, 2.0}),
+          ballIndex_(set.balls, {1.0 / 1.5, set.probe, 2.0})
     {
     }
 
@@ -511,55 +511,66 @@ Vec3d footOn(const BallBoundary& boundary, std::int32_t part, const Vec3d& x)
 
 /// Whether the nearest boundary points of two neighbouring voxels lie apart: farther than they can
 /// on one smooth piece, and by more than 20 degrees as seen from the first.
-bool isKink(const Vec3d& x, const Vec3d& foot, const Vec3d& nextFoot, double voxel)
+bool isKink(const Vec3d& x, const Vec3d& foot, const Vec3d& nextFoot, double voxelSize)
 {
     constexpr double apartVox = 2.5, cosine = 0.94;
-    if ((foot - nextFoot).length() < apartVox * voxel) return false;
+    if ((foot - nextFoot).length() < apartVox * voxelSize) return false;
     Vec3d a = foot - x, b = nextFoot - x;
     a.normalize();
     b.normalize();
     return a.dot(b) < cosine;
 }
 
+/// The voxels of a leaf beside which the nearest boundary points lie apart.
+/// @param[in] part  index of the nearest part of each voxel of the table
+LeafMask kinksOf(const BallBoundary& boundary, const LeafTable& table,
+                 const LeafArray<std::int32_t>& part, double voxelSize, std::size_t n)
+{
+    LeafMask kinks;
+    LeafBlock<std::int32_t, 1> block;
+    block.gather(table, part, n);
+    table.active(n).forEach([&](int v) {
+        const Coord local(v >> 6, v >> 3 & 7, v & 7);
+        const std::int32_t* p = block.at(local.x(), local.y(), local.z());
+        const Vec3d x = (table.origin(n) + local).asVec3d() * voxelSize;
+        for (const int step : {block.strideX, block.strideY, block.strideZ}) {
+            if (p[0] < 0 || p[step] < 0 || p[step] == p[0]) continue;
+            const Coord next(step == block.strideX, step == block.strideY, step == block.strideZ);
+            const Vec3d foot = footOn(boundary, p[0], x);
+            const Vec3d nextFoot = footOn(boundary, p[step], x + next.asVec3d() * voxelSize);
+            if (isKink(x, foot, nextFoot, voxelSize)) kinks.set(v);
+        }
+    });
+    return kinks;
+}
+
 } // namespace
 
-DistanceBand distanceToUnion(const std::vector<Ball>& balls, double probe, BallBoundary boundary,
-                             double voxel, double inside, double outside, const Progress& progress,
-                             const openvdb::CoordBBox& box)
+BallUnion unionOf(const std::vector<Ball>& balls, double probe, const Progress& progress)
+{
+    return {balls, probe, ballBoundary(balls, probe, progress)};
+}
+
+DistanceBand distanceToUnion(BallUnion set, double voxelSize, const BandWidths& width,
+                             const Progress& progress, const openvdb::CoordBBox& box)
 {
     DistanceBand band;
-    if (boundary.patches.empty()) return band;
-    const Evaluator evaluator(balls, probe, boundary, voxel, inside, outside);
-    LeafTable table(evaluator.leaves(box, progress));
-    LeafField phi(table.size());
+    band.phi.voxelSize = voxelSize;
+    if (set.boundary.patches.empty()) return band;
+    const Evaluator evaluator(set, voxelSize, width);
+    LeafTable& table = band.phi.table;
+    table = LeafTable(evaluator.leaves(box, progress));
+    band.phi.values = LeafField(table.size());
     LeafArray<std::int32_t> part(table.size());
     tbb::enumerable_thread_specific<Near> scratch;
     parallelFor(table.size(), progress, [&](std::size_t n) {
         table.active(n) =
-            evaluator.evaluate(table.origin(n), scratch.local(), phi.leaf(n), part.leaf(n));
+            evaluator.evaluate(table.origin(n), scratch.local(), band.phi.leaf(n), part.leaf(n));
     });
-
-    std::vector<LeafMask> kinks(table.size());
+    band.kinks = table;
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        LeafBlock<std::int32_t, 1> block;
-        block.gather(table, part, n);
-        table.active(n).forEach([&](int v) {
-            const Coord local(v >> 6, v >> 3 & 7, v & 7);
-            const std::int32_t* p = block.at(local.x(), local.y(), local.z());
-            const Vec3d x = (table.origin(n) + local).asVec3d() * voxel;
-            for (const int step : {block.strideX, block.strideY, block.strideZ}) {
-                if (p[0] < 0 || p[step] < 0 || p[step] == p[0]) continue;
-                const Coord next(step == block.strideX, step == block.strideY,
-                                 step == block.strideZ);
-                const Vec3d foot = footOn(boundary, p[0], x);
-                const Vec3d nextFoot = footOn(boundary, p[step], x + next.asVec3d() * voxel);
-                if (isKink(x, foot, nextFoot, voxel)) kinks[n].set(v);
-            }
-        });
+        band.kinks.active(n) = kinksOf(set.boundary, table, part, voxelSize, n);
     });
-    band.table = std::move(table);
-    band.phi = std::move(phi);
-    band.kinks = std::move(kinks);
     return band;
 }
 

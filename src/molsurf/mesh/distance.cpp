@@ -172,7 +172,7 @@ Distance DistanceTo::Query::at(const Vec3d& x)
     const Surface& surface = to_.surface_;
     const MeshPoint near = to_.closest_.at(x);
     if (sampler_) {
-        const double voxel = surface.spline->voxel;
+        const double voxel = surface.spline->voxelSize();
         const Vec3d local = surface.pose.toLocal(x), start = surface.pose.toLocal(near.point);
         // The triangles follow the surface closely: a foot at another distance is not the closest.
         constexpr double leeway = 0.25; // [voxel]

@@ -74,7 +74,7 @@ public:
     /// @param[in] tolerance  of the difference of the two rules over a part of a triangle [sr]
     /// @param[in] origin     that volumes are taken about
     Integrator(const Spline& spline, double tolerance, const Vec3d& origin)
-        : sampler_(spline), h_(spline.voxel), tolerance_(tolerance), origin_(origin)
+        : sampler_(spline), h_(spline.voxelSize()), tolerance_(tolerance), origin_(origin)
     {
     }
 

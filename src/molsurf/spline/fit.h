@@ -12,11 +12,8 @@ namespace molsurf
 /// Fits the spline that interpolates a field at every 2^level-th voxel: on the coarse grid G_0 of
 /// the paper, if the field lives on its grid G_level.
 ///
-/// @param[in] table  active voxels: where the field is known
-/// @param[in] field  [Å]
-/// @param[in] voxel  voxel edge of the field [Å]
+/// @param[in] field  values to interpolate at its active voxels [Å]
 /// @param[in] level  0, 1 or 2
-Spline fitSpline(const LeafTable& table, const LeafField& field, double voxel, int level,
-                 const Progress& progress);
+Spline fitSpline(const SparseField& field, int level, const Progress& progress);
 
 } // namespace molsurf

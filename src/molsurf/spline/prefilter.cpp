@@ -5,6 +5,7 @@
 #include "molsurf/core/simd.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace molsurf
 {
@@ -84,6 +85,7 @@ MOLSURF_KERNEL void expand(std::uint64_t bits, float* __restrict out)
     }
 }
 
+/// @param[in] field  values on the leaves of the table
 void gatherLines(const LeafTable& table, const LeafField& field, std::size_t n, int axis,
                  Lines& lines)
 {
@@ -116,12 +118,13 @@ void gatherLines(const LeafTable& table, const LeafField& field, std::size_t n, 
 
 } // namespace
 
-LeafField prefilter(const LeafTable& table, const LeafField& field, const Progress& progress)
+SparseField prefilter(const SparseField& field, const Progress& progress)
 {
+    const LeafTable& table = field.table;
     LeafField from(table.size()), to(table.size());
     for (int axis = 0; axis < 3; ++axis) {
         // to <- from filtered along the axis
-        const LeafField& source = axis == 0 ? field : from;
+        const LeafField& source = axis == 0 ? field.values : from;
         parallelFor(table.size(), progress, [&](std::size_t n) {
             Lines lines;
             gatherLines(table, source, n, axis, lines);
@@ -133,7 +136,7 @@ LeafField prefilter(const LeafTable& table, const LeafField& field, const Progre
         });
         std::swap(from, to);
     }
-    return from;
+    return {table, std::move(from), field.voxelSize};
 }
 
 } // namespace molsurf

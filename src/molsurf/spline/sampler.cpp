@@ -103,16 +103,16 @@ Jet evaluateSpline(const float* c, int strideX, int strideY, const Vec3d& t)
 
 void SplineSampler::locate(const Vec3d& x, Coord& local, Vec3d& t)
 {
-    const Vec3d index = x / spline_.voxel;
+    const Vec3d index = x / spline_.voxelSize();
     const Coord cell = Coord::floor(index);
     t = index - cell.asVec3d();
     const Coord origin = cell & ~(leafDim - 1);
     if (origin != origin_) {
-        const std::int32_t n = spline_.table.find(cell);
+        const std::int32_t n = spline_.table().find(cell);
         if (n == noLeaf) {
             std::fill_n(block_.values, block_.dim * block_.dim * block_.dim, 0.0f);
         } else {
-            block_.gather(spline_.table, spline_.coefficients, n);
+            block_.gather(spline_.coefficients, n);
         }
         origin_ = origin;
     }
@@ -126,8 +126,9 @@ Jet SplineSampler::at(const Vec3d& x)
     locate(x, cell, t);
     Jet jet =
         evaluateSpline(block_.at(cell.x(), cell.y(), cell.z()), block_.strideX, block_.strideY, t);
-    jet.gradient /= spline_.voxel;
-    jet.hessian *= 1.0 / (spline_.voxel * spline_.voxel);
+    const double h = spline_.voxelSize();
+    jet.gradient /= h;
+    jet.hessian *= 1.0 / (h * h);
     return jet;
 }
 

@@ -6,7 +6,7 @@
 /// field at its voxels. Lengths in Å, symbols in docs/math.md, section 5.
 
 #include "molsurf/grid/leaf_block.h"
-#include "molsurf/grid/leaf_table.h"
+#include "molsurf/grid/sparse_field.h"
 #include "molsurf/progress.h"
 
 #include <openvdb/openvdb.h>
@@ -16,9 +16,10 @@ namespace molsurf
 
 /// Coefficients of a spline: S(x) = sum_k c_k B(x/h - k), B the product of three cubic B-splines.
 struct Spline {
-    LeafTable table;        ///< active voxels: where c interpolates
-    LeafField coefficients; ///< c [Å]
-    double voxel = 0.0;     ///< spacing h of the coefficients [Å]
+    SparseField coefficients; ///< c [Å]; active voxels: where c interpolates
+
+    const LeafTable& table() const { return coefficients.table; }
+    double voxelSize() const { return coefficients.voxelSize; } ///< spacing h [Å]
 };
 
 /// Solves for the coefficients that interpolate a field on its active voxels.
@@ -30,8 +31,9 @@ struct Spline {
 /// either side: the cut costs 3e-5 of the difference c - s. Interpolation is exact where no end of
 /// a run is near; fourth order.
 ///
-/// @param[in] field  on the table [Å]
-LeafField prefilter(const LeafTable& table, const LeafField& field, const Progress& progress);
+/// @param[in] field  s [Å]
+/// @return c, with the leaves and active voxels of the field
+SparseField prefilter(const SparseField& field, const Progress& progress);
 
 /// Value, gradient and Hessian at one point.
 struct Jet {
@@ -74,12 +76,13 @@ Jet evaluateSpline(const float* c, int strideX, int strideY, const openvdb::Vec3
 ///
 /// For a distance that is its closest point of the surface; else one near it.
 ///
-/// @param[in]     voxel  the unit of tolerance and reach [Å]
-/// @param[in]     reach  how far from its start the point may get [voxel]
-/// @param[in,out] x      [Å, world]; afterwards the last iterate
-/// @param[out]    jet    of S at the last iterate, or the one before
+/// @param[in]     voxelSize  the unit of tolerance and reach [Å]
+/// @param[in]     reach      how far from its start the point may get [voxel]
+/// @param[in,out] x          [Å, world]; afterwards the last iterate
+/// @param[out]    jet        of S at the last iterate, or the one before
 /// @return whether |S| <= 1e-5 voxel at x, and jet is of x; false where the gradient fails (below
 ///         0.05) or the surface is out of reach
-bool moveToSurface(SplineSampler& sampler, double voxel, double reach, openvdb::Vec3d& x, Jet& jet);
+bool moveToSurface(SplineSampler& sampler, double voxelSize, double reach, openvdb::Vec3d& x,
+                   Jet& jet);
 
 } // namespace molsurf

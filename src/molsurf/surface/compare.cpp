@@ -27,8 +27,10 @@ using openvdb::Vec3f;
 namespace
 {
 
-/// How far on either side the spline through a level set has coefficients [voxel].
-constexpr double splineWidthVox = 4.5;
+/// How far on either side the band of a stored level set is completed, before a spline is fitted to
+/// it [voxel]: splineWidthVox, and half a voxel since values of the file and those that are added
+/// do not fit exactly.
+constexpr double completedWidthVox = 4.5;
 
 [[noreturn]] void refuse(const std::string& message)
 {
@@ -96,49 +98,24 @@ Pose poseOf(const openvdb::GridBase& grid)
     return pose;
 }
 
-/// The leaves of a grid as a field: all their values, and which are active.
-void readLeaves(const FloatGrid& grid, LeafTable& table, LeafField& field)
-{
-    std::vector<Coord> origins;
-    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) origins.push_back(leaf->origin());
-    table = LeafTable(std::move(origins));
-    field = LeafField(table.size());
-    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
-        const auto n = std::size_t(table.find(leaf->origin()));
-        for (int v = 0; v < leafSize; ++v) {
-            field.leaf(n)[v] = leaf->getValue(openvdb::Index(v));
-            table.active(n).set(v, leaf->isValueOn(openvdb::Index(v)));
-        }
-    }
-}
-
 /// The spline through a level set.
 Spline fitted(const FloatGrid& grid, const Progress& progress)
 {
-    const double voxel = grid.voxelSize()[0];
-    LeafTable given;
-    LeafField values;
-    readLeaves(grid, given, values);
+    SparseField given = fromGrid(grid);
     const float full = std::abs(grid.background()) * (1.0f - 1e-6f);
-    for (std::size_t n = 0; n < given.size(); ++n) given.active(n) &= within(values.leaf(n), full);
-    const double width = splineWidthVox * voxel;
-    DistanceBand band = redistance(given, copied(values), voxel, width, width, 0.0, progress);
-    parallelFor(band.table.size(), progress, [&](std::size_t n) {
-        const std::int32_t m = given.find(band.table.origin(n));
+    for (std::size_t n = 0; n < given.table.size(); ++n)
+        given.table.active(n) &= within(given.leaf(n), full);
+    const double width = completedWidthVox * given.voxelSize;
+    SparseField S = redistance(copied(given), {width, width}, 0.0, progress).phi;
+    parallelFor(S.table.size(), progress, [&](std::size_t n) {
+        const std::int32_t m = given.table.find(S.table.origin(n));
         if (m == noLeaf) return;
-        given.active(m).forEach([&](int v) { band.phi.leaf(n)[v] = values.leaf(m)[v]; });
-        band.table.active(n) |= given.active(m);
+        const LeafMask& known = given.table.active(m);
+        known.forEach([&](int v) { S.leaf(n)[v] = given.leaf(m)[v]; });
+        S.table.active(n) |= known;
     });
-    if (band.table.size() == 0) return Spline();
-    return fitSpline(band.table, band.phi, voxel, 0, progress);
-}
-
-Spline storedSpline(const FloatGrid& grid)
-{
-    Spline spline;
-    spline.voxel = grid.voxelSize()[0];
-    readLeaves(grid, spline.table, spline.coefficients);
-    return spline;
+    if (S.table.size() == 0) return Spline();
+    return fitSpline(S, 0, progress);
 }
 
 FloatGrid::Ptr findSpline(const openvdb::GridPtrVec& grids)
@@ -180,7 +157,7 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
         if ((other.shift - pose.shift).length() > 1e-3 * operand.voxel ||
             !other.turn.eq(pose.turn, 1e-5))
             refuse("grids 'surface' and 'spline': expected one origin and direction, got two");
-        surface.spline = storedSpline(*coefficients);
+        surface.spline = Spline{fromGrid(*coefficients)};
     } else {
         surface.spline = fitted(*stored, progress);
     }
@@ -190,7 +167,7 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
     local->setTransform(openvdb::math::Transform::createLinearTransform(operand.voxel));
     ExtractStats stats;
     Mesh& mesh = surface.mesh;
-    if (surface.spline->table.size() > 0)
+    if (surface.spline->table().size() > 0)
         mesh = extractMesh(*local, *surface.spline, progress, stats);
     if (mesh.triangles.empty())
         refuse(gridName(*stored) + ": expected values of both signs, got no surface");
@@ -214,7 +191,7 @@ Operand operandOf(MolecularSurface&& result)
     operand.voxel = result.report.voxel;
     const FloatGrid::Ptr coefficients = findSpline(result.fields);
     if (!coefficients) throw std::logic_error("compare: a run without the field 'spline'");
-    operand.surface.spline = storedSpline(*coefficients);
+    operand.surface.spline = Spline{fromGrid(*coefficients)};
     operand.surface.mesh = std::move(result.mesh);
     operand.surface.closed = result.report.surface.closed;
     operand.size.area = result.report.surface.area;

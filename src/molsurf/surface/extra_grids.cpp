@@ -35,13 +35,13 @@ bool hasField(const std::vector<std::string>& fields, const std::string& name)
 openvdb::FloatGrid::Ptr splineGrid(const Spline& spline)
 {
     auto grid = openvdb::FloatGrid::create(0.0f);
-    grid->setTransform(openvdb::math::Transform::createLinearTransform(spline.voxel));
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(spline.voxelSize()));
     grid->setName("spline");
     using Leaf = openvdb::FloatTree::LeafNodeType;
-    for (std::size_t n = 0; n < spline.table.size(); ++n) {
-        const LeafMask& active = spline.table.active(n);
+    for (std::size_t n = 0; n < spline.table().size(); ++n) {
+        const LeafMask& active = spline.table().active(n);
         if (!active.any()) continue;
-        auto* leaf = new Leaf(spline.table.origin(n), 0.0f);
+        auto* leaf = new Leaf(spline.table().origin(n), 0.0f);
         active.forEach(
             [&](int v) { leaf->setValueOn(openvdb::Index(v), spline.coefficients.leaf(n)[v]); });
         grid->tree().addLeaf(leaf);

@@ -4,7 +4,7 @@
 #include "molsurf/balls/boundary_check.h"
 #include "molsurf/balls/contacts.h"
 #include "molsurf/surface/parts.h"
-#include "molsurf/surface/stages.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <cmath>

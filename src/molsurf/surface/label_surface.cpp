@@ -97,12 +97,16 @@ void labelSurface(const BallSet& atoms, const SurfaceOptions& options, double re
         reportGroups(atoms, options, nearest, reach, progress, result);
 }
 
-std::vector<double> labelPart(const BallSet& atoms, const SurfaceOptions& options, double reach,
-                              Progress& progress, MolecularSurface& result)
+void labelPart(const BallSet& atoms, const SurfaceOptions& options, double reach,
+               Progress& progress, MolecularSurface& result)
 {
     const Labels nearest = label(atoms, options, reach, progress, result);
-    if (!atoms.labels || atoms.labels->groups.empty()) return {};
-    return groupAreas(atoms.balls, *atoms.labels, nearest, result.mesh);
+    if (!atoms.labels || atoms.labels->groups.empty()) return;
+    const std::vector<Group>& groups = atoms.labels->groups;
+    const std::vector<double> areas = groupAreas(atoms.balls, *atoms.labels, nearest, result.mesh);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        result.report.groups.push_back({groups[g].name, groups[g].balls, areas[g], 0.0, ""});
+    result.report.groups.push_back({"other", 0, areas.back(), 0.0, ""});
 }
 
 } // namespace molsurf

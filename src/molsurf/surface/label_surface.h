@@ -22,9 +22,9 @@ namespace molsurf
 void labelSurface(const BallSet& atoms, const SurfaceOptions& options, double reach,
                   Progress& progress, MolecularSurface& result);
 
-/// The same for a part of a surface, without the report.
-/// @return area of every group, and at last of no group, on the mesh [Å^2]; empty without groups
-std::vector<double> labelPart(const BallSet& atoms, const SurfaceOptions& options, double reach,
-                              Progress& progress, MolecularSurface& result);
+/// Does the same for a part of a surface; the report gets the areas of all groups on the mesh, as
+/// they are, and at last that of no group.
+void labelPart(const BallSet& atoms, const SurfaceOptions& options, double reach,
+               Progress& progress, MolecularSurface& result);
 
 } // namespace molsurf

@@ -5,12 +5,10 @@
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/error.h"
-#include "molsurf/mesh/extract.h"
-#include "molsurf/mesh/measure.h"
-#include "molsurf/mesh/statistics.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/surface/compare.h"
 #include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/surface_run.h"
 
 #include <openvdb/tools/ChangeBackground.h>
 
@@ -27,6 +25,7 @@ using openvdb::Coord;
 using openvdb::FloatGrid;
 using openvdb::Int32Grid;
 using openvdb::Vec3d;
+using openvdb::Vec3f;
 using openvdb::Vec3SGrid;
 
 namespace
@@ -90,7 +89,7 @@ openvdb::GridPtrVec inAngstrom(const openvdb::GridPtrVec& grids, const openvdb::
 }
 
 /// The colour that linearLight() came from.
-Color fromLinearLight(const openvdb::Vec3f& light)
+Color fromLinearLight(const Vec3f& light)
 {
     Color color{};
     for (int i = 0; i < 3; ++i) {
@@ -106,7 +105,7 @@ std::vector<Coord> voxelsOf(const Surface& surface, double voxel)
 {
     std::vector<Coord> out;
     out.reserve(surface.mesh.positions.size());
-    for (const openvdb::Vec3f& p : surface.mesh.positions)
+    for (const Vec3f& p : surface.mesh.positions)
         out.push_back(Coord::round(surface.pose.toLocal(Vec3d(p)) / voxel));
     return out;
 }
@@ -160,7 +159,7 @@ Color colorOf(const std::vector<Group>& labels, std::int32_t value)
 /// A grid Cd on the voxels of a grid of labels.
 Vec3SGrid::Ptr colorGrid(const Int32Grid& ids, const std::vector<Group>& labels)
 {
-    const openvdb::Vec3f background = linearLight(neutralColor);
+    const Vec3f background = linearLight(neutralColor);
     auto grid = Vec3SGrid::create(background);
     grid->setTree(
         std::make_shared<openvdb::Vec3STree>(ids.tree(), background, openvdb::TopologyCopy()));
@@ -169,6 +168,76 @@ Vec3SGrid::Ptr colorGrid(const Int32Grid& ids, const std::vector<Group>& labels)
     for (auto from = ids.cbeginValueOn(); from; ++from, ++to)
         to.setValue(linearLight(colorOf(labels, *from)));
     return grid;
+}
+
+/// What the labels and colours of a stored surface are taken from.
+struct Source {
+    const openvdb::GridPtrVec& grids;
+    const openvdb::MetaMap& metadata;
+    std::vector<Coord> voxels; ///< those nearest to the vertices
+};
+
+/// Adds the identities that the grids hold to the mesh.
+/// @return names and colours of chains and groups
+BallLabels addLabels(const Source& from, Mesh& mesh)
+{
+    BallLabels names;
+    if (const auto ids = find<Int32Grid>(from.grids, "atom_id"))
+        mesh.labels.push_back({"atom_id", valuesAt(*ids, from.voxels)});
+    if (const auto chains = find<Int32Grid>(from.grids, "chain_id")) {
+        mesh.labels.push_back({"chain_id", valuesAt(*chains, from.voxels)});
+        for (const Group& chain : labelsOf(*chains, from.metadata)) {
+            names.chains.push_back(chain.name);
+            names.chainColors.push_back(*chain.color);
+        }
+    }
+    if (const auto groups = find<Int32Grid>(from.grids, "group_id")) {
+        mesh.labels.push_back({"group_id", valuesAt(*groups, from.voxels)});
+        names.groups = labelsOf(*groups, from.metadata);
+    }
+    return names;
+}
+
+/// Adds a grid of colours to a surface, placed as that of the file.
+void addColorGrid(const Source& from, const Vec3SGrid::Ptr& grid, MolecularSurface& result)
+{
+    for (const auto& other : from.grids)
+        if (other->getName() == "surface" || from.grids.size() == 1)
+            grid->setTransform(other->transform().copy());
+    result.fields.push_back(grid);
+}
+
+void colorByLabel(const Source& from, const Int32Grid& ids, MolecularSurface& result)
+{
+    const std::vector<Group> labels = labelsOf(ids, from.metadata);
+    for (const std::int32_t id : valuesAt(ids, from.voxels))
+        result.mesh.colors.push_back(colorOf(labels, id));
+    addColorGrid(from, colorGrid(ids, labels), result);
+}
+
+/// @param[in] levelSet  that the spline was fitted to
+void colorByCurvature(const Source& from, ColorBy by, FloatGrid& levelSet, const Spline& spline,
+                      Progress& progress, MolecularSurface& result)
+{
+    colorByCurvature(by, result.mesh);
+    const auto local = levelSet.copy();
+    local->setTransform(openvdb::math::Transform::createLinearTransform(levelSet.voxelSize()[0]));
+    std::vector<openvdb::GridBase::Ptr> curvatures =
+        curvatureGrids(*local, spline, {curvatureNameOf(by)}, progress);
+    addCurvatureColors(by, false, result.mesh, curvatures);
+    addColorGrid(from, openvdb::gridPtrCast<Vec3SGrid>(curvatures.at(0)), result);
+}
+
+/// The colours of the file, if these are colours that the program knows.
+ColorBy storedColors(const Source& from)
+{
+    constexpr ColorBy all[] = {ColorBy::Chain,         ColorBy::Group,
+                               ColorBy::Element,       ColorBy::Residue,
+                               ColorBy::MeanCurvature, ColorBy::GaussianCurvature};
+    if (!find<Vec3SGrid>(from.grids, "Cd")) return ColorBy::Nothing;
+    for (const ColorBy one : all)
+        if (textOf(from.metadata, "option.color") == nameOf(one)) return one;
+    return ColorBy::Nothing;
 }
 
 [[noreturn]] void cannotColor(ColorBy by, const openvdb::GridPtrVec& grids)
@@ -183,6 +252,30 @@ Vec3SGrid::Ptr colorGrid(const Int32Grid& ids, const std::vector<Group>& labels)
     throw Error(ErrorKind::Input, "`color` " + word + ": the file cannot give these colours, it " +
                                       "has the grids " + held +
                                       " [hint: store them when it is built: " + hint + "]");
+}
+
+/// Colours the mesh, and adds the grid of colours.
+/// @param[in] kept  whether colours of the file are taken whatever they show
+/// @throws Error(ErrorKind::Input) if the file cannot give the colours
+void addColors(const Source& from, bool kept, ColorBy by, SurfaceRun& run, Progress& progress)
+{
+    MolecularSurface& result = run.result();
+    const auto colors = find<Vec3SGrid>(from.grids, "Cd");
+    const auto chains = find<Int32Grid>(from.grids, "chain_id");
+    const auto groups = find<Int32Grid>(from.grids, "group_id");
+    if (curvatureNameOf(by)) {
+        colorByCurvature(from, by, *result.surface, run.currentSpline(), progress, result);
+    } else if (colors && (kept || textOf(from.metadata, "option.color") == nameOf(by))) {
+        for (const Vec3f& light : valuesAt(*colors, from.voxels))
+            result.mesh.colors.push_back(fromLinearLight(light));
+        addColorGrid(from, colors, result);
+    } else if (by == ColorBy::Chain && chains) {
+        colorByLabel(from, *chains, result);
+    } else if (by == ColorBy::Group && groups) {
+        colorByLabel(from, *groups, result);
+    } else if (by != ColorBy::Nothing) {
+        cannotColor(by, from.grids);
+    }
 }
 
 } // namespace
@@ -219,96 +312,41 @@ StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::Met
     stored.scale = numberOf(metadata, "scene.units_per_angstrom", 1.0);
     progress.update("mesh", 0.0);
     Operand operand = operandOf(inAngstrom(grids, metadata), progress);
-    Surface& surface = operand.surface;
     if (!find<FloatGrid>(grids, "spline"))
         stored.warnings.push_back("no grid spline: it is fitted to the level set, close to the "
                                   "one that was [hint: `fields` spline when it is built]");
     for (const std::string& warning : operand.warnings) stored.warnings.push_back(warning);
-    const std::vector<Coord> voxels = voxelsOf(surface, operand.voxel);
+    const Source from{grids, metadata, voxelsOf(operand.surface, operand.voxel)};
 
-    MolecularSurface& result = stored.result;
-    result.mesh = std::move(surface.mesh);
-    Mesh& mesh = result.mesh;
-    std::vector<openvdb::Vec3f> placed = mesh.positions;
-    for (openvdb::Vec3f& p : mesh.positions) p = openvdb::Vec3f(surface.pose.toLocal(Vec3d(p)));
-    addCurvature(*surface.spline, options.fields, mesh, progress);
-    mesh.positions = std::move(placed);
+    SurfaceRun run(stored.names, options, Scope(), progress);
+    const Pose pose = operand.surface.pose;
+    run.resume(std::move(operand.surface.mesh), std::move(*operand.surface.spline),
+               operand.levelSet);
+    MolecularSurface& result = run.result();
+    std::vector<Vec3f> placed = result.mesh.positions;
+    for (Vec3f& p : result.mesh.positions) p = Vec3f(pose.toLocal(Vec3d(p)));
+    run.curvatures();
+    result.mesh.positions = std::move(placed);
+    run.measure();
+    run.describeCurvature();
 
     Report& report = result.report;
-    progress.update("mesh", 0.7);
-    report.surface = measure(mesh, progress);
     const std::string kind = textOf(metadata, "option.surface");
     report.surface.kind = kind.empty() ? "level set" : kind;
     report.surface.maxResidual = report.surface.gradientShare = report.surface.kinkShare =
         std::numeric_limits<double>::quiet_NaN();
-    const std::vector<float> areas = vertexAreas(mesh, progress);
-    report.surface.meanCurvature = statistics(mesh.scalars[0].values, areas);
-    report.surface.gaussianCurvature = statistics(mesh.scalars[1].values, areas);
     report.voxel = operand.voxel;
     const auto atoms = metadata.getMetadata<openvdb::Int64Metadata>("atoms");
     if (atoms) report.atoms = std::size_t(atoms->value());
-    report.activeVoxels = operand.levelSet->activeVoxelCount();
-    report.gridBytes = operand.levelSet->memUsage();
 
     progress.update("color", 0.0);
-    BallLabels names;
-    const auto chains = find<Int32Grid>(grids, "chain_id");
-    const auto groups = find<Int32Grid>(grids, "group_id");
-    if (const auto ids = find<Int32Grid>(grids, "atom_id"))
-        mesh.labels.push_back({"atom_id", valuesAt(*ids, voxels)});
-    if (chains) {
-        mesh.labels.push_back({"chain_id", valuesAt(*chains, voxels)});
-        for (const Group& chain : labelsOf(*chains, metadata)) {
-            names.chains.push_back(chain.name);
-            names.chainColors.push_back(*chain.color);
-        }
-    }
-    if (groups) {
-        mesh.labels.push_back({"group_id", valuesAt(*groups, voxels)});
-        names.groups = labelsOf(*groups, metadata);
-    }
-    stored.names.labels = std::move(names);
-
-    const auto colors = find<Vec3SGrid>(grids, "Cd");
-    const std::string shown = textOf(metadata, "option.color");
-    constexpr ColorBy all[] = {ColorBy::Chain,         ColorBy::Group,
-                               ColorBy::Element,       ColorBy::Residue,
-                               ColorBy::MeanCurvature, ColorBy::GaussianCurvature};
+    BallLabels names = addLabels(from, result.mesh);
     ColorBy& by = stored.options.color;
-    by = options.color;
-    if (by == ColorBy::Nothing && colors)
-        for (const ColorBy one : all)
-            if (shown == nameOf(one)) by = one;
-    const auto place = [&](const Vec3SGrid::Ptr& grid) {
-        for (const auto& other : grids)
-            if (other->getName() == "surface" || grids.size() == 1)
-                grid->setTransform(other->transform().copy());
-        result.fields.push_back(grid);
-    };
-    const auto byLabel = [&](const Int32Grid::Ptr& ids, const std::vector<Group>& labels) {
-        for (const std::int32_t id : valuesAt(*ids, voxels))
-            mesh.colors.push_back(colorOf(labels, id));
-        place(colorGrid(*ids, labels));
-    };
-    if (const char* name = curvatureNameOf(by)) {
-        colorByCurvature(by, mesh);
-        const auto local = operand.levelSet->copy();
-        local->setTransform(openvdb::math::Transform::createLinearTransform(operand.voxel));
-        std::vector<openvdb::GridBase::Ptr> curvatures =
-            curvatureGrids(*local, *surface.spline, {name}, progress);
-        addCurvatureColors(by, false, mesh, curvatures);
-        place(openvdb::gridPtrCast<Vec3SGrid>(curvatures.at(0)));
-    } else if (colors && (options.color == ColorBy::Nothing || shown == nameOf(by))) {
-        for (const openvdb::Vec3f& light : valuesAt(*colors, voxels))
-            mesh.colors.push_back(fromLinearLight(light));
-        place(colors);
-    } else if (by == ColorBy::Chain && chains) {
-        byLabel(chains, labelsOf(*chains, metadata));
-    } else if (by == ColorBy::Group && groups) {
-        byLabel(groups, labelsOf(*groups, metadata));
-    } else if (by != ColorBy::Nothing) {
-        cannotColor(by, grids);
-    }
+    by = options.color == ColorBy::Nothing ? storedColors(from) : options.color;
+    addColors(from, options.color == ColorBy::Nothing, by, run, progress);
+    stored.names.labels = std::move(names);
+    stored.result = run.finish();
+    stored.result.surface = nullptr; // it is the file's
     return stored;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/velocity.h"
-#include "molsurf/surface/stages.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include "molsurf/balls/nearest_ball.h"
 #include "molsurf/surface.h"

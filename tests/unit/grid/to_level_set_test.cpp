@@ -18,8 +18,8 @@ TEST(ToLevelSet, KeepsValuesInTheBandAndSignsEverywhere)
     const double voxel = 0.5, width = 1.5;
     const test::Shape ball = test::sphere(34.0);
     const LeafTable table = test::bandTable(ball.distance, ball.centre, ball.extent, voxel, width);
-    const LeafField phi = test::filled(table, voxel, ball.distance);
-    const auto grid = toLevelSet(table, phi, width, voxel, Progress());
+    const SparseField phi = test::filled(table, voxel, ball.distance);
+    const auto grid = toLevelSet(phi, width, Progress());
 
     EXPECT_EQ(grid->getGridClass(), openvdb::GRID_LEVEL_SET);
     EXPECT_EQ(grid->background(), float(width));

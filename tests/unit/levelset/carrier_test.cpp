@@ -21,8 +21,8 @@ constexpr double epsilon = 0.5, slope = 2.0 * M_LN2 / epsilon;
 
 /// psi of some balls, phi of psi = 0, and the carrier of that.
 struct Fields {
-    LeafTable table;
-    LeafField psi, phi, carrier;
+    SparseField psi, phi, carrier;
+    const LeafTable& table() const { return phi.table; }
 };
 
 Fields fieldsOf(const std::vector<Ball>& balls, double voxel,
@@ -34,15 +34,13 @@ Fields fieldsOf(const std::vector<Ball>& balls, double voxel,
     options.reach = (width + 1.5) * voxel;
     const GaussianSum sum(balls, options);
     Fields f;
-    f.table = sum.band(width, Progress());
-    f.psi = sum.evaluate(f.table, Progress());
-    f.phi = initialSurface(f.table, f.psi, voxel, width * voxel, Progress());
+    f.psi = sum.evaluate(sum.band(width, Progress()), Progress());
+    f.phi = initialSurface(f.psi, width * voxel, Progress());
     if (change) change(f);
-    LeafField slopes(f.table.size());
-    for (std::size_t n = 0; n < f.table.size(); ++n)
+    LeafField slopes(f.table().size());
+    for (std::size_t n = 0; n < f.table().size(); ++n)
         std::fill_n(slopes.leaf(n), leafSize, float(slope));
-    f.carrier =
-        smoothCarrier(f.table, f.phi, {f.psi, slopes, 0.0}, voxel, width * voxel, Progress());
+    f.carrier = smoothCarrier(f.phi, {f.psi.values, slopes, 0.0}, width * voxel, Progress());
     return f;
 }
 
@@ -55,7 +53,7 @@ TEST(SmoothCarrier, IsPsiOverItsSlopeOnPsiZero)
         const Fields f = fieldsOf(pair, voxel);
         double worst = 0.0;
         std::size_t near = 0;
-        test::forEachActive(f.table, voxel, [&](std::size_t n, int v, const Vec3d&) {
+        test::forEachActive(f.table(), voxel, [&](std::size_t n, int v, const Vec3d&) {
             if (std::abs(f.phi.leaf(n)[v]) > voxel) return;
             ++near;
             worst = std::max(worst, std::abs(f.carrier.leaf(n)[v] + f.psi.leaf(n)[v] / slope));
@@ -71,9 +69,9 @@ TEST(SmoothCarrier, HasNoRidgeOutsideACrease)
 {
     constexpr double voxel = 0.25;
     const Fields f = fieldsOf(pair, voxel);
-    const auto rough = [&](const LeafField& field) {
+    const auto rough = [&](const SparseField& field) {
         double worst = 0.0;
-        for (std::size_t n = 0; n < f.table.size(); ++n) {
+        for (std::size_t n = 0; n < f.table().size(); ++n) {
             for (int v = 0; v < leafSize; ++v) {
                 const int x = v >> 6;
                 if (x > 4 || std::abs(f.phi.leaf(n)[v + 64]) > 1.5 * voxel ||
@@ -101,18 +99,18 @@ TEST(SmoothCarrier, KeepsFilledHollowsFilled)
     }
     constexpr double voxel = 0.5, width = 3.0 * voxel;
     const auto fill = [&](Fields& f) {
-        for (std::size_t n = 0; n < f.table.size(); ++n) {
+        for (std::size_t n = 0; n < f.table().size(); ++n) {
             for (int v = 0; v < leafSize; ++v) {
-                const openvdb::Coord c = f.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+                const openvdb::Coord c = f.table().origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
                 if ((c.asVec3d() * voxel).length() < 5.0) f.phi.leaf(n)[v] = -float(width);
             }
         }
     };
     std::size_t hollow = 0, wrong = 0;
     const Fields f = fieldsOf(shell, voxel, fill);
-    for (std::size_t n = 0; n < f.table.size(); ++n) {
+    for (std::size_t n = 0; n < f.table().size(); ++n) {
         for (int v = 0; v < leafSize; ++v) {
-            const openvdb::Coord c = f.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+            const openvdb::Coord c = f.table().origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
             if ((c.asVec3d() * voxel).length() > 4.5) continue;
             hollow += f.psi.leaf(n)[v] < -0.5f;
             wrong += f.carrier.leaf(n)[v] >= 0.0f;

@@ -30,7 +30,7 @@ Errors errorsOf(const test::Function& f, const test::Shape& shape, double h, con
 {
     const LeafTable table = test::bandTable(shape.distance, shape.centre, shape.extent, h, 1.5 * h);
     LeafTable wide = dilated(table, 1, Spread::Cube, Progress());
-    const LeafField field = test::filled(wide, h, f);
+    const SparseField field = test::filled(wide, h, f);
     Errors worst;
     LeafBlock<float, 1> block;
     LeafCurvature out;
@@ -38,7 +38,7 @@ Errors errorsOf(const test::Function& f, const test::Shape& shape, double h, con
     test::forEachActive(table, h, [&](std::size_t n, int v, const Vec3d& x) {
         const std::int32_t m = wide.find(table.origin(n));
         if (m != last) {
-            block.gather(wide, field, m);
+            block.gather(field, m);
             curvature(block, table.active(n), float(h), out);
             last = m;
         }

@@ -47,7 +47,7 @@ double errorNearZero(const std::vector<Ball>& balls, const GaussianOptions& opti
 {
     const GaussianSum sum(balls, options);
     const LeafTable table = sum.band(2, Progress());
-    const LeafField psi = sum.evaluate(table, Progress());
+    const SparseField psi = sum.evaluate(table, Progress());
     const double length = options.epsilon / (2.0 * M_LN2);
     double worst = 0.0;
     int k = 0;
@@ -230,7 +230,7 @@ TEST(GaussianSum, AgreesWithTheDefinitionWhereProductsUnderflow)
     options.reach = 8.0;
     const GaussianSum sum(balls, options);
     const LeafTable table = sum.band(2, Progress());
-    const LeafField psi = sum.evaluate(table, Progress());
+    const SparseField psi = sum.evaluate(table, Progress());
     std::size_t low = 0;
     for (std::size_t n = 0; n < table.size(); ++n) {
         for (int v = 0; v < leafSize; ++v) {

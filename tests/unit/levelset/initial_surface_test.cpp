@@ -26,10 +26,10 @@ TEST(InitialSurface, OfOneAtomIsTheDistanceToItsSphere)
         const double width = 4.0 * voxel;
         const LeafTable table =
             test::bandTable(ball.distance, ball.centre, ball.extent, voxel, width);
-        const LeafField psi = test::filled(table, voxel, [&](const Vec3d& x) {
+        const SparseField psi = test::filled(table, voxel, [&](const Vec3d& x) {
             return -C * ((x - ball.centre).lengthSqr() - 3.1 * 3.1);
         });
-        const LeafField phi = initialSurface(table, psi, voxel, width, Progress());
+        const SparseField phi = initialSurface(psi, width, Progress());
         double worst = 0.0, worstNear = 0.0;
         test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
             const double d = ball.distance(x);
@@ -53,9 +53,9 @@ TEST(InitialSurface, IsFiniteAtTheCentreOfAnAtomAndKeepsSigns)
     const double voxel = 1.0, width = 4.0;
     const test::Shape ball = test::sphere(1.7);
     const LeafTable table = test::bandTable(ball.distance, ball.centre, ball.extent, voxel, width);
-    const LeafField psi = test::filled(
+    const SparseField psi = test::filled(
         table, voxel, [&](const Vec3d& x) { return 1.7 * 1.7 - (x - ball.centre).lengthSqr(); });
-    const LeafField phi = initialSurface(table, psi, voxel, width, Progress());
+    const SparseField phi = initialSurface(psi, width, Progress());
     test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d&) {
         ASSERT_TRUE(std::isfinite(phi.leaf(n)[v]));
         ASSERT_LE(std::abs(phi.leaf(n)[v]), width);

@@ -32,8 +32,8 @@ DistanceBand redistanced(const test::Function& distance, const Vec3d& centre, do
                          double voxel, double inside, double outside)
 {
     const LeafTable table = test::bandTable(distance, centre, extent, voxel, 4.0 * voxel);
-    LeafField phi = test::filled(table, voxel, distance);
-    return redistance(table, std::move(phi), voxel, inside, outside, -0.5 * inside, Progress());
+    return redistance(test::filled(table, voxel, distance), {inside, outside}, -0.5 * inside,
+                      Progress());
 }
 
 /// Largest error at the active voxels for which `counts` holds; checks that the active voxels are
@@ -44,7 +44,7 @@ double errorOf(const DistanceBand& band, const test::Function& distance, double 
 {
     double worst = 0.0;
     std::size_t wrong = 0;
-    test::forEachActive(band.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+    test::forEachActive(band.phi.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
         const double d = distance(x), value = band.phi.leaf(n)[v];
         wrong += (value < 0.0) != (d < 0.0) && std::abs(d) > 1e-5;
         EXPECT_GT(value, -inside);
@@ -64,8 +64,8 @@ void expectComplete(const DistanceBand& band, const test::Function& distance, co
     std::size_t missing = 0;
     test::forEachActive(wanted, voxel, [&](std::size_t, int, const Vec3d& x) {
         const Coord c = Coord::round(x / voxel);
-        const std::int32_t n = band.table.find(c);
-        missing += n == noLeaf || !band.table.active(n).on(
+        const std::int32_t n = band.phi.table.find(c);
+        missing += n == noLeaf || !band.phi.table.active(n).on(
                                       int(openvdb::FloatTree::LeafNodeType::coordToOffset(c)));
     });
     EXPECT_EQ(missing, 0u);
@@ -167,10 +167,10 @@ std::size_t kinksWhere(const DistanceBand& band, double voxel,
 {
     std::size_t count = 0;
     total = 0;
-    for (std::size_t n = 0; n < band.table.size(); ++n) {
-        band.kinks[n].forEach([&](int v) {
-            EXPECT_TRUE(band.table.active(n).on(v));
-            const Coord c = band.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+    for (std::size_t n = 0; n < band.phi.table.size(); ++n) {
+        band.kinks.active(n).forEach([&](int v) {
+            EXPECT_TRUE(band.phi.table.active(n).on(v));
+            const Coord c = band.phi.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
             count += where(c.asVec3d() * voxel);
             ++total;
         });
@@ -188,7 +188,7 @@ TEST(Redistance, MarksTheKinkWhereTwoSheetsMeet)
     const DistanceBand band = redistanced(slab.distance, slab.centre, slab.extent, voxel, 3.0, 0.5);
     // Every voxel of the disc whose upper or lower neighbour lies on the other side of the plane.
     std::size_t beside = 0, marked = 0;
-    test::forEachActive(band.table, voxel, [&](std::size_t n, int v, const Vec3d& world) {
+    test::forEachActive(band.phi.table, voxel, [&](std::size_t n, int v, const Vec3d& world) {
         const Vec3d x = pose.toLocal(world);
         if (std::hypot(x.x(), x.y()) > 4.0) return;
         bool crosses = false;
@@ -198,7 +198,7 @@ TEST(Redistance, MarksTheKinkWhereTwoSheetsMeet)
             crosses |= (pose.toLocal(next).z() < 0.0) != (x.z() < 0.0);
         }
         beside += crosses;
-        marked += crosses && band.kinks[n].on(v);
+        marked += crosses && band.kinks.active(n).on(v);
     });
     ASSERT_GT(beside, 500u);
     EXPECT_GT(double(marked), 0.98 * double(beside)) << marked << " of " << beside;
@@ -243,14 +243,14 @@ TEST(Redistance, IsExactBesideCreases)
     const auto value = [&](const Vec3d& x) { return sampler.at(x).value; };
     const LeafTable table = test::bandTable(f, Vec3d(0.0), 9.0, fine, 5.0 * fine);
     const auto grid =
-        toLevelSet(table, test::filled(table, fine, value), 2.0 * fine, fine, Progress());
+        toLevelSet(test::filled(table, fine, value), 2.0 * fine, Progress());
     std::vector<Vec3d> points;
     for (const openvdb::Vec3f& p : verticesOf(*grid)) points.emplace_back(p);
     ASSERT_GT(points.size(), 20000u);
 
     double worst = 0.0;
     std::size_t count = 0, off = 0;
-    test::forEachActive(band.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+    test::forEachActive(band.phi.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
         // Some of those near the level that is wanted, which get the best distances.
         if (v % 3 != 0 || std::abs(band.phi.leaf(n)[v] + 1.0) > 0.9) return;
         double least2 = 1e9;
@@ -267,8 +267,9 @@ TEST(Redistance, IsExactBesideCreases)
 
 TEST(Redistance, OfNothingIsNothing)
 {
-    const DistanceBand band = redistance(LeafTable(), LeafField(0), 0.5, 3.0, 1.0, 0.0, Progress());
-    EXPECT_EQ(band.table.size(), 0u);
+    const DistanceBand band =
+        redistance({LeafTable(), LeafField(0), 0.5}, {3.0, 1.0}, 0.0, Progress());
+    EXPECT_EQ(band.phi.table.size(), 0u);
 }
 
 // Where two balls of radius 10 meet in an edge at which the normal turns by 40 degrees; 51 degrees
@@ -283,11 +284,11 @@ TEST(Redistance, MarksAKinkOfFortyDegrees)
     };
     const DistanceBand band = redistanced(lens, shift, 11.0, voxel, 3.0, 0.5);
     std::size_t beside = 0, marked = 0;
-    test::forEachActive(band.table, voxel, [&](std::size_t n, int v, const Vec3d& world) {
+    test::forEachActive(band.phi.table, voxel, [&](std::size_t n, int v, const Vec3d& world) {
         const double depth = -lens(world), x = world.x() - shift.x();
         if (depth < 1.0 || depth > 2.0 || x > 0.0 || x + voxel <= 0.0) return;
         ++beside;
-        marked += band.kinks[n].on(v);
+        marked += band.kinks.active(n).on(v);
     });
     ASSERT_GT(beside, 200u);
     EXPECT_GT(double(marked), 0.9 * double(beside)) << marked << " of " << beside;

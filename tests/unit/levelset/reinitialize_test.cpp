@@ -21,45 +21,35 @@ double wobble(const Vec3d& x)
     return 1.02 + 0.2 * std::sin(0.9 * x.x() + 0.4) * std::cos(0.7 * x.y() - 0.3 * x.z());
 }
 
-void iterate(const LeafTable& table, LeafField& phi, double voxel, double width, int iterations)
+void iterate(SparseField& phi, double width, int iterations)
 {
-    LeafField scratch(table.size());
-    reinitialize(table, phi, voxel, width, iterations, scratch, Progress());
+    reinitialize(phi, width, iterations, Progress());
 }
 
-struct Field {
-    LeafTable table;
-    LeafField phi;
-};
-
 /// The distance times wobble, in a band of four voxels.
-Field perturbed(const test::Shape& shape, double voxel)
+SparseField perturbed(const test::Shape& shape, double voxel)
 {
-    Field run;
-    run.table = test::bandTable(shape.distance, shape.centre, shape.extent, voxel, 4.0 * voxel);
-    run.phi = test::filled(run.table, voxel,
-                           [&](const Vec3d& x) { return shape.distance(x) * wobble(x); });
-    return run;
+    const LeafTable table =
+        test::bandTable(shape.distance, shape.centre, shape.extent, voxel, 4.0 * voxel);
+    return test::filled(table, voxel,
+                        [&](const Vec3d& x) { return shape.distance(x) * wobble(x); });
 }
 
 /// Largest error of phi at the voxels closer than `reach` voxels to the zero set.
-double errorOf(const Field& run, const test::Function& distance, double voxel, double reach)
+double errorOf(const SparseField& run, const test::Function& distance, double voxel, double reach)
 {
     double worst = 0.0;
     test::forEachActive(run.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
         const double d = distance(x);
-        if (std::abs(d) < reach * voxel) worst = std::max(worst, std::abs(run.phi.leaf(n)[v] - d));
+        if (std::abs(d) < reach * voxel) worst = std::max(worst, std::abs(run.leaf(n)[v] - d));
     });
     return worst;
 }
 
 /// Mean and largest distance of the zero set from the shape's points, along their normals.
-std::pair<double, double> offsets(const Field& run, const test::Shape& shape, double voxel)
+std::pair<double, double> offsets(const SparseField& run, const test::Shape& shape, double voxel)
 {
-    Spline spline;
-    spline.table = run.table;
-    spline.voxel = voxel;
-    spline.coefficients = prefilter(run.table, run.phi, Progress());
+    const Spline spline{prefilter(run, Progress())};
     double mean = 0.0, largest = 0.0;
     for (const test::SurfacePoint& p : shape.points) {
         const double t = test::zeroOnRay(spline, p.x, p.n, -voxel, voxel);
@@ -84,8 +74,8 @@ TEST_P(Reinitialize, ReachesTheDistanceAtSecondOrder)
     const std::vector<double> h = {0.5, 0.25, 0.125};
     std::vector<double> error;
     for (const double voxel : h) {
-        Field run = perturbed(shape(), voxel);
-        iterate(run.table, run.phi, voxel, 4.0 * voxel, 12);
+        SparseField run = perturbed(shape(), voxel);
+        iterate(run, 4.0 * voxel, 12);
         error.push_back(errorOf(run, shape().distance, voxel, 3.0));
     }
     // Changes below 0.02 voxel are damped on purpose, which leaves up to that much: the second
@@ -99,16 +89,16 @@ TEST_P(Reinitialize, ReachesTheDistanceAtSecondOrder)
 TEST_P(Reinitialize, KeepsTheInterfaceInPlace)
 {
     const double voxel = 0.25;
-    Field run = perturbed(shape(), voxel);
-    iterate(run.table, run.phi, voxel, 4.0 * voxel, 2);
+    SparseField run = perturbed(shape(), voxel);
+    iterate(run, 4.0 * voxel, 2);
     const auto [mean1, largest1] = offsets(run, shape(), voxel);
     EXPECT_LT(std::abs(mean1), 2e-4);
     EXPECT_LT(largest1, 4e-3);
-    for (int i = 1; i < 10; ++i) iterate(run.table, run.phi, voxel, 4.0 * voxel, 2);
+    for (int i = 1; i < 10; ++i) iterate(run, 4.0 * voxel, 2);
     const auto [mean10, largest10] = offsets(run, shape(), voxel);
     EXPECT_LT(std::abs(mean10 - mean1), 2e-4);
     EXPECT_LT(largest10, 4e-3);
-    for (int i = 10; i < 100; ++i) iterate(run.table, run.phi, voxel, 4.0 * voxel, 2);
+    for (int i = 10; i < 100; ++i) iterate(run, 4.0 * voxel, 2);
     const auto [mean100, largest100] = offsets(run, shape(), voxel);
     EXPECT_LT(std::abs(mean100 - mean1), 2e-4);
     EXPECT_LT(largest100, 4e-3);
@@ -118,11 +108,11 @@ TEST_P(Reinitialize, KeepsTheInterfaceInPlace)
 TEST_P(Reinitialize, LeavesADistanceAlone)
 {
     const double voxel = 0.25;
-    Field run;
-    run.table = test::bandTable(shape().distance, shape().centre, shape().extent, voxel, 1.0);
-    run.phi = test::filled(run.table, voxel, shape().distance);
+    SparseField run =
+        test::filled(test::bandTable(shape().distance, shape().centre, shape().extent, voxel, 1.0),
+                     voxel, shape().distance);
     const auto [mean0, largest0] = offsets(run, shape(), voxel);
-    for (int i = 0; i < 100; ++i) iterate(run.table, run.phi, voxel, 4.0 * voxel, 2);
+    for (int i = 0; i < 100; ++i) iterate(run, 4.0 * voxel, 2);
     const auto [mean, largest] = offsets(run, shape(), voxel);
     EXPECT_LT(std::abs(mean - mean0), 1e-4); // a hundred calls
     EXPECT_LT(largest, largest0 + 5e-4);
@@ -143,18 +133,17 @@ TEST(ReinitializeTwoBalls, IsOfSecondOrderAwayFromTheCrease)
     const std::vector<double> h = {0.5, 0.25, 0.125};
     std::vector<double> error, crease;
     for (const double voxel : h) {
-        Field run;
-        run.table = test::bandTable(distance, middle, 4.2, voxel, 4.0 * voxel);
-        run.phi =
-            test::filled(run.table, voxel, [&](const Vec3d& x) { return distance(x) * wobble(x); });
-        iterate(run.table, run.phi, voxel, 4.0 * voxel, 12);
+        SparseField run =
+            test::filled(test::bandTable(distance, middle, 4.2, voxel, 4.0 * voxel), voxel,
+                         [&](const Vec3d& x) { return distance(x) * wobble(x); });
+        iterate(run, 4.0 * voxel, 12);
         double worst = 0.0, worstCrease = 0.0;
         test::forEachActive(run.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
             const double d = distance(x);
             if (std::abs(d) > 3.0 * voxel) return;
             const bool near = std::abs((x - middle).dot(axis)) < 1.2;
             double& e = near ? worstCrease : worst;
-            e = std::max(e, std::abs(run.phi.leaf(n)[v] - d));
+            e = std::max(e, std::abs(run.leaf(n)[v] - d));
         });
         error.push_back(worst);
         crease.push_back(worstCrease);
@@ -170,9 +159,9 @@ TEST(ReinitializeBand, StaysWithinItsWidthAndKeepsSigns)
     const test::Shape ball = test::sphere(2.0);
     const double voxel = 0.4, width = 1.2;
     const LeafTable table = test::bandTable(ball.distance, ball.centre, ball.extent, voxel, width);
-    const LeafField before = test::filled(table, voxel, ball.smooth);
-    LeafField phi = test::filled(table, voxel, ball.smooth);
-    iterate(table, phi, voxel, width, 6);
+    const SparseField before = test::filled(table, voxel, ball.smooth);
+    SparseField phi = test::filled(table, voxel, ball.smooth);
+    iterate(phi, width, 6);
     test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d&) {
         ASSERT_LE(std::abs(phi.leaf(n)[v]), float(width));
         ASSERT_EQ(phi.leaf(n)[v] < 0.0f, before.leaf(n)[v] < 0.0f);

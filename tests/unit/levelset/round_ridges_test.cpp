@@ -26,12 +26,12 @@ double lens(const Vec3d& x)
 DistanceBand bandOf(double voxel)
 {
     DistanceBand S;
-    S.table = test::bandTable(lens, Vec3d(0.0), 6.0, voxel, -2.0, 2.0);
-    S.phi = test::filled(S.table, voxel, lens);
-    S.kinks.resize(S.table.size());
-    test::forEachActive(S.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+    S.phi = test::filled(test::bandTable(lens, Vec3d(0.0), 6.0, voxel, -2.0, 2.0), voxel, lens);
+    S.kinks = S.phi.table;
+    for (std::size_t n = 0; n < S.kinks.size(); ++n) S.kinks.active(n) = LeafMask();
+    test::forEachActive(S.phi.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
         const Vec3d c(0.13, -0.21, 3.08);
-        if (std::abs((x - c).length() - (x + c).length()) < 1.5 * voxel) S.kinks[n].set(v);
+        if (std::abs((x - c).length() - (x + c).length()) < 1.5 * voxel) S.kinks.active(n).set(v);
     });
     return S;
 }
@@ -40,10 +40,10 @@ DistanceBand bandOf(double voxel)
 double sharpest(const DistanceBand& S, double voxel)
 {
     double worst = 0.0;
-    for (std::size_t n = 0; n < S.table.size(); ++n) {
+    for (std::size_t n = 0; n < S.phi.table.size(); ++n) {
         LeafBlock<float, 1> block;
-        block.gather(S.table, S.phi, n);
-        S.table.active(n).forEach([&](int v) {
+        block.gather(S.phi.table, S.phi.values, n);
+        S.phi.table.active(n).forEach([&](int v) {
             const float* p = block.at(v >> 6, v >> 3 & 7, v & 7);
             if (std::abs(*p) > 0.5 * voxel) return;
             const Derivatives d = derivatives<1>(p, float(1.0 / voxel));
@@ -63,7 +63,7 @@ TEST(RoundRidges, ComeToTheStatedRadius)
         DistanceBand S = bandOf(voxel);
         const double before = sharpest(S, voxel);
         EXPECT_GT(before, 0.5 / voxel);
-        roundRidges(S, voxel, Progress());
+        roundRidges(S, Progress());
         EXPECT_LT(sharpest(S, voxel), 1.5 * 0.5 / ridgeRadius + 0.5);
         EXPECT_LT(sharpest(S, voxel), 0.7 * before);
     }
@@ -74,9 +74,9 @@ TEST(RoundRidges, LeaveAllElseAsItIs)
     const double voxel = 0.25;
     const DistanceBand before = bandOf(voxel);
     DistanceBand S = bandOf(voxel);
-    roundRidges(S, voxel, Progress());
+    roundRidges(S, Progress());
     std::size_t moved = 0;
-    test::forEachActive(S.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+    test::forEachActive(S.phi.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
         if (S.phi.leaf(n)[v] == before.phi.leaf(n)[v]) return;
         ++moved;
         EXPECT_LT(std::abs(x.dot(Vec3d(0.13, -0.21, 3.08).unit())), ridgeReach(voxel) * voxel);
@@ -85,7 +85,7 @@ TEST(RoundRidges, LeaveAllElseAsItIs)
     EXPECT_GT(moved, 100u);
 
     DistanceBand coarse = bandOf(1.0);
-    roundRidges(coarse, 1.0, Progress());
+    roundRidges(coarse, Progress());
     EXPECT_EQ(ridgeReach(1.0), 0);
 }
 

@@ -27,9 +27,10 @@ double toThread(const Vec3d& x)
 DistanceBand bandOf(const test::Function& distance, double voxel, double inside, double outside)
 {
     DistanceBand S;
-    S.table = test::bandTable(distance, Vec3d(0.0), 9.0, voxel, -inside, outside);
-    S.phi = test::filled(S.table, voxel, distance);
-    S.kinks.resize(S.table.size());
+    const LeafTable table = test::bandTable(distance, Vec3d(0.0), 9.0, voxel, -inside, outside);
+    S.phi = test::filled(table, voxel, distance);
+    S.kinks = table;
+    for (std::size_t n = 0; n < table.size(); ++n) S.kinks.active(n) = LeafMask();
     return S;
 }
 
@@ -38,7 +39,7 @@ double errorOf(const DistanceBand& S, double voxel, const test::Function& wanted
 {
     double worst = 0.0;
     std::size_t near = 0;
-    test::forEachActive(S.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+    test::forEachActive(S.phi.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
         if (std::abs(wanted(x)) > voxel) return;
         ++near;
         worst = std::max(worst, std::abs(double(S.phi.leaf(n)[v]) - wanted(x)));
@@ -54,10 +55,10 @@ TEST(ThickenWalls, AThreadComesToTheWall)
     const double voxel = 0.25, wall = 3.0, width = 1.0;
     DistanceBand S = bandOf([](const Vec3d& x) { return toThread(x) - 0.6; }, voxel,
                             0.5 * wall + width, 0.5 * wall + width);
-    thickenWalls(S, voxel, wall, width, Progress());
+    thickenWalls(S, wall, width, Progress());
     const auto wanted = [&](const Vec3d& x) { return toThread(x) - 0.5 * wall; };
     EXPECT_LT(errorOf(S, voxel, wanted), 0.5 * std::sqrt(3.0) * voxel);
-    test::forEachActive(S.table, voxel, [&](std::size_t n, int v, const Vec3d&) {
+    test::forEachActive(S.phi.table, voxel, [&](std::size_t n, int v, const Vec3d&) {
         ASSERT_LT(std::abs(S.phi.leaf(n)[v]), width);
     });
 }
@@ -67,7 +68,7 @@ TEST(ThickenWalls, WhatIsThickStaysAsItIs)
     const double voxel = 0.25, wall = 3.0, width = 1.0;
     const auto distance = [](const Vec3d& x) { return toThread(x) - 1.8; };
     DistanceBand S = bandOf(distance, voxel, 0.5 * wall + width, 0.5 * wall + width);
-    thickenWalls(S, voxel, wall, width, Progress());
+    thickenWalls(S, wall, width, Progress());
     EXPECT_LT(errorOf(S, voxel, distance), 1e-6);
 }
 
@@ -77,7 +78,7 @@ TEST(ThickenWalls, WhatIsBarelyThickEnoughStays)
     const double voxel = 0.25, wall = 2.0, width = 1.0;
     const auto distance = [](const Vec3d& x) { return toThread(x) - 1.5; };
     DistanceBand S = bandOf(distance, voxel, wall + width, wall + width);
-    thickenWalls(S, voxel, wall, width, Progress());
+    thickenWalls(S, wall, width, Progress());
     EXPECT_LT(errorOf(S, voxel, distance), 1e-6);
 }
 

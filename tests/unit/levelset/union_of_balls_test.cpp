@@ -72,9 +72,8 @@ double exactDistance(const std::vector<Ball>& balls, double probe, const Vec3d& 
 void expectExact(const std::vector<Ball>& balls, double probe, double voxel, double inside,
                  double outside, const char* what)
 {
-    const BallBoundary boundary = ballBoundary(balls, probe, Progress());
     const DistanceBand band =
-        distanceToUnion(balls, probe, boundary, voxel, inside, outside, Progress());
+        distanceToUnion(unionOf(balls, probe, Progress()), voxel, {inside, outside}, Progress());
     std::size_t active = 0, wanted = 0;
     double worst = 0.0;
     Vec3d low(1e9), high(-1e9);
@@ -89,9 +88,9 @@ void expectExact(const std::vector<Ball>& balls, double probe, double voxel, dou
             for (int k = from.z(); k <= to.z(); ++k) {
                 const Coord c(i, j, k);
                 const double d = exactDistance(balls, probe, c.asVec3d() * voxel);
-                const std::int32_t n = band.table.find(c);
+                const std::int32_t n = band.phi.table.find(c);
                 const int v = int(openvdb::FloatTree::LeafNodeType::coordToOffset(c));
-                const bool on = n != noLeaf && band.table.active(n).on(v);
+                const bool on = n != noLeaf && band.phi.table.active(n).on(v);
                 active += on;
                 if (d > -inside + 1e-4 && d < outside - 1e-4) {
                     ++wanted;
@@ -145,14 +144,14 @@ TEST(UnionOfBalls, NoBoundaryWhereSpheresMeetInside)
         const std::vector<Ball> balls = {ball(4, 3, 0, radius), ball(-4, 3, 0, radius),
                                          ball(0, -5, 0, radius), ball(0, 0, 5, radius),
                                          ball(0, 0, -5, radius)};
-        const DistanceBand band = distanceToUnion(balls, 0.0, ballBoundary(balls, 0.0, Progress()),
-                                                  0.5, 2.0, 1.0, Progress());
+        const DistanceBand band =
+            distanceToUnion(unionOf(balls, 0.0, Progress()), 0.5, {2.0, 1.0}, Progress());
         for (int k = 0; k < 27; ++k) {
             const Coord c(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
-            const std::int32_t n = band.table.find(c);
+            const std::int32_t n = band.phi.table.find(c);
             if (n == noLeaf) continue;
             const int v = int(openvdb::FloatTree::LeafNodeType::coordToOffset(c));
-            EXPECT_FALSE(band.table.active(n).on(v)) << c << " " << radius;
+            EXPECT_FALSE(band.phi.table.active(n).on(v)) << c << " " << radius;
             EXPECT_FLOAT_EQ(band.phi.leaf(n)[v], -2.0f) << c << " " << radius;
         }
     }
@@ -276,7 +275,9 @@ TEST(UnionOfBalls, OfNothing)
 {
     const BallBoundary boundary = ballBoundary({}, 1.4, Progress());
     EXPECT_TRUE(measureBoundary(boundary, Progress()).pieces.empty());
-    EXPECT_EQ(distanceToUnion({}, 1.4, boundary, 0.5, 2.0, 1.0, Progress()).table.size(), 0u);
+    const std::vector<Ball> none;
+    const BallUnion set = unionOf(none, 1.4, Progress());
+    EXPECT_EQ(distanceToUnion(set, 0.5, {2.0, 1.0}, Progress()).phi.table.size(), 0u);
 }
 
 } // namespace

@@ -184,7 +184,7 @@ TEST(Compare, GridsOfDistance)
     const Surface ball = ballOf(2.0, first, 0.25);
     const test::Shape other = test::sphere(3.0);
     const LeafTable band = test::bandTable(other.distance, other.centre, other.extent, 0.5, 1.5);
-    const auto on = toLevelSet(band, test::filled(band, 0.5, other.distance), 1.5, 0.5, Progress());
+    const auto on = toLevelSet(test::filled(band, 0.5, other.distance), 1.5, Progress());
     const DistanceTo to(ball);
     const auto grids = distanceGrids(*on, to, Progress());
     ASSERT_EQ(grids.size(), 2u);

@@ -64,7 +64,7 @@ TEST(ExtractMesh, OfALevelSetWithoutAZeroIsEmpty)
 {
     const auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(0.5, 3.0);
     Spline spline;
-    spline.voxel = 0.5;
+    spline.coefficients.voxelSize = 0.5;
     ExtractStats stats;
     const Mesh mesh = extractMesh(*grid, spline, Progress(), stats);
     EXPECT_TRUE(mesh.positions.empty());
@@ -85,22 +85,18 @@ Noise noise(unsigned seed, int share)
     std::vector<Coord> origins;
     for (int k = 0; k < 27; ++k)
         origins.emplace_back(8 * (k / 9) - 8, 8 * (k / 3 % 3) - 8, 8 * (k % 3) - 8);
-    Noise out;
-    out.spline.voxel = voxel;
-    out.spline.table = LeafTable(origins);
-    LeafField field(out.spline.table.size());
-    for (std::size_t n = 0; n < out.spline.table.size(); ++n) {
-        out.spline.table.active(n) = ~LeafMask();
+    const LeafTable table(origins);
+    SparseField field{table, LeafField(table.size()), voxel};
+    for (std::size_t n = 0; n < field.table.size(); ++n) {
+        field.table.active(n) = ~LeafMask();
         for (int v = 0; v < leafSize; ++v) {
-            const Coord c = out.spline.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+            const Coord c = field.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
             bool rim = false;
             for (int i = 0; i < 3; ++i) rim |= c[i] < -5 || c[i] > 12;
             field.leaf(n)[v] = !rim && int(random() % 100) < share ? -0.5f : 0.5f;
         }
     }
-    out.spline.coefficients = prefilter(out.spline.table, field, Progress());
-    out.grid = toLevelSet(out.spline.table, field, 3.0, voxel, Progress());
-    return out;
+    return {toLevelSet(field, 3.0, Progress()), {prefilter(field, Progress())}};
 }
 
 // Where a cell is ambiguous, OpenVDB's tables decide: test::mesherEuler() states their rule. On

@@ -31,7 +31,7 @@ TEST(Prefilter, InterpolatesAtInnerVoxels)
     SplineSampler sampler(spline);
     double inner = 0.0;
     std::size_t count = 0;
-    test::forEachActive(spline.table, voxel, [&](std::size_t, int, const Vec3d& x) {
+    test::forEachActive(spline.table(), voxel, [&](std::size_t, int, const Vec3d& x) {
         if (std::abs(ring.distance(x)) > 2.0 * voxel) return;
         inner = std::max(inner, std::abs(sampler.at(x).value - wave(x)));
         ++count;
@@ -45,7 +45,7 @@ TEST(Prefilter, OfAConstantIsThatConstant)
     const test::Shape ball = test::sphere(2.0);
     const Spline spline = test::splineOf([](const Vec3d&) { return -2.75; }, ball.distance,
                                          ball.centre, ball.extent, 0.4, 1.6);
-    test::forEachActive(spline.table, 0.4, [&](std::size_t n, int v, const Vec3d&) {
+    test::forEachActive(spline.table(), 0.4, [&](std::size_t n, int v, const Vec3d&) {
         ASSERT_NEAR(spline.coefficients.leaf(n)[v], -2.75f, 2e-6f);
     });
 }
@@ -64,10 +64,7 @@ TEST(Prefilter, IsExactForLinearAndQuadraticFunctionsInside)
         test::bandTable(ball.distance, ball.centre, ball.extent, voxel, -100.0, 0.0);
     for (const bool second : {false, true}) {
         const test::Function f = second ? test::Function(quadratic) : test::Function(linear);
-        Spline spline;
-        spline.voxel = voxel;
-        spline.table = table;
-        spline.coefficients = prefilter(table, test::filled(table, voxel, f), Progress());
+        const Spline spline{prefilter(test::filled(table, voxel, f), Progress())};
         SplineSampler sampler(spline);
         double worst = 0.0, slope = 0.0;
         for (const test::SurfacePoint& p : ball.points) {

@@ -81,14 +81,13 @@ Spline randomSpline()
     for (int k = 0; k < 27; ++k)
         origins.emplace_back(8 * (k / 9) - 16, 8 * (k / 3 % 3) - 8, 8 * (k % 3));
     Spline spline;
-    spline.voxel = 0.4;
-    spline.table = LeafTable(origins);
-    spline.coefficients = LeafField(spline.table.size());
+    SparseField& c = spline.coefficients;
+    c = {LeafTable(origins), LeafField(origins.size()), 0.4};
     std::mt19937 random(17);
     std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
-    for (std::size_t n = 0; n < spline.table.size(); ++n) {
-        spline.table.active(n) = ~LeafMask();
-        for (int v = 0; v < leafSize; ++v) spline.coefficients.leaf(n)[v] = uniform(random);
+    for (std::size_t n = 0; n < c.table.size(); ++n) {
+        c.table.active(n) = ~LeafMask();
+        for (int v = 0; v < leafSize; ++v) c.leaf(n)[v] = uniform(random);
     }
     return spline;
 }
@@ -98,7 +97,7 @@ Spline randomSpline()
 TEST(SplineSampler, IsTwiceContinuouslyDifferentiableAcrossCellsAndLeaves)
 {
     const Spline spline = randomSpline();
-    const double h = spline.voxel, nudge = 1e-10;
+    const double h = spline.voxelSize(), nudge = 1e-10;
     SplineSampler sampler(spline);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> place(2.1, 21.9);
@@ -126,7 +125,7 @@ TEST(SplineSampler, IsTwiceContinuouslyDifferentiableAcrossCellsAndLeaves)
 TEST(SplineSampler, DerivativesAgreeWithFiniteDifferences)
 {
     const Spline spline = randomSpline();
-    const double h = spline.voxel, step = 0.01 * h;
+    const double h = spline.voxelSize(), step = 0.01 * h;
     SplineSampler sampler(spline);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> place(2.1, 21.9);

@@ -95,9 +95,9 @@ TEST(Pipeline, TheSurfaceIsC2AcrossCellsAndLeaves)
     options.fields = {"spline"};
     const MolecularSurface result = test::runOn(test::balls("1a8o.cif.gz", "1"), options);
     const Spline spline = test::splineFrom(result);
-    ASSERT_GT(spline.table.size(), 100u);
+    ASSERT_GT(spline.table().size(), 100u);
     SplineSampler sampler(spline);
-    const double h = spline.voxel;
+    const double h = spline.voxelSize();
     double value = 0.0, gradient = 0.0, hessian = 0.0, residual = 0.0;
     std::size_t leafFaces = 0, samples = 0;
     for (std::size_t v = 0; v < result.mesh.positions.size(); ++v) {

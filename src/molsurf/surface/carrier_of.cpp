@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/carrier_of.h"
+
+#include "molsurf/core/parallel.h"
+#include "molsurf/levelset/carrier.h"
+#include "molsurf/surface/surface_kind.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace molsurf
+{
+
+namespace
+{
+
+/// |grad psi| on the surface of each ball alone [1/Å].
+std::vector<double> slopesOf(const std::vector<Ball>& balls, const GaussianOptions& options,
+                             const std::vector<Decay>& decays)
+{
+    std::vector<double> slopes;
+    slopes.reserve(balls.size());
+    for (std::size_t i = 0; i < balls.size(); ++i)
+        slopes.push_back(2.0 * rateOf(balls[i], options, decays.empty() ? 0.0 : decays[i].rate) *
+                         (balls[i].radius + options.probe));
+    return slopes;
+}
+
+/// The slopes of the balls, at each voxel weighted by their terms of the sum: psi of the sum with
+/// the slopes as factors, less psi.
+LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
+                     const std::optional<GaussianExtent>& extent, const NarrowBand& band,
+                     const Progress& progress)
+{
+    GaussianOptions gaussian = gaussianOptions(options);
+    std::vector<Decay> decays =
+        options.kind == SurfaceKind::Variational ? atoms.decays : std::vector<Decay>();
+    const std::vector<double> slopes = slopesOf(atoms.balls, gaussian, decays);
+    const LeafTable& table = band.phi.table;
+    LeafField out(table.size());
+    const auto [least, most] = std::minmax_element(slopes.begin(), slopes.end());
+    if (*most - *least < 1e-4 * *most) {
+        parallelFor(table.size(), progress,
+                    [&](std::size_t n) { std::fill_n(out.leaf(n), leafSize, float(*most)); });
+        return out;
+    }
+    gaussian.extent = extent ? extent : extentOf(atoms.balls, gaussian, decays);
+    decays.resize(atoms.balls.size());
+    for (std::size_t i = 0; i < slopes.size(); ++i)
+        decays[i].level += float(std::log(slopes[i] / *most));
+    const SparseField weighted =
+        GaussianSum(atoms.balls, gaussian, decays).evaluate(table, progress);
+    parallelFor(table.size(), progress, [&](std::size_t n) {
+        const float *w = weighted.leaf(n), *psi = band.psi.leaf(n);
+        for (int v = 0; v < leafSize; ++v)
+            out.leaf(n)[v] =
+                std::clamp(float(*most) * std::exp(w[v] - psi[v]), float(*least), float(*most));
+    });
+    return out;
+}
+
+} // namespace
+
+SparseField carrierOf(const BallSet& atoms, const SurfaceOptions& options,
+                      const std::optional<GaussianExtent>& extent, const NarrowBand& band,
+                      const Progress& progress)
+{
+    const LeafField slope = slopeField(atoms, options, extent, band, progress);
+    const EvolveOptions& evolution = options.evolution;
+    const bool valley = options.kind == SurfaceKind::Variational &&
+                        evolution.regularizer == Regularizer::Gradient;
+    return smoothCarrier(band.phi, {band.psi, slope, valley ? evolution.lambda : 0.0},
+                         bandWidthVox * band.phi.voxelSize, progress);
+}
+
+} // namespace molsurf

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The interface of a smooth surface, as the function that closest points are found on.
+
+#include "molsurf/atoms.h"
+#include "molsurf/flow/evolve.h"
+#include "molsurf/levelset/gaussian_sum.h"
+#include "molsurf/options.h"
+
+#include <optional>
+
+namespace molsurf
+{
+
+/// Makes the smooth carrier of an interface: see smoothCarrier().
+/// @param[in] extent  of all balls, if these are some of them
+/// @param[in] band    the interface, and psi
+SparseField carrierOf(const BallSet& atoms, const SurfaceOptions& options,
+                      const std::optional<GaussianExtent>& extent, const NarrowBand& band,
+                      const Progress& progress);
+
+} // namespace molsurf

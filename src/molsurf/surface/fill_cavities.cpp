@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/fill_cavities.h"
+
+#include "molsurf/core/parallel.h"
+#include "molsurf/flow/evolve.h"
+#include "molsurf/levelset/cavities.h"
+#include "molsurf/levelset/reinitialize.h"
+#include "molsurf/mesh/topology.h"
+#include "molsurf/surface/surface_kind.h"
+
+#include <cmath>
+
+namespace molsurf
+{
+
+namespace
+{
+
+/// Makes voxels inner ones, and the level set a distance again.
+/// @param[in] voxels  one mask a leaf
+/// @param[in] width   half width of the level set's band [Å]
+void fillVoxels(const std::vector<LeafMask>& voxels, double width, SparseField& phi,
+                const Progress& progress)
+{
+    for (std::size_t n = 0; n < phi.table.size(); ++n) {
+        voxels[n].forEach([&](int v) { phi.leaf(n)[v] = float(-width); });
+    }
+    reinitialize(phi, width, int(std::ceil(2.0 * width / phi.voxelSize)), progress);
+}
+
+} // namespace
+
+std::vector<LeafMask> cavityVoxels(const Mesh& mesh, const SparseField& S, const Progress& progress)
+{
+    std::size_t count = 0;
+    const std::vector<std::uint32_t> pieces = connectedPieces(mesh, count, progress);
+    const std::vector<double> volumes = pieceVolumes(mesh, pieces, count);
+
+    // Outer voxels of S in front of the walls, then all that hang together with them. Those that
+    // hang together with the outer surface, where a wall is thinner than a voxel, are no cavity.
+    std::vector<LeafMask> positive(S.table.size()), walls(S.table.size()), skin(S.table.size());
+    for (std::size_t n = 0; n < S.table.size(); ++n) {
+        positive[n] = ~lessThan(S.leaf(n), 0.0f);
+    }
+    bool any = false;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const bool cavity = volumes[pieces[i]] < 0.0;
+        any = any || cavity;
+        const openvdb::Vec3d x = openvdb::Vec3d(mesh.positions[i]) / S.voxelSize;
+        const openvdb::Coord cell = openvdb::Coord::floor(x);
+        for (int k = 0; k < 8; ++k) {
+            const openvdb::Coord corner = cell.offsetBy(k >> 2, k >> 1 & 1, k & 1);
+            if ((corner.asVec3d() - x).dot(openvdb::Vec3d(mesh.normals[i])) <= 0.0) continue;
+            const std::int32_t n = S.table.find(corner);
+            if (n != noLeaf)
+                (cavity ? walls : skin)[std::size_t(n)].set(
+                    int(openvdb::FloatTree::LeafNodeType::coordToOffset(corner)));
+        }
+    }
+    if (!any) return {};
+    std::vector<LeafMask> cavities = connectedTo(S.table, positive, walls);
+    const std::vector<LeafMask> exterior = connectedTo(S.table, positive, skin);
+    for (std::size_t n = 0; n < cavities.size(); ++n) cavities[n] &= ~exterior[n];
+    return cavities;
+}
+
+void fillInLevelSet(const std::vector<LeafMask>& cavities, const LeafTable& S, SparseField& phi,
+                    const Progress& progress)
+{
+    std::vector<LeafMask> outside(phi.table.size()), start(phi.table.size());
+    for (std::size_t n = 0; n < phi.table.size(); ++n) {
+        outside[n] = ~lessThan(phi.leaf(n), 0.0f);
+        const std::int32_t m = S.find(phi.table.origin(n));
+        if (m != noLeaf) start[n] = cavities[m];
+    }
+    fillVoxels(connectedTo(phi.table, outside, start), bandWidthVox * phi.voxelSize, phi, progress);
+}
+
+void fillInDistance(const std::vector<LeafMask>& cavities, SparseField& S, const Progress& progress)
+{
+    SparseField filled = copied(S);
+    fillVoxels(cavities, splineWidthVox * S.voxelSize, filled, progress);
+    LeafTable about = S.table;
+    for (std::size_t n = 0; n < about.size(); ++n) about.active(n) = cavities[n];
+    about = dilated(about, 2 * int(splineWidthVox), Spread::Ball, progress);
+    parallelFor(S.table.size(), progress, [&](std::size_t n) {
+        const std::int32_t m = about.find(S.table.origin(n));
+        if (m == noLeaf) return;
+        about.active(m).forEach([&](int v) { S.leaf(n)[v] = filled.leaf(n)[v]; });
+    });
+}
+
+} // namespace molsurf

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/surface_kind.h"
+
+#include "molsurf/flow/evolve.h"
+
+#include <algorithm>
+
+namespace molsurf
+{
+
+bool isUnion(SurfaceKind kind)
+{
+    return kind != SurfaceKind::Variational && kind != SurfaceKind::Gaussian;
+}
+
+double offsetOf(const SurfaceOptions& options)
+{
+    return options.kind == SurfaceKind::Variational || options.kind == SurfaceKind::SolventExcluded
+               ? options.probe
+               : 0.0;
+}
+
+double grownBy(const SurfaceOptions& options)
+{
+    return options.kind == SurfaceKind::VanDerWaals ? 0.0 : options.probe;
+}
+
+bool isClosedForm(const SurfaceOptions& options)
+{
+    return isUnion(options.kind) && offsetOf(options) == 0.0 && options.minWall == 0.0;
+}
+
+double splineWidthOf(const SurfaceOptions& options)
+{
+    return splineWidthVox * options.voxel * (1 << options.splineLevel);
+}
+
+BandWidths widthsOf(const SurfaceOptions& options)
+{
+    const double width = splineWidthOf(options), offset = offsetOf(options);
+    const double grown = 0.5 * options.minWall;
+    return {offset + width + grown, std::max(width - offset, options.voxel) + grown};
+}
+
+GaussianOptions gaussianOptions(const SurfaceOptions& options)
+{
+    // Stencils reach a voxel beyond the band, along diagonals.
+    const double h = options.voxel, reach = (bandWidthVox + 1.5) * h;
+    if (options.kind == SurfaceKind::Gaussian) return {0.0, 0.0, options.blobbiness, h, reach};
+    return {options.probe, options.epsilon, 0.0, h, reach};
+}
+
+GaussianExtent extentOf(const BallSet& atoms, const SurfaceOptions& options)
+{
+    return extentOf(atoms.balls, gaussianOptions(options),
+                    options.kind == SurfaceKind::Variational ? atoms.decays : std::vector<Decay>());
+}
+
+double labelReach(const BallSet& atoms, const SurfaceOptions& options)
+{
+    // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
+    return 2.0 * options.probe + 4.0 * extentOf(atoms, options).tolerance + 4.0 * options.voxel +
+           options.minWall;
+}
+
+} // namespace molsurf

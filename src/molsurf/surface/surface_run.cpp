@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/surface_run.h"
+
+#include "molsurf/core/parallel.h"
+#include "molsurf/error.h"
+#include "molsurf/levelset/initial_surface.h"
+#include "molsurf/levelset/redistance.h"
+#include "molsurf/levelset/reinitialize.h"
+#include "molsurf/levelset/round_ridges.h"
+#include "molsurf/levelset/thicken.h"
+#include "molsurf/levelset/union_distance.h"
+#include "molsurf/mesh/integrate.h"
+#include "molsurf/mesh/measure.h"
+#include "molsurf/mesh/statistics.h"
+#include "molsurf/mesh/topology.h"
+#include "molsurf/spline/fit.h"
+#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/carrier_of.h"
+#include "molsurf/surface/fill_cavities.h"
+#include "molsurf/surface/label_surface.h"
+#include "molsurf/surface/warm_start.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace molsurf
+{
+
+void Stopwatch::stop(const char* stage)
+{
+    const auto now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    start_ = now;
+    report_.addSeconds(stage, seconds);
+}
+
+SurfaceRun::SurfaceRun(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
+                       Progress& progress)
+    : atoms_(atoms), options_(options), scope_(scope), progress_(progress), watch_(result_.report)
+{
+    band_.phi.voxelSize = S_.phi.voxelSize = options.voxel;
+}
+
+void SurfaceRun::density()
+{
+    if (isUnion(options_.kind)) return;
+    progress_.update("density", 0.0);
+    const bool evolves = options_.kind == SurfaceKind::Variational;
+    GaussianOptions gaussian = gaussianOptions(options_);
+    gaussian.extent = scope_.extent;
+    sum_.emplace(atoms_.balls, gaussian, evolves ? atoms_.decays : std::vector<Decay>());
+    LeafTable table = sum_->band(bandWidthVox, progress_, scope_.region.grown(scope_.flowHalo));
+    if (table.size() == 0 && scope_.region.whole()) {
+        throw Error(ErrorKind::Numeric, "density: no voxel lies inside the surface [hint: a "
+                                        "smaller `voxel`]");
+    }
+    progress_.update("density", 0.6);
+    SparseField psi = sum_->evaluate(std::move(table), progress_);
+    watch_.stop("density");
+
+    progress_.update("initial", 0.0);
+    band_.phi = initialSurface(psi, bandWidthVox * psi.voxelSize, progress_);
+    band_.psi = std::move(psi.values);
+    watch_.stop("initial");
+}
+
+void SurfaceRun::flow(WarmStart* warm)
+{
+    if (options_.kind == SurfaceKind::Variational) {
+        progress_.update("evolve", 0.0);
+        SparseField cold;
+        if (warm) {
+            cold = copied(band_.phi);
+            addCorrection(*warm, band_.phi, progress_);
+        }
+        const double reach = gaussianOptions(options_).reach;
+        const auto source = [&](const openvdb::Coord& origin, float* psi) {
+            sum_->evaluate(origin, reach, psi);
+        };
+        EvolveOptions evolution = options_.evolution;
+        evolution.splineLevel = options_.splineLevel;
+        result_.report.evolution =
+            evolve(band_, source, evolution, progress_, scope_.region, scope_.flowHalo);
+        if (warm) *warm = correctionOf(cold, band_.phi, progress_);
+        warnIfCreeping();
+        watch_.stop("evolve");
+    }
+    sum_.reset();
+}
+
+void SurfaceRun::warnIfCreeping()
+{
+    constexpr double noticeable = 0.1; // [voxel]
+    const EvolutionReport& evolution = *result_.report.evolution;
+    if (evolution.converged && evolution.remainingWay > noticeable * options_.voxel) {
+        result_.report.warnings.push_back(
+            "evolve: the steps are small, but the interface still creeps [hint: a "
+            "smaller `tolerance` and more `maxSteps`]");
+    }
+}
+
+/// Whether the evolved level set is still needed when S is known.
+bool SurfaceRun::keepsLevelSet() const
+{
+    return options_.fillCavities ||
+           (options_.kind == SurfaceKind::Variational && hasField(options_.fields, "sas"));
+}
+
+DistanceBand SurfaceRun::distanceToBalls()
+{
+    BallUnion set = unionOf(atoms_.balls, grownBy(options_), progress_);
+    if (scope_.region.whole() && isClosedForm(options_)) {
+        exact_ = measureBoundary(set.boundary, progress_);
+        checkBoundary(set.boundary, *exact_, progress_);
+        tolerance_ = meshTolerance(set.boundary, *exact_, options_.voxel);
+    }
+    return distanceToUnion(std::move(set), options_.voxel, widthsOf(options_), progress_,
+                           scope_.region.grown(scope_.splineHalo));
+}
+
+void SurfaceRun::distance()
+{
+    progress_.update("redistance", 0.0);
+    const double offset = offsetOf(options_);
+    if (isUnion(options_.kind)) {
+        S_ = distanceToBalls();
+    } else {
+        const openvdb::CoordBBox near = scope_.region.grown(scope_.distanceHalo);
+        SparseField carrier = carrierOf(atoms_, options_, scope_.extent, band_, progress_);
+        if (!options_.fillCavities) band_.psi = LeafField();
+        band_.phi = keepsLevelSet() ? clipped(std::move(band_.phi), near, progress_) : SparseField();
+        S_ = redistance(clipped(std::move(carrier), near, progress_), widthsOf(options_), -offset,
+                        progress_, scope_.region.grown(scope_.ridgeHalo));
+    }
+    if (offset > 0.0) {
+        parallelFor(S_.phi.table.size(), progress_, [&](std::size_t n) {
+            for (int v = 0; v < leafSize; ++v) S_.phi.leaf(n)[v] += float(offset);
+        });
+    }
+    if (options_.kind == SurfaceKind::Variational) roundRidges(S_, progress_);
+    if (options_.minWall > 0.0)
+        thickenWalls(S_, options_.minWall, splineWidthOf(options_), progress_);
+    watch_.stop("redistance");
+}
+
+namespace
+{
+
+/// Replaces S near its zero set by the values of a coarser spline.
+void resample(SparseField& S, const Spline& spline, const Progress& progress)
+{
+    const float width = float(splineWidthVox * S.voxelSize);
+    parallelFor(S.table.size(), progress, [&](std::size_t n) {
+        SplineSampler sampler(spline);
+        LeafMask near;
+        S.table.active(n).forEach([&](int v) {
+            float& value = S.leaf(n)[v];
+            if (std::abs(value) >= width) return;
+            const openvdb::Coord ijk = S.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+            value = float(sampler.at(ijk.asVec3d() * S.voxelSize).value);
+            near.set(v);
+        });
+        S.table.active(n) = near;
+    });
+}
+
+} // namespace
+
+void SurfaceRun::spline()
+{
+    progress_.update("spline", 0.0);
+    spline_ = fitSpline(S_.phi, options_.splineLevel, progress_);
+    if (options_.splineLevel > 0) resample(S_.phi, spline_, progress_);
+    watch_.stop("spline");
+}
+
+void SurfaceRun::levelSet()
+{
+    progress_.update("redistance", 0.6);
+    SparseField S = options_.fillCavities ? copied(S_.phi) : std::move(S_.phi);
+    const double width = surfaceWidthVox * S.voxelSize;
+    parallelFor(S.table.size(), progress_,
+                [&](std::size_t n) { S.table.active(n) &= within(S.leaf(n), float(width)); });
+    // Two voxels outward from where sheets of S meet: farther out few of them are still wrong.
+    reinitialize(S, width, 4, progress_);
+    // A leaf inside the cut, values are those of the whole surface.
+    S = clipped(std::move(S), scope_.region.grown(scope_.splineHalo - 1), progress_);
+    result_.surface = toLevelSet(S, width, progress_);
+    result_.surface->setName("surface");
+    S = SparseField();
+    if (!scope_.keepsMemory) releasePages(); // grids and meshes have memory of their own
+    watch_.stop("redistance");
+}
+
+void SurfaceRun::mesh()
+{
+    progress_.update("mesh", 0.0);
+    stats_ = ExtractStats();
+    stats_.keepCells = !scope_.region.whole();
+    result_.mesh = extractMesh(*result_.surface, spline_, progress_, stats_);
+    if (scope_.region.whole() && result_.mesh.triangles.empty()) {
+        throw Error(ErrorKind::Numeric,
+                    "mesh: nothing of the molecule is left at this resolution [hint: a smaller "
+                    "`voxel`, `lambda` or `epsilon`]");
+    }
+}
+
+bool SurfaceRun::fillCavities()
+{
+    if (!options_.fillCavities) return false;
+    const std::vector<LeafMask> cavities = cavityVoxels(result_.mesh, S_.phi, progress_);
+    if (cavities.empty()) return false;
+    if (isUnion(options_.kind)) {
+        fillInDistance(cavities, S_.phi, progress_);
+    } else {
+        fillInLevelSet(cavities, S_.phi.table, band_.phi, progress_);
+        distance();
+    }
+    return true;
+}
+
+void SurfaceRun::resume(Mesh mesh, Spline spline, openvdb::FloatGrid::Ptr surface)
+{
+    result_.mesh = std::move(mesh);
+    result_.surface = std::move(surface);
+    spline_ = std::move(spline);
+}
+
+void SurfaceRun::curvatures()
+{
+    addCurvature(spline_, options_.fields, result_.mesh, progress_);
+}
+
+GradientCounts SurfaceRun::countGradients(const std::vector<float>& slopes)
+{
+    constexpr int kinkVox = 2;
+    constexpr double gradientTolerance = 0.03;
+    const LeafTable nearKinks = dilated(S_.kinks, kinkVox, Spread::Ball, progress_);
+
+    constexpr std::size_t chunk = 512;
+    const std::size_t vertices = slopes.size();
+    const auto count = [&](std::size_t c) {
+        GradientCounts sum;
+        for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v) {
+            const openvdb::Vec3d x(result_.mesh.positions[v]);
+            const openvdb::Coord near = openvdb::Coord::round(x / options_.voxel);
+            const std::int32_t n = nearKinks.find(near);
+            const bool kink =
+                n != noLeaf &&
+                nearKinks.active(n).on(int(openvdb::FloatTree::LeafNodeType::coordToOffset(near)));
+            sum += {std::size_t(kink),
+                    std::size_t(!kink && std::abs(slopes[v] - 1.0f) < gradientTolerance)};
+        }
+        return sum;
+    };
+    return parallelSum<GradientCounts>((vertices + chunk - 1) / chunk, progress_, count);
+}
+
+void SurfaceRun::measure()
+{
+    progress_.update("mesh", 0.7);
+    SurfaceReport& surface = result_.report.surface;
+    surface = molsurf::measure(result_.mesh, progress_);
+    if (!surface.manifold && !splitNonManifold(result_.mesh).empty()) {
+        surface = molsurf::measure(result_.mesh, progress_);
+    }
+    surface.kind = nameOf(options_.kind);
+    surface.maxResidual = stats_.maxResidual;
+    const std::size_t vertices = stats_.slopes.size();
+    const GradientCounts counts = countGradients(stats_.slopes);
+    surface.kinkShare = vertices ? double(counts.kink) / vertices : 0.0;
+    surface.gradientShare = double(counts.unit) / double(vertices - counts.kink); // or 0/0
+}
+
+void SurfaceRun::describeCurvature()
+{
+    const Mesh& mesh = result_.mesh;
+    SurfaceReport& surface = result_.report.surface;
+    const std::vector<float> areas = vertexAreas(mesh, progress_);
+    tbb::parallel_invoke(
+        [&] { surface.meanCurvature = statistics(mesh.scalars[0].values, areas); },
+        [&] { surface.gaussianCurvature = statistics(mesh.scalars[1].values, areas); });
+    if (!options_.curvatureTotals) return;
+    constexpr double tolerance = 5.0; // for each unit of the Euler characteristic [sr]
+    const int chi = std::max(std::abs(surface.eulerCharacteristic), 2);
+    surface.integrals = integrateSurface(mesh, spline_, tolerance * chi, progress_);
+}
+
+void SurfaceRun::takeClosedForm()
+{
+    if (!exact_) return;
+    // A mesh bridges what is narrower than a voxel: creases and small cavities.
+    SurfaceReport& s = result_.report.surface;
+    const std::size_t shown = s.cavities.size();
+    const double meshArea = s.area, meshVolume = s.volume;
+    s.area = s.volume = s.outerArea = s.outerVolume = 0.0;
+    s.components = s.eulerCharacteristic = 0;
+    s.cavities.clear();
+    for (const BoundaryPiece& piece : exact_->pieces) {
+        const bool cavity = !piece.outer;
+        if (cavity && options_.fillCavities) continue;
+        s.area += piece.area;
+        s.volume += piece.volume;
+        s.eulerCharacteristic += piece.eulerCharacteristic;
+        if (cavity) {
+            s.cavities.push_back({piece.area, -piece.volume});
+        } else {
+            ++s.components;
+            s.outerArea += piece.area;
+            s.outerVolume += piece.volume;
+        }
+    }
+    std::stable_sort(s.cavities.begin(), s.cavities.end(),
+                     [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
+    if (!options_.fillCavities && shown != s.cavities.size()) {
+        result_.report.warnings.push_back(
+            "mesh: " + std::to_string(shown) + " inner walls for " +
+            std::to_string(s.cavities.size()) +
+            " cavities, for want of voxels [hint: a smaller `voxel`]");
+    }
+    checkMesh(s.area, s.volume, meshArea, meshVolume, tolerance_);
+}
+
+openvdb::FloatGrid::Ptr SurfaceRun::sasGrid()
+{
+    const double width = surfaceWidthVox * options_.voxel;
+    SparseField exact;
+    const bool evolved = options_.kind == SurfaceKind::Variational;
+    if (!evolved) {
+        exact = distanceToUnion(unionOf(atoms_.balls, options_.probe, progress_), options_.voxel,
+                                {width, width}, progress_, scope_.region.owned)
+                    .phi;
+    }
+    auto grid = toLevelSet(evolved ? band_.phi : exact, width, progress_);
+    grid->setName("sas");
+    return grid;
+}
+
+void SurfaceRun::grids()
+{
+    const auto has = [&](const char* name) { return hasField(options_.fields, name); };
+    std::vector<openvdb::GridBase::Ptr>& fields = result_.fields;
+    if (has("sas")) fields.push_back(sasGrid());
+    if (has("spline")) fields.push_back(splineGrid(spline_));
+    for (auto& grid : curvatureGrids(*result_.surface, spline_, options_.fields, progress_))
+        fields.push_back(std::move(grid));
+    if (has("density")) fields.push_back(densityGrid(*result_.surface));
+}
+
+void SurfaceRun::freeFields()
+{
+    band_ = NarrowBand();
+    S_.phi = SparseField();
+    spline_ = Spline();
+    if (!scope_.keepsMemory) releasePages();
+}
+
+void SurfaceRun::labels()
+{
+    watch_.stop("mesh");
+    progress_.update("color", 0.0);
+    const double reach = labelReach(atoms_, options_);
+    if (scope_.region.whole()) {
+        labelSurface(atoms_, options_, reach, progress_, result_);
+    } else {
+        labelPart(atoms_, options_, reach, progress_, result_);
+    }
+    watch_.stop("color");
+}
+
+MolecularSurface SurfaceRun::finish()
+{
+    result_.report.activeVoxels = result_.surface->activeVoxelCount();
+    result_.report.gridBytes = result_.surface->memUsage();
+    return std::move(result_);
+}
+
+} // namespace molsurf

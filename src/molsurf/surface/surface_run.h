@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The stages from atoms to a surface, in one place for runs of a whole molecule, of a brick of it,
+/// and for stored surfaces.
+
+#include "molsurf/balls/boundary_check.h"
+#include "molsurf/balls/boundary_measure.h"
+#include "molsurf/flow/evolve.h"
+#include "molsurf/grid/region.h"
+#include "molsurf/mesh/extract.h"
+#include "molsurf/surface.h"
+#include "molsurf/surface/surface_kind.h"
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace molsurf
+{
+
+/// The part of a molecule that a run computes: everything, or a brick. The halos, in leaves about
+/// the brick, shrink from stage to stage: each stage needs the one before it farther out.
+struct Scope {
+    Region region;
+    std::optional<GaussianExtent> extent; ///< of all balls of the molecule
+    int flowHalo = 0;                     ///< of the evolved level set
+    int distanceHalo = 0;                 ///< of the part of it that distances are taken to
+    int ridgeHalo = 0;                    ///< of S before its ridges are rounded
+    int splineHalo = 0;                   ///< of S and its spline; a leaf less of the mesh
+    bool keepsMemory = false; ///< pages that are not used stay in the process, for the next brick
+};
+
+/// Measures the wall time of stages; a stage may come more than once.
+class Stopwatch
+{
+public:
+    explicit Stopwatch(Report& report) : report_(report) {}
+
+    /// Adds the time since the stop before to that of a stage.
+    void stop(const char* stage);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Report& report_;
+    Clock::time_point start_ = Clock::now();
+};
+
+/// Numbers of vertices near kinks of the distance, and of those of the others that have a unit
+/// gradient.
+struct GradientCounts {
+    std::size_t kink = 0, unit = 0;
+    GradientCounts& operator+=(const GradientCounts& o)
+    {
+        kink += o.kink;
+        unit += o.unit;
+        return *this;
+    }
+};
+
+/// One run. Each method is a stage and needs those above it, if they are not said to be optional.
+/// What a stage computes is kept for later ones until freeFields().
+class SurfaceRun
+{
+public:
+    /// @param[in] atoms    at least one ball, or none and no density(), flow() and distance()
+    /// @param[in] options  of one surface: parts and interfaces are left aside
+    SurfaceRun(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
+               Progress& progress);
+    SurfaceRun(const SurfaceRun&) = delete;
+    SurfaceRun& operator=(const SurfaceRun&) = delete;
+
+    /// Sums the Gaussians and takes the level set of psi = 0; does nothing for the surface of a
+    /// union of balls.
+    /// @throws Error(ErrorKind::Numeric) if a whole molecule has no voxel inside
+    void density();
+
+    /// Moves the level set to rest, if the surface is variational.
+    /// @param[in,out] warm  null, or see makeSurface()
+    void flow(WarmStart* warm);
+
+    /// Computes S, the signed distance to the surface, in a band that holds the coefficients of
+    /// every point of it.
+    void distance();
+
+    /// Fits the spline to S; where it is coarser, replaces S near its zero set by its values, so
+    /// that signs and values agree.
+    void spline();
+
+    /// Makes the grid `surface` of S, a distance on both sides.
+    void levelSet();
+
+    /// Meshes the zero set of the spline.
+    /// @throws Error(ErrorKind::Numeric) if a whole molecule has none
+    void mesh();
+
+    /// Closes the cavities in S, if the options say so. Optional.
+    /// @return whether there were any: then spline(), levelSet() and mesh() have to follow again
+    bool fillCavities();
+
+    /// Takes a mesh and its spline from elsewhere, instead of the stages above.
+    /// @param[in] surface  the level set that was meshed
+    void resume(Mesh mesh, Spline spline, openvdb::FloatGrid::Ptr surface);
+
+    /// Adds the curvatures that the options ask for to the mesh. Optional.
+    void curvatures();
+
+    /// Measures the mesh, and how well it fits S; splits vertices at which it is not a manifold.
+    void measure();
+
+    /// Adds statistics and integrals of the curvatures to the measures. Optional.
+    void describeCurvature();
+
+    /// Replaces measures of the mesh by those in closed form, if there are any. Optional.
+    /// @throws Error(ErrorKind::Check) if they are too far from those of the mesh
+    void takeClosedForm();
+
+    /// Makes the grids that the options ask for, except those of labels and colours. Optional.
+    void grids();
+
+    /// Frees the fields of the stages up to here.
+    void freeFields();
+
+    /// Adds labels, colours and groups.
+    void labels();
+
+    /// Completes the report.
+    /// @return the surface
+    MolecularSurface finish();
+
+    /// The surface so far.
+    MolecularSurface& result() { return result_; }
+    ExtractStats& stats() { return stats_; }
+    const Spline& currentSpline() const { return spline_; }
+
+    /// Counts vertices by the gradient there.
+    /// @param[in] slopes  |grad S| at the first vertices of the mesh, those that are counted
+    GradientCounts countGradients(const std::vector<float>& slopes);
+
+private:
+    void warnIfCreeping();
+    bool keepsLevelSet() const;
+    DistanceBand distanceToBalls();
+    openvdb::FloatGrid::Ptr sasGrid();
+
+    const BallSet& atoms_;
+    const SurfaceOptions& options_;
+    const Scope scope_;
+    Progress& progress_;
+    MolecularSurface result_;
+    Stopwatch watch_;
+    std::optional<GaussianSum> sum_;
+    NarrowBand band_; ///< the level set that a smooth surface is offset from
+    DistanceBand S_;
+    Spline spline_;
+    ExtractStats stats_;
+    std::optional<BoundaryMeasure> exact_; ///< of surfaces in closed form
+    MeshTolerance tolerance_{};            ///< of the mesh from these
+};
+
+} // namespace molsurf
