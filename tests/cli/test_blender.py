@@ -74,7 +74,7 @@ class Blender(ToolTest):
             where = [sum(m * scale * c for m, c in zip(row, centroid)) + row[3]
                      for row in placed["matrix"][:3]]
             self.assert_near([x / scale for x in placed["centroid"]], [x / scale for x in where],
-                             0.02 * 1.5 * VOXEL, f"{name} placed")
+                             3 ** 0.5 * 0.02 * 1.5 * VOXEL, f"{name} placed")  # turned, too
 
         # Two chains, their colours in linear light.
         if result["colored"]["colors"]:
