@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/velocity.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include "molsurf/balls/nearest_ball.h"
-#include "molsurf/surface.h"
+#include "molsurf/surface/influence.h"
 
 namespace molsurf
 {
@@ -23,7 +22,7 @@ openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const Ba
     for (auto it = surface.cbeginValueOn(); it; ++it)
         points.emplace_back(surface.indexToWorld(it.getCoord()));
     const std::vector<std::int32_t> owner =
-        nearestBalls(atoms.balls, points, labelReach(atoms, options), progress);
+        nearestBalls(atoms.balls, points, Influence(atoms, options).ofLabel(), progress);
     std::size_t i = 0;
     for (auto it = grid->beginValueOn(); it; ++it, ++i)
         if (owner[i] >= 0) it.setValue(displacement[std::size_t(owner[i])]);
