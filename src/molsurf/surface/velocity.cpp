@@ -2,6 +2,7 @@
 #include "molsurf/surface/velocity.h"
 
 #include "molsurf/balls/nearest_ball.h"
+#include "molsurf/grid/grid_like.h"
 #include "molsurf/surface/influence.h"
 
 namespace molsurf
@@ -11,12 +12,7 @@ openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const Ba
                                      const std::vector<openvdb::Vec3f>& displacement,
                                      const SurfaceOptions& options, const Progress& progress)
 {
-    const openvdb::Vec3f none(0.0f);
-    auto grid = openvdb::Vec3SGrid::create(none);
-    grid->setTree(
-        std::make_shared<openvdb::Vec3STree>(surface.tree(), none, openvdb::TopologyCopy()));
-    grid->setTransform(surface.transform().copy());
-    grid->setName("v");
+    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "v", openvdb::Vec3f(0.0f));
     grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
     std::vector<openvdb::Vec3f> points;
     for (auto it = surface.cbeginValueOn(); it; ++it)
