@@ -34,8 +34,10 @@ struct BrickPlan {
     std::vector<PlannedBrick> bricks; ///< they do not overlap, and hold the whole surface
     int steps = 0;                    ///< of the flow
     openvdb::Coord anchor;            ///< positions in sums are taken from this voxel
-    double largest = 0.0, swollen = 0.0, tolerance = 0.0; ///< GaussianExtent of all balls [Å]
-    std::size_t atoms = 0;                                ///< balls
+    double maxRadius = 0.0;           ///< largest radius of all balls [Å]
+    double maxGrownRadius = 0.0; ///< the same with the probe, and with what a resolution adds [Å]
+    double maxTolerance = 0.0;   ///< largest tolerance of their Gaussians [Å]
+    std::size_t atoms = 0;       ///< balls
     bool keepsMemory = false; ///< what one brick has given back stays in the process for the next
 };
 

@@ -17,9 +17,6 @@ namespace molsurf
 /// @param[in] extent  of all balls
 Scope brickScope(const SurfaceOptions& options, const Region& region, const GaussianExtent& extent);
 
-/// How far outside the voxels of a brick's widest halo balls matter to it [Å].
-double ballReach(const SurfaceOptions& options, const GaussianExtent& extent);
-
 /// The balls near a brick, in their order, with all that is known of them.
 BallSet ballsNear(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope);
 

@@ -4,7 +4,6 @@
 /// @file
 /// How each kind of surface is made: of which set it is the boundary, and how far inside of that.
 
-#include "molsurf/atoms.h"
 #include "molsurf/grid/distance_band.h"
 #include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/options.h"
@@ -39,11 +38,5 @@ BandWidths widthsOf(const SurfaceOptions& options);
 
 /// How the Gaussians of a run are summed.
 GaussianOptions gaussianOptions(const SurfaceOptions& options);
-
-/// How far the Gaussians of a run's balls reach.
-GaussianExtent extentOf(const BallSet& atoms, const SurfaceOptions& options);
-
-/// How far a point of the surface, or of its grid's band, may lie from its ball [Å].
-double labelReach(const BallSet& atoms, const SurfaceOptions& options);
 
 } // namespace molsurf

@@ -37,7 +37,9 @@ void Stopwatch::stop(const char* stage)
 
 SurfaceRun::SurfaceRun(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
                        Progress& progress)
-    : atoms_(atoms), options_(options), scope_(scope), progress_(progress), watch_(result_.report)
+    : atoms_(atoms), options_(options), scope_(scope), progress_(progress),
+      influence_(scope.extent ? Influence(*scope.extent, options) : Influence(atoms, options)),
+      watch_(result_.report)
 {
     band_.phi.voxelSize = S_.phi.voxelSize = options.voxel;
 }
@@ -48,7 +50,7 @@ void SurfaceRun::density()
     progress_.update("density", 0.0);
     const bool evolves = options_.kind == SurfaceKind::Variational;
     GaussianOptions gaussian = gaussianOptions(options_);
-    gaussian.extent = scope_.extent;
+    gaussian.extent = influence_.extent();
     sum_.emplace(atoms_.balls, gaussian, evolves ? atoms_.decays : std::vector<Decay>());
     LeafTable table = sum_->band(bandWidthVox, progress_, scope_.region.grown(scope_.flowHalo));
     if (table.size() == 0 && scope_.region.whole()) {
@@ -359,7 +361,7 @@ void SurfaceRun::labels()
 {
     watch_.stop("mesh");
     progress_.update("color", 0.0);
-    const double reach = labelReach(atoms_, options_);
+    const double reach = influence_.ofLabel();
     if (scope_.region.whole()) {
         labelSurface(atoms_, options_, reach, progress_, result_);
     } else {

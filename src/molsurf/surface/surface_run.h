@@ -11,6 +11,7 @@
 #include "molsurf/grid/region.h"
 #include "molsurf/mesh/extract.h"
 #include "molsurf/surface.h"
+#include "molsurf/surface/influence.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <chrono>
@@ -148,6 +149,7 @@ private:
     const SurfaceOptions& options_;
     const Scope scope_;
     Progress& progress_;
+    const Influence influence_;
     MolecularSurface result_;
     Stopwatch watch_;
     std::optional<GaussianSum> sum_;
