@@ -50,6 +50,7 @@ struct GaussianOptions {
     }
 };
 
+/// Finds how far the Gaussians of balls reach.
 /// @param[in] decays  one a ball, or none
 GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& options,
                         const std::vector<Decay>& decays);
@@ -80,10 +81,10 @@ public:
     /// @param[out] psi     512 values; always finite
     void evaluate(const openvdb::Coord& origin, double reach, float* psi) const;
 
-    /// How many balls are not left out of a leaf by evaluate().
+    /// Counts the balls that evaluate() does not leave out of a leaf.
     std::size_t termCount(const openvdb::Coord& origin, double reach) const;
 
-    /// psi at all voxels of all leaves, with the reach of the options.
+    /// Evaluates psi at all voxels of all leaves, with the reach of the options.
     SparseField evaluate(LeafTable table, const Progress& progress) const;
 
 private:

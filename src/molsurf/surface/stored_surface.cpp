@@ -156,7 +156,7 @@ Color colorOf(const std::vector<Group>& labels, std::int32_t value)
     return known ? *labels[std::size_t(value)].color : neutralColor;
 }
 
-/// What the labels and colours of a stored surface are taken from.
+/// The source of the labels and colours of a stored surface.
 struct Source {
     const openvdb::GridPtrVec& grids;
     const openvdb::MetaMap& metadata;

@@ -96,7 +96,8 @@ void SurfaceRun::warnIfCreeping()
 {
     constexpr double noticeable = 0.1; // [voxel]
     const EvolutionReport& evolution = *result_.report.evolution;
-    if (evolution.converged && evolution.remainingWay > noticeable * options_.voxel) {
+    if (evolution.converged &&
+        evolution.estimatedRemainingDisplacement > noticeable * options_.voxel) {
         result_.report.warnings.push_back(
             "evolve: the steps are small, but the interface still creeps [hint: a "
             "smaller `tolerance` and more `maxSteps`]");

@@ -61,7 +61,7 @@ struct GradientCounts {
 };
 
 /// One run. Each method is a stage and needs those above it, if they are not said to be optional.
-/// What a stage computes is kept for later ones until freeFields().
+/// The results of a stage are kept for later ones until freeFields().
 class SurfaceRun
 {
 public:
