@@ -34,16 +34,18 @@ struct BrickPlan {
     std::vector<PlannedBrick> bricks; ///< they do not overlap, and hold the whole surface
     int steps = 0;                    ///< of the flow
     openvdb::Coord anchor;            ///< positions in sums are taken from this voxel
-    double largest = 0.0, swollen = 0.0, tolerance = 0.0; ///< GaussianExtent of all balls [Å]
-    std::size_t atoms = 0;                                ///< balls
-    bool keepsMemory = false; ///< what one brick has given back stays in the process for the next
+    double maxRadius = 0.0;           ///< largest radius of all balls [Å]
+    double maxGrownRadius = 0.0; ///< the same with the probe, and with what a resolution adds [Å]
+    double maxTolerance = 0.0;   ///< largest tolerance of their Gaussians [Å]
+    std::size_t atoms = 0;       ///< balls
+    bool keepsMemory = false;    ///< freed pages stay in the process for the next brick
 };
 
 /// Steps of the flow where the plan has to fix them. At the default tolerance a run of a whole
 /// molecule stops after 5 to 15.
 constexpr int defaultBrickSteps = 12;
 
-/// What the bricks have to keep to: one of the two is 0.
+/// Limits for planBricks(): a number of bricks or a memory limit; exactly one is set.
 struct BrickLimits {
     std::size_t bricks = 0; ///< number wanted; there may be fewer where the molecule is small
     std::size_t memory = 0; ///< peak memory of a process [byte]

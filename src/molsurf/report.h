@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What a run tells about itself and its result: the content of the .json report.
+/// The report of a run on itself and its result: the content of the .json file.
 
 #include <array>
 #include <cstdint>
@@ -92,9 +92,9 @@ struct EvolutionReport {
     std::vector<double> maxSpeed;         ///< max |F| near the interface [1/Å] of each step
     /// Estimate of the mean displacement to the state of rest, by the rate at which the steps
     /// shrink [Å]; infinite if they do not.
-    double remainingWay = 0.0;
+    double estimatedRemainingDisplacement = 0.0;
     /// Voxels at gaps of the final interface that are too narrow for the grid.
-    std::size_t creviceVoxels = 0;
+    std::size_t unresolvedGapVoxels = 0;
 };
 
 /// A group of atoms and its part of the surface.

@@ -26,7 +26,7 @@ inline Evolved evolveBalls(const std::vector<Ball>& balls, double epsilon, doubl
 {
     GaussianOptions gaussian;
     gaussian.epsilon = epsilon;
-    gaussian.voxel = voxel;
+    gaussian.voxelSize = voxel;
     gaussian.reach = (bandWidthVox + 1.5) * voxel;
     const GaussianSum field(balls, gaussian);
     Progress progress;

@@ -88,11 +88,10 @@ MOLSURF_KERNEL void findEnds(int count, const double* x, const double* y, const 
 
 /// How far a direction lies ahead of another one: from 0 to 4, as the angle.
 template<typename T>
-inline __attribute__((always_inline)) void quartersAhead(double fromX, double fromY, const T& toX,
-                                                         const T& toY, T& quarters)
+MOLSURF_INLINE T quartersAhead(double fromX, double fromY, T toX, T toY)
 {
     const T along = toX * fromX + toY * fromY, ahead = fromX * toY - fromY * toX;
-    quarters = ahead >= 0.0 ? 1.0 - along : 3.0 + along;
+    return ahead >= 0.0 ? 1.0 - along : 3.0 + along;
 }
 
 /// The end that lies farthest ahead of a direction, of the covers that hold it.
@@ -106,10 +105,8 @@ MOLSURF_KERNEL int farthestEnd(double fromX, double fromY, int count, const doub
     Doubles most = {};
     Longs best = {};
     for (int k = 0; k < count; k += doubleLanes) {
-        const auto at = [k](const double* v) { return reinterpret_cast<const Doubles*>(v + k); };
-        Doubles ahead;
-        quartersAhead(fromX, fromY, *at(endX), *at(endY), ahead);
-        const Doubles inside = *at(x) * fromX + *at(y) * fromY - *at(cosine);
+        const Doubles ahead = quartersAhead(fromX, fromY, load(endX + k), load(endY + k));
+        const Doubles inside = load(x + k) * fromX + load(y + k) * fromY - load(cosine + k);
         const Doubles held = inside > coverMargin ? ahead : Doubles{};
         best = held > most ? Longs{} + k : best;
         most = held > most ? held : most;
@@ -140,8 +137,8 @@ bool isSurrounded(Meetings& m)
         at = farthestEnd(m.endX[std::size_t(at)], m.endY[std::size_t(at)], count, m.x.data(),
                          m.y.data(), m.sure.data(), m.endX.data(), m.endY.data(), farthest);
         if (farthest <= coverMargin) return false;
-        double now;
-        quartersAhead(startX, startY, m.endX[std::size_t(at)], m.endY[std::size_t(at)], now);
+        const double now =
+            quartersAhead(startX, startY, m.endX[std::size_t(at)], m.endY[std::size_t(at)]);
         if (now < turned) return true; // at the start, which the first step has covered, or past it
         turned = now;
     }

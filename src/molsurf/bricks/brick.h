@@ -16,7 +16,8 @@
 namespace molsurf
 {
 
-/// What a brick leaves. Without any surface in it, grids have no leaves and the mesh no triangles.
+/// The result of a brick. Without any surface in it, grids have no leaves and the mesh no
+/// triangles.
 struct Brick {
     BrickMesh mesh;
     std::vector<openvdb::GridBase::Ptr> grids; ///< the owned leaves; `surface` first

@@ -158,7 +158,7 @@ Json json(const EvolutionReport& e)
             {"volume", e.volume},
             {"mean_displacement", e.meanDisplacement},
             {"max_speed", e.maxSpeed},
-            {"crevice_voxels", e.creviceVoxels}};
+            {"crevice_voxels", e.unresolvedGapVoxels}};
 }
 
 EvolutionReport evolution(const Json& json)
@@ -170,7 +170,7 @@ EvolutionReport evolution(const Json& json)
     e.volume = json.at("volume").get<std::vector<double>>();
     e.meanDisplacement = json.at("mean_displacement").get<std::vector<double>>();
     e.maxSpeed = json.at("max_speed").get<std::vector<double>>();
-    e.creviceVoxels = json.at("crevice_voxels");
+    e.unresolvedGapVoxels = json.at("crevice_voxels");
     return e;
 }
 

@@ -39,7 +39,7 @@ struct StoredGrid {
     Section leaves;                    ///< of StoredLeaf
 };
 
-/// What the header tells.
+/// The content of the header.
 struct BrickHeader {
     std::string plan;       ///< of which plan it is: see manifestId()
     std::size_t number = 0; ///< from 1
@@ -52,7 +52,7 @@ struct BrickHeader {
     Section border;     ///< of BorderVertex
     Section openEdges;  ///< of OpenEdge
     Section pieces;     ///< of PieceMeasure
-    /// What does not lie in sections: mesh.mesh and grids stay empty.
+    /// The part that does not lie in sections: mesh.mesh and grids stay empty.
     Brick sums;
 };
 

@@ -17,8 +17,8 @@
 namespace molsurf
 {
 
-/// What a vertex is the same by in all bricks: the cell in which the mesher had put it, and its
-/// number among those of the cell. Bricks from machines that round differently fit all the same.
+/// Identifies a vertex across bricks: the cell in which the mesher had put it, and its number among
+/// those of the cell. Bricks from machines that round differently fit all the same.
 using VertexKey = std::array<std::int32_t, 4>;
 
 /// A vertex at the border of a brick.

@@ -97,7 +97,7 @@ struct Skeleton {
     std::size_t bytes = 0;     // of the grid, once it is loaded
 };
 
-// What a leaf without values knows: the signs of its ends, and its number in a list of places.
+// A leaf without values knows the signs of its ends, and its number in a list of places.
 constexpr int signBits = 2;
 
 template<typename T>

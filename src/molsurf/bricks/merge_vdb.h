@@ -30,7 +30,7 @@ struct MergedSize {
 void writeMergedVdb(const std::vector<BrickFile>& bricks, double voxel, const std::string& creator,
                     const openvdb::MetaMap& metadata, OutputFile& file, const Progress& progress);
 
-/// What the report says of the grid.
+/// The grid's part of the report.
 MergedSize sizeOfMerged(const std::vector<BrickFile>& bricks);
 
 } // namespace molsurf

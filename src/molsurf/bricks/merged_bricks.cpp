@@ -89,7 +89,7 @@ std::optional<EvolutionReport> evolutionOf(const std::vector<BrickFile>& bricks,
         all.maxSpeed.resize(std::max(all.maxSpeed.size(), part->maxSpeed.size()), 0.0);
         for (std::size_t i = 0; i < part->maxSpeed.size(); ++i)
             all.maxSpeed[i] = std::max(all.maxSpeed[i], part->maxSpeed[i]);
-        all.creviceVoxels += part->creviceVoxels;
+        all.unresolvedGapVoxels += part->unresolvedGapVoxels;
     }
     if (!any) return {};
     for (std::size_t i = 0; i < moved.size(); ++i)

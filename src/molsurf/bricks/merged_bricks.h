@@ -31,7 +31,7 @@ public:
     MergedBricks(const std::vector<std::string>& paths, const std::string& plan, std::size_t atoms,
                  const SurfaceOptions& options);
 
-    /// What is known of the surface: all but who made it, and of what.
+    /// The report of the surface: all but who made it, and of what.
     const Report& report() const { return report_; }
 
     /// Writes the grids as one OpenVDB file.

@@ -6,6 +6,7 @@
 #include "molsurf/error.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/check_balls.h"
+#include "molsurf/surface/influence.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -155,11 +156,10 @@ int valuesAlong(const SurfaceOptions& options)
 class Planner
 {
 public:
-    Planner(const BallSet& atoms, const SurfaceOptions& options, const GaussianExtent& extent,
+    Planner(const BallSet& atoms, const SurfaceOptions& options, const Influence& influence,
             const Progress& progress)
-        : options_(options), extent_(extent), atoms_(atoms.balls.size()),
-          occupancy_(occupancyOf(atoms.balls, options.voxel,
-                                 extent.swollen - extent.largest + extent.tolerance, progress))
+        : options_(options), influence_(influence), atoms_(atoms.balls.size()),
+          occupancy_(occupancyOf(atoms.balls, options.voxel, influence.ofSurface(), progress))
     {
     }
 
@@ -175,8 +175,8 @@ public:
         brick.box = CoordBBox(box.min() << 3, (box.max() << 3).offsetBy(leafDim - 1));
         Region region;
         region.owned = brick.box;
-        const Scope scope = brickScope(options_, region, extent_);
-        const int reach = int(std::ceil(ballReach(options_, extent_) / leafDim / options_.voxel));
+        const Scope scope = brickScope(options_, region, influence_.extent());
+        const int reach = int(std::ceil(influence_.onVoxels() / leafDim / options_.voxel));
         const int widest = std::max(scope.flowHalo, scope.splineHalo);
         CoordBBox splined = box, flowed = box, near = box;
         splined.expand(scope.splineHalo);
@@ -303,7 +303,7 @@ private:
     }
 
     const SurfaceOptions& options_;
-    const GaussianExtent& extent_;
+    const Influence& influence_;
     bool keeping_ = false;
     std::size_t atoms_;
     Occupancy occupancy_;
@@ -323,13 +323,13 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const Br
     checkBalls(atoms.balls, options, Pieces::Bricks,
                limits.memory > 0 ? limits.memory : physicalMemory());
     BrickPlan plan;
-    const GaussianExtent extent = extentOf(atoms, options);
-    plan.largest = extent.largest;
-    plan.swollen = extent.swollen;
-    plan.tolerance = extent.tolerance;
+    const Influence influence(atoms, options);
+    plan.maxRadius = influence.extent().maxRadius;
+    plan.maxGrownRadius = influence.extent().maxGrownRadius;
+    plan.maxTolerance = influence.extent().maxTolerance;
     plan.atoms = atoms.balls.size();
     plan.steps = options.evolution.steps >= 0 ? options.evolution.steps : defaultBrickSteps;
-    Planner planner(atoms, options, extent, progress);
+    Planner planner(atoms, options, influence, progress);
     const CoordBBox& box = planner.box();
     if (limits.memory > 0) {
         plan.bricks = planner.cutEvenly(limits.memory, box);
@@ -369,7 +369,7 @@ BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const P
 
 GaussianExtent extentOf(const BrickPlan& plan)
 {
-    return {plan.largest, plan.swollen, plan.tolerance};
+    return {plan.maxRadius, plan.maxGrownRadius, plan.maxTolerance};
 }
 
 Scope scopeOf(const BrickPlan& plan, std::size_t k, const SurfaceOptions& options)

@@ -17,7 +17,7 @@ BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const P
 /// The extent that a plan keeps.
 GaussianExtent extentOf(const BrickPlan& plan);
 
-/// What brick k of a plan computes.
+/// The part of space that brick k of a plan computes.
 Scope scopeOf(const BrickPlan& plan, std::size_t k, const SurfaceOptions& options);
 
 /// Computes a brick of a plan and writes its file.

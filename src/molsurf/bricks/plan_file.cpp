@@ -53,9 +53,9 @@ std::string manifestText(const PlanManifest& m)
                        {"voxel", m.voxel},
                        {"steps", p.steps},
                        {"anchor", json(p.anchor)},
-                       {"largest_radius", p.largest},
-                       {"largest_extent", p.swollen},
-                       {"largest_tolerance", p.tolerance},
+                       {"largest_radius", p.maxRadius},
+                       {"largest_extent", p.maxGrownRadius},
+                       {"largest_tolerance", p.maxTolerance},
                        {"bricks", std::move(bricks)}};
     return text.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -84,9 +84,9 @@ PlanManifest readManifest(const std::string& path)
         m.plan.atoms = j.at("atoms");
         m.plan.steps = j.at("steps");
         m.plan.anchor = coord(j.at("anchor"));
-        m.plan.largest = j.at("largest_radius");
-        m.plan.swollen = j.at("largest_extent");
-        m.plan.tolerance = j.at("largest_tolerance");
+        m.plan.maxRadius = j.at("largest_radius");
+        m.plan.maxGrownRadius = j.at("largest_extent");
+        m.plan.maxTolerance = j.at("largest_tolerance");
         for (const Json& b : j.at("bricks")) {
             m.plan.bricks.push_back({openvdb::CoordBBox(coord(b.at("min")), coord(b.at("max"))),
                                      b.at("atoms"), b.at("voxels"), b.at("bytes"),

@@ -4,7 +4,9 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
 #include "molsurf/levelset/round_ridges.h"
+#include "molsurf/selection/subset.h"
 #include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/influence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -123,56 +125,23 @@ Scope brickScope(const SurfaceOptions& options, const Region& region, const Gaus
     return scope;
 }
 
-double ballReach(const SurfaceOptions& options, const GaussianExtent& extent)
-{
-    const double h = options.voxel, R = extent.largest + options.probe;
-    const double leaf = leafDim * h, tolerance = extent.tolerance;
-    // A ball's boundary takes part in the distance of its depth, and is cut by balls two radii off.
-    const double unions = 3.0 * R + widthsOf(options).inside + leaf;
-    const double sums =
-        std::max(cutoff(extent, std::max(gaussianOptions(options).reach, 2.0 * tolerance)),
-                 extent.swollen + 3.0 * tolerance + h + 2.0 * leaf);
-    const double labels = extent.largest + 2.0 * options.probe + 4.0 * tolerance + 4.0 * h;
-    return std::max({unions, isUnion(options.kind) ? 0.0 : sums, labels});
-}
-
 BallSet ballsNear(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope)
 {
     const int halo = std::max(scope.flowHalo, scope.splineHalo);
     const CoordBBox box = scope.region.grown(halo);
-    const double reach = ballReach(options, *scope.extent);
-    const Vec3d low = box.min().asVec3d() * options.voxel - Vec3d(reach);
-    const Vec3d high = box.max().asVec3d() * options.voxel + Vec3d(reach);
+    const double reach = Influence(*scope.extent, options).onVoxels();
+    const openvdb::BBoxd space(box.min().asVec3d() * options.voxel - Vec3d(reach),
+                               box.max().asVec3d() * options.voxel + Vec3d(reach));
     std::vector<std::size_t> near;
-    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
-        const Vec3d c(atoms.balls[i].center);
-        if (c.x() >= low.x() && c.y() >= low.y() && c.z() >= low.z() && c.x() <= high.x() &&
-            c.y() <= high.y() && c.z() <= high.z())
-            near.push_back(i);
-    }
     std::vector<Ball> balls;
-    for (const std::size_t i : near) balls.push_back(atoms.balls[i]);
-    const std::vector<std::int32_t> order = spatialOrder(balls); // as in a run of the whole
-    const auto take = [&](const auto& from, auto& to) {
-        if (from.empty()) return;
-        to.reserve(near.size());
-        for (const std::int32_t k : order) to.push_back(from[near[std::size_t(k)]]);
-    };
-    BallSet some;
-    take(atoms.balls, some.balls);
-    take(atoms.decays, some.decays);
-    take(atoms.colors, some.colors);
-    some.resolutions = atoms.resolutions;
-    take(atoms.resolutionOf, some.resolutionOf);
-    if (atoms.labels) {
-        BallLabels& labels = some.labels.emplace();
-        take(atoms.labels->chainOf, labels.chainOf);
-        take(atoms.labels->groupOf, labels.groupOf);
-        take(atoms.labels->elementOf, labels.elementOf);
-        take(atoms.labels->residueClassOf, labels.residueClassOf);
-        labels.groups = atoms.labels->groups;
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
+        if (!space.isInside(Vec3d(atoms.balls[i].center))) continue;
+        near.push_back(i);
+        balls.push_back(atoms.balls[i]);
     }
-    return some;
+    std::vector<std::size_t> ordered; // as in a run of the whole
+    for (const std::int32_t k : spatialOrder(balls)) ordered.push_back(near[std::size_t(k)]);
+    return subset(atoms, ordered, Counted::Whole);
 }
 
 void checkBrickOptions(const SurfaceOptions& options)

@@ -12,19 +12,17 @@
 namespace molsurf
 {
 
-/// Halos wide enough that what a brick owns is what a run of the whole molecule has there.
+/// Makes halos so wide that a brick owns what a run of the whole molecule has there.
 /// @param[in] region  the brick
 /// @param[in] extent  of all balls
 Scope brickScope(const SurfaceOptions& options, const Region& region, const GaussianExtent& extent);
 
-/// How far outside the voxels of a brick's widest halo balls matter to it [Å].
-double ballReach(const SurfaceOptions& options, const GaussianExtent& extent);
-
-/// The balls near a brick, in their order, with all that is known of them.
+/// Finds the balls near a brick, in the order of a run of the whole, with all that is known of
+/// them; groups and rules still count the balls of the whole molecule.
 BallSet ballsNear(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope);
 
-/// @throws Error(ErrorKind::Usage) for options that need the whole molecule at once; names them as
-///         the command line does
+/// Checks that a surface can be computed brick by brick.
+/// @throws Error(ErrorKind::Usage) for options that need the whole molecule at once; names them
 void checkBrickOptions(const SurfaceOptions& options);
 
 /// Computes what a brick owns of a surface.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace molsurf
 {
@@ -19,6 +20,13 @@ openvdb::Vec3f linearLight(const Color& color)
         return all;
     }();
     return {light[color[0]], light[color[1]], light[color[2]]};
+}
+
+std::string hexOf(const Color& color)
+{
+    char text[8];
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", color[0], color[1], color[2]);
+    return text;
 }
 
 Color ColorScale::at(double value) const

@@ -20,6 +20,9 @@ using Color = std::array<std::uint8_t, 3>;
 /// Linear light of a colour (IEC 61966-2-1), which renderers compute in.
 openvdb::Vec3f linearLight(const Color& color);
 
+/// A colour as text, "#rrggbb".
+std::string hexOf(const Color& color);
+
 /// A range of values and the colours that it runs through.
 struct ColorScale {
     std::string map;          ///< "viridis" or "RdBu"

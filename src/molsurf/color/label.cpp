@@ -3,6 +3,7 @@
 
 #include "molsurf/balls/nearest_ball.h"
 #include "molsurf/color/palette.h"
+#include "molsurf/grid/grid_like.h"
 
 #include <openvdb/tools/Interpolation.h>
 #include <openvdb/tools/LevelSetUtil.h>
@@ -37,18 +38,6 @@ Labels labelsOf(const Labels& nearest, const Labels& labelOf)
         if (nearest[i] >= 0) out[i] = labelOf[std::size_t(nearest[i])];
     }
     return out;
-}
-
-template<typename GridT>
-typename GridT::Ptr gridLike(const openvdb::FloatGrid& surface, const char* name,
-                             const typename GridT::ValueType& background)
-{
-    auto grid = GridT::create(background);
-    grid->setTree(std::make_shared<typename GridT::TreeType>(surface.tree(), background,
-                                                             openvdb::TopologyCopy()));
-    grid->setTransform(surface.transform().copy());
-    grid->setName(name);
-    return grid;
 }
 
 openvdb::GridBase::Ptr labelGrid(const openvdb::FloatGrid& surface, const char* name,

@@ -2,7 +2,8 @@
 #pragma once
 
 /// @file
-/// Instruction sets for the hot loops, and the exponential and logarithm that they can vectorise.
+/// Instruction sets for the hot loops, the vectors they use, and an exponential and a logarithm
+/// that the compiler can vectorise.
 
 #include <cmath>
 #include <cstdint>
@@ -23,27 +24,113 @@
 #endif
 #endif
 
+/// Put before a function that has to become part of the kernel that calls it: only so does it use
+/// the kernel's instruction set, and its vectors stay in registers.
+#define MOLSURF_INLINE inline __attribute__((always_inline))
+
+// GCC warns that a vector is returned in another way with AVX than without it. The functions below
+// become part of their callers and return nothing at run time.
+#ifdef __GNUC__
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+
 namespace molsurf
 {
 
-/// Numbers side by side, as many as AVX2 holds: GCC takes comparisons of wider ones apart, number
-/// by number, wherever they have to be cut, and all but those in conditions of ?: with AVX-512.
+/// Vectors of 32 bytes, the width of AVX2. Wider ones are slower: GCC 12 splits their comparisons
+/// into single numbers, except those in the condition of ?: with AVX-512.
 constexpr int floatLanes = 8, doubleLanes = 4;
 using Floats = float __attribute__((vector_size(32), aligned(4)));
 using Ints = std::int32_t __attribute__((vector_size(32), aligned(4)));
 using Doubles = double __attribute__((vector_size(32), aligned(8)));
 using Longs = std::int64_t __attribute__((vector_size(32), aligned(8)));
+/// Four floats, one for each of the cubic B-splines that overlap a cell.
+using Floats4 = float __attribute__((vector_size(16), aligned(4)));
 
-inline __attribute__((always_inline)) void squareRoot(const Floats& x, Floats& out)
+/// The vector that begins at p, which needs no alignment beyond that of its numbers.
+MOLSURF_INLINE Floats load(const float* p)
+{
+    return *reinterpret_cast<const Floats*>(p);
+}
+MOLSURF_INLINE Ints load(const std::int32_t* p)
+{
+    return *reinterpret_cast<const Ints*>(p);
+}
+MOLSURF_INLINE Doubles load(const double* p)
+{
+    return *reinterpret_cast<const Doubles*>(p);
+}
+MOLSURF_INLINE Floats4 load4(const float* p)
+{
+    return *reinterpret_cast<const Floats4*>(p);
+}
+
+/// Writes a vector to p, which needs no alignment beyond that of its numbers.
+MOLSURF_INLINE void store(float* p, Floats v)
+{
+    *reinterpret_cast<Floats*>(p) = v;
+}
+MOLSURF_INLINE void store(std::int32_t* p, Ints v)
+{
+    *reinterpret_cast<Ints*>(p) = v;
+}
+MOLSURF_INLINE void store4(float* p, Floats4 v)
+{
+    *reinterpret_cast<Floats4*>(p) = v;
+}
+
+/// The vector that has one number in all lanes; 0 for -0. It is added to 0 in place because GCC 12
+/// inserts the lanes one by one otherwise.
+MOLSURF_INLINE Floats splat(float c)
+{
+    Floats v = {};
+    v += c;
+    return v;
+}
+MOLSURF_INLINE Ints splat(std::int32_t c)
+{
+    Ints v = {};
+    v += c;
+    return v;
+}
+
+/// The vector 0, 1, 2, ...
+MOLSURF_INLINE Ints laneNumbers()
+{
+    return Ints{0, 1, 2, 3, 4, 5, 6, 7};
+}
+
+/// The square root of each lane.
+MOLSURF_INLINE Floats squareRoot(Floats x)
 {
     alignas(32) float values[floatLanes];
     std::memcpy(values, &x, sizeof values);
     for (float& v : values) v = std::sqrt(v);
-    std::memcpy(&out, values, sizeof values);
+    std::memcpy(&x, values, sizeof values);
+    return x;
+}
+MOLSURF_INLINE Doubles squareRoot(Doubles x)
+{
+    for (int l = 0; l < doubleLanes; ++l) x[l] = std::sqrt(x[l]);
+    return x;
+}
+
+/// The smaller and the larger of two numbers, lane by lane; b where they do not compare.
+MOLSURF_INLINE Floats smaller(Floats a, Floats b)
+{
+    return a < b ? a : b;
+}
+MOLSURF_INLINE Floats larger(Floats a, Floats b)
+{
+    return a > b ? a : b;
+}
+MOLSURF_INLINE Floats clamped(Floats x, Floats low, Floats high)
+{
+    return smaller(larger(x, low), high);
 }
 
 /// The bits of all lanes together.
-inline __attribute__((always_inline)) std::uint32_t bitsOf(const Ints& v)
+MOLSURF_INLINE std::uint32_t bitsOf(Ints v)
 {
     std::uint64_t pairs[floatLanes / 2], all = 0;
     std::memcpy(pairs, &v, sizeof pairs);
@@ -51,8 +138,14 @@ inline __attribute__((always_inline)) std::uint32_t bitsOf(const Ints& v)
     return std::uint32_t(all | all >> 32);
 }
 
-/// While it lives, its thread takes numbers below the smallest normal one (1e-38 in float) for 0:
-/// products of exponentials run into them, and many processors take a hundred times as long there.
+/// Whether a condition holds in any lane.
+MOLSURF_INLINE bool any(Ints condition)
+{
+    return bitsOf(condition) != 0;
+}
+
+/// Makes its thread take denormal numbers (below 1e-38 in float) for 0 while it lives. Products of
+/// exponentials run into them, and many processors take a hundred times as long there.
 class FlushDenormals
 {
 public:
@@ -80,15 +173,15 @@ private:
 
 /// The smaller and the larger of two numbers, by value: std::min and std::max hand out references,
 /// which keeps loops over arrays from vectorising.
-inline __attribute__((always_inline)) float smaller(float a, float b)
+MOLSURF_INLINE float smaller(float a, float b)
 {
     return a < b ? a : b;
 }
-inline __attribute__((always_inline)) float larger(float a, float b)
+MOLSURF_INLINE float larger(float a, float b)
 {
     return a > b ? a : b;
 }
-inline __attribute__((always_inline)) float clamped(float x, float low, float high)
+MOLSURF_INLINE float clamped(float x, float low, float high)
 {
     return smaller(larger(x, low), high);
 }
@@ -96,7 +189,7 @@ inline __attribute__((always_inline)) float clamped(float x, float low, float hi
 /// e^x in float, relative error below 3e-7, for |x| <= 87; x is clamped to that range. Without
 /// branches or calls, so that loops over it vectorise. Cody-Waite reduction by ln 2, then the
 /// Taylor polynomial of degree 6 on [-ln 2/2, ln 2/2].
-inline __attribute__((always_inline)) float fastExp(float x)
+MOLSURF_INLINE float fastExp(float x)
 {
     x = clamped(x, -87.0f, 87.0f);
     const float shifter = 12582912.0f; // 1.5 * 2^23: adding it rounds to an integer
@@ -117,7 +210,7 @@ inline __attribute__((always_inline)) float fastExp(float x)
 
 /// ln x in float for finite normal x > 0, absolute error below 2e-7 (1 + |ln x|). Like fastExp():
 /// ln m = 2 artanh((m - 1)/(m + 1)) for the fraction m in [2/3, 4/3), by its Taylor series.
-inline __attribute__((always_inline)) float fastLog(float x)
+MOLSURF_INLINE float fastLog(float x)
 {
     std::int32_t bits;
     std::memcpy(&bits, &x, sizeof bits);

@@ -46,7 +46,7 @@ Spline coarseSpline(const SparseField& phi, int level, const Progress& progress)
     return fitSpline(wide.phi, level, progress);
 }
 
-/// What a step of the flow depends on besides the band.
+/// The parameters of a step of the flow, besides the band.
 struct Step {
     Weights weights;
     StepSize size;
@@ -192,7 +192,7 @@ void updateBand(NarrowBand& band, const PsiSource& source, const openvdb::CoordB
 
 /// How far the interface has yet to go if the displacements of the last two steps go on to shrink
 /// by the same factor: the sum of a geometric series [Å].
-double remainingWay(const std::vector<double>& displacement)
+double remainingDisplacement(const std::vector<double>& displacement)
 {
     const std::size_t n = displacement.size();
     if (n < 2) return n == 1 ? displacement[0] : 0.0;
@@ -265,8 +265,8 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
         report.energy.push_back(sums.energy);
         report.area.push_back(sums.area);
         report.volume.push_back(sums.volume);
-        report.creviceVoxels = sums.crevices;
-        report.remainingWay = remainingWay(report.meanDisplacement);
+        report.unresolvedGapVoxels = sums.unresolvedGaps;
+        report.estimatedRemainingDisplacement = remainingDisplacement(report.meanDisplacement);
         if ((report.converged && !fixed) || report.steps == maxSteps) break;
         if (mayGiveUp && stalled(report, options, h)) break;
 
@@ -284,7 +284,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
 
 void checkConvergence(const EvolveOptions& options, double voxelSize, EvolutionReport& report)
 {
-    report.remainingWay = remainingWay(report.meanDisplacement);
+    report.estimatedRemainingDisplacement = remainingDisplacement(report.meanDisplacement);
     const std::size_t n = report.energy.size();
     if (n < 2) return;
     const double change = std::abs(report.energy[n - 1] - report.energy[n - 2]);

@@ -38,7 +38,7 @@ using PsiSource = std::function<void(const openvdb::Coord& origin, float* psi)>;
 /// not given, when the mean displacement of the preconditioned flow is small, but above its
 /// tolerance, and has not fallen by a hundredth in five steps; with options.steps after just so
 /// many. Where steps are small because the voxels are (the bound of explicit diffusion), that can
-/// be far from rest: EvolutionReport::remainingWay tells how far.
+/// be far from rest: EvolutionReport::estimatedRemainingDisplacement tells how far.
 ///
 /// @param[in,out] band    as initialSurface() makes it
 /// @param[in]     source  psi for leaves that are added
@@ -51,7 +51,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
 
 /// Finds whether the last step of a history meets the stopping rule, and how far it has yet to go.
 /// @param[in]     voxelSize  edge h of a voxel [Å]
-/// @param[in,out] report     its converged and remainingWay are set
+/// @param[in,out] report     its converged and estimatedRemainingDisplacement are set
 void checkConvergence(const EvolveOptions& options, double voxelSize, EvolutionReport& report);
 
 } // namespace molsurf

@@ -40,7 +40,7 @@ struct RowSums {
     alignas(64) float displacement[8] = {}; // weighted size of the step
     alignas(64) float speed[8] = {};        // largest F [1/Å]
     alignas(64) float stiffness[8] = {};    // largest P [1/Å^2]
-    alignas(64) float crevices[8] = {};
+    alignas(64) float unresolvedGaps[8] = {};
 };
 
 double sumOf(const float* values)
@@ -106,7 +106,7 @@ MOLSURF_KERNEL void stepRows(const float* __restrict phiBlock, const float* __re
             sums.displacement[z] += weight * std::abs(step);
             sums.speed[z] = larger(sums.speed[z], close * std::abs(F));
             sums.stiffness[z] = larger(sums.stiffness[z], close * P);
-            sums.crevices[z] += shape.slope[v] < 0.5f ? close : 0.0f;
+            sums.unresolvedGaps[z] += shape.slope[v] < 0.5f ? close : 0.0f;
         }
     }
 }
@@ -121,7 +121,7 @@ StepSums& StepSums::operator+=(const StepSums& other)
     displacement += other.displacement;
     maxSpeed = std::max(maxSpeed, other.maxSpeed);
     maxSecond = std::max(maxSecond, other.maxSecond);
-    crevices += other.crevices;
+    unresolvedGaps += other.unresolvedGaps;
     return *this;
 }
 
@@ -140,7 +140,7 @@ StepSums flowStep(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi
     sums.displacement = sumOf(rows.displacement);
     sums.maxSpeed = *std::max_element(rows.speed, rows.speed + 8);
     sums.maxSecond = *std::max_element(rows.stiffness, rows.stiffness + 8);
-    sums.crevices = std::size_t(sumOf(rows.crevices));
+    sums.unresolvedGaps = std::size_t(sumOf(rows.unresolvedGaps));
     return sums;
 }
 

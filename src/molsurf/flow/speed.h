@@ -13,7 +13,7 @@ namespace molsurf
 /// The flow acts at voxels that are less than this from the interface [voxel].
 constexpr double flowWidthVox = 2.25;
 
-/// What a step adds up over the voxels of the interface.
+/// Sums over the voxels of the interface that one step of the flow accumulates.
 struct StepSums {
     double energy = 0.0;       ///< integral of w over the interface [Å^2]
     double area = 0.0;         ///< of the interface [Å^2]
@@ -21,8 +21,8 @@ struct StepSums {
     double displacement = 0.0; ///< integral of |displacement| over the interface [Å^3]
     float maxSpeed = 0.0f;     ///< largest |F| within a voxel of the interface [1/Å]
     float maxSecond = 0.0f; ///< largest stiffness P there [1/Å^2], without the cap of the movement
-    std::size_t crevices =
-        0; ///< voxels there where two pieces of the interface meet within the stencil
+    std::size_t unresolvedGaps = 0; ///< voxels there at gaps that the grid does not resolve: two
+                                    ///< pieces of the interface meet within the stencil
 
     StepSums& operator+=(const StepSums& other);
 };

@@ -39,8 +39,8 @@ public:
     const T* leaf(std::size_t n) const { return &values_[n * leafSize]; }
     std::size_t leafCount() const { return values_.size() / leafSize; }
 
-    /// How far before a pass over all leaves their memory is asked for: they are too short for the
-    /// processor to foresee the next.
+    /// How many leaves ahead of a pass memory is prefetched: a leaf is too short for the hardware
+    /// prefetcher.
     static constexpr std::size_t ahead = 8;
 
     /// Asks for the memory of the leaf that a pass, now at leaf n, will soon come to.
@@ -61,8 +61,8 @@ public:
 
     std::size_t bytes() const { return values_.size() * sizeof(T); }
 
-    /// The same memory for values of another type of this size. What it holds are the bytes of the
-    /// old ones.
+    /// Gives the same memory to values of another type of this size; it holds the bytes of the old
+    /// ones.
     template<typename U>
     LeafArray<U> reused() &&
     {

@@ -65,7 +65,7 @@ public:
     std::size_t size() const { return memory_.bytes() / sizeof(T); }
     bool empty() const { return size() == 0; }
 
-    /// The same memory for values of another type. What it holds are the bytes of the old ones.
+    /// Gives the same memory to values of another type; it holds the bytes of the old ones.
     template<typename U>
     PagedArray<U> reused() &&
     {

@@ -66,8 +66,8 @@ Json evolutionJson(const EvolutionReport& evolution)
             {"energy", evolution.energy},
             {"mean_displacement", evolution.meanDisplacement},
             {"max_speed", evolution.maxSpeed},
-            {"remaining_way", evolution.remainingWay},
-            {"crevice_voxels", evolution.creviceVoxels},
+            {"remaining_way", evolution.estimatedRemainingDisplacement},
+            {"crevice_voxels", evolution.unresolvedGapVoxels},
             {"area", evolution.area},
             {"volume", evolution.volume}};
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Regions of a level set that hang together.
+/// Flood fill on leaf masks.
 
 #include "molsurf/grid/leaf_table.h"
 
@@ -11,7 +11,8 @@
 namespace molsurf
 {
 
-/// The voxels that can be reached from seeds by steps to face neighbours within a set of voxels.
+/// Finds the voxels that can be reached from seeds by steps to face neighbours within a set of
+/// voxels.
 ///
 /// @param[in] allowed  the set, one mask a leaf of the table
 /// @param[in] seeds    one mask a leaf; those outside the set count for nothing

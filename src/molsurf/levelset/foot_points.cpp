@@ -82,7 +82,7 @@ MOLSURF_KERNEL void shapeFrom(const JetLanes& jets, FootPoints& feet, float larg
 
 MOLSURF_KERNEL void stepsAlong(const FootPoints& feet, const Lanes* x, Lanes* d)
 {
-    alignas(64) Lanes out[3]; // apart from all that is read
+    alignas(64) Lanes out[3]; // written apart, so that the loop vectorises
     for (int l = 0; l < lanes; ++l) {
         const Offset o = offsetOf(feet, x, l);
         out[0][l] = stepAlong(feet, o, l, 0);
@@ -95,7 +95,7 @@ MOLSURF_KERNEL void stepsAlong(const FootPoints& feet, const Lanes* x, Lanes* d)
 MOLSURF_KERNEL void newtonSteps(const JetLanes& jets, const FootPoints& feet, const Lanes* x,
                                 Lanes* d)
 {
-    alignas(64) Lanes out[3]; // apart from all that is read
+    alignas(64) Lanes out[3]; // written apart, so that the loop vectorises
     for (int l = 0; l < lanes; ++l) {
         const Offset o = offsetOf(feet, x, l);
         const float gx = jets.gradient[0][l], gy = jets.gradient[1][l], gz = jets.gradient[2][l];

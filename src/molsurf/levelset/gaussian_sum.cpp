@@ -98,29 +98,24 @@ float distanceToLeaf(float centre)
 
 } // namespace
 
-double rateOf(const Ball& ball, const GaussianOptions& options, double rate)
-{
-    if (rate > 0.0) return rate;
-    const double R = ball.radius + options.probe;
-    return options.blobbiness > 0.0 ? options.blobbiness / (R * R) : M_LN2 / (options.epsilon * R);
-}
-
 GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& options,
                         const std::vector<Decay>& decays)
 {
     const float largest = largestRadius(balls);
     GaussianExtent extent{largest, largest + options.probe, options.epsilon};
-    if (options.blobbiness > 0.0) extent.tolerance = M_LN2 * extent.swollen / options.blobbiness;
+    if (options.blobbiness > 0.0)
+        extent.maxTolerance = M_LN2 * extent.maxGrownRadius / options.blobbiness;
     double slowest = 1e30;
     for (std::size_t i = 0; i < decays.size(); ++i) {
         const double R = balls[i].radius + options.probe;
-        const double rate = rateOf(balls[i], options, decays[i].rate);
+        const double rate = decays[i].rate > 0.0f ? double(decays[i].rate) : options.rate(R);
         if (decays[i].rate > 0.0f) slowest = std::min(slowest, rate);
         const double square = R * R + decays[i].level / rate;
-        extent.swollen = std::max(extent.swollen, std::sqrt(std::max(square, 0.0)));
+        extent.maxGrownRadius = std::max(extent.maxGrownRadius, std::sqrt(std::max(square, 0.0)));
     }
     if (slowest < 1e30) {
-        extent.tolerance = std::max(extent.tolerance, M_LN2 / (slowest * extent.swollen));
+        extent.maxTolerance =
+            std::max(extent.maxTolerance, M_LN2 / (slowest * extent.maxGrownRadius));
     }
     return extent;
 }
@@ -137,27 +132,26 @@ double cutoff2(double R, double C, double level, double reach, double tolerance)
 
 } // namespace
 
-double cutoff(const GaussianExtent& extent, double reach)
+double GaussianExtent::cutoff(double reach) const
 {
-    const double slowest = M_LN2 / (extent.tolerance * extent.swollen);
-    return std::sqrt(cutoff2(extent.swollen, slowest, 0.0, reach, extent.tolerance));
+    const double slowest = M_LN2 / (maxTolerance * maxGrownRadius);
+    return std::sqrt(cutoff2(maxGrownRadius, slowest, 0.0, reach, maxTolerance));
 }
 
 GaussianSum::GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& options,
                          std::vector<Decay> decays)
-    : balls_(balls), options_(options), decays_(std::move(decays)), epsilon_(options.epsilon),
+    : balls_(balls), options_(options), decays_(std::move(decays)),
       extent_(options.extent ? *options.extent : extentOf(balls, options, decays_)),
-      largest_(extent_.swollen), index_(balls, {1.25, options.probe, 2.0, extent_.largest})
+      index_(balls, {1.25, options.probe, 2.0, extent_.maxRadius})
 {
-    options_.epsilon = extent_.tolerance;
 }
 
 void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Term>& terms) const
 {
-    const double h = options_.voxel;
+    const double h = options_.voxelSize;
     const Vec3d low = origin.asVec3d() * h;
     const openvdb::Vec3f first(low), last(low + Vec3d(7.0 * h));
-    const double inverse = 1.0 / h, farthest = cutoff(extent_, reach);
+    const double inverse = 1.0 / h, farthest = extent_.cutoff(reach);
     // More than rounding at 10^6 Å takes; the exact test follows.
     const float farthest2 = float((farthest + 0.25) * (farthest + 0.25));
 
@@ -165,7 +159,7 @@ void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Ter
     terms.clear();
     float floor = 2.0f * lowestPsi;
     // A smaller ball is felt less far, from its boundary too.
-    const double gap = farthest - extent_.largest;
+    const double gap = farthest - extent_.maxRadius;
     index_.forEachNear(low, low + Vec3d(7.0 * h), gap, [&](const Ball& ball, int i) {
         float apart2 = 0.0f;
         for (int a = 0; a < 3; ++a) {
@@ -186,7 +180,7 @@ void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Ter
             most2 += f * f;
         }
         t.exponent = t.level - t.decay * nearest2;
-        if (nearest2 * h * h > cutoff2(R, C, level, reach, options_.epsilon)) return;
+        if (nearest2 * h * h > cutoff2(R, C, level, reach, extent_.maxTolerance)) return;
         floor = std::max(floor, t.level - t.decay * most2);
         terms.push_back(t);
     });
@@ -252,7 +246,7 @@ void GaussianSum::evaluate(const Coord& origin, double reach, float* psi) const
 
 SparseField GaussianSum::evaluate(LeafTable table, const Progress& progress) const
 {
-    SparseField psi{std::move(table), LeafField(), options_.voxel};
+    SparseField psi{std::move(table), LeafField(), options_.voxelSize};
     psi.values = LeafField(psi.table.size());
     parallelFor(psi.table.size(), progress,
                 [&](std::size_t n) { evaluate(psi.table.origin(n), options_.reach, psi.leaf(n)); });
@@ -265,12 +259,12 @@ LeafTable GaussianSum::band(int steps, const Progress& progress,
     // Leaves that may hold a voxel with psi >= 0: those near a ball. In a table whose voxels stand
     // for leaves, they are the leaves of the centres, dilated. Where k terms meet, psi = 0 lies at
     // most eps/2 log2(k) outside the balls; k = 64 is more than any packing of atoms has.
-    const double edge = leafDim * options_.voxel;
+    const double edge = leafDim * options_.voxelSize;
     std::vector<Coord> centres(balls_.size());
     for (std::size_t i = 0; i < balls_.size(); ++i) {
         centres[i] = Coord::floor(Vec3d(balls_[i].center) / edge);
     }
-    const int reach = int(std::ceil((largest_ + 3.0 * options_.epsilon + options_.voxel) / edge));
+    const int reach = int(std::ceil((extent_.ofZero() + options_.voxelSize) / edge));
     std::vector<Coord> origins = leavesWithin(centres, reach, progress);
     origins.erase(std::remove_if(origins.begin(), origins.end(),
                                  [&](const Coord& origin) { return !box.isInside(origin); }),
@@ -280,7 +274,7 @@ LeafTable GaussianSum::band(int steps, const Progress& progress,
     std::vector<LeafMask> inside(table.size());
     parallelFor(table.size(), progress, [&](std::size_t n) {
         alignas(64) float psi[leafSize];
-        evaluate(table.origin(n), 2.0 * options_.epsilon, psi);
+        evaluate(table.origin(n), 2.0 * extent_.maxTolerance, psi);
         inside[n] = ~lessThan(psi, 0.0f);
     });
     // The inner voxels that have an outer one among their 26 neighbours.

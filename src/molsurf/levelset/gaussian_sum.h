@@ -19,11 +19,18 @@
 namespace molsurf
 {
 
-/// What psi near a leaf depends on besides the balls near it.
+/// How far the Gaussians of balls reach: psi near a leaf depends on it and on the balls near it.
 struct GaussianExtent {
-    double largest;   ///< largest r_i [Å]
-    double swollen;   ///< largest R_i, swollen by the level of its Gaussian [Å]
-    double tolerance; ///< largest tolerance of all balls [Å]
+    double maxRadius;      ///< largest r_i [Å]
+    double maxGrownRadius; ///< largest R_i, grown by the level of its Gaussian [Å]
+    double maxTolerance;   ///< largest tolerance of all balls [Å]
+
+    /// How far from a leaf the balls may lie whose terms count there [Å].
+    /// @param[in] reach  how far outside the balls of radius R_i psi is wanted [Å]
+    double cutoff(double reach) const;
+
+    /// How far psi = 0 may lie from the centres of balls, even where they are crowded [Å].
+    double ofZero() const { return maxGrownRadius + 3.0 * maxTolerance; }
 };
 
 /// Parameters of psi.
@@ -31,22 +38,22 @@ struct GaussianOptions {
     double probe = 1.4;      ///< probe radius r_b [Å]
     double epsilon = 0.5;    ///< tolerance eps [Å]; not used with a blobbiness
     double blobbiness = 0.0; ///< d > 0: C_i = d / R_i^2 instead, the Gaussian surface of Blinn
-    double voxel = 0.5;      ///< voxel edge h [Å]
+    double voxelSize = 0.5;  ///< edge h of a voxel [Å]
     double reach = 3.0;      ///< how far outside the balls of radius R_i psi is wanted [Å]
     /// Of all balls, where the sum is made of some: near these it is then the same.
     std::optional<GaussianExtent> extent{};
+
+    /// C of a ball of radius R_i without a rate of its own [1/Å^2].
+    double rate(double R) const
+    {
+        return blobbiness > 0.0 ? blobbiness / (R * R) : M_LN2 / (epsilon * R);
+    }
 };
 
+/// Finds how far the Gaussians of balls reach.
 /// @param[in] decays  one a ball, or none
 GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& options,
                         const std::vector<Decay>& decays);
-
-/// The rate C at which the Gaussian of a ball falls off [1/Å^2].
-/// @param[in] rate  of its Decay; 0: by the options
-double rateOf(const Ball& ball, const GaussianOptions& options, double rate);
-
-/// How far from a leaf the balls may lie whose terms count there [Å].
-double cutoff(const GaussianExtent& extent, double reach);
 
 /// psi of a set of balls, evaluated leaf by leaf. The balls must outlive it.
 class GaussianSum
@@ -58,7 +65,7 @@ public:
 
     /// How far psi = 0 may lie outside the balls of radius R_i, as a length for each doubling of
     /// the balls that meet there: the largest tolerance of all balls [Å].
-    double tolerance() const { return options_.epsilon; }
+    double tolerance() const { return extent_.maxTolerance; }
 
     /// The voxels within `steps` voxels (see dilated()) of those next to psi = 0.
     /// @param[in] box  of whole leaves: no others are looked at
@@ -74,10 +81,10 @@ public:
     /// @param[out] psi     512 values; always finite
     void evaluate(const openvdb::Coord& origin, double reach, float* psi) const;
 
-    /// How many balls are not left out of a leaf by evaluate().
+    /// Counts the balls that evaluate() does not leave out of a leaf.
     std::size_t termCount(const openvdb::Coord& origin, double reach) const;
 
-    /// psi at all voxels of all leaves, with the reach of the options.
+    /// Evaluates psi at all voxels of all leaves, with the reach of the options.
     SparseField evaluate(LeafTable table, const Progress& progress) const;
 
 private:
@@ -93,16 +100,14 @@ private:
     /// C of a ball [1/Å^2]
     double rate(std::size_t i, double R) const
     {
-        if (!decays_.empty() && decays_[i].rate > 0.0f) return decays_[i].rate;
-        return options_.blobbiness > 0.0 ? options_.blobbiness / (R * R) : M_LN2 / (epsilon_ * R);
+        const bool own = !decays_.empty() && decays_[i].rate > 0.0f;
+        return own ? double(decays_[i].rate) : options_.rate(R);
     }
 
     const std::vector<Ball>& balls_;
-    GaussianOptions options_; // with the largest tolerance of all balls
+    GaussianOptions options_;
     std::vector<Decay> decays_;
-    double epsilon_; // of balls without a rate of their own [Å]
-    GaussianExtent extent_;
-    double largest_; // largest R_i, swollen [Å]
+    GaussianExtent extent_; // of all balls
     BallIndex index_;
 };
 

@@ -10,10 +10,10 @@
 namespace molsurf
 {
 
-/// A signed distance to the zero set of a field.
+/// Makes a signed distance to the zero set of a field.
 ///
-/// Near it the distance of the zero of psi's second-order Taylor polynomial along its gradient;
-/// from there outward by reinitialize().
+/// Near it that is the distance of the zero of psi's second-order Taylor polynomial along its
+/// gradient; from there reinitialize() carries it outward.
 ///
 /// @param[in] psi    > 0 inside, smooth near its zero set; active voxels: the band
 /// @param[in] width  half width of the band [Å]

@@ -20,10 +20,9 @@ constexpr float cubeRadius = 0.5f * (cube - 1) * 1.7320508f; // of its voxels' c
 
 /// Appends i + k to a list of m for every lane k that is on.
 /// @return the new length
-inline __attribute__((always_inline)) int appendLanes(const Ints& on, int i, std::int32_t* list,
-                                                      int m)
+MOLSURF_INLINE int appendLanes(const Ints& on, int i, std::int32_t* list, int m)
 {
-    if (bitsOf(on) == 0) return m;
+    if (!any(on)) return m;
     for (int k = 0; k < floatLanes; ++k) {
         list[m] = i + k;
         m -= on[k];
@@ -36,16 +35,16 @@ inline __attribute__((always_inline)) int appendLanes(const Ints& on, int i, std
 MOLSURF_KERNEL int nearestOf(const float* x, const float* y, const float* z, int count, float px,
                              float py, float pz, float& distance2)
 {
-    Floats least = Floats{} + 1e30f;
+    Floats least = splat(1e30f);
     Ints best = {};
     for (int i = 0; i < count; i += floatLanes) {
-        const Floats dx = *reinterpret_cast<const Floats*>(x + i) - px;
-        const Floats dy = *reinterpret_cast<const Floats*>(y + i) - py;
-        const Floats dz = *reinterpret_cast<const Floats*>(z + i) - pz;
+        const Floats dx = load(x + i) - px;
+        const Floats dy = load(y + i) - py;
+        const Floats dz = load(z + i) - pz;
         const Floats d2 = dx * dx + dy * dy + dz * dz;
         const Ints nearer = d2 < least;
         least = nearer ? d2 : least;
-        best = nearer ? Ints{} + i : best;
+        best = nearer ? splat(i) : best;
     }
     int lane = 0;
     for (int k = 1; k < floatLanes; ++k) {
@@ -67,15 +66,13 @@ MOLSURF_KERNEL int candidates(const float* x, const float* y, const float* z, in
     const float limit = 4.0f * radius * radius;
     int m = 0;
     for (int i = 0; i < count; i += floatLanes) {
-        const Floats px = *reinterpret_cast<const Floats*>(x + i),
-                     py = *reinterpret_cast<const Floats*>(y + i),
-                     pz = *reinterpret_cast<const Floats*>(z + i);
+        const Floats px = load(x + i), py = load(y + i), pz = load(z + i);
         const Floats dx = px - cx, dy = py - cy, dz = pz - cz;
         const Floats ex = px - x0, ey = py - yy0, ez = pz - z0;
         const Floats more = dx * dx + dy * dy + dz * dz - d02;
         const Floats apart2 = ex * ex + ey * ey + ez * ez;
-        const Floats positive = more > 0.0f ? more : Floats{};
-        const Ints good = positive * positive <= limit * apart2 + 1e-3f ? Ints{} - 1 : Ints{};
+        const Floats positive = larger(more, Floats{});
+        const Ints good = positive * positive <= limit * apart2 + 1e-3f ? splat(-1) : Ints{};
         m = appendLanes(good, i, out, m);
     }
     return m;
@@ -95,7 +92,7 @@ MOLSURF_KERNEL void nearestInCube(const float* x, const float* y, const float* z
         }
         Floats nearest[cube];
         Ints which[cube] = {};
-        for (Floats& d : nearest) d = Floats{} + 1e30f;
+        for (Floats& d : nearest) d = splat(1e30f);
         for (int i = 0; i < count; ++i) {
             const Floats dy = vy - y[i], dz = vz - z[i];
             const Floats aside = dy * dy + dz * dz;
@@ -104,12 +101,12 @@ MOLSURF_KERNEL void nearestInCube(const float* x, const float* y, const float* z
                 const Floats d2 = aside + dx * dx;
                 const Ints nearer = d2 < nearest[k];
                 nearest[k] = nearer ? d2 : nearest[k];
-                which[k] = nearer ? Ints{} + i : which[k];
+                which[k] = nearer ? splat(i) : which[k];
             }
         }
         for (int k = 0; k < cube; ++k) {
-            *reinterpret_cast<Floats*>(least + plane * k + part) = nearest[k];
-            *reinterpret_cast<Ints*>(best + plane * k + part) = which[k];
+            store(least + plane * k + part, nearest[k]);
+            store(best + plane * k + part, which[k]);
         }
     }
 }
@@ -126,22 +123,20 @@ constexpr double leafRadius = 3.5 * 1.7320508; // of the ball about it
 MOLSURF_KERNEL int withinReach(const float* const* in, const float* shift, int count, float reach,
                                std::int32_t* out, float& nearest2)
 {
-    Ints lane;
-    for (int k = 0; k < floatLanes; ++k) lane[k] = k;
-    Floats least = Floats{} + 1e30f;
+    const Ints lane = laneNumbers();
+    Floats least = splat(1e30f);
     int m = 0;
     for (int i = 0; i < count; i += floatLanes) {
         Floats inside2 = {}, outside2 = {};
         for (int a = 0; a < 3; ++a) {
-            const Floats any = *reinterpret_cast<const Floats*>(in[a] + i) + shift[a];
-            const Floats p = lane < count - i ? any : Floats{} + 1e15f;
-            Floats beyond = (p < 0.0f ? -p : p) - leafHalf;
-            beyond = beyond > 0.0f ? beyond : Floats{};
+            const Floats place = load(in[a] + i) + shift[a];
+            const Floats p = lane < count - i ? place : splat(1e15f);
+            const Floats beyond = larger((p < 0.0f ? -p : p) - leafHalf, Floats{});
             inside2 += p * p;
             outside2 += beyond * beyond;
         }
-        least = inside2 < least ? inside2 : least;
-        const Ints good = outside2 <= reach * reach ? Ints{} - 1 : Ints{};
+        least = smaller(inside2, least);
+        const Ints good = outside2 <= reach * reach ? splat(-1) : Ints{};
         m = appendLanes(good, i, out, m);
     }
     for (int k = 0; k < floatLanes; ++k) nearest2 = smaller(nearest2, least[k]);

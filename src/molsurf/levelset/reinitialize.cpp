@@ -23,43 +23,26 @@ constexpr float timeStep = 0.5f;
 
 static_assert(leafDim == floatLanes, "a row is a vector");
 
-inline __attribute__((always_inline)) const Floats& rowAt(const float* p)
-{
-    return *reinterpret_cast<const Floats*>(p);
-}
-
-inline __attribute__((always_inline)) void clamp(const Floats& low, const Floats& high, Floats& x)
-{
-    x = x > low ? x : low;
-    x = x < high ? x : high;
-}
-
 /// The one of two numbers of one sign that is nearer to 0; else 0: b between 0 and a.
 /// @param[in] zero  a little more than 0, and unknown to the compiler: with constants GCC takes two
 ///                  instructions for a minimum
-inline __attribute__((always_inline)) void minmod(const Floats& a, const Floats& b,
-                                                  const Floats& zero, Floats& out)
+MOLSURF_INLINE Floats minmod(Floats a, Floats b, Floats zero)
 {
-    const Floats below = -zero;
-    out = b;
-    clamp(a < below ? a : below, a > zero ? a : zero, out);
+    return clamped(b, smaller(a, -zero), larger(a, zero));
 }
 
-/// Adds the square of the upwind derivative along one axis, times h^2.
+/// A sum and the square of the upwind derivative along one axis, times h^2.
 /// @param[in] sign  +1 outside, -1 inside
-inline __attribute__((always_inline)) void addUpwind(const float* p, int stride, const Floats& sign,
-                                                     const Floats& zero, Floats& sum)
+MOLSURF_INLINE Floats addUpwind(Floats sum, const float* p, int stride, Floats sign, Floats zero)
 {
-    const Floats here = rowAt(p), before = rowAt(p - stride), after = rowAt(p + stride);
+    const Floats here = load(p), before = load(p - stride), after = load(p + stride);
     const Floats below = here - before, above = after - here, centre = above - below;
-    Floats minus, plus;
-    minmod(centre, below - (before - rowAt(p - 2 * stride)), zero, minus);
-    minmod(centre, (rowAt(p + 2 * stride) - after) - above, zero, plus);
+    const Floats minus = minmod(centre, below - (before - load(p - 2 * stride)), zero);
+    const Floats plus = minmod(centre, (load(p + 2 * stride) - after) - above, zero);
     const Floats fromBelow = sign * (below + 0.5f * minus);
     const Floats fromAbove = sign * (0.5f * plus - above);
-    Floats slope = fromBelow > fromAbove ? fromBelow : fromAbove;
-    slope = slope > zero ? slope : zero;
-    sum += slope * slope;
+    const Floats slope = larger(larger(fromBelow, fromAbove), zero);
+    return sum + slope * slope;
 }
 
 /// One Euler step where a mask is on; elsewhere the field, limited to the band.
@@ -67,30 +50,26 @@ MOLSURF_KERNEL void eulerStep(const float* __restrict block, const LeafMask& mov
                               float width, float* __restrict out)
 {
     const float inverse2 = 1.0f / (voxel * voxel);
-    const Floats farthest = Floats{} + width, least = Floats{} + 1e-6f * voxel;
+    const Floats farthest = splat(width), least = splat(1e-6f * voxel);
     const Floats zero = 1e-20f * least;
     Ints bit;
     for (int z = 0; z < leafDim; ++z) bit[z] = rowBits[z];
     for (int row = 0; row < 64; ++row) {
         const int bits = moving.row(row);
         const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
-        const Floats value = rowAt(p);
-        Floats& result = *reinterpret_cast<Floats*>(out + 8 * row);
-        Floats limited = value;
-        clamp(-farthest, farthest, limited);
+        const Floats value = load(p);
+        const Floats limited = clamped(value, -farthest, farthest);
         if (bits == 0) {
-            result = limited;
+            store(out + 8 * row, limited);
             continue;
         }
-        const Floats sign = value < 0.0f ? Floats{} - 1.0f : Floats{} + 1.0f;
-        Floats slope = {};
-        addUpwind(p, X, sign, zero, slope);
-        addUpwind(p, Y, sign, zero, slope);
-        addUpwind(p, 1, sign, zero, slope);
-        squareRoot(inverse2 * slope, slope);
-        Floats next = sign * value - timeStep * voxel * (slope - 1.0f);
-        clamp(least, farthest, next);
-        result = (bit & bits) != 0 ? sign * next : limited;
+        const Floats sign = value < 0.0f ? splat(-1.0f) : splat(1.0f);
+        Floats slope2 = {};
+        for (const int stride : {X, Y, 1}) slope2 = addUpwind(slope2, p, stride, sign, zero);
+        const Floats slope = squareRoot(inverse2 * slope2);
+        const Floats next =
+            clamped(sign * value - timeStep * voxel * (slope - 1.0f), least, farthest);
+        store(out + 8 * row, (bit & bits) != 0 ? sign * next : limited);
     }
 }
 
@@ -104,12 +83,12 @@ MOLSURF_KERNEL void nextToInterface(const float* __restrict block, const LeafMas
         Ints found = {};
         for (int y = 4 * (half & 1); y < 4 * (half & 1) + 4; ++y) {
             const float* p = block + (half / 2 + 2) * X + (y + 2) * Y + 2;
-            const Floats here = rowAt(p);
-            Floats low = rowAt(p + X), high = low;
+            const Floats here = load(p);
+            Floats low = load(p + X), high = low;
             for (const int step : {-X, Y, -Y, 1, -1}) {
-                const Floats next = rowAt(p + step);
-                low = next < low ? next : low;
-                high = next > high ? next : high;
+                const Floats next = load(p + step);
+                low = smaller(next, low);
+                high = larger(next, high);
             }
             const Floats crossing = here < 0.0f ? -high - 1e-30f : low;
             found |= crossing < 0.0f ? bit << (8 * (y & 3)) : Ints{};

@@ -71,7 +71,7 @@ struct Cube {
 };
 
 /// The places of some voxels of each plane.
-inline __attribute__((always_inline)) void places(const Cube& c, int part, Floats& y, Floats& z)
+MOLSURF_INLINE void places(const Cube& c, int part, Floats& y, Floats& z)
 {
     for (int k = 0; k < floatLanes; ++k) {
         y[k] = c.first.y() + c.voxel * float((part + k) / cube);
@@ -79,15 +79,15 @@ inline __attribute__((always_inline)) void places(const Cube& c, int part, Float
     }
 }
 
-/// Keeps what is nearer.
-/// @param[in] first  of the voxels
-inline __attribute__((always_inline)) void keep(Cube& c, int first, const Floats& d2, int part)
+/// Gives voxels to a part where it is nearer than the one they have.
+/// @param[in] first  the first of the voxels
+/// @param[in] d2     their squared distances from the part
+MOLSURF_INLINE void keep(Cube& c, int first, Floats d2, int part)
 {
-    Floats* least = reinterpret_cast<Floats*>(c.least2 + first);
-    Ints* parts = reinterpret_cast<Ints*>(c.part + first);
-    const Ints nearer = d2 < *least;
-    *least = nearer ? d2 : *least;
-    *parts = nearer ? Ints{} + part : *parts;
+    const Floats least = load(c.least2 + first);
+    const Ints nearer = d2 < least;
+    store(c.least2 + first, nearer ? d2 : least);
+    store(c.part + first, nearer ? splat(part) : load(c.part + first));
 }
 
 MOLSURF_KERNEL void nearCorners(Cube& c, const NearCorner* corners, std::size_t count)
@@ -123,11 +123,10 @@ MOLSURF_KERNEL void nearArcs(Cube& c, const NearArc* arcs, std::size_t count)
                 // Not from squares, which cancel near the axis.
                 const Floats px = dx - along * arc.axis.x(), py = dy - along * arc.axis.y();
                 const Floats pz = dz - along * arc.axis.z();
-                Floats r;
-                squareRoot(px * px + py * py + pz * pz, r);
+                const Floats r = squareRoot(px * px + py * py + pz * pz);
                 const Floats d2 = along * along + (r - arc.radius) * (r - arc.radius);
                 keep(c, first + plane * k,
-                     middle >= (arc.cosine - rimTolerance) * r ? d2 : Floats{} + 1e30f, arc.part);
+                     middle >= (arc.cosine - rimTolerance) * r ? d2 : splat(1e30f), arc.part);
             }
         }
     }
@@ -191,22 +190,20 @@ MOLSURF_KERNEL void nearPatch(Cube& c, const NearPatch& patch, const CapArrays& 
         const Floats dy = y - patch.centre.y(), dz = z - patch.centre.z();
         for (int k = 0; k < cube; ++k) {
             const float dx = c.first.x() + c.voxel * float(k) - patch.centre.x();
-            const Floats r2 = dx * dx + dy * dy + dz * dz;
-            Floats r;
-            squareRoot(r2, r);
+            const Floats r = squareRoot(dx * dx + dy * dy + dz * dz);
             const Floats d = patch.radius - r;
             Floats d2 = d * d; // of voxels outside the ball too: the same holds for them
-            const Floats least = *reinterpret_cast<const Floats*>(c.least2 + first + plane * k);
+            const Floats least = load(c.least2 + first + plane * k);
             // Only directions that would be nearer are looked at further.
-            Ints open = d2 < least ? Ints{} - 1 : Ints{};
-            if (bitsOf(open) == 0) continue;
+            Ints open = d2 < least ? splat(-1) : Ints{};
+            if (!any(open)) continue;
             for (int j = 0; j < count; ++j) {
                 const std::uint32_t i = list[j];
                 const Floats along = dx * caps.x[i] + dy * caps.y[i] + dz * caps.z[i];
                 open = along > (caps.cosine[i] - rimTolerance) * r ? Ints{} : open;
-                if ((j & 3) == 3 && bitsOf(open) == 0) break;
+                if ((j & 3) == 3 && !any(open)) break;
             }
-            d2 = open != 0 ? d2 : Floats{} + 1e30f;
+            d2 = open != 0 ? d2 : splat(1e30f);
             keep(c, first + plane * k, d2, patch.part);
         }
     }
@@ -221,17 +218,14 @@ MOLSURF_KERNEL void nearBalls(const Cube& c, const NearBall* balls, std::size_t 
         places(c, first, y, z);
         for (int k = 0; k < cube; ++k) {
             const float x = c.first.x() + c.voxel * float(k);
-            Floats least = Floats{} + 1e15f;
+            Floats least = splat(1e15f);
             for (std::size_t i = 0; i < count; ++i) {
                 const NearBall& b = balls[i];
                 const float dx = x - b.centre.x();
                 const Floats dy = y - b.centre.y(), dz = z - b.centre.z();
-                Floats d;
-                squareRoot(dx * dx + dy * dy + dz * dz, d);
-                d -= b.radius;
-                least = d < least ? d : least;
+                least = smaller(squareRoot(dx * dx + dy * dy + dz * dz) - b.radius, least);
             }
-            *reinterpret_cast<Floats*>(distance + first + plane * k) = least;
+            store(distance + first + plane * k, least);
         }
     }
 }

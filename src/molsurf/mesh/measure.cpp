@@ -25,40 +25,48 @@ using Sums = PieceMeasure;
 constexpr double rule[2][2] = {{0.445948490915965, 0.223381589678011},
                                {0.091576213509771, 0.109951743655322}};
 
-/// Triangles side by side, one a lane.
-struct Patches {
-    Doubles p[3][3]; ///< corner, axis: positions [Å]
-    Doubles n[3][3]; ///< unit normals there
-    Doubles area;    ///< of the patch [Å^2]
-    Doubles volume;  ///< of the cone of the patch and the origin [Å^3]
-    Doubles flat;    ///< twice the area of the triangle, squared
+/// The vectors of as many triangles as there are lanes.
+struct Vectors {
+    Doubles along[3]; ///< by axis
+
+    MOLSURF_INLINE Doubles& operator[](int axis) { return along[axis]; }
+    MOLSURF_INLINE const Doubles& operator[](int axis) const { return along[axis]; }
 };
 
-inline __attribute__((always_inline)) void cross(const Doubles* u, const Doubles* v, Doubles* out)
+/// Triangles side by side, one a lane.
+struct Patches {
+    Vectors p[3];   ///< positions of the corners [Å]
+    Vectors n[3];   ///< unit normals there
+    Doubles area;   ///< of the patch [Å^2]
+    Doubles volume; ///< of the cone of the patch and the origin [Å^3]
+    Doubles flat;   ///< twice the area of the triangle, squared
+};
+
+MOLSURF_INLINE Vectors cross(const Vectors& u, const Vectors& v)
 {
+    Vectors out;
     for (int a = 0; a < 3; ++a) {
         const int b = (a + 1) % 3, c = (a + 2) % 3;
         out[a] = u[b] * v[c] - u[c] * v[b];
     }
+    return out;
 }
 
-inline __attribute__((always_inline)) void dot(const Doubles* u, const Doubles* v, Doubles& out)
+MOLSURF_INLINE Doubles dot(const Vectors& u, const Vectors& v)
 {
-    out = u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
 
 /// Areas and volumes of quadratic patches through the corners and the midpoints of arcs between
 /// them.
 MOLSURF_KERNEL void measurePatches(Patches& s)
 {
-    Doubles mid[3][3]; // opposite to corner k
+    Vectors mid[3]; // opposite to corner k
     for (int k = 0; k < 3; ++k) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        Doubles edge[3];
+        Vectors edge;
         for (int a = 0; a < 3; ++a) edge[a] = s.p[j][a] - s.p[i][a];
-        Doubles along, against;
-        dot(edge, s.n[j], along);
-        dot(edge, s.n[i], against);
+        const Doubles along = dot(edge, s.n[j]), against = dot(edge, s.n[i]);
         for (int a = 0; a < 3; ++a) {
             mid[k][a] =
                 0.5 * (s.p[i][a] + s.p[j][a]) + 0.125 * (along * s.n[j][a] - against * s.n[i][a]);
@@ -71,7 +79,7 @@ MOLSURF_KERNEL void measurePatches(Patches& s)
             b[k] = 1.0 - 2.0 * equal;
             // x = sum b_k (2 b_k - 1) p_k + sum 4 b_i b_j mid_k; derivatives along b_1 and b_2 with
             // b_0 = 1 - b_1 - b_2
-            Doubles x[3], u[3], v[3];
+            Vectors x, u, v;
             for (int a = 0; a < 3; ++a) {
                 Doubles d[3];
                 x[a] = Doubles{};
@@ -84,23 +92,18 @@ MOLSURF_KERNEL void measurePatches(Patches& s)
                 u[a] = d[1] - d[0];
                 v[a] = d[2] - d[0];
             }
-            Doubles normal[3]; // twice the area element
-            cross(u, v, normal);
-            Doubles length, height;
-            dot(normal, normal, length);
-            dot(x, normal, height);
-            for (int l = 0; l < doubleLanes; ++l) length[l] = std::sqrt(length[l]);
-            s.area += 0.5 * weight * length;
-            s.volume += weight / 6.0 * height;
+            const Vectors normal = cross(u, v); // twice the area element
+            s.area += 0.5 * weight * squareRoot(dot(normal, normal));
+            s.volume += weight / 6.0 * dot(x, normal);
         }
     }
-    Doubles u[3], v[3], normal[3];
+    Vectors u, v;
     for (int a = 0; a < 3; ++a) {
         u[a] = s.p[1][a] - s.p[0][a];
         v[a] = s.p[2][a] - s.p[0][a];
     }
-    cross(u, v, normal);
-    dot(normal, normal, s.flat);
+    const Vectors normal = cross(u, v);
+    s.flat = dot(normal, normal);
 }
 
 /// Puts a triangle into a lane, with positions about an origin.

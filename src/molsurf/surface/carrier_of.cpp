@@ -21,9 +21,11 @@ std::vector<double> slopesOf(const std::vector<Ball>& balls, const GaussianOptio
 {
     std::vector<double> slopes;
     slopes.reserve(balls.size());
-    for (std::size_t i = 0; i < balls.size(); ++i)
-        slopes.push_back(2.0 * rateOf(balls[i], options, decays.empty() ? 0.0 : decays[i].rate) *
-                         (balls[i].radius + options.probe));
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        const double R = balls[i].radius + options.probe;
+        const bool own = !decays.empty() && decays[i].rate > 0.0f;
+        slopes.push_back(2.0 * R * (own ? double(decays[i].rate) : options.rate(R)));
+    }
     return slopes;
 }
 
@@ -68,8 +70,8 @@ SparseField carrierOf(const BallSet& atoms, const SurfaceOptions& options,
 {
     const LeafField slope = slopeField(atoms, options, extent, band, progress);
     const EvolveOptions& evolution = options.evolution;
-    const bool valley = options.kind == SurfaceKind::Variational &&
-                        evolution.regularizer == Regularizer::Gradient;
+    const bool valley =
+        options.kind == SurfaceKind::Variational && evolution.regularizer == Regularizer::Gradient;
     return smoothCarrier(band.phi, {band.psi, slope, valley ? evolution.lambda : 0.0},
                          bandWidthVox * band.phi.voxelSize, progress);
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What balls have to be before anything is computed of them.
+/// Checks balls before anything is computed of them.
 
 #include "molsurf/ball.h"
 #include "molsurf/options.h"
@@ -16,8 +16,8 @@ namespace molsurf
 /// Memory of this machine [byte].
 std::size_t physicalMemory();
 
-/// What is in memory at once: a surface in one piece, or no more of it than its bricks' merge
-/// needs.
+/// Tells what is in memory at once: a surface in one piece, or no more of it than its bricks'
+/// merge needs.
 enum class Pieces { One, Bricks };
 
 /// Checks that there are balls, that they are finite, and that the largest one fits: the surface of

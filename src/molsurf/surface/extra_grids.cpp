@@ -2,6 +2,7 @@
 #include "molsurf/surface/extra_grids.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/grid/grid_like.h"
 #include "molsurf/spline/curvature.h"
 
 #include <openvdb/tools/LevelSetUtil.h>
@@ -60,19 +61,6 @@ openvdb::FloatGrid::Ptr densityGrid(const openvdb::FloatGrid& surface)
 namespace
 {
 
-/// A grid on the active voxels of another, zero.
-template<typename GridType>
-typename GridType::Ptr gridLike(const openvdb::FloatGrid& surface, const std::string& name)
-{
-    using Value = typename GridType::ValueType;
-    auto grid = GridType::create(Value(0.0f));
-    grid->setTree(std::make_shared<typename GridType::TreeType>(surface.tree(), Value(0.0f),
-                                                                openvdb::TopologyCopy()));
-    grid->setTransform(surface.transform().copy());
-    grid->setName(name);
-    return grid;
-}
-
 /// How far a voxel of the band may be from the surface [voxel].
 constexpr double reachVox = 4.0;
 
@@ -96,12 +84,12 @@ std::vector<openvdb::GridBase::Ptr> curvatureGrids(const openvdb::FloatGrid& sur
         if (!field) continue;
         Target target{field, nullptr, nullptr, {}};
         if (field->components == 1) {
-            target.scalars = gridLike<openvdb::FloatGrid>(surface, name);
+            target.scalars = gridLike<openvdb::FloatGrid>(surface, name, 0.0f);
             for (auto leaf = target.scalars->tree().beginLeaf(); leaf; ++leaf)
                 target.leaves.push_back(leaf->buffer().data());
             grids.push_back(target.scalars);
         } else {
-            target.vectors = gridLike<openvdb::Vec3SGrid>(surface, name);
+            target.vectors = gridLike<openvdb::Vec3SGrid>(surface, name, openvdb::Vec3f(0.0f));
             for (auto leaf = target.vectors->tree().beginLeaf(); leaf; ++leaf)
                 target.leaves.push_back(leaf->buffer().data()->asPointer());
             grids.push_back(target.vectors);

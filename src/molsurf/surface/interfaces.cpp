@@ -3,8 +3,9 @@
 
 #include "molsurf/balls/boundary_check.h"
 #include "molsurf/balls/contacts.h"
+#include "molsurf/selection/subset.h"
+#include "molsurf/surface/influence.h"
 #include "molsurf/surface/parts.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,16 +32,6 @@ double areaOf(const BallSet& atoms, const SurfaceOptions& options, const Progres
     return makeSurface(atoms, options, &quiet).report.surface.area;
 }
 
-/// How far apart two balls may be that change each other's surface [Å].
-double interactionGap(const BallSet& atoms, const SurfaceOptions& options)
-{
-    if (options.kind == SurfaceKind::VanDerWaals) return 0.0;
-    if (isUnion(options.kind)) return 2.0 * options.probe;
-    // Where the surface of one lies, the Gaussian of the other is not felt any more.
-    const GaussianExtent extent = extentOf(atoms, options);
-    return 2.0 * gaussianOptions(options).probe + cutoff(extent, 0.0) - extent.swollen;
-}
-
 } // namespace
 
 void measureInterfaces(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
@@ -54,7 +45,7 @@ void measureInterfaces(const BallSet& atoms, const SurfaceOptions& options, Prog
     plain.curvatureTotals = false;
     const BallLabels& labels = *atoms.labels;
     const auto near = contacts(atoms.balls, labels.groupOf, labels.groups.size(),
-                               interactionGap(atoms, options), progress);
+                               Influence(atoms, options).acrossGap(), progress);
     const auto balls = ballsOfGroups(labels);
 
     std::size_t runs = labels.groups.size(), done = 0;

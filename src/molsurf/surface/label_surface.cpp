@@ -7,8 +7,6 @@
 #include "molsurf/color/palette.h"
 #include "molsurf/surface/extra_grids.h"
 
-#include <cstdio>
-
 namespace molsurf
 {
 
@@ -16,13 +14,6 @@ using openvdb::Vec3f;
 
 namespace
 {
-
-std::string hex(const Color& color)
-{
-    char text[8];
-    std::snprintf(text, sizeof text, "#%02x%02x%02x", color[0], color[1], color[2]);
-    return text;
-}
 
 void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Labels& nearest,
                   double reach, Progress& progress, MolecularSurface& result)
@@ -52,12 +43,12 @@ void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Lab
         const Group& group = labels.groups[g];
         grouped += group.balls;
         result.report.groups.push_back(
-            {group.name, group.balls, area[g], volume[g], colors.empty() ? "" : hex(colors[g])});
+            {group.name, group.balls, area[g], volume[g], colors.empty() ? "" : hexOf(colors[g])});
     }
     const std::size_t rest = atoms.balls.size() - grouped;
     if (rest > 0 || area[other] > 0.0) {
         result.report.groups.push_back(
-            {"other", rest, area[other], volume[other], colors.empty() ? "" : hex(neutralColor)});
+            {"other", rest, area[other], volume[other], colors.empty() ? "" : hexOf(neutralColor)});
     }
 }
 

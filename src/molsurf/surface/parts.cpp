@@ -5,6 +5,7 @@
 #include "molsurf/color/palette.h"
 #include "molsurf/error.h"
 #include "molsurf/mesh/statistics.h"
+#include "molsurf/selection/subset.h"
 
 #include <algorithm>
 #include <cctype>
@@ -186,48 +187,7 @@ BallSet colored(const BallSet& atoms, ColorBy by, const Progress& progress)
     return out;
 }
 
-template<typename T>
-std::vector<T> chosen(const std::vector<T>& from, const std::vector<std::size_t>& which)
-{
-    std::vector<T> out;
-    if (from.empty()) return out;
-    out.reserve(which.size());
-    for (const std::size_t i : which) out.push_back(from[i]);
-    return out;
-}
-
 } // namespace
-
-BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which)
-{
-    BallSet out;
-    out.balls = chosen(atoms.balls, which);
-    out.decays = chosen(atoms.decays, which);
-    out.resolutions = atoms.resolutions;
-    out.resolutionOf = chosen(atoms.resolutionOf, which);
-    out.colors = chosen(atoms.colors, which);
-    for (ResolutionGroup& group : out.resolutions) group.balls = 0;
-    for (const std::int32_t r : out.resolutionOf) {
-        if (r >= 0) ++out.resolutions[std::size_t(r)].balls;
-    }
-    out.copyBegin = {0, out.balls.size()};
-    out.model = atoms.model;
-    if (!atoms.labels) return out;
-    const BallLabels& all = *atoms.labels;
-    BallLabels labels;
-    labels.chains = all.chains;
-    labels.groups = all.groups;
-    labels.chainOf = chosen(all.chainOf, which);
-    labels.groupOf = chosen(all.groupOf, which);
-    labels.elementOf = chosen(all.elementOf, which);
-    labels.residueClassOf = chosen(all.residueClassOf, which);
-    for (Group& group : labels.groups) group.balls = 0;
-    for (const std::int32_t g : labels.groupOf) {
-        if (g >= 0) ++labels.groups[std::size_t(g)].balls;
-    }
-    out.labels = std::move(labels);
-    return out;
-}
 
 std::vector<std::vector<std::size_t>> ballsOfGroups(const BallLabels& labels)
 {

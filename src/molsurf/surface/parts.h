@@ -12,11 +12,7 @@
 namespace molsurf
 {
 
-/// Some of the balls, with all that is known of them.
-/// @param[in] which  indices, ascending
-BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which);
-
-/// The balls of each group, and at last of none.
+/// Lists the balls of each group, and at last those of none.
 std::vector<std::vector<std::size_t>> ballsOfGroups(const BallLabels& labels);
 
 /// Surfaces every group alone (SurfaceOptions::split), or those of SurfaceOptions::surfaceOf alone

@@ -4,6 +4,7 @@
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/error.h"
+#include "molsurf/selection/subset.h"
 #include "molsurf/surface/check_balls.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/interfaces.h"

@@ -5,6 +5,7 @@
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/error.h"
+#include "molsurf/grid/grid_like.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/surface/compare.h"
 #include "molsurf/surface/extra_grids.h"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <sstream>
 
@@ -156,21 +156,7 @@ Color colorOf(const std::vector<Group>& labels, std::int32_t value)
     return known ? *labels[std::size_t(value)].color : neutralColor;
 }
 
-/// A grid Cd on the voxels of a grid of labels.
-Vec3SGrid::Ptr colorGrid(const Int32Grid& ids, const std::vector<Group>& labels)
-{
-    const Vec3f background = linearLight(neutralColor);
-    auto grid = Vec3SGrid::create(background);
-    grid->setTree(
-        std::make_shared<openvdb::Vec3STree>(ids.tree(), background, openvdb::TopologyCopy()));
-    grid->setName("Cd");
-    auto to = grid->beginValueOn();
-    for (auto from = ids.cbeginValueOn(); from; ++from, ++to)
-        to.setValue(linearLight(colorOf(labels, *from)));
-    return grid;
-}
-
-/// What the labels and colours of a stored surface are taken from.
+/// The source of the labels and colours of a stored surface.
 struct Source {
     const openvdb::GridPtrVec& grids;
     const openvdb::MetaMap& metadata;
@@ -212,7 +198,11 @@ void colorByLabel(const Source& from, const Int32Grid& ids, MolecularSurface& re
     const std::vector<Group> labels = labelsOf(ids, from.metadata);
     for (const std::int32_t id : valuesAt(ids, from.voxels))
         result.mesh.colors.push_back(colorOf(labels, id));
-    addColorGrid(from, colorGrid(ids, labels), result);
+    const auto grid = gridLike<Vec3SGrid>(ids, "Cd", linearLight(neutralColor));
+    auto to = grid->beginValueOn();
+    for (auto id = ids.cbeginValueOn(); id; ++id, ++to)
+        to.setValue(linearLight(colorOf(labels, *id)));
+    addColorGrid(from, grid, result);
 }
 
 /// @param[in] levelSet  that the spline was fitted to
@@ -289,10 +279,7 @@ void addLabelMetadata(const BallSet& atoms, const std::vector<std::string>& fiel
         if (!hasField(fields, field) || count == 0) return;
         std::string text;
         for (std::size_t i = 0; i < count; ++i) {
-            char color[16];
-            std::snprintf(color, sizeof color, "#%02x%02x%02x ", colors[i][0], colors[i][1],
-                          colors[i][2]);
-            text += color + nameOfLabel(i) + "\n";
+            text += hexOf(colors[i]) + " " + nameOfLabel(i) + "\n";
         }
         metadata.insertMeta(std::string("label.") + field, openvdb::StringMetadata(text));
     };

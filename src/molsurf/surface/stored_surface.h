@@ -15,7 +15,7 @@
 namespace molsurf
 {
 
-/// What a stored surface gives.
+/// A surface that was read back, and how it relates to its file.
 struct StoredSurface {
     /// Mesh with curvatures, labels and colours; the grid Cd if colours were asked for, the only
     /// field, placed as the surface of the file; a report of the mesh.

@@ -50,17 +50,4 @@ GaussianOptions gaussianOptions(const SurfaceOptions& options)
     return {options.probe, options.epsilon, 0.0, h, reach};
 }
 
-GaussianExtent extentOf(const BallSet& atoms, const SurfaceOptions& options)
-{
-    return extentOf(atoms.balls, gaussianOptions(options),
-                    options.kind == SurfaceKind::Variational ? atoms.decays : std::vector<Decay>());
-}
-
-double labelReach(const BallSet& atoms, const SurfaceOptions& options)
-{
-    // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
-    return 2.0 * options.probe + 4.0 * extentOf(atoms, options).tolerance + 4.0 * options.voxel +
-           options.minWall;
-}
-
 } // namespace molsurf

@@ -4,7 +4,6 @@
 /// @file
 /// How each kind of surface is made: of which set it is the boundary, and how far inside of that.
 
-#include "molsurf/atoms.h"
 #include "molsurf/grid/distance_band.h"
 #include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/options.h"
@@ -19,31 +18,25 @@ constexpr double surfaceWidthVox = 3.0;
 /// point are up to 2 sqrt(3) away.
 constexpr double splineWidthVox = 4.0;
 
-/// Whether a surface is that of a union of balls.
+/// Tells whether a surface is that of a union of balls.
 bool isUnion(SurfaceKind kind);
 
-/// How far the surface lies inside the set whose distance is known [Å].
+/// Gives how far the surface lies inside the set whose distance is known [Å], >= 0.
 double offsetOf(const SurfaceOptions& options);
 
-/// The probe that the balls of a union surface are grown by [Å].
+/// Gives the probe that the balls of a union surface are grown by [Å], >= 0.
 double grownBy(const SurfaceOptions& options);
 
-/// Whether area, volume and pieces of a surface are known in closed form.
+/// Tells whether area, volume and pieces of a surface are known in closed form.
 bool isClosedForm(const SurfaceOptions& options);
 
-/// The half width of S's band, which the spline is fitted on [Å].
+/// Gives the half width of the band of S that the spline is fitted on [Å].
 double splineWidthOf(const SurfaceOptions& options);
 
-/// How far from the surface of its set the distance is computed.
+/// Gives how far from the surface of its set the distance is computed.
 BandWidths widthsOf(const SurfaceOptions& options);
 
-/// How the Gaussians of a run are summed.
+/// Gives the parameters of the sum of Gaussians.
 GaussianOptions gaussianOptions(const SurfaceOptions& options);
-
-/// How far the Gaussians of a run's balls reach.
-GaussianExtent extentOf(const BallSet& atoms, const SurfaceOptions& options);
-
-/// How far a point of the surface, or of its grid's band, may lie from its ball [Å].
-double labelReach(const BallSet& atoms, const SurfaceOptions& options);
 
 } // namespace molsurf

@@ -14,8 +14,8 @@
 #include "molsurf/mesh/statistics.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/spline/fit.h"
-#include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/carrier_of.h"
+#include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/fill_cavities.h"
 #include "molsurf/surface/label_surface.h"
 #include "molsurf/surface/warm_start.h"
@@ -39,7 +39,9 @@ void Stopwatch::stop(const char* stage)
 
 SurfaceRun::SurfaceRun(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
                        Progress& progress)
-    : atoms_(atoms), options_(options), scope_(scope), progress_(progress), watch_(result_.report)
+    : atoms_(atoms), options_(options), scope_(scope), progress_(progress),
+      influence_(scope.extent ? Influence(*scope.extent, options) : Influence(atoms, options)),
+      watch_(result_.report)
 {
     band_.phi.voxelSize = S_.phi.voxelSize = options.voxel;
 }
@@ -50,7 +52,7 @@ void SurfaceRun::density()
     progress_.update("density", 0.0);
     const bool evolves = options_.kind == SurfaceKind::Variational;
     GaussianOptions gaussian = gaussianOptions(options_);
-    gaussian.extent = scope_.extent;
+    gaussian.extent = influence_.extent();
     sum_.emplace(atoms_.balls, gaussian, evolves ? atoms_.decays : std::vector<Decay>());
     LeafTable table = sum_->band(bandWidthVox, progress_, scope_.region.grown(scope_.flowHalo));
     if (table.size() == 0 && scope_.region.whole()) {
@@ -95,7 +97,8 @@ void SurfaceRun::warnIfCreeping()
 {
     constexpr double noticeable = 0.1; // [voxel]
     const EvolutionReport& evolution = *result_.report.evolution;
-    if (evolution.converged && evolution.remainingWay > noticeable * options_.voxel) {
+    if (evolution.converged &&
+        evolution.estimatedRemainingDisplacement > noticeable * options_.voxel) {
         result_.report.warnings.push_back(
             "evolve: the steps are small, but the interface still creeps [hint: a "
             "smaller `tolerance` and more `maxSteps`]");
@@ -131,7 +134,8 @@ void SurfaceRun::distance()
         const openvdb::CoordBBox near = scope_.region.grown(scope_.distanceHalo);
         SparseField carrier = carrierOf(atoms_, options_, scope_.extent, band_, progress_);
         if (!options_.fillCavities) band_.psi = LeafField();
-        band_.phi = keepsLevelSet() ? clipped(std::move(band_.phi), near, progress_) : SparseField();
+        band_.phi =
+            keepsLevelSet() ? clipped(std::move(band_.phi), near, progress_) : SparseField();
         S_ = redistance(clipped(std::move(carrier), near, progress_), widthsOf(options_), -offset,
                         progress_, scope_.region.grown(scope_.ridgeHalo));
     }
@@ -362,7 +366,7 @@ void SurfaceRun::labels()
 {
     watch_.stop("mesh");
     progress_.update("color", 0.0);
-    const double reach = labelReach(atoms_, options_);
+    const double reach = influence_.ofLabel();
     if (scope_.region.whole()) {
         labelSurface(atoms_, options_, reach, progress_, result_);
     } else {

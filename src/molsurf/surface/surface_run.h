@@ -11,6 +11,7 @@
 #include "molsurf/grid/region.h"
 #include "molsurf/mesh/extract.h"
 #include "molsurf/surface.h"
+#include "molsurf/surface/influence.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <chrono>
@@ -61,7 +62,7 @@ struct GradientCounts {
 };
 
 /// One run. Each method is a stage and needs those above it, if they are not said to be optional.
-/// What a stage computes is kept for later ones until freeFields().
+/// The results of a stage are kept for later ones until freeFields().
 class SurfaceRun
 {
 public:
@@ -149,6 +150,7 @@ private:
     const SurfaceOptions& options_;
     const Scope scope_;
     Progress& progress_;
+    const Influence influence_;
     MolecularSurface result_;
     Stopwatch watch_;
     std::optional<GaussianSum> sum_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/velocity.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include "molsurf/balls/nearest_ball.h"
-#include "molsurf/surface.h"
+#include "molsurf/grid/grid_like.h"
+#include "molsurf/surface/influence.h"
 
 namespace molsurf
 {
@@ -12,18 +12,13 @@ openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const Ba
                                      const std::vector<openvdb::Vec3f>& displacement,
                                      const SurfaceOptions& options, const Progress& progress)
 {
-    const openvdb::Vec3f none(0.0f);
-    auto grid = openvdb::Vec3SGrid::create(none);
-    grid->setTree(
-        std::make_shared<openvdb::Vec3STree>(surface.tree(), none, openvdb::TopologyCopy()));
-    grid->setTransform(surface.transform().copy());
-    grid->setName("v");
+    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "v", openvdb::Vec3f(0.0f));
     grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
     std::vector<openvdb::Vec3f> points;
     for (auto it = surface.cbeginValueOn(); it; ++it)
         points.emplace_back(surface.indexToWorld(it.getCoord()));
     const std::vector<std::int32_t> owner =
-        nearestBalls(atoms.balls, points, labelReach(atoms, options), progress);
+        nearestBalls(atoms.balls, points, Influence(atoms, options).ofLabel(), progress);
     std::size_t i = 0;
     for (auto it = grid->beginValueOn(); it; ++it, ++i)
         if (owner[i] >= 0) it.setValue(displacement[std::size_t(owner[i])]);

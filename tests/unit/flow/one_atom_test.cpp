@@ -116,7 +116,7 @@ TEST(Flow, ReportsItsHistory)
     EXPECT_EQ(r.volume.size(), r.energy.size());
     EXPECT_EQ(r.meanDisplacement.size(), std::size_t(r.steps));
     EXPECT_EQ(r.maxSpeed.size(), std::size_t(r.steps));
-    EXPECT_EQ(r.creviceVoxels, 0u);
+    EXPECT_EQ(r.unresolvedGapVoxels, 0u);
     const double exact = test::minimalRadius(R, {});
     EXPECT_NEAR(r.area.back() / (4.0 * M_PI * exact * exact), 1.0, 2e-3);
     EXPECT_NEAR(r.volume.back() / (4.0 / 3.0 * M_PI * std::pow(exact, 3)), 1.0, 2e-3);

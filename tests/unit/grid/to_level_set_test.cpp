@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace molsurf
 {
 namespace
@@ -45,6 +47,48 @@ TEST(ToLevelSet, KeepsValuesInTheBandAndSignsEverywhere)
     }
     EXPECT_GT(inside, 1000);
     EXPECT_EQ(read.getValue(Coord::round(ball.centre / voxel)), -float(width));
+}
+
+TEST(FromGrid, ReadsWhatToLevelSetWrote)
+{
+    const double voxel = 0.5, width = 1.5;
+    const test::Shape ball = test::sphere(7.0);
+    const LeafTable table = test::bandTable(ball.distance, ball.centre, ball.extent, voxel, width);
+    const SparseField phi = test::filled(table, voxel, ball.distance);
+    const SparseField read = fromGrid(*toLevelSet(phi, width, Progress()));
+    EXPECT_DOUBLE_EQ(read.voxelSize, voxel);
+    ASSERT_EQ(read.table.origins(), table.origins());
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        ASSERT_EQ(read.table.active(n).words, table.active(n).words);
+        for (int v = 0; v < leafSize; ++v) {
+            const bool active = table.active(n).on(v);
+            const float expected =
+                active ? phi.leaf(n)[v] : std::copysign(float(width), phi.leaf(n)[v]);
+            ASSERT_EQ(read.leaf(n)[v], expected);
+        }
+    }
+}
+
+TEST(Clipped, KeepsTheLeavesInTheBoxAsTheyAre)
+{
+    const test::Shape ball = test::sphere(7.0);
+    const LeafTable table = test::bandTable(ball.distance, ball.centre, ball.extent, 0.5, 1.5);
+    const SparseField phi = test::filled(table, 0.5, ball.distance);
+    const openvdb::CoordBBox box(Coord(0, -32, -32), Coord(7, 31, 31));
+    const SparseField part = clipped(copied(phi), box, Progress());
+    EXPECT_DOUBLE_EQ(part.voxelSize, 0.5);
+    std::size_t inside = 0;
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        const std::int32_t m = part.table.find(table.origin(n));
+        ASSERT_EQ(m != noLeaf, box.isInside(table.origin(n)));
+        if (m == noLeaf) continue;
+        ++inside;
+        ASSERT_EQ(part.table.active(m).words, table.active(n).words);
+        for (int v = 0; v < leafSize; ++v) ASSERT_EQ(part.leaf(m)[v], phi.leaf(n)[v]);
+    }
+    EXPECT_EQ(inside, part.table.size());
+    EXPECT_GT(inside, 4u);
+    EXPECT_LT(inside, table.size());
 }
 
 } // namespace

@@ -30,7 +30,7 @@ Fields fieldsOf(const std::vector<Ball>& balls, double voxel,
 {
     constexpr int width = 3;
     GaussianOptions options;
-    options.voxel = voxel;
+    options.voxelSize = voxel;
     options.reach = (width + 1.5) * voxel;
     const GaussianSum sum(balls, options);
     Fields f;

@@ -36,7 +36,7 @@ GaussianOptions optionsFor(double epsilon, double voxel)
 {
     GaussianOptions options;
     options.epsilon = epsilon;
-    options.voxel = voxel;
+    options.voxelSize = voxel;
     options.reach = 5.5 * voxel;
     return options;
 }
@@ -55,9 +55,9 @@ double errorNearZero(const std::vector<Ball>& balls, const GaussianOptions& opti
         for (int v = 0; v < leafSize; ++v) {
             const float value = psi.leaf(n)[v];
             EXPECT_TRUE(std::isfinite(value));
-            if (std::abs(value) * length > options.voxel || ++k % 7 != 0) continue;
+            if (std::abs(value) * length > options.voxelSize || ++k % 7 != 0) continue;
             const Vec3d x =
-                table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() * options.voxel;
+                table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() * options.voxelSize;
             worst = std::max(worst, length * std::abs(value - directPsi(balls, options, x)));
         }
     }
@@ -121,7 +121,8 @@ TEST(GaussianSum, OfOneBallIsQuadratic)
     for (const Coord& origin : {Coord(-8), Coord(0), Coord(8, 0, -8)}) {
         sum.evaluate(origin, 6.0, psi);
         for (int v = 0; v < leafSize; ++v) {
-            const Vec3d x = origin.offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() * options.voxel;
+            const Vec3d x =
+                origin.offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() * options.voxelSize;
             worst = std::max(worst, std::abs(psi[v] - directPsi(balls, options, x)));
         }
     }

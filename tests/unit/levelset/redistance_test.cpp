@@ -242,8 +242,7 @@ TEST(Redistance, IsExactBesideCreases)
     SplineSampler sampler(spline);
     const auto value = [&](const Vec3d& x) { return sampler.at(x).value; };
     const LeafTable table = test::bandTable(f, Vec3d(0.0), 9.0, fine, 5.0 * fine);
-    const auto grid =
-        toLevelSet(test::filled(table, fine, value), 2.0 * fine, Progress());
+    const auto grid = toLevelSet(test::filled(table, fine, value), 2.0 * fine, Progress());
     std::vector<Vec3d> points;
     for (const openvdb::Vec3f& p : verticesOf(*grid)) points.emplace_back(p);
     ASSERT_GT(points.size(), 20000u);

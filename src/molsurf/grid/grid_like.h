@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Grids on the voxels of others.
+
+#include <openvdb/openvdb.h>
+
+#include <memory>
+#include <string>
+
+namespace molsurf
+{
+
+/// Makes a grid on the active voxels of another, which all get the background's value, with the
+/// transform of that grid.
+template<typename GridT, typename SourceT>
+typename GridT::Ptr gridLike(const SourceT& source, const std::string& name,
+                             const typename GridT::ValueType& background)
+{
+    auto grid = GridT::create(background);
+    grid->setTree(std::make_shared<typename GridT::TreeType>(source.tree(), background,
+                                                             openvdb::TopologyCopy()));
+    grid->setTransform(source.transform().copy());
+    grid->setName(name);
+    return grid;
+}
+
+} // namespace molsurf
