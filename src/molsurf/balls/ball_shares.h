@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How a union of balls is shared out among them, in closed form.
+/// The cells of the power diagram of balls within their union, in closed form.
 
 #include "molsurf/ball.h"
 #include "molsurf/progress.h"
@@ -13,7 +13,7 @@
 namespace molsurf
 {
 
-/// Where the parts of two balls touch: in the plane of equal power distance.
+/// The facet between the parts of two balls, in the plane of equal power distance.
 struct ShareFacet {
     std::int32_t balls[2]; ///< indices in the caller's vector, ascending
     double area;           ///< [Å^2], > 0

@@ -40,7 +40,7 @@ bool isPrimed(const std::string& name)
 /// Parts of a polymer's residue, one bead each.
 enum class Part : std::uint8_t { Backbone, SideChain, Phosphate, Sugar, Base };
 
-/// What a residue is, by the names of its atoms.
+/// The kind of a residue, by the names of its atoms.
 enum class Kind : std::uint8_t { AminoAcid, Nucleotide, Other };
 
 Part partOf(Kind kind, const std::string& name)

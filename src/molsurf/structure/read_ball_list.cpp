@@ -20,7 +20,7 @@ namespace
 
 using std::string_view;
 
-/// Where a message points.
+/// The place in a file that a message names.
 struct Place {
     const std::string& path;
     const LineReader& lines;
@@ -79,7 +79,7 @@ std::array<double, n> lastNumbers(const Fields& fields, const std::array<const c
     return numbers;
 }
 
-/// Who an atom is, as far as the file says.
+/// The names and numbers that a file gives for an atom.
 struct Identity {
     std::string chain, residue, atom;
     int number = 0;

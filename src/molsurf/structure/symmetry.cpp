@@ -180,7 +180,7 @@ private:
     std::map<Cell, std::vector<std::size_t>> cells_;
 };
 
-/// Where a motion takes every copy; empty if it takes one where none is.
+/// The copies to whose places a motion moves every copy; empty if it moves one to where none is.
 std::vector<std::size_t> imagesOf(const Copies& copies, const Motion& motion)
 {
     std::vector<std::size_t> images(copies.size());
