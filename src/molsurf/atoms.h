@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Atoms as balls: which ones of a file, how large, and what is known of them.
+/// Reads atoms from a file and makes balls of them: which atoms, how large, and with which labels.
 
 #include "molsurf/ball.h"
 #include "molsurf/progress.h"
@@ -17,31 +17,37 @@
 namespace molsurf
 {
 
-/// What becomes of some or all atoms.
+/// A rule by which beads stand for some or all of the atoms.
 struct CoarseRule {
-    enum class Level { Atom, Residue, Cluster };
-    std::string select; ///< gemmi selections joined by '|'; empty: all
+    enum class Level {
+        Atom,    ///< Every atom is a ball of its own.
+        Residue, ///< An amino acid becomes two beads, a nucleotide three.
+        Cluster  ///< About as many neighbouring atoms as `atoms` says become a bead.
+    };
+    std::string select; ///< atoms that the rule is for: gemmi selections joined by '|'; empty: all
     Level level = Level::Atom;
-    int atoms = 1; ///< Cluster: about how many share a bead, >= 2
+    int atoms = 1; ///< atoms in a bead of Level::Cluster, about; >= 2 there, unused elsewhere
 };
 
-/// A group as asked for.
+/// A group of atoms that the caller asks for.
 struct GroupRule {
     std::string name;
-    std::string select;                               ///< gemmi selections joined by '|'
-    std::optional<std::array<std::uint8_t, 3>> color; ///< sRGB
-    std::string copies{}; ///< in these copies of the assembly, see parseCopies(); empty: all
-    std::vector<int> copyNumbers{}; ///< what `copies` comes to; empty: all
+    std::string select;                               ///< its atoms: gemmi selections joined by '|'
+    std::optional<std::array<std::uint8_t, 3>> color; ///< red, green, blue (sRGB), if one is wanted
+    std::string copies{}; ///< copies of the assembly that it is in: "1,7,20-25" or "fold:5", as in
+                          ///< SelectOptions::copies; empty: all
+    std::vector<int> copyNumbers{}; ///< the numbers that `copies` stands for, which readAtoms()
+                                    ///< finds; empty: all
 };
 
-/// A group as found.
+/// A group of balls that was found.
 struct Group {
     std::string name;
-    std::size_t balls = 0;
-    std::optional<std::array<std::uint8_t, 3>> color; ///< sRGB
+    std::size_t balls = 0;                            ///< number of its balls
+    std::optional<std::array<std::uint8_t, 3>> color; ///< red, green, blue (sRGB), if it has one
 };
 
-/// Kinds of residues that are coloured alike.
+/// Kinds of residues. Those of one kind have one colour with ColorBy::Residue.
 enum class ResidueClass : std::uint8_t {
     Hydrophobic,
     Aromatic,
@@ -53,86 +59,114 @@ enum class ResidueClass : std::uint8_t {
     Other
 };
 
-/// What is known of every ball, by its index.
+/// Labels of the balls: vectors whose names end in "Of" have one entry for every ball.
 struct BallLabels {
-    std::vector<std::int32_t> chainOf;        ///< index into chains
-    std::vector<std::string> chains;          ///< "A", in an assembly's second copy "A-2"
-    std::vector<std::int32_t> groupOf;        ///< index into groups, or -1
-    std::vector<Group> groups;                ///< those asked for, in their order
-    std::vector<std::uint8_t> elementOf;      ///< atomic number; 0: unknown
-    std::vector<ResidueClass> residueClassOf; ///< by the residue's name
-    std::vector<std::string> warnings;        ///< groups that lost atoms to later ones, ...
-    /// sRGB, one a chain; empty: chosen by contacts, see chainColors().
+    std::vector<std::int32_t> chainOf; ///< index into `chains`
+    std::vector<std::string>
+        chains; ///< name of each chain: "A", in an assembly's second copy "A-2"
+    std::vector<std::int32_t> groupOf;        ///< index into `groups`; -1: the ball is in no group
+    std::vector<Group> groups;                ///< the groups that were asked for, in their order
+    std::vector<std::uint8_t> elementOf;      ///< atomic number; 0: the element is unknown
+    std::vector<ResidueClass> residueClassOf; ///< the kind of the ball's residue
+    std::vector<std::string>
+        warnings; ///< one line each, as of groups that lost atoms to later ones
+    /// Red, green, blue (sRGB) of each chain. If it is empty the library chooses colours of which
+    /// chains that touch have different ones.
     std::vector<std::array<std::uint8_t, 3>> chainColors{};
 };
 
-/// A resolution, for some or all atoms.
+/// A rule by which the Gaussians of some or all atoms are blurred to a resolution d: they fall off
+/// at the rate pi^2 / d^2 (C. Bajaj, G. Xu and Q. Zhang, A fast variational method for the
+/// construction of resolution adaptive C2-smooth molecular surfaces, 2009).
 struct ResolutionRule {
-    std::string select; ///< gemmi selections joined by '|'; empty: all
+    std::string select; ///< atoms that the rule is for: gemmi selections joined by '|'; empty: all
     double resolution;  ///< d [Å], in [minResolution, maxResolution]
 };
+
+/// The range of ResolutionRule::resolution [Å].
 constexpr double minResolution = 1.0, maxResolution = 50.0;
 
-/// Which atoms are used, and how large they are.
+/// Options that say which atoms are used and how large they are.
 struct SelectOptions {
-    std::string select;            ///< gemmi selections joined by '|', see matchAtoms(); empty: all
-    int model = 0;                 ///< number in the file; 0: that of the selection, or the first
-    std::string assembly = "none"; ///< name in the file, or "none": the coordinates as they stand
-    std::string copies;            ///< "1,7,20-25" or "fold:5", see parseCopies(); empty: all
-    std::string altloc;            ///< "": the highest occupancy; "A": blank and that label; "all"
-    bool hydrogens = true;         ///< keep the hydrogens (and deuterium) of the file
-    bool hetero = true;            ///< keep ligands and ions
-    bool waters = false;           ///< keep waters
-    std::string radii = "bondi";   ///< name of a set, or the path of a radii file, see readRadii()
-    std::vector<CoarseRule> coarse;          ///< later ones win
-    std::vector<ResolutionRule> resolutions; ///< later ones win
-    std::vector<GroupRule> groups;           ///< later ones win
-    std::string groupBy;                     ///< groups by chain, entity, ...; see labelBalls()
-    bool labels = false;                     ///< label the balls, also without groups
+    /// The atoms to use: gemmi selections joined by '|', as "A" or "A/10-20|B"; empty: all.
+    std::string select;
+    int model = 0; ///< number of the model in the file; 0: the one that `select` names, or the
+                   ///< first
+    std::string assembly = "none"; ///< name of an assembly in the file; "none": the atoms stay
+                                   ///< where they stand in the file
+    /// The copies of the assembly to use: numbers from 1, as "1,7,20-25", or "fold:5" for those
+    /// about the nearest five-fold axis; empty: all.
+    std::string copies;
+    /// The alternate locations to use: those of this label and those without one, or "all"; empty:
+    /// those of the highest occupancy.
+    std::string altloc;
+    bool hydrogens = true; ///< whether hydrogen and deuterium of the file are used
+    bool hetero = true;    ///< whether ligands and ions are used
+    bool waters = false;   ///< whether waters are used
+    /// The radii of the atoms: "bondi", "alvarez", "gemmi", for beads of a coarse-grained file
+    /// "martini2" or "martini3", or the path of a file with a rule on each line: "C 1.70",
+    /// "ALA CB 1.90", or with "*" for any element or residue.
+    std::string radii = "bondi";
+    std::vector<CoarseRule> coarse;          ///< beads; of two rules for an atom the later one wins
+    std::vector<ResolutionRule> resolutions; ///< resolutions; the later rule wins
+    std::vector<GroupRule> groups;           ///< groups; the later rule wins
+    /// Makes the groups instead of `groups`: "chain", "entity" (chains of the same residues),
+    /// "copy" (of the assembly), or "residues:N" (N residues of a chain each); empty: it makes
+    /// none.
+    std::string groupBy;
+    bool labels = false; ///< whether the balls are labelled even if there are no groups
 };
 
-/// Atoms left out for one reason.
+/// A number of atoms that are left out for one reason.
 struct Excluded {
     std::string reason; ///< "not selected", "water", "ligand or ion", "hydrogen", "dummy",
                         ///< "alternate location", "zero radius", "not in the assembly"
     std::size_t count;
 };
 
-/// The balls that a resolution rule applies to.
+/// The balls that have the resolution of one rule.
 struct ResolutionGroup {
     ResolutionRule rule;
-    std::size_t balls = 0; ///< those that no later rule has
-    double level = 0.0;    ///< of their Gaussians, see Decay
+    std::size_t balls = 0; ///< number of its balls, without those of later rules
+    double level = 0.0;    ///< Decay::level of all of them
 };
 
-/// The balls, and what was done to get them.
+/// Balls with their labels, and a record of how they were chosen.
 struct BallSet {
     std::vector<Ball> balls;
-    std::vector<Decay> decays;                ///< one a ball; empty without resolution rules
-    std::vector<ResolutionGroup> resolutions; ///< one a rule
-    std::vector<std::int32_t> resolutionOf;   ///< rule of each ball, or -1; empty without rules
-    std::vector<Excluded> drops;        ///< counted in one model, before the assembly is expanded
-    std::size_t copies = 1;             ///< assembly operators applied, 1 without an assembly
+    std::vector<Decay> decays; ///< one a ball; empty if there are no resolution rules
+    std::vector<ResolutionGroup> resolutions; ///< one for each rule, in their order
+    std::vector<std::int32_t> resolutionOf;   ///< index of each ball's rule, or -1; empty if there
+                                              ///< are no rules
+    std::vector<Excluded> drops; ///< atoms left out of the model, before the assembly is made
+    std::size_t copies = 1;      ///< copies that the assembly makes; 1 without an assembly
     std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
-    std::vector<int> copyNumbers;       ///< of copy i in the whole assembly, from 1
-    std::size_t beads = 0;              ///< balls that a coarse rule made
-    std::size_t beadAtoms = 0;          ///< atoms that these stand for
-    std::optional<BallLabels> labels;   ///< if asked for, or with groups
-    std::vector<std::array<std::uint8_t, 3>> colors; ///< sRGB, one a ball; empty: not chosen
+    std::vector<int> copyNumbers;       ///< number of copy i in the whole assembly, from 1
+    std::size_t beads = 0;              ///< balls that coarse rules made
+    std::size_t beadAtoms = 0;          ///< atoms that these balls stand for
+    std::optional<BallLabels> labels;   ///< present if they were asked for or if there are groups
+    std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue (sRGB), one a ball; empty
+                                                     ///< if the caller chose none
     int model = 0;                                   ///< number of the model that was used
-    std::vector<std::string> warnings; ///< one line each: unknown elements, missing altloc, ...
+    std::vector<std::string> warnings;               ///< one line each, as of unknown elements
 };
 
-/// @throws Error(ErrorKind::Usage) for an option that is wrong whatever the file holds
+/// Checks the options.
+/// @throws Error(ErrorKind::Usage) if one of them is wrong whatever the file holds
 void checkOptions(const SelectOptions& options);
 
-/// Reads atoms from a file: .pdb, .ent, .cif, .mmcif, .pqr or .xyzr, each also .gz. The content
-/// says which it is, not the name.
+/// Reads atoms from a file of the format PDB, mmCIF, PQR or XYZR, which may be compressed by gzip.
+/// The content tells the format; the name does not matter.
 ///
-/// @param[in] path   a file, or "-" for standard input
-/// @param[in] probe  that the surface is made with: radii of beads depend on it [Å]
+/// @param[in] path      the path of the file, or "-" for standard input
+/// @param[in] options   which atoms are used and how large they are
+/// @param[in] probe     the probe radius of the surface that will be made [Å], see probeOf(); the
+///                      radii of beads depend on it
+/// @param[in] progress  may end the reading
+/// @return at least one ball, in the order of the file, copy by copy of the assembly
 /// @throws Error(ErrorKind::Input) if the file cannot be read, or nothing of it is left
 /// @throws Error(ErrorKind::Usage) if an option does not suit the file
+/// @throws Cancelled if the progress object says so
 BallSet readAtoms(const std::string& path, const SelectOptions& options = {}, double probe = 0.0,
                   const Progress& progress = Progress());
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// The only thing the numerical stages know of a molecule.
+/// Balls: all that the numerical stages know of a molecule.
 
 #include <openvdb/Types.h>
 
@@ -11,17 +11,19 @@
 namespace molsurf
 {
 
-/// An atom, or a bead that stands for several, as a ball.
+/// A ball that stands for an atom, or for a bead of several atoms.
 struct Ball {
-    openvdb::Vec3f center; ///< [Å]
+    openvdb::Vec3f center; ///< position of the centre [Å]
     float radius;          ///< van der Waals radius [Å], > 0
     std::int32_t atom;     ///< index of the atom in the structure it came from
 };
 
-/// How the Gaussian of a ball falls off: its term is exp(level - rate (|x - x_i|^2 - R_i^2)).
+/// The fall-off of a ball's Gaussian, whose term in the sum is
+/// exp(level - rate (|x - x_i|^2 - R_i^2)) with the ball's centre x_i and R_i, its radius plus that
+/// of the probe. docs/math.md, section 2.
 struct Decay {
-    float rate = 0.0f;  ///< C [1/Å^2]; 0: by the tolerance of the run
-    float level = 0.0f; ///< > 0 swells the ball, < 0 shrinks it
+    float rate = 0.0f;  ///< C [1/Å^2], >= 0; 0: the rate that the options of the run give
+    float level = 0.0f; ///< no unit; above 0 swells the ball, below 0 shrinks it
 };
 
 } // namespace molsurf

@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// Surfaces that are too large for one piece: space is cut into bricks, which are computed one by
-/// one, in this process or in others, and merged.
+/// Makes surfaces that are too large for one piece. Space is cut into bricks, which are computed
+/// one by one, in this process or in others, and merged.
 
 #include "molsurf/atoms.h"
 #include "molsurf/options.h"
@@ -20,70 +20,83 @@
 namespace molsurf
 {
 
-/// One brick: a box of whole leaves.
+/// A brick: a box of whole leaves of the grid, each of 8^3 voxels.
 struct PlannedBrick {
-    openvdb::CoordBBox box;
-    std::size_t atoms = 0;  ///< balls whose centres lie in it
-    std::size_t voxels = 0; ///< expected active voxels of the grid `surface` in it
-    std::size_t bytes = 0;  ///< expected peak memory of the process that computes it
-    double seconds = 0.0;   ///< expected time on one core
+    openvdb::CoordBBox box; ///< its voxels
+    std::size_t atoms = 0;  ///< number of balls whose centres lie in the box
+    std::size_t voxels = 0; ///< expected number of active voxels of the grid `surface` in the box
+    std::size_t bytes = 0;  ///< expected peak memory of the process that computes it [byte]
+    double seconds = 0.0;   ///< expected time on one core [s]
 };
 
-/// The bricks, and what all of them have to agree on.
+/// A list of bricks, and the numbers that all of them use.
 struct BrickPlan {
-    std::vector<PlannedBrick> bricks; ///< they do not overlap, and hold the whole surface
-    int steps = 0;                    ///< of the flow
-    openvdb::Coord anchor;            ///< positions in sums are taken from this voxel
-    double maxRadius = 0.0;           ///< largest radius of all balls [Å]
-    double maxGrownRadius = 0.0; ///< the same with the probe, and with what a resolution adds [Å]
-    double maxTolerance = 0.0;   ///< largest tolerance of their Gaussians [Å]
-    std::size_t atoms = 0;       ///< balls
-    bool keepsMemory = false;    ///< freed pages stay in the process for the next brick
+    std::vector<PlannedBrick> bricks; ///< boxes that do not overlap and hold the whole surface
+    int steps = 0;                    ///< number of steps of the flow
+    openvdb::Coord anchor;            ///< voxel that positions in sums are relative to
+    /// Of all balls: the largest radius, the largest one with probe and level (see Decay), and the
+    /// largest tolerance of a Gaussian [Å].
+    double maxRadius = 0.0, maxGrownRadius = 0.0, maxTolerance = 0.0;
+    std::size_t atoms = 0;    ///< number of balls
+    bool keepsMemory = false; ///< whether a process keeps the memory of one brick for the next
+                              ///< instead of returning it to the system
 };
 
-/// Steps of the flow where the plan has to fix them. At the default tolerance a run of a whole
-/// molecule stops after 5 to 15.
+/// The number of steps of the flow if the options do not fix it: bricks have to make the same
+/// number. A run of a whole molecule stops after 5 to 15 steps at the default tolerance.
 constexpr int defaultBrickSteps = 12;
 
-/// Limits for planBricks(): a number of bricks or a memory limit; exactly one is set.
+/// Limits for planBricks(): a number of bricks or a memory limit. Exactly one of both is set.
 struct BrickLimits {
-    std::size_t bricks = 0; ///< number wanted; there may be fewer where the molecule is small
-    std::size_t memory = 0; ///< peak memory of a process [byte]
-    /// Whether one process computes the bricks one after another. It may then keep memory for the
-    /// next, which is faster than to ask for it again, if the bricks need not be much smaller.
+    std::size_t bricks =
+        0; ///< number of bricks, of which a small molecule may give fewer; 0: not set
+    std::size_t memory = 0; ///< peak memory of a process [byte]; 0: not set
+    /// Whether one process computes all bricks, one after another. It may then keep freed memory
+    /// for the next brick, which is faster, if bricks need not become much smaller for that.
     bool oneProcess = false;
 };
 
-/// Cuts space into boxes with about as much surface each, along planes between leaves, the longest
-/// edge first.
+/// Plans bricks: cuts space along planes between leaves into boxes with about the same area of
+/// surface, across the longest edge first.
 ///
 /// With a limit of memory a box is cut until the process that computes it, which also holds all
 /// balls, is expected to need less.
 ///
-/// @param[in] options  of one surface in one piece, see the errors
-/// @throws Error(ErrorKind::Usage) for options that need the whole molecule at once
-/// @throws Error(ErrorKind::Input) if the smallest brick does not fit; says what would
+/// @param[in] atoms     the balls of the whole molecule
+/// @param[in] options   the options of the surface
+/// @param[in] progress  may end the planning
+/// @throws Error(ErrorKind::Usage) if an option needs the whole molecule at once
+/// @throws Error(ErrorKind::Input) if even the smallest brick needs more memory, which the
+///         message tells
+/// @throws Cancelled if the progress object says so
 BrickPlan planBricks(const BallSet& atoms, const SurfaceOptions& options, const BrickLimits& limits,
                      const Progress& progress = Progress());
 
 /// Computes a brick of a plan and writes its file.
 ///
-/// @param[in] balls   all of the molecule, not those of the brick alone
-/// @param[in] number  of the brick, from 1
-/// @throws Error(ErrorKind::Usage) for options that need the whole molecule at once
+/// @param[in] balls     the balls of the whole molecule, as for planBricks()
+/// @param[in] options   the options that the plan was made with
+/// @param[in] number    the number of the brick in the plan, from 1
+/// @param[in] path      the file to write, for mergeBricks()
+/// @param[in] progress  follows the run and may end it; null: nobody does
+/// @throws Error(ErrorKind::Usage) if an option needs the whole molecule at once
 /// @throws Error(ErrorKind::Output) if the file cannot be written
+/// @throws Cancelled if the progress object says so
 void makeBrick(const BallSet& balls, const SurfaceOptions& options, const BrickPlan& plan,
                std::size_t number, const std::string& path, Progress* progress = nullptr);
 
-/// Joins all bricks of a plan to one level set and one closed mesh, neither of which is ever held
-/// in memory.
+/// Joins all bricks of a plan to one level set and one closed mesh, neither of which is ever in
+/// memory as a whole.
 ///
-/// @param[in] bricks  files of makeBrick(), in the order of the plan
-/// @param[in] vdb     OpenVDB file to write; empty: none
-/// @param[in] ply     mesh to write, as .ply; empty: none
-/// @return what is known of the surface
+/// @param[in] bricks    the files that makeBrick() wrote, in the order of the plan
+/// @param[in] options   the options that the plan was made with
+/// @param[in] vdb       the OpenVDB file to write; empty: none
+/// @param[in] ply       the mesh to write, a .ply file; empty: none
+/// @param[in] progress  follows the run and may end it; null: nobody does
+/// @return measures of the surface
 /// @throws Error(ErrorKind::Input) if a brick is missing or belongs to another plan
 /// @throws Error(ErrorKind::Output) if a file cannot be written
+/// @throws Cancelled if the progress object says so
 Report mergeBricks(const std::vector<std::string>& bricks, const BrickPlan& plan,
                    const SurfaceOptions& options, const std::string& vdb, const std::string& ply,
                    Progress* progress = nullptr);

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// The one exception of the library.
+/// The exception that the library throws, and the kinds of errors that it tells apart.
 
 #include <stdexcept>
 #include <string>
@@ -10,23 +10,24 @@
 namespace molsurf
 {
 
-/// What went wrong, as far as a caller can act on it.
+/// The kinds of errors, as far as a caller can act on them.
 enum class ErrorKind {
-    Usage,   ///< an option has a value that is wrong whatever the files hold
-    Input,   ///< a file cannot be read, or does not hold what it should
-    Numeric, ///< the computation has no answer: no surface, not a number
-    Output,  ///< a file cannot be written
-    Check,   ///< a result contradicts itself: two ways to the same number disagree
+    Usage,   ///< An option has a value that is wrong whatever the files hold.
+    Input,   ///< A file cannot be read, or it does not hold what it should.
+    Numeric, ///< The computation has no answer: there is no surface, or a value is not finite.
+    Output,  ///< A file cannot be written.
+    Check,   ///< A result contradicts itself: two ways to the same number disagree.
 };
 
-/// Thrown at the entry points of the stages, never inside a kernel. The message names the step or
-/// the file, what was expected and what was found, in one line without a final full stop. Options
-/// stand in it as their members are called, in backticks: "`voxel`: expected 0.05 to 10 Å, got 20".
+/// Every error of the library is of this class. The message is one line without a final full stop.
+/// It names the step or the file, what was expected and what was found. It names an option by its
+/// member, in backticks: "`voxel`: expected 0.05 to 10 Å, got 20".
 class Error : public std::runtime_error
 {
 public:
     Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
 
+    /// Tells what kind of error it is.
     ErrorKind kind() const { return kind_; }
 
 private:

@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// Surfaces to files and meshes from files. A file is whole or not there: it is written beside its
-/// place and moved into it at the end.
+/// Writes surfaces to files and reads meshes from files. A file is written under a temporary name
+/// in its folder and renamed when it is complete, so a failure leaves none.
 
 #include "molsurf/mesh.h"
 #include "molsurf/report.h"
@@ -14,37 +14,42 @@
 namespace molsurf
 {
 
-/// Writes a mesh. The end of the name tells the format: .ply (binary, with all attributes), .obj,
-/// .stl, .off, .glb or .3mf.
+/// Writes a mesh in the format that the extension tells: .ply (binary, with all attributes), .obj,
+/// .stl, .off, .glb or .3mf. Lengths are in Å.
 /// @param[in] replace  whether a file that exists may be replaced
-/// @throws Error(ErrorKind::Usage) if the name has another end
-/// @throws Error(ErrorKind::Output) if the file cannot be written
+/// @throws Error(ErrorKind::Usage) if the extension is another one
+/// @throws Error(ErrorKind::Output) if the file cannot be written, or if it exists and may not be
+///         replaced
 void writeMesh(const Mesh& mesh, const std::string& path, bool replace = true);
 
-/// Writes the grids of a surface, the level set first, as OpenVDB file.
+/// Writes the grids of a surface as an OpenVDB file, the level set first.
+/// @param[in] replace  whether a file that exists may be replaced
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeVdb(const MolecularSurface& surface, const std::string& path, bool replace = true);
 
 /// Writes a report as JSON.
+/// @param[in] replace  whether a file that exists may be replaced
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeReport(const Report& report, const std::string& path, bool replace = true);
 
 /// Draws a mesh and writes the picture as PNG.
-/// @param[in] width  of the picture [pixel]; the height follows the shape
+/// @param[in] width    width of the picture [pixel], in [16, 16384]; the height follows the shape
+/// @param[in] replace  whether a file that exists may be replaced
+/// @throws Error(ErrorKind::Usage) if the width is out of its range
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writePicture(const Mesh& mesh, const std::string& path, int width = 1200, bool replace = true);
 
-/// Reads positions and triangles of a .ply (text or binary, either byte order), .obj or .stl (text
-/// or binary) file; the extension says which. Polygons are split into fans. Normals, colours and
-/// other attributes, materials and groups are passed over.
+/// Reads positions and triangles from a file in the format that the extension tells: .ply (text or
+/// binary, of either byte order), .obj, or .stl (text or binary). Polygons are split into fans.
+/// Normals, colours and other attributes, materials and groups are skipped.
 ///
-/// Vertices at the same place become one in a .stl file, which shares none, and in the others if
-/// the mesh is not closed without that. Triangles with two corners in one place are dropped,
-/// and so are vertices of no triangle.
+/// Vertices at the same place become one in a .stl file, whose triangles share none, and in others
+/// if the mesh is not closed otherwise. Triangles with two corners at the same place are dropped,
+/// and so are vertices without triangles.
 ///
 /// @return a mesh with at least one triangle, positions finite and below 1e6 Å, without normals
 /// @throws Error(ErrorKind::Input) if the file cannot be read, is damaged or cut short, or has no
-///         triangle; the message has the line, vertex or face
+///         triangle; the message names the line, vertex or face
 Mesh readMesh(const std::string& path);
 
 } // namespace molsurf

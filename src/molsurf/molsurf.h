@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// All of the library.
+/// Includes every public header of the library.
 
 #include "molsurf/atoms.h"
 #include "molsurf/ball.h"

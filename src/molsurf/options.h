@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Every option of a run with its default, in one place.
+/// The options of a surface with their defaults.
 
 #include "molsurf/error.h"
 
@@ -13,84 +13,99 @@
 namespace molsurf
 {
 
-/// The surfaces that can be built.
+/// The kinds of surfaces. r_i is the radius of ball i, r_b that of the probe.
 enum class SurfaceKind {
-    Variational,       ///< the minimiser of the energy, offset inward by the probe radius
+    Variational,       ///< the minimiser of the energy, offset inward by r_b
     SolventExcluded,   ///< the union of balls of radius r_i + r_b, offset inward by r_b
     SolventAccessible, ///< the union of balls of radius r_i + r_b
     VanDerWaals,       ///< the union of balls of radius r_i
     Gaussian           ///< sum_i exp(-(d/r_i^2) (|x - x_i|^2 - r_i^2)) = 1
 };
 
-/// What the colours of the surface tell.
+/// Properties that the colours of a surface may show.
 enum class ColorBy { Nothing, Chain, Group, Element, Residue, MeanCurvature, GaussianCurvature };
 
-/// The term that lambda weighs in the energy density  w = g^2 + lambda h  (the paper's
-/// equations 2.6 and 2.7): h = |grad g|^2 or h = 1.
-enum class Regularizer { Gradient, Area };
+/// The term h that lambda weighs in the energy density w = g^2 + lambda h, after the paper's
+/// equations 2.6 and 2.7. docs/math.md, section 4.
+enum class Regularizer {
+    Gradient, ///< h = |grad g|^2
+    Area      ///< h = 1
+};
 
-/// How the speed is scaled: by the paper's own time step, or by an approximate second derivative of
-/// the energy (docs/math.md, section 4).
-enum class Flow { Preconditioned, Plain };
+/// The ways to scale the speed of the flow. docs/math.md, section 4.
+enum class Flow {
+    Preconditioned, ///< by an approximate second derivative of the energy
+    Plain           ///< by the paper's own time step
+};
 
-/// SurfaceOptions of evolve().
+/// Options of the flow that minimises the energy of the variational surface.
 struct EvolveOptions {
-    double lambda = 0.01; ///< weight of the regulariser; [Å^2] for Gradient, no unit for Area; >= 0
+    double lambda = 0.01; ///< weight of the regulariser, in [0, 1e6]; [Å^2] for
+                          ///< Regularizer::Gradient, no unit for Regularizer::Area
     Regularizer regularizer = Regularizer::Gradient;
     Flow flow = Flow::Preconditioned;
-    int maxSteps = -1; ///< < 0: 50 for the preconditioned flow, fewer where it stalls; 2000 for the
-                       ///< plain one
-    int steps = -1;    ///< >= 0: so many, whether it has converged or not
-    int splineLevel =
-        0; ///< curvature by the spline on voxels of edge 2^level h; 0: on h, by differences
-    double energyTolerance = 1e-4;       ///< relative change of the energy in a step
-    double displacementTolerance = 0.01; ///< area-weighted mean displacement in a step [voxel]
+    int maxSteps = -1; ///< largest number of steps; below 0: 50 for the preconditioned flow, which
+                       ///< ends earlier where it stalls, and 2000 for the plain one
+    int steps = -1;    ///< number of steps, whether the flow converges or not; below 0: until it
+                       ///< converges or `maxSteps` is reached
+    /// L > 0: the flow takes curvatures from a spline on voxels of edge 2^L h. 0: it takes them
+    /// from differences on voxels of edge h.
+    int splineLevel = 0;
+    /// The flow has converged when both of these are met: the relative change of the energy in a
+    /// step, > 0, and the area-weighted mean displacement in a step [voxel], > 0.
+    double energyTolerance = 1e-4;
+    double displacementTolerance = 0.01;
 };
 
-/// What surface is wanted, and how fine.
+/// Options that say which surface is made and how fine.
 struct SurfaceOptions {
     SurfaceKind kind = SurfaceKind::Variational;
-    double blobbiness = 2.3;          ///< d of the Gaussian surface, in [0.1, 100]
-    double probe = 1.4;               ///< probe radius r_b [Å], >= 0
-    double voxel = 0.5;               ///< edge h of a voxel [Å], in [0.05, 10]
-    double epsilon = 0.5;             ///< tolerance eps of the Gaussian sum [Å], > 0
-    ColorBy color = ColorBy::Nothing; ///< colours of the mesh's vertices and of the grid Cd
-    bool split = false;               ///< a surface for every group of atoms
-    /// Groups that have a surface of their own, and its kind.
+    double blobbiness = 2.3; ///< d of the Gaussian surface, no unit, in [0.1, 100]
+    double probe = 1.4;      ///< probe radius r_b [Å], in [0, 100]
+    double voxel = 0.5;      ///< edge h of a voxel [Å], in [0.05, 10]
+    double epsilon = 0.5;    ///< tolerance eps of the Gaussian sum [Å], in [0.01, 10]
+    ColorBy color =
+        ColorBy::Nothing; ///< property that colours the mesh's vertices and the grid `Cd`
+    bool split = false;   ///< whether every group of atoms gets a surface of its own
+    /// Names of groups that get a surface of their own, and the kind of each.
     std::vector<std::pair<std::string, SurfaceKind>> surfaceOf;
-    bool interfaces = false;   ///< buried areas between groups, for the report
-    bool matchVolume = false;  ///< resolution rules keep the enclosed volume, see matchVolumes()
-    EvolveOptions evolution;   ///< lambda, regulariser, flow, stopping rule
-    int splineLevel = 0;       ///< the spline lives on voxels of edge 2^level h; 0, 1 or 2
-    bool fillCavities = false; ///< drop the inner walls
-    double minWall = 0.0;      ///< thicken what is thinner [Å], see thickenWalls(); 0: nothing
-    /// Further grids to keep, of fieldNames(); curvatures are then vertex attributes, too.
+    bool interfaces = false; ///< whether the report has the areas that groups bury between them
+    bool matchVolume =
+        false; ///< whether balls with a resolution enclose the volume that they have without
+    EvolveOptions evolution;   ///< options of the flow, for the variational surface
+    int splineLevel = 0;       ///< L in 0, 1, 2: the spline lies on voxels of edge 2^L h
+    bool fillCavities = false; ///< whether the inner walls of closed cavities are removed
+    double minWall = 0.0;      ///< thinner parts are thickened to this [Å], >= 0; 0: none is
+    /// Names of further grids to make: "sas", "spline", "density", "atom_id", "chain_id",
+    /// "group_id", "Cd", or a curvature as "mean_curvature", which the mesh then has as well.
     std::vector<std::string> fields;
-    bool meshLabels = true;       ///< tell atom, chain and group of the mesh's vertices
-    bool curvatureTotals = false; ///< integrate curvature over the surface, for the report
+    bool meshLabels = true; ///< whether the mesh has the atom, chain and group of its vertices
+    bool curvatureTotals = false; ///< whether the report has the integrals of curvature
 };
 
-/// The smallest and largest voxel edge that is taken, and the one above which a surface of atoms is
-/// no longer one [Å].
+/// The range of SurfaceOptions::voxel [Å], and the edge above which voxels are too coarse for a
+/// surface that shows atoms [Å].
 constexpr double minVoxel = 0.05, maxVoxel = 10.0, coarseVoxel = 1.0;
 
-/// The probe radius that the surface is made with [Å]; 0 for the van der Waals and the Gaussian
-/// surface.
+/// Returns the probe radius that the surface is made with [Å]. It is 0 for the van der Waals and
+/// the Gaussian surface, whatever SurfaceOptions::probe is.
 double probeOf(const SurfaceOptions& options);
 
-/// A user's word: variational, ses, sas, vdw, gaussian.
+/// Returns the word of the command line for a kind: variational, ses, sas, vdw, gaussian.
 const char* nameOf(SurfaceKind kind);
 
-/// A user's word: none, chain, group, element, residue, mean-curvature, gaussian-curvature.
+/// Returns the word of the command line for a property: none, chain, group, element, residue,
+/// mean-curvature, gaussian-curvature.
 const char* nameOf(ColorBy color);
 
-/// A user's word: gradient, area.
+/// Returns the word of the command line for a regulariser: gradient, area.
 const char* nameOf(Regularizer regularizer);
 
-/// A user's word: preconditioned, plain.
+/// Returns the word of the command line for a flow: preconditioned, plain.
 const char* nameOf(Flow flow);
 
-/// @throws Error(ErrorKind::Usage) for an option out of its range; names the member
+/// Checks the options.
+/// @throws Error(ErrorKind::Usage) if an option is out of its range; the message names its member
 void checkOptions(const SurfaceOptions& options);
 
 } // namespace molsurf

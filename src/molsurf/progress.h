@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How the library tells how far it is, and how it is asked to stop.
+/// The object by which a caller follows a run and stops it.
 
 #include "molsurf/error.h"
 
@@ -17,23 +17,25 @@ class Progress
 public:
     virtual ~Progress() = default;
 
-    /// Called from the thread that runs the pipeline.
-    /// @param[in] stage     name of the stage, for example "evolve"; a literal
-    /// @param[in] fraction  done part of this stage, in [0, 1]
+    /// The library calls this from the thread that called it, as the work goes on.
+    /// @param[in] stage     the name of the stage, for example "evolve"; a string literal
+    /// @param[in] fraction  the part of this stage that is done, in [0, 1]
     virtual void update(const char* stage, double fraction)
     {
         static_cast<void>(stage);
         static_cast<void>(fraction);
     }
 
-    /// True once the caller wants the run to stop. Called from every thread.
+    /// Returns true once the caller wants the run to stop. The library calls this from all of its
+    /// threads at the same time, so it must be safe to do so.
     virtual bool cancelled() const { return false; }
 };
 
-/// Tells nobody of runs within a run, but lets them be stopped.
+/// Progress of a run within another run: nobody is told of it, but the outer one can stop it.
 class QuietProgress : public Progress
 {
 public:
+    /// @param[in] outer  the progress of the outer run; it must outlive this object
     explicit QuietProgress(const Progress& outer) : outer_(outer) {}
     bool cancelled() const override { return outer_.cancelled(); }
 
@@ -41,7 +43,8 @@ private:
     const Progress& outer_;
 };
 
-/// Thrown by a stage that found Progress::cancelled() true. Not an Error: nothing went wrong.
+/// A stage throws this when Progress::cancelled() returns true. It is not an Error, since nothing
+/// went wrong.
 class Cancelled : public std::exception
 {
 public:

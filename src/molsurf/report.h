@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// The report of a run on itself and its result: the content of the .json file.
+/// The report on a surface and on the run that made it: the content of the .json file.
 
 #include <array>
 #include <cstdint>
@@ -14,35 +14,37 @@
 namespace molsurf
 {
 
-/// A closed inner wall of the surface.
+/// A cavity: a closed inner wall of the surface.
 struct Cavity {
-    double area;   ///< [Å^2]
-    double volume; ///< [Å^3], positive
+    double area;   ///< area of the wall [Å^2]
+    double volume; ///< volume inside the wall [Å^3], > 0
 };
 
-/// The percentiles of Statistics.
+/// The percentages that Statistics::percentiles has values for.
 constexpr std::array<int, 9> percents = {1, 5, 10, 25, 50, 75, 90, 95, 99};
 
-/// How a quantity is distributed over the area of a surface, in its unit.
+/// The distribution of a quantity over the area of a surface, in the unit of the quantity.
 struct Statistics {
     double mean = 0.0;
     double standardDeviation = 0.0;
     double min = 0.0;
     double max = 0.0;
-    std::array<double, percents.size()> percentiles = {}; ///< the values below which there is as
-                                                          ///< many percent of the area
+    std::array<double, percents.size()> percentiles = {}; ///< values that `percents` of the area
+                                                          ///< do not exceed
 };
 
-/// Integrals over a closed surface, walls of cavities included.
+/// Integrals over a closed surface, the walls of cavities included. docs/math.md, section 9.
 struct SurfaceIntegrals {
-    double area = 0.0;                 ///< [Å^2]
-    double volume = 0.0;               ///< [Å^3]
-    double meanCurvature = 0.0;        ///< of H [Å]
-    double gaussianCurvature = 0.0;    ///< of K [sr]: 2 pi times the Euler characteristic
-    double squaredMeanCurvature = 0.0; ///< of H^2 (Willmore) [1]: at least 4 pi
-    double unresolvedArea = 0.0;       ///< part of the area over which H and H^2 were not
-                                       ///< integrated [Å^2]
+    double area = 0.0;              ///< [Å^2]
+    double volume = 0.0;            ///< [Å^3]
+    double meanCurvature = 0.0;     ///< integral of the mean curvature H [Å]
+    double gaussianCurvature = 0.0; ///< integral of the Gaussian curvature K [sr]: 2 pi times the
+                                    ///< Euler characteristic
+    double squaredMeanCurvature = 0.0; ///< integral of H^2 (Willmore), no unit: at least 4 pi
+    double unresolvedArea = 0.0;       ///< part of the area that H and H^2 are not integrated over,
+                                       ///< at gaps that the voxels do not resolve [Å^2]
 
+    /// Adds the integrals of another surface.
     SurfaceIntegrals& operator+=(const SurfaceIntegrals& o)
     {
         area += o.area;
@@ -57,55 +59,59 @@ struct SurfaceIntegrals {
 
 /// Area, volume and topology of a closed surface.
 struct SurfaceReport {
-    std::string kind = "variational";
-    double area = 0.0;   ///< of all walls [Å^2]
-    double volume = 0.0; ///< enclosed, cavities left out [Å^3]
-    int eulerCharacteristic = 0;
-    int components = 0; ///< closed pieces that are not cavity walls
+    std::string kind = "variational"; ///< a word of nameOf(SurfaceKind)
+    double area = 0.0;                ///< area of all walls [Å^2]
+    double volume = 0.0;              ///< enclosed volume without cavities [Å^3]
+    int eulerCharacteristic = 0;      ///< of all walls
+    int components = 0;               ///< number of closed pieces that are not walls of cavities
     std::vector<Cavity> cavities;
-    double outerArea = 0.0;   ///< without the cavity walls [Å^2]
-    double outerVolume = 0.0; ///< cavities counted in [Å^3]
-    std::size_t vertices = 0;
-    std::size_t triangles = 0;
-    bool closed = false;   ///< every edge has two triangles
-    bool manifold = false; ///< the triangles about each vertex form one fan, consistently oriented
-    std::size_t degenerateTriangles = 0; ///< triangles without area
-    double maxResidual = 0.0;            ///< largest |S| at a vertex [Å]
-    /// Share of the vertices away from kinks with | |grad Phi| - 1 | < 0.03; not a number if every
-    /// vertex is near one.
+    double outerArea = 0.0;    ///< area without the walls of cavities [Å^2]
+    double outerVolume = 0.0;  ///< enclosed volume with the cavities [Å^3]
+    std::size_t vertices = 0;  ///< of the mesh
+    std::size_t triangles = 0; ///< of the mesh
+    bool closed = false;       ///< whether every edge has two triangles
+    bool manifold = false;     ///< whether the triangles about each vertex form one fan and are
+                               ///< oriented alike
+    std::size_t degenerateTriangles = 0; ///< number of triangles without area
+    double maxResidual = 0.0;            ///< largest |S| at a vertex, S being the spline [Å]
+    /// Of the vertices away from kinks of the distance, the share at which the gradient of the
+    /// spline has a length within 0.03 of 1; not a number if every vertex is near a kink.
     double gradientShare = 0.0;
-    double kinkShare = 0.0;       ///< share of vertices within two voxels of a kink of the distance
-    Statistics meanCurvature;     ///< [1/Å], at the vertices
-    Statistics gaussianCurvature; ///< [1/Å^2], at the vertices
-    std::optional<SurfaceIntegrals> integrals; ///< if SurfaceOptions::curvatureTotals
+    double kinkShare = 0.0;       ///< share of vertices within two voxels of such a kink
+    Statistics meanCurvature;     ///< mean curvature at the vertices [1/Å], positive where convex
+    Statistics gaussianCurvature; ///< Gaussian curvature at the vertices [1/Å^2]
+    std::optional<SurfaceIntegrals> integrals; ///< present with
+                                               ///< SurfaceOptions::curvatureTotals
 };
 
-/// The history of the flow. The interface is the evolving level set's, near the solvent-accessible
-/// surface; entry 0 of the first three is the initial one.
+/// The history of the flow. Its interface is that of the evolving level set, near the
+/// solvent-accessible surface. Energy, area and volume have an entry for the initial interface and
+/// one for each step; the displacement and the speed have one for each step.
 struct EvolutionReport {
-    int steps = 0;
-    bool converged = false;
+    int steps = 0;                        ///< number of steps made
+    bool converged = false;               ///< whether both tolerances were met
     std::vector<double> energy;           ///< integral of w over the interface [Å^2]
-    std::vector<double> area;             ///< of the interface [Å^2]
-    std::vector<double> volume;           ///< inside the interface [Å^3]
-    std::vector<double> meanDisplacement; ///< area-weighted mean of |displacement| [Å] of each step
-    std::vector<double> maxSpeed;         ///< max |F| near the interface [1/Å] of each step
-    /// Estimate of the mean displacement to the state of rest, by the rate at which the steps
-    /// shrink [Å]; infinite if they do not.
+    std::vector<double> area;             ///< area of the interface [Å^2]
+    std::vector<double> volume;           ///< volume inside the interface [Å^3]
+    std::vector<double> meanDisplacement; ///< area-weighted mean of |displacement| in the step [Å]
+    std::vector<double> maxSpeed;         ///< largest |F| near the interface in the step [1/Å]
+    /// Estimated mean displacement that is left to the state of rest [Å], from the factor by which
+    /// the steps shrink; infinite if they do not.
     double estimatedRemainingDisplacement = 0.0;
-    /// Voxels at gaps of the final interface that are too narrow for the grid.
+    /// Number of voxels at gaps of the final interface that are too narrow for the grid.
     std::size_t unresolvedGapVoxels = 0;
 };
 
-/// A group of atoms and its part of the surface.
+/// A group of atoms and its share of the surface.
 struct GroupReport {
     std::string name;
-    std::size_t atoms = 0;
-    double area = 0.0;   ///< of the surface nearest to its balls [Å^2]; all groups add up to the
-                         ///< whole, atoms without a group being one more, "other"
-    double volume = 0.0; ///< inside the surface and nearest to its balls [Å^3]; adds up too
-    std::string color;   ///< "#rrggbb", if the surface is coloured by group
-    std::optional<double> aloneArea{}; ///< of the group surfaced alone, with interfaces [Å^2]
+    std::size_t atoms = 0; ///< number of its balls
+    double area = 0.0;     ///< area of the surface nearest to its balls [Å^2]; the areas of all
+                           ///< groups and of "other", the atoms without one, add up to the whole
+    double volume = 0.0;   ///< volume inside the surface nearest to its balls [Å^3]; adds up, too
+    std::string color;     ///< "#rrggbb" if the surface is coloured by group, else empty
+    std::optional<double> aloneArea{}; ///< area of the surface of the group alone [Å^2], with
+                                       ///< SurfaceOptions::interfaces
 };
 
 /// The area that two groups of atoms bury between them.
@@ -114,53 +120,56 @@ struct InterfaceReport {
     double area = 0.0;         ///< (A_first + A_second - A_both) / 2, each surfaced alone [Å^2]
 };
 
-/// Atoms of one resolution.
+/// The atoms that have one resolution.
 struct ResolutionReport {
-    std::string select;      ///< as asked; empty: all
+    std::string select;      ///< the selection of the rule; empty: all
     double resolution = 0.0; ///< d [Å]
-    std::size_t atoms = 0;   ///< balls that have it
-    double level = 0.0;      ///< of their Gaussians; not 0 where the volume was matched
+    std::size_t atoms = 0;   ///< number of balls that have it
+    double level = 0.0;      ///< Decay::level; 0 unless SurfaceOptions::matchVolume
 };
 
-/// Beads that stand for several atoms.
+/// The beads that stand for several atoms.
 struct CoarseReport {
-    std::size_t beads = 0;
-    std::size_t atoms = 0; ///< that they stand for
+    std::size_t beads = 0; ///< number of beads
+    std::size_t atoms = 0; ///< number of atoms that they stand for
 };
 
-/// A surface of some of the atoms, alone.
+/// The surface that a part of the atoms has of its own.
 struct PartReport {
     std::string name;
-    std::size_t atoms = 0;
+    std::size_t atoms = 0; ///< number of its balls
     SurfaceReport surface;
 };
 
-/// Everything in the .json report.
+/// The whole report.
 struct Report {
     std::string program = "vdb_molsurf";
-    std::string version;
-    std::string command;
-    std::string input;
-    std::size_t atoms = 0; ///< balls used, after selection, expansion and drops
-    double voxel = 0.0;    ///< [Å]
-    std::optional<std::array<double, 3>> center; ///< point of the input that was put at the origin
-                                                 ///< [Å], if any was
+    std::string version;                         ///< of the program
+    std::string command;                         ///< the command line
+    std::string input;                           ///< path of the file with the atoms
+    std::size_t atoms = 0;                       ///< number of balls that the surface is made of
+    double voxel = 0.0;                          ///< voxel edge h [Å]
+    std::optional<std::array<double, 3>> center; ///< point of the input that is the origin of the
+                                                 ///< files [Å], if the surface was moved
     SurfaceReport surface;
-    std::optional<CoarseReport> coarse;        ///< with beads
-    std::vector<ResolutionReport> resolutions; ///< one a rule, in their order
+    std::optional<CoarseReport> coarse;        ///< present if there are beads
+    std::vector<ResolutionReport> resolutions; ///< one for each rule, in their order
     std::vector<GroupReport> groups;
-    std::vector<InterfaceReport> interfaces; ///< of groups that touch, if asked for
+    std::vector<InterfaceReport> interfaces; ///< of groups that touch, with
+                                             ///< SurfaceOptions::interfaces
     std::vector<PartReport> parts; ///< surfaces of their own, of which `surface` is the sum; empty
-                                   ///< if there is one only
-    std::optional<EvolutionReport> evolution; ///< absent for surfaces that are not evolved
-    std::size_t activeVoxels = 0;             ///< of the grid `surface`
-    std::size_t gridBytes = 0;                ///< of the grid `surface` in memory
-    std::vector<std::pair<std::string, double>> seconds; ///< stage, wall seconds; "total" last
-    std::size_t peakMemoryBytes = 0;
-    int threads = 0;
-    std::vector<std::string> warnings;
+                                   ///< if there is only one
+    std::optional<EvolutionReport> evolution; ///< absent for kinds without a flow
+    std::size_t activeVoxels = 0;             ///< number of active voxels of the grid `surface`
+    std::size_t gridBytes = 0;                ///< memory of the grid `surface` [byte]
+    std::vector<std::pair<std::string, double>> seconds; ///< stages and their wall times [s]; the
+                                                         ///< last one is "total"
+    std::size_t peakMemoryBytes = 0;                     ///< of the process
+    int threads = 0;                                     ///< number of threads that the run used
+    std::vector<std::string> warnings;                   ///< one line each
 
-    /// Adds to the time of a stage, which may come more than once.
+    /// Adds to the time of a stage, which may run more than once.
+    /// @param[in] more  wall time [s]
     void addSeconds(const std::string& stage, double more)
     {
         for (auto& [name, sum] : seconds) {

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Atoms in, molecular surface out.
+/// Makes the molecular surface of atoms.
 
 #include "molsurf/atoms.h"
 #include "molsurf/mesh.h"
@@ -18,17 +18,19 @@
 namespace molsurf
 {
 
-/// The surface of a molecule.
+/// The surface of a molecule, as a level set and as a mesh.
 struct MolecularSurface {
-    openvdb::FloatGrid::Ptr surface; ///< signed distance to the molecular surface [Å]; null with
-                                     ///< parts, whose surfaces are among the fields
-    std::vector<openvdb::GridBase::Ptr> fields; ///< the grids that SurfaceOptions::fields asked for
-    Mesh mesh;
-    Report report; ///< program, command, input and the like are left to the caller
+    /// Signed distance from the molecular surface [Å], negative inside, on voxels of edge
+    /// SurfaceOptions::voxel near it. It is null if parts have surfaces of their own
+    /// (SurfaceOptions::split); their level sets are then among `fields`.
+    openvdb::FloatGrid::Ptr surface;
+    std::vector<openvdb::GridBase::Ptr> fields; ///< the grids that SurfaceOptions::fields names
+    Mesh mesh;                                  ///< closed, with its vertices on the surface
+    Report report; ///< measures of the surface; its caller fills in command, input and the like
 };
 
-/// What the flow of one frame of a trajectory leaves for the next: how far the surface at rest lies
-/// from the one that it began at.
+/// A start for the flow of the next frame of a trajectory: how far the surface of the frame before
+/// moved from its initial place to rest.
 class WarmStart
 {
 public:
@@ -38,29 +40,31 @@ public:
     WarmStart(WarmStart&& other) noexcept;
     WarmStart& operator=(WarmStart&& other) noexcept;
 
-    /// Whether there is nothing to begin with.
+    /// Returns whether no run has left anything here yet.
     bool empty() const { return !state; }
 
-    std::unique_ptr<State> state; ///< private to the library
+    std::unique_ptr<State> state; ///< of use to the library alone
 };
 
-/// Builds the surface of atoms, with what is known of them: resolutions, groups, colours.
+/// Makes the surface of balls and uses their resolutions, groups and colours.
 ///
-/// @param[in]     balls     at least one, finite
-/// @param[in]     options   in their ranges, see checkOptions()
-/// @param[in]     progress  null, or what is told of the progress and may end the run
-/// @param[in,out] warm      null, or what a run with nearly the same balls and the same options
-///                          left, or empty: the flow begins nearer to its rest. Afterwards that of
-///                          this run; left alone by surfaces of parts and those that do not flow.
-/// @throws Error(ErrorKind::Usage) for an option out of its range
-/// @throws Error(ErrorKind::Input) that names the first ball at fault by its index
+/// One build of the library gives the same bits for every number of threads.
+///
+/// @param[in]     balls     at least one; positions and radii are finite
+/// @param[in]     options   every option in its range, see checkOptions()
+/// @param[in]     progress  follows the run and may end it; null: nobody does
+/// @param[in,out] warm      an optional start from the previous frame, made with nearly the same
+///                          balls and the same options; this run replaces it by its own. Surfaces
+///                          of parts and kinds without a flow ignore it.
+/// @throws Error(ErrorKind::Usage) if an option is out of its range
+/// @throws Error(ErrorKind::Input) if a ball cannot be used; the message has its index
 /// @throws Error(ErrorKind::Numeric) if there is no surface at this resolution
 /// @throws Error(ErrorKind::Check) if the result contradicts itself
 /// @throws Cancelled if the progress object says so
 MolecularSurface makeSurface(const BallSet& balls, const SurfaceOptions& options = {},
                              Progress* progress = nullptr, WarmStart* warm = nullptr);
 
-/// The same of balls of which nothing else is known.
+/// Makes the surface of balls without labels, resolutions or colours; otherwise as above.
 MolecularSurface makeSurface(const std::vector<Ball>& balls, const SurfaceOptions& options = {},
                              Progress* progress = nullptr);
 

@@ -24,7 +24,7 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// What is found of a ball's circles with later balls.
+/// The arcs and corners of a ball with later balls, the number of its caps and its cell.
 struct BallParts {
     std::vector<Arc> arcs;
     std::vector<Corner> corners;

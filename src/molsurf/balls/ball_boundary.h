@@ -31,11 +31,11 @@ struct Cap {
 struct Patch {
     openvdb::Vec3d centre;
     double radius;
-    std::int32_t ball;                      ///< place in BallBoundary::balls
-    std::int32_t component;                 ///< the part of the union that hangs together, from 0;
-                                            ///< -1: not known, as BallBoundary::estimate
-    std::uint32_t capsBegin, capsEnd;       ///< what is covered, hardly any within another
-    std::uint32_t arcsBegin, arcsEnd;       ///< with later balls
+    std::int32_t ball;                ///< place in BallBoundary::balls
+    std::int32_t component;           ///< the part of the union that hangs together, from 0;
+                                      ///< -1: not known, as BallBoundary::estimate
+    std::uint32_t capsBegin, capsEnd; ///< its caps: the covered part, hardly any cap within another
+    std::uint32_t arcsBegin, arcsEnd; ///< with later balls
     std::uint32_t cornersBegin, cornersEnd; ///< with two later balls
 };
 
@@ -79,7 +79,7 @@ struct Corner {
     std::int32_t balls[3]; ///< places in BallBoundary::balls, ascending
 };
 
-/// What the balls tell of their union without its boundary.
+/// Measures of a union that follow from the balls without its boundary.
 struct UnionEstimate {
     std::size_t components; ///< parts that hang together, from overlaps
     double volume;          ///< of all cells of the power diagram, sampled by rays [Å^3]

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What other balls cover of a sphere.
+/// Finds the caps of a sphere that other balls cover.
 
 #include "molsurf/balls/ball_boundary.h"
 #include "molsurf/balls/ball_index.h"
@@ -43,18 +43,22 @@ struct CapArrays {
     }
 };
 
-/// What another ball covers of a sphere: nothing, a cap, or all.
-enum class Relation { Apart, Meeting, Around };
+/// The part of a sphere that another ball covers.
+enum class Relation {
+    Apart,   ///< nothing
+    Meeting, ///< a cap
+    Around   ///< all of it
+};
 
-/// Tells it without error.
+/// Finds the relation of another ball to a sphere without rounding errors.
 /// @param[in]  j    the place of the other ball
 /// @param[out] cap  if it meets the sphere
 Relation relate(const PlacedBall& ball, const PlacedBall& other, std::int32_t j, Cap& cap);
 
-/// What is known of a ball when its caps are found: perhaps a part of its sphere is uncovered, or
-/// it lies within another ball or several. Among very many balls its overlaps are not all known.
+/// The knowledge of a ball that the search for its caps yields.
 struct Exposure {
-    bool possible, amongMany;
+    bool possible;  ///< a part of the sphere may be uncovered; else it lies within other balls
+    bool amongMany; ///< there are so many balls about it that not all of its overlaps are known
 };
 
 /// Finds the caps of balls. Safe to use from all threads, each with room of its own.

@@ -2,7 +2,8 @@
 #pragma once
 
 /// @file
-/// Which balls are near a box: cell lists, hashed by columns of cells, one for each class of radii.
+/// Finds the balls near a box by cell lists, hashed by columns of cells, one for each class of
+/// radii.
 
 #include "molsurf/ball.h"
 
@@ -24,7 +25,7 @@ inline float largestRadius(const std::vector<Ball>& balls)
     return largest;
 }
 
-/// How large the cells of a BallIndex are: perRadius (r + grown), r being the largest radius that
+/// The edge of the cells of a BallIndex: perRadius (r + grown), r being the largest radius that
 /// their class admits, and at least `least`.
 struct CellSize {
     double perRadius;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/balls/bead_radii.h"
 
-#include "molsurf/balls/ball_shares.h"
+#include "molsurf/balls/power_cells.h"
 #include "molsurf/error.h"
 
 #include <algorithm>
@@ -120,11 +120,11 @@ private:
         for (std::size_t n = 0; n < free_.size(); ++n) {
             beads_[free_[n]].radius = float(std::sqrt(squares_[n]));
         }
-        shares_ = ballShares(beads_, progress_);
+        cells_ = powerCells(beads_, progress_);
         found_.resize(free_.size());
         missing_.resize(free_.size());
         for (std::size_t n = 0; n < free_.size(); ++n) {
-            found_[n] = shares_.volumes[free_[n]];
+            found_[n] = cells_.volumes[free_[n]];
             missing_[n] = wanted_[n] - found_[n];
         }
     }
@@ -144,9 +144,9 @@ private:
         Jacobian out;
         out.diagonal.resize(free_.size());
         for (std::size_t n = 0; n < free_.size(); ++n) {
-            out.diagonal[n] = 0.5 * shares_.areas[free_[n]] / std::sqrt(squares_[n]);
+            out.diagonal[n] = 0.5 * cells_.areas[free_[n]] / std::sqrt(squares_[n]);
         }
-        for (const ShareFacet& facet : shares_.facets) {
+        for (const PowerFacet& facet : cells_.facets) {
             const std::int32_t i = place_[std::size_t(facet.balls[0])],
                                j = place_[std::size_t(facet.balls[1])];
             const double slope = 0.5 * facet.area / facet.distance;
@@ -187,7 +187,7 @@ private:
     const Progress& progress_;
     std::vector<std::int32_t> place_; // of every bead in free_, or -1
     Vector squares_, found_, missing_;
-    BallShares shares_;
+    PowerCells cells_;
 };
 
 } // namespace
@@ -197,7 +197,7 @@ void sizeBeads(const std::vector<Ball>& balls, const std::vector<std::vector<std
 {
     std::vector<Ball> grown = balls, sized = beads;
     for (Ball& ball : grown) ball.radius += float(probe);
-    const BallShares shares = ballShares(grown, progress);
+    const PowerCells cells = powerCells(grown, progress);
     std::vector<std::size_t> free;
     Vector wanted;
     for (std::size_t b = 0; b < beads.size(); ++b) {
@@ -205,7 +205,7 @@ void sizeBeads(const std::vector<Ball>& balls, const std::vector<std::vector<std
         if (beads[b].radius > 0.0f) continue;
         sized[b].radius += leastRadius;
         double volume = 0.0;
-        for (const std::size_t i : members[b]) volume += shares.volumes[i];
+        for (const std::size_t i : members[b]) volume += cells.volumes[i];
         if (volume < leastVolume) continue;
         free.push_back(b);
         wanted.push_back(volume);

@@ -15,7 +15,7 @@ namespace molsurf
 
 /// Gives every bead the volume of its atoms: its part of the union of all beads is as large as the
 /// parts of its atoms in the union of all atoms, both with the probe radius added to every radius
-/// (parts as in ballShares()). So the union of the beads has the volume of that of the atoms. Atoms
+/// (parts as in powerCells()). So the union of the beads has the volume of that of the atoms. Atoms
 /// that stay atoms keep their radii.
 ///
 /// There is one such set of radii if the centres are distinct: it is the partial optimal transport

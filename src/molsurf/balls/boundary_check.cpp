@@ -48,8 +48,8 @@ const Directions& directions()
     return table;
 }
 
-/// Where rays from the centre of a sphere of radius 1 enter and leave the cell, along a bundle of
-/// directions.
+/// Finds where rays from the centre of a sphere of radius 1 along a bundle of directions enter and
+/// leave the cell.
 MOLSURF_KERNEL void followRays(const double* ux, const double* uy, const double* uz,
                                const CapArrays& caps, double* __restrict from,
                                double* __restrict to)
@@ -68,7 +68,7 @@ MOLSURF_KERNEL void followRays(const double* ux, const double* uy, const double*
     }
 }
 
-/// How many directions of a bundle no cap holds.
+/// Counts the directions of a bundle that no cap holds.
 MOLSURF_KERNEL int countUncovered(const double* ux, const double* uy, const double* uz,
                                   const Cap* caps, std::size_t count)
 {

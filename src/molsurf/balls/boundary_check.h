@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Whether the measures of a boundary agree with what is known of the balls without it.
+/// Checks the measures of a boundary by other ways to the same numbers.
 
 #include "molsurf/balls/ball_caps.h"
 #include "molsurf/balls/boundary_measure.h"
@@ -40,15 +40,15 @@ std::size_t raysFor(std::size_t balls);
 void checkBoundary(const BallBoundary& boundary, const BoundaryMeasure& measure,
                    const Progress& progress);
 
-/// How far area and volume of a mesh may be from those of the union [Å^2, Å^3].
+/// Largest errors of a mesh: of its area [Å^2] and its volume [Å^3].
 struct MeshTolerance {
     double area, volume;
 };
 
-/// What a mesh by voxels of edge h loses at creases, in clefts between balls that hardly touch, and
-/// by cutting corners. A crease of length L takes up to h L of area and 0.4 h^2 L of volume; a
-/// patch of area A on a ball of radius r, with a cleft on each of six sides, 1.5 h A/r and 0.4 h^2
-/// A/r. The measured losses are a third of these and less.
+/// The area and volume that a mesh by voxels of edge h may lose at creases, in clefts between balls
+/// that hardly touch, and by cutting corners. A crease of length L takes up to h L of area and 0.4
+/// h^2 L of volume; a patch of area A on a ball of radius r, with a cleft on each of six sides, 1.5
+/// h A/r and 0.4 h^2 A/r. The measured losses are a third of these and less.
 MeshTolerance meshTolerance(const BallBoundary& boundary, const BoundaryMeasure& measure,
                             double voxel);
 

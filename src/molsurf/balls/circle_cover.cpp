@@ -44,7 +44,7 @@ struct CapPointers {
     const double *x, *y, *z, *cosine;
 };
 
-/// How caps meet a circle.
+/// Finds the parts of a circle that caps cover.
 /// @return whether one surely covers all of it
 MOLSURF_KERNEL bool meetCircle(const Circle& circle, const CapPointers& caps, int count,
                                double* __restrict x, double* __restrict y,
@@ -75,7 +75,7 @@ MOLSURF_KERNEL bool meetCircle(const Circle& circle, const CapPointers& caps, in
     return whole != 0;
 }
 
-/// Where covers end.
+/// Finds the ends of covers.
 MOLSURF_KERNEL void findEnds(int count, const double* x, const double* y, const double* cosine,
                              double* __restrict endX, double* __restrict endY)
 {
@@ -86,7 +86,8 @@ MOLSURF_KERNEL void findEnds(int count, const double* x, const double* y, const 
     }
 }
 
-/// How far a direction lies ahead of another one: from 0 to 4, as the angle.
+/// A measure of the angle from one direction forward to another, which grows with it: 0 to 4 for a
+/// full turn.
 template<typename T>
 MOLSURF_INLINE T quartersAhead(double fromX, double fromY, T toX, T toY)
 {
@@ -119,9 +120,9 @@ MOLSURF_KERNEL int farthestEnd(double fromX, double fromY, int count, const doub
     return int(best[lane]) + lane;
 }
 
-/// Whether covers overlap all around a circle, found by going from the end of one to the farthest
-/// end of those that hold it. False where they may do no more than touch: those who need to know
-/// have to look closer.
+/// Whether covers overlap all around a circle. It goes from the end of one to the farthest end of
+/// those that hold it. False may also mean that covers do no more than touch: the caller then has
+/// to intersect exactly.
 /// @param[in,out] m  its ends are filled in
 bool isSurrounded(Meetings& m)
 {

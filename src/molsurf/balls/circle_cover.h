@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What balls cover of the circle in which two spheres meet.
+/// The part that balls cover of the circle in which two spheres meet.
 
 #include "molsurf/balls/ball_caps.h"
 
@@ -29,9 +29,9 @@ struct Gap {
                        ///< whole circle
 };
 
-/// How caps meet a circle, number by number; padded to whole vectors. A cap covers the directions
-/// with x cos a + y sin a > cosine, (x, y) being a unit vector: nothing for a cosine of 1 and more,
-/// all for -1 and less.
+/// The parts of a circle that caps cover, as arrays that are padded to whole vectors. A cap covers
+/// the directions a with x cos a + y sin a > cosine, (x, y) being a unit vector: nothing for a
+/// cosine of 1 and more, all for one of -1 and less.
 struct Meetings {
     std::vector<double> x, y, cosine;
     std::vector<double> error;      ///< of the cosine and the direction, at most

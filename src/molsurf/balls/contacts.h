@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Which labelled parts of a molecule touch.
+/// Finds the labelled parts of a molecule that touch.
 
 #include "molsurf/ball.h"
 #include "molsurf/progress.h"

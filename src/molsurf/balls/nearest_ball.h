@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Which atom a point of a surface belongs to.
+/// Finds the ball that a point of a surface belongs to.
 
 #include "molsurf/ball.h"
 #include "molsurf/progress.h"

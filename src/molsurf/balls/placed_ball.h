@@ -21,8 +21,8 @@ constexpr double placeUnit = 0x1p-42;
 /// The centre of a ball is moved by less than this along each axis [Å].
 constexpr double mostMoved = 0x1p-31;
 
-/// What every radius loses [Å]: more than two centres can come nearer to each other by their moves,
-/// so that balls that touch in a point are apart.
+/// Every radius becomes smaller by this [Å]. It is more than two centres can approach each other by
+/// their moves, so balls that touch in a point are apart.
 constexpr double shrinkage = 0x1p-29;
 
 /// A ball of a union, moved a little.

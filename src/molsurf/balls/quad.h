@@ -28,8 +28,8 @@ struct QuadVector {
     QuadVector operator-(const QuadVector& o) const { return {x - o.x, y - o.y, z - o.z}; }
 };
 
-/// How the plane of the circle of two spheres lies to the first one: the points of the sphere that
-/// the second ball covers are those with x.way > height.
+/// The plane of the circle in which two spheres meet, relative to the first centre. The second ball
+/// covers the points of the first sphere with x.way > height.
 struct QuadPlane {
     QuadVector way; ///< from the first centre to the second [Å], exact
     Quad height;    ///< [Å^2]

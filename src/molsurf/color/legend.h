@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What the colours of a surface mean, for a legend.
+/// The legend of a surface: the meaning of its colours.
 
 #include "molsurf/color/color_map.h"
 #include "molsurf/mesh.h"

@@ -46,7 +46,8 @@ T parallelSum(std::size_t n, const Progress& progress, const F& f)
     return sum;
 }
 
-/// What f(i, out) appends to `out` for i in [0, n): collected in parallel, in ascending order.
+/// Calls f(i, out) in parallel for i in [0, n) and returns what they append to `out`, in ascending
+/// order of i.
 template<typename T, typename F>
 std::vector<T> parallelCollect(std::size_t n, const Progress& progress, const F& f)
 {

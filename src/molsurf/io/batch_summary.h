@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What became of many structures: a table as JSON and as CSV.
+/// The results of a run over many structures, as a table in JSON and CSV.
 
 #include "molsurf/io/output_file.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What the readers of mesh files share; of no use elsewhere.
+/// Tokenizer that the readers of .ply, .obj and .stl files share.
 
 #include "molsurf/error.h"
 #include "molsurf/mesh.h"
@@ -79,7 +79,7 @@ public:
     }
 
     std::size_t line() const { return line_; }
-    /// What is left of the text after the present line.
+    /// The text after the present line.
     std::string_view rest() const { return {at_, std::size_t(end_ - at_)}; }
     bool lineDone()
     {

@@ -43,8 +43,8 @@ public:
     /// True if the output can be written out of order, that is, if it is not standard output.
     bool seekable() const { return !temporary_.empty(); }
 
-    /// Where the content goes. A write that fails throws std::ios_base::failure; finish() and
-    /// write() turn it into an Error.
+    /// The stream that takes the content. A write that fails throws std::ios_base::failure;
+    /// finish() and write() turn it into an Error.
     std::ostream& stream();
 
     /// Appends @a size bytes.

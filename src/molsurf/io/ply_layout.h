@@ -16,7 +16,7 @@
 namespace molsurf
 {
 
-/// What a vertex record holds behind position and normal, in this order.
+/// The fields of a vertex record behind position and normal, in this order.
 struct PlyLayout {
     std::vector<std::string> scalars; ///< floats
     std::vector<std::string> labels;  ///< 32-bit integers

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What a .vdb file holds.
+/// Reads the grids and metadata of a .vdb file.
 
 #include <openvdb/openvdb.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How the grids of a .vdb lie in the scene of another program.
+/// Gives the grids of a .vdb their place and scale in the scene of another program.
 
 #include <openvdb/openvdb.h>
 
@@ -20,7 +20,7 @@ enum class Host {
     Usd      ///< the same, and a .usda file beside the .vdb
 };
 
-/// What is done to the grids.
+/// The program that the grids are for, their scale and their origin.
 struct Scene {
     Host host = Host::None;
     double scale = 1.0;         ///< scene units per Å, > 0

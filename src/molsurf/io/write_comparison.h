@@ -31,14 +31,14 @@ struct ComparedFile {
     bool closed = false;
 };
 
-/// What a comparison tells.
+/// The report of a comparison: the content of its .json file.
 struct ComparisonReport {
     std::string program = "vdb_molsurf";
     std::string version;
     std::string command;
     ComparedFile a, b;
     Comparison distances;
-    std::string shown; ///< what the colours show: "distance" or "signed_distance"
+    std::string shown; ///< quantity that the colours show: "distance" or "signed_distance"
     ColorScale color;
     std::vector<std::pair<std::string, double>> seconds; ///< stage, wall seconds; "total" last
     std::size_t peakMemoryBytes = 0;

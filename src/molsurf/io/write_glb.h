@@ -13,7 +13,7 @@
 namespace molsurf
 {
 
-/// How the mesh stands in the scene of the file.
+/// The name, scale and colour of the mesh in the scene of the file.
 struct GlbOptions {
     std::string name = "surface";  ///< of the node
     double scale = 1.0;            ///< scene units per Å, in the node

@@ -15,7 +15,7 @@
 namespace molsurf
 {
 
-/// What a .usda file refers to.
+/// The .vdb file or files that a .usda file refers to, and their scale.
 struct UsdVolume {
     std::string name;             ///< of the prim; letters that USD does not take become _
     double metersPerUnit = 1e-10; ///< of the grids' transforms

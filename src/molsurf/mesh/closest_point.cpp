@@ -25,7 +25,8 @@ struct Search {
     double best2 = std::numeric_limits<double>::infinity();
     MeshPoint found{Vec3d(0.0), Vec3d(0.0), std::numeric_limits<std::uint32_t>::max()};
 
-    /// What a search has to look through: float arithmetic may be wrong in its last digits.
+    /// The radius to search for what is within a distance: float arithmetic may be wrong in its
+    /// last digits.
     float radius(double distance) const { return float(distance * (1.0 + 1e-6) + margin); }
 };
 

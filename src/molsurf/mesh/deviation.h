@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How far one surface is from another. docs/math.md, section 11.
+/// Measures how far one surface is from another. docs/math.md, section 11.
 
 #include "molsurf/compare.h"
 #include "molsurf/mesh/distance.h"

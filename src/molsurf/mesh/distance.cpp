@@ -34,8 +34,8 @@ Vec3d alongSurface(const Jet& jet, const Vec3d& n, double s, const Vec3d& t)
     return ((1.0 + s * kappa) * t - s * At) / determinant;
 }
 
-/// How far a foot may move from the triangles' one [voxel]: far from a surface that is flat along
-/// one direction little holds it there.
+/// Largest distance of a foot from that of the triangles [voxel]: little holds it in place far from
+/// a surface that is flat along one direction.
 constexpr double mostWay = 4.0;
 
 /// Moves y to the point of {S = 0} closest to x.

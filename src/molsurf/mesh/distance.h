@@ -17,7 +17,7 @@
 namespace molsurf
 {
 
-/// Where the frame of a spline lies in the world: x_world = turn x + shift.
+/// The place of the frame of a spline in the world: x_world = turn x + shift.
 struct Pose {
     openvdb::Mat3d turn = openvdb::Mat3d::identity(); ///< a rotation
     openvdb::Vec3d shift = openvdb::Vec3d(0.0);       ///< [Å]
@@ -26,7 +26,7 @@ struct Pose {
     openvdb::Vec3d toLocal(const openvdb::Vec3d& x) const { return turn.transpose() * (x - shift); }
 };
 
-/// What distances are measured to.
+/// A surface that distances are measured to or from.
 struct Surface {
     Mesh mesh;                    ///< in the world [Å]; the surface itself if there is no spline
     bool closed = false;          ///< has an inside; see hasInside()
@@ -44,7 +44,7 @@ struct Distance {
     bool inside = false; ///< the point is inside; false for a surface that is not closed
 };
 
-/// What is needed to find distances from one surface.
+/// Finds distances of points from one surface.
 ///
 /// The closest point of the triangles is exact. On a spline it is then moved by Newton's method to
 /// the closest point of {S = 0}: with the normal n and the shape operator A there, s = n.(x - y)
@@ -52,8 +52,8 @@ struct Distance {
 /// Some improvements of the fast marching method, SIAM J. Sci. Comput. 23(1):230-244, 2001). Where
 /// two sheets are equally near up to the error of the triangles, either may be taken.
 ///
-/// Which side a point lies on is told on a spline by its normal, on a mesh by the mean of the
-/// normals about the closest point, weighted by angle (Baerentzen and Aanaes, Signed distance
+/// The normal of a spline tells on which side a point lies. On a mesh it is the mean of the normals
+/// about the closest point, weighted by angle (Baerentzen and Aanaes, Signed distance
 /// computation using the angle weighted pseudonormal, IEEE Trans. Visualization and Computer
 /// Graphics 11(3):243-253, 2005).
 class DistanceTo

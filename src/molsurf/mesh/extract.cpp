@@ -73,8 +73,8 @@ Vec3d normalOf(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t
     return (Vec3d(mesh.positions[b]) - p).cross(Vec3d(mesh.positions[c]) - p);
 }
 
-/// How well a triangle agrees with the normals at its corners: the cosine of the worst angle; 0 for
-/// a triangle without area.
+/// The agreement of a triangle with the normals at its corners, as the cosine of the largest angle
+/// between them; 0 for a triangle without area.
 double agreement(const Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c)
 {
     const Vec3d n = normalOf(mesh, a, b, c);

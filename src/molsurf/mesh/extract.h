@@ -16,12 +16,12 @@
 namespace molsurf
 {
 
-/// What extractMesh() had to do beyond the plain way.
+/// Numbers that extractMesh() leaves besides the mesh.
 struct ExtractStats {
     double maxResidual = 0.0;          ///< largest |S| at a vertex [Å]
     std::vector<float> slopes;         ///< |grad S| at each vertex
     bool keepCells = false;            ///< whether the next two are wanted
-    std::vector<openvdb::Coord> cells; ///< in which the mesher had put each vertex
+    std::vector<openvdb::Coord> cells; ///< cell of the mesher that each vertex comes from
     std::vector<float> residuals;      ///< |S| at each vertex [Å]
 };
 

@@ -54,7 +54,7 @@ struct Part {
     }
 };
 
-/// How far the arc between two points with normals rises over the chord, times 8 (as measure()).
+/// The rise over its chord of the arc between two points with normals, times 8 (as in measure()).
 Vec3d rise(const Point& p, const Point& q)
 {
     const Vec3d e = q.x - p.x;

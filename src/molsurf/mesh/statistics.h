@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How a quantity is distributed over a surface.
+/// Statistics of a quantity over a surface.
 
 #include "molsurf/mesh.h"
 #include "molsurf/progress.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How the triangles of a mesh hang together.
+/// Topology of a mesh: neighbours, connected pieces, and whether it is closed.
 
 #include "molsurf/mesh.h"
 #include "molsurf/progress.h"
@@ -13,7 +13,7 @@
 namespace molsurf
 {
 
-/// Which triangles meet at each vertex: those of vertex v are
+/// The triangles that meet at each vertex. Those of vertex v are
 /// triangles[begins[v]], ..., triangles[begins[v + 1] - 1], in ascending order.
 struct VertexTriangles {
     std::vector<std::uint32_t> begins;
@@ -27,7 +27,7 @@ VertexTriangles vertexTriangles(const Mesh& mesh);
 VertexTriangles vertexTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& some,
                                 const Progress& progress);
 
-/// What holds of a mesh as a surface.
+/// The properties of a mesh as a surface.
 struct Topology {
     bool closed = true;   ///< every edge belongs to exactly two triangles
     bool oriented = true; ///< and these run through it in opposite directions

@@ -110,7 +110,7 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
     return view;
 }
 
-/// What one pixel sees.
+/// The surface as one pixel sees it.
 struct Sample {
     Vec3f color{0.0f}; ///< linear, lit by the lamp and the sky, not shadowed
     Vec3f normal{0.0f};

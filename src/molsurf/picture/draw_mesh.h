@@ -35,7 +35,7 @@ struct DrawOptions {
     Color plain = {140, 181, 222};      ///< of a mesh without colours
 };
 
-/// What is right, up and toward the eye in a picture: unit vectors, right-handed.
+/// The directions to the right, up and toward the eye of a picture, as right-handed unit vectors.
 /// @param[in] mesh  with at least one vertex
 std::array<openvdb::Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options);
 

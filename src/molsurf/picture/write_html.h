@@ -15,13 +15,14 @@
 namespace molsurf
 {
 
-/// What is on the page beside the mesh.
+/// The content of the page besides the mesh.
 struct HtmlPage {
     std::string title;
-    std::vector<Legend> legends;           ///< the colours to choose from, the first one first
-    Color plain = {140, 181, 222};         ///< of the mesh without them
-    std::array<openvdb::Vec3d, 3> axes = { ///< what is right, up and toward the eye at first
-        openvdb::Vec3d(1, 0, 0), openvdb::Vec3d(0, 1, 0), openvdb::Vec3d(0, 0, 1)};
+    std::vector<Legend> legends;   ///< the colours to choose from, the first one first
+    Color plain = {140, 181, 222}; ///< of the mesh without them
+    std::array<openvdb::Vec3d, 3> axes =
+        { ///< directions to the right, up and toward the eye at first
+            openvdb::Vec3d(1, 0, 0), openvdb::Vec3d(0, 1, 0), openvdb::Vec3d(0, 0, 1)};
 };
 
 /// Writes a page of HTML with the mesh in it and a viewer (three.js, WebGL 2).

@@ -53,7 +53,7 @@ Vec3d moved(const Operator& op, const Vec3d& x)
 {
     Vec3d out = op.translation;
     for (int i = 0; i < 3; ++i) {
-        const auto& row = op.rotation[static_cast<std::size_t>(i)];
+        const auto& row = op.rotation[std::size_t(i)];
         out[i] += row[0] * x[0] + row[1] * x[1] + row[2] * x[2];
     }
     return out;
@@ -94,8 +94,7 @@ std::string foldName(int fold)
 {
     static constexpr std::array<const char*, 7> names{
         "", "", "two-fold", "three-fold", "four-fold", "five-fold", "six-fold"};
-    return fold < int(names.size()) ? names[static_cast<std::size_t>(fold)]
-                                    : std::to_string(fold) + "-fold";
+    return fold < int(names.size()) ? names[std::size_t(fold)] : std::to_string(fold) + "-fold";
 }
 
 } // namespace
@@ -175,12 +174,12 @@ std::vector<std::size_t> chooseCopies(const Structure& structure, const Assembly
         return chosen;
     }
     for (const auto& [first, last] : choice.ranges) {
-        if (static_cast<std::size_t>(last) > operators.size()) {
+        if (std::size_t(last) > operators.size()) {
             fail(structure, assembly,
                  "copies: expected numbers from 1 to " + std::to_string(operators.size()) +
                      ", got " + std::to_string(last));
         }
-        for (int i = first; i <= last; ++i) chosen.push_back(static_cast<std::size_t>(i) - 1);
+        for (int i = first; i <= last; ++i) chosen.push_back(std::size_t(i) - 1);
     }
     if (choice.fold != 0) {
         Symmetry symmetry;

@@ -17,7 +17,7 @@
 namespace molsurf
 {
 
-/// Which copies of an assembly are wanted.
+/// A choice of copies of an assembly.
 struct CopyChoice {
     std::vector<std::pair<int, int>> ranges; ///< first and last number, from 1; empty: see fold
     int fold = 0;                            ///< those about the n-fold axis; 0 without ranges: all

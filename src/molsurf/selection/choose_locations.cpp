@@ -15,12 +15,12 @@ using Indices = std::vector<std::int32_t>;
 
 const Atom& atomAt(const Structure& structure, std::int32_t index)
 {
-    return structure.atoms[static_cast<std::size_t>(index)];
+    return structure.atoms[std::size_t(index)];
 }
 
 const Residue& residueOf(const Structure& structure, const Atom& atom)
 {
-    return structure.residues[static_cast<std::size_t>(atom.residue)];
+    return structure.residues[std::size_t(atom.residue)];
 }
 
 /// True for the alternatives of one residue, which may have different names.

@@ -40,7 +40,7 @@ bool isPrimed(const std::string& name)
 /// Parts of a polymer's residue, one bead each.
 enum class Part : std::uint8_t { Backbone, SideChain, Phosphate, Sugar, Base };
 
-/// What a residue is, by the names of its atoms.
+/// The kind of a residue, by the names of its atoms.
 enum class Kind : std::uint8_t { AminoAcid, Nucleotide, Other };
 
 Part partOf(Kind kind, const std::string& name)
@@ -79,17 +79,17 @@ private:
 
     const Atom& atom(std::size_t ball) const
     {
-        return structure_.atoms[static_cast<std::size_t>(balls_[ball].atom)];
+        return structure_.atoms[std::size_t(balls_[ball].atom)];
     }
 
     std::size_t rule(std::size_t ball) const
     {
-        return static_cast<std::size_t>(ruleOf_[static_cast<std::size_t>(balls_[ball].atom)]);
+        return std::size_t(ruleOf_[std::size_t(balls_[ball].atom)]);
     }
 
     void addResidue(std::int32_t index, const Members& members)
     {
-        const Residue& residue = structure_.residues[static_cast<std::size_t>(index)];
+        const Residue& residue = structure_.residues[std::size_t(index)];
         std::map<std::size_t, Members> byRule;
         for (const std::size_t i : members) byRule[rule(i)].push_back(i);
         for (const auto& [r, chosen] : byRule) {
@@ -157,8 +157,7 @@ private:
     {
         std::size_t count = 0;
         for (const Unit& unit : units) count += unit.size();
-        const std::size_t wanted =
-            (2 * count + static_cast<std::size_t>(atoms)) / (2 * static_cast<std::size_t>(atoms));
+        const std::size_t wanted = (2 * count + std::size_t(atoms)) / (2 * std::size_t(atoms));
         const std::size_t beads = std::clamp<std::size_t>(wanted, 1, units.size());
         cut(units.begin(), units.end(), beads);
     }
@@ -213,7 +212,7 @@ private:
 Ball beadOf(const Structure& structure, const std::vector<Ball>& balls, const Members& members)
 {
     auto position = [&](std::size_t i) {
-        return structure.atoms[static_cast<std::size_t>(balls[i].atom)].position;
+        return structure.atoms[std::size_t(balls[i].atom)].position;
     };
     Vec3d centre(0.0);
     double volume = 0.0;
@@ -285,8 +284,8 @@ CoarseBalls coarseGrain(const Structure& structure, const std::vector<Ball>& bal
     out.balls.reserve(out.members.size());
     out.beadAtoms.resize(structure.atoms.size());
     for (const Members& bead : out.members) {
-        const auto atom = static_cast<std::size_t>(balls[bead[0]].atom);
-        if (rules[static_cast<std::size_t>(ruleOf[atom])].level == CoarseRule::Level::Atom) {
+        const auto atom = std::size_t(balls[bead[0]].atom);
+        if (rules[std::size_t(ruleOf[atom])].level == CoarseRule::Level::Atom) {
             out.balls.push_back(balls[bead[0]]);
             continue;
         }

@@ -44,9 +44,9 @@ std::vector<Ball> ballsOfPart(const Structure& structure, const AssemblyPart& pa
     }
     std::vector<Ball> chosen;
     for (std::size_t i = 0; i < balls.size(); ++i) {
-        const Atom& atom = structure.atoms[static_cast<std::size_t>(balls[i].atom)];
-        const Residue& residue = structure.residues[static_cast<std::size_t>(atom.residue)];
-        if (!listed[static_cast<std::size_t>(residue.asym)]) continue;
+        const Atom& atom = structure.atoms[std::size_t(balls[i].atom)];
+        const Residue& residue = structure.residues[std::size_t(atom.residue)];
+        if (!listed[std::size_t(residue.asym)]) continue;
         chosen.push_back(balls[i]);
         used[i] = 1;
     }
@@ -56,7 +56,7 @@ std::vector<Ball> ballsOfPart(const Structure& structure, const AssemblyPart& pa
 /// The centre of a ball, in double precision if it is an atom.
 openvdb::Vec3d centreOf(const Structure& structure, const Ball& ball)
 {
-    const openvdb::Vec3d& atom = structure.atoms[static_cast<std::size_t>(ball.atom)].position;
+    const openvdb::Vec3d& atom = structure.atoms[std::size_t(ball.atom)].position;
     return openvdb::Vec3f(atom) == ball.center ? atom : openvdb::Vec3d(ball.center);
 }
 
@@ -135,7 +135,7 @@ ExpandedBalls expandAssembly(const Structure& structure, const std::string& name
         appendCopy(structure, operators[i], part, out.balls);
     }
     out.copyBegin.push_back(out.balls.size());
-    out.unused = static_cast<std::size_t>(std::count(used.begin(), used.end(), char{0}));
+    out.unused = std::size_t(std::count(used.begin(), used.end(), char{0}));
     return out;
 }
 

@@ -33,9 +33,8 @@ int compareNumber(const Selection::SequenceId& bound, const Residue& residue)
 
 bool matches(const Selection& selection, const Residue& residue, const Structure& structure)
 {
-    return selection.chain_ids.has(structure.chains[static_cast<std::size_t>(residue.chain)]) &&
-           (selection.entity_types.all ||
-            selection.et_flags[static_cast<std::size_t>(entityType(residue))]) &&
+    return selection.chain_ids.has(structure.chains[std::size_t(residue.chain)]) &&
+           (selection.entity_types.all || selection.et_flags[std::size_t(entityType(residue))]) &&
            selection.residue_names.has(residue.name) &&
            compareNumber(selection.from_seqid, residue) <= 0 &&
            compareNumber(selection.to_seqid, residue) >= 0;
@@ -70,7 +69,7 @@ std::size_t mark(const Selection& selection, const Structure& structure, std::ve
         if (selection.mdl != 0 && selection.mdl != model.number) continue;
         for (std::size_t i = model.begin; i < model.end; ++i) {
             const Atom& atom = structure.atoms[i];
-            if (!residues[static_cast<std::size_t>(atom.residue)]) continue;
+            if (!residues[std::size_t(atom.residue)]) continue;
             if (!matches(selection, atom)) continue;
             atoms[i] = 1;
             ++count;

@@ -12,7 +12,7 @@
 namespace molsurf
 {
 
-/// What an expression selects.
+/// The atoms that an expression selects.
 struct AtomMatch {
     std::vector<char> atoms;           ///< 1 if selected, by index in Structure::atoms
     std::vector<int> models;           ///< model number of each alternative; 0: any

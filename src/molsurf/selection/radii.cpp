@@ -78,7 +78,8 @@ constexpr Martini martini3{"martini3",
                            "HIE RTTT HIP RTTT PHE RSTT TYR RTTTT TRP RTTTTT",
                            "SW S TW T GL1 S NA T NA+ T CL T CL- T"};
 
-/// Where the Lennard-Jones potential of two equal beads is least they touch: r = 2^(1/6) sigma / 2.
+/// The radius at which two equal beads touch where their Lennard-Jones potential is least:
+/// r = 2^(1/6) sigma / 2 [Å].
 float beadRadius(const Martini& martini, char size)
 {
     return static_cast<float>(0.5 * std::pow(2.0, 1.0 / 6.0) *

@@ -21,7 +21,7 @@ using ElementRadii = std::array<float, maxElement + 1>;
 /// Radius of an atom whose element no set knows [Å]: that of carbon.
 constexpr float unknownRadius = 1.7f;
 
-/// What decides the radius of an atom.
+/// A set of rules that give atoms their radii.
 struct RadiiSet {
     std::string name; ///< of the set, or the path of the file
     ElementRadii elements{};

@@ -33,7 +33,7 @@ using Indices = std::vector<std::int32_t>;
 
 const Residue& residueOf(const Structure& structure, const Atom& atom)
 {
-    return structure.residues[static_cast<std::size_t>(atom.residue)];
+    return structure.residues[std::size_t(atom.residue)];
 }
 
 /// The model that the option and the selection name.
@@ -76,7 +76,7 @@ public:
     void drop(const char* reason, Predicate isDropped)
     {
         const auto end = std::remove_if(atoms_.begin(), atoms_.end(), isDropped);
-        note(reason, static_cast<std::size_t>(atoms_.end() - end));
+        note(reason, std::size_t(atoms_.end() - end));
         atoms_.erase(end, atoms_.end());
     }
 
@@ -108,7 +108,7 @@ void chooseAltloc(const Structure& structure, const std::string& altloc, Filter&
     }
     std::set<std::string> labels;
     for (const std::int32_t i : filter.atoms()) {
-        const char label = structure.atoms[static_cast<std::size_t>(i)].altloc;
+        const char label = structure.atoms[std::size_t(i)].altloc;
         if (label != '\0') labels.emplace(1, label);
     }
     if (labels.empty()) {
@@ -119,7 +119,7 @@ void chooseAltloc(const Structure& structure, const std::string& altloc, Filter&
                                  joined({labels.begin(), labels.end()}));
     }
     filter.drop("alternate location", [&](std::int32_t i) {
-        const char label = structure.atoms[static_cast<std::size_t>(i)].altloc;
+        const char label = structure.atoms[std::size_t(i)].altloc;
         return label != '\0' && label != altloc[0];
     });
 }
@@ -169,7 +169,7 @@ std::vector<float> findRadii(const Structure& structure, const SelectOptions& op
     radii.reserve(atoms.size());
     if (structure.hasRadii) {
         for (const std::int32_t i : atoms) {
-            radii.push_back(structure.atoms[static_cast<std::size_t>(i)].radius);
+            radii.push_back(structure.atoms[std::size_t(i)].radius);
         }
         return radii;
     }
@@ -177,7 +177,7 @@ std::vector<float> findRadii(const Structure& structure, const SelectOptions& op
                    fallback = readRadii("bondi");
     std::map<std::string, std::size_t> uncovered, unknown;
     for (const std::int32_t i : atoms) {
-        const Atom& atom = structure.atoms[static_cast<std::size_t>(i)];
+        const Atom& atom = structure.atoms[std::size_t(i)];
         const std::string& residue = residueOf(structure, atom).name;
         float radius = set.find(residue, atom.name, atom.element);
         if (radius < 0) {
@@ -212,7 +212,7 @@ std::vector<Ball> makeBalls(const Structure& structure, const SelectOptions& opt
     for (std::size_t i = 0; i < radii.size(); ++i) {
         const std::int32_t atom = filter.atoms()[i];
         if (radii[i] <= 0) continue;
-        const auto& position = structure.atoms[static_cast<std::size_t>(atom)].position;
+        const auto& position = structure.atoms[std::size_t(atom)].position;
         balls.push_back({openvdb::Vec3f(position), radii[i], atom});
     }
     filter.note("zero radius", radii.size() - balls.size());
@@ -267,15 +267,12 @@ std::string describeDrops(const std::vector<Excluded>& drops)
 void applyFilters(const Structure& structure, const SelectOptions& options, const AtomMatch& match,
                   Filter& filter, BallSet& out)
 {
-    auto atomAt = [&](std::int32_t i) -> const Atom& {
-        return structure.atoms[static_cast<std::size_t>(i)];
-    };
+    auto atomAt = [&](std::int32_t i) -> const Atom& { return structure.atoms[std::size_t(i)]; };
     auto residueAt = [&](std::int32_t i) -> const Residue& {
         return residueOf(structure, atomAt(i));
     };
     if (!options.select.empty()) {
-        filter.drop("not selected",
-                    [&](std::int32_t i) { return !match.atoms[static_cast<std::size_t>(i)]; });
+        filter.drop("not selected", [&](std::int32_t i) { return !match.atoms[std::size_t(i)]; });
     }
     filter.drop("dummy", [&](std::int32_t i) {
         return atomAt(i).name == "DUM" || residueAt(i).name == "DUM";

@@ -117,7 +117,7 @@ void Remark350::addRow(string_view text)
         current().problem = "expected BIOMTn, a number and four figures, got " + inQuotes(text);
         return;
     }
-    operator_.rotation[static_cast<std::size_t>(index)] = {row[0], row[1], row[2]};
+    operator_.rotation[std::size_t(index)] = {row[0], row[1], row[2]};
     operator_.translation[index] = row[3];
     operator_.name = fields[1];
     if (index == 2) part().operators.push_back(operator_);
@@ -220,7 +220,7 @@ std::optional<Assembly> parseMtrix(const std::vector<string_view>& records,
                                inQuotes(line));
             return std::nullopt;
         }
-        op.rotation[static_cast<std::size_t>(index)] = {row[0], row[1], row[2]};
+        op.rotation[std::size_t(index)] = {row[0], row[1], row[2]};
         op.translation[index] = row[3];
         op.name = trimmed(line.substr(serialBegin, serialWidth));
         if (index == 2 && (line.size() <= given || line[given] != '1')) operators.push_back(op);

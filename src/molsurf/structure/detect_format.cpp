@@ -121,7 +121,7 @@ bool looksLikeBall(string_view line)
 const char* formatName(StructureFormat format)
 {
     static constexpr std::array<const char*, 4> names{"PDB", "mmCIF", "PQR", "xyzr"};
-    return names[static_cast<std::size_t>(format)];
+    return names[std::size_t(format)];
 }
 
 StructureFormat detectFormat(const std::string& path, const std::string& text)

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Which format a text has.
+/// Detects the format of a text.
 
 #include <string>
 

@@ -52,7 +52,7 @@ std::string readBytes(const std::string& path)
                                                                &std::fclose);
     if (!file) fail(path, std::string("cannot be opened: ") + std::strerror(errno));
     const std::uintmax_t size = std::filesystem::file_size(path, status);
-    return readAll(file.get(), path, status ? 0 : static_cast<std::size_t>(size));
+    return readAll(file.get(), path, status ? 0 : std::size_t(size));
 }
 
 bool isGzip(const std::string& bytes, std::size_t at)

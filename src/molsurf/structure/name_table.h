@@ -19,7 +19,7 @@ public:
     /// Index of `name` in `names`; appends it if it is new.
     std::int32_t index(const std::string& name, std::vector<std::string>& names)
     {
-        if (last_ >= 0 && names[static_cast<std::size_t>(last_)] == name) return last_;
+        if (last_ >= 0 && names[std::size_t(last_)] == name) return last_;
         const auto found = indices_.emplace(name, static_cast<std::int32_t>(names.size()));
         if (found.second) names.push_back(name);
         return last_ = found.first->second;

@@ -76,7 +76,7 @@ PdbRecords preparePdb(std::string& text, const std::string& path)
     bool inModel = false, ended = false;
     for (LineReader lines(text); lines.next();) {
         const string_view line = lines.line();
-        char* const begin = &text[static_cast<std::size_t>(line.data() - text.data())];
+        char* const begin = &text[std::size_t(line.data() - text.data())];
         const string_view record = line.substr(0, 6);
         if (isAtomRecord(line)) {
             if (ended) {

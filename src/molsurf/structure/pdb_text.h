@@ -12,7 +12,7 @@
 namespace molsurf
 {
 
-/// What preparePdb() found in the records that it takes out.
+/// The content of the records that preparePdb() takes out.
 struct PdbRecords {
     std::vector<int> models; ///< numbers of the models that have atoms, in order
     std::vector<Assembly> assemblies;

@@ -20,7 +20,7 @@ namespace
 
 using std::string_view;
 
-/// Where a message points.
+/// The place in a file that a message names.
 struct Place {
     const std::string& path;
     const LineReader& lines;
@@ -79,7 +79,7 @@ std::array<double, n> lastNumbers(const Fields& fields, const std::array<const c
     return numbers;
 }
 
-/// Who an atom is, as far as the file says.
+/// The names and numbers that a file gives for an atom.
 struct Identity {
     std::string chain, residue, atom;
     int number = 0;
@@ -125,7 +125,7 @@ private:
         const Residue& last = out_.residues.back();
         return last.number == id.number && last.name == id.residue &&
                last.insertionCode == id.insertionCode &&
-               out_.chains[static_cast<std::size_t>(last.chain)] == id.chain;
+               out_.chains[std::size_t(last.chain)] == id.chain;
     }
 
     void addResidue(const Identity& id)
@@ -210,7 +210,7 @@ Structure readPqr(const std::string& text, const std::string& path)
 Structure readXyzr(const std::string& text, const std::string& path)
 {
     Structure out;
-    out.atoms.reserve(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1);
+    out.atoms.reserve(std::size_t(std::count(text.begin(), text.end(), '\n')) + 1);
     Builder builder(out);
     constexpr std::array<const char*, 4> names{"x", "y", "z", "radius"};
     Identity id;

@@ -263,7 +263,7 @@ std::vector<Assembly> readAssemblies(Block& block)
         auto found = std::find_if(assemblies.begin(), assemblies.end(),
                                   [&](const Assembly& a) { return a.name == name; });
         if (found == assemblies.end()) found = assemblies.insert(found, {name, {}, {}});
-        const auto index = static_cast<std::size_t>(found - assemblies.begin());
+        const auto index = std::size_t(found - assemblies.begin());
         const auto known = partOf.emplace(std::pair(index, expression), found->parts.size());
         try {
             if (known.second) found->parts.push_back({{}, expandOperators(expression, operators)});

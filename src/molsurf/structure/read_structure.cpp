@@ -21,7 +21,7 @@ constexpr double largestCoordinate = 1e6; // [Å]
 
 std::string describeAtom(const Structure& structure, const Atom& atom, std::size_t index)
 {
-    const Residue& residue = structure.residues[static_cast<std::size_t>(atom.residue)];
+    const Residue& residue = structure.residues[std::size_t(atom.residue)];
     std::string text = "atom " + std::to_string(index + 1);
     if (!atom.name.empty()) text += " (" + atom.name;
     if (!atom.name.empty() && !residue.name.empty()) {

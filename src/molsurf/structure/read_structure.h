@@ -16,7 +16,7 @@ namespace molsurf
 /// The format is found from the content; the extension decides only where the content leaves a
 /// choice (PDB or PQR). gzip is known by its first bytes, whatever the name.
 ///
-/// What is accepted beyond the format descriptions:
+/// The readers accept more than the descriptions of the formats allow:
 /// - PDB: columns 73-80 of pre-1992 files, which hold the entry name and a line number, are
 ///   ignored. Atoms after the first END are ignored with a warning. Hybrid-36 numbers are read.
 ///   In standard residues an element that no such residue has (a CA in column 13) is corrected.

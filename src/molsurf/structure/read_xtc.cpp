@@ -58,7 +58,7 @@ public:
         return std::uint32_t(held_ >> have_ & ((std::uint64_t(1) << count) - 1));
     }
 
-    /// Whether more was taken than there is.
+    /// Whether more bits were taken than there are.
     bool exhausted() const { return at_ > bytes_.size(); }
 
 private:

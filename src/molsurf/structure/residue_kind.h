@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What a residue's name says.
+/// Recognises residues of water by their names.
 
 #include <string>
 

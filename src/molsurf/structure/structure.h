@@ -66,7 +66,7 @@ struct Model {
     std::size_t begin, end;
 };
 
-/// What the atoms of a coarse-grained file are, see findBeads().
+/// The kind of particles that the atoms of a file are: atoms or beads, see findBeads().
 enum class BeadKind : std::uint8_t {
     None,     ///< atoms
     Martini2, ///< beads of Martini 2, by name

@@ -35,7 +35,7 @@ Mat3d matrixOf(const Operator& op)
     Mat3d m;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
-            m(i, j) = op.rotation[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+            m(i, j) = op.rotation[std::size_t(i)][std::size_t(j)];
         }
     }
     return m;
@@ -128,7 +128,7 @@ private:
     {
         Cell cell{};
         for (int i = 0; i < 3; ++i) {
-            cell[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(std::floor(x[i] / cell_));
+            cell[std::size_t(i)] = static_cast<std::int64_t>(std::floor(x[i] / cell_));
         }
         return cell;
     }
@@ -180,7 +180,7 @@ private:
     std::map<Cell, std::vector<std::size_t>> cells_;
 };
 
-/// Where a motion takes every copy; empty if it takes one where none is.
+/// The copies to whose places a motion moves every copy; empty if it moves one to where none is.
 std::vector<std::size_t> imagesOf(const Copies& copies, const Motion& motion)
 {
     std::vector<std::size_t> images(copies.size());
@@ -218,7 +218,7 @@ std::string pointGroupOf(const Symmetry& symmetry)
     if (order == 1) return "C1";
     const auto axes = symmetry.axes.size();
     const int highest = symmetry.axes.front().fold;
-    const auto fold = static_cast<std::size_t>(highest);
+    const auto fold = std::size_t(highest);
     if (axes == 1 && order == fold) return "C" + std::to_string(order);
     if (order == 4 && count(2) == 3) return "D2";
     if (order == 2 * fold && axes == fold + 1 && count(highest) == 1) {

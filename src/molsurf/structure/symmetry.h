@@ -20,7 +20,7 @@ namespace molsurf
 struct RotationAxis {
     int fold;                 ///< order of the rotations about it, >= 2
     openvdb::Vec3d direction; ///< unit vector, its last component that is not zero positive
-    /// Where the fold - 1 rotations take the copies: images[k][i] is the copy that copy i moves to.
+    /// Rotation k of the fold - 1 rotations moves copy i to the place of copy images[k][i].
     std::vector<std::vector<std::size_t>> images;
 };
 
@@ -31,7 +31,8 @@ struct Helix {
     double twist;             ///< about the axis, right-handed [rad], in (-pi, pi]
 };
 
-/// What an assembly looks the same after.
+/// The symmetry of an assembly: its point group, its rotation axes and, if it is helical, its
+/// screw.
 struct Symmetry {
     std::string pointGroup;         ///< Schoenflies: "C1", "C5", "D3", "T", "O", "I"; "" if other
     std::size_t order = 1;          ///< number of rotations, the identity counted

@@ -34,8 +34,7 @@ bool LineReader::next()
     if (rest_.empty()) return false;
     const void* const newline = std::memchr(rest_.data(), '\n', rest_.size());
     const std::size_t length =
-        newline ? static_cast<std::size_t>(static_cast<const char*>(newline) - rest_.data())
-                : rest_.size();
+        newline ? std::size_t(static_cast<const char*>(newline) - rest_.data()) : rest_.size();
     line_ = rest_.substr(0, length);
     rest_.remove_prefix(newline ? length + 1 : length);
     if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);

@@ -41,7 +41,7 @@ protected:
     /// @throws Error(ErrorKind::Input) with the name of the file and the message
     [[noreturn]] void fail(const std::string& message) const;
 
-    /// What read() checks.
+    /// Reads a frame; read() then checks its positions.
     virtual std::vector<openvdb::Vec3f> load(std::size_t frame) = 0;
 
     std::ifstream file_;

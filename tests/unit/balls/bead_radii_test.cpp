@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/balls/bead_radii.h"
 
-#include "molsurf/balls/ball_shares.h"
+#include "molsurf/balls/power_cells.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/selection/select_balls.h"
@@ -37,7 +37,7 @@ BallSet beadsOf(const std::string& file, const SurfaceOptions& options,
 std::vector<double> partsOf(std::vector<Ball> balls, double probe)
 {
     for (Ball& b : balls) b.radius += float(probe);
-    return ballShares(balls, quiet).volumes;
+    return powerCells(balls, quiet).volumes;
 }
 
 TEST(SizeBeads, ABeadOfTwoAtomsFarFromOthersHasTheirVolume)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/ball_shares.h"
+#include "molsurf/balls/power_cells.h"
 
 #include "molsurf/balls/ball_boundary.h"
 #include "molsurf/balls/ball_index.h"
@@ -139,9 +139,9 @@ double facetArea(double radius, const Neighbour& neighbour, const std::vector<Ne
 
 } // namespace
 
-BallShares ballShares(const std::vector<Ball>& balls, const Progress& progress)
+PowerCells powerCells(const std::vector<Ball>& balls, const Progress& progress)
 {
-    BallShares out;
+    PowerCells out;
     out.volumes.resize(balls.size());
     out.areas.resize(balls.size());
     if (balls.empty()) return out;
@@ -155,7 +155,7 @@ BallShares ballShares(const std::vector<Ball>& balls, const Progress& progress)
 
     struct Part {
         double flux = 0.0;
-        std::vector<ShareFacet> facets;
+        std::vector<PowerFacet> facets;
     };
     std::vector<Part> parts(balls.size());
     parallelFor(balls.size(), progress, [&](std::size_t n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/ball_shares.h"
+#include "molsurf/balls/power_cells.h"
 
 #include "molsurf/balls/boundary_measure.h"
 #include "support/molecules.h"
@@ -38,52 +38,52 @@ double sum(const std::vector<double>& v)
     return std::accumulate(v.begin(), v.end(), 0.0);
 }
 
-TEST(BallShares, TwoBallsMeetInADisk)
+TEST(PowerCells, TwoBallsMeetInADisk)
 {
     const double r = 2.0, R = 1.5, d = 2.5;
-    const BallShares shares =
-        ballShares({ball(0.3, 0.1, 0.2, r), ball(0.3, 0.1, 0.2 + d, R)}, quiet);
+    const PowerCells cells =
+        powerCells({ball(0.3, 0.1, 0.2, r), ball(0.3, 0.1, 0.2 + d, R)}, quiet);
     const double height = (d * d + r * r - R * R) / (2 * d), cap = r - height;
     const double rim = r * r - height * height;
-    ASSERT_EQ(shares.facets.size(), 1u);
-    EXPECT_NEAR(shares.facets[0].area, M_PI * rim, 1e-5);
-    EXPECT_NEAR(shares.facets[0].distance, d, 1e-6);
-    EXPECT_NEAR(shares.volumes[0], 4 * M_PI / 3 * r * r * r - M_PI / 3 * cap * cap * (3 * r - cap),
+    ASSERT_EQ(cells.facets.size(), 1u);
+    EXPECT_NEAR(cells.facets[0].area, M_PI * rim, 1e-5);
+    EXPECT_NEAR(cells.facets[0].distance, d, 1e-6);
+    EXPECT_NEAR(cells.volumes[0], 4 * M_PI / 3 * r * r * r - M_PI / 3 * cap * cap * (3 * r - cap),
                 1e-5);
-    EXPECT_NEAR(shares.areas[0], 4 * M_PI * r * r - 2 * M_PI * r * cap, 1e-5);
+    EXPECT_NEAR(cells.areas[0], 4 * M_PI * r * r - 2 * M_PI * r * cap, 1e-5);
 }
 
 // The centre of the small ball lies behind the plane of the facet.
-TEST(BallShares, AnAlmostBuriedBall)
+TEST(PowerCells, AnAlmostBuriedBall)
 {
     const std::vector<Ball> balls = {ball(0, 0, 0, 2.0), ball(0.11, 0.23, 1.9, 0.5)};
-    const BallShares shares = ballShares(balls, quiet);
-    EXPECT_GT(shares.volumes[1], 0.0);
-    EXPECT_NEAR(sum(shares.volumes), unionVolume(balls), 1e-5);
+    const PowerCells cells = powerCells(balls, quiet);
+    EXPECT_GT(cells.volumes[1], 0.0);
+    EXPECT_NEAR(sum(cells.volumes), unionVolume(balls), 1e-5);
 }
 
-TEST(BallShares, AddUpToTheUnion)
+TEST(PowerCells, AddUpToTheUnion)
 {
     for (unsigned seed = 1; seed < 6; ++seed) {
         const std::vector<Ball> balls = test::randomBalls(200, 11.0, Vec3d(3, -2, 5), seed);
-        const BallShares shares = ballShares(balls, quiet);
+        const PowerCells cells = powerCells(balls, quiet);
         const double whole = unionVolume(balls);
-        EXPECT_NEAR(sum(shares.volumes), whole, 1e-7 * whole) << seed;
+        EXPECT_NEAR(sum(cells.volumes), whole, 1e-7 * whole) << seed;
     }
     const std::vector<Ball> protein = test::balls("1crn.pdb");
-    EXPECT_NEAR(sum(ballShares(protein, quiet).volumes), unionVolume(protein), 1e-3);
+    EXPECT_NEAR(sum(powerCells(protein, quiet).volumes), unionVolume(protein), 1e-3);
 }
 
 // d V_i / d(r_j^2) = -facet / (2 distance), d V_i / d(r_i^2) = area / (2 r_i) + the facets'.
-TEST(BallShares, FacetsAndAreasAreTheDerivatives)
+TEST(PowerCells, FacetsAndAreasAreTheDerivatives)
 {
     std::vector<Ball> balls = test::randomBalls(40, 6.0, Vec3d(0.0), 7);
-    const BallShares shares = ballShares(balls, quiet);
+    const PowerCells cells = powerCells(balls, quiet);
     for (const std::size_t j : {3u, 17u, 28u}) {
         std::vector<double> expected(balls.size(), 0.0);
         const double r = double(balls[j].radius);
-        expected[j] = 0.5 * shares.areas[j] / r;
-        for (const ShareFacet& f : shares.facets) {
+        expected[j] = 0.5 * cells.areas[j] / r;
+        for (const PowerFacet& f : cells.facets) {
             for (int side = 0; side < 2; ++side) {
                 if (std::size_t(f.balls[side]) != j) continue;
                 expected[std::size_t(f.balls[1 - side])] -= 0.5 * f.area / f.distance;
@@ -94,7 +94,7 @@ TEST(BallShares, FacetsAndAreasAreTheDerivatives)
         std::vector<Ball> more = balls, less = balls;
         more[j].radius += float(step);
         less[j].radius -= float(step);
-        const BallShares up = ballShares(more, quiet), down = ballShares(less, quiet);
+        const PowerCells up = powerCells(more, quiet), down = powerCells(less, quiet);
         const double squares = double(more[j].radius) * double(more[j].radius) -
                                double(less[j].radius) * double(less[j].radius);
         for (std::size_t i = 0; i < balls.size(); ++i)
@@ -102,17 +102,17 @@ TEST(BallShares, FacetsAndAreasAreTheDerivatives)
     }
 }
 
-TEST(BallShares, BuriedAndEqualBallsHaveNone)
+TEST(PowerCells, BuriedAndEqualBallsHaveNone)
 {
     const Ball a = ball(0, 0, 0, 2), b = ball(2.2, 0.3, 0, 1.8);
-    const BallShares two = ballShares({a, b}, quiet);
-    const BallShares four = ballShares({a, b, ball(0.1, 0, 0, 1), b}, quiet);
+    const PowerCells two = powerCells({a, b}, quiet);
+    const PowerCells four = powerCells({a, b, ball(0.1, 0, 0, 1), b}, quiet);
     EXPECT_NEAR(four.volumes[0], two.volumes[0], 1e-12);
     EXPECT_NEAR(four.volumes[1], two.volumes[1], 1e-12);
     EXPECT_EQ(four.volumes[2], 0.0);
     EXPECT_EQ(four.volumes[3], 0.0);
     EXPECT_EQ(four.facets.size(), 1u);
-    EXPECT_TRUE(ballShares({}, quiet).volumes.empty());
+    EXPECT_TRUE(powerCells({}, quiet).volumes.empty());
 }
 
 } // namespace

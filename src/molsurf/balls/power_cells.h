@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How a union of balls is shared out among them, in closed form.
+/// The cells of the power diagram of balls within their union, in closed form.
 
 #include "molsurf/ball.h"
 #include "molsurf/progress.h"
@@ -13,25 +13,25 @@
 namespace molsurf
 {
 
-/// Where the parts of two balls touch: in the plane of equal power distance.
-struct ShareFacet {
+/// The facet between the parts of two balls, in the plane of equal power distance.
+struct PowerFacet {
     std::int32_t balls[2]; ///< indices in the caller's vector, ascending
     double area;           ///< [Å^2], > 0
     double distance;       ///< of the two centres [Å]
 };
 
-/// The part of every ball: the points of the union whose power distance |x - c|^2 - r^2 to it is
-/// the least (its cell of the power diagram, Aurenhammer, SIAM J. Comput. 16:78-96, 1987, cut off
-/// at the ball). The parts fill the union without overlap.
-struct BallShares {
+/// The parts of balls: the part of one has the points of the union whose power distance |x - c|^2 -
+/// r^2 to it is the least (its cell of the power diagram, Aurenhammer, SIAM J. Comput. 16:78-96,
+/// 1987, cut off at the ball). The parts fill the union without overlap.
+struct PowerCells {
     std::vector<double> volumes; ///< one a ball [Å^3]; they add up to that of the union
     std::vector<double> areas;   ///< of the sphere that no other ball covers [Å^2], one a ball
-    std::vector<ShareFacet> facets;
+    std::vector<PowerFacet> facets;
 };
 
 /// Shares out a union of balls. Of equal balls the first has the part, balls within another one
 /// have none. Exact but for rounding; a volume is a third of the flux of x - c through the sphere's
 /// part and the facets.
-BallShares ballShares(const std::vector<Ball>& balls, const Progress& progress);
+PowerCells powerCells(const std::vector<Ball>& balls, const Progress& progress);
 
 } // namespace molsurf
