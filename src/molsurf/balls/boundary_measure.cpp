@@ -60,8 +60,8 @@ double distance2(const Arc& arc, const Vec3d& x)
 }
 
 /// The loops that the arcs of a sphere form: for each arc the number of its loop.
-std::vector<std::size_t> findLoops(const BallBoundary& boundary, const std::vector<Side>& sides,
-                                   std::size_t& count)
+std::vector<std::uint32_t> findLoops(const BallBoundary& boundary, const std::vector<Side>& sides,
+                                     std::size_t& count)
 {
     struct End {
         CornerName corner;
@@ -75,29 +75,19 @@ std::vector<std::size_t> findLoops(const BallBoundary& boundary, const std::vect
     }
     std::sort(ends.begin(), ends.end(),
               [](const End& a, const End& b) { return a.corner < b.corner; });
-    std::vector<std::uint32_t> parent(sides.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t s) {
-        while (parent[s] != s) s = parent[s] = parent[parent[s]];
-        return s;
-    };
+    DisjointSets sets(sides.size());
     for (std::size_t i = 0; i < ends.size(); i += 2) {
         if (i + 1 == ends.size() || !(ends[i].corner == ends[i + 1].corner))
             disagree("two arcs of a sphere do not meet in a corner");
-        const std::uint32_t a = root(ends[i].side), b = root(ends[i + 1].side);
-        parent[std::max(a, b)] = std::min(a, b);
+        sets.join(ends[i].side, ends[i + 1].side);
     }
-    std::vector<std::size_t> loop(sides.size());
-    count = 0;
-    for (std::uint32_t s = 0; s < sides.size(); ++s)
-        loop[s] = root(s) == s ? count++ : loop[root(s)];
-    return loop;
+    return sets.numbers(count);
 }
 
 /// For each loop of a sphere the number of the face that it bounds.
 std::vector<std::size_t> findFaces(const BallBoundary& boundary, const Patch& patch,
                                    const std::vector<Side>& sides,
-                                   const std::vector<std::size_t>& loop, std::size_t loops)
+                                   const std::vector<std::uint32_t>& loop, std::size_t loops)
 {
     std::vector<std::size_t> face(loops);
     std::iota(face.begin(), face.end(), 0u);
@@ -168,7 +158,7 @@ std::vector<Face> findFaces(const BallBoundary& boundary, const Patch& patch,
         return {whole};
     }
     std::size_t loops = 0;
-    const std::vector<std::size_t> loop = findLoops(boundary, sides, loops);
+    const std::vector<std::uint32_t> loop = findLoops(boundary, sides, loops);
     const std::vector<std::size_t> faceOf = findFaces(boundary, patch, sides, loop, loops);
     std::vector<Face> byLoop(loops);
     for (std::size_t l = 0; l < loops; ++l) ++byLoop[faceOf[l]].loops;
