@@ -218,33 +218,30 @@ void findOuter(std::vector<BoundaryPiece>& pieces)
                  pieces.end());
 }
 
-} // namespace
-
-BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& progress)
+/// The sides of arcs that bound each patch.
+std::vector<std::vector<Side>> sidesOf(const BallBoundary& boundary)
 {
-    BoundaryMeasure out;
-    const std::size_t patches = boundary.patches.size();
-    if (patches == 0) return out;
     std::vector<std::uint32_t> patchOf(boundary.balls.size());
-    for (std::size_t p = 0; p < patches; ++p)
+    for (std::size_t p = 0; p < boundary.patches.size(); ++p)
         patchOf[std::size_t(boundary.patches[p].ball)] = std::uint32_t(p);
-    std::vector<std::vector<Side>> sides(patches);
+    std::vector<std::vector<Side>> sides(boundary.patches.size());
     for (std::size_t a = 0; a < boundary.arcs.size(); ++a) {
         const Arc& arc = boundary.arcs[a];
         sides[patchOf[arc.balls[0]]].push_back({std::uint32_t(a), arc.balls[1], 1.0});
         sides[patchOf[arc.balls[1]]].push_back({std::uint32_t(a), arc.balls[0], -1.0});
     }
-    std::vector<std::vector<Face>> faces(patches);
-    parallelFor(patches, progress, [&](std::size_t p) {
-        faces[p] = findFaces(boundary, boundary.patches[p], sides[p]);
-    });
+    return sides;
+}
 
-    std::vector<std::size_t> begins(patches + 1, 0);
-    for (std::size_t p = 0; p < patches; ++p) begins[p + 1] = begins[p] + faces[p].size();
+/// Joins the faces on both sides of every arc.
+/// @param[in] begins  number of the first face of each patch, and that of all faces
+DisjointSets joinedFaces(const std::vector<std::vector<Face>>& faces,
+                         const std::vector<std::size_t>& begins, std::size_t arcs)
+{
     DisjointSets joined(begins.back());
     constexpr std::size_t none = ~std::size_t(0);
-    std::vector<std::size_t> faceOfArc(boundary.arcs.size(), none);
-    for (std::size_t p = 0; p < patches; ++p) {
+    std::vector<std::size_t> faceOfArc(arcs, none);
+    for (std::size_t p = 0; p < faces.size(); ++p) {
         for (std::size_t f = 0; f < faces[p].size(); ++f) {
             for (const std::uint32_t arc : faces[p][f].arcs) {
                 if (faceOfArc[arc] == none) faceOfArc[arc] = begins[p] + f;
@@ -252,6 +249,24 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
             }
         }
     }
+    return joined;
+}
+
+} // namespace
+
+BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& progress)
+{
+    BoundaryMeasure out;
+    const std::size_t patches = boundary.patches.size();
+    if (patches == 0) return out;
+    const std::vector<std::vector<Side>> sides = sidesOf(boundary);
+    std::vector<std::vector<Face>> faces(patches);
+    parallelFor(patches, progress, [&](std::size_t p) {
+        faces[p] = findFaces(boundary, boundary.patches[p], sides[p]);
+    });
+    std::vector<std::size_t> begins(patches + 1, 0);
+    for (std::size_t p = 0; p < patches; ++p) begins[p + 1] = begins[p] + faces[p].size();
+    DisjointSets joined = joinedFaces(faces, begins, boundary.arcs.size());
 
     std::vector<std::size_t> number(begins.back());
     std::vector<Vec3d> origin; // of each piece, so that volumes do not cancel far from 0
