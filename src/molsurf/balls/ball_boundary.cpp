@@ -110,6 +110,27 @@ std::size_t numberComponents(std::vector<Patch>& patches, DisjointSets& joined)
     return numbers.size();
 }
 
+/// A boundary with the patches of exposed balls, and with room for their caps, arcs and corners.
+BallBoundary arranged(const std::vector<PlacedBall>& balls,
+                      const std::vector<std::uint8_t>& exposed, const std::vector<BallParts>& parts)
+{
+    BallBoundary boundary;
+    std::uint32_t caps = 0, arcs = 0, corners = 0;
+    for (std::size_t n = 0; n < balls.size(); ++n) {
+        if (!exposed[n]) continue;
+        Patch patch{
+            balls[n].centre(), balls[n].radius, std::int32_t(n), -1, caps, 0, arcs, 0, corners, 0};
+        patch.capsEnd = caps += parts[n].caps;
+        patch.arcsEnd = arcs += std::uint32_t(parts[n].arcs.size());
+        patch.cornersEnd = corners += std::uint32_t(parts[n].corners.size());
+        boundary.patches.push_back(patch);
+    }
+    boundary.caps.resize(caps);
+    boundary.arcs.resize(arcs);
+    boundary.corners.resize(corners);
+    return boundary;
+}
+
 /// The boundary of balls in general position.
 /// @throws SpecialPosition if they are not
 BallBoundary boundaryOf(std::vector<PlacedBall> balls, const Progress& progress)
@@ -148,23 +169,7 @@ BallBoundary boundaryOf(std::vector<PlacedBall> balls, const Progress& progress)
         }
     }
 
-    BallBoundary boundary;
-    std::uint32_t capCount = 0, arcCount = 0, cornerCount = 0;
-    for (std::size_t n = 0; n < balls.size(); ++n) {
-        if (!exposed[n]) continue;
-        Patch patch{balls[n].centre(), balls[n].radius,
-                    std::int32_t(n),   -1,
-                    capCount,          0,
-                    arcCount,          0,
-                    cornerCount,       0};
-        patch.capsEnd = capCount += all[n].caps;
-        patch.arcsEnd = arcCount += std::uint32_t(all[n].arcs.size());
-        patch.cornersEnd = cornerCount += std::uint32_t(all[n].corners.size());
-        boundary.patches.push_back(patch);
-    }
-    boundary.caps.resize(capCount);
-    boundary.arcs.resize(arcCount);
-    boundary.corners.resize(cornerCount);
+    BallBoundary boundary = arranged(balls, exposed, all);
     parallelFor(boundary.patches.size(), progress, [&](std::size_t p) {
         const Patch& patch = boundary.patches[p];
         const auto n = std::size_t(patch.ball);

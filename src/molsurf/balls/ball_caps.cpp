@@ -23,8 +23,9 @@ constexpr double heldMargin = 1e-9;
 constexpr std::size_t dense = 512;
 
 /// Whether a cap lies within one of some that are no smaller.
-MOLSURF_KERNEL bool isHeld(const Cap& cap, double sine, const double* x, const double* y,
-                           const double* z, const double* cosine, const double* sines, int count)
+MOLSURF_KERNEL bool isCapCovered(const Cap& cap, double sine, const double* x, const double* y,
+                                 const double* z, const double* cosine, const double* sines,
+                                 int count)
 {
     const double ax = cap.axis.x(), ay = cap.axis.y(), az = cap.axis.z();
     std::int64_t held = 0; // as wide as what is compared
@@ -124,8 +125,8 @@ Exposure CapFinder::find(std::int32_t i, Scratch& scratch, CapArrays& caps) cons
     std::size_t kept = 0;
     for (const Cap& cap : found) {
         const double sine = std::sqrt((1.0 - cap.cosine) * (1.0 + cap.cosine));
-        if (!isHeld(cap, sine, caps.x.data(), caps.y.data(), caps.z.data(), caps.cosine.data(),
-                    caps.sine.data(), int(kept)))
+        if (!isCapCovered(cap, sine, caps.x.data(), caps.y.data(), caps.z.data(),
+                          caps.cosine.data(), caps.sine.data(), int(kept)))
             caps.set(kept++, cap, sine);
     }
     caps.resize(kept);

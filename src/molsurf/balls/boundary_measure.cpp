@@ -60,8 +60,8 @@ double distance2(const Arc& arc, const Vec3d& x)
 }
 
 /// The loops that the arcs of a sphere form: for each arc the number of its loop.
-std::vector<std::size_t> findLoops(const BallBoundary& boundary, const std::vector<Side>& sides,
-                                   std::size_t& count)
+std::vector<std::uint32_t> findLoops(const BallBoundary& boundary, const std::vector<Side>& sides,
+                                     std::size_t& count)
 {
     struct End {
         CornerName corner;
@@ -75,29 +75,19 @@ std::vector<std::size_t> findLoops(const BallBoundary& boundary, const std::vect
     }
     std::sort(ends.begin(), ends.end(),
               [](const End& a, const End& b) { return a.corner < b.corner; });
-    std::vector<std::uint32_t> parent(sides.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t s) {
-        while (parent[s] != s) s = parent[s] = parent[parent[s]];
-        return s;
-    };
+    DisjointSets sets(sides.size());
     for (std::size_t i = 0; i < ends.size(); i += 2) {
         if (i + 1 == ends.size() || !(ends[i].corner == ends[i + 1].corner))
             disagree("two arcs of a sphere do not meet in a corner");
-        const std::uint32_t a = root(ends[i].side), b = root(ends[i + 1].side);
-        parent[std::max(a, b)] = std::min(a, b);
+        sets.join(ends[i].side, ends[i + 1].side);
     }
-    std::vector<std::size_t> loop(sides.size());
-    count = 0;
-    for (std::uint32_t s = 0; s < sides.size(); ++s)
-        loop[s] = root(s) == s ? count++ : loop[root(s)];
-    return loop;
+    return sets.numbers(count);
 }
 
 /// For each loop of a sphere the number of the face that it bounds.
 std::vector<std::size_t> findFaces(const BallBoundary& boundary, const Patch& patch,
                                    const std::vector<Side>& sides,
-                                   const std::vector<std::size_t>& loop, std::size_t loops)
+                                   const std::vector<std::uint32_t>& loop, std::size_t loops)
 {
     std::vector<std::size_t> face(loops);
     std::iota(face.begin(), face.end(), 0u);
@@ -168,7 +158,7 @@ std::vector<Face> findFaces(const BallBoundary& boundary, const Patch& patch,
         return {whole};
     }
     std::size_t loops = 0;
-    const std::vector<std::size_t> loop = findLoops(boundary, sides, loops);
+    const std::vector<std::uint32_t> loop = findLoops(boundary, sides, loops);
     const std::vector<std::size_t> faceOf = findFaces(boundary, patch, sides, loop, loops);
     std::vector<Face> byLoop(loops);
     for (std::size_t l = 0; l < loops; ++l) ++byLoop[faceOf[l]].loops;
@@ -228,33 +218,30 @@ void findOuter(std::vector<BoundaryPiece>& pieces)
                  pieces.end());
 }
 
-} // namespace
-
-BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& progress)
+/// The sides of arcs that bound each patch.
+std::vector<std::vector<Side>> sidesOf(const BallBoundary& boundary)
 {
-    BoundaryMeasure out;
-    const std::size_t patches = boundary.patches.size();
-    if (patches == 0) return out;
     std::vector<std::uint32_t> patchOf(boundary.balls.size());
-    for (std::size_t p = 0; p < patches; ++p)
+    for (std::size_t p = 0; p < boundary.patches.size(); ++p)
         patchOf[std::size_t(boundary.patches[p].ball)] = std::uint32_t(p);
-    std::vector<std::vector<Side>> sides(patches);
+    std::vector<std::vector<Side>> sides(boundary.patches.size());
     for (std::size_t a = 0; a < boundary.arcs.size(); ++a) {
         const Arc& arc = boundary.arcs[a];
         sides[patchOf[arc.balls[0]]].push_back({std::uint32_t(a), arc.balls[1], 1.0});
         sides[patchOf[arc.balls[1]]].push_back({std::uint32_t(a), arc.balls[0], -1.0});
     }
-    std::vector<std::vector<Face>> faces(patches);
-    parallelFor(patches, progress, [&](std::size_t p) {
-        faces[p] = findFaces(boundary, boundary.patches[p], sides[p]);
-    });
+    return sides;
+}
 
-    std::vector<std::size_t> begins(patches + 1, 0);
-    for (std::size_t p = 0; p < patches; ++p) begins[p + 1] = begins[p] + faces[p].size();
+/// Joins the faces on both sides of every arc.
+/// @param[in] begins  number of the first face of each patch, and that of all faces
+DisjointSets joinedFaces(const std::vector<std::vector<Face>>& faces,
+                         const std::vector<std::size_t>& begins, std::size_t arcs)
+{
     DisjointSets joined(begins.back());
     constexpr std::size_t none = ~std::size_t(0);
-    std::vector<std::size_t> faceOfArc(boundary.arcs.size(), none);
-    for (std::size_t p = 0; p < patches; ++p) {
+    std::vector<std::size_t> faceOfArc(arcs, none);
+    for (std::size_t p = 0; p < faces.size(); ++p) {
         for (std::size_t f = 0; f < faces[p].size(); ++f) {
             for (const std::uint32_t arc : faces[p][f].arcs) {
                 if (faceOfArc[arc] == none) faceOfArc[arc] = begins[p] + f;
@@ -262,6 +249,24 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
             }
         }
     }
+    return joined;
+}
+
+} // namespace
+
+BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& progress)
+{
+    BoundaryMeasure out;
+    const std::size_t patches = boundary.patches.size();
+    if (patches == 0) return out;
+    const std::vector<std::vector<Side>> sides = sidesOf(boundary);
+    std::vector<std::vector<Face>> faces(patches);
+    parallelFor(patches, progress, [&](std::size_t p) {
+        faces[p] = findFaces(boundary, boundary.patches[p], sides[p]);
+    });
+    std::vector<std::size_t> begins(patches + 1, 0);
+    for (std::size_t p = 0; p < patches; ++p) begins[p + 1] = begins[p] + faces[p].size();
+    DisjointSets joined = joinedFaces(faces, begins, boundary.arcs.size());
 
     std::vector<std::size_t> number(begins.back());
     std::vector<Vec3d> origin; // of each piece, so that volumes do not cancel far from 0

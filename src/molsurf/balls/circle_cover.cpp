@@ -12,7 +12,7 @@ namespace molsurf
 
 using openvdb::Vec3d;
 
-void Meetings::resize(int count)
+void CircleCovers::resize(int count)
 {
     const int padded = (count + doubleLanes - 1) / doubleLanes * doubleLanes;
     for (auto* v : {&x, &y, &cosine, &error, &sure, &endX, &endY}) v->resize(std::size_t(padded));
@@ -46,10 +46,10 @@ struct CapPointers {
 
 /// Finds the parts of a circle that caps cover.
 /// @return whether one surely covers all of it
-MOLSURF_KERNEL bool meetCircle(const Circle& circle, const CapPointers& caps, int count,
-                               double* __restrict x, double* __restrict y,
-                               double* __restrict cosine, double* __restrict error,
-                               double* __restrict sure)
+MOLSURF_KERNEL bool intersectCircle(const Circle& circle, const CapPointers& caps, int count,
+                                    double* __restrict x, double* __restrict y,
+                                    double* __restrict cosine, double* __restrict error,
+                                    double* __restrict sure)
 {
     const Vec3d axis = circle.axis, e1 = circle.e1, e2 = circle.e2;
     const double height = circle.cosine, radius = circle.sine;
@@ -89,7 +89,7 @@ MOLSURF_KERNEL void findEnds(int count, const double* x, const double* y, const 
 /// A measure of the angle from one direction forward to another, which grows with it: 0 to 4 for a
 /// full turn.
 template<typename T>
-MOLSURF_INLINE T quartersAhead(double fromX, double fromY, T toX, T toY)
+MOLSURF_INLINE T pseudoAngle(double fromX, double fromY, T toX, T toY)
 {
     const T along = toX * fromX + toY * fromY, ahead = fromX * toY - fromY * toX;
     return ahead >= 0.0 ? 1.0 - along : 3.0 + along;
@@ -106,7 +106,7 @@ MOLSURF_KERNEL int farthestEnd(double fromX, double fromY, int count, const doub
     Doubles most = {};
     Longs best = {};
     for (int k = 0; k < count; k += doubleLanes) {
-        const Doubles ahead = quartersAhead(fromX, fromY, load(endX + k), load(endY + k));
+        const Doubles ahead = pseudoAngle(fromX, fromY, load(endX + k), load(endY + k));
         const Doubles inside = load(x + k) * fromX + load(y + k) * fromY - load(cosine + k);
         const Doubles held = inside > coverMargin ? ahead : Doubles{};
         best = held > most ? Longs{} + k : best;
@@ -124,7 +124,7 @@ MOLSURF_KERNEL int farthestEnd(double fromX, double fromY, int count, const doub
 /// those that hold it. False may also mean that covers do no more than touch: the caller then has
 /// to intersect exactly.
 /// @param[in,out] m  its ends are filled in
-bool isSurrounded(Meetings& m)
+bool coversOverlapAllAround(CircleCovers& m)
 {
     const int count = m.size();
     int at = 0; // the cover at whose end we are
@@ -139,7 +139,7 @@ bool isSurrounded(Meetings& m)
                          m.y.data(), m.sure.data(), m.endX.data(), m.endY.data(), farthest);
         if (farthest <= coverMargin) return false;
         const double now =
-            quartersAhead(startX, startY, m.endX[std::size_t(at)], m.endY[std::size_t(at)]);
+            pseudoAngle(startX, startY, m.endX[std::size_t(at)], m.endY[std::size_t(at)]);
         if (now < turned) return true; // at the start, which the first step has covered, or past it
         turned = now;
     }
@@ -150,7 +150,7 @@ enum class Answer { Yes, No, Unknown };
 
 /// The ends of all covers. No: one of them covers all of the circle.
 /// @param[out] doubt  the largest error of an end
-Answer findCovers(const Meetings& m, int count, int own, std::vector<Cover<double>>& covers,
+Answer findCovers(const CircleCovers& m, int count, int own, std::vector<Cover<double>>& covers,
                   double& doubt)
 {
     covers.clear();
@@ -282,13 +282,13 @@ void findGaps(const std::vector<PlacedBall>& balls, std::int32_t i, const CapArr
     const auto place = std::size_t(own);
     circle = {caps[own].axis, {}, {}, caps.cosine[place], caps.sine[place]};
     frame(circle.axis, circle.e1, circle.e2);
-    Meetings& m = scratch.meetings;
+    CircleCovers& m = scratch.circleCovers;
     m.resize(caps.size());
     // The own cap is never sure: its axis is that of the circle.
-    const bool whole = meetCircle(
+    const bool whole = intersectCircle(
         circle, {caps.x.data(), caps.y.data(), caps.z.data(), caps.cosine.data()}, caps.size(),
         m.x.data(), m.y.data(), m.cosine.data(), m.error.data(), m.sure.data());
-    if (whole || isSurrounded(m)) return;
+    if (whole || coversOverlapAllAround(m)) return;
     double doubt;
     Answer found = findCovers(m, caps.size(), own, scratch.covers, doubt);
     if (found == Answer::Yes && findGaps(scratch.covers, doubt, gaps)) return;

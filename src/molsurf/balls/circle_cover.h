@@ -32,7 +32,7 @@ struct Gap {
 /// The parts of a circle that caps cover, as arrays that are padded to whole vectors. A cap covers
 /// the directions a with x cos a + y sin a > cosine, (x, y) being a unit vector: nothing for a
 /// cosine of 1 and more, all for one of -1 and less.
-struct Meetings {
+struct CircleCovers {
     std::vector<double> x, y, cosine;
     std::vector<double> error;      ///< of the cosine and the direction, at most
     std::vector<double> sure;       ///< the cosine; 1 where it is not known well enough
@@ -51,7 +51,7 @@ struct Cover {
 
 /// Room for one circle, kept from circle to circle by a thread.
 struct CircleScratch {
-    Meetings meetings;
+    CircleCovers circleCovers;
     std::vector<Cover<double>> covers;
 };
 

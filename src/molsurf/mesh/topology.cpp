@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace molsurf
@@ -239,12 +238,7 @@ namespace
 std::vector<std::uint32_t> fansOf(const Mesh& mesh, const VertexTriangles& around, std::uint32_t v)
 {
     const std::uint32_t begin = around.begins[v], n = around.begins[v + 1] - begin;
-    std::vector<std::uint32_t> parent(n);
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
+    DisjointSets sets(n);
     std::map<std::uint32_t, std::array<std::vector<std::uint32_t>, 2>> edges; // by the other end
     for (std::uint32_t i = 0; i < n; ++i) {
         const auto& t = mesh.triangles[around.triangles[begin + i]];
@@ -254,12 +248,12 @@ std::vector<std::uint32_t> fansOf(const Mesh& mesh, const VertexTriangles& aroun
     }
     for (const auto& [end, sides] : edges) {
         for (std::size_t k = 0; k < std::min(sides[0].size(), sides[1].size()); ++k) {
-            const std::uint32_t a = root(sides[0][k]), b = root(sides[1][k]);
-            parent[std::max(a, b)] = std::min(a, b);
+            sets.join(sides[0][k], sides[1][k]);
         }
     }
-    for (std::uint32_t i = 0; i < n; ++i) parent[i] = root(i);
-    return parent;
+    std::vector<std::uint32_t> first(n);
+    for (std::uint32_t i = 0; i < n; ++i) first[i] = sets.find(i);
+    return first;
 }
 
 } // namespace

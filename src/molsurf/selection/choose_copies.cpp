@@ -97,6 +97,20 @@ std::string foldName(int fold)
     return fold < int(names.size()) ? names[std::size_t(fold)] : std::to_string(fold) + "-fold";
 }
 
+/// The copies that the rotations about an axis make of the given ones, these among them, ascending
+/// and each once.
+std::vector<std::size_t> copiesAbout(const RotationAxis& axis,
+                                     const std::vector<std::size_t>& copies)
+{
+    std::vector<std::size_t> all = copies;
+    for (const auto& images : axis.images) {
+        for (const std::size_t i : copies) all.push_back(images[i]);
+    }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
 } // namespace
 
 CopyChoice parseCopies(const std::string& text)
@@ -131,18 +145,6 @@ const RotationAxis* nearestAxis(const Symmetry& symmetry, int fold, const Vec3d&
         least = away;
     }
     return nearest;
-}
-
-std::vector<std::size_t> copiesAbout(const RotationAxis& axis,
-                                     const std::vector<std::size_t>& copies)
-{
-    std::vector<std::size_t> all = copies;
-    for (const auto& images : axis.images) {
-        for (const std::size_t i : copies) all.push_back(images[i]);
-    }
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    return all;
 }
 
 std::string describeSymmetry(const Symmetry& symmetry)

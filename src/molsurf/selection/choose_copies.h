@@ -31,11 +31,6 @@ CopyChoice parseCopies(const std::string& text);
 /// Null if there is no such axis.
 const RotationAxis* nearestAxis(const Symmetry& symmetry, int fold, const openvdb::Vec3d& point);
 
-/// The copies that the rotations about an axis make of the given ones, these among them, ascending
-/// and each once.
-std::vector<std::size_t> copiesAbout(const RotationAxis& axis,
-                                     const std::vector<std::size_t>& copies);
-
 /// The axes for people: "6 five-fold, 10 three-fold, 15 two-fold axes", "helical,
 /// rise 1.41 Å, twist 22.03 degrees", "no rotation axis".
 std::string describeSymmetry(const Symmetry& symmetry);

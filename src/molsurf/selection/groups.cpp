@@ -239,68 +239,93 @@ std::vector<GroupRule> readGroups(const std::string& path)
     return rules;
 }
 
+namespace
+{
+
+/// Names groups that are made without rules.
+class GroupNames
+{
+public:
+    /// @param[in] by  as for labelBalls()
+    /// @throws Error(ErrorKind::Usage) if `by` is none of the words there
+    GroupNames(const Structure& structure, const std::string& by) : by_(by)
+    {
+        if (by.rfind("residues:", 0) == 0) {
+            const char* last = by.data() + by.size();
+            const auto [end, problem] = std::from_chars(by.data() + 9, last, perGroup_);
+            if (problem != std::errc() || end != last) perGroup_ = 0;
+        }
+        if (!by.empty() && by != "chain" && by != "entity" && by != "copy" && perGroup_ < 1) {
+            throw Error(ErrorKind::Usage,
+                        "`groupBy`: expected chain, entity, copy or residues:N, got '" + by + "'");
+        }
+        if (by == "entity") sequences_ = sequences(structure);
+    }
+
+    /// The name of the group of a residue.
+    /// @param[in] chain  name of its chain in this copy
+    /// @param[in] copy   number of the copy
+    std::string nameOf(const Residue& residue, const std::string& chain, int copy)
+    {
+        if (by_ == "chain") return chain;
+        if (by_ == "copy") return "copy " + std::to_string(copy);
+        if (by_ == "entity") {
+            const std::int32_t next = std::int32_t(entities_.size()) + 1;
+            const auto found =
+                entities_.emplace(sequences_[std::size_t(residue.chain)], next).first;
+            return "entity " + std::to_string(found->second);
+        }
+        const int block = residue.number >= 1 ? (residue.number - 1) / perGroup_
+                                              : (residue.number - perGroup_) / perGroup_;
+        return chain + "/" + std::to_string(block * perGroup_ + 1) + "-" +
+               std::to_string((block + 1) * perGroup_);
+    }
+
+private:
+    const std::string& by_;
+    int perGroup_ = 0;                             // residues
+    std::vector<std::string> sequences_;           // of the chains
+    std::map<std::string, std::int32_t> entities_; // by sequence
+};
+
+} // namespace
+
 BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls,
                       const std::vector<std::size_t>& copyBegin,
                       const std::vector<int>& copyNumbers, const std::vector<GroupRule>& rules,
                       const std::string& by)
 {
-    int perGroup = 0;
-    if (by.rfind("residues:", 0) == 0) {
-        const auto [end, problem] = std::from_chars(by.data() + 9, by.data() + by.size(), perGroup);
-        if (problem != std::errc() || end != by.data() + by.size()) perGroup = 0;
-    }
-    if (!by.empty() && by != "chain" && by != "entity" && by != "copy" && perGroup < 1) {
-        throw Error(ErrorKind::Usage,
-                    "`groupBy`: expected chain, entity, copy or residues:N, got '" + by + "'");
-    }
-
+    GroupNames names(structure, by);
     BallLabels labels;
     if (by.empty() && !rules.empty()) {
         labelByRules(structure, balls, copyBegin, copyNumbers, rules, labels);
     }
-    const std::vector<std::string> sequence =
-        by == "entity" ? sequences(structure) : std::vector<std::string>();
     std::map<std::string, std::int32_t> number; // of groups by name
-    std::map<std::string, std::int32_t> entity; // of chains by sequence
     const std::size_t copies = copyBegin.size() - 1;
     labels.chainOf.resize(balls.size());
     labels.elementOf.resize(balls.size());
     labels.residueClassOf.resize(balls.size());
     if (!by.empty()) labels.groupOf.assign(balls.size(), -1);
     for (std::size_t c = 0; c < copies; ++c) {
-        const std::string copyName = std::to_string(copyNumbers[c]);
-        const std::string suffix = copyNumbers[c] == 1 ? "" : "-" + copyName;
+        const int copy = copyNumbers[c];
+        const std::string suffix = copy == 1 ? "" : "-" + std::to_string(copy);
         std::vector<std::int32_t> chain(structure.chains.size(), -1); // in this copy
         std::int32_t lastResidue = -1, lastGroup = -1;
         for (std::size_t i = copyBegin[c]; i < copyBegin[c + 1]; ++i) {
             const Atom& atom = structure.atoms[std::size_t(balls[i].atom)];
             const Residue& residue = structure.residues[std::size_t(atom.residue)];
-            const std::string& chainName = structure.chains[std::size_t(residue.chain)];
+            const std::string chainName = structure.chains[std::size_t(residue.chain)] + suffix;
             std::int32_t& index = chain[std::size_t(residue.chain)];
             if (index < 0) {
                 index = std::int32_t(labels.chains.size());
-                labels.chains.push_back(chainName + suffix);
+                labels.chains.push_back(chainName);
             }
             labels.chainOf[i] = index;
             labels.elementOf[i] = atom.element;
             labels.residueClassOf[i] = classOf(residue.name);
             if (!by.empty()) {
                 if (atom.residue != lastResidue || i == copyBegin[c]) {
-                    std::string name;
-                    if (by == "chain") name = chainName + suffix;
-                    if (by == "copy") name = "copy " + copyName;
-                    if (by == "entity") {
-                        const std::int32_t next = std::int32_t(entity.size()) + 1;
-                        const auto e = entity.emplace(sequence[std::size_t(residue.chain)], next);
-                        name = "entity " + std::to_string(e.first->second);
-                    }
-                    if (perGroup > 0) {
-                        const int block = residue.number >= 1
-                                              ? (residue.number - 1) / perGroup
-                                              : (residue.number - perGroup) / perGroup;
-                        name = chainName + suffix + "/" + std::to_string(block * perGroup + 1) +
-                               "-" + std::to_string((block + 1) * perGroup);
-                    }
+                    const std::string name = names.nameOf(residue, chainName, copy);
                     const auto added = number.emplace(name, std::int32_t(labels.groups.size()));
                     if (added.second) labels.groups.push_back({name, 0, {}});
                     lastGroup = added.first->second;

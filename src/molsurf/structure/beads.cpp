@@ -122,8 +122,7 @@ bool isUnnamed(const Structure& structure)
     return sideChain || residues >= shortestTrace;
 }
 
-} // namespace
-
+/// The kind of the atoms of a structure, by the criteria of markBeads().
 BeadKind findBeads(const Structure& structure)
 {
     if (structure.models.empty()) return BeadKind::None;
@@ -132,6 +131,8 @@ BeadKind findBeads(const Structure& structure)
     }
     return isUnnamed(structure) ? BeadKind::Unnamed : BeadKind::None;
 }
+
+} // namespace
 
 void markBeads(Structure& structure)
 {

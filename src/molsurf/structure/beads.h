@@ -9,7 +9,9 @@
 namespace molsurf
 {
 
-/// Tells whether the atoms of a structure are beads, by these criteria; the first model decides.
+/// Finds out whether the atoms of a structure are beads and sets Structure::beads. Martini beads
+/// lose their element, and those that are waters (W, WF, SW, TW, PW) are marked as such. The first
+/// model decides, by these criteria.
 ///
 /// Martini: at least 9 of 10 atoms have names of Martini beads (BB, SC1, W, NC3, PO4, GL1, C1A,
 /// D2A, ROH, R1, NA, ...), and one of them a name that no atom has (BB, SC1, W, PO4, GL1, ...). It
@@ -19,10 +21,6 @@ namespace molsurf
 /// Unnamed: all residues but waters are amino acids with CA and without N and C, at least one of
 /// them with a side chain, and no two beads of a residue are closer than 1.9 Å, which bonded atoms
 /// always are. Such files name each bead by an atom of it.
-BeadKind findBeads(const Structure& structure);
-
-/// Stores what findBeads() tells. Martini beads lose their element, and those that are waters (W,
-/// WF, SW, TW, PW) are marked as such.
 void markBeads(Structure& structure);
 
 } // namespace molsurf

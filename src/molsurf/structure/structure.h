@@ -66,7 +66,7 @@ struct Model {
     std::size_t begin, end;
 };
 
-/// The kind of particles that the atoms of a file are: atoms or beads, see findBeads().
+/// The kind of particles that the atoms of a file are: atoms or beads, see markBeads().
 enum class BeadKind : std::uint8_t {
     None,     ///< atoms
     Martini2, ///< beads of Martini 2, by name
