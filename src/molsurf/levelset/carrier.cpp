@@ -92,7 +92,7 @@ SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, d
     parallelFor(table.size(), progress, [&](std::size_t n) {
         std::fill_n(levels.leaf(n), leafSize, unknown);
         const LeafMask mask = table.active(n) & within(phi.leaf(n), near * voxelSize);
-        if (!mask.any()) return;
+        if (source.onPsiZero || !mask.any()) return;
         LeafBlock<float, 1> f, p;
         f.gather(table, phi.values, n);
         p.gather(table, source.psi, n);

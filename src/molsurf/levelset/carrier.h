@@ -16,7 +16,8 @@ struct CarrierSource {
     /// |grad psi| where the balls around are flat [1/Å], at each voxel; psi varies by nearly that
     /// where one ball is near, whatever lies beside it.
     const LeafField& slope;
-    double lambda; ///< weight of the regulariser |grad g|^2, whose valley lies off psi = 0; else 0
+    bool onPsiZero; ///< whether the interface is psi = 0 itself: v is 0 then
+    double lambda;  ///< weight of the regulariser |grad g|^2, whose valley lies off psi = 0; else 0
 };
 
 /// Computes G = (v - psi)/slope with v the values of psi on the interface phi = 0, extended along

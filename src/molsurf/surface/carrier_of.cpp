@@ -72,8 +72,10 @@ SparseField carrierOf(const BallSet& atoms, const SurfaceOptions& options,
     const EvolveOptions& evolution = options.evolution;
     const bool valley =
         options.kind == SurfaceKind::Variational && evolution.regularizer == Regularizer::Gradient;
-    return smoothCarrier(band.phi, {band.psi, slope, valley ? evolution.lambda : 0.0},
-                         bandWidthVox * band.phi.voxelSize, progress);
+    return smoothCarrier(
+        band.phi,
+        {band.psi, slope, options.kind == SurfaceKind::Gaussian, valley ? evolution.lambda : 0.0},
+        bandWidthVox * band.phi.voxelSize, progress);
 }
 
 } // namespace molsurf

@@ -40,7 +40,7 @@ Fields fieldsOf(const std::vector<Ball>& balls, double voxel,
     LeafField slopes(f.table().size());
     for (std::size_t n = 0; n < f.table().size(); ++n)
         std::fill_n(slopes.leaf(n), leafSize, float(slope));
-    f.carrier = smoothCarrier(f.phi, {f.psi.values, slopes, 0.0}, width * voxel, Progress());
+    f.carrier = smoothCarrier(f.phi, {f.psi.values, slopes, false, 0.0}, width * voxel, Progress());
     return f;
 }
 
