@@ -100,7 +100,8 @@ int brick(const Call& call)
     Report report;
     BallSet atoms = readBalls(build, terminal, report);
     colorBalls(build.options, terminal, atoms);
-    computeBrick(atoms, build.options, manifest.plan, call.brick, id, path, true, terminal);
+    std::shared_ptr<const SparseField> coarse;
+    computeBrick(atoms, build.options, manifest.plan, call.brick, id, path, true, coarse, terminal);
     terminal.erase();
     if (!call.quiet) {
         const PlannedBrick& planned = manifest.plan.bricks[call.brick - 1];

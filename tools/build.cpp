@@ -152,8 +152,7 @@ int endOf(const Report& report)
 {
     const auto& evolution = report.evolution;
     if (evolution && !evolution->converged) {
-        say("not converged after " + counted(std::size_t(evolution->steps), "step", "steps") +
-            "; the files are written [hint: --max-steps (with bricks --steps) or --tolerance]");
+        say(unrestText(*evolution, report.voxel));
         return notConvergedStatus;
     }
     return 0;

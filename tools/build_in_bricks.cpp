@@ -125,10 +125,12 @@ int buildInBricks(const Call& call, Clock::time_point start)
     const bool meshed = std::any_of(call.outputs.begin(), call.outputs.end(),
                                     [](const Output& o) { return o.format == Format::Ply; });
     std::vector<std::string> paths;
+    std::shared_ptr<const SparseField> coarse;
     for (std::size_t k = 1; k <= plan.bricks.size(); ++k) {
         stopIfAsked();
         paths.push_back(folder.brick(k));
-        computeBrick(atoms, call.options, plan, k, "one process", paths.back(), meshed, terminal);
+        computeBrick(atoms, call.options, plan, k, "one process", paths.back(), meshed, coarse,
+                     terminal);
         if (!plan.keepsMemory) malloc_trim(0);
         if (!call.verbose) continue;
         terminal.erase();

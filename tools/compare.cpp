@@ -251,8 +251,8 @@ int compare(const Call& call, Clock::time_point start)
     sayResult(call, report);
     for (const Read* read : {&a, &b})
         if (!read->converged)
-            say(read->path + ": not converged; the files are written [hint: --max-steps or "
-                             "--tolerance]");
+            say(read->path + ": not converged; the files are written [hint: a larger "
+                             "--tolerance or a smaller --voxel]");
     return a.converged && b.converged ? 0 : notConvergedStatus;
 }
 

@@ -186,7 +186,7 @@ public:
         }
         if (creeping_ == 0) return 0;
         say("not converged: " + counted(creeping_, "frame", "frames") +
-            "; the files are written [hint: --max-steps or --tolerance]");
+            "; the files are written [hint: a larger --tolerance or a smaller --voxel]");
         return notConvergedStatus;
     }
 

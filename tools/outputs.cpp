@@ -4,6 +4,7 @@
 #include "sidecar.h"
 #include "stop.h"
 
+#include "molsurf/flow/evolve.h"
 #include "molsurf/io/write_3mf.h"
 
 #include <sys/resource.h>
@@ -12,6 +13,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <vector>
@@ -56,6 +59,29 @@ void beginReport(const Call& call, Report& report)
     report.input = call.input;
     report.threads =
         int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+std::string unrestText(const EvolutionReport& evolution, double voxel)
+{
+    const std::string steps = counted(std::size_t(evolution.steps), "step", "steps");
+    char text[320];
+    if (evolution.displacementTail == 0.0) { // the paper's flow solves for no displacement
+        std::snprintf(
+            text, sizeof text,
+            "not converged after %s: the paper's rule asks for no speed above 0.001 [hint: "
+            "--flow newton]",
+            steps.c_str());
+        return text;
+    }
+    const double tolerance = toleranceOf(evolution, voxel);
+    const double unit = std::pow(10.0, std::floor(std::log10(tolerance)) - 1.0);
+    std::snprintf(text, sizeof text,
+                  "not converged after %s: %.2g %% of the surface moved by more than %.2g Å in the "
+                  "last one; the files are written [hint: --tolerance %g accepts that, a smaller "
+                  "--voxel resolves it]",
+                  steps.c_str(), 100.0 * evolution.unsettledShare, 0.1 * voxel,
+                  unit * std::ceil(1.05 * tolerance / unit));
+    return text;
 }
 
 std::string counted(std::size_t count, const std::string& one, const std::string& many)

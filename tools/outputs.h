@@ -38,6 +38,10 @@ std::unique_ptr<tbb::global_control> limitThreads(const Call& call);
 /// Fills in what every report begins with: version, command, input and threads.
 void beginReport(const Call& call, Report& report);
 
+/// One line on a flow that has not come to rest: where, how far, and what to do.
+/// @param[in] voxel  edge of a voxel [Å]
+std::string unrestText(const EvolutionReport& evolution, double voxel);
+
 /// "1 step", "2 steps".
 std::string counted(std::size_t count, const std::string& one, const std::string& many);
 

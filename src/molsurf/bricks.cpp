@@ -30,7 +30,8 @@ void makeBrick(const BallSet& balls, const SurfaceOptions& options, const BrickP
     BallSet colored = balls;
     if (options.color != ColorBy::Nothing && colored.colors.empty())
         colored.colors = ballColors(balls, options.color, progress);
-    computeBrick(colored, options, plan, number, libraryPlan, path, true, progress);
+    std::shared_ptr<const SparseField> coarse;
+    computeBrick(colored, options, plan, number, libraryPlan, path, true, coarse, progress);
 }
 
 Report mergeBricks(const std::vector<std::string>& bricks, const BrickPlan& plan,

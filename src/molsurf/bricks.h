@@ -43,8 +43,8 @@ struct BrickPlan {
 };
 
 /// The number of steps of the flow if the options do not fix it: bricks have to make the same
-/// number. A run of a whole molecule stops after 5 to 15 steps at the default tolerance.
-constexpr int defaultBrickSteps = 12;
+/// number. A run of a whole molecule stops after 2 or 3 steps at the default lambda.
+constexpr int defaultBrickSteps = 5;
 
 /// Limits for planBricks(): a number of bricks or a memory limit. Exactly one of both is set.
 struct BrickLimits {

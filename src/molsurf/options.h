@@ -32,10 +32,10 @@ enum class Regularizer {
     Area      ///< h = 1
 };
 
-/// The ways to scale the speed of the flow. docs/math.md, section 4.
+/// The ways to step the flow. docs/math.md, section 4.
 enum class Flow {
-    Preconditioned, ///< by an approximate second derivative of the energy
-    Plain           ///< by the paper's own time step
+    Newton, ///< solves for the displacement of the whole interface that brings it to rest
+    Paper   ///< the scheme of the paper, for comparison: one time step for all voxels
 };
 
 /// Options of the flow that minimises the energy of the variational surface.
@@ -43,18 +43,18 @@ struct EvolveOptions {
     double lambda = 0.01; ///< weight of the regulariser, in [0, 1e6]; [Å^2] for
                           ///< Regularizer::Gradient, no unit for Regularizer::Area
     Regularizer regularizer = Regularizer::Gradient;
-    Flow flow = Flow::Preconditioned;
-    int maxSteps = -1; ///< largest number of steps; below 0: 50 for the preconditioned flow, which
-                       ///< ends earlier where it stalls, and 2000 for the plain one
+    Flow flow = Flow::Newton;
+    int maxSteps = -1; ///< largest number of steps; below 0: 50 for the Newton flow, which ends
+                       ///< earlier where it stalls, and 200 for the paper's
     int steps = -1;    ///< number of steps, whether the flow converges or not; below 0: until it
                        ///< converges or `maxSteps` is reached
     /// L > 0: the flow takes curvatures from a spline on voxels of edge 2^L h. 0: it takes them
     /// from differences on voxels of edge h.
     int splineLevel = 0;
-    /// The flow has converged when both of these are met: the relative change of the energy in a
-    /// step, > 0, and the area-weighted mean displacement in a step [voxel], > 0.
-    double energyTolerance = 1e-4;
-    double displacementTolerance = 0.01;
+    /// The flow has converged when the displacement that a step solves for has a root mean square
+    /// below this, and is below eight times this (or below 0.04) at 99.9 % of the interface
+    /// [voxel], > 0.
+    double tolerance = 0.01;
 };
 
 /// Options that say which surface is made and how fine.
@@ -101,7 +101,7 @@ const char* nameOf(ColorBy color);
 /// Returns the word of the command line for a regulariser: gradient, area.
 const char* nameOf(Regularizer regularizer);
 
-/// Returns the word of the command line for a flow: preconditioned, plain.
+/// Returns the word of the command line for a flow: newton, paper.
 const char* nameOf(Flow flow);
 
 /// Checks the options.

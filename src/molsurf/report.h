@@ -88,16 +88,19 @@ struct SurfaceReport {
 /// solvent-accessible surface. Energy, area and volume have an entry for the initial interface and
 /// one for each step; the displacement and the speed have one for each step.
 struct EvolutionReport {
-    int steps = 0;                        ///< number of steps made
-    bool converged = false;               ///< whether both tolerances were met
-    std::vector<double> energy;           ///< integral of w over the interface [Å^2]
-    std::vector<double> area;             ///< area of the interface [Å^2]
-    std::vector<double> volume;           ///< volume inside the interface [Å^3]
-    std::vector<double> meanDisplacement; ///< area-weighted mean of |displacement| in the step [Å]
+    int steps = 0;              ///< number of steps made
+    bool converged = false;     ///< whether the interface is at rest: the stopping rule of
+                                ///< EvolveOptions::tolerance is met
+    std::vector<double> energy; ///< integral of w over the interface [Å^2]
+    std::vector<double> area;   ///< area of the interface [Å^2]
+    std::vector<double> volume; ///< volume inside the interface [Å^3]
+    std::vector<double> meanDisplacement; ///< mean of |displacement| in the step [Å]
     std::vector<double> maxSpeed;         ///< largest |F| near the interface in the step [1/Å]
-    /// Estimated mean displacement that is left to the state of rest [Å], from the factor by which
-    /// the steps shrink; infinite if they do not.
-    double estimatedRemainingDisplacement = 0.0;
+    /// The displacement that the last step solved for, and made [Å]: its root mean square, and the
+    /// size that 99.9 % of the interface does not exceed. What is left to rest is some times that.
+    double displacementRms = 0.0, displacementTail = 0.0;
+    /// Share of the interface at which that displacement is above a tenth of a voxel.
+    double unsettledShare = 0.0;
     /// Number of voxels at gaps of the final interface that are too narrow for the grid.
     std::size_t unresolvedGapVoxels = 0;
 };

@@ -180,7 +180,7 @@ class Memory(ToolTest):
     def too_little_for(self, *words):
         """Bytes that the whole does not fit into, and bricks of it do."""
         said = self.check(0, *words, "--dry-run").stderr.decode()
-        return int(0.8e9 * float(said.split(" GB")[0].split()[-1]))
+        return int(0.9e9 * float(said.split(" GB")[0].split()[-1]))
 
     def test_dry_run(self):
         text = self.dry(*FAST)

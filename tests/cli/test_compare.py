@@ -13,7 +13,7 @@ from tool import CRAMBIN, ToolTest, read_ply
 
 # One atom each. The surface of one atom is a sphere about it, a little larger than the atom.
 LARGE, SMALL, SHIFTED = (0.13, 0.29, 0.41, 4.0), (0.53, -0.01, 0.91, 1.5), (0.83, 0.09, 0.71, 4.0)
-FINE = ["--voxel", "0.25", "--tolerance", "1e-6"]
+FINE = ["--voxel", "0.25", "--tolerance", "0.001"]
 
 CUBE = [(x, y, z) for x in (0.0, 2.0) for y in (0.0, 2.0) for z in (0.0, 2.0)]
 QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]

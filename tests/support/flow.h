@@ -5,8 +5,9 @@
 /// The stages up to the evolved level set, as the pipeline joins them.
 
 #include "molsurf/flow/evolve.h"
+#include "molsurf/flow/initial_surface.h"
+#include "molsurf/flow/refine.h"
 #include "molsurf/levelset/gaussian_sum.h"
-#include "molsurf/levelset/initial_surface.h"
 #include "molsurf/spline/spline.h"
 
 #include <utility>
@@ -31,9 +32,17 @@ inline Evolved evolveBalls(const std::vector<Ball>& balls, double epsilon, doubl
     const GaussianSum field(balls, gaussian);
     Progress progress;
     Evolved out;
-    SparseField psi = field.evaluate(field.band(bandWidthVox, progress), progress);
-    out.band.phi = initialSurface(psi, bandWidthVox * voxel, progress);
-    out.band.psi = std::move(psi.values);
+    if (startsOnCoarserVoxels(options, voxel)) {
+        const Evolved coarse = evolveBalls(balls, epsilon, 2.0 * voxel, coarseFlow(options));
+        out.band.phi = refined(coarse.band.phi, openvdb::CoordBBox::inf(), progress);
+        out.band.psi = field.evaluate(out.band.phi.table, progress).values;
+    } else {
+        SparseField psi = field.evaluate(field.band(bandWidthVox, progress), progress);
+        out.band.phi =
+            initialSurface(psi, bandWidthVox * voxel,
+                           makesNewtonSteps(options) ? weightsOf(options) : Weights{}, progress);
+        out.band.psi = std::move(psi.values);
+    }
     const auto source = [&](const openvdb::Coord& origin, float* psi) {
         field.evaluate(origin, gaussian.reach, psi);
     };

@@ -234,8 +234,6 @@ void completeSurface(Call& call)
     completeGroups(call);
     SurfaceOptions& options = call.options;
     if (call.has("steps") && call.has("max-steps")) misuse("--steps and --max-steps together");
-    // Near its minimum the energy is quadratic in the displacement.
-    options.evolution.displacementTolerance = std::sqrt(options.evolution.energyTolerance);
     checkOptions(call.atoms);
     checkOptions(options);
 

@@ -9,6 +9,7 @@
 
 #include <openvdb/openvdb.h>
 
+#include "molsurf/flow/displacement.h"
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct Brick {
     BrickMesh mesh;
     std::vector<openvdb::GridBase::Ptr> grids; ///< the owned leaves; `surface` first
     std::optional<EvolutionReport> evolution;  ///< sums over the owned voxels, step by step
+    Displacements displacements;               ///< of the last step, at the owned voxels
     double maxResidual = 0.0;                  ///< largest |S| at a vertex [Å]
     std::size_t kinkVertices = 0;    ///< owned vertices within two voxels of a kink of the distance
     std::size_t unitVertices = 0;    ///< the others with | |grad S| - 1 | < 0.03

@@ -161,6 +161,21 @@ Json json(const EvolutionReport& e)
             {"crevice_voxels", e.unresolvedGapVoxels}};
 }
 
+Json json(const Displacements& d)
+{
+    return {{"count", d.count}, {"moved", d.moved}, {"square", d.square}, {"bins", d.bins}};
+}
+
+Displacements displacements(const Json& json)
+{
+    Displacements d;
+    d.count = json.at("count");
+    d.moved = json.at("moved");
+    d.square = json.at("square");
+    d.bins = json.at("bins");
+    return d;
+}
+
 EvolutionReport evolution(const Json& json)
 {
     EvolutionReport e;
@@ -209,6 +224,7 @@ std::string headerText(const BrickHeader& h)
                        {"unit_vertices", b.unitVertices},
                        {"groups", std::move(groups)},
                        {"evolution", b.evolution ? json(*b.evolution) : Json()},
+                       {"displacements", json(b.displacements)},
                        {"seconds", std::move(seconds)}};
     return text.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -247,6 +263,7 @@ BrickHeader parseHeader(const std::string& text)
         h.sums.groups.push_back(group);
     }
     if (!j.at("evolution").is_null()) h.sums.evolution = evolution(j.at("evolution"));
+    h.sums.displacements = displacements(j.at("displacements"));
     for (const Json& s : j.at("seconds")) h.sums.seconds.emplace_back(s.at(0), s.at(1));
     return h;
 }
@@ -260,6 +277,7 @@ void writeBrick(const Brick& brick, const std::string& plan, std::size_t number,
     header.plan = plan;
     header.number = number;
     header.sums.evolution = brick.evolution;
+    header.sums.displacements = brick.displacements;
     header.sums.maxResidual = brick.maxResidual;
     header.sums.kinkVertices = brick.kinkVertices;
     header.sums.unitVertices = brick.unitVertices;

@@ -71,6 +71,7 @@ std::optional<EvolutionReport> evolutionOf(const std::vector<BrickFile>& bricks,
     EvolutionReport all;
     bool any = false;
     std::vector<double> moved;
+    Displacements last;
     const auto add = [](const std::vector<double>& from, std::vector<double>& to) {
         to.resize(std::max(to.size(), from.size()), 0.0);
         for (std::size_t i = 0; i < from.size(); ++i) to[i] += from[i];
@@ -79,6 +80,7 @@ std::optional<EvolutionReport> evolutionOf(const std::vector<BrickFile>& bricks,
         const auto& part = brick.header().sums.evolution;
         if (!part) continue;
         any = true;
+        last += brick.header().sums.displacements;
         all.steps = std::max(all.steps, part->steps);
         add(part->energy, all.energy);
         add(part->area, all.area);
@@ -94,7 +96,7 @@ std::optional<EvolutionReport> evolutionOf(const std::vector<BrickFile>& bricks,
     if (!any) return {};
     for (std::size_t i = 0; i < moved.size(); ++i)
         all.meanDisplacement.push_back(all.area[i] > 0.0 ? moved[i] / all.area[i] : 0.0);
-    checkConvergence(options, voxel, all);
+    judge(last, options, voxel, all);
     return all;
 }
 

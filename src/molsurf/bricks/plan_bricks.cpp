@@ -4,6 +4,7 @@
 #include "molsurf/bricks/brick_file.h"
 
 #include "molsurf/error.h"
+#include "molsurf/selection/subset.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/check_balls.h"
 #include "molsurf/surface/influence.h"
@@ -33,7 +34,8 @@ constexpr double bytesPerAtom = 40.0;          // of the whole molecule: balls, 
 constexpr double bytesPerNear = 85.0;          // of the balls near a brick: cell lists, copies
 constexpr double bytesPerBoundaryBall = 1.8e3; // of those: the boundary of their union
 constexpr double bytesPerOffsetBall = 1.3e3;   // the same where the surface lies inside of it
-constexpr double bytesPerFlowLeaf = 8.5e3;     // within the halo of the flow
+constexpr double bytesPerFlowLeaf = 12e3;      // within the halo of the flow
+constexpr double bytesPerCoarseLeaf = 2.2e3;   // of the whole at rest on voxels twice as large
 constexpr double bytesPerMeshLeaf = 12.5e3;    // within the halo of the spline
 constexpr double bytesPerFineLeaf = 25e3;      // the same of a surface that runs between atoms
 constexpr double bytesPerKeptLeaf = 5.5e3; // of the flow, where these are kept for the next brick
@@ -153,6 +155,13 @@ int valuesAlong(const SurfaceOptions& options)
     return values;
 }
 
+/// Whether bricks start from the rest of the whole on coarser voxels.
+bool startsCoarse(const SurfaceOptions& options)
+{
+    return options.kind == SurfaceKind::Variational &&
+           startsOnCoarserVoxels(options.evolution, options.voxel);
+}
+
 class Planner
 {
 public:
@@ -203,14 +212,29 @@ public:
         const bool fine =
             options_.kind == SurfaceKind::Gaussian || options_.kind == SurfaceKind::VanDerWaals;
         const double forFlow = bytesPerFlowLeaf * double(inFlow);
+        const double coarse = startsCoarse(options_) ? bytesPerCoarseLeaf * coarseLeaves() : 0.0;
         const double forMesh = (fine ? bytesPerFineLeaf : bytesPerMeshLeaf) * double(inSpline);
         brick.bytes = std::size_t(
-            processBytes + bytesPerAtom * double(atoms_) + perBall * double(balls) +
+            processBytes + coarse + bytesPerAtom * double(atoms_) + perBall * double(balls) +
             (keeping_ ? bytesPerKeptLeaf * double(inFlow) + forMesh : std::max(forFlow, forMesh)) +
             bytesPerValueOfLeaf * valuesAlong(options_) * double(own));
         brick.seconds = secondsPerLeaf * double(inSpline) + secondsPerFlowLeaf * double(inFlow) +
                         (isUnion(options_.kind) ? secondsPerBoundaryBall * double(balls) : 0.0);
         return brick;
+    }
+
+    /// Leaves of the whole on voxels twice as large.
+    double coarseLeaves() const
+    {
+        constexpr double share = 0.3; // a fourth for a surface, and its band is wider
+        return share * double(occupancy_.leaves.size());
+    }
+
+    /// Peak memory of the flow of the whole on voxels twice as large [byte].
+    double coarseBytes() const
+    {
+        return processBytes + (bytesPerAtom + bytesPerNear) * double(atoms_) +
+               bytesPerFlowLeaf * coarseLeaves();
     }
 
     /// Cuts a box in two, `share` of the surface in the first. False if it is too small.
@@ -342,6 +366,11 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const Br
             plan.keepsMemory = !kept.empty() && secondsOf(kept) < worth * secondsOf(plan.bricks);
             if (plan.keepsMemory) plan.bricks = std::move(kept);
         }
+        if (startsCoarse(options)) {
+            const double coarse = planner.coarseBytes();
+            if (coarse > double(limits.memory))
+                Planner::tooLittle("the flow on coarser voxels", coarse, limits.memory);
+        }
         double voxels = 0.0;
         for (const PlannedBrick& brick : plan.bricks) voxels += double(brick.voxels);
         const double merge = processBytes + bytesToMerge * voxels;
@@ -381,11 +410,17 @@ Scope scopeOf(const BrickPlan& plan, std::size_t k, const SurfaceOptions& option
 
 void computeBrick(const BallSet& balls, const SurfaceOptions& options, const BrickPlan& plan,
                   std::size_t number, const std::string& id, const std::string& path, bool meshed,
-                  Progress& progress)
+                  std::shared_ptr<const SparseField>& coarse, Progress& progress)
 {
     SurfaceOptions fixed = options;
     fixed.evolution.steps = plan.steps;
-    const Scope scope = scopeOf(plan, number - 1, fixed);
+    Scope scope = scopeOf(plan, number - 1, fixed);
+    Report ofCoarse;
+    if (!coarse && startsCoarse(fixed)) {
+        coarse = std::make_shared<SparseField>(
+            restOnCoarserVoxels(inSpatialOrder(balls), fixed, progress, ofCoarse));
+    }
+    scope.coarseRest = coarse;
     const Brick brick = runBrick(ballsNear(balls, fixed, scope), fixed, scope, progress);
     progress.update("write", 0.0);
     OutputFile file(path, true);

@@ -8,6 +8,8 @@
 #include "molsurf/bricks.h"
 #include "molsurf/bricks/run_brick.h"
 
+#include <memory>
+
 namespace molsurf
 {
 
@@ -25,8 +27,11 @@ Scope scopeOf(const BrickPlan& plan, std::size_t k, const SurfaceOptions& option
 /// @param[in] number  of the brick, from 1
 /// @param[in] id      name of the plan
 /// @param[in] meshed  whether a mesh will be wanted
+/// @param[in,out] coarse  what the flows of all bricks start from, if they do not start from psi;
+/// it
+///                        is computed if it is null, and serves the next brick
 void computeBrick(const BallSet& balls, const SurfaceOptions& options, const BrickPlan& plan,
                   std::size_t number, const std::string& id, const std::string& path, bool meshed,
-                  Progress& progress);
+                  std::shared_ptr<const SparseField>& coarse, Progress& progress);
 
 } // namespace molsurf

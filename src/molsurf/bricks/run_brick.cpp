@@ -160,8 +160,8 @@ void checkBrickOptions(const SurfaceOptions& options)
     if (hasField(options.fields, "density")) refuse("`fields` density");
     if (options.curvatureTotals) refuse("`curvatureTotals`");
     if (options.splineLevel > 0) refuse("`splineLevel`");
-    if (options.kind == SurfaceKind::Variational && options.evolution.flow == Flow::Plain)
-        refuse("`flow` plain");
+    if (options.kind == SurfaceKind::Variational && options.evolution.flow == Flow::Paper)
+        refuse("`flow` paper");
     if (options.color == ColorBy::MeanCurvature || options.color == ColorBy::GaussianCurvature)
         refuse("`color` by curvature");
 }
@@ -194,6 +194,7 @@ Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope&
     brick.grids = {result.surface};
     brick.grids.insert(brick.grids.end(), result.fields.begin(), result.fields.end());
     brick.evolution = result.report.evolution;
+    brick.displacements = run.displacements();
     brick.groups = result.report.groups;
     brick.seconds = result.report.seconds;
     return brick;

@@ -4,54 +4,68 @@
 /// @file
 /// The variational flow: a level set moves down the energy  E = integral over Gamma of w.
 
+#include "molsurf/flow/displacement.h"
+#include "molsurf/flow/metric.h"
+#include "molsurf/flow/narrow_band.h"
 #include "molsurf/grid/region.h"
-#include "molsurf/grid/sparse_field.h"
 #include "molsurf/options.h"
 #include "molsurf/progress.h"
 #include "molsurf/report.h"
 
-#include <functional>
-
 namespace molsurf
 {
 
-/// A level set in its narrow band, and the field psi that drives it.
-struct NarrowBand {
-    SparseField phi; ///< signed distance [Å], < 0 inside; active voxels: the band
-    LeafField psi;   ///< on the leaves of phi
-};
+/// Largest numbers of steps, if the options do not say any: of the Newton flow, and of the paper's.
+constexpr int newtonSteps = 50, paperSteps = 200;
 
-/// Width of the band on each side of the interface [voxel]: the flow acts up to 2.25 voxels away,
-/// and its stencils reach less than one further.
-constexpr int bandWidthVox = 3;
+/// The longest displacement that 99.9 % of the interface may still have at rest: so many times the
+/// tolerance, but no less than the grid's own noise [voxel].
+constexpr double tailOfTolerance = 8.0, tailOfGrid = 0.04;
 
-/// Gives psi at the 512 voxels of the leaf with this first voxel. It is called from several
-/// threads.
-using PsiSource = std::function<void(const openvdb::Coord& origin, float* psi)>;
+/// The weights that the options say.
+Weights weightsOf(const EvolveOptions& options);
 
-/// Evolves phi by  phi_t = |grad phi| (w kappa + n . grad w)  with speeds extended along normals
-/// from the interface (docs/math.md, section 4). After each step the level set is made a distance
-/// again by reinitialize(); leaves are added as the interface moves, and none is dropped.
+/// Whether the flow makes Newton steps, and any steps at all: then it starts where it will rest to
+/// first order.
+bool makesNewtonSteps(const EvolveOptions& options);
+
+/// Whether the flow starts from its rest on voxels twice as large. It does so where lambda is so
+/// large that fronts move far, as the surface closes pockets and gaps: that takes as many steps as
+/// it is voxels.
+bool startsOnCoarserVoxels(const EvolveOptions& options, double voxelSize);
+
+/// The options of the flow on coarser voxels, which goes nearer to rest than those ask for.
+EvolveOptions coarseFlow(const EvolveOptions& options);
+
+/// Evolves phi by  phi_t = |grad phi| (w kappa + n . grad w)  to rest (docs/math.md, section 4): by
+/// Newton steps, each solved for by sweeps over the interface, with speeds taken at the foot points
+/// of voxels. After each step the level set is made a distance again by reinitialize(); leaves are
+/// added as the interface moves, and none is dropped.
 ///
-/// Stops when in a step the energy changes by less than options.energyTolerance and the mean
-/// displacement is below options.displacementTolerance; or after options.maxSteps; or, if these are
-/// not given, when the mean displacement of the preconditioned flow is small, but above its
-/// tolerance, and has not fallen by a hundredth in five steps; with options.steps after just so
-/// many. Where steps are small because the voxels are (the bound of explicit diffusion), that can
-/// be far from rest: EvolutionReport::estimatedRemainingDisplacement tells how far.
+/// Stops when the displacement that a step solves for, which is then made, has a root mean square
+/// below options.tolerance voxels, and at 99.9 % of the interface is below eight times this; or
+/// after options.maxSteps; or, where its mean is small, when the longest displacements have not
+/// fallen by a tenth in eight steps; with options.steps after just so many. A tunnel that closes
+/// later is foretold by nothing local.
 ///
-/// @param[in,out] band    as initialSurface() makes it
+/// @param[in,out] band    as initialSurface() or refined() make it
 /// @param[in]     source  psi for leaves that are added
 /// @param[in]     region  where leaves may be added: those that the band has must lie there, too;
 ///                        the report's sums are of its own voxels only, and may be empty
 /// @param[in]     halo    of the region, in leaves
+/// @param[out]    last    null, or takes the displacements of the last step
 /// @throws Error(ErrorKind::Numeric) if a value is not finite, or if nothing is left of the surface
 EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOptions& options,
-                       Progress& progress, const Region& region = {}, int halo = 0);
+                       Progress& progress, const Region& region = {}, int halo = 0,
+                       Displacements* last = nullptr);
 
-/// Finds whether the last step of a history meets the stopping rule, and how far it has yet to go.
+/// The smallest tolerance that the last step of a flow meets [voxel].
+double toleranceOf(const EvolutionReport& report, double voxelSize);
+
+/// Finds whether the displacements of a step meet the stopping rule.
 /// @param[in]     voxelSize  edge h of a voxel [Å]
-/// @param[in,out] report     its converged and estimatedRemainingDisplacement are set
-void checkConvergence(const EvolveOptions& options, double voxelSize, EvolutionReport& report);
+/// @param[in,out] report     converged and the last displacements are set
+void judge(const Displacements& last, const EvolveOptions& options, double voxelSize,
+           EvolutionReport& report);
 
 } // namespace molsurf

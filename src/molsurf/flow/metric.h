@@ -10,21 +10,25 @@
 #include "molsurf/core/simd.h"
 #include "molsurf/levelset/stencil.h"
 
+#include <cmath>
+
 namespace molsurf
 {
 
 /// lambda, split by regulariser so that one formula serves both.
 struct Weights {
-    float gradient; ///< lambda of h = |grad g|^2 [Å^2]; 0 for the area regulariser
-    float area;     ///< lambda of h = 1; 0 for the gradient regulariser
+    float gradient = 0.0f; ///< lambda of h = |grad g|^2 [Å^2]; 0 for the area regulariser
+    float area = 0.0f;     ///< lambda of h = 1; 0 for the gradient regulariser
 };
 
 /// w and its derivative along the normal, at a foot point.
 struct Metric {
     float w;      ///< no unit
     float normal; ///< n . grad w [1/Å]
-    float
-        second; ///< positive approximation of the second derivative of w across the valley [1/Å^2]
+    /// Slope of n . grad w over the way to the bottom of the valley: a Newton step by it ends there
+    /// from any distance, if psi is linear along the normal [1/Å^2].
+    float secant;
+    float tangent; ///< derivative of n . grad w in the same valley, in [0, secant] [1/Å^2]
 };
 
 /// @param[in] psi      value at the voxel
@@ -54,7 +58,15 @@ inline __attribute__((always_inline)) Metric metricAtFoot(float psi, const Deriv
     m.w = g * g + weights.gradient * gradG2 + weights.area;
     // grad g = -e grad psi;  grad |grad g|^2 = 2 e^2 (|grad psi|^2 grad psi + Hess psi grad psi)
     m.normal = -2.0f * g * e * slope + 2.0f * weights.gradient * e * e * (slope2 * slope + curved);
-    m.second = 2.0f * gradG2 * (1.0f + weights.gradient * slope2);
+    // The bottom lies where y = (1 + q) e^psi is 1, with q = lambda |grad psi|^2: at ln y = 0.
+    const float q1 = 1.0f + weights.gradient * slope2;
+    const float t = clamped(smaller(foot, 20.0f) + fastLog(q1), -8.0f, 24.0f);
+    const bool far = std::abs(t) > 0.05f;
+    const float series = 1.0f + t * (0.5f + t * (1.0f / 6.0f));
+    const float ratio = far ? (q1 * e - 1.0f) / (far ? t : 1.0f) : series; // (y - 1)/ln y
+    const float valley = 2.0f * slope2 * e;
+    m.secant = valley * ratio;
+    m.tangent = valley * clamped(2.0f * q1 * e - 1.0f, 0.0f, ratio);
     return m;
 }
 

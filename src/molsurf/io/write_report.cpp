@@ -66,7 +66,9 @@ Json evolutionJson(const EvolutionReport& evolution)
             {"energy", evolution.energy},
             {"mean_displacement", evolution.meanDisplacement},
             {"max_speed", evolution.maxSpeed},
-            {"remaining_way", evolution.estimatedRemainingDisplacement},
+            {"displacement_rms", evolution.displacementRms},
+            {"displacement_tail", evolution.displacementTail},
+            {"unsettled_share", evolution.unsettledShare},
             {"crevice_voxels", evolution.unresolvedGapVoxels},
             {"area", evolution.area},
             {"volume", evolution.volume}};

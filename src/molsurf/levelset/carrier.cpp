@@ -18,12 +18,22 @@ namespace
 constexpr float unknown = 1e9f; // v where it is not known
 constexpr float near = 0.7f;    // of the interface: where v is taken [voxel]
 
+/// How much the distance carries the interface rather than psi: 1 where the interface has left the
+/// valley of the metric, as it does where it spans a gap. Levels of psi mean nothing to it there.
+/// @param[in] level  of psi on the interface, above that at the bottom of the valley
+float leaving(float level)
+{
+    constexpr float begin = 0.5f, end = 1.2f;
+    const float t = std::clamp((std::abs(level) - begin) / (end - begin), 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
 /// psi at the foot on the interface of each voxel of a mask, by its second-order expansion; left
 /// alone where the distance has no clear normal.
 void levelsAtFeet(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi,
                   const LeafMask& mask, float voxel, float* out)
 {
-    constexpr float least = -3.0f, most = 1.0f, leastSlope = 0.3f;
+    constexpr float least = -12.0f, most = 3.0f, leastSlope = 0.3f;
     const float inverse = 1.0f / voxel;
     mask.forEach([&](int v) {
         const float* p = psi.at(v >> 6, v >> 3 & 7, v & 7);
@@ -39,7 +49,8 @@ void levelsAtFeet(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi
         const float along = d.x * nx + d.y * ny + d.z * nz;
         const float bend = nx * nx * d.xx + ny * ny * d.yy + nz * nz * d.zz +
                            2.0f * (nx * ny * d.xy + ny * nz * d.yz + nx * nz * d.xz);
-        out[v] = std::clamp(*p - *f * along + 0.5f * *f * *f * bend, least, most);
+        const float distance = distanceOf(*f, 0.5f * slope * inverse);
+        out[v] = std::clamp(*p - distance * along + 0.5f * distance * distance * bend, least, most);
     });
 }
 
@@ -118,9 +129,11 @@ SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, d
             // Far from the interface, where v is not known, the bottom of the valley serves, unless
             // it is on the other side: in a cavity that was filled.
             const bool known = weight[at] > 0.0f;
-            const float level = known ? sum[at] : -std::log1p(lambda * slope[i] * slope[i]);
+            const float bottom = -std::log1p(lambda * slope[i] * slope[i]);
+            const float level = known ? sum[at] : bottom;
             const float value = std::clamp((level - psi[i]) / slope[i], -limit, limit);
-            to[i] = known || value * distance[i] > 0.0f ? value : distance[i];
+            const float carried = known || value * distance[i] > 0.0f ? value : distance[i];
+            to[i] = carried + leaving(level - bottom) * (distance[i] - carried);
         }
     });
     return out;

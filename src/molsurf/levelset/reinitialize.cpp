@@ -21,6 +21,10 @@ constexpr int X = Block::strideX, Y = Block::strideY;
 /// Time step in units of h: the scheme is stable up to 1/sqrt(3).
 constexpr float timeStep = 0.5f;
 
+/// Changes of an interface voxel below this many voxels are the stencil's own error rather than the
+/// field's. They are suppressed: made at every step they would add up to a drift of the interface.
+constexpr float stencilError = 0.02f;
+
 static_assert(leafDim == floatLanes, "a row is a vector");
 
 /// The one of two numbers of one sign that is nearer to 0; else 0: b between 0 and a.
@@ -46,12 +50,13 @@ MOLSURF_INLINE Floats addUpwind(Floats sum, const float* p, int stride, Floats s
 }
 
 /// One Euler step where a mask is on; elsewhere the field, limited to the band.
+/// @param[in] noise  changes below this are suppressed [Å]
 MOLSURF_KERNEL void eulerStep(const float* __restrict block, const LeafMask& moving, float voxel,
-                              float width, float* __restrict out)
+                              float width, float noise, float* __restrict out)
 {
     const float inverse2 = 1.0f / (voxel * voxel);
     const Floats farthest = splat(width), least = splat(1e-6f * voxel);
-    const Floats zero = 1e-20f * least;
+    const Floats zero = 1e-20f * least, noise2 = splat(noise * noise + 1e-30f);
     Ints bit;
     for (int z = 0; z < leafDim; ++z) bit[z] = rowBits[z];
     for (int row = 0; row < 64; ++row) {
@@ -67,8 +72,9 @@ MOLSURF_KERNEL void eulerStep(const float* __restrict block, const LeafMask& mov
         Floats slope2 = {};
         for (const int stride : {X, Y, 1}) slope2 = addUpwind(slope2, p, stride, sign, zero);
         const Floats slope = squareRoot(inverse2 * slope2);
+        const Floats change = timeStep * voxel * (slope - 1.0f), change2 = change * change;
         const Floats next =
-            clamped(sign * value - timeStep * voxel * (slope - 1.0f), least, farthest);
+            clamped(sign * value - change * (change2 / (change2 + noise2)), least, farthest);
         store(out + 8 * row, (bit & bits) != 0 ? sign * next : limited);
     }
 }
@@ -97,10 +103,6 @@ MOLSURF_KERNEL void nextToInterface(const float* __restrict block, const LeafMas
     }
     mask &= among;
 }
-
-/// Changes of an interface voxel below this many voxels are the stencil's own error rather than the
-/// field's. They are suppressed: made at every step they would add up to a drift of the interface.
-constexpr float stencilError = 0.02f;
 
 /// Signed distance of the zero of the second-order Taylor polynomial along the gradient, where a
 /// mask is on; the value itself where the polynomial has no zero nearby (in gaps that the grid
@@ -138,10 +140,11 @@ MOLSURF_KERNEL void taylorDistance(const float* __restrict block, const LeafMask
 } // namespace
 
 void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress,
-                  LeafField& scratch)
+                  LeafField& scratch, Repair repair)
 {
     const LeafTable& table = phi.table;
     const float h = float(phi.voxelSize), w = float(width);
+    const float noise = repair == Repair::Errors ? stencilError * h : 0.0f;
     std::vector<LeafMask> interface(table.size());
     if (scratch.leafCount() != table.size()) scratch = LeafField(table.size());
     for (int i = 0; i < iterations; ++i) {
@@ -152,7 +155,7 @@ void reinitialize(SparseField& phi, double width, int iterations, const Progress
             scratch.prefetchAfter(n);
             LeafMask& fixed = interface[n];
             if (i == 0) nextToInterface(block.values, table.active(n), fixed);
-            eulerStep(block.values, table.active(n) & ~fixed, h, w, scratch.leaf(n));
+            eulerStep(block.values, table.active(n) & ~fixed, h, w, noise, scratch.leaf(n));
             if (i == 0 && fixed.any())
                 taylorDistance(block.values, fixed, 1.0f / h, scratch.leaf(n));
         });

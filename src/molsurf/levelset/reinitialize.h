@@ -11,6 +11,12 @@
 namespace molsurf
 {
 
+/// What reinitialize() changes beside the interface.
+enum class Repair {
+    All,   ///< every deviation from a distance
+    Errors ///< deviations beyond the error of the stencils: a field at rest then stays as it is
+};
+
 /// Iterates phi_t + sign(phi) (|grad phi| - 1) = 0 on the active voxels, by explicit Euler steps of
 /// half a voxel with second-order ENO differences and Godunov's flux (Sussman, Smereka and Osher, A
 /// level set approach for computing solutions to incompressible two-phase flow, J. Comput. Phys.
@@ -29,7 +35,7 @@ namespace molsurf
 /// @param[in]     iterations  number of Euler steps
 /// @param         scratch     storage, to be kept from call to call; made to fit if it does not
 void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress,
-                  LeafField& scratch);
+                  LeafField& scratch, Repair repair = Repair::All);
 
 /// As above, with storage of its own.
 void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress);

@@ -40,4 +40,12 @@ inline __attribute__((always_inline)) Derivatives derivatives(const float* p, fl
     return d;
 }
 
+/// The distance to the zero of a level set, to first order, from its value and its slope; the value
+/// itself in gaps that the grid does not resolve, where the slope says nothing of the distance.
+inline __attribute__((always_inline)) float distanceOf(float phi, float slope)
+{
+    const float off = 1.0f - slope, trust = 1.0f - 25.0f * off * off;
+    return phi * (1.0f + off * (trust > 0.0f ? trust : 0.0f));
+}
+
 } // namespace molsurf

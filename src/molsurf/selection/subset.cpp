@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/subset.h"
 
+#include "molsurf/balls/placed_ball.h"
+
 #include <utility>
 
 namespace molsurf
@@ -55,6 +57,12 @@ BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which, Coun
     labels.residueClassOf = gather(all.residueClassOf, which);
     if (counted == Counted::Subset) count(labels.groupOf, labels.groups);
     return out;
+}
+
+BallSet inSpatialOrder(const BallSet& atoms)
+{
+    const std::vector<std::int32_t> order = spatialOrder(atoms.balls);
+    return subset(atoms, {order.begin(), order.end()});
 }
 
 } // namespace molsurf

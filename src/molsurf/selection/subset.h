@@ -22,4 +22,7 @@ enum class Counted { Subset, Whole };
 BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which,
                Counted counted = Counted::Subset);
 
+/// The same balls in spatial order, so that results have the same bits for any order of the atoms.
+BallSet inSpatialOrder(const BallSet& atoms);
+
 } // namespace molsurf

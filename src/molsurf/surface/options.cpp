@@ -47,7 +47,7 @@ const char* nameOf(Regularizer regularizer)
 
 const char* nameOf(Flow flow)
 {
-    return flow == Flow::Preconditioned ? "preconditioned" : "plain";
+    return flow == Flow::Newton ? "newton" : "paper";
 }
 
 double probeOf(const SurfaceOptions& options)
@@ -70,8 +70,8 @@ void checkOptions(const SurfaceOptions& options)
           options.blobbiness);
     check(options.evolution.lambda >= 0.0 && options.evolution.lambda <= 1e6, "`lambda`",
           "0 to 1e6", options.evolution.lambda);
-    check(options.evolution.energyTolerance > 0.0 && finite(options.evolution.energyTolerance),
-          "`tolerance`", "a positive number", options.evolution.energyTolerance);
+    check(options.evolution.tolerance > 0.0 && finite(options.evolution.tolerance), "`tolerance`",
+          "a positive number", options.evolution.tolerance);
     for (const std::string& field : options.fields) {
         const auto& names = fieldNames();
         if (std::find(names.begin(), names.end(), field) == names.end()) {

@@ -44,13 +44,6 @@ MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, P
     return run.finish();
 }
 
-/// The same balls in spatial order, so that results have the same bits for any order of the atoms.
-BallSet inSpatialOrder(const BallSet& atoms)
-{
-    const std::vector<std::int32_t> order = spatialOrder(atoms.balls);
-    return subset(atoms, {order.begin(), order.end()});
-}
-
 } // namespace
 
 MolecularSurface makeSurface(const std::vector<Ball>& balls, const SurfaceOptions& options,

@@ -3,7 +3,8 @@
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
-#include "molsurf/levelset/initial_surface.h"
+#include "molsurf/flow/initial_surface.h"
+#include "molsurf/flow/refine.h"
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/levelset/round_ridges.h"
@@ -34,7 +35,7 @@ void Stopwatch::stop(const char* stage)
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - start_).count();
     start_ = now;
-    report_.addSeconds(stage, seconds);
+    report_->addSeconds(stage, seconds);
 }
 
 SurfaceRun::SurfaceRun(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
@@ -46,6 +47,18 @@ SurfaceRun::SurfaceRun(const BallSet& atoms, const SurfaceOptions& options, cons
     band_.phi.voxelSize = S_.phi.voxelSize = options.voxel;
 }
 
+namespace
+{
+
+EvolveOptions flowOptions(const SurfaceOptions& options)
+{
+    EvolveOptions evolution = options.evolution;
+    evolution.splineLevel = options.splineLevel;
+    return evolution;
+}
+
+} // namespace
+
 void SurfaceRun::density()
 {
     if (isUnion(options_.kind)) return;
@@ -54,6 +67,10 @@ void SurfaceRun::density()
     GaussianOptions gaussian = gaussianOptions(options_);
     gaussian.extent = influence_.extent();
     sum_.emplace(atoms_.balls, gaussian, evolves ? atoms_.decays : std::vector<Decay>());
+    if (evolves && startsOnCoarserVoxels(flowOptions(options_), options_.voxel)) {
+        refineCoarseRest();
+        return;
+    }
     LeafTable table = sum_->band(bandWidthVox, progress_, scope_.region.grown(scope_.flowHalo));
     if (table.size() == 0 && scope_.region.whole()) {
         throw Error(ErrorKind::Numeric, "density: no voxel lies inside the surface [hint: a "
@@ -64,7 +81,39 @@ void SurfaceRun::density()
     watch_.stop("density");
 
     progress_.update("initial", 0.0);
-    band_.phi = initialSurface(psi, bandWidthVox * psi.voxelSize, progress_);
+    const bool shifted = evolves && makesNewtonSteps(options_.evolution);
+    band_.phi = initialSurface(psi, bandWidthVox * psi.voxelSize,
+                               shifted ? weightsOf(options_.evolution) : Weights{}, progress_);
+    band_.psi = std::move(psi.values);
+    watch_.stop("initial");
+}
+
+SparseField restOnCoarserVoxels(const BallSet& atoms, const SurfaceOptions& options,
+                                Progress& progress, Report& report)
+{
+    SurfaceOptions wide = options;
+    wide.voxel = 2.0 * options.voxel;
+    wide.evolution = coarseFlow(options.evolution);
+    SurfaceRun run(atoms, wide, Scope(), progress);
+    run.density();
+    run.flow(nullptr);
+    for (const auto& [stage, seconds] : run.result_.report.seconds)
+        report.addSeconds(stage, seconds);
+    return std::move(run.band_.phi);
+}
+
+void SurfaceRun::refineCoarseRest()
+{
+    const openvdb::CoordBBox box = scope_.region.grown(scope_.flowHalo);
+    if (scope_.coarseRest) {
+        band_.phi = refined(*scope_.coarseRest, box, progress_);
+    } else {
+        const SparseField coarse = restOnCoarserVoxels(atoms_, options_, progress_, result_.report);
+        watch_ = Stopwatch(result_.report);
+        band_.phi = refined(coarse, box, progress_);
+    }
+    SparseField psi = sum_->evaluate(std::move(band_.phi.table), progress_);
+    band_.phi.table = std::move(psi.table);
     band_.psi = std::move(psi.values);
     watch_.stop("initial");
 }
@@ -82,27 +131,13 @@ void SurfaceRun::flow(WarmStart* warm)
         const auto source = [&](const openvdb::Coord& origin, float* psi) {
             sum_->evaluate(origin, reach, psi);
         };
-        EvolveOptions evolution = options_.evolution;
-        evolution.splineLevel = options_.splineLevel;
-        result_.report.evolution =
-            evolve(band_, source, evolution, progress_, scope_.region, scope_.flowHalo);
+        const EvolveOptions evolution = flowOptions(options_);
+        result_.report.evolution = evolve(band_, source, evolution, progress_, scope_.region,
+                                          scope_.flowHalo, &displacements_);
         if (warm) *warm = correctionOf(cold, band_.phi, progress_);
-        warnIfCreeping();
         watch_.stop("evolve");
     }
     sum_.reset();
-}
-
-void SurfaceRun::warnIfCreeping()
-{
-    constexpr double noticeable = 0.1; // [voxel]
-    const EvolutionReport& evolution = *result_.report.evolution;
-    if (evolution.converged &&
-        evolution.estimatedRemainingDisplacement > noticeable * options_.voxel) {
-        result_.report.warnings.push_back(
-            "evolve: the steps are small, but the interface still creeps [hint: a "
-            "smaller `tolerance` and more `maxSteps`]");
-    }
 }
 
 /// Whether the evolved level set is still needed when S is known.

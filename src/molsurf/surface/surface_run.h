@@ -16,6 +16,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,21 +32,29 @@ struct Scope {
     int distanceHalo = 0;                 ///< of the part of it that distances are taken to
     int ridgeHalo = 0;                    ///< of S before its ridges are rounded
     int splineHalo = 0;                   ///< of S and its spline; a leaf less of the mesh
+    /// Of a brick: the rest of the whole on voxels twice as large, if its flow starts from there.
+    std::shared_ptr<const SparseField> coarseRest{};
     bool keepsMemory = false; ///< pages that are not used stay in the process, for the next brick
 };
+
+/// The level set at rest on voxels twice as large as those of the options: where the flow starts
+/// from, see startsOnCoarserVoxels().
+/// @param[in,out] report  the times of its stages are added
+SparseField restOnCoarserVoxels(const BallSet& atoms, const SurfaceOptions& options,
+                                Progress& progress, Report& report);
 
 /// Measures the wall time of stages; a stage may come more than once.
 class Stopwatch
 {
 public:
-    explicit Stopwatch(Report& report) : report_(report) {}
+    explicit Stopwatch(Report& report) : report_(&report) {}
 
     /// Adds the time since the stop before to that of a stage.
     void stop(const char* stage);
 
 private:
     using Clock = std::chrono::steady_clock;
-    Report& report_;
+    Report* report_;
     Clock::time_point start_ = Clock::now();
 };
 
@@ -136,12 +145,17 @@ public:
     ExtractStats& stats() { return stats_; }
     const Spline& currentSpline() const { return spline_; }
 
+    /// The displacements of the last step of the flow.
+    const Displacements& displacements() const { return displacements_; }
+
     /// Counts vertices by the gradient there.
     /// @param[in] slopes  |grad S| at the first vertices of the mesh, those that are counted
     GradientCounts countGradients(const std::vector<float>& slopes);
 
 private:
-    void warnIfCreeping();
+    friend SparseField restOnCoarserVoxels(const BallSet&, const SurfaceOptions&, Progress&,
+                                           Report&);
+    void refineCoarseRest();
     bool keepsLevelSet() const;
     DistanceBand distanceToBalls();
     openvdb::FloatGrid::Ptr sasGrid();
@@ -155,6 +169,7 @@ private:
     Stopwatch watch_;
     std::optional<GaussianSum> sum_;
     NarrowBand band_; ///< the level set that a smooth surface is offset from
+    Displacements displacements_;
     DistanceBand S_;
     Spline spline_;
     ExtractStats stats_;

@@ -244,7 +244,7 @@ TEST_F(Bricks, RefuseWhatNeedsTheWhole)
     refused([](SurfaceOptions& o) { o.fillCavities = true; });
     refused([](SurfaceOptions& o) { o.curvatureTotals = true; });
     refused([](SurfaceOptions& o) { o.splineLevel = 1; });
-    refused([](SurfaceOptions& o) { o.evolution.flow = Flow::Plain; });
+    refused([](SurfaceOptions& o) { o.evolution.flow = Flow::Paper; });
     refused([](SurfaceOptions& o) { o.color = ColorBy::MeanCurvature; });
     refused([](SurfaceOptions& o) { o.surfaceOf = {{"a", SurfaceKind::VanDerWaals}}; });
 }

@@ -59,7 +59,9 @@ TEST(MetricAtFoot, AgreesWithTheDefinitionAtTheFootPoint)
             (q.w(foot + step * n, weights) - q.w(foot - step * n, weights)) / (2.0 * step);
         EXPECT_NEAR(m.w, w, 1e-5 * (1.0 + w));
         EXPECT_NEAR(m.normal, normal, 2e-5 * (1.0 + std::abs(normal) + w));
-        EXPECT_GE(m.second, 0.0f);
+        EXPECT_GE(m.secant, 0.0f);
+        EXPECT_GE(m.tangent, 0.0f);
+        EXPECT_LE(m.tangent, m.secant * 1.001f);
     }
 }
 
@@ -80,9 +82,22 @@ TEST(MetricAtFoot, StiffnessIsTheSecondDerivativeAtTheBottomOfTheValley)
             const double second =
                 (flat.w(z, weights) - 2.0 * flat.w(Vec3d(0.0), weights) + flat.w(-z, weights)) /
                 (step * step);
-            EXPECT_NEAR(m.second / second, 1.0, 1e-3);
+            EXPECT_NEAR(m.secant / second, 1.0, 1e-3);
+            EXPECT_NEAR(m.tangent / second, 1.0, 1e-3);
             EXPECT_NEAR(m.normal, 0.0, 1e-5 * a);
         }
+    }
+}
+
+// The slope of the speed over the whole way: one step ends at the bottom, from wherever it starts.
+TEST(MetricAtFoot, ANewtonStepBySecantEndsAtTheBottomOfTheValley)
+{
+    const Weights weights{0.01f, 0.0f};
+    const double a = 2.8, bottom = -std::log1p(0.01 * a * a);
+    for (const double s : {-0.6, -0.2, -0.01, 0.01, 0.2, 0.6}) { // outward from the bottom [Å]
+        const Derivatives d = {0.0f, 0.0f, float(-a), 0, 0, 0, 0, 0, 0};
+        const Metric m = metricAtFoot(float(bottom - a * s), d, 0.0f, 0.0f, 1.0f, 0.0f, weights);
+        EXPECT_NEAR(m.normal / m.secant, s, 1e-3) << s;
     }
 }
 

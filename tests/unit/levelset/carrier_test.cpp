@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/levelset/carrier.h"
 
+#include "molsurf/flow/initial_surface.h"
 #include "molsurf/levelset/gaussian_sum.h"
-#include "molsurf/levelset/initial_surface.h"
 #include "support/fields.h"
 #include "support/molecules.h"
 
@@ -35,7 +35,7 @@ Fields fieldsOf(const std::vector<Ball>& balls, double voxel,
     const GaussianSum sum(balls, options);
     Fields f;
     f.psi = sum.evaluate(sum.band(width, Progress()), Progress());
-    f.phi = initialSurface(f.psi, width * voxel, Progress());
+    f.phi = initialSurface(f.psi, width * voxel, {}, Progress());
     if (change) change(f);
     LeafField slopes(f.table().size());
     for (std::size_t n = 0; n < f.table().size(); ++n)

@@ -40,7 +40,7 @@ TEST(CheckOptions, RefusesWhatIsOutOfRangeAndNamesTheOption)
     for (const double x : {-0.01, 1e7, inf, nan})
         expectRefused("`lambda`", [x](SurfaceOptions& o) { o.evolution.lambda = x; });
     for (const double x : {0.0, -1.0, inf, nan})
-        expectRefused("`tolerance`", [x](SurfaceOptions& o) { o.evolution.energyTolerance = x; });
+        expectRefused("`tolerance`", [x](SurfaceOptions& o) { o.evolution.tolerance = x; });
     for (const int x : {-1, 3})
         expectRefused("`splineLevel`", [x](SurfaceOptions& o) { o.splineLevel = x; });
     expectRefused("`fields`", [](SurfaceOptions& o) { o.fields = {"sas", "colour"}; });

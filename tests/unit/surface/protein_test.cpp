@@ -59,21 +59,20 @@ TEST(PipelineSlow, DimerOf1A8OAgreesWithHalfTheVoxel)
     EXPECT_NEAR(fine.report.surface.volume, 19350.0, 0.02 * 19350.0);
 }
 
-TEST(Pipeline, GivesUpOnVoxelsThatAreTooLargeForTheFlowToRest)
+// At a lambda of 1 Å^2 the molecule nearly becomes its hull, and what is left of pockets is too
+// narrow for voxels of 1 Å: there the flow does not rest.
+TEST(Pipeline, TellsWhereVoxelsAreTooLargeForTheFlowToRest)
 {
     SurfaceOptions options;
-    options.voxel = 2.0;
-    const std::vector<Ball> balls = test::balls("1crn.pdb", "none");
-    const MolecularSurface early = test::runOn(balls, options);
-    const EvolutionReport& flow = *early.report.evolution;
+    options.voxel = 1.0;
+    options.evolution.lambda = 1.0;
+    options.evolution.maxSteps = 50;
+    const MolecularSurface result = test::runOn(test::balls("1a8o.cif.gz", "1"), options);
+    const EvolutionReport& flow = *result.report.evolution;
     EXPECT_FALSE(flow.converged);
-    EXPECT_LT(flow.steps, 20);
-    EXPECT_GT(flow.meanDisplacement.back(), 0.01 * options.voxel);
-    options.evolution.maxSteps = 50; // who asks for steps gets them
-    const MolecularSurface late = test::runOn(balls, options);
-    EXPECT_FALSE(late.report.evolution->converged);
-    EXPECT_EQ(late.report.evolution->steps, 50);
-    EXPECT_NEAR(late.report.surface.volume / early.report.surface.volume, 1.0, 0.01);
+    EXPECT_GT(flow.displacementTail, 0.08 * options.voxel);
+    EXPECT_GT(flow.unsettledShare, 0.001);
+    EXPECT_LT(flow.unsettledShare, 0.1);
 }
 
 TEST(Pipeline, DimerOf1A8OWithALargeLambda)
@@ -83,8 +82,8 @@ TEST(Pipeline, DimerOf1A8OWithALargeLambda)
     const MolecularSurface result = test::runOn(test::balls("1a8o.cif.gz", "1"), options);
     say("1a8o lambda 0.1", result);
     EXPECT_TRUE(result.report.evolution->converged);
-    EXPECT_LT(test::largestRise(*result.report.evolution), 1e-4);
-    EXPECT_NEAR(result.report.surface.volume, 20800.0, 0.015 * 20800.0);
+    EXPECT_LE(result.report.evolution->steps, 10);
+    EXPECT_NEAR(result.report.surface.volume, 21800.0, 0.003 * 21800.0);
 }
 
 // The jet of the spline from both sides of cell faces near the surface, some of them between

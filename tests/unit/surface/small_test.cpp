@@ -54,8 +54,6 @@ TEST(SmallMolecules, OneAtomIsABallOfItsExactRadius)
     for (const double voxel : {0.5, 0.25}) {
         SurfaceOptions options;
         options.voxel = voxel;
-        options.evolution.energyTolerance = 1e-7;
-        options.evolution.displacementTolerance = 1e-4;
         const SurfaceReport s = test::runOn({{corner, 1.7f, 0}}, options).report.surface;
         const double bound = voxel == 0.5 ? 0.01 : 0.003; // Å, of the radius
         EXPECT_NEAR(std::sqrt(s.area / (4.0 * M_PI)), radius, bound);

@@ -4,6 +4,7 @@
 /// @file
 /// The level set that the flow starts from: the zero set of the smooth field psi.
 
+#include "molsurf/flow/metric.h"
 #include "molsurf/grid/sparse_field.h"
 #include "molsurf/progress.h"
 
@@ -15,9 +16,12 @@ namespace molsurf
 /// Near it that is the distance of the zero of psi's second-order Taylor polynomial along its
 /// gradient; from there reinitialize() carries it outward.
 ///
-/// @param[in] psi    > 0 inside, smooth near its zero set; active voxels: the band
-/// @param[in] width  half width of the band [Å]
+/// @param[in] psi      > 0 inside, smooth near its zero set; active voxels: the band
+/// @param[in] width    half width of the band [Å]
+/// @param[in] weights  of the metric; with any the surface is moved from psi = 0 towards where it
+///                     will rest, to first order
 /// @return phi [Å] on the same leaves, < 0 inside, within [-width, width]
-SparseField initialSurface(const SparseField& psi, double width, const Progress& progress);
+SparseField initialSurface(const SparseField& psi, double width, const Weights& weights,
+                           const Progress& progress);
 
 } // namespace molsurf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/initial_surface.h"
+#include "molsurf/flow/initial_surface.h"
 
 #include "support/convergence.h"
 #include "support/fields.h"
@@ -29,7 +29,7 @@ TEST(InitialSurface, OfOneAtomIsTheDistanceToItsSphere)
         const SparseField psi = test::filled(table, voxel, [&](const Vec3d& x) {
             return -C * ((x - ball.centre).lengthSqr() - 3.1 * 3.1);
         });
-        const SparseField phi = initialSurface(psi, width, Progress());
+        const SparseField phi = initialSurface(psi, width, {}, Progress());
         double worst = 0.0, worstNear = 0.0;
         test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
             const double d = ball.distance(x);
@@ -55,7 +55,7 @@ TEST(InitialSurface, IsFiniteAtTheCentreOfAnAtomAndKeepsSigns)
     const LeafTable table = test::bandTable(ball.distance, ball.centre, ball.extent, voxel, width);
     const SparseField psi = test::filled(
         table, voxel, [&](const Vec3d& x) { return 1.7 * 1.7 - (x - ball.centre).lengthSqr(); });
-    const SparseField phi = initialSurface(psi, width, Progress());
+    const SparseField phi = initialSurface(psi, width, {}, Progress());
     test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d&) {
         ASSERT_TRUE(std::isfinite(phi.leaf(n)[v]));
         ASSERT_LE(std::abs(phi.leaf(n)[v]), width);

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// A semi-implicit step of the flow: a Newton step for the displacement of the whole interface.
+/// docs/math.md, section 4.
+
+#include "molsurf/flow/displacement.h"
+#include "molsurf/flow/front.h"
+#include "molsurf/flow/narrow_band.h"
+#include "molsurf/grid/region.h"
+#include "molsurf/progress.h"
+
+#include <memory>
+#include <vector>
+
+namespace molsurf
+{
+
+/// Half width of the band that the displacement is solved in [voxel]: farther out the curvature of
+/// phi is noise, which a Newton step would answer in full.
+constexpr double newtonWidthVox = 1.5;
+
+/// The displacements of the step before at the voxels of a leaf [Å].
+struct StepHistory {
+    alignas(64) float u[leafSize] = {};    ///< that it solved for
+    alignas(64) float step[leafSize] = {}; ///< that it made
+};
+
+/// Semi-implicit steps, one after another. The displacement u along the inward normal solves
+///
+///     (P - w Laplace) u = F,
+///
+/// P the stiffness of the metric's valley, in the voxels next to the interface with no flux through
+/// the rim, by a fixed number of Chebyshev-accelerated Jacobi sweeps. All of the band then moves by
+/// u at its feet; where u falls by the same factor in two steps, by what that would add up to.
+class NewtonSteps
+{
+public:
+    /// @param[in] sweeps  for each step, >= 1
+    NewtonSteps(const Weights& weights, int sweeps) : weights_(weights), sweeps_(sweeps) {}
+
+    /// Makes a step.
+    /// @param[in]     region  whose own voxels are summed
+    /// @param[out]    next    phi after the step, as many leaves as phi
+    /// @param[in,out] moves   the displacements are added
+    /// @return sums before the step
+    InterfaceSums step(const NarrowBand& band, const Region& region, LeafField& next,
+                       Displacements& moves, const Progress& progress);
+
+    /// The sums of a band, without a step.
+    InterfaceSums sums(const NarrowBand& band, const Region& region, const Progress& progress);
+
+    /// Curvatures are taken from a spline on voxels of edge 2^level h. 0: from differences.
+    void setSplineLevel(int level) { splineLevel_ = level; }
+
+private:
+    void fit(const LeafTable& table, const Progress& progress);
+    void sweep(const LeafTable& table, LeafField& scratch, const Progress& progress);
+
+    Weights weights_;
+    int sweeps_;
+    int splineLevel_ = 0;
+    LeafArray<std::uint32_t> system_;                   // its coefficients, two in a word
+    LeafField u_;                                       // its solution
+    std::vector<LeafMask> acting_;                      // the voxels that it is solved in
+    bool made_ = false;                                 // whether there was a step before:
+    LeafTable known_;                                   // its leaves,
+    std::vector<LeafMask> down_;                        // where its u was below 0,
+    std::vector<std::unique_ptr<StepHistory>> history_; // and more where u was long
+};
+
+} // namespace molsurf

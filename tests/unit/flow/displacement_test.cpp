@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/flow/displacement.h"
+
+#include <gtest/gtest.h>
+
+namespace molsurf
+{
+namespace
+{
+
+TEST(Displacements, TellRmsQuantileAndMeanStep)
+{
+    Displacements d;
+    for (int i = 0; i < 999; ++i) d.add(0.01f, 0.02f);
+    d.add(0.2f, 0.4f);
+    d.add(0.2f, 0.4f);
+    EXPECT_NEAR(d.rms(), std::sqrt((999 * 1e-4 + 2 * 0.04) / 1001), 1e-6);
+    EXPECT_NEAR(d.meanStep(), (999 * 0.02 + 0.8) / 1001, 1e-6);
+    EXPECT_NEAR(d.quantile(0.99), 0.01, 0.001);
+    EXPECT_NEAR(d.quantile(0.999), 0.2, 0.02);
+    EXPECT_NEAR(d.shareAbove(0.1), 2.0 / 1001, 1e-9);
+}
+
+// A few voxels far from rest shall not hide in the mean of squares, nor rule it.
+TEST(Displacements, TakeLongOnesForAQuarterInTheRmsOnly)
+{
+    Displacements d;
+    d.add(3.0f, 0.8f);
+    EXPECT_NEAR(d.rms(), 0.25, 1e-6);
+    EXPECT_GT(d.quantile(0.5), 2.9);
+}
+
+TEST(Displacements, AddUpInAnyOrder)
+{
+    Displacements a, b, all;
+    for (int i = 1; i < 50; ++i) (i % 3 ? a : b).add(0.003f * float(i), 0.001f * float(i));
+    for (int i = 49; i > 0; --i) all.add(0.003f * float(i), 0.001f * float(i));
+    a += b;
+    EXPECT_EQ(a.count, all.count);
+    EXPECT_EQ(a.moved, all.moved);
+    EXPECT_EQ(a.square, all.square);
+    EXPECT_EQ(a.bins, all.bins);
+}
+
+TEST(Displacements, OfNothingAreZero)
+{
+    const Displacements none;
+    EXPECT_EQ(none.rms(), 0.0);
+    EXPECT_EQ(none.quantile(0.999), 0.0);
+    EXPECT_EQ(none.shareAbove(0.1), 0.0);
+}
+
+} // namespace
+} // namespace molsurf

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "support/exact_minimum.h"
+#include "support/fields.h"
+#include "support/flow.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+// "Converged" at the default tolerance means at rest: the surface of revolution that minimises the
+// energy is known without a level set.
+
+struct Molecule {
+    const char* name;
+    std::vector<test::AxisBall> balls;
+};
+
+const Molecule molecules[] = {{"OneAtom", {{0.0, 3.1}}},
+                              {"TwoEqualAtoms", {{-2.0, 3.1}, {2.0, 3.1}}},
+                              {"TwoUnequalAtoms", {{-1.75, 3.1}, {1.75, 2.6}}}};
+
+using Case = std::tuple<int, Regularizer, double>; // molecule, regulariser, lambda
+
+class Rest : public testing::TestWithParam<Case>
+{
+};
+
+/// Root mean square distance of the evolved surface to the curve along rays, all round.
+double errorOf(const test::Evolved& out, const test::PolarCurve& curve, const Vec3d& middle,
+               const Vec3d& axis, double voxel)
+{
+    const Vec3d side = axis.cross(Vec3d(1.0, 0.2, 0.0)).unit(), third = axis.cross(side);
+    const int count = 600;
+    double sum = 0.0, weights = 0.0;
+    for (int i = 0; i < count; ++i) {
+        const double theta = M_PI * (i + 0.5) / count, azimuth = 2.399963 * i;
+        const Vec3d ray = std::cos(theta) * axis +
+                          std::sin(theta) * (std::cos(azimuth) * side + std::sin(azimuth) * third);
+        const double rho = curve.at(theta);
+        const double t =
+            test::zeroOnRay(out.spline, middle, ray, rho - 2.0 * voxel, rho + 2.0 * voxel);
+        EXPECT_FALSE(std::isnan(t));
+        sum += std::sin(theta) * (t - rho) * (t - rho);
+        weights += std::sin(theta);
+    }
+    return std::sqrt(sum / weights);
+}
+
+TEST_P(Rest, IsTheMinimumAtTheDefaultTolerance)
+{
+    const auto [index, regularizer, lambda] = GetParam();
+    const Molecule& molecule = molecules[index];
+    const test::Energy energy{0.5, lambda, regularizer};
+    const test::PolarCurve curve = test::minimalCurve(molecule.balls, energy, 1500);
+    ASSERT_TRUE(curve.stationary);
+    const Vec3d middle(0.137, -0.291, 0.443), axis(0.48, -0.36, 0.8);
+    std::vector<Ball> balls;
+    for (const test::AxisBall& ball : molecule.balls)
+        balls.push_back({Vec3f(middle + ball.z * axis), float(ball.R - 1.4), 0});
+    EvolveOptions options;
+    options.lambda = lambda;
+    options.regularizer = regularizer;
+    for (const double voxel : {0.5, 0.25, 0.125}) {
+        const test::Evolved out = test::evolveBalls(balls, energy.epsilon, voxel, options);
+        const double error = errorOf(out, curve, middle, axis, voxel);
+        EXPECT_TRUE(out.report.converged) << "h " << voxel;
+        EXPECT_LE(out.report.steps, 6) << "h " << voxel;
+        EXPECT_LT(error, voxel == 0.5 ? 0.003 : 0.001) << "h " << voxel;
+        if (getenv("VERBOSE"))
+            printf("%s %s lambda %g h %g: %d steps, rms %.5f\n", molecule.name, nameOf(regularizer),
+                   lambda, voxel, out.report.steps, error);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Rest,
+                         testing::Combine(testing::Range(0, 3),
+                                          testing::Values(Regularizer::Gradient, Regularizer::Area),
+                                          testing::Values(0.01, 0.1, 1.0)),
+                         [](const auto& info) {
+                             const double lambda = std::get<2>(info.param);
+                             return std::string(molecules[std::get<0>(info.param)].name) +
+                                    nameOf(std::get<1>(info.param)) +
+                                    (lambda < 0.05  ? "Small"
+                                     : lambda < 0.5 ? "Medium"
+                                                    : "Large");
+                         });
+
+} // namespace
+} // namespace molsurf
