@@ -46,6 +46,9 @@ struct BrickPlan {
 /// number. A run of a whole molecule stops after 2 or 3 steps at the default lambda.
 constexpr int defaultBrickSteps = 5;
 
+/// The same where lambda is large.
+constexpr int defaultFrontSteps = 15;
+
 /// Limits for planBricks(): a number of bricks or a memory limit. Exactly one of both is set.
 struct BrickLimits {
     std::size_t bricks =

@@ -746,7 +746,8 @@ OptionGroup flowOptions()
                         of(&EvolveOptions::maxSteps)),
                   steps("default of the flow", &EvolveOptions::maxSteps)),
              with(count("steps", "N", "so many steps, converged or not",
-                        std::to_string(defaultBrickSteps) + " in bricks", structures, 0, 1000000,
+                        std::to_string(defaultBrickSteps) + " in bricks, " +
+                            std::to_string(defaultFrontSteps) + " at a large lambda", structures, 0, 1000000,
                         of(&EvolveOptions::steps)),
                   steps("by the stopping rule", &EvolveOptions::steps)),
              number("tolerance", "T",

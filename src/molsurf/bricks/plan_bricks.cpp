@@ -352,7 +352,9 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const Br
     plan.maxGrownRadius = influence.extent().maxGrownRadius;
     plan.maxTolerance = influence.extent().maxTolerance;
     plan.atoms = atoms.balls.size();
-    plan.steps = options.evolution.steps >= 0 ? options.evolution.steps : defaultBrickSteps;
+    plan.steps = options.evolution.steps >= 0 ? options.evolution.steps
+                 : startsCoarse(options)      ? defaultFrontSteps
+                                              : defaultBrickSteps;
     Planner planner(atoms, options, influence, progress);
     const CoordBBox& box = planner.box();
     if (limits.memory > 0) {

@@ -65,14 +65,10 @@ protected:
     {
         Progress progress;
         std::vector<BrickFile> files;
+        std::shared_ptr<const SparseField> coarse;
         for (std::size_t k = 0; k < plan.bricks.size(); ++k) {
-            const Scope scope = scopeOf(plan, k, options);
-            const Brick brick =
-                runBrick(ballsNear(atoms, options, scope), options, scope, progress);
             const std::string name = path(std::to_string(k) + ".brick");
-            OutputFile file(name, true);
-            writeBrick(brick, "test", k + 1, true, file, progress);
-            file.commit();
+            computeBrick(atoms, options, plan, k + 1, "test", name, true, coarse, progress);
             files.emplace_back(name);
         }
         return files;
@@ -149,6 +145,15 @@ SurfaceOptions coarse(SurfaceKind kind = SurfaceKind::Variational)
 TEST_F(Bricks, VariationalSurfaceIsThatOfTheWhole)
 {
     expectSame(chain(), coarse(), 5);
+}
+
+// With a large lambda fronts come from far; the rest on coarser voxels is that of the whole.
+TEST_F(Bricks, FrontsAreThoseOfTheWhole)
+{
+    SurfaceOptions options = coarse();
+    options.voxel = 0.5;
+    options.evolution.lambda = 0.1;
+    expectSame(chain(), options, 3);
 }
 
 TEST_F(Bricks, GaussianSurfaceIsThatOfTheWhole)
