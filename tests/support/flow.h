@@ -31,7 +31,7 @@ inline Evolved evolveBalls(const std::vector<Ball>& balls, double epsilon, doubl
     const GaussianSum field(balls, gaussian);
     Progress progress;
     Evolved out;
-    SparseField psi = field.evaluate(field.band(bandWidthVox, progress), progress);
+    SparseField psi = field.band(bandWidthVox, progress);
     out.band.phi = initialSurface(psi, bandWidthVox * voxel, progress);
     out.band.psi = std::move(psi.values);
     const auto source = [&](const openvdb::Coord& origin, float* psi) {
