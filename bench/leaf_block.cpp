@@ -178,7 +178,7 @@ void prefilterPass(benchmark::State& state)
 }
 BENCHMARK(prefilterPass)->Unit(benchmark::kMillisecond);
 
-/// psi of a lattice of atoms. A term is a voxel times a ball that is not left out of its leaf.
+/// psi of a lattice of atoms. A term is a voxel times a ball that is not left out of its octant.
 void rasterize(benchmark::State& state)
 {
     std::vector<Ball> balls;
@@ -198,7 +198,7 @@ void rasterize(benchmark::State& state)
     }
     std::size_t terms = 0;
     for (int x = 0; x < 64; x += leafDim)
-        terms += leafSize * sum.termCount(openvdb::Coord(x, 32, 32), 2.75);
+        terms += sum.productCount(openvdb::Coord(x, 32, 32), 2.75);
     state.counters["terms/s"] =
         benchmark::Counter(double(leaves / 8) * double(terms), benchmark::Counter::kIsRate);
     state.counters["terms/leaf"] = double(terms / leafSize) / 8.0;

@@ -37,7 +37,7 @@ inline Evolved evolveBalls(const std::vector<Ball>& balls, double epsilon, doubl
         out.band.phi = refined(coarse.band.phi, openvdb::CoordBBox::inf(), progress);
         out.band.psi = field.evaluate(out.band.phi.table, progress).values;
     } else {
-        SparseField psi = field.evaluate(field.band(bandWidthVox, progress), progress);
+        SparseField psi = field.band(bandWidthVox, progress);
         out.band.phi =
             initialSurface(psi, bandWidthVox * voxel,
                            makesNewtonSteps(options) ? weightsOf(options) : Weights{}, progress);

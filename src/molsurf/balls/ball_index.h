@@ -50,16 +50,47 @@ public:
     void forEachNear(const openvdb::Vec3d& low, const openvdb::Vec3d& high, double gap,
                      const F& f) const
     {
-        forEachRange(low, high, gap, [&](std::int32_t begin, std::int32_t end) {
+        forEachRun(low, high, gap, [&](std::int32_t begin, std::int32_t end) {
             for (std::int32_t i = begin; i < end; ++i) f(balls_[i], order_[i]);
         });
     }
+
+    /// Calls f(begin, end) with the places of the same balls in the order of the index, a run of
+    /// them at a time.
+    template<typename F>
+    void forEachRun(const openvdb::Vec3d& low, const openvdb::Vec3d& high, double gap,
+                    const F& f) const
+    {
+        for (const Level& level : levels_) {
+            const double reach = level.largest + gap;
+            if (reach < 0.0) continue;
+            const openvdb::Coord from = level.cellOf(low - openvdb::Vec3d(reach));
+            const openvdb::Coord to = level.cellOf(high + openvdb::Vec3d(reach));
+            for (int x = from.x(); x <= to.x(); ++x) {
+                for (int y = from.y(); y <= to.y(); ++y) {
+                    for (int block = from.z() >> blockBits; block <= to.z() >> blockBits; ++block) {
+                        const Column& c = level.columns[level.position(columnKey(x, y, block))];
+                        const int first = std::max(from.z() - c.z, 0);
+                        const int last = std::min(to.z() - c.z, c.cells - 1);
+                        if (first > last) continue;
+                        f(begins_[std::size_t(c.cell + first)],
+                          begins_[std::size_t(c.cell + last + 1)]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The ball at a place in the order of the index, and its index in the vector.
+    const Ball& ball(std::size_t place) const { return balls_[place]; }
+    std::int32_t indexOf(std::size_t place) const { return order_[place]; }
+    std::size_t size() const { return balls_.size(); }
 
     /// The number of balls that forEachNear() would visit.
     std::size_t countNear(const openvdb::Vec3d& low, const openvdb::Vec3d& high, double gap) const
     {
         std::size_t count = 0;
-        forEachRange(low, high, gap, [&](std::int32_t begin, std::int32_t end) {
+        forEachRun(low, high, gap, [&](std::int32_t begin, std::int32_t end) {
             count += std::size_t(end - begin);
         });
         return count;
@@ -108,31 +139,6 @@ private:
 
     void addLevel(const std::vector<Ball>& balls, const std::vector<std::int32_t>& members,
                   double cell);
-
-    /// Calls f(begin, end) with ranges of balls_.
-    template<typename F>
-    void forEachRange(const openvdb::Vec3d& low, const openvdb::Vec3d& high, double gap,
-                      const F& f) const
-    {
-        for (const Level& level : levels_) {
-            const double reach = level.largest + gap;
-            if (reach < 0.0) continue;
-            const openvdb::Coord from = level.cellOf(low - openvdb::Vec3d(reach));
-            const openvdb::Coord to = level.cellOf(high + openvdb::Vec3d(reach));
-            for (int x = from.x(); x <= to.x(); ++x) {
-                for (int y = from.y(); y <= to.y(); ++y) {
-                    for (int block = from.z() >> blockBits; block <= to.z() >> blockBits; ++block) {
-                        const Column& c = level.columns[level.position(columnKey(x, y, block))];
-                        const int first = std::max(from.z() - c.z, 0);
-                        const int last = std::min(to.z() - c.z, c.cells - 1);
-                        if (first > last) continue;
-                        f(begins_[std::size_t(c.cell + first)],
-                          begins_[std::size_t(c.cell + last + 1)]);
-                    }
-                }
-            }
-        }
-    }
 
     std::vector<Level> levels_;        // of rising radii
     std::vector<Ball> balls_;          // level by level, cell by cell

@@ -186,24 +186,37 @@ MOLSURF_INLINE float clamped(float x, float low, float high)
     return smaller(larger(x, low), high);
 }
 
+/// The whole number towards zero from a number, lane by lane.
+MOLSURF_INLINE std::int32_t truncated(float x)
+{
+    return std::int32_t(x);
+}
+MOLSURF_INLINE Ints truncated(Floats x)
+{
+    return __builtin_convertvector(x, Ints);
+}
+
 /// e^x in float, relative error below 3e-7, for |x| <= 87; x is clamped to that range. Without
 /// branches or calls, so that loops over it vectorise. Cody-Waite reduction by ln 2, then the
 /// Taylor polynomial of degree 6 on [-ln 2/2, ln 2/2].
-MOLSURF_INLINE float fastExp(float x)
+/// @tparam T  float, or Floats for eight at a time
+template<typename T>
+MOLSURF_INLINE T fastExp(T x)
 {
-    x = clamped(x, -87.0f, 87.0f);
+    x = clamped(x, T{} - 87.0f, T{} + 87.0f);
     const float shifter = 12582912.0f; // 1.5 * 2^23: adding it rounds to an integer
-    const float k = (x * 1.44269504f + shifter) - shifter;
-    const float r = (x - k * 0.693359375f) + k * 2.12194440e-4f;
-    float p = 1.0f / 720.0f;
+    const T k = (x * 1.44269504f + shifter) - shifter;
+    const T r = (x - k * 0.693359375f) + k * 2.12194440e-4f;
+    T p = T{} + 1.0f / 720.0f;
     p = p * r + 1.0f / 120.0f;
     p = p * r + 1.0f / 24.0f;
     p = p * r + 1.0f / 6.0f;
     p = p * r + 0.5f;
     p = p * r + 1.0f;
     p = p * r + 1.0f;
-    const std::int32_t bits = (std::int32_t(k) + 127) << 23; // 2^k
-    float scale;
+    const auto bits = (truncated(k) + 127) << 23; // 2^k
+    T scale;
+    static_assert(sizeof scale == sizeof bits);
     std::memcpy(&scale, &bits, sizeof scale);
     return p * scale;
 }

@@ -2,11 +2,11 @@
 #include "molsurf/levelset/gaussian_sum.h"
 
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/simd.h"
 
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -18,51 +18,6 @@ using openvdb::Vec3d;
 
 namespace
 {
-
-/// A term that stays e^-12 = 6e-6 of the largest one moves psi = 0 by less than 1e-5 eps.
-constexpr float negligible = 12.0f;
-
-/// The lowest psi that matters: at a distance of D outside, psi = -2 ln 2 D/eps - ...; the band of
-/// a surface ends long before.
-constexpr float lowestPsi = -60.0f;
-
-/// A sum below this may have lost terms to underflow.
-constexpr float smallestSum = 1e-30f;
-
-/// Adds four terms, each a product of three one-dimensional exponentials, to the sums of a leaf.
-MOLSURF_KERNEL void accumulate(const float (*ex)[8], const float (*ey)[8], const float (*ez)[8],
-                               float* sum)
-{
-    for (int x = 0; x < 8; ++x) {
-        for (int y = 0; y < 8; ++y) {
-            const float w0 = ex[0][x] * ey[0][y], w1 = ex[1][x] * ey[1][y];
-            const float w2 = ex[2][x] * ey[2][y], w3 = ex[3][x] * ey[3][y];
-            float* row = sum + 64 * x + 8 * y;
-            for (int z = 0; z < 8; ++z) {
-                row[z] += (w0 * ez[0][z] + w1 * ez[1][z]) + (w2 * ez[2][z] + w3 * ez[3][z]);
-            }
-        }
-    }
-}
-
-/// out[k] = exp(-decay ((k - centre)^2 - nearest^2)) for k = 0..7.
-MOLSURF_KERNEL void exponentials(float decay, float centre, float nearest2, float factor,
-                                 float* out)
-{
-    for (int k = 0; k < 8; ++k) {
-        const float d = float(k) - centre;
-        out[k] = factor * fastExp(decay * (nearest2 - d * d));
-    }
-}
-
-/// psi = top + ln sum, no lower than the lowest that matters.
-MOLSURF_KERNEL void takeLogarithms(float top, float* sum)
-{
-    for (int v = 0; v < leafSize; ++v) {
-        const float psi = top + fastLog(larger(sum[v], smallestSum));
-        sum[v] = larger(psi, lowestPsi);
-    }
-}
 
 /// The origins of all leaves within a number of leaves of those given by their place among leaves.
 std::vector<Coord> leavesWithin(std::vector<Coord> places, int reach, const Progress& progress)
@@ -91,11 +46,6 @@ std::vector<Coord> leavesWithin(std::vector<Coord> places, int reach, const Prog
     return origins;
 }
 
-float distanceToLeaf(float centre)
-{
-    return std::max({0.0f, -centre, centre - 7.0f});
-}
-
 } // namespace
 
 GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& options,
@@ -120,128 +70,75 @@ GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& o
     return extent;
 }
 
-namespace
-{
-
-/// Beyond this distance a term is negligible where psi = 0, and hardly felt at the rim of the band.
-double cutoff2(double R, double C, double level, double reach, double tolerance)
-{
-    const double rim = R + reach + 2.0 * tolerance;
-    return std::max(rim * rim, R * R + (negligible + level) / C);
-}
-
-} // namespace
-
 double GaussianExtent::cutoff(double reach) const
 {
-    const double slowest = M_LN2 / (maxTolerance * maxGrownRadius);
-    return std::sqrt(cutoff2(maxGrownRadius, slowest, 0.0, reach, maxTolerance));
+    const double R = maxGrownRadius, rim = R + 2.0 * maxTolerance + reach;
+    const double slowest = M_LN2 / (maxTolerance * R);
+    return std::sqrt(std::max(rim * rim, R * R + double(negligible) / slowest));
 }
 
 GaussianSum::GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& options,
-                         std::vector<Decay> decays)
-    : balls_(balls), options_(options), decays_(std::move(decays)),
-      extent_(options.extent ? *options.extent : extentOf(balls, options, decays_)),
+                         const std::vector<Decay>& decays)
+    : options_(options),
+      extent_(options.extent ? *options.extent : extentOf(balls, options, decays)),
       index_(balls, {1.25, options.probe, 2.0, extent_.maxRadius})
 {
+    const double h = options.voxelSize;
+    lists_.resize(index_.size());
+    for (std::size_t k = 0; k < index_.size(); ++k) {
+        const Ball& ball = index_.ball(k);
+        const Decay decay = decays.empty() ? Decay() : decays[std::size_t(index_.indexOf(k))];
+        const double R = ball.radius + options.probe;
+        const double C = decay.rate > 0.0f ? double(decay.rate) : options.rate(R);
+        lists_.x[k] = ball.center.x();
+        lists_.y[k] = ball.center.y();
+        lists_.z[k] = ball.center.z();
+        lists_.decay[k] = float(C * h * h);
+        lists_.level[k] = float(C * R * R) + decay.level;
+        // Beyond these a term is hardly felt at the rim of the band, and negligible where psi = 0.
+        lists_.rim[k] = float((R + 2.0 * extent_.maxTolerance) / h);
+        lists_.felt2[k] = float((R * R + (double(negligible) + decay.level) / C) / (h * h));
+    }
 }
 
-void GaussianSum::gatherTerms(const Coord& origin, double reach, std::vector<Term>& terms) const
+/// The terms of a leaf and what is made of them; it keeps its memory from leaf to leaf.
+struct GaussianSum::Leaf {
+    GaussianTerms terms;
+    GaussianBounds bounds;
+    GaussianTables tables;
+
+    void sum(float* psi) { sumTerms(terms, bounds, tables, psi); }
+};
+
+GaussianSum::Leaf& GaussianSum::leafAt(const Coord& origin, double reach) const
 {
+    thread_local Leaf leaf;
     const double h = options_.voxelSize;
-    const Vec3d low = origin.asVec3d() * h;
-    const openvdb::Vec3f first(low), last(low + Vec3d(7.0 * h));
-    const double inverse = 1.0 / h, farthest = extent_.cutoff(reach);
-    // More than rounding at 10^6 Å takes; the exact test follows.
-    const float farthest2 = float((farthest + 0.25) * (farthest + 0.25));
-
-    // The smallest value of each term in the leaf bounds psi from below, its largest from above.
-    terms.clear();
-    float floor = 2.0f * lowestPsi;
+    const GaussianLeaf place(origin, h, reach / h);
+    const Vec3d low = origin.asVec3d() * h, high = low + Vec3d((leafDim - 1) * h);
+    leaf.terms.count = 0;
     // A smaller ball is felt less far, from its boundary too.
-    const double gap = farthest - extent_.maxRadius;
-    index_.forEachNear(low, low + Vec3d(7.0 * h), gap, [&](const Ball& ball, int i) {
-        float apart2 = 0.0f;
-        for (int a = 0; a < 3; ++a) {
-            const float d =
-                larger(larger(first[a] - ball.center[a], ball.center[a] - last[a]), 0.0f);
-            apart2 += d * d;
-        }
-        if (apart2 > farthest2) return;
-        const openvdb::Vec3f c = openvdb::Vec3f((Vec3d(ball.center) - low) * inverse);
-        const float R = ball.radius + float(options_.probe);
-        const float C = float(rate(std::size_t(i), R));
-        const float level = decays_.empty() ? 0.0f : decays_[std::size_t(i)].level;
-        Term t{c.x(), c.y(), c.z(), C * float(h * h), C * R * R + level, 0.0f};
-        float nearest2 = 0.0f, most2 = 0.0f;
-        for (const float x : {t.x, t.y, t.z}) {
-            const float n = distanceToLeaf(x), f = std::max(std::abs(x), std::abs(x - 7.0f));
-            nearest2 += n * n;
-            most2 += f * f;
-        }
-        t.exponent = t.level - t.decay * nearest2;
-        if (nearest2 * h * h > cutoff2(R, C, level, reach, extent_.maxTolerance)) return;
-        floor = std::max(floor, t.level - t.decay * most2);
-        terms.push_back(t);
+    const double gap = extent_.cutoff(reach) - extent_.maxRadius;
+    index_.forEachRun(low, high, gap, [&](std::int32_t begin, std::int32_t end) {
+        addTerms(lists_, begin, end, place, leaf.terms);
     });
-    terms.erase(std::remove_if(terms.begin(), terms.end(),
-                               [&](const Term& t) { return t.exponent < floor - negligible; }),
-                terms.end());
-}
-
-std::size_t GaussianSum::termCount(const Coord& origin, double reach) const
-{
-    std::vector<Term> terms;
-    gatherTerms(origin, reach, terms);
-    return terms.size();
+    boundTerms(leaf.terms, leaf.bounds);
+    return leaf;
 }
 
 void GaussianSum::evaluate(const Coord& origin, double reach, float* psi) const
 {
-    thread_local std::vector<Term> terms;
-    gatherTerms(origin, reach, terms);
-    std::fill_n(psi, leafSize, 0.0f);
-    if (terms.empty()) {
-        std::fill_n(psi, leafSize, lowestPsi);
-        return;
-    }
-    const FlushDenormals scope;
-    // Every term is taken relative to the largest exponent in the leaf, so that none overflows.
-    float top = terms[0].exponent;
-    for (const Term& t : terms) top = std::max(top, t.exponent);
+    leafAt(origin, reach).sum(psi);
+}
 
-    for (std::size_t first = 0; first < terms.size(); first += 4) {
-        alignas(64) float ex[4][8], ey[4][8], ez[4][8];
-        for (int k = 0; k < 4; ++k) {
-            if (first + k >= terms.size()) {
-                std::fill_n(ex[k], 8, 0.0f);
-                std::fill_n(ey[k], 8, 0.0f);
-                std::fill_n(ez[k], 8, 0.0f);
-                continue;
-            }
-            const Term& t = terms[first + k];
-            const auto near2 = [](float c) { return distanceToLeaf(c) * distanceToLeaf(c); };
-            exponentials(t.decay, t.x, near2(t.x), fastExp(t.exponent - top), ex[k]);
-            exponentials(t.decay, t.y, near2(t.y), 1.0f, ey[k]);
-            exponentials(t.decay, t.z, near2(t.z), 1.0f, ez[k]);
-        }
-        accumulate(ex, ey, ez, psi);
-    }
-    LeafMask lost;
-    if (top + std::log(smallestSum) > lowestPsi) lost = lessThan(psi, smallestSum);
-    takeLogarithms(top, psi);
-    lost.forEach([&](int v) {
-        // The products underflowed here: the largest exponent of the voxel itself is the scale.
-        const float x = float(v >> 6), y = float(v >> 3 & 7), z = float(v & 7);
-        const auto exponent = [&](const Term& t) {
-            return t.level - t.decay * ((x - t.x) * (x - t.x) + (y - t.y) * (y - t.y) +
-                                        (z - t.z) * (z - t.z));
-        };
-        float largest = exponent(terms[0]), sum = 0.0f;
-        for (const Term& t : terms) largest = std::max(largest, exponent(t));
-        for (const Term& t : terms) sum += std::exp(exponent(t) - largest);
-        psi[v] = std::max(largest + std::log(sum), lowestPsi);
-    });
+std::size_t GaussianSum::productCount(const Coord& origin, double reach) const
+{
+    float psi[leafSize];
+    Leaf& leaf = leafAt(origin, reach);
+    leaf.sum(psi);
+    std::size_t listed = 0;
+    for (const std::size_t count : leaf.tables.counts) listed += count;
+    return listed * (leafSize / 8);
 }
 
 SparseField GaussianSum::evaluate(LeafTable table, const Progress& progress) const
@@ -253,16 +150,16 @@ SparseField GaussianSum::evaluate(LeafTable table, const Progress& progress) con
     return psi;
 }
 
-LeafTable GaussianSum::band(int steps, const Progress& progress,
-                            const openvdb::CoordBBox& box) const
+SparseField GaussianSum::band(int steps, const Progress& progress,
+                              const openvdb::CoordBBox& box) const
 {
     // Leaves that may hold a voxel with psi >= 0: those near a ball. In a table whose voxels stand
     // for leaves, they are the leaves of the centres, dilated. Where k terms meet, psi = 0 lies at
     // most eps/2 log2(k) outside the balls; k = 64 is more than any packing of atoms has.
     const double edge = leafDim * options_.voxelSize;
-    std::vector<Coord> centres(balls_.size());
-    for (std::size_t i = 0; i < balls_.size(); ++i) {
-        centres[i] = Coord::floor(Vec3d(balls_[i].center) / edge);
+    std::vector<Coord> centres(index_.size());
+    for (std::size_t i = 0; i < index_.size(); ++i) {
+        centres[i] = Coord::floor(Vec3d(index_.ball(i).center) / edge);
     }
     const int reach = int(std::ceil((extent_.ofZero() + options_.voxelSize) / edge));
     std::vector<Coord> origins = leavesWithin(centres, reach, progress);
@@ -271,10 +168,23 @@ LeafTable GaussianSum::band(int steps, const Progress& progress,
                   origins.end());
     LeafTable table(std::move(origins));
 
+    // The sums of leaves that their bounds do not decide are kept: the band has most of them.
     std::vector<LeafMask> inside(table.size());
+    LeafField sums(table.size());
+    constexpr std::int32_t none = -1;
+    std::vector<std::int32_t> places(table.size(), none); // of the sums
+    std::atomic<std::int32_t> summed{0};
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        alignas(64) float psi[leafSize];
-        evaluate(table.origin(n), 2.0 * extent_.maxTolerance, psi);
+        Leaf& leaf = leafAt(table.origin(n), options_.reach);
+        constexpr float rounding = 1e-3f;
+        if (leaf.bounds.most(leaf.terms.count) < -rounding) return;
+        if (leaf.bounds.least() > rounding) {
+            inside[n] = ~LeafMask();
+            return;
+        }
+        places[n] = summed++;
+        float* psi = sums.leaf(std::size_t(places[n]));
+        leaf.sum(psi);
         inside[n] = ~lessThan(psi, 0.0f);
     });
     // The inner voxels that have an outer one among their 26 neighbours.
@@ -283,7 +193,21 @@ LeafTable GaussianSum::band(int steps, const Progress& progress,
     parallelFor(table.size(), progress, [&](std::size_t n) {
         table.active(n) = inside[n] & dilatedMask(table, outside, n, true);
     });
-    return clipped(dilated(pruned(table), steps, Spread::Ball, progress), box);
+
+    SparseField psi{clipped(dilated(pruned(table), steps, Spread::Ball, progress), box),
+                    LeafField(), options_.voxelSize};
+    psi.values = LeafField(psi.table.size());
+    parallelFor(psi.table.size(), progress, [&](std::size_t n) {
+        const Coord& origin = psi.table.origin(n);
+        const std::int32_t m = table.find(origin);
+        const std::int32_t place = m == noLeaf ? none : places[std::size_t(m)];
+        if (place == none) {
+            evaluate(origin, options_.reach, psi.leaf(n));
+        } else {
+            std::copy_n(sums.leaf(std::size_t(place)), leafSize, psi.leaf(n));
+        }
+    });
+    return psi;
 }
 
 } // namespace molsurf

@@ -11,6 +11,7 @@
 #include "molsurf/ball.h"
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/grid/sparse_field.h"
+#include "molsurf/levelset/gaussian_terms.h"
 #include "molsurf/progress.h"
 
 #include <optional>
@@ -55,60 +56,47 @@ struct GaussianOptions {
 GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& options,
                         const std::vector<Decay>& decays);
 
-/// psi of a set of balls, evaluated leaf by leaf. The balls must outlive it.
+/// psi of a set of balls, evaluated leaf by leaf.
 class GaussianSum
 {
 public:
     /// @param[in] decays  one a ball, or none: all by the options
     GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& options,
-                std::vector<Decay> decays = {});
+                const std::vector<Decay>& decays = {});
 
     /// How far psi = 0 may lie outside the balls of radius R_i, as a length for each doubling of
     /// the balls that meet there: the largest tolerance of all balls [Å].
     double tolerance() const { return extent_.maxTolerance; }
 
-    /// The voxels within `steps` voxels (see dilated()) of those next to psi = 0.
+    /// psi on the voxels within `steps` voxels (see dilated()) of those next to psi = 0, with the
+    /// reach of the options.
     /// @param[in] box  of whole leaves: no others are looked at
-    /// @return an empty table if psi is negative at all voxels
-    LeafTable band(int steps, const Progress& progress,
-                   const openvdb::CoordBBox& box = openvdb::CoordBBox::inf()) const;
+    /// @return no leaves if psi is negative at all voxels
+    SparseField band(int steps, const Progress& progress,
+                     const openvdb::CoordBBox& box = openvdb::CoordBBox::inf()) const;
 
-    /// psi at all voxels of a leaf. Balls whose terms are below e^-12 of the sum throughout the
-    /// leaf are left out, and so are those that are farther than R_i + reach + 2 eps from it and
-    /// below e^-12 where psi = 0.
+    /// psi at all voxels of a leaf. In each octant of it the balls are left out whose terms are
+    /// below e^-12 of the sum throughout, and those that are farther than R_i + reach + 2 eps from
+    /// the leaf and below e^-12 where psi = 0.
     /// @param[in]  origin  first voxel of the leaf
     /// @param[in]  reach   how far outside the balls of radius R_i psi is wanted [Å]
     /// @param[out] psi     512 values; always finite
     void evaluate(const openvdb::Coord& origin, double reach, float* psi) const;
 
-    /// Counts the balls that evaluate() does not leave out of a leaf.
-    std::size_t termCount(const openvdb::Coord& origin, double reach) const;
+    /// Counts the terms that evaluate() adds up at all voxels of a leaf.
+    std::size_t productCount(const openvdb::Coord& origin, double reach) const;
 
     /// Evaluates psi at all voxels of all leaves, with the reach of the options.
     SparseField evaluate(LeafTable table, const Progress& progress) const;
 
 private:
-    /// One ball in units of voxels, relative to a leaf.
-    struct Term {
-        float x, y, z;  // centre [voxel], from the leaf's first voxel
-        float decay;    // C h^2
-        float level;    // C R^2
-        float exponent; // largest exponent of the term in the leaf
-    };
-    void gatherTerms(const openvdb::Coord& origin, double reach, std::vector<Term>& terms) const;
+    struct Leaf;
+    Leaf& leafAt(const openvdb::Coord& origin, double reach) const;
 
-    /// C of a ball [1/Å^2]
-    double rate(std::size_t i, double R) const
-    {
-        const bool own = !decays_.empty() && decays_[i].rate > 0.0f;
-        return own ? double(decays_[i].rate) : options_.rate(R);
-    }
-
-    const std::vector<Ball>& balls_;
     GaussianOptions options_;
-    std::vector<Decay> decays_;
     GaussianExtent extent_; // of all balls
     BallIndex index_;
+    GaussianLists lists_; // of the balls in the order of the index
 };
 
 } // namespace molsurf

@@ -71,13 +71,11 @@ void SurfaceRun::density()
         refineCoarseRest();
         return;
     }
-    LeafTable table = sum_->band(bandWidthVox, progress_, scope_.region.grown(scope_.flowHalo));
-    if (table.size() == 0 && scope_.region.whole()) {
+    SparseField psi = sum_->band(bandWidthVox, progress_, scope_.region.grown(scope_.flowHalo));
+    if (psi.table.size() == 0 && scope_.region.whole()) {
         throw Error(ErrorKind::Numeric, "density: no voxel lies inside the surface [hint: a "
                                         "smaller `voxel`]");
     }
-    progress_.update("density", 0.6);
-    SparseField psi = sum_->evaluate(std::move(table), progress_);
     watch_.stop("density");
 
     progress_.update("initial", 0.0);

@@ -34,7 +34,7 @@ Fields fieldsOf(const std::vector<Ball>& balls, double voxel,
     options.reach = (width + 1.5) * voxel;
     const GaussianSum sum(balls, options);
     Fields f;
-    f.psi = sum.evaluate(sum.band(width, Progress()), Progress());
+    f.psi = sum.band(width, Progress());
     f.phi = initialSurface(f.psi, width * voxel, {}, Progress());
     if (change) change(f);
     LeafField slopes(f.table().size());

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -46,8 +47,8 @@ GaussianOptions optionsFor(double epsilon, double voxel)
 double errorNearZero(const std::vector<Ball>& balls, const GaussianOptions& options)
 {
     const GaussianSum sum(balls, options);
-    const LeafTable table = sum.band(2, Progress());
-    const SparseField psi = sum.evaluate(table, Progress());
+    const SparseField psi = sum.band(2, Progress());
+    const LeafTable& table = psi.table;
     const double length = options.epsilon / (2.0 * M_LN2);
     double worst = 0.0;
     int k = 0;
@@ -137,7 +138,7 @@ TEST(Band, HoldsAllVoxelsWithinItsWidth)
     for (const double voxel : {0.5, 0.9}) {
         const std::vector<Ball> balls = test::randomBalls(9, 9.0, Vec3d(-3.1, 0.2, 2.3), 9);
         const GaussianOptions options = optionsFor(0.5, voxel);
-        const LeafTable table = GaussianSum(balls, options).band(n, Progress());
+        const LeafTable table = GaussianSum(balls, options).band(n, Progress()).table;
         const int N = int(11.0 / voxel);
         const Coord low = Coord::round(Vec3d(-3.1, 0.2, 2.3) / voxel) - Coord(N);
         const int dim = 2 * N + 1;
@@ -189,10 +190,62 @@ TEST(Band, HoldsAllVoxelsWithinItsWidth)
     }
 }
 
+// Sums that were made to find the band are kept: they have the bits of any others.
+TEST(Band, HasThePsiOfEvaluate)
+{
+    const std::vector<Ball> balls = test::randomBalls(60, 30.0, Vec3d(1.3, -2.1, 0.4), 7);
+    for (const double voxel : {0.5, 1.1}) {
+        const GaussianOptions options = optionsFor(0.5, voxel);
+        const GaussianSum sum(balls, options);
+        const SparseField psi = sum.band(4, Progress());
+        ASSERT_GT(psi.table.size(), 20u);
+        std::vector<float> alone(leafSize);
+        for (std::size_t n = 0; n < psi.table.size(); ++n) {
+            sum.evaluate(psi.table.origin(n), options.reach, alone.data());
+            ASSERT_TRUE(std::equal(alone.begin(), alone.end(), psi.leaf(n))) << voxel;
+        }
+    }
+}
+
+// Leaves inside, outside and across the surface of balls of which some lie beyond the leaf.
+TEST(GaussianTerms, BoundsHoldTheSum)
+{
+    const std::vector<Ball> balls = test::randomBalls(2000, 20.0, Vec3d(4.0), 3);
+    const double R = 3.1, C = M_LN2 / (0.5 * R), h = 0.5;
+    GaussianLists lists;
+    lists.resize(balls.size());
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        lists.x[i] = balls[i].center.x();
+        lists.y[i] = balls[i].center.y();
+        lists.z[i] = balls[i].center.z();
+        lists.decay[i] = float(C * h * h);
+        lists.level[i] = float(C * R * R);
+        lists.rim[i] = float(R / h);
+    }
+    int inside = 0, outside = 0;
+    for (int k = -4; k <= 8; ++k) {
+        const Coord origin(leafDim * k, leafDim, leafDim * 2);
+        GaussianTerms terms;
+        GaussianBounds bounds;
+        GaussianTables tables;
+        addTerms(lists, 0, std::int32_t(balls.size()), GaussianLeaf(origin, h, 6.0), terms);
+        boundTerms(terms, bounds);
+        alignas(64) float psi[leafSize];
+        sumTerms(terms, bounds, tables, psi);
+        const auto [least, most] = std::minmax_element(psi, psi + leafSize);
+        EXPECT_GE(*least, std::max(bounds.least(), lowestPsi) - 1e-4f) << k;
+        EXPECT_LE(*most, std::max(bounds.most(terms.count), lowestPsi) + 1e-4f) << k;
+        inside += bounds.least() > 0.0f;
+        outside += bounds.most(terms.count) < 0.0f;
+    }
+    EXPECT_GT(inside, 0);
+    EXPECT_GT(outside, 0);
+}
+
 TEST(Band, IsEmptyWhereNoVoxelIsInside)
 {
     const std::vector<Ball> balls = {{openvdb::Vec3f(5.0f, 5.0f, 5.0f), 1.7f, 0}};
-    EXPECT_EQ(GaussianSum(balls, optionsFor(0.5, 10.0)).band(4, Progress()).size(), 0u);
+    EXPECT_EQ(GaussianSum(balls, optionsFor(0.5, 10.0)).band(4, Progress()).table.size(), 0u);
 }
 
 // Rates and levels of single balls: psi = ln sum exp(level - C (|x - x_i|^2 - R^2)).
@@ -230,8 +283,8 @@ TEST(GaussianSum, AgreesWithTheDefinitionWhereProductsUnderflow)
     GaussianOptions options = optionsFor(0.05, 1.0);
     options.reach = 8.0;
     const GaussianSum sum(balls, options);
-    const LeafTable table = sum.band(2, Progress());
-    const SparseField psi = sum.evaluate(table, Progress());
+    const SparseField psi = sum.band(2, Progress());
+    const LeafTable& table = psi.table;
     std::size_t low = 0;
     for (std::size_t n = 0; n < table.size(); ++n) {
         for (int v = 0; v < leafSize; ++v) {
