@@ -101,6 +101,8 @@ struct EvolutionReport {
     double displacementRms = 0.0, displacementTail = 0.0;
     /// Share of the interface at which that displacement is above a tenth of a voxel.
     double unsettledShare = 0.0;
+    /// Energy of the final interface, by a quadrature that does not depend on the voxels [Å^2].
+    double finalEnergy = 0.0;
     /// Number of voxels at gaps of the final interface that are too narrow for the grid.
     std::size_t unresolvedGapVoxels = 0;
 };

@@ -154,6 +154,7 @@ Json json(const EvolutionReport& e)
 {
     return {{"steps", e.steps},
             {"energy", e.energy},
+            {"final_energy", e.finalEnergy},
             {"area", e.area},
             {"volume", e.volume},
             {"mean_displacement", e.meanDisplacement},
@@ -180,6 +181,7 @@ EvolutionReport evolution(const Json& json)
 {
     EvolutionReport e;
     e.steps = json.at("steps");
+    e.finalEnergy = json.at("final_energy");
     e.energy = json.at("energy").get<std::vector<double>>();
     e.area = json.at("area").get<std::vector<double>>();
     e.volume = json.at("volume").get<std::vector<double>>();

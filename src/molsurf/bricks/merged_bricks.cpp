@@ -80,6 +80,7 @@ std::optional<EvolutionReport> evolutionOf(const std::vector<BrickFile>& bricks,
         const auto& part = brick.header().sums.evolution;
         if (!part) continue;
         any = true;
+        all.finalEnergy += part->finalEnergy;
         last += brick.header().sums.displacements;
         all.steps = std::max(all.steps, part->steps);
         add(part->energy, all.energy);

@@ -66,6 +66,7 @@ Json evolutionJson(const EvolutionReport& evolution)
             {"energy", evolution.energy},
             {"mean_displacement", evolution.meanDisplacement},
             {"max_speed", evolution.maxSpeed},
+            {"final_energy", evolution.finalEnergy},
             {"displacement_rms", evolution.displacementRms},
             {"displacement_tail", evolution.displacementTail},
             {"unsettled_share", evolution.unsettledShare},

@@ -126,6 +126,11 @@ GaussianSum::Leaf& GaussianSum::leafAt(const Coord& origin, double reach) const
     return leaf;
 }
 
+const GaussianTerms& GaussianSum::termsAt(const Coord& origin, double reach) const
+{
+    return leafAt(origin, reach).terms;
+}
+
 void GaussianSum::evaluate(const Coord& origin, double reach, float* psi) const
 {
     leafAt(origin, reach).sum(psi);

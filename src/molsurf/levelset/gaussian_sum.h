@@ -83,6 +83,25 @@ public:
     /// @param[out] psi     512 values; always finite
     void evaluate(const openvdb::Coord& origin, double reach, float* psi) const;
 
+    /// A point between the voxels of a leaf.
+    struct Point {
+        float x, y, z; ///< [voxel], from the leaf's first voxel
+    };
+
+    /// psi and the square of its gradient [1/Å^2] at points of a leaf, not from voxels: exact to
+    /// what evaluate() leaves out.
+    /// @param[in] f  called with the number of each point, psi and the square
+    template<typename F>
+    void sample(const openvdb::Coord& origin, const std::vector<Point>& points, const F& f) const
+    {
+        const double h = options_.voxelSize;
+        const GaussianTerms& terms = termsAt(origin, h);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const PsiSample s = sampleTerms(terms, points[i].x, points[i].y, points[i].z);
+            f(i, s.psi, s.slope2 / float(h * h));
+        }
+    }
+
     /// Counts the terms that evaluate() adds up at all voxels of a leaf.
     std::size_t productCount(const openvdb::Coord& origin, double reach) const;
 
@@ -92,6 +111,7 @@ public:
 private:
     struct Leaf;
     Leaf& leafAt(const openvdb::Coord& origin, double reach) const;
+    const GaussianTerms& termsAt(const openvdb::Coord& origin, double reach) const;
 
     GaussianOptions options_;
     GaussianExtent extent_; // of all balls

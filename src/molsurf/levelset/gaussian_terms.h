@@ -80,4 +80,14 @@ struct GaussianTables {
 void sumTerms(const GaussianTerms& terms, const GaussianBounds& bounds, GaussianTables& tables,
               float* psi);
 
+/// psi at a point, and the square of its gradient.
+struct PsiSample {
+    float psi;
+    float slope2; ///< [1/voxel^2]
+};
+
+/// psi between voxels, of the terms alone and not of voxels: exact.
+/// @param[in] x,y,z  of the point, from the leaf's first voxel
+PsiSample sampleTerms(const GaussianTerms& terms, float x, float y, float z);
+
 } // namespace molsurf

@@ -4,6 +4,7 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
 #include "molsurf/flow/initial_surface.h"
+#include "molsurf/flow/interface_energy.h"
 #include "molsurf/flow/refine.h"
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
@@ -135,7 +136,6 @@ void SurfaceRun::flow(WarmStart* warm)
         if (warm) *warm = correctionOf(cold, band_.phi, progress_);
         watch_.stop("evolve");
     }
-    sum_.reset();
 }
 
 /// Whether the evolved level set is still needed when S is known.
@@ -166,6 +166,11 @@ void SurfaceRun::distance()
     } else {
         const openvdb::CoordBBox near = scope_.region.grown(scope_.distanceHalo);
         SparseField carrier = carrierOf(atoms_, options_, scope_.extent, band_, progress_);
+        if (sum_ && result_.report.evolution) {
+            result_.report.evolution->finalEnergy = interfaceEnergy(
+                carrier, *sum_, weightsOf(options_.evolution), scope_.region, progress_);
+        }
+        sum_.reset();
         if (!options_.fillCavities) band_.psi = LeafField();
         band_.phi =
             keepsLevelSet() ? clipped(std::move(band_.phi), near, progress_) : SparseField();

@@ -61,6 +61,19 @@ TEST(SmallMolecules, OneAtomIsABallOfItsExactRadius)
     }
 }
 
+TEST(SmallMolecules, FinalEnergyIsThatOfTheSphere)
+{
+    const double r = test::minimalRadius(3.1, {}), C = M_LN2 / (0.5 * 3.1);
+    const double e = std::exp(-C * (r * r - 3.1 * 3.1)), slope = 2.0 * C * r;
+    const double w = (1.0 - e) * (1.0 - e) + 0.01 * e * e * slope * slope;
+    for (const double voxel : {0.5, 0.25}) {
+        SurfaceOptions options;
+        options.voxel = voxel;
+        const Report report = test::runOn({{corner, 1.7f, 0}}, options).report;
+        EXPECT_NEAR(report.evolution->finalEnergy / (4.0 * M_PI * r * r * w), 1.0, 2e-3) << voxel;
+    }
+}
+
 TEST(SmallMolecules, LabelsNameTheNearestAtom)
 {
     const std::vector<Ball> balls = {{corner, 1.7f, 17}, {corner + Vec3f(3.0f, 0, 0), 1.7f, 4}};
