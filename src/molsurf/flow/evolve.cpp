@@ -43,7 +43,7 @@ int sweepsFor(const EvolveOptions& options, double voxelSize)
 bool stalled(const std::vector<double>& tails, const EvolutionReport& report)
 {
     constexpr std::size_t steps = 8; // over which they are compared
-    constexpr double change = 2e-4;  // relative, of area and volume
+    constexpr double change = 1e-3;  // relative, of area and volume
     if (tails.size() <= steps) return false;
     const auto recent = tails.end() - steps;
     const auto same = [](const std::vector<double>& values) {
@@ -53,6 +53,18 @@ bool stalled(const std::vector<double>& tails, const EvolutionReport& report)
     return *std::min_element(recent, tails.end()) >
                0.9 * *std::min_element(tails.begin(), recent) &&
            same(report.area) && same(report.volume);
+}
+
+/// Whether tunnels or gaps still close: a little of the interface moves far, and the area changes.
+/// What moves far while that does not is what the voxels do not resolve.
+bool stillCloses(const EvolutionReport& report, double voxelSize)
+{
+    constexpr double few = 1e-4,
+                     change = 6e-4; // share of the interface; relative, for voxels of 1 Å
+    const std::vector<double>& A = report.area;
+    const std::size_t n = A.size();
+    return report.unsettledShare > few &&
+           (n < 3 || std::abs(A[n - 1] - A[n - 3]) > change * voxelSize * A[n - 1]);
 }
 
 /// Adds the sums of an interface to a report.
@@ -148,7 +160,10 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
     const int maxSteps = fixed                   ? options.steps
                          : options.maxSteps >= 0 ? options.maxSteps
                                                  : newtonSteps;
-    NewtonSteps newton(weightsOf(options), sweepsFor(options, h));
+    // On coarse voxels gaps that they do not resolve would otherwise pull at the interface for
+    // ever.
+    constexpr double coarse = 0.7; // [Å]
+    NewtonSteps newton(weightsOf(options), sweepsFor(options, h), hasFronts(options) || h > coarse);
     newton.setSplineLevel(options.splineLevel);
 
     EvolutionReport report;
@@ -171,7 +186,8 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
         if (last) *last = moves;
         tails.push_back(report.displacementTail);
         const bool small = report.displacementRms < options.tolerance * h;
-        if (!fixed && (report.converged || (small && stalled(tails, report)))) break;
+        const bool rests = report.converged && !stillCloses(report, h);
+        if (!fixed && (rests || (small && stalled(tails, report)))) break;
     }
     record(newton.sums(band, region, progress), region.whole(), report);
     return report;

@@ -24,10 +24,11 @@ constexpr float longestStep = 0.8f; // [voxel]
 // 3 Å in a step.
 constexpr float leastStiffness = 0.1f;
 
-// A step is extended by no more than the first factor, and by the second where u is long; not at
-// all where it is short, and no more than noise [voxel].
+// A step is extended by no more than the first factor, and by the second where u is long. From
+// where on it is extended and where it is long [voxel]: eagerly, and where that would only make the
+// grid's noise swing.
 constexpr float extension = 3.0f, longExtension = 5.0f;
-constexpr float extendedFrom = 0.01f, longFrom = 0.03f, longTo = 0.06f;
+constexpr float eagerFrom = 0.01f, eagerLong = 0.03f, calmFrom = 0.04f, calmLong = 0.06f;
 
 // What u is taken for, at most, where it alternates [voxel].
 constexpr float noise = 0.05f;
@@ -183,18 +184,21 @@ MOLSURF_KERNEL void feetRows(const float* __restrict phiBlock, const float* __re
 
 /// The steps that are made of a leaf's displacements: these, but where they fall by the same factor
 /// in two steps, the way that is left. If u falls by a factor 1 - theta, that is u/theta.
+/// @param[in]     from     [voxel] steps are extended above this, fully at twice that; longFrom:
+/// and
+///                         by the larger factor
 /// @param[in,out] history  of the step before; then of this one
-MOLSURF_KERNEL void extend(const float* __restrict atFoot, float h, StepHistory& __restrict history,
-                           float* __restrict step)
+MOLSURF_KERNEL void extend(const float* __restrict atFoot, float h, float from, float longFrom,
+                           StepHistory& __restrict history, float* __restrict step)
 {
     for (int v = 0; v < leafSize; ++v) {
         const float u = atFoot[v], length = std::abs(u) / h;
         const float lastU = history.u[v], lastStep = history.step[v];
-        const float far = clamped((length - longFrom) / (longTo - longFrom), 0.0f, 1.0f);
+        const float far = clamped(length / longFrom - 1.0f, 0.0f, 1.0f);
         const float most = extension + (longExtension - extension) * far;
         const float theta =
             clamped(lastStep * (lastU - u) / (lastStep * lastStep + 1e-12f), 1.0f / most, 1.0f);
-        const float trust = clamped(length / extendedFrom - 1.0f, 0.0f, 1.0f);
+        const float trust = clamped(length / from - 1.0f, 0.0f, 1.0f);
         const float factor = lastStep * u > 0.0f ? 1.0f + trust * (1.0f / theta - 1.0f) : 1.0f;
         step[v] = clamped(factor * u, -longestStep * h, longestStep * h);
         history.u[v] = u;
@@ -312,6 +316,7 @@ InterfaceSums NewtonSteps::step(const NarrowBand& band, const Region& region, Le
     const double h = band.phi.voxelSize;
     const InterfaceSums before = sums(band, region, progress);
     sweep(table, next, progress);
+    const float from = eager_ ? eagerFrom : calmFrom, longFrom = eager_ ? eagerLong : calmLong;
     tbb::enumerable_thread_specific<Displacements> parts;
     parallelFor(table.size(), progress, [&](std::size_t n) {
         const LeafMask& active = table.active(n);
@@ -327,12 +332,12 @@ InterfaceSums NewtonSteps::step(const NarrowBand& band, const Region& region, Le
         alignas(64) float size[leafSize], slope[leafSize], step[leafSize];
         feetRows(phi.values, u.values, active, float(h), size, slope);
         const LeafMask down = lessThan(size, 0.0f);
-        if (within(size, extendedFrom * float(h)).count() == leafSize) {
+        if (within(size, from * float(h)).count() == leafSize) {
             history_[n].reset();
             std::copy_n(size, leafSize, step);
         } else {
             if (!history_[n]) history_[n] = std::make_unique<StepHistory>();
-            extend(size, float(h), *history_[n], step);
+            extend(size, float(h), from, longFrom, *history_[n], step);
         }
         moveRows(band.phi.leaf(n), slope, step, active, down_[n], made_ ? 1.0f : 0.0f, float(h),
                  next.leaf(n), size);

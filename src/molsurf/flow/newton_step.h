@@ -38,7 +38,11 @@ class NewtonSteps
 {
 public:
     /// @param[in] sweeps  for each step, >= 1
-    NewtonSteps(const Weights& weights, int sweeps) : weights_(weights), sweeps_(sweeps) {}
+    /// @param[in] eager   whether shorter steps are extended, too
+    NewtonSteps(const Weights& weights, int sweeps, bool eager)
+        : weights_(weights), sweeps_(sweeps), eager_(eager)
+    {
+    }
 
     /// Makes a step.
     /// @param[in]     region  whose own voxels are summed
@@ -60,6 +64,7 @@ private:
 
     Weights weights_;
     int sweeps_;
+    bool eager_;
     int splineLevel_ = 0;
     LeafArray<std::uint32_t> system_;                   // its coefficients, two in a word
     LeafField u_;                                       // its solution

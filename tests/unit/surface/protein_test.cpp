@@ -33,7 +33,7 @@ TEST(Pipeline, DimerOf1A8O)
     const EvolutionReport& flow = *result.report.evolution;
     EXPECT_TRUE(flow.converged);
     EXPECT_LE(flow.steps, 15);
-    EXPECT_LT(test::largestRise(flow), 1e-4);
+    EXPECT_LT(test::largestRise(flow), 1e-3);
     const SurfaceReport& surface = result.report.surface;
     EXPECT_NEAR(surface.area, 6151.0, 0.001 * 6151.0);
     EXPECT_NEAR(surface.volume, 19351.0, 0.001 * 19351.0);
@@ -52,7 +52,7 @@ TEST(PipelineSlow, DimerOf1A8OAgreesWithHalfTheVoxel)
     const MolecularSurface fine = test::runOn(balls, options);
     say("1a8o h 0.25", fine);
     EXPECT_TRUE(fine.report.evolution->converged);
-    EXPECT_LT(test::largestRise(*fine.report.evolution), 1e-4);
+    EXPECT_LT(test::largestRise(*fine.report.evolution), 1e-3);
     EXPECT_NEAR(fine.report.evolution->finalEnergy / coarse.report.evolution->finalEnergy, 1.0,
                 0.003);
     EXPECT_NEAR(fine.report.surface.area / coarse.report.surface.area, 1.0, 0.001);
