@@ -32,8 +32,7 @@ double Displacements::quantile(double share) const
     std::uint64_t sum = 0;
     for (int i = 0; i < int(bins.size()); ++i) {
         sum += bins[std::size_t(i)];
-        if (sum > 0 && double(sum) >= share * double(count))
-            return std::exp2(double(i + 1 - binOfVoxel) / perOctave);
+        if (sum > 0 && double(sum) >= share * double(count)) return double(endOf(i));
     }
     return 0.0;
 }

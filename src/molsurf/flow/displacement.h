@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 namespace molsurf
 {
@@ -40,21 +41,33 @@ struct Displacements {
     /// quantile sees those that are longer [voxel].
     double rms() const;
 
-    /// The size that a share of the voxels does not exceed, to a tenth [voxel].
+    /// The size that a share of the voxels does not exceed, to an eighth [voxel].
     double quantile(double share) const;
 
-    /// The share of the voxels whose displacement is longer than this [voxel], to a tenth of it.
+    /// The share of the voxels whose displacement is longer than this [voxel], to an eighth of it.
     double shareAbove(double size) const;
 
 private:
     static constexpr float clip = 0.25f, unit = 0x1p40f;
-    static constexpr int perOctave = 8, binOfVoxel = 80;
+
+    // Bins are the exponents of floats and three bits more, from 2^-10 to 4 voxels.
+    static constexpr int shift = 20, first = (127 - 10) << 3, last = 95;
 
     static int binOf(float size)
     {
-        constexpr int last = 95;
-        const float octaves = 1.442695f * fastLog(size + 1e-30f);
-        return int(clamped(float(binOfVoxel) + float(perOctave) * octaves, 0.0f, float(last)));
+        std::int32_t bits;
+        std::memcpy(&bits, &size, sizeof bits);
+        const int bin = (bits >> shift) - first;
+        return bin < 0 ? 0 : bin > last ? last : bin;
+    }
+
+    /// The largest size in a bin.
+    static float endOf(int bin)
+    {
+        const std::int32_t bits = (bin + 1 + first) << shift;
+        float size;
+        std::memcpy(&size, &bits, sizeof size);
+        return size;
     }
 };
 

@@ -59,12 +59,11 @@ bool stalled(const std::vector<double>& tails, const EvolutionReport& report)
 /// What moves far while that does not is what the voxels do not resolve.
 bool stillCloses(const EvolutionReport& report, double voxelSize)
 {
-    constexpr double few = 1e-4,
-                     change = 6e-4; // share of the interface; relative, for voxels of 1 Å
+    const double few = 1.6e-3 * voxelSize * voxelSize, change = 6e-4 * voxelSize;
     const std::vector<double>& A = report.area;
     const std::size_t n = A.size();
     return report.unsettledShare > few &&
-           (n < 3 || std::abs(A[n - 1] - A[n - 3]) > change * voxelSize * A[n - 1]);
+           (n < 3 || std::abs(A[n - 1] - A[n - 3]) > change * A[n - 1]);
 }
 
 /// Adds the sums of an interface to a report.
@@ -154,7 +153,6 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
                        Progress& progress, const Region& region, int halo, Displacements* last)
 {
     if (options.flow == Flow::Paper) return evolveAsPaper(band, source, options, progress);
-    constexpr int reinitializations = 2;
     const double h = band.phi.voxelSize;
     const bool fixed = options.steps >= 0;
     const int maxSteps = fixed                   ? options.steps
@@ -163,7 +161,9 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
     // On coarse voxels gaps that they do not resolve would otherwise pull at the interface for
     // ever.
     constexpr double coarse = 0.7; // [Å]
-    NewtonSteps newton(weightsOf(options), sweepsFor(options, h), hasFronts(options) || h > coarse);
+    const bool eager = hasFronts(options) || h > coarse;
+    const int reinitializations = eager ? 2 : 1; // long steps spoil the distance
+    NewtonSteps newton(weightsOf(options), sweepsFor(options, h), eager);
     newton.setSplineLevel(options.splineLevel);
 
     EvolutionReport report;

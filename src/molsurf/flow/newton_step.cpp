@@ -160,16 +160,22 @@ MOLSURF_KERNEL void feetRows(const float* __restrict phiBlock, const float* __re
             tz[z] = fz - float(iz);
             cell[z] = (ix - footReach) * UX + (iy - footReach) * UY + (iz - footReach) + z;
         }
-        // u at the foot, from those corners of its cell where it is known.
-        for (int k = 0; k < 8; ++k) {
-            const int corner = (k >> 2) * UX + (k >> 1 & 1) * UY + (k & 1);
+        // u at the foot, from those corners of its cell where it is known. All are read before any
+        // is used: a vector cannot be loaded while its parts are still being stored.
+        alignas(64) float pairs[4][16]; // corners that are neighbours in memory
+        for (int k = 0; k < 4; ++k) {
+            const float* corner = q + (k >> 1) * UX + (k & 1) * UY;
+            for (int z = 0; z < 8; ++z)
+                std::memcpy(pairs[k] + 2 * z, corner + cell[z], 2 * sizeof(float));
+        }
+        for (int k = 0; k < 4; ++k) {
             for (int z = 0; z < 8; ++z) {
-                const float w = (k & 4 ? tx[z] : 1.0f - tx[z]) * (k & 2 ? ty[z] : 1.0f - ty[z]) *
-                                (k & 1 ? tz[z] : 1.0f - tz[z]);
-                const float value = q[cell[z] + corner];
-                const float counted = value < known ? w : 0.0f;
-                sum[z] += counted * smaller(value, 1e6f);
-                weight[z] += counted;
+                const float w = (k & 2 ? tx[z] : 1.0f - tx[z]) * (k & 1 ? ty[z] : 1.0f - ty[z]);
+                const float below = pairs[k][2 * z], above = pairs[k][2 * z + 1];
+                const float wBelow = below < known ? w * (1.0f - tz[z]) : 0.0f;
+                const float wAbove = above < known ? w * tz[z] : 0.0f;
+                sum[z] += wBelow * smaller(below, 1e6f) + wAbove * smaller(above, 1e6f);
+                weight[z] += wBelow + wAbove;
             }
         }
         for (int z = 0; z < 8; ++z) {
@@ -184,10 +190,9 @@ MOLSURF_KERNEL void feetRows(const float* __restrict phiBlock, const float* __re
 
 /// The steps that are made of a leaf's displacements: these, but where they fall by the same factor
 /// in two steps, the way that is left. If u falls by a factor 1 - theta, that is u/theta.
-/// @param[in]     from     [voxel] steps are extended above this, fully at twice that; longFrom:
-/// and
-///                         by the larger factor
-/// @param[in,out] history  of the step before; then of this one
+/// @param[in]     from     steps are extended above this, fully at twice that [voxel]
+/// @param[in]     longFrom  the same of the larger factor
+/// @param[in,out] history   of the step before; then of this one
 MOLSURF_KERNEL void extend(const float* __restrict atFoot, float h, float from, float longFrom,
                            StepHistory& __restrict history, float* __restrict step)
 {
