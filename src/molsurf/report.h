@@ -77,7 +77,10 @@ struct SurfaceReport {
     /// Of the vertices away from kinks of the distance, the share at which the gradient of the
     /// spline has a length within 0.03 of 1; not a number if every vertex is near a kink.
     double gradientShare = 0.0;
-    double kinkShare = 0.0;       ///< share of vertices within two voxels of such a kink
+    /// Share of the vertices within two voxels of a kink: a place where the direction to the
+    /// closest point turns by over 20 degrees in a voxel, of which the curvature of the surface
+    /// leaves 10 or more unexplained. A ball has none. docs/math.md, section 7.
+    double kinkShare = 0.0;
     Statistics meanCurvature;     ///< mean curvature at the vertices [1/Å], positive where convex
     Statistics gaussianCurvature; ///< Gaussian curvature at the vertices [1/Å^2]
     std::optional<SurfaceIntegrals> integrals; ///< present with

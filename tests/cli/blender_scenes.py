@@ -24,9 +24,12 @@ def measured(obj):
     mesh.from_mesh(evaluated.to_mesh())
     mesh.transform(evaluated.matrix_world)
     bmesh.ops.triangulate(mesh, faces=mesh.faces)
+    mesh.verts.ensure_lookup_table()
+    # Blender's vectors are floats: far from 0 these products would cancel.
+    origin = mesh.verts[0].co.copy() if mesh.verts else None
     volume, moment = 0.0, [0.0] * 3
     for face in mesh.faces:
-        a, b, c = (v.co for v in face.verts)
+        a, b, c = (v.co - origin for v in face.verts)
         part = a.dot(b.cross(c)) / 6
         volume += part
         for i in range(3):
@@ -35,7 +38,7 @@ def measured(obj):
     faces = len(mesh.faces)
     mesh.free()
     return {"volume": volume, "faces": faces, "open_edges": open_edges,
-            "centroid": [m / volume for m in moment] if volume else None}
+            "centroid": [o + m / volume for o, m in zip(origin, moment)] if volume else None}
 
 
 def fresh():

@@ -17,8 +17,8 @@ struct BandWidths {
 /// A signed distance in a band that need not be symmetric.
 struct DistanceBand {
     SparseField phi; ///< [Å]; active: -inside < phi < outside, elsewhere -inside or outside
-    LeafTable kinks; ///< the same leaves; active: active voxels of phi beside which the gradient
-                     ///< turns by more than 20 degrees
+    LeafTable kinks; ///< the same leaves; active: active voxels of phi with a kink between them and
+                     ///< the next voxel along an axis (docs/math.md, section 7)
 };
 
 } // namespace molsurf

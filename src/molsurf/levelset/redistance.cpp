@@ -5,6 +5,7 @@
 #include "molsurf/core/simd.h"
 #include "molsurf/grid/leaf_block.h"
 #include "molsurf/levelset/foot_points.h"
+#include "molsurf/levelset/kink.h"
 #include "molsurf/levelset/nearest_point.h"
 #include "molsurf/spline/spline.h"
 
@@ -45,6 +46,15 @@ struct alignas(64) Seed {
         return {A[0] * t.x() + A[3] * t.y() + A[5] * t.z(),
                 A[3] * t.x() + A[1] * t.y() + A[4] * t.z(),
                 A[5] * t.x() + A[4] * t.y() + A[2] * t.z()};
+    }
+
+    /// Normal curvature along the tangential part of a vector; about the mean of all directions
+    /// where the vector is along the normal.
+    float curvatureAlong(const Vec3f& d) const
+    {
+        const Vec3f t = d - d.dot(n) * n;
+        const float little = 0.01f * d.lengthSqr() + 1e-12f;
+        return (t.dot(bend(t)) + little * 0.5f * kappa) / (t.lengthSqr() + little);
     }
 };
 
@@ -164,23 +174,8 @@ Jet jetBeside(const SparseField& coefficients, std::int32_t leaf, const Vec3f& y
     return jet;
 }
 
-/// Gradient of the expansion of the distance about a closest point, at x from it.
-Vec3f gradientFrom(const Seed& seed, const Vec3f& d)
-{
-    const float s = seed.n.dot(d);
-    const Vec3f t = d - s * seed.n;
-    const Vec3f At = seed.bend(t);
-    const float determinant = std::max(1.0f + s * seed.kappa + s * s * seed.gauss, 0.02f);
-    Vec3f gradient = seed.n + (At + s * seed.gauss * t) / determinant;
-    gradient.normalize();
-    return gradient;
-}
-
 using SeedIndex = LeafArray<std::int32_t>;
 using SeedBlock = LeafBlock<std::int32_t, 1>;
-
-/// Cosine of the angle by which the gradient turns beside a kink: 20 degrees.
-constexpr float kinkCosine = 0.94f;
 
 /// Normals at the closest points of the voxels of a leaf and of those one step on; not a number
 /// where there is none.
@@ -190,17 +185,18 @@ struct Normals {
     float n[3][dim * dim * dim];
 };
 
-/// The voxels of a leaf whose normal turns by more than that of a kink to the next voxel along an
+/// The voxels of a leaf whose normal turns as much as beside a kink to the next voxel along an
 /// axis.
 MOLSURF_KERNEL void turning(const Normals& normals, int stride, LeafMask& mask)
 {
+    constexpr float cosine = 1.0f - 0.5f * kinkSpread * kinkSpread;
     const float *nx = normals.n[0], *ny = normals.n[1], *nz = normals.n[2];
     for (int row = 0; row < 64; ++row) {
         const int at = row / 8 * Normals::strides[0] + row % 8 * Normals::strides[1];
         int bits = 0;
         for (int i = at; i < at + 8; ++i) {
             const int j = i + stride;
-            bits |= int(nx[i] * nx[j] + ny[i] * ny[j] + nz[i] * nz[j] < kinkCosine) << (i - at);
+            bits |= int(nx[i] * nx[j] + ny[i] * ny[j] + nz[i] * nz[j] < cosine) << (i - at);
         }
         mask.words[row >> 3] |= std::uint64_t(bits) << (8 * (row & 7));
     }
@@ -290,14 +286,8 @@ public:
         return placeOf(v) - seeds_[seed].y - shift(seeds_[seed]);
     }
 
-    /// The gradient that a closest point gives a voxel.
-    Vec3f gradientAt(std::int32_t seed, int v) const
-    {
-        return gradientFrom(seeds_[seed], offset(seed, v));
-    }
-
-    /// The voxels that a closest point and that of the next voxel along an axis give gradients that
-    /// differ by more than 20 degrees. Their normals then differ as much, which sorts most out.
+    /// The voxels of a leaf with a kink between them and the next voxel along an axis.
+    /// @param[in] index  the seed of each voxel of the leaf and about it
     LeafMask kinks(const SeedBlock& index) const
     {
         constexpr int dim = Normals::dim, count = dim * dim * dim;
@@ -317,12 +307,8 @@ public:
         LeafMask out;
         (turns[0] | turns[1] | turns[2]).forEach([&](int v) {
             const std::int32_t* p = index.at(v >> 6, v >> 3 & 7, v & 7);
-            const Vec3f gradient = gradientAt(*p, v);
             for (int axis = 0; axis < 3; ++axis) {
-                if (!turns[axis].on(v)) continue;
-                if (gradient.dot(gradientAt(p[strides[axis]], v)) >= kinkCosine) continue;
-                out.set(v);
-                return;
+                if (turns[axis].on(v) && isKinkBetween(*p, p[strides[axis]], v)) out.set(v);
             }
         });
         return out;
@@ -421,6 +407,17 @@ private:
         float least2; // squared distance of the point so far
         int rounds;
     };
+
+    /// Whether a voxel and the next one, whose normals turn, have a kink between them.
+    bool isKinkBetween(std::int32_t seed, std::int32_t next, int v) const
+    {
+        const Seed &a = seeds_[std::size_t(seed)], &b = seeds_[std::size_t(next)];
+        const float side = a.n.dot(offset(seed, v)) < 0.0f ? 1.0f : -1.0f;
+        const Vec3f chord = b.y + shift(b) - a.y - shift(a);
+        const float curvature =
+            std::max(side * a.curvatureAlong(chord), side * b.curvatureAlong(chord));
+        return isKink(chord, side * (b.n - a.n), curvature);
+    }
 
     Vec3f shift(const Seed& seed) const
     {

@@ -5,12 +5,14 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"
 #include "molsurf/grid/leaf_block.h"
+#include "molsurf/levelset/kink.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace molsurf
@@ -482,40 +484,79 @@ private:
     BallIndex patchIndex_, ballIndex_;
 };
 
-/// The foot of a point on the whole sphere or circle of a part, or a corner.
-Vec3d footOn(const BallBoundary& boundary, std::int32_t part, const Vec3d& x)
+/// The boundary point nearest to a voxel.
+struct Foot {
+    std::int32_t part;
+    bool inside; // whether the voxel is
+    Vec3f y;     // from the voxel [Å]
+    Vec3f n;     // unit normal of the distance there, outward
+};
+
+/// The foot of a voxel on the whole sphere or circle of its nearest part, or a corner. Only voxels
+/// inside are nearest to an arc or to a corner.
+Foot footOn(const BallBoundary& boundary, std::int32_t part, const Vec3d& x)
 {
     const std::size_t patches = boundary.patches.size(), arcs = boundary.arcs.size();
     const std::size_t i = std::size_t(part);
     if (i < patches) {
-        const Patch& p = boundary.patches[i];
-        Vec3d u = x - p.centre;
-        u.normalize();
-        return p.centre + p.radius * u;
+        const Patch& patch = boundary.patches[i];
+        const Vec3f w(x - patch.centre);
+        const float distance = w.length(), radius = float(patch.radius);
+        const Vec3f n = w / std::max(distance, 1e-6f * radius);
+        return {part, distance < radius, (radius - distance) * n, n};
     }
+    Vec3f y;
     if (i < patches + arcs) {
         const Arc& arc = boundary.arcs[i - patches];
-        const Vec3d w = x - arc.centre;
-        Vec3d u = w - w.dot(arc.axis) * arc.axis;
-        u.normalize();
-        return arc.centre + arc.radius * u;
+        const Vec3f w(x - arc.centre), axis(arc.axis);
+        const Vec3f u = w - w.dot(axis) * axis;
+        y = float(arc.radius) / std::max(u.length(), 1e-6f) * u - w;
+    } else {
+        y = Vec3f(boundary.corners[i - patches - arcs].position - x);
     }
-    return boundary.corners[i - patches - arcs].position;
+    return {part, true, y, y / std::max(y.length(), 1e-6f)};
 }
 
-/// Whether the nearest boundary points of two neighbouring voxels lie apart: farther than they can
-/// on one smooth piece, and by more than 20 degrees as seen from the first.
-bool isKink(const Vec3d& x, const Vec3d& foot, const Vec3d& nextFoot, double voxelSize)
+/// Curvature of the boundary at the foot of x, along the tangential part of a vector: that of a
+/// patch, or what an arc has of it [1/Å].
+float curvatureAlong(const BallBoundary& boundary, const Foot& foot, const Vec3d& x,
+                     const Vec3f& chord)
 {
-    constexpr double apartVox = 2.5, cosine = 0.94;
-    if ((foot - nextFoot).length() < apartVox * voxelSize) return false;
-    Vec3d a = foot - x, b = nextFoot - x;
-    a.normalize();
-    b.normalize();
-    return a.dot(b) < cosine;
+    const std::size_t patches = boundary.patches.size(), arcs = boundary.arcs.size();
+    const std::size_t i = std::size_t(foot.part);
+    if (i < patches) return 1.0f / float(boundary.patches[i].radius);
+    if (i >= patches + arcs) return 0.0f;
+    const Arc& arc = boundary.arcs[i - patches];
+    const Vec3f u = (Vec3f(x - arc.centre) + foot.y) / float(arc.radius);
+    const float along = chord.dot(Vec3f(arc.axis).cross(u)), across = chord.dot(foot.n);
+    const float length2 = chord.lengthSqr() - across * across; // of the tangential part
+    return length2 > 0.0f ? foot.n.dot(u) / float(arc.radius) * along * along / length2 : 0.0f;
 }
 
-/// The voxels of a leaf beside which the nearest boundary points lie apart.
+bool isKinkBetween(const BallBoundary& boundary, const Vec3d& x, const Foot& a, const Vec3d& next,
+                   const Foot& b)
+{
+    const float side = a.inside ? 1.0f : -1.0f;
+    const Vec3f spread = side * (b.n - a.n);
+    if (a.inside != b.inside || spread.lengthSqr() < kinkSpread * kinkSpread) return false;
+    const Vec3f chord = Vec3f(next - x) + b.y - a.y;
+    return isKink(chord, spread,
+                  std::max(side * curvatureAlong(boundary, a, x, chord),
+                           side * curvatureAlong(boundary, b, next, chord)));
+}
+
+/// Whether the nearest part of a voxel is an arc about whose axis two voxels may have feet far
+/// apart.
+bool isNearAxis(const BallBoundary& boundary, std::int32_t part, const Vec3d& x, double voxelSize)
+{
+    const std::size_t i = std::size_t(part) - boundary.patches.size();
+    if (std::size_t(part) < boundary.patches.size() || i >= boundary.arcs.size()) return false;
+    const Vec3d w = x - boundary.arcs[i].centre;
+    const double height = w.dot(boundary.arcs[i].axis);
+    return w.lengthSqr() - height * height < 2.0 * voxelSize * voxelSize;
+}
+
+/// The voxels of a leaf with a kink between them and the next voxel along an axis.
 /// @param[in] part  index of the nearest part of each voxel of the table
 LeafMask kinksOf(const BallBoundary& boundary, const LeafTable& table,
                  const LeafArray<std::int32_t>& part, double voxelSize, std::size_t n)
@@ -523,16 +564,24 @@ LeafMask kinksOf(const BallBoundary& boundary, const LeafTable& table,
     LeafMask kinks;
     LeafBlock<std::int32_t, 1> block;
     block.gather(table, part, n);
+    constexpr int strides[3] = {block.strideX, block.strideY, block.strideZ};
     table.active(n).forEach([&](int v) {
         const Coord local(v >> 6, v >> 3 & 7, v & 7);
         const std::int32_t* p = block.at(local.x(), local.y(), local.z());
+        if (p[0] < 0) return;
         const Vec3d x = (table.origin(n) + local).asVec3d() * voxelSize;
-        for (const int step : {block.strideX, block.strideY, block.strideZ}) {
-            if (p[0] < 0 || p[step] < 0 || p[step] == p[0]) continue;
-            const Coord next(step == block.strideX, step == block.strideY, step == block.strideZ);
-            const Vec3d foot = footOn(boundary, p[0], x);
-            const Vec3d nextFoot = footOn(boundary, p[step], x + next.asVec3d() * voxelSize);
-            if (isKink(x, foot, nextFoot, voxelSize)) kinks.set(v);
+        const bool alone = !isNearAxis(boundary, p[0], x, voxelSize);
+        std::optional<Foot> foot;
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::int32_t next = p[strides[axis]];
+            if (next < 0 || (next == p[0] && alone)) continue;
+            if (!foot) foot = footOn(boundary, p[0], x);
+            Vec3d beside = x;
+            beside[axis] += voxelSize;
+            const Foot other = footOn(boundary, next, beside);
+            if (!isKinkBetween(boundary, x, *foot, beside, other)) continue;
+            kinks.set(v);
+            return;
         }
     });
     return kinks;

@@ -209,15 +209,48 @@ TEST(Redistance, MarksTheKinkWhereTwoSheetsMeet)
     EXPECT_EQ(far, 0u) << "of " << total;
 }
 
-TEST(Redistance, MarksNoKinkInASphereAboveItsCentre)
+// One atom with its probe, and one on a point of the grid: curvature explains every turn, also at
+// the centre, where the closest points of two voxels are opposite to each other.
+TEST(Redistance, MarksNoKinkInASphereDownToItsCentre)
 {
+    for (const double radius : {3.1, 2.6}) {
+        for (const Vec3d& centre :
+             {Vec3d(0.137, -0.291, 0.443), Vec3d(0.0), Vec3d(0.5, 0.0, 0.0)}) {
+            const auto distance = [&](const Vec3d& x) { return (x - centre).length() - radius; };
+            for (const double voxel : {1.0, 0.5, 0.25}) {
+                const DistanceBand band =
+                    redistanced(distance, centre, radius, voxel, radius + voxel, voxel);
+                std::size_t total = 0;
+                kinksWhere(band, voxel, everywhere, total);
+                EXPECT_EQ(total, 0u) << radius << " " << centre << " " << voxel;
+            }
+        }
+    }
+}
+
+// Below the concave edge of two balls, rounded as by a sum of Gaussians, the direction to the
+// closest point turns as fast, about the edge, and the distance is smooth.
+TEST(Redistance, MarksNoKinkBelowAConcaveEdge)
+{
+    constexpr double R = 6.0, sharpness = 3.0; // [Å], [1/Å]
+    const Vec3d a(-4.03, 0.1, -0.2), b(4.01, -0.1, 0.1);
+    const auto distance = [&](const Vec3d& x) {
+        const double s = (x - a).length() - R, t = (x - b).length() - R;
+        return std::min(s, t) - std::log1p(std::exp(-sharpness * std::abs(s - t))) / sharpness;
+    };
+    const double edge = std::sqrt(R * R - 0.25 * (b - a).lengthSqr());
     for (const double voxel : {0.5, 0.25}) {
-        const test::Shape ball = test::sphere(5.0);
-        const DistanceBand band =
-            redistanced(ball.distance, ball.centre, ball.extent, voxel, 3.4, 0.5);
+        const DistanceBand band = redistanced(distance, Vec3d(0.0), 10.5, voxel, 3.0, 0.5);
         std::size_t total = 0;
-        kinksWhere(band, voxel, everywhere, total);
-        EXPECT_EQ(total, 0u);
+        EXPECT_EQ(kinksWhere(
+                      band, voxel,
+                      [&](const Vec3d& x) {
+                          const double r = std::hypot(x.y(), x.z());
+                          return distance(x) < 0.0 && std::abs(x.x()) < 1.0 && r > edge - 3.0;
+                      },
+                      total),
+                  0u)
+            << "of " << total;
     }
 }
 

@@ -136,6 +136,58 @@ TEST(UnionOfBalls, DistanceOfSpecialPositions)
     expectExact(cube, 0.5, 0.5, 2.0, 1.0, "a cube");
 }
 
+TEST(UnionOfBalls, OneBallHasNoKink)
+{
+    for (const double voxel : {1.0, 0.5, 0.25}) {
+        const std::vector<Ball> balls = {ball(0.1, 0.2, 0.3, 1.7)};
+        const DistanceBand band =
+            distanceToUnion(unionOf(balls, 1.4, Progress()), voxel, {3.5, 2.0}, Progress());
+        for (std::size_t n = 0; n < band.kinks.size(); ++n)
+            EXPECT_FALSE(band.kinks.active(n).any()) << voxel;
+    }
+}
+
+// Two balls: inside, all points of their circle are equally near on the axis between the centres;
+// outside, the balls are equally near on the plane of the circle. There the distance has its kinks
+// and nowhere else, not below the edge, which is concave.
+TEST(UnionOfBalls, KinksOfTwoBallsAreOnTheirAxisAndBetweenThem)
+{
+    constexpr double voxel = 0.25, apart = 6.0, R = 3.1;
+    const Vec3d a(0.13, 0.37, -0.21), axis = Vec3d(0.8, 0.45, 0.4).unit(), b = a + apart * axis;
+    const std::vector<Ball> balls = {ball(a.x(), a.y(), a.z(), 1.7),
+                                     ball(b.x(), b.y(), b.z(), 1.7)};
+    const DistanceBand band =
+        distanceToUnion(unionOf(balls, R - 1.7, Progress()), voxel, {2.4, 2.0}, Progress());
+    std::size_t inner = 0, outer = 0, beside = 0, marked = 0;
+    for (std::size_t n = 0; n < band.phi.table.size(); ++n) {
+        band.phi.table.active(n).forEach([&](int v) {
+            const Coord c = band.phi.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+            const Vec3d x = c.asVec3d() * voxel - a;
+            const double along = x.dot(axis), aside = (x - along * axis).length();
+            const bool inside = band.phi.leaf(n)[v] < 0.0f, kink = band.kinks.active(n).on(v);
+            // The plane crosses the edge to the next voxel along x, well outside.
+            if (!inside && along < 0.5 * apart && along + voxel * axis.x() > 0.5 * apart &&
+                band.phi.leaf(n)[v] > 0.5f && band.phi.leaf(n)[v] < 1.5f) {
+                ++beside;
+                marked += kink;
+            }
+            if (!kink) return;
+            ++(inside ? inner : outer);
+            if (inside) {
+                EXPECT_LT(aside, 1.5 * voxel);
+                EXPECT_GT(along, -voxel);
+                EXPECT_LT(along, apart + voxel);
+            } else {
+                EXPECT_LT(std::abs(along - 0.5 * apart), voxel);
+            }
+        });
+    }
+    EXPECT_GT(inner, std::size_t(3.0 / voxel)); // the depth of the band holds 2 x 2.2 Å of the axis
+    EXPECT_GT(outer, 100u);
+    EXPECT_EQ(marked, beside);
+    EXPECT_GT(beside, 50u);
+}
+
 // Spheres that nearly meet in a voxel, inside of the union: all around are balls, but each foot
 // there lies within rounding of a cap.
 TEST(UnionOfBalls, NoBoundaryWhereSpheresMeetInside)

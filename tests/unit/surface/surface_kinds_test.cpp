@@ -119,6 +119,27 @@ TEST(UnionSurfaces, AreExactAtAnyVoxel)
     }
 }
 
+// So is its topology, wherever the molecule lies on the grid: a mesh of these voxels has 12 to 24
+// for the Euler number of ubiquitin's solvent-accessible surface.
+TEST(UnionSurfaces, TopologyDoesNotTurnWithTheMolecule)
+{
+    const std::vector<Ball> balls = test::balls("1ubq.pdb");
+    for (const SurfaceKind kind : {SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals}) {
+        const SurfaceReport first = test::runOn(balls, optionsFor(kind, 0.7)).report.surface;
+        std::mt19937 random(5);
+        for (int pose = 0; pose < 10; ++pose) {
+            const Motion move = randomMotion(random);
+            std::vector<Ball> moved = balls;
+            for (Ball& ball : moved) ball.center = move(Vec3d(ball.center));
+            const SurfaceReport s = test::runOn(moved, optionsFor(kind, 0.7)).report.surface;
+            EXPECT_EQ(s.eulerCharacteristic, first.eulerCharacteristic) << nameOf(kind) << pose;
+            EXPECT_EQ(s.components, first.components) << nameOf(kind) << pose;
+            EXPECT_EQ(s.cavities.size(), first.cavities.size()) << nameOf(kind) << pose;
+            EXPECT_NEAR(s.area, first.area, 1e-5 * first.area) << nameOf(kind) << pose;
+        }
+    }
+}
+
 // psi = 0 of one atom is its sphere; of the same atom twice 2 exp(-(d/r^2)(x^2 - r^2)) = 1.
 TEST(Gaussian, OneAtomAndTheSameTwice)
 {
