@@ -22,25 +22,28 @@ using Sums = PieceMeasure;
 /// Six points of a triangle with weights, exact for polynomials of degree 4 (Dunavant, High degree
 /// efficient symmetrical Gaussian quadrature rules for the triangle, Int. J. Numer. Methods Eng.
 /// 21:1129-1148, 1985). Each row: two equal barycentric coordinates, weight.
-constexpr double rule[2][2] = {{0.445948490915965, 0.223381589678011},
-                               {0.091576213509771, 0.109951743655322}};
+constexpr float rule[2][2] = {{0.445948490915965f, 0.223381589678011f},
+                              {0.091576213509771f, 0.109951743655322f}};
 
 /// The vectors of as many triangles as there are lanes.
 struct Vectors {
-    Doubles along[3]; ///< by axis
+    Floats along[3]; ///< by axis
 
-    MOLSURF_INLINE Doubles& operator[](int axis) { return along[axis]; }
-    MOLSURF_INLINE const Doubles& operator[](int axis) const { return along[axis]; }
+    MOLSURF_INLINE Floats& operator[](int axis) { return along[axis]; }
+    MOLSURF_INLINE const Floats& operator[](int axis) const { return along[axis]; }
 };
 
-/// Triangles side by side, one a lane.
+/// Triangles side by side, one a lane. Positions are relative to the first corner: so small that
+/// float is enough.
 struct Patches {
-    Vectors p[3];   ///< positions of the corners [Å]
-    Vectors n[3];   ///< unit normals there
-    Doubles area;   ///< of the patch [Å^2]
-    Doubles volume; ///< of the cone of the patch and the origin [Å^3]
-    Doubles flat;   ///< twice the area of the triangle, squared
+    Vectors p[3];         ///< positions of the corners [Å]
+    Vectors n[3];         ///< unit normals there
+    float area[8];        ///< of the patch [Å^2]
+    float bulge[3][3][8]; ///< 3/2 of what the arc over each edge adds to the integral of the normal
+                          ///< over the triangle, by axes [Å^2]
+    float volume[8];      ///< of the cone of the patch and the first corner [Å^3]
 };
+static_assert(floatLanes == 8);
 
 MOLSURF_INLINE Vectors cross(const Vectors& u, const Vectors& v)
 {
@@ -52,67 +55,63 @@ MOLSURF_INLINE Vectors cross(const Vectors& u, const Vectors& v)
     return out;
 }
 
-MOLSURF_INLINE Doubles dot(const Vectors& u, const Vectors& v)
+MOLSURF_INLINE Floats dot(const Vectors& u, const Vectors& v)
 {
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
 
-/// Areas and volumes of quadratic patches through the corners and the midpoints of arcs between
-/// them.
+/// Measures quadratic patches through the corners and the midpoints of arcs between them.
 MOLSURF_KERNEL void measurePatches(Patches& s)
 {
     Vectors mid[3]; // opposite to corner k
     for (int k = 0; k < 3; ++k) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        Vectors edge;
+        Vectors edge, arc; // from the midpoint of the edge to that of the arc
         for (int a = 0; a < 3; ++a) edge[a] = s.p[j][a] - s.p[i][a];
-        const Doubles along = dot(edge, s.n[j]), against = dot(edge, s.n[i]);
+        const Floats along = dot(edge, s.n[j]), against = dot(edge, s.n[i]);
         for (int a = 0; a < 3; ++a) {
-            mid[k][a] =
-                0.5 * (s.p[i][a] + s.p[j][a]) + 0.125 * (along * s.n[j][a] - against * s.n[i][a]);
+            // along n_j - against n_i, with the same bits from both sides of the edge
+            arc[a] = 0.0625f * ((along - against) * (s.n[j][a] + s.n[i][a]) +
+                                (along + against) * (s.n[j][a] - s.n[i][a]));
+            mid[k][a] = 0.5f * (s.p[i][a] + s.p[j][a]) + arc[a];
         }
+        const Vectors bulge = cross(arc, edge);
+        for (int a = 0; a < 3; ++a) store(s.bulge[k][a], bulge[a]);
     }
-    s.area = s.volume = Doubles{};
+    Floats area{}, volume{};
     for (const auto& [equal, weight] : rule) {
         for (int k = 0; k < 3; ++k) {
-            double b[3] = {equal, equal, equal};
-            b[k] = 1.0 - 2.0 * equal;
-            // x = sum b_k (2 b_k - 1) p_k + sum 4 b_i b_j mid_k; derivatives along b_1 and b_2 with
-            // b_0 = 1 - b_1 - b_2
+            float b[3] = {equal, equal, equal};
+            b[k] = 1.0f - 2.0f * equal;
+            // x = sum b_k (2 b_k - 1) p_k + sum 4 b_i b_j mid_k, with p_0 = 0; u and v are its
+            // derivatives along b_1 and b_2 with b_0 = 1 - b_1 - b_2.
             Vectors x, u, v;
             for (int a = 0; a < 3; ++a) {
-                Doubles d[3];
-                x[a] = Doubles{};
-                for (int c = 0; c < 3; ++c) {
-                    const int i = (c + 1) % 3, j = (c + 2) % 3;
-                    x[a] += b[c] * (2.0 * b[c] - 1.0) * s.p[c][a] + 4.0 * b[i] * b[j] * mid[c][a];
-                    d[c] = (4.0 * b[c] - 1.0) * s.p[c][a] +
-                           4.0 * (b[i] * mid[j][a] + b[j] * mid[i][a]);
-                }
-                u[a] = d[1] - d[0];
-                v[a] = d[2] - d[0];
+                const Floats p1 = s.p[1][a], p2 = s.p[2][a];
+                const Floats m0 = mid[0][a], m1 = mid[1][a], m2 = mid[2][a];
+                x[a] = b[1] * (2.0f * b[1] - 1.0f) * p1 + b[2] * (2.0f * b[2] - 1.0f) * p2 +
+                       4.0f * (b[1] * b[2] * m0 + b[2] * b[0] * m1 + b[0] * b[1] * m2);
+                const Floats d0 = 4.0f * (b[1] * m2 + b[2] * m1);
+                u[a] = (4.0f * b[1] - 1.0f) * p1 + 4.0f * (b[0] * m2 + b[2] * m0) - d0;
+                v[a] = (4.0f * b[2] - 1.0f) * p2 + 4.0f * (b[0] * m1 + b[1] * m0) - d0;
             }
             const Vectors normal = cross(u, v); // twice the area element
-            s.area += 0.5 * weight * squareRoot(dot(normal, normal));
-            s.volume += weight / 6.0 * dot(x, normal);
+            area += 0.5f * weight * squareRoot(dot(normal, normal));
+            volume += weight / 6.0f * dot(x, normal);
         }
     }
-    Vectors u, v;
-    for (int a = 0; a < 3; ++a) {
-        u[a] = s.p[1][a] - s.p[0][a];
-        v[a] = s.p[2][a] - s.p[0][a];
-    }
-    const Vectors normal = cross(u, v);
-    s.flat = dot(normal, normal);
+    store(s.area, area);
+    store(s.volume, volume);
 }
 
-/// Puts a triangle into a lane, with positions about an origin.
-void load(const Mesh& mesh, const std::array<std::uint32_t, 3>& t, const Vec3d& origin, int lane,
-          Patches& patches)
+/// Puts a triangle into a lane.
+MOLSURF_INLINE void put(const Mesh& mesh, const std::array<std::uint32_t, 3>& t, int lane,
+                        Patches& patches)
 {
+    const openvdb::Vec3f& first = mesh.positions[t[0]];
     for (int k = 0; k < 3; ++k) {
         for (int a = 0; a < 3; ++a) {
-            patches.p[k][a][lane] = double(mesh.positions[t[k]][a]) - origin[a];
+            patches.p[k][a][lane] = mesh.positions[t[k]][a] - first[a];
             patches.n[k][a][lane] = mesh.normals[t[k]][a];
         }
     }
@@ -131,15 +130,24 @@ std::vector<PieceMeasure> measurePieces(const Mesh& mesh, const std::vector<std:
     parallelFor(chunks, progress, [&](std::size_t c) {
         const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * chunk);
         Patches patches{};
-        for (std::size_t first = c * chunk; first < end; first += doubleLanes) {
-            const int used = int(std::min<std::size_t>(doubleLanes, end - first));
-            for (int l = 0; l < used; ++l)
-                load(mesh, mesh.triangles[first + l], origin, l, patches);
+        for (std::size_t first = c * chunk; first < end; first += floatLanes) {
+            const int used = int(std::min<std::size_t>(floatLanes, end - first));
+            for (int l = 0; l < used; ++l) put(mesh, mesh.triangles[first + l], l, patches);
             measurePatches(patches);
             for (int l = 0; l < used; ++l) {
-                partial[c][pieces[mesh.triangles[first + l][0]]] +=
-                    {patches.area[l], patches.volume[l]};
-                flats[c] += patches.flat[l] == 0.0;
+                // About another point the cone is larger by that of the integral of the normal.
+                // That vanishes over closed pieces: what neighbours have in common cancels to the
+                // bit.
+                const auto& t = mesh.triangles[first + l];
+                const Vec3d corner(mesh.positions[t[0]]);
+                const Vec3d across = (Vec3d(mesh.positions[t[1]]) - corner)
+                                         .cross(Vec3d(mesh.positions[t[2]]) - corner);
+                Vec3d bulge(0.0);
+                for (const auto& edge : patches.bulge)
+                    bulge += Vec3d(edge[0][l], edge[1][l], edge[2][l]);
+                const double shift = (corner - origin).dot(0.5 * across + 2.0 / 3.0 * bulge) / 3.0;
+                partial[c][pieces[t[0]]] += {patches.area[l], patches.volume[l] + shift};
+                flats[c] += across.lengthSqr() == 0.0;
             }
         }
     });

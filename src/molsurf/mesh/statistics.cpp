@@ -2,92 +2,162 @@
 #include "molsurf/mesh/statistics.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/mesh/vertex_slices.h"
+
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <utility>
 
 namespace molsurf
 {
 
-using openvdb::Vec3d;
+using openvdb::Vec3f;
 
 namespace
 {
 
-/// Unsigned integers in the order of the floats that they stand for.
-std::uint32_t orderOf(float value)
+constexpr int binBits = 16;
+constexpr std::size_t partSize = 1 << 18; // values that are summed together
+
+/// Where a value belongs among 65536 bins in ascending order: by its first 16 bits.
+std::uint32_t binOf(float value)
 {
     std::uint32_t bits;
     std::memcpy(&bits, &value, sizeof bits);
-    return bits >> 31 ? ~bits : bits | 0x80000000u;
+    return (bits >> 31 ? ~bits : bits | 0x80000000u) >> (32 - binBits);
 }
+
+struct Sample {
+    float value, weight;
+};
+
+/// The samples of a statistic; those without weight do not count.
+class Samples
+{
+public:
+    Samples(const std::vector<float>& values, const std::vector<float>& weights)
+        : values_(values), weights_(weights)
+    {
+    }
+
+    /// Makes a T for each part by make(sample, t) for all of its samples, and adds them up in
+    /// order. Parts depend on the number of values alone.
+    template<typename T, typename F>
+    T sum(const T& nothing, const F& make) const
+    {
+        std::vector<T> parts((values_.size() + partSize - 1) / partSize, nothing);
+        tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t p) {
+            const std::size_t end = std::min(values_.size(), (p + 1) * partSize);
+            for (std::size_t i = p * partSize; i < end; ++i)
+                if (weights_[i] > 0.0f) make(Sample{values_[i], weights_[i]}, parts[p]);
+        });
+        T all = nothing;
+        for (const T& part : parts) all += part;
+        return all;
+    }
+
+private:
+    const std::vector<float>&values_, &weights_;
+};
+
+/// What one pass tells.
+struct Tally {
+    double weight = 0.0, sum = 0.0;
+    double min = std::numeric_limits<double>::max(), max = -min;
+    std::vector<double> bins = std::vector<double>(1u << binBits, 0.0); // weights
+
+    Tally& operator+=(const Tally& other)
+    {
+        weight += other.weight;
+        sum += other.sum;
+        min = std::min(min, other.min);
+        max = std::max(max, other.max);
+        for (std::size_t b = 0; b < bins.size(); ++b) bins[b] += other.bins[b];
+        return *this;
+    }
+};
+
+/// A bin that holds percentiles.
+struct Bin {
+    double below;    // weight before it
+    std::size_t end; // one past its last percentile
+};
+
+/// What a second pass tells.
+struct Details {
+    double squares = 0.0;                     // about the mean
+    std::vector<std::vector<Sample>> samples; // of each bin that holds percentiles
+
+    Details& operator+=(const Details& other)
+    {
+        squares += other.squares;
+        for (std::size_t b = 0; b < samples.size(); ++b) {
+            const auto& more = other.samples[b];
+            samples[b].insert(samples[b].end(), more.begin(), more.end());
+        }
+        return *this;
+    }
+};
 
 } // namespace
 
 Statistics statistics(const std::vector<float>& values, const std::vector<float>& weights)
 {
-    // The weight of all values that begin with the same 16 bits; only those of the bins that hold a
-    // percentile are then sorted.
-    constexpr int binBits = 16;
-    std::vector<double> bins(1u << binBits, 0.0);
-    const auto binOf = [](float value) { return orderOf(value) >> (32 - binBits); };
+    const Samples samples(values, weights);
+    const Tally tally = samples.sum(Tally(), [](const Sample& s, Tally& t) {
+        t.bins[binOf(s.value)] += s.weight;
+        t.weight += s.weight;
+        t.sum += double(s.weight) * s.value;
+        t.min = std::min(t.min, double(s.value));
+        t.max = std::max(t.max, double(s.value));
+    });
+    if (tally.weight == 0.0) return Statistics();
     Statistics out;
-    double weight = 0.0, sum = 0.0;
-    out.min = std::numeric_limits<double>::max();
-    out.max = -out.min;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (!(weights[i] > 0.0f)) continue;
-        bins[binOf(values[i])] += weights[i];
-        weight += weights[i];
-        sum += double(weights[i]) * values[i];
-        out.min = std::min(out.min, double(values[i]));
-        out.max = std::max(out.max, double(values[i]));
-    }
-    if (weight == 0.0) return Statistics();
-    out.mean = sum / weight;
+    out.min = tally.min;
+    out.max = tally.max;
+    out.mean = tally.sum / tally.weight;
 
-    struct Bin {
-        double below;                                 // weight before it
-        std::size_t end;                              // one past its last percentile
-        std::vector<std::pair<float, float>> samples; // value, weight
-    };
-    std::vector<Bin> wanted;
-    std::vector<std::int8_t> place(bins.size(), -1); // among those wanted
+    // Only the bins that hold a percentile are sorted.
+    std::vector<Bin> bins;
+    std::vector<std::int8_t> place(tally.bins.size(), -1); // among these
     double below = 0.0;
     std::size_t next = 0;
-    for (std::size_t b = 0; b < bins.size(); ++b) {
+    for (std::size_t b = 0; b < tally.bins.size(); ++b) {
         const std::size_t before = next;
-        const double upTo = below + bins[b];
-        while (next < percents.size() && upTo >= 0.01 * percents[next] * weight) ++next;
+        const double upTo = below + tally.bins[b];
+        while (next < percents.size() && upTo >= 0.01 * percents[next] * tally.weight) ++next;
         if (next > before) {
-            place[b] = std::int8_t(wanted.size());
-            wanted.push_back({below, next, {}});
+            place[b] = std::int8_t(bins.size());
+            bins.push_back({below, next});
         }
         below = upTo;
     }
-    double squares = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (!(weights[i] > 0.0f)) continue;
-        squares += weights[i] * (values[i] - out.mean) * (values[i] - out.mean);
-        const int bin = place[binOf(values[i])];
-        if (bin >= 0) wanted[std::size_t(bin)].samples.emplace_back(values[i], weights[i]);
-    }
-    out.standardDeviation = std::sqrt(squares / weight);
+    Details nothing;
+    nothing.samples.resize(bins.size());
+    Details details = samples.sum(nothing, [&](const Sample& s, Details& d) {
+        d.squares += s.weight * (s.value - out.mean) * (s.value - out.mean);
+        const int bin = place[binOf(s.value)];
+        if (bin >= 0) d.samples[std::size_t(bin)].push_back(s);
+    });
+    out.standardDeviation = std::sqrt(details.squares / tally.weight);
     next = 0;
-    for (Bin& bin : wanted) {
-        std::sort(bin.samples.begin(), bin.samples.end());
-        below = bin.below;
-        for (const auto& [value, w] : bin.samples) {
-            below += w;
-            while (next < bin.end && below >= 0.01 * percents[next] * weight)
-                out.percentiles[next++] = value;
+    for (std::size_t b = 0; b < bins.size(); ++b) {
+        std::vector<Sample>& inside = details.samples[b];
+        std::sort(inside.begin(), inside.end(), [](const Sample& s, const Sample& t) {
+            return s.value != t.value ? s.value < t.value : s.weight < t.weight;
+        });
+        below = bins[b].below;
+        for (const Sample& s : inside) {
+            below += s.weight;
+            while (next < bins[b].end && below >= 0.01 * percents[next] * tally.weight)
+                out.percentiles[next++] = s.value;
         }
         // lost to rounding
-        while (next < bin.end) out.percentiles[next++] = bin.samples.back().first;
+        while (next < bins[b].end) out.percentiles[next++] = inside.back().value;
     }
     while (next < percents.size()) out.percentiles[next++] = out.max;
     return out;
@@ -95,20 +165,20 @@ Statistics statistics(const std::vector<float>& values, const std::vector<float>
 
 std::vector<float> vertexAreas(const Mesh& mesh, const Progress& progress)
 {
-    constexpr std::size_t run = 1 << 18; // triangles whose thirds stay in the cache
-    std::vector<float> areas(mesh.positions.size(), 0.0f), thirds(run);
-    for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += run) {
-        const std::size_t count = std::min(run, mesh.triangles.size() - begin);
-        parallelFor(count, progress, [&](std::size_t i) {
-            const auto& t = mesh.triangles[begin + i];
-            const Vec3d p(mesh.positions[t[0]]);
-            const Vec3d normal =
-                (Vec3d(mesh.positions[t[1]]) - p).cross(Vec3d(mesh.positions[t[2]]) - p);
-            thirds[i] = float(normal.length() / 6.0);
+    std::vector<float> areas(mesh.positions.size(), 0.0f);
+    const VertexSlices slices(mesh, progress);
+    parallelFor(slices.size(), progress, [&](std::size_t s) {
+        const std::uint32_t first = slices.first(s), count = slices.first(s + 1) - first;
+        slices.forEachTriangle(s, [&](std::size_t i) {
+            const auto& t = mesh.triangles[i];
+            if (t[0] - first >= count && t[1] - first >= count && t[2] - first >= count) return;
+            const Vec3f p = mesh.positions[t[0]];
+            const Vec3f u = mesh.positions[t[1]] - p, v = mesh.positions[t[2]] - p;
+            const float third = u.cross(v).length() / 6.0f;
+            for (const std::uint32_t corner : t)
+                if (corner - first < count) areas[corner] += third;
         });
-        for (std::size_t i = 0; i < count; ++i)
-            for (const std::uint32_t v : mesh.triangles[begin + i]) areas[v] += thirds[i];
-    }
+    });
     return areas;
 }
 

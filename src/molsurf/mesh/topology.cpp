@@ -3,9 +3,12 @@
 
 #include "molsurf/core/disjoint_sets.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/simd.h"
+#include "molsurf/mesh/vertex_slices.h"
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace molsurf
@@ -13,28 +16,6 @@ namespace molsurf
 
 namespace
 {
-
-/// The lowest and the highest vertex of some triangles.
-struct VertexSpan {
-    std::uint32_t first = ~std::uint32_t(0), last = 0;
-};
-
-constexpr std::size_t block = 1024; // triangles that share a span
-
-std::vector<VertexSpan> spansOf(const Mesh& mesh, const Progress& progress)
-{
-    std::vector<VertexSpan> spans((mesh.triangles.size() + block - 1) / block);
-    parallelFor(spans.size(), progress, [&](std::size_t b) {
-        VertexSpan span;
-        const std::size_t end = std::min(mesh.triangles.size(), (b + 1) * block);
-        for (std::size_t i = b * block; i < end; ++i) {
-            for (const std::uint32_t v : mesh.triangles[i])
-                span = {std::min(span.first, v), std::max(span.last, v)};
-        }
-        spans[b] = span;
-    });
-    return spans;
-}
 
 /// Triangles listed by the places of their corners.
 /// @param[in] visit  calls its argument with the place and the triangle of each corner, in order
@@ -51,43 +32,29 @@ VertexTriangles listed(std::size_t places, const F& visit)
     return out;
 }
 
-/// The triangles at the vertices from `first` to `last`: those of v are triangles[begins[v -
-/// first]] and so on.
-VertexTriangles trianglesAt(const Mesh& mesh, const std::vector<VertexSpan>& spans,
-                            std::uint32_t first, std::uint32_t last)
-{
-    return listed(std::size_t(last - first) + 1, [&](const auto& take) {
-        for (std::size_t b = 0; b < spans.size(); ++b) {
-            if (spans[b].last < first || spans[b].first > last) continue;
-            const std::size_t end = std::min(mesh.triangles.size(), (b + 1) * block);
-            for (std::size_t i = b * block; i < end; ++i) {
-                for (const std::uint32_t v : mesh.triangles[i])
-                    if (v - first <= last - first) take(v - first, std::uint32_t(i));
-            }
-        }
-    });
-}
-
 } // namespace
 
 VertexTriangles vertexTriangles(const Mesh& mesh)
 {
-    if (mesh.positions.empty()) return {{0}, {}};
-    return trianglesAt(mesh, spansOf(mesh, Progress()), 0,
-                       std::uint32_t(mesh.positions.size() - 1));
+    return listed(mesh.positions.size(), [&](const auto& take) {
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+            for (const std::uint32_t v : mesh.triangles[i]) take(v, std::uint32_t(i));
+    });
 }
 
 VertexTriangles vertexTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& some,
                                 const Progress& progress)
 {
-    std::vector<bool> wanted(mesh.positions.size());
-    for (const std::uint32_t v : some) wanted[v] = true;
+    std::vector<char> wanted(mesh.positions.size());
+    for (const std::uint32_t v : some) wanted[v] = 1;
     struct Corner {
         std::uint32_t place, triangle;
     };
     const auto corners =
         parallelCollect<Corner>(mesh.triangles.size(), progress, [&](std::size_t i, auto& found) {
-            for (const std::uint32_t v : mesh.triangles[i]) {
+            const auto& t = mesh.triangles[i];
+            if ((wanted[t[0]] | wanted[t[1]] | wanted[t[2]]) == 0) return;
+            for (const std::uint32_t v : t) {
                 if (!wanted[v]) continue;
                 const auto place = std::lower_bound(some.begin(), some.end(), v) - some.begin();
                 found.push_back({std::uint32_t(place), std::uint32_t(i)});
@@ -107,46 +74,94 @@ int cornerOf(const std::array<std::uint32_t, 3>& t, std::uint32_t v)
     return t[0] == v ? 0 : t[1] == v ? 1 : 2;
 }
 
-/// @param[in] begin,end  of the triangles at v
-Topology checkVertex(const Mesh& mesh, const std::uint32_t* begin, const std::uint32_t* end,
-                     std::uint32_t v)
+/// The triangles at some vertices, as they are seen from these: each leads from the edge to `out`
+/// to the edge to `in`, v -> out -> in -> v. Eight more numbers can be read at the end.
+struct Fans {
+    std::vector<std::uint32_t> begins; // of the vertices
+    std::vector<std::int32_t> out, in;
+
+    /// @param[in] visit  calls its argument with the place of a vertex, `out` and `in`, for each
+    template<typename F>
+    Fans(std::size_t vertices, const F& visit) : begins(vertices + 1, 0)
+    {
+        visit([&](std::size_t place, std::uint32_t, std::uint32_t) { ++begins[place + 1]; });
+        std::partial_sum(begins.begin(), begins.end(), begins.begin());
+        out.resize(begins.back() + floatLanes);
+        in.resize(begins.back() + floatLanes);
+        std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
+        visit([&](std::size_t place, std::uint32_t o, std::uint32_t i) {
+            out[next[place]] = std::int32_t(o);
+            in[next[place]++] = std::int32_t(i);
+        });
+    }
+
+    std::size_t size() const { return begins.size() - 1; }
+};
+
+/// The first fan from number v on that is not seen at a glance to be one turn about its vertex, of
+/// at most as many triangles as there are lanes.
+MOLSURF_KERNEL std::size_t firstDoubtful(const Fans& fans, std::size_t v)
 {
-    // Each triangle at v leads from the edge to `out` to the edge to `in`: v -> out -> in -> v.
-    std::pair<std::uint32_t, std::uint32_t> wedges[64];
+    const Ints lane = laneNumbers(), bit = splat(1) << lane;
+    for (; v < fans.size(); ++v) {
+        const std::uint32_t begin = fans.begins[v], n = fans.begins[v + 1] - begin;
+        if (n == 0 || n > floatLanes) return v;
+        const Ints out = load(fans.out.data() + begin),
+                   used = (lane < splat(std::int32_t(n))) & bit;
+        int next[floatLanes];
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t found = bitsOf((out == splat(fans.in[begin + i])) & used);
+            if (found == 0) return v;
+            next[i] = __builtin_ctz(found);
+        }
+        // If the way from triangle to triangle comes back after n of them, each was met once.
+        std::uint32_t steps = 1;
+        int at = next[0];
+        for (; at != 0 && steps < n; at = next[at]) ++steps;
+        if (at != 0 || steps < n) return v;
+    }
+    return v;
+}
+
+/// @param[in] k  number of the fan
+Topology checkFan(const Fans& fans, std::size_t k)
+{
+    const std::int32_t *out = fans.out.data() + fans.begins[k],
+                       *in = fans.in.data() + fans.begins[k];
+    const std::size_t n = fans.begins[k + 1] - fans.begins[k];
     Topology result;
-    const std::size_t n = std::size_t(end - begin);
     if (n == 0 || n > 64) {
         result.manifold = n == 0;
         return result;
     }
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto& t = mesh.triangles[begin[i]];
-        const int c = cornerOf(t, v);
-        wedges[i] = {t[(c + 1) % 3], t[(c + 2) % 3]};
-    }
-    // One turn about v. If it comes back after n triangles, each of these was met once.
+    // One turn about v, as above.
     std::size_t steps = 0;
-    std::uint32_t at = wedges[0].first;
+    std::int32_t at = out[0];
     do {
-        const auto* wedge =
-            std::find_if(wedges, wedges + n, [at](const auto& w) { return w.first == at; });
-        if (wedge == wedges + n) break;
-        at = wedge->second;
+        const std::int32_t* here = std::find(out, out + n, at);
+        if (here == out + n) break;
+        at = in[here - out];
         ++steps;
-    } while (at != wedges[0].first && steps < n);
-    if (steps == n && at == wedges[0].first) return result;
+    } while (at != out[0] && steps < n);
+    if (steps == n && at == out[0]) return result;
     result.manifold = false;
     for (std::size_t i = 0; i < n; ++i) {
-        std::size_t outs = 0, ins = 0, sameOut = 0;
-        for (std::size_t j = 0; j < n; ++j) {
-            ins += wedges[j].second == wedges[i].first;
-            outs += wedges[j].first == wedges[i].second;
-            sameOut += wedges[j].first == wedges[i].first;
-        }
+        const auto ins = std::count(in, in + n, out[i]), outs = std::count(out, out + n, in[i]);
+        const auto sameOut = std::count(out, out + n, out[i]);
         if (ins + sameOut != 2) result.closed = false;
         if (ins != 1 || outs != 1 || sameOut != 1) result.oriented = false;
     }
     return result;
+}
+
+/// Calls take(place, out, in) for each corner of a triangle whose vertex is one of `count` from
+/// `first` on; the place is the vertex's number among them.
+template<typename F>
+void visitCorners(const std::array<std::uint32_t, 3>& t, std::uint32_t first, std::uint32_t count,
+                  const F& take)
+{
+    for (int k = 0; k < 3; ++k)
+        if (t[k] - first < count) take(t[k] - first, t[(k + 1) % 3], t[(k + 2) % 3]);
 }
 
 struct Verdict {
@@ -165,24 +180,21 @@ struct Verdict {
 template<typename F>
 Topology checkVertices(const Mesh& mesh, const F& wanted, const Progress& progress)
 {
-    constexpr std::size_t slice = 32768; // their triangles stay in the cache
-    const std::size_t vertices = mesh.positions.size();
-    const std::vector<VertexSpan> spans = spansOf(mesh, progress);
-    const Verdict all =
-        parallelSum<Verdict>((vertices + slice - 1) / slice, progress, [&](std::size_t s) {
-            const auto first = std::uint32_t(s * slice);
-            const auto last = std::uint32_t(std::min(vertices, (s + 1) * slice) - 1);
-            const VertexTriangles around = trianglesAt(mesh, spans, first, last);
-            Verdict sum;
-            for (std::uint32_t v = first; v <= last; ++v) {
-                if (!wanted(v)) continue;
-                const std::uint32_t* at = around.triangles.data();
-                const Topology t = checkVertex(mesh, at + around.begins[v - first],
-                                               at + around.begins[v - first + 1], v);
-                sum += {!t.closed, !t.oriented, !t.manifold};
-            }
-            return sum;
+    const VertexSlices slices(mesh, progress);
+    const Verdict all = parallelSum<Verdict>(slices.size(), progress, [&](std::size_t s) {
+        const std::uint32_t first = slices.first(s), count = slices.first(s + 1) - first;
+        const Fans fans(count, [&](const auto& take) {
+            slices.forEachTriangle(
+                s, [&](std::size_t i) { visitCorners(mesh.triangles[i], first, count, take); });
         });
+        Verdict sum;
+        for (std::size_t v = 0; (v = firstDoubtful(fans, v)) < count; ++v) {
+            if (!wanted(first + std::uint32_t(v))) continue;
+            const Topology t = checkFan(fans, v);
+            sum += {!t.closed, !t.oriented, !t.manifold};
+        }
+        return sum;
+    });
     return {!all.open, !all.twisted, !all.pinched};
 }
 
@@ -203,6 +215,7 @@ Topology checkTopology(const Mesh& mesh, const std::vector<char>& wanted, const 
 std::vector<std::uint32_t> connectedPieces(const Mesh& mesh, std::size_t& count,
                                            const Progress& progress)
 {
+    constexpr std::size_t block = 1024; // triangles
     DisjointSets sets(mesh.positions.size());
     parallelFor((mesh.triangles.size() + block - 1) / block, progress, [&](std::size_t c) {
         const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * block);
@@ -261,15 +274,17 @@ std::vector<std::uint32_t> fansOf(const Mesh& mesh, const VertexTriangles& aroun
 std::vector<std::uint32_t> splitNonManifold(Mesh& mesh)
 {
     const VertexTriangles around = vertexTriangles(mesh);
+    const Fans turns(mesh.positions.size(), [&](const auto& take) {
+        for (const auto& t : mesh.triangles)
+            visitCorners(t, 0, std::uint32_t(mesh.positions.size()), take);
+    });
     struct Fan {
         std::uint32_t triangle, vertex; // its first triangle, and what it turns about
         std::vector<std::uint32_t> triangles;
     };
     std::vector<Fan> fans; // that need a vertex of their own
-    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-        const std::uint32_t* at = around.triangles.data();
-        if (checkVertex(mesh, at + around.begins[v], at + around.begins[v + 1], v).manifold)
-            continue;
+    for (std::uint32_t v = 0; (v = std::uint32_t(firstDoubtful(turns, v))) < turns.size(); ++v) {
+        if (checkFan(turns, v).manifold) continue;
         const std::vector<std::uint32_t> first = fansOf(mesh, around, v);
         for (std::uint32_t i = 1; i < first.size(); ++i) {
             if (first[i] != i) continue;

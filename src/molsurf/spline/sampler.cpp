@@ -2,6 +2,7 @@
 #include "molsurf/spline/spline.h"
 
 #include "molsurf/core/simd.h"
+#include "molsurf/spline/spline_lanes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,60 +18,14 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// The four cubic B-splines that overlap a cell, at t, and their derivatives.
-struct Weights {
-    Floats4 value, first, second;
-};
-
-MOLSURF_INLINE Weights weightsAt(float t)
-{
-    constexpr float sixth = 1.0f / 6.0f;
-    const Floats4 a = {-sixth, 0.5f, -0.5f, sixth}, b = {0.5f, -1.0f, 0.5f, 0.0f};
-    const Floats4 c = {-0.5f, 0.0f, 0.5f, 0.0f}, d = {sixth, 4.0f * sixth, sixth, 0.0f};
-    return {((a * t + b) * t + c) * t + d, (3.0f * a * t + 2.0f * b) * t + c,
-            6.0f * a * t + 2.0f * b};
-}
-
-/// The sums of the elements of four vectors: of a transposed matrix.
-MOLSURF_INLINE Floats4 sums(Floats4 a, Floats4 b, Floats4 c, Floats4 d)
-{
-    const Floats4 x =
-        __builtin_shufflevector(a, b, 0, 4, 1, 5) + __builtin_shufflevector(a, b, 2, 6, 3, 7);
-    const Floats4 y =
-        __builtin_shufflevector(c, d, 0, 4, 1, 5) + __builtin_shufflevector(c, d, 2, 6, 3, 7);
-    return __builtin_shufflevector(x, y, 0, 1, 4, 5) + __builtin_shufflevector(x, y, 2, 3, 6, 7);
-}
-
 /// @param[out] out  value, derivatives along x, y, z, xx, yy, zz, xy, xz, yz
 MOLSURF_KERNEL void evaluate(const float* c, int strideX, int strideY, const float* t,
                              float* __restrict out)
 {
-    const Weights x = weightsAt(t[0]), y = weightsAt(t[1]), z = weightsAt(t[2]);
-    // Contracted along x, then y, four z at a time; `sab` is the derivative of order a along x, b
-    // along y.
-    Floats4 s00{}, s01{}, s02{}, s10{}, s11{}, s20{};
-    for (int j = 0; j < 4; ++j) {
-        const float* row = c - strideX + (j - 1) * strideY - 1;
-        Floats4 p{}, q{}, r{};
-        for (int i = 0; i < 4; ++i) {
-            const Floats4 v = load4(row + i * strideX);
-            p += x.value[i] * v;
-            q += x.first[i] * v;
-            r += x.second[i] * v;
-        }
-        s00 += y.value[j] * p;
-        s01 += y.first[j] * p;
-        s02 += y.second[j] * p;
-        s10 += y.value[j] * q;
-        s11 += y.first[j] * q;
-        s20 += y.value[j] * r;
-    }
-    const Floats4 first = sums(s00 * z.value, s10 * z.value, s01 * z.value, s00 * z.first);
-    const Floats4 second = sums(s20 * z.value, s02 * z.value, s00 * z.second, s11 * z.value);
-    const Floats4 mixed = sums(s10 * z.first, s01 * z.first, Floats4{}, Floats4{});
-    store4(out, first);
-    store4(out + 4, second);
-    std::memcpy(out + 8, &mixed, 2 * sizeof(float));
+    const SplineJet jet = splineJet(c, strideX, strideY, t);
+    store4(out, jet.first);
+    store4(out + 4, jet.second);
+    std::memcpy(out + 8, &jet.mixed, 2 * sizeof(float));
 }
 
 } // namespace

@@ -2,7 +2,9 @@
 #include "molsurf/mesh/extract.h"
 
 #include "molsurf/mesh/measure.h"
+#include "molsurf/mesh/surface_vertices.h"
 #include "molsurf/mesh/topology.h"
+#include "molsurf/spline/curvature.h"
 #include "support/convergence.h"
 #include "support/digital_euler.h"
 #include "support/surfaces.h"
@@ -38,6 +40,44 @@ TEST(ExtractMesh, PutsVerticesOnTheSurfaceAtFourthOrder)
     }
     EXPECT_GT(test::observedOrder(h, error), 3.3) << test::table(h, error);
     EXPECT_LT(error.back(), 1e-5) << test::table(h, error);
+}
+
+// Leaf by leaf in float, points come to where the walk of one point in double leads, with what the
+// spline has there.
+TEST(MoveToSurface, OfManyPointsGoesTheWayOfOne)
+{
+    const test::Shape ring = test::torus(3.4, 1.5);
+    const double voxel = 0.5;
+    const Spline spline =
+        test::splineOf(ring.distance, ring.distance, ring.centre, ring.extent, voxel, 6.0 * voxel);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> anywhere(-ring.extent, ring.extent);
+    std::vector<openvdb::Vec3s> starts;
+    while (starts.size() < 2000) {
+        const Vec3d x = ring.centre + Vec3d(anywhere(random), anywhere(random), anywhere(random));
+        if (std::abs(ring.distance(x)) < 0.9 * voxel) starts.emplace_back(x);
+    }
+    Mesh mesh;
+    mesh.positions.resize(starts.size());
+    mesh.normals.resize(starts.size());
+    for (const char* name : {"mean", "gauss"})
+        mesh.scalars.push_back({name, std::vector<float>(starts.size())});
+    std::vector<float> slopes(starts.size()), residuals(starts.size());
+    SurfaceVertices vertices{mesh, slopes};
+    moveToSurface(spline, voxel, starts.data(), starts.size(), 0, vertices, residuals.data());
+    SplineSampler sampler(spline);
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        Vec3d x(starts[i]);
+        Jet jet;
+        ASSERT_TRUE(moveToSurface(sampler, voxel, 1.0, x, jet));
+        EXPECT_LT((Vec3d(mesh.positions[i]) - x).length(), 2e-5 * voxel);
+        EXPECT_LT((Vec3d(mesh.normals[i]) - jet.gradient.unit()).length(), 1e-4);
+        EXPECT_NEAR(slopes[i], jet.gradient.length(), 1e-4);
+        EXPECT_NEAR(mesh.scalars[0].values[i], meanCurvature(jet), 1e-3);
+        EXPECT_NEAR(mesh.scalars[1].values[i], gaussianCurvature(jet), 1e-3);
+        EXPECT_LE(residuals[i], 1.001e-5 * voxel);
+        EXPECT_LT(std::abs(sampler.at(Vec3d(mesh.positions[i])).value), 1.2e-5 * voxel);
+    }
 }
 
 TEST(ExtractMesh, OrientsOutwardWithNormalsAndCurvatures)

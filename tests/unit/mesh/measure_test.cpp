@@ -100,6 +100,20 @@ TEST(Measure, TwoBalls)
     EXPECT_NEAR(report.volume / (a.volume + b.volume), 1.0, 1e-3);
 }
 
+// Patches are measured in float, but what neighbours have in common cancels.
+TEST(Measure, VolumesOfClosedPiecesHaveNoOrigin)
+{
+    const Mesh mesh = test::meshOf(test::torus(3.4, 1.5), 0.25);
+    const std::vector<std::uint32_t> pieces(mesh.positions.size(), 0);
+    std::size_t flat = 0;
+    const auto volumeAbout = [&](const Vec3d& origin) {
+        return measurePieces(mesh, pieces, 1, origin, flat, Progress())[0].volume;
+    };
+    const double here = volumeAbout(Vec3d(mesh.positions[0]));
+    EXPECT_NEAR(volumeAbout(Vec3d(300.0, -200.0, 500.0)), here, 1e-6);
+    EXPECT_EQ(flat, 0u);
+}
+
 TEST(Measure, OfNothingIsZero)
 {
     const SurfaceReport report = measure(Mesh(), Progress());

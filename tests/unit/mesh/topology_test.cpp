@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/mesh/topology.h"
 
+#include "molsurf/mesh/vertex_slices.h"
+
 #include <gtest/gtest.h>
 
 #include <set>
@@ -238,6 +240,81 @@ TEST(CheckTopology, FindsOneFaultAmongMany)
     EXPECT_FALSE(at({1, 40000, count + 40000}).closed);
     t = at({39999});
     EXPECT_TRUE(t.closed && t.oriented && t.manifold);
+}
+
+/// Two cones with a common rim of n vertices; their tips are the first two vertices.
+Mesh doubleCone(std::uint32_t n)
+{
+    Mesh mesh;
+    mesh.positions.resize(n + 2);
+    for (std::uint32_t k = 0; k < n; ++k) {
+        const std::uint32_t a = 2 + k, b = 2 + (k + 1) % n;
+        mesh.triangles.push_back({0, a, b});
+        mesh.triangles.push_back({1, b, a});
+    }
+    return mesh;
+}
+
+// Small fans are seen at a glance, large ones are not.
+TEST(CheckTopology, OfFansOfAllSizes)
+{
+    for (std::uint32_t n = 3; n <= 64; ++n) {
+        const Mesh mesh = doubleCone(n);
+        const Topology t = check(mesh);
+        EXPECT_TRUE(t.closed && t.oriented && t.manifold) << n;
+        for (std::uint32_t i = 0; i < 2 * n; i += 5) {
+            Mesh torn = mesh;
+            torn.triangles.erase(torn.triangles.begin() + i);
+            EXPECT_FALSE(check(torn).closed) << n;
+            Mesh turned = mesh;
+            std::swap(turned.triangles[i][1], turned.triangles[i][2]);
+            const Topology u = check(turned);
+            EXPECT_TRUE(u.closed && !u.oriented) << n;
+        }
+    }
+    // Two turns about a tip, of m and n - m triangles.
+    for (std::uint32_t m = 3; m <= 6; ++m) {
+        Mesh pinched = doubleCone(m);
+        const Mesh other = doubleCone(9 - m);
+        for (const auto& t : other.triangles) {
+            std::array<std::uint32_t, 3> moved;
+            for (int k = 0; k < 3; ++k) moved[k] = t[k] == 0 ? 0 : t[k] + m + 1;
+            pinched.triangles.push_back(moved);
+        }
+        pinched.positions.resize(12);
+        const Topology t = check(pinched);
+        EXPECT_TRUE(t.closed && t.oriented && !t.manifold) << m;
+    }
+}
+
+// The way about vertex 0 enters a turn of two triangles, and does not come back to the first.
+TEST(CheckTopology, OfAWayThatDoesNotComeBack)
+{
+    Mesh mesh;
+    mesh.positions.resize(4);
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 2}};
+    std::vector<char> wanted = {1, 0, 0, 0};
+    const Topology t = checkTopology(mesh, wanted, Progress());
+    EXPECT_FALSE(t.closed || t.manifold);
+}
+
+TEST(VertexSlices, GiveEachSliceAllTrianglesAtItsVertices)
+{
+    const Mesh mesh = manyTetrahedra(20000);
+    const VertexSlices slices(mesh, Progress());
+    EXPECT_GT(slices.size(), 4u);
+    std::size_t met = 0;
+    for (std::size_t s = 0; s < slices.size(); ++s) {
+        std::size_t last = 0;
+        slices.forEachTriangle(s, [&](std::size_t i) {
+            EXPECT_TRUE(i == 0 || i > last);
+            last = i;
+            for (const std::uint32_t v : mesh.triangles[i])
+                met += v >= slices.first(s) && v < slices.first(s + 1);
+        });
+    }
+    EXPECT_EQ(met, 3 * mesh.triangles.size());
+    EXPECT_EQ(slices.first(slices.size()), mesh.positions.size());
 }
 
 TEST(ConnectedPieces, CountsMany)

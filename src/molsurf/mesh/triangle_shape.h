@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// How well triangles on a smooth surface are made: how quads are split into them, and how vertices
+/// of bad ones slide along the surface.
+
+#include "molsurf/mesh/surface_vertices.h"
+#include "molsurf/progress.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace molsurf
+{
+
+/// Splits quads a b c d into two triangles each: along the shorter diagonal, unless the triangles
+/// of the other one agree clearly better with the normals at their corners.
+/// @param[in]  mesh   positions and normals
+/// @param[out] out    two triangles a quad
+/// @param[out] bad    the corners of needle-like and folded triangles are appended to it
+void splitQuads(const Mesh& mesh, const std::vector<std::array<std::uint32_t, 4>>& quads,
+                std::array<std::uint32_t, 3>* out, std::vector<std::uint32_t>& bad);
+
+/// Slides the vertices of bad triangles along the surface to the centroid of their neighbours.
+/// @param[in] bad  the corners of the bad triangles
+void relax(SurfaceVertices& vertices, const Spline& spline, double voxel,
+           std::vector<std::uint32_t> bad, const Progress& progress);
+
+} // namespace molsurf
