@@ -96,8 +96,9 @@ public:
     {
         const double h = options_.voxelSize;
         const GaussianTerms& terms = termsAt(origin, h);
+        std::vector<float> scratch;
         for (std::size_t i = 0; i < points.size(); ++i) {
-            const PsiSample s = sampleTerms(terms, points[i].x, points[i].y, points[i].z);
+            const PsiSample s = sampleTerms(terms, points[i].x, points[i].y, points[i].z, scratch);
             f(i, s.psi, s.slope2 / float(h * h));
         }
     }

@@ -292,26 +292,35 @@ void sumTerms(const GaussianTerms& terms, const GaussianBounds& bounds, Gaussian
     lost.forEach([&](int v) { psi[v] = psiAt(terms, v); });
 }
 
-MOLSURF_KERNEL PsiSample sampleTerms(const GaussianTerms& terms, float x, float y, float z)
+MOLSURF_KERNEL PsiSample sampleTerms(const GaussianTerms& terms, float x, float y, float z,
+                                     std::vector<float>& scratch)
 {
-    constexpr int lanes = floatLanes;
+    constexpr std::size_t lanes = floatLanes;
+    if (scratch.size() < terms.count + lanes) scratch.resize(2 * (terms.count + lanes));
+    float* exponent = scratch.data();
     alignas(32) float top[lanes], sum[lanes] = {}, sumX[lanes] = {}, sumY[lanes] = {},
                                   sumZ[lanes] = {};
     std::fill_n(top, lanes, GaussianTerms::noExponent);
     const float *cx = terms.x.data(), *cy = terms.y.data(), *cz = terms.z.data();
     const float *decay = terms.decay.data(), *level = terms.level.data();
-    const auto exponent = [&](std::size_t k) {
-        const float u = x - cx[k], v = y - cy[k], w = z - cz[k];
-        return level[k] - decay[k] * (u * u + v * v + w * w);
-    };
-    for (std::size_t k = 0; k < terms.count; k += lanes)
-        for (int l = 0; l < lanes; ++l) top[l] = larger(top[l], exponent(k + l));
+    for (std::size_t k = 0; k < terms.count; k += lanes) {
+        for (std::size_t l = 0; l < lanes; ++l) {
+            const std::size_t i = k + l;
+            const float u = x - cx[i], v = y - cy[i], w = z - cz[i];
+            exponent[i] = level[i] - decay[i] * (u * u + v * v + w * w);
+            top[l] = larger(top[l], exponent[i]);
+        }
+    }
     float largest = top[0];
     for (const float t : top) largest = larger(largest, t);
+    const float least = largest - negligible;
     for (std::size_t k = 0; k < terms.count; k += lanes) {
-        for (int l = 0; l < lanes; ++l) {
+        float near = exponent[k];
+        for (std::size_t l = 1; l < lanes; ++l) near = larger(near, exponent[k + l]);
+        if (near < least) continue;
+        for (std::size_t l = 0; l < lanes; ++l) {
             const std::size_t i = k + l;
-            const float e = fastExp(exponent(i) - largest), pull = -2.0f * decay[i] * e;
+            const float e = fastExp(exponent[i] - largest), pull = -2.0f * decay[i] * e;
             sum[l] += e;
             sumX[l] += pull * (x - cx[i]);
             sumY[l] += pull * (y - cy[i]);
@@ -319,7 +328,7 @@ MOLSURF_KERNEL PsiSample sampleTerms(const GaussianTerms& terms, float x, float 
         }
     }
     float all = 0.0f, gx = 0.0f, gy = 0.0f, gz = 0.0f;
-    for (int l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < lanes; ++l) {
         all += sum[l];
         gx += sumX[l];
         gy += sumY[l];

@@ -87,7 +87,9 @@ struct PsiSample {
 };
 
 /// psi between voxels, of the terms alone and not of voxels: exact.
-/// @param[in] x,y,z  of the point, from the leaf's first voxel
-PsiSample sampleTerms(const GaussianTerms& terms, float x, float y, float z);
+/// @param[in] x,y,z    of the point, from the leaf's first voxel
+/// @param     scratch  memory, for point after point
+PsiSample sampleTerms(const GaussianTerms& terms, float x, float y, float z,
+                      std::vector<float>& scratch);
 
 } // namespace molsurf
