@@ -37,22 +37,26 @@ int sweepsFor(const EvolveOptions& options, double voxelSize)
     return int(std::min(sweeps, 8.0));
 }
 
-/// Whether a flow whose steps are small in the mean has come as near to rest as its voxels let it:
-/// neither its longest displacements fall any more, nor do the area and the volume change.
-/// @param[in] tails  quantiles of the steps so far
-bool stalled(const std::vector<double>& tails, const EvolutionReport& report)
+/// Whether a flow has come as near to rest as its voxels let it: in eight steps neither the root
+/// mean square nor the quantile of its displacements has fallen by a tenth, nor have area and
+/// volume changed.
+/// @param[in] rms, tails  of the steps so far
+bool stalled(const std::vector<double>& rms, const std::vector<double>& tails,
+             const EvolutionReport& report)
 {
-    constexpr std::size_t steps = 8; // over which they are compared
-    constexpr double change = 1e-3;  // relative, of area and volume
+    constexpr std::size_t steps = 8;
+    constexpr double change = 1e-3; // relative, of area and volume
     if (tails.size() <= steps) return false;
-    const auto recent = tails.end() - steps;
-    const auto same = [](const std::vector<double>& values) {
-        const auto [low, high] = std::minmax_element(values.end() - steps, values.end());
-        return *high - *low < change * *high;
+    const auto falls = [](const std::vector<double>& values) {
+        const auto recent = values.end() - steps;
+        return *std::min_element(recent, values.end()) <
+               0.9 * *std::min_element(values.begin(), recent);
     };
-    return *std::min_element(recent, tails.end()) >
-               0.9 * *std::min_element(tails.begin(), recent) &&
-           same(report.area) && same(report.volume);
+    const auto changes = [](const std::vector<double>& values) {
+        const auto [low, high] = std::minmax_element(values.end() - steps, values.end());
+        return *high - *low > change * *high;
+    };
+    return !falls(rms) && !falls(tails) && !changes(report.area) && !changes(report.volume);
 }
 
 /// Whether tunnels or gaps still close: a little of the interface moves far, and the area changes.
@@ -158,6 +162,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
     const int maxSteps = fixed                   ? options.steps
                          : options.maxSteps >= 0 ? options.maxSteps
                                                  : newtonSteps;
+    const bool mayGiveUp = options.maxSteps < 0; // who asks for steps gets them
     // On coarse voxels gaps that they do not resolve would otherwise pull at the interface for
     // ever.
     constexpr double coarse = 0.7; // [Å]
@@ -168,7 +173,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
 
     EvolutionReport report;
     LeafField next(band.phi.table.size());
-    std::vector<double> tails;
+    std::vector<double> rms, tails;
     while (report.steps < maxSteps) {
         Displacements moves;
         const InterfaceSums sums = newton.step(band, region, next, moves, progress);
@@ -184,10 +189,10 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
         // The step that was solved for is made.
         judge(moves, options, h, report);
         if (last) *last = moves;
+        rms.push_back(report.displacementRms);
         tails.push_back(report.displacementTail);
-        const bool small = report.displacementRms < options.tolerance * h;
         const bool rests = report.converged && !stillCloses(report, h);
-        if (!fixed && (rests || (small && stalled(tails, report)))) break;
+        if (!fixed && (rests || (mayGiveUp && stalled(rms, tails, report)))) break;
     }
     record(newton.sums(band, region, progress), region.whole(), report);
     return report;

@@ -44,8 +44,9 @@ EvolveOptions coarseFlow(const EvolveOptions& options);
 ///
 /// Stops when the displacement that a step solves for, which is then made, has a root mean square
 /// below options.tolerance voxels, and at 99.9 % of the interface is below eight times this; or
-/// after options.maxSteps; or, where its mean is small, when the longest displacements have not
-/// fallen by a tenth in eight steps; with options.steps after just so many. A tunnel that closes
+/// after options.maxSteps; or, if these are not given, when in eight steps neither of the two has
+/// fallen by a tenth, nor the area and the volume have changed; with options.steps after just so
+/// many. A tunnel that closes
 /// later is foretold by nothing local.
 ///
 /// @param[in,out] band    as initialSurface() or refined() make it
