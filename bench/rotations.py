@@ -6,10 +6,10 @@
 
 The structure is turned about its centre at random and shifted by less than an Å, ten times, always in the same way
 for one seed, and the program runs on each. One row for a position tells area, volume, Euler number, cavities,
-components and exit status; the last rows tell the ranges of area and volume as a share of their means, and how many
-positions agree on each count. STRUCTURE is a .pdb, .ent, .cif, .pqr or .xyzr file, or one of them with .gz. Operators
-of assemblies (REMARK 350) are turned with the atoms in the PDB format only. Its coordinates have three decimals, so
-they are rounded by up to 0.0005 Å. Needs numpy.
+components and exit status; the last rows tell means and ranges of area and volume, and how many positions agree on
+each count. STRUCTURE is a .pdb, .ent, .cif, .pqr or .xyzr file, or one of them with .gz. Operators of assemblies
+(REMARK 350) are turned with the atoms in the PDB format only. Its coordinates have three decimals, so they are
+rounded by up to 0.0005 Å. Needs numpy.
 """
 
 import argparse
@@ -133,6 +133,7 @@ def main():
         rows.append((s["area"], s["volume"], s["euler_characteristic"], s["cavities"], s["components"]))
         print("%8d%13.3f%14.3f%7d%10d%12d%8d" % (k + 1, *rows[-1], done.returncode), flush=True)
     areas, volumes, eulers, cavities, components = zip(*rows)
+    print(f"mean:  area {numpy.mean(areas):.3f} Å^2, volume {numpy.mean(volumes):.3f} Å^3")
     print(f"range: area {spread(areas):.4f} %, volume {spread(volumes):.4f} %")
     print(f"most:  Euler number {agreement(eulers)}, cavities {agreement(cavities)}, components {agreement(components)}")
 

@@ -76,8 +76,8 @@ struct BallLabels {
 };
 
 /// A rule by which the Gaussians of some or all atoms are blurred to a resolution d: they fall off
-/// at the rate pi^2 / d^2 (C. Bajaj, G. Xu and Q. Zhang, A fast variational method for the
-/// construction of resolution adaptive C2-smooth molecular surfaces, 2009).
+/// at the rate pi^2 / d^2, as those of the command molmap of ChimeraX, whose standard deviation is
+/// d / (pi sqrt(2)).
 struct ResolutionRule {
     std::string select; ///< atoms that the rule is for: gemmi selections joined by '|'; empty: all
     double resolution;  ///< d [Å], in [minResolution, maxResolution]

@@ -25,8 +25,8 @@ enum class SurfaceKind {
 /// Properties that the colours of a surface may show.
 enum class ColorBy { Nothing, Chain, Group, Element, Residue, MeanCurvature, GaussianCurvature };
 
-/// The term h that lambda weighs in the energy density w = g^2 + lambda h, after the paper's
-/// equations 2.6 and 2.7. docs/math.md, section 4.
+/// The term h that lambda weighs in the energy density w = g^2 + lambda h; section 2 of the paper
+/// has both. docs/math.md, section 4.
 enum class Regularizer {
     Gradient, ///< h = |grad g|^2
     Area      ///< h = 1

@@ -60,6 +60,12 @@ class Glb(ToolTest):
             return [tuple(v[names.index(w)] for w in which) for v in vertices]
 
         self.assertEqual(accessor(document, body, attributes["POSITION"]), column("x", "y", "z"))
+        # A viewer places its camera by these.
+        box = document["accessors"][attributes["POSITION"]]
+        axes = list(zip(*column("x", "y", "z")))
+        for ends, end in (("min", min), ("max", max)):
+            for told, values in zip(box[ends], axes):
+                self.assertAlmostEqual(told, end(values), places=4)
         self.assertEqual(accessor(document, body, attributes["_MEAN_CURVATURE"]),
                          column("mean_curvature"))
         self.assertEqual(accessor(document, body, attributes["_ATOM_ID"]), column("atom_id"))

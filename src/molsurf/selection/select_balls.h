@@ -27,8 +27,8 @@ namespace molsurf
 /// file, so a residue with equal alternatives keeps one conformer. Where the alternatives are
 /// different residues, one of them is kept, by the same rule.
 ///
-/// A resolution d makes the Gaussians of its atoms fall off at the rate C = pi^2/d^2: blurred at
-/// the resolution d, after Bajaj, Xu and Zhang 2009.
+/// A resolution d makes the Gaussians of its atoms fall off at the rate C = pi^2/d^2, as
+/// ResolutionRule says.
 ///
 /// Coarse rules put beads in the place of atoms before the assembly is built, see coarseGrain(). A
 /// bead goes as its representative atom: for groups, labels and resolutions.

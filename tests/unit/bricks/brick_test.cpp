@@ -156,6 +156,14 @@ TEST_F(Bricks, FrontsAreThoseOfTheWhole)
     expectSame(chain(), options, 3);
 }
 
+// Fine enough for ridges to be rounded, over some voxels beyond a brick.
+TEST_F(Bricks, RoundedRidgesAreThoseOfTheWhole)
+{
+    SurfaceOptions options = coarse();
+    options.voxel = 0.2;
+    expectSame(test::randomBalls(60, 16.0, openvdb::Vec3d(1.3, -2.1, 0.4), 3), options, 8);
+}
+
 TEST_F(Bricks, GaussianSurfaceIsThatOfTheWhole)
 {
     expectSame(chain(), coarse(SurfaceKind::Gaussian), 4);

@@ -63,6 +63,32 @@ TEST(SmoothCarrier, IsPsiOverItsSlopeOnPsiZero)
     }
 }
 
+// On a sphere that is not psi = 0 the level of psi is that at the feet of the voxels. One ball's
+// psi is quadratic, so the expansion of second order is exact.
+TEST(SmoothCarrier, HasTheLevelOfPsiAtTheFeet)
+{
+    constexpr double voxel = 0.5, R = 3.1, radius = 3.3;
+    const Vec3d centre(0.137, -0.291, 0.443);
+    const Ball ball{openvdb::Vec3f(centre), 1.7f, 0};
+    const Fields f = fieldsOf({ball}, voxel, [&](Fields& fields) {
+        test::forEachActive(fields.table(), voxel, [&](std::size_t n, int v, const Vec3d& x) {
+            fields.phi.leaf(n)[v] = float((x - centre).length() - radius);
+        });
+    });
+    const double decay = M_LN2 / (epsilon * R);
+    double worst = 0.0;
+    std::size_t near = 0;
+    test::forEachActive(f.table(), voxel, [&](std::size_t n, int v, const Vec3d& x) {
+        const double r = (x - centre).length();
+        if (std::abs(r - radius) > voxel) return;
+        ++near;
+        const double wanted = decay * (r * r - radius * radius) / slope;
+        worst = std::max(worst, std::abs(double(f.carrier.leaf(n)[v]) - wanted));
+    });
+    EXPECT_GT(near, 500u);
+    EXPECT_LT(worst, 0.002); // [Å]
+}
+
 // The third difference along an axis across the crease between the balls: that of the distance
 // does not fall with the voxel, since it has a ridge there.
 TEST(SmoothCarrier, HasNoRidgeOutsideACrease)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/mesh/deviation.h"
 
-#include "molsurf/color/color_map.h"
 #include "support/solids.h"
 #include "support/surfaces.h"
 
@@ -216,21 +215,6 @@ TEST(VertexNormals, OfABoxPointOutward)
         EXPECT_NEAR(normals[v].length(), 1.0f, 1e-6f);
         EXPECT_GT(normals[v].dot(mesh.positions[v]), 0.9f);
     }
-}
-
-TEST(ColorScale, EndsMiddleAndBeyond)
-{
-    const ColorScale plain = magnitudeScale(2.0);
-    EXPECT_EQ(plain.at(0.0), (Color{68, 1, 84}));
-    EXPECT_EQ(plain.at(2.0), (Color{253, 231, 37}));
-    EXPECT_EQ(plain.at(5.0), plain.at(2.0));
-    EXPECT_EQ(plain.at(-1.0), plain.at(0.0));
-    EXPECT_EQ(plain.at(std::nan("")), plain.at(0.0));
-    EXPECT_EQ(plain.at(2.0 / 9.0), plain.stops[1]);
-    const ColorScale both = signedScale(2.0);
-    EXPECT_EQ(both.at(0.0), (Color{247, 247, 247}));
-    EXPECT_GT(both.at(2.0)[0], both.at(2.0)[2]);   // red outside
-    EXPECT_GT(both.at(-2.0)[2], both.at(-2.0)[0]); // blue inside
 }
 
 } // namespace
