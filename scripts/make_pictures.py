@@ -8,6 +8,7 @@ Without names all of PICTURES. The surfaces and the colours are the tool's own; 
 them. Needs the Debian packages python3-numpy, python3-pil and fonts-dejavu-core.
 """
 
+import functools
 import gzip
 import json
 import pathlib
@@ -24,7 +25,7 @@ DATA = ROOT / "tests" / "data"
 DIMER = (DATA / "1a8o.cif.gz", "--assembly", "1")
 BPTI = (DATA / "bpti.pdb.gz",)
 FINE_VOXEL = ("--voxel", "0.25")
-FINEST_VOXEL = ("--voxel", "0.125")  # for curvature, which is noisy within two voxels of a kink
+FINEST_VOXEL = ("--voxel", "0.125")
 
 RADII = {"C": 1.70, "N": 1.55, "O": 1.52, "S": 1.80, "SE": 1.90}  # Bondi's [Å]
 COLORS = {"C": (0.72, 0.75, 0.78), "N": (0.36, 0.52, 0.88), "O": (0.88, 0.36, 0.32),
@@ -50,11 +51,11 @@ class Tool:
         self.run(*words, "-o", target, **options)
         return Mesh(target)
 
-    def difference(self, atoms, a, b, reach):
+    def difference(self, atoms, voxel, a, b, reach):
         """Surface a of the molecule, coloured by its distance from surface b, and the colours."""
         files = [self.folder / name for name in ("a.vdb", "b.vdb")]
         for path, words in zip(files, (a, b)):
-            self.run(*atoms, *FINE_VOXEL, *words, "-o", path, "--fields", "surface,spline")
+            self.run(*atoms, *voxel, *words, "-o", path, "--fields", "surface,spline")
         report = self.folder / "difference.json"
         mesh = self.mesh("compare", *files, "--range", reach, "-o", report)
         stops = json.loads(report.read_text())["color"]["bar"]
@@ -146,12 +147,24 @@ def balls_and_surface(tool, path):
                  ["van der Waals balls", "variational surface", "both"])
 
 
-def differences(tool, path):
+class Molecule:
+    """A molecule of the paper, with the voxels of its pictures and their scale [pixel/Å]."""
+
+    def __init__(self, words, atoms, scale, fine, finest):
+        self.words, self.fine, self.finest = words, fine, finest
+        self.view = lambda: frame(DATA / atoms, scale)
+
+
+A8O = Molecule(DIMER, "1a8o.pdb.gz", 8.0, FINE_VOXEL, FINEST_VOXEL)
+AT1 = Molecule((DATA / "4at1.ent.gz",), "4at1.ent.gz", 3.3, ("--voxel", "0.5"), FINE_VOXEL)
+
+
+def differences(tool, path, molecule=A8O):
     """How far the solvent-excluded and the Gaussian surface are from the variational one."""
     reach, panels = 1.5, []
-    view = frame(DATA / "1a8o.pdb.gz", 9.0)
+    view = molecule.view()
     for kind in ("ses", "gaussian"):
-        mesh, colors = tool.difference(DIMER, ("--surface", kind), (), reach)
+        mesh, colors = tool.difference(molecule.words, molecule.fine, ("--surface", kind), (), reach)
         panels.append(mesh.drawn(view, colors(mesh.vertices["distance"])))
     ticks = [(0, "0"), (0.5, "0.5"), (1, "1"), (1.5, "≥ 1.5")]
     render.strip(path, [render.pixels(view, panel.light(flat=0.35)) for panel in panels],
@@ -160,10 +173,10 @@ def differences(tool, path):
                              ticks)])
 
 
-def curvatures(tool, path):
+def curvatures(tool, path, molecule=A8O):
     """Mean and Gaussian curvature of the variational surface."""
-    mesh = tool.mesh(*DIMER, *FINEST_VOXEL)
-    view = frame(DATA / "1a8o.pdb.gz", 9.0)
+    mesh = tool.mesh(*molecule.words, *molecule.finest)
+    view = molecule.view()
     panels, bars = [], []
     for name, unit, largest in (("mean", "1/Å", 0.6), ("Gaussian", "1/Å²", 0.4)):
         colors = render.ramp(DIVERGING, -largest, largest)
@@ -173,8 +186,18 @@ def curvatures(tool, path):
     render.strip(path, panels, (), bars)
 
 
+def ligand(tool, path):
+    """ATP bound to ATCase, in a colour of its own: a picture of the tool's."""
+    groups = tool.folder / "groups"
+    groups.write_text("ATP (ATP) #d55e00\n")
+    tool.run(*AT1.words, "--groups", groups, "--color", "group", "--view", "-0.74,0.62,-0.19",
+             "--size", 500, "--legend", "off", "-o", path)
+
+
 PICTURES = {"1a8o": dimer, "bpti": balls_and_surface, "difference": differences,
-            "curvature": curvatures}
+            "curvature": curvatures,
+            "4at1_atp": ligand, "4at1_difference": functools.partial(differences, molecule=AT1),
+            "4at1_curvature": functools.partial(curvatures, molecule=AT1)}
 
 
 def main():

@@ -232,5 +232,5 @@ def strip(path, panels, titles=(), bars=(), gap=24):
         left += panel.width + gap
     if bars and len(bars) != len(panels):
         image.paste(bars[0], ((width - bars[0].width) // 2, under))
-    coarser = np.minimum((np.asarray(image).astype(int) + 1) // 3 * 3, 255)  # packs better
+    coarser = np.minimum((np.asarray(image).astype(int) + 2) // 5 * 5, 255)  # packs better
     Image.fromarray(coarser.astype(np.uint8)).save(path, optimize=True)
