@@ -52,7 +52,8 @@ struct NearCorner {
 struct NearBall {
     Vec3f centre;
     float radius;
-    float distance; // of its boundary from the leaf's centre, < 0 inside
+    float distance;     // of its boundary from the leaf's centre, < 0 inside
+    std::int32_t patch; // -1: none of its sphere is uncovered
 };
 
 /// Caps, number by number: loops over them vectorise.
@@ -209,8 +210,8 @@ MOLSURF_KERNEL void nearPatch(Cube& c, const NearPatch& patch, const CapArrays& 
     }
 }
 
-/// The signed distance to the nearest ball; the one that counts outside of all.
-MOLSURF_KERNEL void nearBalls(const Cube& c, const NearBall* balls, std::size_t count,
+/// The signed distance to the nearest ball, the one that counts outside of all, and its patch.
+MOLSURF_KERNEL void nearBalls(Cube& c, const NearBall* balls, std::size_t count,
                               float* __restrict distance)
 {
     for (int first = 0; first < plane; first += floatLanes) {
@@ -219,13 +220,18 @@ MOLSURF_KERNEL void nearBalls(const Cube& c, const NearBall* balls, std::size_t 
         for (int k = 0; k < cube; ++k) {
             const float x = c.first.x() + c.voxel * float(k);
             Floats least = splat(1e15f);
+            Ints patch = splat(-1);
             for (std::size_t i = 0; i < count; ++i) {
                 const NearBall& b = balls[i];
                 const float dx = x - b.centre.x();
                 const Floats dy = y - b.centre.y(), dz = z - b.centre.z();
-                least = smaller(squareRoot(dx * dx + dy * dy + dz * dz) - b.radius, least);
+                const Floats d = squareRoot(dx * dx + dy * dy + dz * dz) - b.radius;
+                const Ints nearer = d < least;
+                least = nearer ? d : least;
+                patch = nearer ? splat(b.patch) : patch;
             }
             store(distance + first + plane * k, least);
+            store(c.part + first + plane * k, patch);
         }
     }
 }
@@ -248,8 +254,12 @@ public:
         : boundary_(set.boundary), probe_(set.probe), voxel_(voxelSize), inside_(width.inside),
           outside_(width.outside), caps_(arraysOf(std::move(set.boundary.caps))),
           spheres_(patchBalls(set.boundary)), patchIndex_(spheres_, {1.0 / 1.5, 0.0, 2.0}),
-          ballIndex_(set.balls, {1.0 / 1.5, set.probe, 2.0})
+          ballIndex_(set.balls, {1.0 / 1.5, set.probe, 2.0}), patchOf_(set.balls.size(), -1)
     {
+        for (std::size_t p = 0; p < spheres_.size(); ++p) {
+            const auto placed = std::size_t(boundary_.patches[p].ball);
+            patchOf_[std::size_t(boundary_.balls[placed].index)] = std::int32_t(p);
+        }
     }
 
     /// The leaves that may have a voxel of the band.
@@ -348,14 +358,15 @@ private:
         near.arcs.clear();
         near.corners.clear();
         near.balls.clear();
-        ballIndex_.forEachNear(centre, centre, probe_ + outside_ + radius,
-                               [&](const Ball& ball, std::int32_t) {
-                                   const Vec3f c(Vec3d(ball.center) - centre);
-                                   const float R = float(ball.radius + probe_);
-                                   const double touch = R + outside_ + radius;
-                                   if (c.lengthSqr() < touch * touch)
-                                       near.balls.push_back({c, R, c.length() - R});
-                               });
+        ballIndex_.forEachNear(
+            centre, centre, probe_ + outside_ + voxel_ + radius,
+            [&](const Ball& ball, std::int32_t i) {
+                const Vec3f c(Vec3d(ball.center) - centre);
+                const float R = float(ball.radius + probe_);
+                const double touch = R + outside_ + voxel_ + radius;
+                if (c.lengthSqr() < touch * touch)
+                    near.balls.push_back({c, R, c.length() - R, patchOf_[std::size_t(i)]});
+            });
         // The largest overlap first: it may hold all voxels of a cube.
         std::sort(near.balls.begin(), near.balls.end(),
                   [](const NearBall& a, const NearBall& b) { return a.distance < b.distance; });
@@ -404,26 +415,31 @@ private:
                 within = true;
                 break;
             }
-            if (d - c.radius < ball.radius + float(outside_)) near.cubeBalls.push_back(ball);
+            if (d - c.radius < ball.radius + float(outside_ + voxel_))
+                near.cubeBalls.push_back(ball);
         }
         if (within) {
             std::fill_n(distance, cubeSize, -1.0f);
+            std::fill_n(c.part, cubeSize, -1);
         } else {
             nearBalls(c, near.cubeBalls.data(), near.cubeBalls.size(), distance);
         }
-        const bool allOutside =
-            std::all_of(distance, distance + cubeSize, [](float d) { return d >= 0.0f; });
+        // Outside, the nearest ball has the nearest point of the boundary. Where balls meet in a
+        // voxel, none of them may hold it, by rounding only.
+        const float beyond = float(inside_) * 1.0001f, rounding = 1e-3f * c.voxel;
+        bool anyInside = false;
+        for (int k = 0; k < cubeSize; ++k) {
+            const bool inside = distance[k] < rounding;
+            c.least2[k] = inside ? beyond * beyond : 0.0f; // nothing is nearer than that
+            if (inside) c.part[k] = -1;
+            anyInside = anyInside || inside;
+        }
+        if (!anyInside) return;
 
-        const float beyond = float(inside_) * 1.0001f;
-        std::fill_n(c.least2, cubeSize, beyond * beyond);
-        std::fill_n(c.part, cubeSize, -1);
         const float reach = beyond + c.radius;
         near.cubeCorners.clear();
         near.cubeArcs.clear();
         near.cubePatches.clear();
-        if (allOutside) {
-            std::fill_n(c.least2, cubeSize, 1e15f); // only the nearest part is wanted
-        }
         for (const NearCorner& corner : near.corners) {
             if ((corner.position - c.centre).lengthSqr() < reach * reach) {
                 near.cubeCorners.push_back(corner);
@@ -453,9 +469,6 @@ private:
         std::sort(near.cubePatches.begin(), near.cubePatches.end(),
                   [](const NearPatch& a, const NearPatch& b) { return a.gap < b.gap; });
         for (const NearPatch& patch : near.cubePatches) nearPatch(c, patch, near);
-        // Outside, the boundary is as near as the nearest ball. If it is not, balls meet in the
-        // voxel, and only by rounding does none of them hold it.
-        const float rounding = 1e-3f * c.voxel;
         for (int k = 0; k < cubeSize; ++k) {
             const float nearest = std::sqrt(c.least2[k]);
             if (distance[k] < 0.0f || (distance[k] < rounding && nearest > 2.0f * rounding))
@@ -480,6 +493,7 @@ private:
     const CapArrays caps_;
     std::vector<Ball> spheres_;
     BallIndex patchIndex_, ballIndex_;
+    std::vector<std::int32_t> patchOf_; // of each ball, or -1
 };
 
 /// The foot of a point on the whole sphere or circle of a part, or a corner.
