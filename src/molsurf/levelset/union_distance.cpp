@@ -253,8 +253,8 @@ public:
     Evaluator(BallUnion& set, double voxelSize, const BandWidths& width)
         : boundary_(set.boundary), probe_(set.probe), voxel_(voxelSize), inside_(width.inside),
           outside_(width.outside), caps_(arraysOf(std::move(set.boundary.caps))),
-          spheres_(patchBalls(set.boundary)), patchIndex_(spheres_, {1.0 / 1.5, 0.0, 2.0}),
-          ballIndex_(set.balls, {1.0 / 1.5, set.probe, 2.0}), patchOf_(set.balls.size(), -1)
+          spheres_(patchBalls(set.boundary)), patchIndex_(spheres_, {1.5, 0.0, 2.0}),
+          ballIndex_(set.balls, {1.5, set.probe, 2.0}), patchOf_(set.balls.size(), -1)
     {
         for (std::size_t p = 0; p < spheres_.size(); ++p) {
             const auto placed = std::size_t(boundary_.patches[p].ball);
