@@ -747,8 +747,8 @@ OptionGroup flowOptions()
                   steps("default of the flow", &EvolveOptions::maxSteps)),
              with(count("steps", "N", "so many steps, converged or not",
                         std::to_string(defaultBrickSteps) + " in bricks, " +
-                            std::to_string(defaultFrontSteps) + " at a large lambda", structures, 0, 1000000,
-                        of(&EvolveOptions::steps)),
+                            std::to_string(defaultFrontSteps) + " at a large lambda",
+                        structures, 0, 1000000, of(&EvolveOptions::steps)),
                   steps("by the stopping rule", &EvolveOptions::steps)),
              number("tolerance", "T",
                     "converged when the way left is below T voxels (rms), and\n"

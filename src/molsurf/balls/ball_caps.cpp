@@ -20,7 +20,7 @@ namespace
 constexpr double heldMargin = 1e-9;
 
 /// With more balls near it than this, a ball is looked at by its power cell.
-constexpr std::size_t dense = 512;
+constexpr std::size_t dense = 800;
 
 /// Whether a cap lies within one of some that are no smaller.
 MOLSURF_KERNEL bool isCapCovered(const Cap& cap, double sine, const double* x, const double* y,
@@ -90,7 +90,7 @@ bool isLarger(const Cap& a, const Cap& b)
 } // namespace
 
 CapFinder::CapFinder(const std::vector<PlacedBall>& balls)
-    : balls_(balls), grown_(grownBalls(balls)), index_(grown_, {1.0 / 1.5, 0.0, 2.0}), dense_(balls)
+    : balls_(balls), grown_(grownBalls(balls)), index_(grown_, {1.5, 0.0, 2.0}), dense_(balls)
 {
 }
 

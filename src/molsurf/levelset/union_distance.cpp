@@ -3,9 +3,9 @@
 
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/simd.h"
 #include "molsurf/grid/leaf_block.h"
 #include "molsurf/levelset/kink.h"
+#include "molsurf/levelset/nearest_part.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>
@@ -25,221 +25,18 @@ using openvdb::Vec3f;
 namespace
 {
 
-constexpr int cube = 4, plane = cube * cube, cubeSize = cube * plane;
-static_assert(plane % floatLanes == 0 && leafDim % cube == 0);
-constexpr double cubeRadius = 0.5 * (cube - 1) * 1.7320508; // [voxel]
-
-/// A foot on a sphere counts as covered if it comes this near, as a cosine, to a cap. If it is not
-/// covered, an arc or corner about it is just as near; if it is, as where spheres meet in a point
-/// inside of others, nothing is.
-constexpr float rimTolerance = 2e-6f;
-
-/// What a cube of voxels is evaluated on, relative to its leaf's centre [Å].
-struct NearPatch {
-    Vec3f centre;
-    float radius;
-    std::uint32_t capsBegin, capsEnd;
-    std::int32_t part;
-    float gap; // between a cube's centre and the sphere
-};
-struct NearArc {
-    Vec3f centre, axis, middle;
-    float radius, cosine;
-    std::int32_t part;
-};
-struct NearCorner {
-    Vec3f position;
-    std::int32_t part;
-};
-struct NearBall {
-    Vec3f centre;
-    float radius;
+/// The nearest ball first.
+struct BallAt {
+    NearBall ball;
     float distance; // of its boundary from the leaf's centre, < 0 inside
 };
 
-/// Caps, number by number: loops over them vectorise.
-struct CapArrays {
-    std::vector<float> x, y, z, cosine, sine;
-};
-
-/// The voxels of a cube: places [Å], and for each the square of the least distance so far and the
-/// part that has it.
-struct Cube {
-    Vec3f first; // voxel
-    Vec3f centre;
-    float voxel, radius;
-    alignas(64) float least2[cubeSize];
-    alignas(64) std::int32_t part[cubeSize];
-};
-
-/// The places of some voxels of each plane.
-MOLSURF_INLINE void places(const Cube& c, int part, Floats& y, Floats& z)
-{
-    for (int k = 0; k < floatLanes; ++k) {
-        y[k] = c.first.y() + c.voxel * float((part + k) / cube);
-        z[k] = c.first.z() + c.voxel * float((part + k) % cube);
-    }
-}
-
-/// Gives voxels to a part where it is nearer than the one they have.
-/// @param[in] first  the first of the voxels
-/// @param[in] d2     their squared distances from the part
-MOLSURF_INLINE void keep(Cube& c, int first, Floats d2, int part)
-{
-    const Floats least = load(c.least2 + first);
-    const Ints nearer = d2 < least;
-    store(c.least2 + first, nearer ? d2 : least);
-    store(c.part + first, nearer ? splat(part) : load(c.part + first));
-}
-
-MOLSURF_KERNEL void nearCorners(Cube& c, const NearCorner* corners, std::size_t count)
-{
-    for (int first = 0; first < plane; first += floatLanes) {
-        Floats y, z;
-        places(c, first, y, z);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vec3f& p = corners[i].position;
-            const Floats dy = y - p.y(), dz = z - p.z();
-            const Floats aside = dy * dy + dz * dz;
-            for (int k = 0; k < cube; ++k) {
-                const float dx = c.first.x() + c.voxel * float(k) - p.x();
-                keep(c, first + plane * k, aside + dx * dx, corners[i].part);
-            }
-        }
-    }
-}
-
-MOLSURF_KERNEL void nearArcs(Cube& c, const NearArc* arcs, std::size_t count)
-{
-    for (int first = 0; first < plane; first += floatLanes) {
-        Floats y, z;
-        places(c, first, y, z);
-        for (std::size_t i = 0; i < count; ++i) {
-            const NearArc& arc = arcs[i];
-            const Floats dy = y - arc.centre.y(), dz = z - arc.centre.z();
-            for (int k = 0; k < cube; ++k) {
-                const float dx = c.first.x() + c.voxel * float(k) - arc.centre.x();
-                const Floats along = dx * arc.axis.x() + dy * arc.axis.y() + dz * arc.axis.z();
-                const Floats middle =
-                    dx * arc.middle.x() + dy * arc.middle.y() + dz * arc.middle.z();
-                // Not from squares, which cancel near the axis.
-                const Floats px = dx - along * arc.axis.x(), py = dy - along * arc.axis.y();
-                const Floats pz = dz - along * arc.axis.z();
-                const Floats r = squareRoot(px * px + py * py + pz * pz);
-                const Floats d2 = along * along + (r - arc.radius) * (r - arc.radius);
-                keep(c, first + plane * k,
-                     middle >= (arc.cosine - rimTolerance) * r ? d2 : splat(1e30f), arc.part);
-            }
-        }
-    }
-}
-
-/// The directions from the centre of a patch to the ball about a cube.
-struct Cone {
-    Vec3f axis;
-    float cosine, sine; // of half its angle, at most a right one
-
-    Cone(const Cube& c, const Vec3f& apex)
-    {
-        axis = c.centre - apex;
-        const float length = axis.length();
-        if (length <= 1.0001f * c.radius) { // any direction
-            axis = Vec3f(0.0f);
-            cosine = 0.0f;
-            sine = 1.0f;
-            return;
-        }
-        axis /= length;
-        sine = c.radius / length;
-        cosine = std::sqrt(1.0f - sine * sine);
-    }
-};
-
-/// The caps that may hold a direction of a cone.
-/// @param[out] out  their indices; room for all
-/// @return their number; -1 if one holds all of the cone
-MOLSURF_KERNEL int capsAbout(const Cone& cone, const CapArrays& caps, std::uint32_t begin,
-                             std::uint32_t end, float* __restrict above, std::uint32_t* out)
-{
-    const float *x = caps.x.data() + begin, *y = caps.y.data() + begin, *z = caps.z.data() + begin;
-    const float *cosine = caps.cosine.data() + begin, *sine = caps.sine.data() + begin;
-    const float ax = cone.axis.x(), ay = cone.axis.y(), az = cone.axis.z();
-    const int count = int(end - begin);
-    std::int32_t whole = 0;
-    for (int k = 0; k < count; ++k) {
-        // A cap holds the cone if the angle between the axes is below the difference of the half
-        // angles, and misses it if it is above their sum; none does if that is above pi.
-        const float t = x[k] * ax + y[k] * ay + z[k] * az - cosine[k] * cone.cosine;
-        const float s = sine[k] * cone.sine;
-        whole |= (cosine[k] <= cone.cosine ? t - s : -1.0f) > rimTolerance ? 1 : 0;
-        above[k] = cosine[k] < -cone.cosine ? 1.0f : t + s;
-    }
-    if (whole) return -1;
-    int m = 0;
-    for (int k = 0; k < count; ++k) {
-        out[m] = begin + std::uint32_t(k);
-        m += above[k] > -2.0f * rimTolerance;
-    }
-    return m;
-}
-
-MOLSURF_KERNEL void nearPatch(Cube& c, const NearPatch& patch, const CapArrays& caps,
-                              const std::uint32_t* list, int count)
-{
-    for (int first = 0; first < plane; first += floatLanes) {
-        Floats y, z;
-        places(c, first, y, z);
-        const Floats dy = y - patch.centre.y(), dz = z - patch.centre.z();
-        for (int k = 0; k < cube; ++k) {
-            const float dx = c.first.x() + c.voxel * float(k) - patch.centre.x();
-            const Floats r = squareRoot(dx * dx + dy * dy + dz * dz);
-            const Floats d = patch.radius - r;
-            Floats d2 = d * d; // of voxels outside the ball too: the same holds for them
-            const Floats least = load(c.least2 + first + plane * k);
-            // Only directions that would be nearer are looked at further.
-            Ints open = d2 < least ? splat(-1) : Ints{};
-            if (!any(open)) continue;
-            for (int j = 0; j < count; ++j) {
-                const std::uint32_t i = list[j];
-                const Floats along = dx * caps.x[i] + dy * caps.y[i] + dz * caps.z[i];
-                open = along > (caps.cosine[i] - rimTolerance) * r ? Ints{} : open;
-                if ((j & 3) == 3 && !any(open)) break;
-            }
-            d2 = open != 0 ? d2 : splat(1e30f);
-            keep(c, first + plane * k, d2, patch.part);
-        }
-    }
-}
-
-/// The signed distance to the nearest ball; the one that counts outside of all.
-MOLSURF_KERNEL void nearBalls(const Cube& c, const NearBall* balls, std::size_t count,
-                              float* __restrict distance)
-{
-    for (int first = 0; first < plane; first += floatLanes) {
-        Floats y, z;
-        places(c, first, y, z);
-        for (int k = 0; k < cube; ++k) {
-            const float x = c.first.x() + c.voxel * float(k);
-            Floats least = splat(1e15f);
-            for (std::size_t i = 0; i < count; ++i) {
-                const NearBall& b = balls[i];
-                const float dx = x - b.centre.x();
-                const Floats dy = y - b.centre.y(), dz = z - b.centre.z();
-                least = smaller(squareRoot(dx * dx + dy * dy + dz * dz) - b.radius, least);
-            }
-            store(distance + first + plane * k, least);
-        }
-    }
-}
-
-/// Everything near a leaf, relative to its centre.
+/// Everything near a leaf, relative to its centre, and the memory that its cubes take by turns.
 struct Near {
-    std::vector<NearPatch> patches, cubePatches;
-    std::vector<float> above; // of capsAbout()
-    std::vector<std::uint32_t> caps;
-    std::vector<NearArc> arcs, cubeArcs;
-    std::vector<NearCorner> corners, cubeCorners;
-    std::vector<NearBall> balls, cubeBalls;
+    std::vector<BallAt> balls;
+    LeafParts parts;
+    std::vector<NearBall> cubeBalls;
+    CubeParts cubeParts;
 };
 
 class Evaluator
@@ -248,10 +45,14 @@ public:
     /// @param[in,out] set  the caps of its boundary are taken
     Evaluator(BallUnion& set, double voxelSize, const BandWidths& width)
         : boundary_(set.boundary), probe_(set.probe), voxel_(voxelSize), inside_(width.inside),
-          outside_(width.outside), caps_(arraysOf(std::move(set.boundary.caps))),
-          spheres_(patchBalls(set.boundary)), patchIndex_(spheres_, {1.0 / 1.5, 0.0, 2.0}),
-          ballIndex_(set.balls, {1.0 / 1.5, set.probe, 2.0})
+          outside_(width.outside), caps_(listsOf(std::move(set.boundary.caps))),
+          spheres_(patchBalls(set.boundary)), patchIndex_(spheres_, {1.5, 0.0, 2.0}),
+          ballIndex_(set.balls, {1.5, set.probe, 2.0}), patchOf_(set.balls.size(), -1)
     {
+        for (std::size_t p = 0; p < spheres_.size(); ++p) {
+            const auto placed = std::size_t(boundary_.patches[p].ball);
+            patchOf_[std::size_t(boundary_.balls[placed].index)] = std::int32_t(p);
+        }
     }
 
     /// The leaves that may have a voxel of the band.
@@ -298,38 +99,36 @@ public:
         gather(origin, near);
         LeafMask active;
         for (int b = 0; b < 8; ++b) {
-            const Coord corner(cube * (b >> 2), cube * (b >> 1 & 1), cube * (b & 1));
-            Cube c;
+            constexpr int edge = VoxelCube::edge;
+            const Coord corner(edge * (b >> 2), edge * (b >> 1 & 1), edge * (b & 1));
+            VoxelCube cube;
             const float half = 0.5f * (leafDim - 1);
-            c.voxel = float(voxel_);
-            c.radius = float(cubeRadius * voxel_);
-            c.first = (Vec3f(corner.asVec3s()) - Vec3f(half)) * c.voxel;
-            c.centre = c.first + Vec3f(0.5f * (cube - 1) * c.voxel);
-            float distance[cubeSize];
-            evaluate(c, near, distance);
-            for (int k = 0; k < cubeSize; ++k) {
-                const int v = 64 * (corner.x() + k / plane) + 8 * (corner.y() + k / cube % cube) +
-                              corner.z() + k % cube;
-                phi[v] = std::clamp(distance[k], float(-inside_), float(outside_));
-                part[v] = c.part[k];
-                active.set(v, distance[k] > float(-inside_) && distance[k] < float(outside_));
+            cube.voxel = float(voxel_);
+            cube.first = (Vec3f(corner.asVec3s()) - Vec3f(half)) * cube.voxel;
+            evaluate(cube, near);
+            for (int k = 0; k < VoxelCube::size; ++k) {
+                const float distance = cube.distance[k];
+                const Coord at = corner + VoxelCube::coord(k);
+                const int v = 64 * at.x() + 8 * at.y() + at.z();
+                phi[v] = std::clamp(distance, float(-inside_), float(outside_));
+                part[v] = cube.part[k];
+                active.set(v, distance > float(-inside_) && distance < float(outside_));
             }
         }
         return active;
     }
 
 private:
-    static CapArrays arraysOf(std::vector<Cap> caps)
+    static CapLists listsOf(std::vector<Cap> caps)
     {
-        CapArrays out;
-        for (auto* v : {&out.x, &out.y, &out.z, &out.cosine, &out.sine}) v->reserve(caps.size());
+        CapLists out;
+        for (auto* list : {&out.x, &out.y, &out.z, &out.cosine, &out.sine})
+            list->reserve(caps.size() + 8);
         for (const Cap& cap : caps) {
-            out.x.push_back(float(cap.axis.x()));
-            out.y.push_back(float(cap.axis.y()));
-            out.z.push_back(float(cap.axis.z()));
-            out.cosine.push_back(float(cap.cosine));
-            out.sine.push_back(float(std::sqrt(1.0 - cap.cosine * cap.cosine)));
+            out.add(float(cap.axis.x()), float(cap.axis.y()), float(cap.axis.z()),
+                    float(cap.cosine), float(std::sqrt(1.0 - cap.cosine * cap.cosine)));
         }
+        out.pad();
         return out;
     }
     static std::vector<Ball> patchBalls(const BallBoundary& boundary)
@@ -346,43 +145,48 @@ private:
         const Vec3d centre = (origin.asVec3d() + Vec3d(0.5 * (leafDim - 1))) * voxel_;
         const double radius = 0.5 * (leafDim - 1) * std::sqrt(3.0) * voxel_;
         const double reach = inside_ + radius;
-        near.patches.clear();
-        near.arcs.clear();
-        near.corners.clear();
+        LeafParts& parts = near.parts;
+        parts.patches.clear();
+        parts.arcs.clear();
+        parts.corners.clear();
         near.balls.clear();
-        ballIndex_.forEachNear(centre, centre, probe_ + outside_ + radius,
-                               [&](const Ball& ball, std::int32_t) {
-                                   const Vec3f c(Vec3d(ball.center) - centre);
-                                   const float R = float(ball.radius + probe_);
-                                   const double touch = R + outside_ + radius;
-                                   if (c.lengthSqr() < touch * touch)
-                                       near.balls.push_back({c, R, c.length() - R});
-                               });
+        const double aside = radius + outside_ + voxel_; // kinks look a voxel farther
+        ballIndex_.forEachNear(
+            centre, centre, probe_ + aside, [&](const Ball& ball, std::int32_t i) {
+                const Vec3f c(Vec3d(ball.center) - centre);
+                const float R = float(ball.radius + probe_);
+                const double touch = R + aside;
+                if (c.lengthSqr() < touch * touch)
+                    near.balls.push_back({{c, R, patchOf_[std::size_t(i)]}, c.length() - R});
+            });
         // The largest overlap first: it may hold all voxels of a cube.
         std::sort(near.balls.begin(), near.balls.end(),
-                  [](const NearBall& a, const NearBall& b) { return a.distance < b.distance; });
+                  [](const BallAt& a, const BallAt& b) { return a.distance < b.distance; });
         patchIndex_.forEachNear(centre, centre, reach, [&](const Ball&, std::int32_t i) {
-            const Patch& patch = boundary_.patches[i];
+            const Patch& patch = boundary_.patches[std::size_t(i)];
             const Vec3d c = patch.centre - centre;
-            const double distance = c.length();
             // All parts of a patch lie on its sphere.
-            if (std::abs(distance - patch.radius) > reach) return;
-            near.patches.push_back(
-                {Vec3f(c), float(patch.radius), patch.capsBegin, patch.capsEnd, i, 0.0f});
+            if (std::abs(c.length() - patch.radius) > reach) return;
+            parts.patches.add({float(c.x()), float(c.y()), float(c.z()), float(patch.radius)}, i,
+                              {patch.capsBegin, patch.capsEnd});
             const std::int32_t arcs = std::int32_t(boundary_.patches.size());
             for (std::uint32_t k = patch.arcsBegin; k < patch.arcsEnd; ++k) {
                 const Arc& arc = boundary_.arcs[k];
                 const Vec3d m = arc.centre - centre;
                 if (distance2ToCircle(arc, -m) > reach * reach) continue;
-                const float cosine = arc.ends[0] < 0 ? -2.0f : float(std::cos(arc.half));
-                near.arcs.push_back({Vec3f(m), Vec3f(arc.axis), Vec3f(arc.middle),
-                                     float(arc.radius), cosine, arcs + std::int32_t(k)});
+                const double cosine = arc.ends[0] < 0 ? -2.0 : std::cos(arc.half);
+                parts.arcs.add({float(m.x()), float(m.y()), float(m.z()), float(arc.radius),
+                                float(arc.axis.x()), float(arc.axis.y()), float(arc.axis.z()),
+                                float(arc.middle.x()), float(arc.middle.y()), float(arc.middle.z()),
+                                float(cosine)},
+                               arcs + std::int32_t(k));
             }
             const std::int32_t corners = arcs + std::int32_t(boundary_.arcs.size());
             for (std::uint32_t k = patch.cornersBegin; k < patch.cornersEnd; ++k) {
                 const Vec3d p = boundary_.corners[k].position - centre;
                 if (p.lengthSqr() > reach * reach) continue;
-                near.corners.push_back({Vec3f(p), corners + std::int32_t(k)});
+                parts.corners.add({float(p.x()), float(p.y()), float(p.z())},
+                                  corners + std::int32_t(k));
             }
         });
     }
@@ -395,93 +199,35 @@ private:
         return along * along + r * r;
     }
 
-    /// @param[out] distance  signed, of the cube's voxels [Å]
-    void evaluate(Cube& c, Near& near, float* distance) const
+    /// Finds distances and nearest parts of a cube.
+    void evaluate(VoxelCube& cube, Near& near) const
     {
+        const Vec3f centre = cube.centre();
+        const float radius = cube.radius();
         near.cubeBalls.clear();
-        bool within = false;
-        for (const NearBall& ball : near.balls) {
-            const float d = (ball.centre - c.centre).length();
-            if (d + c.radius < ball.radius) {
-                within = true;
-                break;
-            }
-            if (d - c.radius < ball.radius + float(outside_)) near.cubeBalls.push_back(ball);
+        bool within = false; // a ball
+        for (const auto& [ball, distance] : near.balls) {
+            const float d = (ball.centre - centre).length();
+            within = d + radius < ball.radius;
+            if (within) break;
+            if (d - radius < ball.radius + float(outside_ + voxel_)) near.cubeBalls.push_back(ball);
         }
         if (within) {
-            std::fill_n(distance, cubeSize, -1.0f);
+            std::fill_n(cube.distance, VoxelCube::size, -1.0f);
         } else {
-            nearBalls(c, near.cubeBalls.data(), near.cubeBalls.size(), distance);
+            nearestBalls(cube, near.cubeBalls);
         }
-        const bool allOutside =
-            std::all_of(distance, distance + cubeSize, [](float d) { return d >= 0.0f; });
-
-        const float beyond = float(inside_) * 1.0001f;
-        std::fill_n(c.least2, cubeSize, beyond * beyond);
-        std::fill_n(c.part, cubeSize, -1);
-        const float reach = beyond + c.radius;
-        near.cubeCorners.clear();
-        near.cubeArcs.clear();
-        near.cubePatches.clear();
-        if (allOutside) {
-            std::fill_n(c.least2, cubeSize, 1e15f); // only the nearest part is wanted
-        }
-        for (const NearCorner& corner : near.corners) {
-            if ((corner.position - c.centre).lengthSqr() < reach * reach) {
-                near.cubeCorners.push_back(corner);
-            }
-        }
-        nearCorners(c, near.cubeCorners.data(), near.cubeCorners.size());
-        // A part that is farther from the centre is farther from every voxel than what it has.
-        const auto farthest = [&c] {
-            float most2 = 0.0f;
-            for (const float d2 : c.least2) most2 = larger(most2, d2);
-            return std::sqrt(most2) + c.radius;
-        };
-        float limit = farthest();
-        for (const NearArc& arc : near.arcs) {
-            const Vec3f x = c.centre - arc.centre;
-            const float along = x.dot(arc.axis);
-            const float r = std::sqrt(std::max(0.0f, x.lengthSqr() - along * along)) - arc.radius;
-            if (along * along + r * r < limit * limit) near.cubeArcs.push_back(arc);
-        }
-        nearArcs(c, near.cubeArcs.data(), near.cubeArcs.size());
-        limit = farthest();
-        for (NearPatch& patch : near.patches) {
-            patch.gap = std::abs((patch.centre - c.centre).length() - patch.radius);
-            if (patch.gap < limit) near.cubePatches.push_back(patch);
-        }
-        // The nearest first: of the others fewer voxels then are looked at.
-        std::sort(near.cubePatches.begin(), near.cubePatches.end(),
-                  [](const NearPatch& a, const NearPatch& b) { return a.gap < b.gap; });
-        for (const NearPatch& patch : near.cubePatches) nearPatch(c, patch, near);
-        // Outside, the boundary is as near as the nearest ball. If it is not, balls meet in the
-        // voxel, and only by rounding does none of them hold it.
-        const float rounding = 1e-3f * c.voxel;
-        for (int k = 0; k < cubeSize; ++k) {
-            const float nearest = std::sqrt(c.least2[k]);
-            if (distance[k] < 0.0f || (distance[k] < rounding && nearest > 2.0f * rounding))
-                distance[k] = -std::min(nearest, beyond);
-        }
-    }
-
-    void nearPatch(Cube& c, const NearPatch& patch, Near& near) const
-    {
-        const std::size_t room = patch.capsEnd - patch.capsBegin;
-        if (near.caps.size() < room) {
-            near.caps.resize(room);
-            near.above.resize(room);
-        }
-        const int count = capsAbout(Cone(c, patch.centre), caps_, patch.capsBegin, patch.capsEnd,
-                                    near.above.data(), near.caps.data());
-        if (count >= 0) molsurf::nearPatch(c, patch, caps_, near.caps.data(), count);
+        if (std::any_of(cube.distance, cube.distance + VoxelCube::size,
+                        [&](float d) { return d < cube.rounding(); }))
+            nearestParts(cube, near.parts, caps_, 1.0001f * float(inside_), near.cubeParts);
     }
 
     const BallBoundary& boundary_;
     double probe_, voxel_, inside_, outside_;
-    const CapArrays caps_;
+    const CapLists caps_;
     std::vector<Ball> spheres_;
     BallIndex patchIndex_, ballIndex_;
+    std::vector<std::int32_t> patchOf_; // of each ball, or -1
 };
 
 /// The boundary point nearest to a voxel.

@@ -1,0 +1,484 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/nearest_part.h"
+
+#include "molsurf/core/simd.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace molsurf
+{
+
+using openvdb::Vec3f;
+
+namespace
+{
+
+/// A foot on a sphere counts as covered if it comes this near, as a cosine, to a cap. If it is not
+/// covered, an arc or corner about it is just as near; if it is, as where spheres meet in a point
+/// inside of others, nothing is.
+constexpr float rimTolerance = 2e-6f;
+
+constexpr float nowhere = 1e15f; // a distance
+constexpr float farAway = 1e8f;  // a place that pads lists
+
+/// One bit a lane.
+MOLSURF_INLINE Ints laneBits()
+{
+    return splat(1) << laneNumbers();
+}
+
+MOLSURF_INLINE Floats size(Floats x)
+{
+    return larger(x, -x);
+}
+
+MOLSURF_INLINE float least(Floats x)
+{
+    float out = x[0];
+    for (int l = 1; l < floatLanes; ++l) out = smaller(out, x[l]);
+    return out;
+}
+
+} // namespace
+
+void PartList::add(std::initializer_list<float> values, std::int32_t index, CapRange range)
+{
+    if (part.size() < std::size_t(size + 1 + floatLanes)) {
+        const std::size_t room = 2 * std::size_t(size + 1 + floatLanes);
+        for (auto& list : numbers) list.resize(room, farAway);
+        part.resize(room);
+        caps.resize(room);
+    }
+    auto list = numbers.begin();
+    for (const float value : values) (*list++)[std::size_t(size)] = value;
+    part[std::size_t(size)] = index;
+    caps[std::size_t(size)] = range;
+    ++size;
+}
+
+void CapLists::clear()
+{
+    for (auto* list : {&x, &y, &z, &cosine, &sine}) list->clear();
+}
+
+void CapLists::add(float ax, float ay, float az, float cosineOf, float sineOf)
+{
+    x.push_back(ax);
+    y.push_back(ay);
+    z.push_back(az);
+    cosine.push_back(cosineOf);
+    sine.push_back(sineOf);
+}
+
+void CapLists::pad()
+{
+    for (int l = 0; l < floatLanes; ++l) add(0.0f, 0.0f, 0.0f, 2.0f, 0.0f);
+}
+
+namespace
+{
+
+/// The coordinates of the voxels of a small cube.
+struct Places {
+    Floats x, y, z;
+    Vec3f centre;
+
+    MOLSURF_INLINE Places(const VoxelCube& c, int small)
+    {
+        for (int l = 0; l < floatLanes; ++l) {
+            const openvdb::Coord at = VoxelCube::coord(floatLanes * small + l);
+            x[l] = c.first.x() + c.voxel * float(at.x());
+            y[l] = c.first.y() + c.voxel * float(at.y());
+            z[l] = c.first.z() + c.voxel * float(at.z());
+        }
+        centre = Vec3f(x[0], y[0], z[0]) + Vec3f(0.5f * c.voxel);
+    }
+};
+
+} // namespace
+
+MOLSURF_KERNEL void nearestBalls(VoxelCube& cube, const std::vector<NearBall>& balls)
+{
+    for (int s = 0; s < 8; ++s) {
+        const Places at(cube, s);
+        Floats nearest = splat(nowhere);
+        Ints patch = splat(-1);
+        for (const NearBall& ball : balls) {
+            const Floats dx = at.x - ball.centre.x(), dy = at.y - ball.centre.y();
+            const Floats dz = at.z - ball.centre.z();
+            const Floats d = squareRoot(dx * dx + dy * dy + dz * dz) - ball.radius;
+            const Ints nearer = d < nearest;
+            nearest = nearer ? d : nearest;
+            patch = nearer ? splat(ball.patch) : patch;
+        }
+        store(cube.distance + floatLanes * s, nearest);
+        store(cube.part + floatLanes * s, patch);
+    }
+}
+
+namespace
+{
+
+/// Eight parts of one kind as seen from a place, or one of them as seen from eight.
+struct Seen {
+    Floats x, y, z; // the place, from the corner or centre
+};
+
+/// Eight parts as seen from one place.
+MOLSURF_INLINE Seen seen(const PartList& l, int i, const Vec3f& c)
+{
+    return {c.x() - load(l.numbers[PartX].data() + i), c.y() - load(l.numbers[PartY].data() + i),
+            c.z() - load(l.numbers[PartZ].data() + i)};
+}
+
+MOLSURF_INLINE Floats length(const Seen& s)
+{
+    return squareRoot(s.x * s.x + s.y * s.y + s.z * s.z);
+}
+
+/// A place as seen from a circle.
+struct FromCircle {
+    Floats along, aside; // its distances from the circle's plane and axis
+    Floats middle;       // its coordinate towards the middle of the arc
+
+    /// @param[in] axis,mid  vectors, a number or eight along each axis
+    template<typename V>
+    MOLSURF_INLINE FromCircle(const Seen& s, const V* axis, const V* mid)
+    {
+        along = s.x * axis[0] + s.y * axis[1] + s.z * axis[2];
+        middle = s.x * mid[0] + s.y * mid[1] + s.z * mid[2];
+        // Not from squares, which cancel near the axis.
+        const Floats px = s.x - along * axis[0], py = s.y - along * axis[1];
+        const Floats pz = s.z - along * axis[2];
+        aside = squareRoot(px * px + py * py + pz * pz);
+    }
+};
+
+/// Bounds from below of the distances of the points of a ball from parts, less its radius.
+/// @param[out] keys  of the parts of a list
+/// @return the least distance of its centre from those that surely hold its foot
+MOLSURF_INLINE float boundCorners(const PartList& l, const Vec3f& c, float* keys)
+{
+    Floats sure = splat(nowhere);
+    for (int i = 0; i < l.size; i += floatLanes) {
+        const Floats d = laneNumbers() < splat(l.size - i) ? length(seen(l, i, c)) : splat(nowhere);
+        store(keys + i, d);
+        sure = smaller(d, sure);
+    }
+    return least(sure);
+}
+
+MOLSURF_INLINE float boundArcs(const PartList& l, const Vec3f& c, float radius, float* keys)
+{
+    Floats sure = splat(nowhere);
+    for (int i = 0; i < l.size; i += floatLanes) {
+        Floats axis[3], mid[3];
+        for (int a = 0; a < 3; ++a) {
+            axis[a] = load(l.numbers[AxisX + a].data() + i);
+            mid[a] = load(l.numbers[MiddleX + a].data() + i);
+        }
+        const FromCircle at(seen(l, i, c), axis, mid);
+        const Floats off = at.aside - load(l.numbers[PartRadius].data() + i);
+        const Floats d = squareRoot(at.along * at.along + off * off);
+        // Positive where the foot lies between the ends; it changes by (1 + |cosine|) at most over
+        // a unit of length.
+        const Floats cosine = load(l.numbers[EndCosine].data() + i);
+        const Floats within = at.middle - cosine * at.aside;
+        const Ints used = laneNumbers() < splat(l.size - i);
+        const Ints possible = (within + 1.0001f * radius * (1.0f + size(cosine)) >= 0.0f) & used;
+        store(keys + i, possible ? d : splat(nowhere));
+        const Ints certain = (within >= 0.0f) & used;
+        sure = smaller(certain ? d : splat(nowhere), sure);
+    }
+    return least(sure);
+}
+
+MOLSURF_INLINE void boundPatches(const PartList& l, const Vec3f& c, float* keys)
+{
+    for (int i = 0; i < l.size; i += floatLanes) {
+        const Floats gap = size(length(seen(l, i, c)) - load(l.numbers[PartRadius].data() + i));
+        store(keys + i, laneNumbers() < splat(l.size - i) ? gap : splat(nowhere));
+    }
+}
+
+/// Whether no cap covers a direction from the centre of a sphere.
+/// @param[in] to  any vector of that direction
+MOLSURF_INLINE bool isOpen(const CapLists& caps, CapRange range, const Vec3f& to)
+{
+    const float r = to.length();
+    for (std::uint32_t i = range.begin; i < range.end; i += floatLanes) {
+        const Floats along = to.x() * load(caps.x.data() + i) + to.y() * load(caps.y.data() + i) +
+                             to.z() * load(caps.z.data() + i);
+        const Ints covered = (along > (load(caps.cosine.data() + i) - rimTolerance) * r) &
+                             (laneNumbers() < splat(std::int32_t(range.end - i)));
+        if (any(covered)) return false;
+    }
+    return true;
+}
+
+/// The least distance of a place from a patch that it sees, if that is below `nearest`.
+MOLSURF_INLINE float nearestOpen(const PartList& l, const CapLists& caps, const Vec3f& c,
+                                 const float* keys, float nearest)
+{
+    for (int i = 0; i < l.size; ++i) {
+        if (keys[i] >= nearest) continue;
+        const Vec3f centre(l.numbers[PartX][std::size_t(i)], l.numbers[PartY][std::size_t(i)],
+                           l.numbers[PartZ][std::size_t(i)]);
+        if (isOpen(caps, l.caps[std::size_t(i)], c - centre)) nearest = keys[i];
+    }
+    return nearest;
+}
+
+/// The places in memory of the keys of three kinds of parts.
+struct Keys {
+    float *corners, *arcs, *patches;
+
+    Keys(std::vector<float>& memory, int cornerCount, int arcCount, int patchCount)
+    {
+        const auto padded = [](int count) { return std::size_t(count + floatLanes); };
+        memory.resize(padded(cornerCount) + padded(arcCount) + padded(patchCount));
+        corners = memory.data();
+        arcs = corners + padded(cornerCount);
+        patches = arcs + padded(arcCount);
+    }
+};
+
+/// The parts of the boundary that are looked at, with the caps of the patches.
+struct PartsAt {
+    const PartList &corners, &arcs, &patches;
+    const CapLists& caps;
+};
+
+/// Finds a limit for the points of a ball: no part whose key is above it is the nearest to any.
+/// @param[in] c,radius  of the ball
+MOLSURF_INLINE float limitAt(const PartsAt& parts, const Vec3f& c, float radius, float inside,
+                             const Keys& keys)
+{
+    float nearest = smaller(inside, boundCorners(parts.corners, c, keys.corners));
+    nearest = smaller(nearest, boundArcs(parts.arcs, c, radius, keys.arcs));
+    boundPatches(parts.patches, c, keys.patches);
+    nearest = nearestOpen(parts.patches, parts.caps, c, keys.patches, nearest);
+    return 1.00001f * smaller(nearest + 2.0f * radius, inside + radius) + 1e-5f;
+}
+
+MOLSURF_KERNEL float limitOf(const VoxelCube& cube, const PartsAt& parts, float inside,
+                             const Keys& keys)
+{
+    return limitAt(parts, cube.centre(), cube.radius(), inside, keys);
+}
+
+/// Takes the parts with keys below a limit.
+MOLSURF_KERNEL void takeParts(const PartList& from, const float* keys, float limit, int numbers,
+                              std::vector<std::int32_t>& list, PartList& to)
+{
+    list.resize(std::size_t(from.size));
+    int count = 0;
+    for (int i = 0; i < from.size; ++i) {
+        list[std::size_t(count)] = i;
+        count += keys[i] < limit;
+    }
+    const std::size_t room = std::size_t(count + floatLanes);
+    if (to.part.size() < room) {
+        for (auto& column : to.numbers) column.resize(2 * room, farAway);
+        to.part.resize(2 * room);
+        to.caps.resize(2 * room);
+    }
+    for (int n = 0; n < numbers; ++n) {
+        const float* in = from.numbers[std::size_t(n)].data();
+        float* out = to.numbers[std::size_t(n)].data();
+        for (int i = 0; i < count; ++i) out[i] = in[list[std::size_t(i)]];
+    }
+    for (int i = 0; i < count; ++i) {
+        to.part[std::size_t(i)] = from.part[std::size_t(list[std::size_t(i)])];
+        to.caps[std::size_t(i)] = from.caps[std::size_t(list[std::size_t(i)])];
+    }
+    to.size = count;
+}
+
+/// The directions from the centre of a patch to the ball about a cube.
+struct Cone {
+    Vec3f axis;
+    float cosine, sine; // of half its angle, at most a right one
+
+    Cone(const Vec3f& centre, float radius, const Vec3f& apex)
+    {
+        axis = centre - apex;
+        const float length = axis.length();
+        if (length <= 1.0001f * radius) { // any direction
+            axis = Vec3f(0.0f);
+            cosine = 0.0f;
+            sine = 1.0f;
+            return;
+        }
+        axis /= length;
+        sine = radius / length;
+        cosine = std::sqrt(1.0f - sine * sine);
+    }
+};
+
+/// The caps that may hold a direction of a cone.
+/// @param[out] out  their indices; room for all
+/// @return their number; -1 if one holds all of the cone
+MOLSURF_KERNEL int capsAbout(const Cone& cone, const CapLists& caps, CapRange range,
+                             float* __restrict above, std::int32_t* out)
+{
+    const float *x = caps.x.data() + range.begin, *y = caps.y.data() + range.begin;
+    const float *z = caps.z.data() + range.begin, *cosine = caps.cosine.data() + range.begin;
+    const float* sine = caps.sine.data() + range.begin;
+    const float ax = cone.axis.x(), ay = cone.axis.y(), az = cone.axis.z();
+    const int count = int(range.end - range.begin);
+    std::int32_t whole = 0;
+    for (int k = 0; k < count; ++k) {
+        // A cap holds the cone if the angle between the axes is below the difference of the half
+        // angles, and misses it if it is above their sum; none does if that is above pi.
+        const float t = x[k] * ax + y[k] * ay + z[k] * az - cosine[k] * cone.cosine;
+        const float s = sine[k] * cone.sine;
+        whole |= (cosine[k] <= cone.cosine ? t - s : -1.0f) > rimTolerance ? 1 : 0;
+        above[k] = cosine[k] < -cone.cosine ? 1.0f : t + s;
+    }
+    if (whole) return -1;
+    int m = 0;
+    for (int k = 0; k < count; ++k) {
+        out[m] = std::int32_t(range.begin) + k;
+        m += above[k] > -2.0f * rimTolerance;
+    }
+    return m;
+}
+
+/// Replaces the caps of patches by those that may cover something as seen from a cube, and drops
+/// patches of which nothing is seen from there.
+void uncover(const VoxelCube& cube, const CapLists& all, CubeParts& near)
+{
+    PartList& patches = near.patches;
+    near.caps.clear();
+    int kept = 0;
+    for (int i = 0; i < patches.size; ++i) {
+        const auto p = std::size_t(i), q = std::size_t(kept);
+        const std::size_t room = patches.caps[p].end - patches.caps[p].begin;
+        near.keys.resize(std::max(near.keys.size(), room));
+        near.list.resize(std::max(near.list.size(), room));
+        const Vec3f apex(patches.numbers[PartX][p], patches.numbers[PartY][p],
+                         patches.numbers[PartZ][p]);
+        const int count = capsAbout(Cone(cube.centre(), cube.radius(), apex), all, patches.caps[p],
+                                    near.keys.data(), near.list.data());
+        if (count < 0) continue;
+        const auto begin = std::uint32_t(near.caps.x.size());
+        for (int k = 0; k < count; ++k) {
+            const auto c = std::size_t(near.list[std::size_t(k)]);
+            near.caps.add(all.x[c], all.y[c], all.z[c], all.cosine[c], all.sine[c]);
+        }
+        for (int n = PartX; n <= PartRadius; ++n)
+            patches.numbers[std::size_t(n)][q] = patches.numbers[std::size_t(n)][p];
+        patches.part[q] = patches.part[p];
+        patches.caps[q] = {begin, std::uint32_t(near.caps.x.size())};
+        ++kept;
+    }
+    near.caps.pad();
+    patches.size = kept;
+}
+
+/// The nearest part so far of eight voxels, and the square of its distance.
+struct Nearest {
+    Floats d2;
+    Ints part;
+
+    MOLSURF_INLINE void offer(Floats other, std::int32_t otherPart)
+    {
+        const Ints nearer = other < d2;
+        d2 = nearer ? other : d2;
+        part = nearer ? splat(otherPart) : part;
+    }
+};
+
+/// One part as seen from eight places.
+MOLSURF_INLINE Seen seenFrom(const PartList& l, std::size_t i, const Places& at)
+{
+    return {at.x - l.numbers[PartX][i], at.y - l.numbers[PartY][i], at.z - l.numbers[PartZ][i]};
+}
+
+MOLSURF_INLINE void offerCorner(const PartList& l, std::size_t i, const Places& at, Nearest& best)
+{
+    const Seen s = seenFrom(l, i, at);
+    best.offer(s.y * s.y + s.z * s.z + s.x * s.x, l.part[i]);
+}
+
+MOLSURF_INLINE void offerArc(const PartList& l, std::size_t i, const Places& at, Nearest& best)
+{
+    const float axis[3] = {l.numbers[AxisX][i], l.numbers[AxisY][i], l.numbers[AxisZ][i]};
+    const float mid[3] = {l.numbers[MiddleX][i], l.numbers[MiddleY][i], l.numbers[MiddleZ][i]};
+    const FromCircle from(seenFrom(l, i, at), axis, mid);
+    const Floats off = from.aside - l.numbers[PartRadius][i];
+    const Ints between = from.middle >= (l.numbers[EndCosine][i] - rimTolerance) * from.aside;
+    best.offer(between ? from.along * from.along + off * off : splat(nowhere), l.part[i]);
+}
+
+MOLSURF_INLINE void offerPatch(const PartList& l, const CapLists& caps, std::size_t i,
+                               const Places& at, Nearest& best)
+{
+    const Seen s = seenFrom(l, i, at);
+    const Floats r = length(s), d = l.numbers[PartRadius][i] - r;
+    const Floats d2 = d * d; // of voxels outside the ball too: the same holds for them
+    Ints open = d2 < best.d2;
+    if (!any(open)) return; // only directions that would be nearer are looked at further
+    for (std::uint32_t k = l.caps[i].begin; k < l.caps[i].end; ++k) {
+        const Floats along = s.x * caps.x[k] + s.y * caps.y[k] + s.z * caps.z[k];
+        open &= along <= (caps.cosine[k] - rimTolerance) * r;
+    }
+    best.offer(open ? d2 : splat(nowhere), l.part[i]);
+}
+
+/// Calls f(i) for each part with a key below a limit.
+template<typename F>
+MOLSURF_INLINE void forEachBelow(const float* keys, int count, float limit, const F& f)
+{
+    for (int i = 0; i < count; i += floatLanes) {
+        std::uint32_t bits = bitsOf((load(keys + i) < limit) & laneBits());
+        for (; bits != 0; bits &= bits - 1) f(std::size_t(i + __builtin_ctz(bits)));
+    }
+}
+
+/// The nearest of the parts about a cube, for its voxels inside.
+MOLSURF_KERNEL void settle(VoxelCube& cube, const PartsAt& parts, float inside, const Keys& keys)
+{
+    const float radius = 0.8661f * cube.voxel;
+    for (int s = 0; s < 8; ++s) {
+        const Floats outer = load(cube.distance + floatLanes * s);
+        const Ints wanted = outer < cube.rounding();
+        if (!any(wanted)) continue;
+        const Places at(cube, s);
+        const float limit = limitAt(parts, at.centre, radius, inside, keys);
+        Nearest best{splat(inside * inside), splat(-1)};
+        forEachBelow(keys.corners, parts.corners.size, limit,
+                     [&](std::size_t i) { offerCorner(parts.corners, i, at, best); });
+        forEachBelow(keys.arcs, parts.arcs.size, limit,
+                     [&](std::size_t i) { offerArc(parts.arcs, i, at, best); });
+        forEachBelow(keys.patches, parts.patches.size, limit,
+                     [&](std::size_t i) { offerPatch(parts.patches, parts.caps, i, at, best); });
+
+        // Outside, the boundary is as near as the nearest ball. If it is not, balls meet in the
+        // voxel, and only by rounding does none of them hold it.
+        const Floats d = squareRoot(best.d2);
+        const Ints held = (outer < 0.0f) | (wanted & (d > 2.0f * cube.rounding()));
+        store(cube.distance + floatLanes * s, held ? -smaller(d, splat(inside)) : outer);
+        store(cube.part + floatLanes * s, wanted ? best.part : load(cube.part + floatLanes * s));
+    }
+}
+
+} // namespace
+
+void nearestParts(VoxelCube& cube, const LeafParts& parts, const CapLists& caps, float inside,
+                  CubeParts& near)
+{
+    const Keys keys(near.keys, parts.corners.size, parts.arcs.size, parts.patches.size);
+    const float limit =
+        limitOf(cube, {parts.corners, parts.arcs, parts.patches, caps}, inside, keys);
+    takeParts(parts.corners, keys.corners, limit, PartZ + 1, near.list, near.corners);
+    takeParts(parts.arcs, keys.arcs, limit, partNumbers, near.list, near.arcs);
+    takeParts(parts.patches, keys.patches, limit, PartRadius + 1, near.list, near.patches);
+    uncover(cube, caps, near);
+    settle(cube, {near.corners, near.arcs, near.patches, near.caps}, inside,
+           Keys(near.keys, near.corners.size, near.arcs.size, near.patches.size));
+}
+
+} // namespace molsurf
