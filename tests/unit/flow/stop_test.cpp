@@ -66,7 +66,7 @@ TEST(Stop, IsByRmsAndQuantile)
     EXPECT_FALSE(converged(0.009f, 0, 0.0f, 1));
     EXPECT_TRUE(converged(0.002f, 0, 0.0f, 1));
     EXPECT_TRUE(converged(0.005f, 8, 0.2f, 2));
-    EXPECT_FALSE(converged(0.005f, 20, 0.2f, 2)); // a front
+    EXPECT_FALSE(converged(0.003f, 20, 0.15f, 2)); // a front
     EXPECT_TRUE(converged(0.005f, 20, 0.06f, 2));
 }
 
