@@ -3,6 +3,7 @@
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
+#include "molsurf/io/write_vdb.h"
 
 #include <nlohmann/json.hpp>
 #include <openvdb/io/Compression.h>
@@ -11,6 +12,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <sstream>
@@ -24,7 +26,7 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<char, 8> magic = {'M', 'O', 'L', 'B', 'R', 'K', '0', '2'};
+constexpr std::array<char, 8> magic = {'M', 'O', 'L', 'B', 'R', 'K', '0', '3'};
 
 // Appends sections, and knows where it is.
 class Writer
@@ -53,11 +55,11 @@ private:
 
 // The values of a leaf as they stand in a .vdb.
 template<typename LeafT>
-std::string valuesOf(const LeafT& leaf, const typename LeafT::ValueType& background)
+std::string valuesOf(const LeafT& leaf, const typename LeafT::ValueType& background,
+                     std::uint32_t compression)
 {
     std::ostringstream stream;
-    openvdb::io::setDataCompression(stream, openvdb::io::COMPRESS_BLOSC |
-                                                openvdb::io::COMPRESS_ACTIVE_MASK);
+    openvdb::io::setDataCompression(stream, compression);
     openvdb::io::setGridBackgroundValuePtr(stream, &background);
     leaf.writeBuffers(stream);
     return stream.str();
@@ -84,7 +86,8 @@ bool isNegative(const openvdb::Vec3s&)
 }
 
 template<typename GridT>
-StoredGrid addGrid(const GridT& grid, Writer& writer, const Progress& progress)
+StoredGrid addGrid(const GridT& grid, std::uint32_t compression, Writer& writer,
+                   const Progress& progress)
 {
     using Leaf = typename GridT::TreeType::LeafNodeType;
     std::vector<const Leaf*> leaves;
@@ -97,7 +100,7 @@ StoredGrid addGrid(const GridT& grid, Writer& writer, const Progress& progress)
         std::vector<std::string> values(count);
         parallelFor(count, progress, [&](std::size_t i) {
             const Leaf& leaf = *leaves[begin + i];
-            values[i] = valuesOf(leaf, background);
+            values[i] = valuesOf(leaf, background, compression);
             StoredLeaf& out = stored[begin + i];
             out.origin = {leaf.origin().x(), leaf.origin().y(), leaf.origin().z()};
             out.negative = std::uint32_t(isNegative(leaf.getFirstValue())) |
@@ -116,13 +119,14 @@ StoredGrid addGrid(const GridT& grid, Writer& writer, const Progress& progress)
             numbersOf(background), writer.add(stored)};
 }
 
-StoredGrid addAnyGrid(const openvdb::GridBase::Ptr& grid, Writer& writer, const Progress& progress)
+StoredGrid addAnyGrid(const openvdb::GridBase::Ptr& grid, std::uint32_t compression, Writer& writer,
+                      const Progress& progress)
 {
     if (const auto g = openvdb::gridPtrCast<openvdb::FloatGrid>(grid))
-        return addGrid(*g, writer, progress);
+        return addGrid(*g, compression, writer, progress);
     if (const auto g = openvdb::gridPtrCast<openvdb::Int32Grid>(grid))
-        return addGrid(*g, writer, progress);
-    return addGrid(*openvdb::gridPtrCast<openvdb::Vec3SGrid>(grid), writer, progress);
+        return addGrid(*g, compression, writer, progress);
+    return addGrid(*openvdb::gridPtrCast<openvdb::Vec3SGrid>(grid), compression, writer, progress);
 }
 
 void writeVertices(const Mesh& mesh, std::size_t count, const PlyLayout& layout, Writer& writer,
@@ -293,7 +297,12 @@ void writeBrick(const Brick& brick, const std::string& plan, std::size_t number,
     std::array<std::uint64_t, 2> tail = {0, 0}; // where the header is, and its length
     writer.bytes(magic.data(), magic.size());
     writer.bytes(tail.data(), sizeof tail);
-    for (const auto& grid : brick.grids) header.grids.push_back(addAnyGrid(grid, writer, progress));
+    const std::uint32_t compression =
+        vdbCompression(std::all_of(brick.grids.begin(), brick.grids.end(), [](const auto& grid) {
+            return grid->template isType<openvdb::FloatGrid>();
+        }));
+    for (const auto& grid : brick.grids)
+        header.grids.push_back(addAnyGrid(grid, compression, writer, progress));
     const Mesh& mesh = brick.mesh.mesh;
     header.layout = layoutOf(mesh);
     const std::size_t owned = brick.mesh.owned;

@@ -2,12 +2,14 @@
 #include "molsurf/bricks/merge_vdb.h"
 
 #include "molsurf/error.h"
+#include "molsurf/io/write_vdb.h"
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Compression.h>
 #include <openvdb/io/GridDescriptor.h>
 #include <openvdb/io/io.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <ios>
 #include <map>
@@ -162,10 +164,7 @@ Skeleton skeletonOfAny(const std::vector<BrickFile>& bricks, std::size_t g, doub
 class CopyingArchive : public openvdb::io::Archive
 {
 public:
-    CopyingArchive()
-    {
-        setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
-    }
+    explicit CopyingArchive(std::uint32_t compression) { setCompression(compression); }
 
     void begin(std::ostream& stream, bool seekable, std::size_t grids,
                const openvdb::MetaMap& metadata) const
@@ -228,12 +227,15 @@ public:
 void writeMergedVdb(const std::vector<BrickFile>& bricks, double voxel, const std::string& creator,
                     const openvdb::MetaMap& metadata, OutputFile& file, const Progress& progress)
 {
-    const std::size_t grids = bricks.front().header().grids.size();
+    const std::vector<StoredGrid>& grids = bricks.front().header().grids;
+    const bool floatsAlone = std::all_of(grids.begin(), grids.end(), [](const StoredGrid& grid) {
+        return grid.type == openvdb::FloatGrid::gridType();
+    });
     try {
         errno = 0;
-        const CopyingArchive archive;
-        archive.begin(file.stream(), file.seekable(), grids, metadata);
-        for (std::size_t g = 0; g < grids; ++g) {
+        const CopyingArchive archive(vdbCompression(floatsAlone));
+        archive.begin(file.stream(), file.seekable(), grids.size(), metadata);
+        for (std::size_t g = 0; g < grids.size(); ++g) {
             const Skeleton skeleton = skeletonOfAny(bricks, g, voxel);
             skeleton.grid->setCreator(creator);
             archive.add(file.stream(), file.seekable(), skeleton, bricks, progress);

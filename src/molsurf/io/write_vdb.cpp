@@ -6,6 +6,7 @@
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Compression.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <ios>
 
@@ -20,10 +21,7 @@ namespace
 class StreamArchive : public openvdb::io::Archive
 {
 public:
-    StreamArchive()
-    {
-        setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
-    }
+    explicit StreamArchive(std::uint32_t compression) { setCompression(compression); }
 
     void writeTo(std::ostream& stream, bool seekable, const openvdb::GridCPtrVec& grids,
                  const openvdb::MetaMap& metadata) const
@@ -34,11 +32,21 @@ public:
 
 } // namespace
 
+std::uint32_t vdbCompression(bool floatsAlone)
+{
+    const std::uint32_t active = openvdb::io::COMPRESS_ACTIVE_MASK;
+    return floatsAlone ? active : active | openvdb::io::COMPRESS_BLOSC;
+}
+
 void writeVdb(const openvdb::GridCPtrVec& grids, const openvdb::MetaMap& metadata, OutputFile& file)
 {
+    const bool floatsAlone = std::all_of(grids.begin(), grids.end(), [](const auto& grid) {
+        return grid->template isType<openvdb::FloatGrid>();
+    });
     try {
         errno = 0;
-        StreamArchive().writeTo(file.stream(), file.seekable(), grids, metadata);
+        StreamArchive(vdbCompression(floatsAlone))
+            .writeTo(file.stream(), file.seekable(), grids, metadata);
     } catch (const std::ios_base::failure&) {
         file.fail("cannot write");
     } catch (const openvdb::Exception& e) {

@@ -8,13 +8,20 @@
 
 #include <openvdb/openvdb.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace molsurf
 {
 
-/// Writes grids and the file's metadata, compressed (Blosc, active values only). To standard output
-/// the file goes without the offsets that let a reader load a part of it.
+/// How the values of a file's grids are stored, as OpenVDB's flags: the active ones only, and if
+/// there are labels or colours among the grids, by Blosc. That makes those 3 to 18 times smaller,
+/// but floats near a surface only by 6 %, and takes as long as all other writing.
+/// @param[in] floatsAlone  whether all grids are of floats
+std::uint32_t vdbCompression(bool floatsAlone);
+
+/// Writes grids and the file's metadata. To standard output the file goes without the offsets that
+/// let a reader load a part of it.
 ///
 /// @param[in] grids     with their names, classes and transforms, in the order of the file
 /// @param[in] metadata  of the file as a whole

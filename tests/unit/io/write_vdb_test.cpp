@@ -48,7 +48,25 @@ TEST(WriteVdb, ReadsBackAsItWas)
     EXPECT_EQ(read->tree().getValue(openvdb::Coord(0, 3, -2)), -read->background()); // deep inside
     EXPECT_EQ(back.metadata.metaValue<std::string>("program"), "test");
     EXPECT_EQ(back.metadata.metaValue<double>("area"), 1.0 / 3.0);
-    EXPECT_EQ(read->metaValue<std::string>("file_compression"), "blosc + active values");
+    EXPECT_EQ(read->metaValue<std::string>("file_compression"), "active values");
+}
+
+// Labels and colours become small by it, distances do not.
+TEST(WriteVdb, CompressesFilesWithLabels)
+{
+    const test::Folder folder;
+    const auto grid = test::ballGrid();
+    const auto labels = openvdb::Int32Grid::create(-1);
+    labels->setName("atom_id");
+    labels->tree().topologyUnion(grid->tree());
+    OutputFile file(folder / "a.vdb", false);
+    writeVdb({grid, labels}, openvdb::MetaMap(), file);
+    file.commit();
+    const VdbFile back = readVdb(folder / "a.vdb");
+    ASSERT_EQ(back.grids.size(), 2u);
+    expectSame(*grid, *openvdb::gridPtrCast<openvdb::FloatGrid>(back.grids[0]));
+    for (const auto& read : back.grids)
+        EXPECT_EQ(read->metaValue<std::string>("file_compression"), "blosc + active values");
 }
 
 TEST(WriteVdb, ErrorIfTheDiskIsFull)
