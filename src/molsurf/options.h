@@ -53,7 +53,7 @@ struct EvolveOptions {
     int splineLevel = 0;
     /// The flow has converged when the displacement that a step solves for has a root mean square
     /// below this, and is below eight times this (or below 0.04) at 99.9 % of the interface
-    /// [voxel], > 0.
+    /// [voxel], > 0. On voxels above 0.5 Å it counts h/0.5 Å times.
     double tolerance = 0.01;
 };
 

@@ -37,6 +37,14 @@ int sweepsFor(const EvolveOptions& options, double voxelSize)
     return int(std::min(sweeps, 8.0));
 }
 
+/// How many times the options' tolerance is meant [voxel]: above 0.5 Å the stencils' error of the
+/// curvature, which grows as h^2, moves the interface by a way that grows as h in voxels.
+double coarseness(double voxelSize)
+{
+    constexpr double fine = 0.5; // [Å]
+    return std::max(1.0, voxelSize / fine);
+}
+
 /// Whether a flow has come as near to rest as its voxels let it: in eight steps neither the root
 /// mean square nor the quantile of its displacements has fallen by a tenth, nor have area and
 /// volume changed.
@@ -142,12 +150,12 @@ bool startsOnCoarserVoxels(const EvolveOptions& options, double voxelSize)
            options.splineLevel == 0;
 }
 
-EvolveOptions coarseFlow(const EvolveOptions& options)
+EvolveOptions coarseFlow(const EvolveOptions& options, double voxelSize)
 {
     constexpr double tolerance = 0.006; // what still moves there takes many steps of finer voxels
     constexpr int maxSteps = 100;
     EvolveOptions coarse = options;
-    coarse.tolerance = std::min(tolerance, options.tolerance);
+    coarse.tolerance = std::min(tolerance / coarseness(voxelSize), options.tolerance);
     coarse.steps = -1;
     coarse.maxSteps = maxSteps;
     return coarse;
@@ -163,10 +171,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
                          : options.maxSteps >= 0 ? options.maxSteps
                                                  : newtonSteps;
     const bool mayGiveUp = options.maxSteps < 0; // who asks for steps gets them
-    // On coarse voxels gaps that they do not resolve would otherwise pull at the interface for
-    // ever.
-    constexpr double coarse = 0.7; // [Å]
-    const bool eager = hasFronts(options) || h > coarse;
+    const bool eager = hasFronts(options);
     const int reinitializations = eager ? 2 : 1; // long steps spoil the distance
     NewtonSteps newton(weightsOf(options), sweepsFor(options, h), eager);
     newton.setSplineLevel(options.splineLevel);
@@ -204,16 +209,16 @@ void judge(const Displacements& last, const EvolveOptions& options, double voxel
     report.displacementRms = last.rms() * voxelSize;
     report.displacementTail = last.quantile(0.999) * voxelSize;
     report.unsettledShare = last.shareAbove(0.1);
-    report.converged =
-        rmsFactor(report) * last.rms() < options.tolerance &&
-        last.quantile(0.999) < std::max(tailOfTolerance * options.tolerance, tailOfGrid);
+    const double tolerance = options.tolerance * coarseness(voxelSize);
+    report.converged = rmsFactor(report) * last.rms() < tolerance &&
+                       last.quantile(0.999) < std::max(tailOfTolerance * tolerance, tailOfGrid);
 }
 
 double toleranceOf(const EvolutionReport& report, double voxelSize)
 {
     return std::max(rmsFactor(report) * report.displacementRms,
                     report.displacementTail / tailOfTolerance) /
-           voxelSize;
+           (voxelSize * coarseness(voxelSize));
 }
 
 } // namespace molsurf

@@ -35,7 +35,8 @@ bool makesNewtonSteps(const EvolveOptions& options);
 bool startsOnCoarserVoxels(const EvolveOptions& options, double voxelSize);
 
 /// The options of the flow on coarser voxels, which goes nearer to rest than those ask for.
-EvolveOptions coarseFlow(const EvolveOptions& options);
+/// @param[in] voxelSize  edge of those voxels [Å]
+EvolveOptions coarseFlow(const EvolveOptions& options, double voxelSize);
 
 /// Evolves phi by  phi_t = |grad phi| (w kappa + n . grad w)  to rest (docs/math.md, section 4): by
 /// Newton steps, each solved for by sweeps over the interface, with speeds taken at the foot points
@@ -43,7 +44,8 @@ EvolveOptions coarseFlow(const EvolveOptions& options);
 /// added as the interface moves, and none is dropped.
 ///
 /// Stops when the displacement that a step solves for, which is then made, has a root mean square
-/// below options.tolerance voxels, and at 99.9 % of the interface is below eight times this; or
+/// below options.tolerance voxels, above 0.5 Å options.tolerance * h/0.5 Å, and at 99.9 % of the
+/// interface is below eight times this; or
 /// after options.maxSteps; or, if these are not given, when in eight steps neither of the two has
 /// fallen by a tenth, nor the area and the volume have changed; with options.steps after just so
 /// many. A tunnel that closes

@@ -92,7 +92,7 @@ SparseField restOnCoarserVoxels(const BallSet& atoms, const SurfaceOptions& opti
 {
     SurfaceOptions wide = options;
     wide.voxel = 2.0 * options.voxel;
-    wide.evolution = coarseFlow(options.evolution);
+    wide.evolution = coarseFlow(options.evolution, wide.voxel);
     SurfaceRun run(atoms, wide, Scope(), progress);
     run.density();
     run.flow(nullptr);

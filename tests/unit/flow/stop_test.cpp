@@ -70,6 +70,26 @@ TEST(Stop, IsByRmsAndQuantile)
     EXPECT_TRUE(converged(0.005f, 20, 0.06f, 2));
 }
 
+// Coarse voxels have a noise of their own: twice as many voxels at 1 Å.
+TEST(Stop, AllowsWhatCoarseVoxelsDoNotResolve)
+{
+    const auto report = [](float displacement, double voxelSize) {
+        Displacements d;
+        for (int i = 0; i < 1000; ++i) d.add(displacement, displacement);
+        EvolutionReport report;
+        report.steps = 2;
+        judge(d, {}, voxelSize, report);
+        return report;
+    };
+    EXPECT_TRUE(report(0.009f, 0.25).converged);
+    EXPECT_FALSE(report(0.012f, 0.25).converged);
+    EXPECT_FALSE(report(0.012f, 0.5).converged);
+    EXPECT_TRUE(report(0.018f, 1.0).converged);
+    EXPECT_FALSE(report(0.022f, 1.0).converged);
+    EXPECT_NEAR(toleranceOf(report(0.018f, 0.25), 0.25), 0.018, 1e-3);
+    EXPECT_NEAR(toleranceOf(report(0.018f, 1.0), 1.0), 0.009, 1e-3);
+}
+
 // What the program advises is enough: at the tolerance that a run says it meets, it converges.
 TEST(Stop, TheToleranceThatIsAdvisedIsMet)
 {
