@@ -41,13 +41,11 @@ inline __attribute__((always_inline)) float stepAlong(const FootPoints& f, const
 
 } // namespace
 
-void JetLanes::set(int lane, const Jet& jet)
+Jet JetLanes::at(int l) const
 {
-    value[lane] = float(jet.value);
-    for (int a = 0; a < 3; ++a) gradient[a][lane] = float(jet.gradient[a]);
-    const double* H = jet.hessian.asPointer();
-    const int entries[6] = {0, 4, 8, 1, 5, 2};
-    for (int i = 0; i < 6; ++i) hessian[i][lane] = float(H[entries[i]]);
+    const auto H = [&](int i) { return double(hessian[i][l]); };
+    return {value[l], openvdb::Vec3d(gradient[0][l], gradient[1][l], gradient[2][l]),
+            openvdb::Mat3d(H(0), H(3), H(5), H(3), H(1), H(4), H(5), H(4), H(2))};
 }
 
 MOLSURF_KERNEL void shapeFrom(const JetLanes& jets, FootPoints& feet, float largest)

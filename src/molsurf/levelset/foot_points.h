@@ -32,7 +32,7 @@ struct JetLanes {
     alignas(64) FootPoints::Lanes gradient[3];
     alignas(64) FootPoints::Lanes hessian[6];
 
-    void set(int lane, const Jet& jet);
+    Jet at(int lane) const;
 };
 
 /// Shape of the level set through each point from its derivatives: the normal, and the Hessian over

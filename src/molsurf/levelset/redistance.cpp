@@ -5,6 +5,7 @@
 #include "molsurf/core/simd.h"
 #include "molsurf/grid/leaf_block.h"
 #include "molsurf/levelset/foot_points.h"
+#include "molsurf/levelset/jets.h"
 #include "molsurf/levelset/kink.h"
 #include "molsurf/levelset/nearest_point.h"
 #include "molsurf/spline/spline.h"
@@ -108,70 +109,34 @@ constexpr float farthestFoot = 1.45f;
 void closestPoints(const LeafBlock<float, 3>& c, const std::uint16_t* voxels, int count,
                    FootPoints& feet)
 {
-    const auto jetAt = [&](const Vec3f& p) {
-        const Vec3d q(p);
-        const Coord cell = Coord::floor(q);
-        return evaluateSpline(c.at(cell.x(), cell.y(), cell.z()), c.strideX, c.strideY,
-                              q - cell.asVec3d());
-    };
     alignas(64) Lanes x[3], move[3];
-    JetLanes jets;
+    JetLanes jets{};
+    float step2[lanes];
+    bool moves[lanes];
     for (int l = 0; l < lanes; ++l) {
         const int used = std::min(l, count - 1); // idle lanes repeat the last
         setLane(placeOf(voxels[used]), l, x);
         setLane(lane(x, l), l, feet.y);
-        jets.set(l, jetAt(lane(feet.y, l)));
+        step2[l] = 1.0f;
+        moves[l] = l < count;
     }
-    bool moving[lanes];
-    std::fill_n(moving, lanes, true);
-    bool any = true;
-    for (int i = 0; i < 6 && any; ++i) {
+    constexpr int steps = 6;
+    constexpr float small2 = 1e-5f; // the next step would be its square
+    for (int i = 0;; ++i) {
+        jetsIn(c, feet.y, moves, jets);
+        for (int l = 0; l < lanes; ++l) moves[l] = moves[l] && step2[l] >= small2;
+        if (i == steps || std::none_of(moves, moves + lanes, [](bool on) { return on; })) break;
         shapeFrom(jets, feet);
         newtonSteps(jets, feet, x, move);
-        any = false;
-        for (int l = 0; l < count; ++l) {
-            if (!moving[l]) continue;
+        for (int l = 0; l < lanes; ++l) {
+            if (!moves[l]) continue;
             const Vec3f step = lane(move, l), next = lane(feet.y, l) + step;
-            moving[l] = (next - lane(x, l)).lengthSqr() <= farthestFoot * farthestFoot;
-            if (!moving[l]) continue;
-            setLane(next, l, feet.y);
-            jets.set(l, jetAt(next));
-            moving[l] = step.lengthSqr() >= 1e-5f; // the next would be its square
-            any = any || moving[l];
+            moves[l] = (next - lane(x, l)).lengthSqr() <= farthestFoot * farthestFoot;
+            step2[l] = step.lengthSqr();
+            if (moves[l]) setLane(next, l, feet.y);
         }
     }
     shapeFrom(jets, feet);
-}
-
-/// The spline of phi/h at a point [voxel] in or beside a leaf, from the leaf's first voxel.
-Jet jetBeside(const SparseField& coefficients, std::int32_t leaf, const Vec3f& y)
-{
-    const Vec3d place(y);
-    const Coord cell = Coord::floor(place), first = cell - Coord(1);
-    const auto& near = coefficients.table.neighbours(leaf);
-    const int z0 = first.z() & 7, below = (first.z() >> 3) + 1; // where the four along z begin
-    float c[4][4][4];
-    for (int i = 0; i < 4; ++i) {
-        const int x = first.x() + i, sideX = 9 * ((x >> 3) + 1) + below, rowX = 64 * (x & 7);
-        for (int j = 0; j < 4; ++j) {
-            const int w = first.y() + j, row = rowX + 8 * (w & 7);
-            const std::int32_t* side = &near[std::size_t(sideX + 3 * ((w >> 3) + 1))];
-            const auto value = [&](std::int32_t m, int z) {
-                return m == noLeaf ? 0.0f : coefficients.leaf(m)[row + z];
-            };
-            if (z0 <= 4 && side[0] != noLeaf) {
-                std::memcpy(c[i][j], coefficients.leaf(side[0]) + row + z0, sizeof c[i][j]);
-                continue;
-            }
-            for (int k = 0; k < 4; ++k) c[i][j][k] = value(side[(z0 + k) >> 3], (z0 + k) & 7);
-        }
-    }
-    Jet jet = evaluateSpline(&c[1][1][1], 16, 4, place - cell.asVec3d());
-    const double inverse = 1.0 / float(coefficients.voxelSize);
-    jet.value *= inverse;
-    jet.gradient *= inverse;
-    jet.hessian *= inverse;
-    return jet;
 }
 
 using SeedIndex = LeafArray<std::int32_t>;
@@ -430,7 +395,7 @@ private:
     void polish(float* out)
     {
         FootPoints feet;
-        JetLanes jets;
+        JetLanes jets{};
         alignas(64) Lanes x[3], sign, distance, aside2;
         alignas(64) Lanes step[3];
         bool good[lanes];
@@ -441,14 +406,14 @@ private:
             sign[l] = w.sign;
             if (l >= waiting_) { // idle
                 setLane(seed, Vec3f(0.0f), l, feet);
-                jets.set(l, Jet{0.0, Vec3d(1.0, 0.0, 0.0), openvdb::Mat3d::zero()});
+                good[l] = false;
                 continue;
             }
-            const Jet jet = jetBeside(coefficients_, seed.leaf, w.y - shift(seed));
-            const double slope2 = jet.gradient.lengthSqr();
-            good[l] = slope2 >= 0.04;
-            setLane(w.y - Vec3f(jet.value / std::max(slope2, 0.04) * jet.gradient), l, feet.y);
-            jets.set(l, jet);
+            jetBeside(coefficients_, seed.leaf, w.y - shift(seed), l, jets);
+            const Vec3f gradient = lane(jets.gradient, l);
+            const float slope2 = gradient.lengthSqr();
+            good[l] = slope2 >= 0.04f;
+            setLane(w.y - jets.value[l] / std::max(slope2, 0.04f) * gradient, l, feet.y);
         }
         shapeFrom(jets, feet, sharpest);
         distances(feet, x, sign, distance, aside2);
@@ -489,7 +454,9 @@ private:
     {
         constexpr double tolerance = 1e-5, leastSlope2 = 0.01, longest = 0.5;
         for (int i = 0; i < 6; ++i) {
-            jet = jetBeside(coefficients_, leaf, Vec3f(y));
+            JetLanes jets;
+            jetBeside(coefficients_, leaf, Vec3f(y), 0, jets);
+            jet = jets.at(0);
             const double slope2 = jet.gradient.lengthSqr();
             if (slope2 < leastSlope2) return false;
             if (std::abs(jet.value) < tolerance) return true;

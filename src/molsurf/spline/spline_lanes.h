@@ -64,16 +64,18 @@ struct SplineJet {
     Floats4 mixed;  ///< xz, yz, 0, 0
 };
 
-/// The arguments are those of splineGradient().
-MOLSURF_INLINE SplineJet splineJet(const float* c, int strideX, int strideY, const float* t)
+/// @param[in] row  row(i, j) has the four coefficients along z at x = i - 1, y = j - 1 from the
+///                 cell's lowest corner
+/// @param[in] t    place in the cell
+template<typename Rows>
+MOLSURF_INLINE SplineJet splineJet(const Rows& row, const float* t)
 {
     const SplineWeights x = splineWeights(t[0]), y = splineWeights(t[1]), z = splineWeights(t[2]);
     Floats4 s00{}, s01{}, s02{}, s10{}, s11{}, s20{};
     for (int j = 0; j < 4; ++j) {
-        const float* row = c - strideX + (j - 1) * strideY - 1;
         Floats4 p{}, q{}, r{};
         for (int i = 0; i < 4; ++i) {
-            const Floats4 v = load4(row + i * strideX);
+            const Floats4 v = row(i, j);
             p += x.value[i] * v;
             q += x.first[i] * v;
             r += x.second[i] * v;
@@ -88,6 +90,17 @@ MOLSURF_INLINE SplineJet splineJet(const float* c, int strideX, int strideY, con
     return {sums(s00 * z.value, s10 * z.value, s01 * z.value, s00 * z.first),
             sums(s20 * z.value, s02 * z.value, s00 * z.second, s11 * z.value),
             sums(s10 * z.first, s01 * z.first, Floats4{}, Floats4{})};
+}
+
+/// The arguments are those of splineGradient().
+MOLSURF_INLINE SplineJet splineJet(const float* c, int strideX, int strideY, const float* t)
+{
+    const float* first = c - strideX - strideY - 1;
+    const auto row = [&](int i, int j) __attribute__((always_inline))
+    {
+        return load4(first + i * strideX + j * strideY);
+    };
+    return splineJet(row, t);
 }
 
 } // namespace molsurf
