@@ -48,19 +48,6 @@ MOLSURF_KERNEL void solveLines(Lines& lines)
     }
 }
 
-/// Index in a leaf of voxel i along an axis on line k.
-int voxelOf(int axis, int i, int k)
-{
-    switch (axis) {
-    case 0:
-        return 64 * i + k;
-    case 1:
-        return 64 * (k >> 3) + 8 * i + (k & 7);
-    default:
-        return 8 * k + i;
-    }
-}
-
 /// Bit k: whether voxel i along an axis on line k is on.
 std::uint64_t lineBits(const LeafMask& mask, int axis, int i)
 {
@@ -77,12 +64,54 @@ std::uint64_t lineBits(const LeafMask& mask, int axis, int i)
     return bits;
 }
 
-MOLSURF_KERNEL void expand(std::uint64_t bits, float* __restrict out)
+/// Finds where the lines are to be solved: at voxels that are on, as are both beside them.
+/// @param[in] on  bits of the lines' voxels, see lineBits()
+MOLSURF_KERNEL void findSolved(const std::uint64_t* on, Lines& lines)
 {
-    for (int byte = 0; byte < 8; ++byte) {
-        const int b = int(bits >> (8 * byte) & 0xff);
-        for (int k = 0; k < 8; ++k) out[8 * byte + k] = float(b >> k & 1);
+    Ints bit;
+    for (int k = 0; k < floatLanes; ++k) bit[k] = 1 << k;
+    const Floats one = splat(1.0f);
+    for (int i = 0; i < window; ++i) {
+        const bool inner = i > 0 && i + 1 < window;
+        const std::uint64_t bits = inner ? on[i - 1] & on[i] & on[i + 1] : 0;
+        for (int k = 0; k < 64; k += floatLanes) {
+            const Ints solved = splat(std::int32_t(bits >> k & 0xff)) & bit;
+            store(lines.solve[i] + k, solved != 0 ? one : Floats{});
+        }
     }
+}
+
+/// Transposes 8 x 8 floats.
+/// @param[in] from, to  steps from row to row
+MOLSURF_INLINE void transpose8(const float* in, int from, float* out, int to)
+{
+    Floats a[8], b[8];
+    for (int i = 0; i < 8; ++i) a[i] = load(in + from * i);
+    for (int i = 0; i < 8; i += 2) {
+        b[i] = __builtin_shufflevector(a[i], a[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+        b[i + 1] = __builtin_shufflevector(a[i], a[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    for (int i = 0; i < 8; i += 4) {
+        for (int j = i; j < i + 2; ++j) {
+            a[j] = __builtin_shufflevector(b[j], b[j + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+            a[j + 2] = __builtin_shufflevector(b[j], b[j + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        store(out + to * i, __builtin_shufflevector(a[i], a[i + 4], 0, 1, 2, 3, 8, 9, 10, 11));
+        store(out + to * (i + 4),
+              __builtin_shufflevector(a[i], a[i + 4], 4, 5, 6, 7, 12, 13, 14, 15));
+    }
+}
+
+/// The lines of a leaf along z: line 8 x + y, voxel z, at row[z][8 x + y].
+MOLSURF_KERNEL void linesAlongZ(const float* __restrict leaf, float (*row)[64])
+{
+    for (int x = 0; x < 8; ++x) transpose8(leaf + 64 * x, 8, row[0] + 8 * x, 64);
+}
+MOLSURF_KERNEL void leafOfLinesAlongZ(const float (*row)[64], float* __restrict leaf)
+{
+    for (int x = 0; x < 8; ++x) transpose8(row[0] + 8 * x, 64, leaf + 64 * x, 8);
 }
 
 /// @param[in] field  values on the leaves of the table
@@ -93,27 +122,43 @@ void gatherLines(const LeafTable& table, const LeafField& field, std::size_t n, 
     std::uint64_t on[window] = {};
     for (int side = 0; side < 3; ++side) {
         const std::int32_t m = table.neighbours(n)[centreNeighbour + (side - 1) * step];
-        for (int i = 0; i < leafDim; ++i) {
-            float* row = lines.value[leafDim * side + i];
-            if (m == noLeaf) {
-                std::fill_n(row, 64, 0.0f);
-                continue;
-            }
+        float(*rows)[64] = lines.value + leafDim * side;
+        if (m == noLeaf) {
+            std::fill_n(rows[0], leafSize, 0.0f);
+            continue;
+        }
+        for (int i = 0; i < leafDim; ++i)
             on[leafDim * side + i] = lineBits(table.active(m), axis, i);
-            const float* leaf = field.leaf(m);
-            if (axis < 2) {
-                for (int x = 0; x < 8; ++x) {
-                    std::copy_n(leaf + (axis == 0 ? 64 * i + 8 * x : 64 * x + 8 * i), 8,
-                                row + 8 * x);
-                }
-            } else {
-                for (int k = 0; k < 64; ++k) row[k] = leaf[8 * k + i];
-            }
+        const float* leaf = field.leaf(m);
+        switch (axis) {
+        case 0:
+            std::copy_n(leaf, leafSize, rows[0]);
+            break;
+        case 1:
+            for (int k = 0; k < 64; ++k)
+                std::copy_n(leaf + 8 * k, leafDim, rows[k & 7] + 8 * (k >> 3));
+            break;
+        default:
+            linesAlongZ(leaf, rows);
         }
     }
-    std::fill_n(lines.solve[0], 64, 0.0f);
-    std::fill_n(lines.solve[window - 1], 64, 0.0f);
-    for (int i = 1; i + 1 < window; ++i) expand(on[i - 1] & on[i] & on[i + 1], lines.solve[i]);
+    findSolved(on, lines);
+}
+
+/// Writes the middle third of lines to their leaf.
+void takeLines(const Lines& lines, int axis, float* leaf)
+{
+    const float(*rows)[64] = lines.value + leafDim;
+    switch (axis) {
+    case 0:
+        std::copy_n(rows[0], leafSize, leaf);
+        break;
+    case 1:
+        for (int k = 0; k < 64; ++k) std::copy_n(rows[k & 7] + 8 * (k >> 3), leafDim, leaf + 8 * k);
+        break;
+    default:
+        leafOfLinesAlongZ(rows, leaf);
+    }
 }
 
 } // namespace
@@ -129,10 +174,7 @@ SparseField prefilter(const SparseField& field, const Progress& progress)
             Lines lines;
             gatherLines(table, source, n, axis, lines);
             solveLines(lines);
-            float* out = to.leaf(n);
-            for (int i = 0; i < leafDim; ++i) {
-                for (int k = 0; k < 64; ++k) out[voxelOf(axis, i, k)] = lines.value[leafDim + i][k];
-            }
+            takeLines(lines, axis, to.leaf(n));
         });
         std::swap(from, to);
     }
