@@ -21,10 +21,10 @@ constexpr float near = 0.7f;    // of the interface: where v is taken [voxel]
 /// How much the distance carries the interface rather than psi: 1 where the interface has left the
 /// valley of the metric, as it does where it spans a gap. Levels of psi mean nothing to it there.
 /// @param[in] level  of psi on the interface, above that at the bottom of the valley
-float leaving(float level)
+MOLSURF_INLINE float leaving(float level)
 {
     constexpr float begin = 0.5f, end = 1.2f;
-    const float t = std::clamp((std::abs(level) - begin) / (end - begin), 0.0f, 1.0f);
+    const float t = clamped((std::abs(level) - begin) / (end - begin), 0.0f, 1.0f);
     return t * t * (3.0f - 2.0f * t);
 }
 
@@ -57,13 +57,26 @@ void levelsAtFeet(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi
 using Block = LeafBlock<float, 3>;
 constexpr int blockSize = Block::dim * Block::dim * Block::dim;
 
-/// Sums with the weights (1, 2, 1) along each axis; the outermost voxels get nothing of use.
-MOLSURF_KERNEL void spread(const float* __restrict in, float* __restrict a, float* __restrict out)
+/// Sums with the weights (1, 2, 1) along each axis, at voxels that are `rim` or more steps from the
+/// ends along x and y; those at the ends of rows get nothing of use.
+MOLSURF_KERNEL void spread(const float* __restrict in, int rim, float* __restrict scratch,
+                           float* __restrict out)
 {
-    constexpr int x = Block::strideX, y = Block::strideY;
-    for (int i = 1; i < blockSize - 1; ++i) out[i] = in[i - 1] + 2.0f * in[i] + in[i + 1];
-    for (int i = y; i < blockSize - y; ++i) a[i] = out[i - y] + 2.0f * out[i] + out[i + y];
-    for (int i = x; i < blockSize - x; ++i) out[i] = a[i - x] + 2.0f * a[i] + a[i + x];
+    constexpr int X = Block::strideX, Y = Block::strideY;
+    const int low = rim, high = Block::dim - rim;
+    for (int x = low - 1; x <= high; ++x) {
+        const int end = std::min(X * x + Y * (high + 1), blockSize - 1);
+        for (int i = std::max(X * x + Y * (low - 1), 1); i < end; ++i)
+            out[i] = in[i - 1] + 2.0f * in[i] + in[i + 1];
+    }
+    for (int x = low - 1; x <= high; ++x) {
+        for (int i = X * x + Y * low; i < X * x + Y * high; ++i)
+            scratch[i] = out[i - Y] + 2.0f * out[i] + out[i + Y];
+    }
+    for (int x = low; x < high; ++x) {
+        for (int i = X * x + Y * low; i < X * x + Y * high; ++i)
+            out[i] = scratch[i - X] + 2.0f * scratch[i] + scratch[i + X];
+    }
 }
 
 /// Splits v into values and weights, both 0 where it is not known.
@@ -77,17 +90,45 @@ MOLSURF_KERNEL void split(const float* __restrict v, float* __restrict sum,
     }
 }
 
-/// Unknown voxels become the mean of the known ones about them.
+/// Unknown inner voxels become the mean of the known ones about them.
 /// @param[in] keep  1: known ones stay; 0: they become the mean, too
-MOLSURF_KERNEL void settleMeans(float* __restrict sum, float* __restrict weight,
+MOLSURF_KERNEL void settleMeans(float* __restrict sum, float* __restrict weight, int rim,
                                 const float* __restrict sums, const float* __restrict weights,
                                 float keep)
 {
-    for (int i = 0; i < blockSize; ++i) {
-        const float has = weights[i] > 0.0f ? 1.0f : 0.0f;
-        const float mean = sums[i] / larger(weights[i], 1e-6f);
-        sum[i] += (1.0f - keep * weight[i]) * has * (mean - sum[i]);
-        weight[i] = larger(weight[i], has);
+    constexpr int X = Block::strideX, Y = Block::strideY;
+    for (int x = rim; x < Block::dim - rim; ++x) {
+        for (int i = X * x + Y * rim; i < X * x + Y * (Block::dim - rim); ++i) {
+            const float has = weights[i] > 0.0f ? 1.0f : 0.0f;
+            const float mean = sums[i] / larger(weights[i], 1e-6f);
+            sum[i] += (1.0f - keep * weight[i]) * has * (mean - sum[i]);
+            weight[i] = larger(weight[i], has);
+        }
+    }
+}
+
+/// The carrier in a leaf: the way from psi to its level, over the slope of psi.
+/// @param[in] levels, weights  of the leaf's block; the levels count where the weight is not 0
+MOLSURF_KERNEL void carry(const float* __restrict levels, const float* __restrict weights,
+                          const float* __restrict psi, const float* __restrict slope,
+                          const float* __restrict distance, float lambda, float limit,
+                          float* __restrict out)
+{
+    constexpr int rim = 3;
+    for (int row = 0; row < 64; ++row) {
+        const int first = (row / 8 + rim) * Block::strideX + (row % 8 + rim) * Block::strideY + rim;
+        for (int z = 0; z < 8; ++z) {
+            const int i = 8 * row + z;
+            // Far from the interface, where the level is not known, the bottom of the valley
+            // serves, unless it is on the other side: in a cavity that was filled.
+            const float known = weights[first + z] > 0.0f ? 1.0f : 0.0f;
+            const float bottom = -fastLog(1.0f + lambda * slope[i] * slope[i]);
+            const float level = known > 0.0f ? levels[first + z] : bottom;
+            const float value = clamped((level - psi[i]) / slope[i], -limit, limit);
+            const float agrees = value * distance[i] > 0.0f ? 1.0f : known;
+            const float carried = agrees > 0.0f ? value : distance[i];
+            out[i] = carried + leaving(level - bottom) * (distance[i] - carried);
+        }
     }
 }
 
@@ -113,28 +154,16 @@ SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, d
     parallelFor(table.size(), progress, [&](std::size_t n) {
         Block v;
         v.gather(table, levels, n);
-        alignas(64) float sum[blockSize], weight[blockSize],
-            sums[blockSize] = {}, weights[blockSize] = {}, scratch[blockSize] = {};
+        alignas(64) float sum[blockSize], weight[blockSize], sums[blockSize], weights[blockSize],
+            scratch[blockSize];
         split(v.values, sum, weight);
-        for (int round = 0; round < 3; ++round) { // two of extension, one of smoothing
-            spread(sum, scratch, sums);
-            spread(weight, scratch, weights);
-            settleMeans(sum, weight, sums, weights, round == 2 ? 0.0f : 1.0f);
+        for (int rim = 1; rim <= 3; ++rim) { // two rounds of extension, one of smoothing
+            spread(sum, rim, scratch, sums);
+            spread(weight, rim, scratch, weights);
+            settleMeans(sum, weight, rim, sums, weights, rim == 3 ? 0.0f : 1.0f);
         }
-        const float *psi = source.psi.leaf(n), *slope = source.slope.leaf(n),
-                    *distance = phi.leaf(n);
-        float* to = out.leaf(n);
-        for (int i = 0; i < leafSize; ++i) {
-            const int at = v.at(i >> 6, i >> 3 & 7, i & 7) - v.values;
-            // Far from the interface, where v is not known, the bottom of the valley serves, unless
-            // it is on the other side: in a cavity that was filled.
-            const bool known = weight[at] > 0.0f;
-            const float bottom = -std::log1p(lambda * slope[i] * slope[i]);
-            const float level = known ? sum[at] : bottom;
-            const float value = std::clamp((level - psi[i]) / slope[i], -limit, limit);
-            const float carried = known || value * distance[i] > 0.0f ? value : distance[i];
-            to[i] = carried + leaving(level - bottom) * (distance[i] - carried);
-        }
+        carry(sum, weight, source.psi.leaf(n), source.slope.leaf(n), phi.leaf(n), lambda, limit,
+              out.leaf(n));
     });
     return out;
 }

@@ -16,7 +16,7 @@ namespace
 
 constexpr int cube = 4, plane = cube * cube;
 static_assert(plane % floatLanes == 0 && leafDim % cube == 0);
-constexpr float cubeRadius = 0.5f * (cube - 1) * 1.7320508f; // of its voxels' centres
+constexpr float cubeHalf = 0.5f * (cube - 1); // of the box of its voxels' centres
 
 /// Appends i + k to a list of m for every lane k that is on.
 /// @return the new length
@@ -54,25 +54,24 @@ MOLSURF_KERNEL int nearestOf(const float* x, const float* y, const float* z, int
     return best[lane] + lane;
 }
 
-/// The points that may be the nearest to some place within a distance of a centre.
+/// The points that may be the nearest to some place in a box about a centre.
 /// @param[in]  y0     the nearest to the centre
+/// @param[in]  half   half the edge of the box
 /// @param[out] out    their indices
 /// @return their number
 MOLSURF_KERNEL int candidates(const float* x, const float* y, const float* z, int count, float cx,
-                              float cy, float cz, int y0, float radius, std::int32_t* out)
+                              float cy, float cz, int y0, float half, std::int32_t* out)
 {
     const float x0 = x[y0], yy0 = y[y0], z0 = z[y0];
     const float d02 = (x0 - cx) * (x0 - cx) + (yy0 - cy) * (yy0 - cy) + (z0 - cz) * (z0 - cz);
-    const float limit = 4.0f * radius * radius;
     int m = 0;
     for (int i = 0; i < count; i += floatLanes) {
         const Floats px = load(x + i), py = load(y + i), pz = load(z + i);
         const Floats dx = px - cx, dy = py - cy, dz = pz - cz;
         const Floats ex = px - x0, ey = py - yy0, ez = pz - z0;
         const Floats more = dx * dx + dy * dy + dz * dz - d02;
-        const Floats apart2 = ex * ex + ey * ey + ez * ez;
-        const Floats positive = larger(more, Floats{});
-        const Ints good = positive * positive <= limit * apart2 + 1e-3f ? splat(-1) : Ints{};
+        const Floats apart = larger(ex, -ex) + larger(ey, -ey) + larger(ez, -ez);
+        const Ints good = more <= 2.0f * half * apart + 1e-3f ? splat(-1) : Ints{};
         m = appendLanes(good, i, out, m);
     }
     return m;
@@ -241,12 +240,12 @@ void nearestPoints(const LeafPoints& points, const Coord& origin, const LeafMask
 
         const float cx = float(cube * bx) - 3.5f, cy = float(cube * by) - 3.5f,
                     cz = float(cube * bz) - 3.5f;
-        constexpr float half = 0.5f * (cube - 1);
+        constexpr float half = cubeHalf;
         float distance2;
         const int y0 = nearestOf(s.x.data(), s.y.data(), s.z.data(), count, cx + half, cy + half,
                                  cz + half, distance2);
         const int near = candidates(s.x.data(), s.y.data(), s.z.data(), count, cx + half, cy + half,
-                                    cz + half, y0, cubeRadius, s.nearIndex.data());
+                                    cz + half, y0, half, s.nearIndex.data());
         for (int i = 0; i < near; ++i) {
             s.nearX[i] = s.x[s.nearIndex[i]];
             s.nearY[i] = s.y[s.nearIndex[i]];

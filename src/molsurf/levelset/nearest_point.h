@@ -44,8 +44,8 @@ struct NearestScratch {
 
 /// The nearest point of each voxel of a leaf, exactly; of equally near ones any, always the same.
 ///
-/// Cubes of 4^3 voxels share a list of candidates: a point y can be nearer than y0 to a voxel
-/// within r of the centre c only if |y - c|^2 <= |y0 - c|^2 + 2 r |y - y0|.
+/// Cubes of 4^3 voxels share a list of candidates: a point y can be nearer than y0 to a voxel of a
+/// box of half edge r about the centre c only if |y - c|^2 <= |y0 - c|^2 + 2 r |y - y0|_1.
 ///
 /// @param[in]  origin  of the leaf, which need not be one of the points' table
 /// @param[in]  mask    voxels to look for; others are left alone
