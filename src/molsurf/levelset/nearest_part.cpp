@@ -9,6 +9,7 @@
 namespace molsurf
 {
 
+using openvdb::Vec3d;
 using openvdb::Vec3f;
 
 namespace
@@ -42,19 +43,13 @@ MOLSURF_INLINE float least(Floats x)
 
 } // namespace
 
-void PartList::add(std::initializer_list<float> values, std::int32_t index, CapRange range)
+void PartList::makeRoom(int more, int count)
 {
-    if (part.size() < std::size_t(size + 1 + floatLanes)) {
-        const std::size_t room = 2 * std::size_t(size + 1 + floatLanes);
-        for (auto& list : numbers) list.resize(room, farAway);
-        part.resize(room);
-        caps.resize(room);
-    }
-    auto list = numbers.begin();
-    for (const float value : values) (*list++)[std::size_t(size)] = value;
-    part[std::size_t(size)] = index;
-    caps[std::size_t(size)] = range;
-    ++size;
+    const auto wanted = std::size_t(size + more + floatLanes);
+    if (part.size() >= wanted && numbers[std::size_t(count - 1)].size() >= wanted) return;
+    for (int n = 0; n < count; ++n) numbers[std::size_t(n)].resize(2 * wanted, farAway);
+    part.resize(2 * wanted);
+    caps.resize(2 * wanted);
 }
 
 void CapLists::clear()
@@ -96,30 +91,6 @@ struct Places {
     }
 };
 
-} // namespace
-
-MOLSURF_KERNEL void nearestBalls(VoxelCube& cube, const std::vector<NearBall>& balls)
-{
-    for (int s = 0; s < 8; ++s) {
-        const Places at(cube, s);
-        Floats nearest = splat(nowhere);
-        Ints patch = splat(-1);
-        for (const NearBall& ball : balls) {
-            const Floats dx = at.x - ball.centre.x(), dy = at.y - ball.centre.y();
-            const Floats dz = at.z - ball.centre.z();
-            const Floats d = squareRoot(dx * dx + dy * dy + dz * dz) - ball.radius;
-            const Ints nearer = d < nearest;
-            nearest = nearer ? d : nearest;
-            patch = nearer ? splat(ball.patch) : patch;
-        }
-        store(cube.distance + floatLanes * s, nearest);
-        store(cube.part + floatLanes * s, patch);
-    }
-}
-
-namespace
-{
-
 /// Eight parts of one kind as seen from a place, or one of them as seen from eight.
 struct Seen {
     Floats x, y, z; // the place, from the corner or centre
@@ -155,50 +126,98 @@ struct FromCircle {
     }
 };
 
-/// Bounds from below of the distances of the points of a ball from parts, less its radius.
-/// @param[out] keys  of the parts of a list
-/// @return the least distance of its centre from those that surely hold its foot
-MOLSURF_INLINE float boundCorners(const PartList& l, const Vec3f& c, float* keys)
+/// The distances of eight parts from a place, and which of them can be the nearest to a point of
+/// the ball of radius `room` about it.
+struct Reach {
+    Floats distance;
+    Ints possible;
+};
+
+MOLSURF_INLINE Floats column(const PartList& l, int number, int i)
 {
-    Floats sure = splat(nowhere);
-    for (int i = 0; i < l.size; i += floatLanes) {
-        const Floats d = laneNumbers() < splat(l.size - i) ? length(seen(l, i, c)) : splat(nowhere);
-        store(keys + i, d);
-        sure = smaller(d, sure);
-    }
-    return least(sure);
+    return load(l.numbers[std::size_t(number)].data() + i);
 }
 
-MOLSURF_INLINE float boundArcs(const PartList& l, const Vec3f& c, float radius, float* keys)
+MOLSURF_INLINE Reach reachOfCorners(const PartList& l, int i, const Seen& s, float room)
+{
+    Ints within = splat(-1);
+    for (int n = NormalX; n < cornerNumbers; n += 3) {
+        within &= s.x * column(l, n, i) + s.y * column(l, n + 1, i) + s.z * column(l, n + 2, i) >=
+                  splat(-room);
+    }
+    return {length(s), within};
+}
+
+/// @param[out] certain  whether the foot lies on the arc
+MOLSURF_INLINE Reach reachOfArcs(const PartList& l, int i, const Seen& s, float room, Ints& certain)
+{
+    const Floats axis[3] = {column(l, AxisX, i), column(l, AxisY, i), column(l, AxisZ, i)};
+    const Floats mid[3] = {column(l, MiddleX, i), column(l, MiddleY, i), column(l, MiddleZ, i)};
+    const FromCircle at(s, axis, mid);
+    const Floats off = at.aside - column(l, PartRadius, i);
+    const Floats endCosine = column(l, EndCosine, i);
+    certain = at.middle >= endCosine * at.aside;
+    const Floats across =
+        squareRoot(larger(at.aside * at.aside - at.middle * at.middle, splat(0.0f)));
+    // Distances from the planes through the ends and the axis, and from the cones.
+    const Floats between = column(l, EndSine, i) * at.middle - endCosine * across;
+    const Floats first = column(l, FirstSine, i) * at.along - column(l, FirstCosine, i) * off;
+    const Floats second = -column(l, SecondSine, i) * at.along - column(l, SecondCosine, i) * off;
+    const Floats outer = splat(-room);
+    return {squareRoot(at.along * at.along + off * off),
+            ((between >= outer) | certain) & (first >= outer) & (second >= outer)};
+}
+
+MOLSURF_INLINE Reach reachOfPatches(const PartList& l, int i, const Seen& s, float room)
+{
+    const Floats along =
+        s.x * column(l, AxisX, i) + s.y * column(l, AxisY, i) + s.z * column(l, AxisZ, i);
+    const Floats d2 = s.x * s.x + s.y * s.y + s.z * s.z;
+    const Floats aside = squareRoot(larger(d2 - along * along, splat(0.0f)));
+    const Floats beyond = column(l, FreeCosine, i) * aside - column(l, FreeSine, i) * along;
+    return {size(squareRoot(d2) - column(l, PartRadius, i)), beyond <= splat(room)};
+}
+
+/// Room for rounding, and for voxels that only by rounding lie outside.
+MOLSURF_INLINE float roomFor(float radius)
+{
+    return 1.003f * radius;
+}
+
+/// The keys of a list: the distances of its parts from the centre of a ball, `nowhere` for those
+/// that are the nearest to none of its points.
+/// @return the least distance of the centre from those that surely hold its foot
+MOLSURF_INLINE float boundCorners(const PartList& l, const Vec3f& c, float room, float* keys)
 {
     Floats sure = splat(nowhere);
     for (int i = 0; i < l.size; i += floatLanes) {
-        Floats axis[3], mid[3];
-        for (int a = 0; a < 3; ++a) {
-            axis[a] = load(l.numbers[AxisX + a].data() + i);
-            mid[a] = load(l.numbers[MiddleX + a].data() + i);
-        }
-        const FromCircle at(seen(l, i, c), axis, mid);
-        const Floats off = at.aside - load(l.numbers[PartRadius].data() + i);
-        const Floats d = squareRoot(at.along * at.along + off * off);
-        // Positive where the foot lies between the ends; it changes by (1 + |cosine|) at most over
-        // a unit of length.
-        const Floats cosine = load(l.numbers[EndCosine].data() + i);
-        const Floats within = at.middle - cosine * at.aside;
         const Ints used = laneNumbers() < splat(l.size - i);
-        const Ints possible = (within + 1.0001f * radius * (1.0f + size(cosine)) >= 0.0f) & used;
-        store(keys + i, possible ? d : splat(nowhere));
-        const Ints certain = (within >= 0.0f) & used;
-        sure = smaller(certain ? d : splat(nowhere), sure);
+        const Reach reach = reachOfCorners(l, i, seen(l, i, c), room);
+        store(keys + i, reach.possible & used ? reach.distance : splat(nowhere));
+        sure = smaller(used ? reach.distance : splat(nowhere), sure);
     }
     return least(sure);
 }
 
-MOLSURF_INLINE void boundPatches(const PartList& l, const Vec3f& c, float* keys)
+MOLSURF_INLINE float boundArcs(const PartList& l, const Vec3f& c, float room, float* keys)
+{
+    Floats sure = splat(nowhere);
+    for (int i = 0; i < l.size; i += floatLanes) {
+        const Ints used = laneNumbers() < splat(l.size - i);
+        Ints certain;
+        const Reach reach = reachOfArcs(l, i, seen(l, i, c), room, certain);
+        store(keys + i, reach.possible & used ? reach.distance : splat(nowhere));
+        sure = smaller(certain & used ? reach.distance : splat(nowhere), sure);
+    }
+    return least(sure);
+}
+
+MOLSURF_INLINE void boundPatches(const PartList& l, const Vec3f& c, float room, float* keys)
 {
     for (int i = 0; i < l.size; i += floatLanes) {
-        const Floats gap = size(length(seen(l, i, c)) - load(l.numbers[PartRadius].data() + i));
-        store(keys + i, laneNumbers() < splat(l.size - i) ? gap : splat(nowhere));
+        const Ints used = laneNumbers() < splat(l.size - i);
+        const Reach reach = reachOfPatches(l, i, seen(l, i, c), room);
+        store(keys + i, reach.possible & used ? reach.distance : splat(nowhere));
     }
 }
 
@@ -255,9 +274,10 @@ struct PartsAt {
 MOLSURF_INLINE float limitAt(const PartsAt& parts, const Vec3f& c, float radius, float inside,
                              const Keys& keys)
 {
-    float nearest = smaller(inside, boundCorners(parts.corners, c, keys.corners));
-    nearest = smaller(nearest, boundArcs(parts.arcs, c, radius, keys.arcs));
-    boundPatches(parts.patches, c, keys.patches);
+    const float room = roomFor(radius);
+    float nearest = smaller(inside, boundCorners(parts.corners, c, room, keys.corners));
+    nearest = smaller(nearest, boundArcs(parts.arcs, c, room, keys.arcs));
+    boundPatches(parts.patches, c, room, keys.patches);
     nearest = nearestOpen(parts.patches, parts.caps, c, keys.patches, nearest);
     return 1.00001f * smaller(nearest + 2.0f * radius, inside + radius) + 1e-5f;
 }
@@ -278,12 +298,8 @@ MOLSURF_KERNEL void takeParts(const PartList& from, const float* keys, float lim
         list[std::size_t(count)] = i;
         count += keys[i] < limit;
     }
-    const std::size_t room = std::size_t(count + floatLanes);
-    if (to.part.size() < room) {
-        for (auto& column : to.numbers) column.resize(2 * room, farAway);
-        to.part.resize(2 * room);
-        to.caps.resize(2 * room);
-    }
+    to.clear();
+    to.makeRoom(count, numbers);
     for (int n = 0; n < numbers; ++n) {
         const float* in = from.numbers[std::size_t(n)].data();
         float* out = to.numbers[std::size_t(n)].data();
@@ -368,7 +384,7 @@ void uncover(const VoxelCube& cube, const CapLists& all, CubeParts& near)
             const auto c = std::size_t(near.list[std::size_t(k)]);
             near.caps.add(all.x[c], all.y[c], all.z[c], all.cosine[c], all.sine[c]);
         }
-        for (int n = PartX; n <= PartRadius; ++n)
+        for (int n = 0; n < patchNumbers; ++n)
             patches.numbers[std::size_t(n)][q] = patches.numbers[std::size_t(n)][p];
         patches.part[q] = patches.part[p];
         patches.caps[q] = {begin, std::uint32_t(near.caps.x.size())};
@@ -465,7 +481,145 @@ MOLSURF_KERNEL void settle(VoxelCube& cube, const PartsAt& parts, float inside, 
     }
 }
 
+/// Eight parts of a table, from a place that they are seen from.
+MOLSURF_INLINE Seen seen(const PartGroup& group, const Vec3d& centre)
+{
+    Floats from[3];
+    for (int a = 0; a < 3; ++a) {
+        const double* place = group.place[a].data() + group.first;
+        for (int l = 0; l < floatLanes; ++l) from[a][l] = float(centre[a] - place[l]);
+    }
+    return {from[0], from[1], from[2]};
+}
+
+/// Adds some of eight parts.
+/// @param[in] chosen  which of them
+/// @param[in] count   of their numbers
+MOLSURF_INLINE void addChosen(const PartGroup& group, const Seen& s, Ints chosen, int count,
+                              PartList& out)
+{
+    const PartList& table = group.table;
+    chosen &= laneNumbers() < splat(table.size - std::int32_t(group.first));
+    std::uint32_t bits = bitsOf(chosen & laneBits());
+    if (bits == 0) return;
+    out.makeRoom(floatLanes, count);
+    alignas(32) float place[3][floatLanes];
+    store(place[0], -s.x);
+    store(place[1], -s.y);
+    store(place[2], -s.z);
+    for (; bits != 0; bits &= bits - 1) {
+        const auto lane = std::size_t(__builtin_ctz(bits)), to = std::size_t(out.size++);
+        for (std::size_t a = 0; a < 3; ++a) out.numbers[a][to] = place[a][lane];
+        for (std::size_t n = PartRadius; n < std::size_t(count); ++n)
+            out.numbers[n][to] = table.numbers[n][group.first + lane];
+        out.part[to] = table.part[group.first + lane];
+        if (!table.caps.empty()) out.caps[to] = table.caps[group.first + lane];
+    }
+}
+
 } // namespace
+
+MOLSURF_KERNEL void addCorners(const PartGroup& group, const Vec3d& centre, float radius,
+                               float inside, PartList& out)
+{
+    const float room = roomFor(radius);
+    const Seen s = seen(group, centre);
+    const Reach reach = reachOfCorners(group.table, int(group.first), s, room);
+    addChosen(group, s, reach.possible & (reach.distance <= splat(inside + room)), cornerNumbers,
+              out);
+}
+
+MOLSURF_KERNEL void addArcs(const PartGroup& group, const Vec3d& centre, float radius, float inside,
+                            PartList& out)
+{
+    const float room = roomFor(radius);
+    const Seen s = seen(group, centre);
+    Ints certain;
+    const Reach reach = reachOfArcs(group.table, int(group.first), s, room, certain);
+    addChosen(group, s, reach.possible & (reach.distance <= splat(inside + room)), arcNumbers, out);
+}
+
+MOLSURF_KERNEL void addPatches(const PartGroup& group, const Vec3d& centre, float radius,
+                               float inside, PartList& out)
+{
+    const float room = roomFor(radius);
+    const Seen s = seen(group, centre);
+    const Reach reach = reachOfPatches(group.table, int(group.first), s, room);
+    addChosen(group, s, reach.possible & (reach.distance <= splat(inside + room)), patchNumbers,
+              out);
+}
+
+MOLSURF_KERNEL void addBalls(const PartGroup& group, const Vec3d& centre, float half, float outside,
+                             PartList& out)
+{
+    const Seen s = seen(group, centre);
+    const Floats zero = {};
+    const Floats x = larger(size(s.x) - half, zero), y = larger(size(s.y) - half, zero);
+    const Floats z = larger(size(s.z) - half, zero);
+    const Floats reach = column(group.table, PartRadius, int(group.first)) + outside;
+    addChosen(group, s, x * x + y * y + z * z <= reach * reach, ballNumbers, out);
+}
+
+namespace
+{
+
+/// Finds the balls that may be the nearest to a voxel of a cube, or hold it.
+/// @param[out] list  their places
+/// @return their number; -1 if one holds the whole cube
+MOLSURF_INLINE int chooseBalls(const VoxelCube& cube, const PartList& balls, float outside,
+                               float* keys, std::int32_t* list)
+{
+    const float radius = roomFor(cube.radius());
+    Floats nearest = splat(outside - radius);
+    for (int i = 0; i < balls.size; i += floatLanes) {
+        const Ints used = laneNumbers() < splat(balls.size - i);
+        const Floats d = length(seen(balls, i, cube.centre())) - column(balls, PartRadius, i);
+        if (any((d < splat(-radius)) & used)) return -1;
+        const Ints free = (load(balls.part.data() + i) >= 0) & used;
+        nearest = smaller(free ? d : splat(nowhere), nearest);
+        // One without a patch is the nearest to none, but may hold a voxel.
+        store(keys + i, free | (used & (d < splat(radius))) ? d : splat(nowhere));
+    }
+    const float limit = least(nearest) + 2.0f * radius;
+    int count = 0;
+    for (int i = 0; i < balls.size; ++i) {
+        list[count] = i;
+        count += keys[i] < limit;
+    }
+    return count;
+}
+
+} // namespace
+
+MOLSURF_KERNEL void nearestBalls(VoxelCube& cube, const PartList& balls, float outside,
+                                 CubeParts& scratch)
+{
+    const auto room = std::size_t(balls.size + floatLanes);
+    if (scratch.keys.size() < room) scratch.keys.resize(room);
+    if (scratch.list.size() < room) scratch.list.resize(room);
+    const int count = chooseBalls(cube, balls, outside, scratch.keys.data(), scratch.list.data());
+    if (count < 0) {
+        std::fill_n(cube.distance, VoxelCube::size, -1.0f);
+        std::fill_n(cube.part, VoxelCube::size, -1);
+        return;
+    }
+    for (int s = 0; s < 8; ++s) {
+        const Places at(cube, s);
+        Floats nearest = splat(nowhere);
+        Ints patch = splat(-1);
+        for (int k = 0; k < count; ++k) {
+            const auto i = std::size_t(scratch.list[std::size_t(k)]);
+            const Floats dx = at.x - balls.numbers[PartX][i], dy = at.y - balls.numbers[PartY][i];
+            const Floats dz = at.z - balls.numbers[PartZ][i];
+            const Floats d = squareRoot(dx * dx + dy * dy + dz * dz) - balls.numbers[PartRadius][i];
+            const Ints nearer = d < nearest;
+            nearest = nearer ? d : nearest;
+            patch = nearer ? splat(balls.part[i]) : patch;
+        }
+        store(cube.distance + floatLanes * s, nearest);
+        store(cube.part + floatLanes * s, patch);
+    }
+}
 
 void nearestParts(VoxelCube& cube, const LeafParts& parts, const CapLists& caps, float inside,
                   CubeParts& near)
@@ -473,9 +627,9 @@ void nearestParts(VoxelCube& cube, const LeafParts& parts, const CapLists& caps,
     const Keys keys(near.keys, parts.corners.size, parts.arcs.size, parts.patches.size);
     const float limit =
         limitOf(cube, {parts.corners, parts.arcs, parts.patches, caps}, inside, keys);
-    takeParts(parts.corners, keys.corners, limit, PartZ + 1, near.list, near.corners);
-    takeParts(parts.arcs, keys.arcs, limit, partNumbers, near.list, near.arcs);
-    takeParts(parts.patches, keys.patches, limit, PartRadius + 1, near.list, near.patches);
+    takeParts(parts.corners, keys.corners, limit, cornerNumbers, near.list, near.corners);
+    takeParts(parts.arcs, keys.arcs, limit, arcNumbers, near.list, near.arcs);
+    takeParts(parts.patches, keys.patches, limit, patchNumbers, near.list, near.patches);
     uncover(cube, caps, near);
     settle(cube, {near.corners, near.arcs, near.patches, near.caps}, inside,
            Keys(near.keys, near.corners.size, near.arcs.size, near.patches.size));

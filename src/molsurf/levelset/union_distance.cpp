@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/levelset/union_distance.h"
 
-#include "molsurf/balls/ball_index.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/grid/leaf_block.h"
 #include "molsurf/levelset/kink.h"
-#include "molsurf/levelset/nearest_part.h"
+#include "molsurf/levelset/part_tables.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>
@@ -25,34 +24,21 @@ using openvdb::Vec3f;
 namespace
 {
 
-/// The nearest ball first.
-struct BallAt {
-    NearBall ball;
-    float distance; // of its boundary from the leaf's centre, < 0 inside
-};
-
 /// Everything near a leaf, relative to its centre, and the memory that its cubes take by turns.
 struct Near {
-    std::vector<BallAt> balls;
     LeafParts parts;
-    std::vector<NearBall> cubeBalls;
     CubeParts cubeParts;
 };
 
 class Evaluator
 {
 public:
-    /// @param[in,out] set  the caps of its boundary are taken
-    Evaluator(BallUnion& set, double voxelSize, const BandWidths& width)
-        : boundary_(set.boundary), probe_(set.probe), voxel_(voxelSize), inside_(width.inside),
-          outside_(width.outside), caps_(listsOf(std::move(set.boundary.caps))),
-          spheres_(patchBalls(set.boundary)), patchIndex_(spheres_, {1.5, 0.0, 2.0}),
-          ballIndex_(set.balls, {1.5, set.probe, 2.0}), patchOf_(set.balls.size(), -1)
+    Evaluator(const BallUnion& set, double voxelSize, const BandWidths& width,
+              const Progress& progress)
+        : boundary_(set.boundary), voxel_(voxelSize), inside_(width.inside),
+          outside_(width.outside), caps_(listsOf(set.boundary.caps)),
+          tables_(set.boundary, set.balls, set.probe, 1.0001 * width.inside, progress)
     {
-        for (std::size_t p = 0; p < spheres_.size(); ++p) {
-            const auto placed = std::size_t(boundary_.patches[p].ball);
-            patchOf_[std::size_t(boundary_.balls[placed].index)] = std::int32_t(p);
-        }
     }
 
     /// The leaves that may have a voxel of the band.
@@ -96,7 +82,9 @@ public:
     /// @return the voxels within the band
     LeafMask evaluate(const Coord& origin, Near& near, float* phi, std::int32_t* part) const
     {
-        gather(origin, near);
+        const double half = 0.5 * (leafDim - 1) * voxel_;
+        tables_.gather(origin.asVec3d() * voxel_ + Vec3d(half), half, outside_ + voxel_,
+                       near.parts);
         LeafMask active;
         for (int b = 0; b < 8; ++b) {
             constexpr int edge = VoxelCube::edge;
@@ -119,7 +107,7 @@ public:
     }
 
 private:
-    static CapLists listsOf(std::vector<Cap> caps)
+    static CapLists listsOf(const std::vector<Cap>& caps)
     {
         CapLists out;
         for (auto* list : {&out.x, &out.y, &out.z, &out.cosine, &out.sine})
@@ -131,103 +119,21 @@ private:
         out.pad();
         return out;
     }
-    static std::vector<Ball> patchBalls(const BallBoundary& boundary)
-    {
-        std::vector<Ball> out;
-        for (const Patch& p : boundary.patches) {
-            out.push_back({Vec3f(p.centre), float(p.radius), p.ball});
-        }
-        return out;
-    }
-
-    void gather(const Coord& origin, Near& near) const
-    {
-        const Vec3d centre = (origin.asVec3d() + Vec3d(0.5 * (leafDim - 1))) * voxel_;
-        const double radius = 0.5 * (leafDim - 1) * std::sqrt(3.0) * voxel_;
-        const double reach = inside_ + radius;
-        LeafParts& parts = near.parts;
-        parts.patches.clear();
-        parts.arcs.clear();
-        parts.corners.clear();
-        near.balls.clear();
-        const double aside = radius + outside_ + voxel_; // kinks look a voxel farther
-        ballIndex_.forEachNear(
-            centre, centre, probe_ + aside, [&](const Ball& ball, std::int32_t i) {
-                const Vec3f c(Vec3d(ball.center) - centre);
-                const float R = float(ball.radius + probe_);
-                const double touch = R + aside;
-                if (c.lengthSqr() < touch * touch)
-                    near.balls.push_back({{c, R, patchOf_[std::size_t(i)]}, c.length() - R});
-            });
-        // The largest overlap first: it may hold all voxels of a cube.
-        std::sort(near.balls.begin(), near.balls.end(),
-                  [](const BallAt& a, const BallAt& b) { return a.distance < b.distance; });
-        patchIndex_.forEachNear(centre, centre, reach, [&](const Ball&, std::int32_t i) {
-            const Patch& patch = boundary_.patches[std::size_t(i)];
-            const Vec3d c = patch.centre - centre;
-            // All parts of a patch lie on its sphere.
-            if (std::abs(c.length() - patch.radius) > reach) return;
-            parts.patches.add({float(c.x()), float(c.y()), float(c.z()), float(patch.radius)}, i,
-                              {patch.capsBegin, patch.capsEnd});
-            const std::int32_t arcs = std::int32_t(boundary_.patches.size());
-            for (std::uint32_t k = patch.arcsBegin; k < patch.arcsEnd; ++k) {
-                const Arc& arc = boundary_.arcs[k];
-                const Vec3d m = arc.centre - centre;
-                if (distance2ToCircle(arc, -m) > reach * reach) continue;
-                const double cosine = arc.ends[0] < 0 ? -2.0 : std::cos(arc.half);
-                parts.arcs.add({float(m.x()), float(m.y()), float(m.z()), float(arc.radius),
-                                float(arc.axis.x()), float(arc.axis.y()), float(arc.axis.z()),
-                                float(arc.middle.x()), float(arc.middle.y()), float(arc.middle.z()),
-                                float(cosine)},
-                               arcs + std::int32_t(k));
-            }
-            const std::int32_t corners = arcs + std::int32_t(boundary_.arcs.size());
-            for (std::uint32_t k = patch.cornersBegin; k < patch.cornersEnd; ++k) {
-                const Vec3d p = boundary_.corners[k].position - centre;
-                if (p.lengthSqr() > reach * reach) continue;
-                parts.corners.add({float(p.x()), float(p.y()), float(p.z())},
-                                  corners + std::int32_t(k));
-            }
-        });
-    }
-
-    /// @param[in] x  relative to the circle's centre
-    static double distance2ToCircle(const Arc& arc, const Vec3d& x)
-    {
-        const double along = x.dot(arc.axis);
-        const double r = std::sqrt(std::max(0.0, x.lengthSqr() - along * along)) - arc.radius;
-        return along * along + r * r;
-    }
 
     /// Finds distances and nearest parts of a cube.
     void evaluate(VoxelCube& cube, Near& near) const
     {
-        const Vec3f centre = cube.centre();
-        const float radius = cube.radius();
-        near.cubeBalls.clear();
-        bool within = false; // a ball
-        for (const auto& [ball, distance] : near.balls) {
-            const float d = (ball.centre - centre).length();
-            within = d + radius < ball.radius;
-            if (within) break;
-            if (d - radius < ball.radius + float(outside_ + voxel_)) near.cubeBalls.push_back(ball);
-        }
-        if (within) {
-            std::fill_n(cube.distance, VoxelCube::size, -1.0f);
-        } else {
-            nearestBalls(cube, near.cubeBalls);
-        }
+        const float beyond = float(outside_ + voxel_); // kinks look a voxel farther
+        nearestBalls(cube, near.parts.balls, beyond, near.cubeParts);
         if (std::any_of(cube.distance, cube.distance + VoxelCube::size,
                         [&](float d) { return d < cube.rounding(); }))
             nearestParts(cube, near.parts, caps_, 1.0001f * float(inside_), near.cubeParts);
     }
 
     const BallBoundary& boundary_;
-    double probe_, voxel_, inside_, outside_;
+    double voxel_, inside_, outside_;
     const CapLists caps_;
-    std::vector<Ball> spheres_;
-    BallIndex patchIndex_, ballIndex_;
-    std::vector<std::int32_t> patchOf_; // of each ball, or -1
+    const PartTables tables_;
 };
 
 /// The boundary point nearest to a voxel.
@@ -346,7 +252,8 @@ DistanceBand distanceToUnion(BallUnion set, double voxelSize, const BandWidths& 
     DistanceBand band;
     band.phi.voxelSize = voxelSize;
     if (set.boundary.patches.empty()) return band;
-    const Evaluator evaluator(set, voxelSize, width);
+    const Evaluator evaluator(set, voxelSize, width, progress);
+    set.boundary.caps = std::vector<Cap>(); // the evaluator has them as floats
     LeafTable& table = band.phi.table;
     table = LeafTable(evaluator.leaves(box, progress));
     band.phi.values = LeafField(table.size());

@@ -134,6 +134,18 @@ TEST(UnionOfBalls, DistanceOfSpecialPositions)
     for (int k = 0; k < 8; ++k)
         cube.push_back(ball(2 * (k & 1), 2 * (k >> 1 & 1), k >> 1 & 2, 1.5));
     expectExact(cube, 0.5, 0.5, 2.0, 1.0, "a cube");
+    std::vector<Ball> hexagon, far;
+    for (int k = 0; k < 6; ++k) {
+        hexagon.push_back(ball(2 * std::cos(k * M_PI / 3), 2 * std::sin(k * M_PI / 3), 0, 1.2));
+        far.push_back(hexagon.back());
+        far.back().center += Vec3f(65536, -65536, 32768);
+    }
+    expectExact(hexagon, 1.4, 0.5, 3.4, 0.6, "a hexagon");
+    expectExact(hexagon, 1.4, 1.0, 5.4, 2.6, "a hexagon, by large voxels");
+    expectExact(far, 1.4, 0.5, 3.4, 0.6, "a hexagon far from the origin");
+    // Of the small ball's circle on the large one, the third ball covers less than half.
+    expectExact({ball(0, 0, 0, 3), ball(3, 0, 0, 1.2), ball(3, 1.5, 0, 0.8)}, 0.0, 0.25, 1.5, 1.0,
+                "an arc of more than half a circle");
 }
 
 TEST(UnionOfBalls, OneBallHasNoKink)
