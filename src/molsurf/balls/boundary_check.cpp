@@ -68,22 +68,21 @@ MOLSURF_KERNEL void followRays(const double* ux, const double* uy, const double*
     }
 }
 
-/// Counts the directions of a bundle that no cap holds.
+/// Counts the directions of a bundle that no cap of a range holds.
 MOLSURF_KERNEL int countUncovered(const double* ux, const double* uy, const double* uz,
-                                  const Cap* caps, std::size_t count)
+                                  const CapLists& caps, std::size_t begin, std::size_t end)
 {
-    double most[bundle];
-    std::fill_n(most, bundle, -1.0);
-    for (std::size_t k = 0; k < count; ++k) {
-        const Cap& cap = caps[k];
-        for (std::size_t d = 0; d < bundle; ++d) {
-            const double beyond =
-                cap.axis.x() * ux[d] + cap.axis.y() * uy[d] + cap.axis.z() * uz[d] - cap.cosine;
-            most[d] = beyond > most[d] ? beyond : most[d];
-        }
-    }
     int uncovered = 0;
-    for (const double m : most) uncovered += m <= 0.0;
+    for (std::size_t d = 0; d < bundle; d += doubleLanes) {
+        const Doubles x = load(ux + d), y = load(uy + d), z = load(uz + d);
+        Doubles most = Doubles{} - 1.0;
+        for (std::size_t k = begin; k < end; ++k) {
+            const Doubles beyond = double(caps.x[k]) * x + double(caps.y[k]) * y +
+                                   double(caps.z[k]) * z - double(caps.cosine[k]);
+            most = beyond > most ? beyond : most;
+        }
+        for (int l = 0; l < doubleLanes; ++l) uncovered += most[l] <= 0.0;
+    }
     return uncovered;
 }
 
@@ -95,9 +94,8 @@ double uncoveredShare(const BallBoundary& boundary, const Patch& patch, std::siz
     int uncovered = 0;
     for (std::size_t k = 0; k < count; k += bundle) {
         const std::size_t at = (first + k) % Directions::count;
-        uncovered +=
-            countUncovered(&u.x[at], &u.y[at], &u.z[at], boundary.caps.data() + patch.capsBegin,
-                           patch.capsEnd - patch.capsBegin);
+        uncovered += countUncovered(&u.x[at], &u.y[at], &u.z[at], boundary.caps, patch.capsBegin,
+                                    patch.capsEnd);
     }
     return double(uncovered) / double(count);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/balls/boundary_measure.h"
 
+#include "molsurf/balls/ball_caps.h"
 #include "molsurf/core/disjoint_sets.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
@@ -35,11 +36,12 @@ struct Face {
     std::vector<std::uint32_t> arcs;
 };
 
-const Cap& capOf(const BallBoundary& boundary, const Patch& patch, std::int32_t other)
+/// The cap of a patch in another ball.
+Cap capOf(const BallBoundary& boundary, const Patch& patch, std::int32_t other)
 {
-    std::uint32_t k = patch.capsBegin;
-    while (k + 1 < patch.capsEnd && boundary.caps[k].other != other) ++k;
-    return boundary.caps[k];
+    Cap cap{};
+    relate(boundary.balls[std::size_t(patch.ball)], boundary.balls[std::size_t(other)], other, cap);
+    return cap;
 }
 
 double distance2(const Arc& arc, const Vec3d& x)
@@ -93,13 +95,13 @@ std::vector<std::size_t> findFaces(const BallBoundary& boundary, const Patch& pa
     std::iota(face.begin(), face.end(), 0u);
     if (loops == 1) return face;
 
-    const std::size_t caps = patch.capsEnd - patch.capsBegin;
-    DisjointSets sets(caps);
-    for (std::uint32_t i = 0; i < caps; ++i) {
+    std::vector<Cap> caps;
+    for (std::uint32_t k = patch.capsBegin; k < patch.capsEnd; ++k)
+        caps.push_back(capOf(boundary, patch, boundary.capOthers[k]));
+    DisjointSets sets(caps.size());
+    for (std::uint32_t i = 0; i < caps.size(); ++i) {
         for (std::uint32_t j = 0; j < i; ++j) {
-            if (sets.find(i) != sets.find(j) &&
-                capsOverlap(boundary, patch, boundary.caps[patch.capsBegin + i],
-                            boundary.caps[patch.capsBegin + j]))
+            if (sets.find(i) != sets.find(j) && capsOverlap(boundary, patch, caps[i], caps[j]))
                 sets.join(i, j);
         }
     }
@@ -109,9 +111,10 @@ std::vector<std::size_t> findFaces(const BallBoundary& boundary, const Patch& pa
     std::vector<Vec3d> sample(loops);
     std::vector<double> longest(loops, 0.0);
     for (std::size_t s = 0; s < sides.size(); ++s) {
-        const Cap& cap = capOf(boundary, patch, sides[s].other);
+        const auto cap = std::find_if(caps.begin(), caps.end(),
+                                      [&](const Cap& c) { return c.other == sides[s].other; });
         const Arc& arc = boundary.arcs[sides[s].arc];
-        clusterOf[loop[s]] = clusters[std::size_t(&cap - &boundary.caps[patch.capsBegin])];
+        clusterOf[loop[s]] = clusters[std::size_t(cap - caps.begin())];
         if (arc.half * arc.radius <= longest[loop[s]]) continue;
         longest[loop[s]] = arc.half * arc.radius;
         sample[loop[s]] = arc.centre + arc.radius * arc.middle;
@@ -164,13 +167,13 @@ std::vector<Face> findFaces(const BallBoundary& boundary, const Patch& patch,
     for (std::size_t l = 0; l < loops; ++l) ++byLoop[faceOf[l]].loops;
     for (std::size_t s = 0; s < sides.size(); ++s) {
         const Arc& arc = boundary.arcs[sides[s].arc];
-        const Cap& cap = capOf(boundary, patch, sides[s].other);
+        const Cap cap = capOf(boundary, patch, sides[s].other);
         Face& face = byLoop[faceOf[loop[s]]];
         face.arcs.push_back(sides[s].arc);
         const double angle = 2.0 * arc.half;
         face.area += angle * cap.cosine;
         for (int e = 0; e < 2 && arc.ends[e] >= 0; ++e) {
-            const Cap& next = capOf(boundary, patch, arc.ends[e]);
+            const Cap next = capOf(boundary, patch, arc.ends[e]);
             const Vec3d u = (arc.centre + arc.radius * arc.end(e) - patch.centre) / R;
             const Vec3d a = u.cross(cap.axis), b = u.cross(next.axis);
             const double exterior = std::atan2(a.cross(b).length(), a.dot(b));

@@ -75,6 +75,52 @@ MOLSURF_KERNEL bool intersectCircle(const Circle& circle, const CapPointers& cap
     return whole != 0;
 }
 
+/// Whether caps surely cover all of a circle, as floats tell: each of 16 equal parts of it lies in
+/// one of them. Most circles are covered well enough for that.
+///
+/// With the ends p and q of a part, a point of it is a p + b q, where a and b are not negative and
+/// 1
+/// <= a + b <= 1/cos(pi/16).
+MOLSURF_KERNEL bool isSurelyCovered(const Circle& circle, const CapLists& caps)
+{
+    constexpr float rounding = 3e-6f, longest = 1.01960f; // 1/cos(pi/16) = 1.019591
+    constexpr int ahead = 4; // caps, large ones first, before it is asked whether they suffice
+    const Floats cosines[2] = {
+        {1.0f, 0.92387953f, 0.70710678f, 0.38268343f, 0.0f, -0.38268343f, -0.70710678f,
+         -0.92387953f},
+        {0.92387953f, 0.70710678f, 0.38268343f, 0.0f, -0.38268343f, -0.70710678f, -0.92387953f,
+         -1.0f},
+    };
+    const Floats sines[2] = {
+        {0.0f, 0.38268343f, 0.70710678f, 0.92387953f, 1.0f, 0.92387953f, 0.70710678f, 0.38268343f},
+        {0.38268343f, 0.70710678f, 0.92387953f, 1.0f, 0.92387953f, 0.70710678f, 0.38268343f, 0.0f},
+    };
+    const float ax = float(circle.axis.x()), ay = float(circle.axis.y());
+    const float az = float(circle.axis.z()), height = float(circle.cosine);
+    const float r = float(circle.sine);
+    const float ux = r * float(circle.e1.x()), uy = r * float(circle.e1.y());
+    const float uz = r * float(circle.e1.z()), vx = r * float(circle.e2.x());
+    const float vy = r * float(circle.e2.y()), vz = r * float(circle.e2.z());
+    Ints first = {}, second = {}; // the parts of both halves that are covered
+    for (int k = 0; k < caps.size(); k += floatLanes) {
+        const Floats x = load(caps.x.data() + k), y = load(caps.y.data() + k);
+        const Floats z = load(caps.z.data() + k);
+        alignas(32) float base[floatLanes], u[floatLanes], v[floatLanes];
+        store(base, height * (ax * x + ay * y + az * z) - load(caps.cosine.data() + k) - rounding);
+        store(u, ux * x + uy * y + uz * z);
+        store(v, vx * x + vy * y + vz * z);
+        for (int l = 0; l < floatLanes; ++l) {
+            const Floats p = u[l] * cosines[0] + v[l] * sines[0];
+            const Floats q = u[l] * cosines[1] + v[l] * sines[1];
+            const Floats low = smaller(p, q), high = -larger(p, q); // of the other half
+            first |= base[l] + smaller(low, longest * low) > 0.0f;
+            second |= base[l] + smaller(high, longest * high) > 0.0f;
+            if (l % ahead == ahead - 1 && !any(~(first & second))) return true;
+        }
+    }
+    return false;
+}
+
 /// Finds the ends of covers.
 MOLSURF_KERNEL void findEnds(int count, const double* x, const double* y, const double* cosine,
                              double* __restrict endX, double* __restrict endY)
@@ -282,6 +328,7 @@ void findGaps(const std::vector<PlacedBall>& balls, std::int32_t i, const CapArr
     const auto place = std::size_t(own);
     circle = {caps[own].axis, {}, {}, caps.cosine[place], caps.sine[place]};
     frame(circle.axis, circle.e1, circle.e2);
+    if (isSurelyCovered(circle, caps.rounded)) return;
     CircleCovers& m = scratch.circleCovers;
     m.resize(caps.size());
     // The own cap is never sure: its axis is that of the circle.

@@ -52,25 +52,6 @@ void PartList::makeRoom(int more, int count)
     caps.resize(2 * wanted);
 }
 
-void CapLists::clear()
-{
-    for (auto* list : {&x, &y, &z, &cosine, &sine}) list->clear();
-}
-
-void CapLists::add(float ax, float ay, float az, float cosineOf, float sineOf)
-{
-    x.push_back(ax);
-    y.push_back(ay);
-    z.push_back(az);
-    cosine.push_back(cosineOf);
-    sine.push_back(sineOf);
-}
-
-void CapLists::pad()
-{
-    for (int l = 0; l < floatLanes; ++l) add(0.0f, 0.0f, 0.0f, 2.0f, 0.0f);
-}
-
 namespace
 {
 
@@ -379,7 +360,7 @@ void uncover(const VoxelCube& cube, const CapLists& all, CubeParts& near)
         const int count = capsAbout(Cone(cube.centre(), cube.radius(), apex), all, patches.caps[p],
                                     near.keys.data(), near.list.data());
         if (count < 0) continue;
-        const auto begin = std::uint32_t(near.caps.x.size());
+        const auto begin = std::uint32_t(near.caps.size());
         for (int k = 0; k < count; ++k) {
             const auto c = std::size_t(near.list[std::size_t(k)]);
             near.caps.add(all.x[c], all.y[c], all.z[c], all.cosine[c], all.sine[c]);
@@ -387,10 +368,9 @@ void uncover(const VoxelCube& cube, const CapLists& all, CubeParts& near)
         for (int n = 0; n < patchNumbers; ++n)
             patches.numbers[std::size_t(n)][q] = patches.numbers[std::size_t(n)][p];
         patches.part[q] = patches.part[p];
-        patches.caps[q] = {begin, std::uint32_t(near.caps.x.size())};
+        patches.caps[q] = {begin, std::uint32_t(near.caps.size())};
         ++kept;
     }
-    near.caps.pad();
     patches.size = kept;
 }
 

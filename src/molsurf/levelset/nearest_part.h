@@ -5,6 +5,8 @@
 /// The parts of the boundary of a union of balls that the voxels of a small cube are nearest to:
 /// patches of spheres, arcs of circles, corners. Places are relative to the centre of a leaf [Å].
 
+#include "molsurf/balls/ball_boundary.h"
+
 #include <openvdb/Types.h>
 
 #include <array>
@@ -64,15 +66,6 @@ struct PartList {
     /// Makes room for `more` parts, and eight.
     /// @param[in] count  of the numbers that such a part has
     void makeRoom(int more, int count);
-};
-
-/// Caps of spheres, a list for each number. Eight can be read at any place.
-struct CapLists {
-    std::vector<float> x, y, z, cosine, sine;
-
-    void clear();
-    void add(float ax, float ay, float az, float cosineOf, float sineOf);
-    void pad();
 };
 
 /// The parts of a boundary near a leaf, and the balls, with the index of their patch: -1 where

@@ -104,10 +104,12 @@ std::vector<FreeCone> freeCones(const BallBoundary& boundary)
     });
     for (std::size_t p = 0; p < patches.size(); ++p) {
         FreeCone& cone = cones[p];
-        const auto caps = boundary.caps.begin();
-        const bool covered =
-            std::any_of(caps + patches[p].capsBegin, caps + patches[p].capsEnd,
-                        [&](const Cap& cap) { return cap.axis.dot(-cone.axis) > cap.cosine; });
+        const openvdb::Vec3f beyond(-cone.axis);
+        const CapLists& caps = boundary.caps;
+        bool covered = false;
+        for (std::size_t k = patches[p].capsBegin; k < patches[p].capsEnd && !covered; ++k)
+            covered = openvdb::Vec3f(caps.x[k], caps.y[k], caps.z[k]).dot(beyond) >
+                      caps.cosine[k] + float(rounding);
         cone.cosine = covered ? std::max(cone.cosine - rounding, -1.0) : -1.0;
     }
     return cones;

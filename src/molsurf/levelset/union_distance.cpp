@@ -36,7 +36,7 @@ public:
     Evaluator(const BallUnion& set, double voxelSize, const BandWidths& width,
               const Progress& progress)
         : boundary_(set.boundary), voxel_(voxelSize), inside_(width.inside),
-          outside_(width.outside), caps_(listsOf(set.boundary.caps)),
+          outside_(width.outside),
           tables_(set.boundary, set.balls, set.probe, 1.0001 * width.inside, progress)
     {
     }
@@ -107,19 +107,6 @@ public:
     }
 
 private:
-    static CapLists listsOf(const std::vector<Cap>& caps)
-    {
-        CapLists out;
-        for (auto* list : {&out.x, &out.y, &out.z, &out.cosine, &out.sine})
-            list->reserve(caps.size() + 8);
-        for (const Cap& cap : caps) {
-            out.add(float(cap.axis.x()), float(cap.axis.y()), float(cap.axis.z()),
-                    float(cap.cosine), float(std::sqrt(1.0 - cap.cosine * cap.cosine)));
-        }
-        out.pad();
-        return out;
-    }
-
     /// Finds distances and nearest parts of a cube.
     void evaluate(VoxelCube& cube, Near& near) const
     {
@@ -127,12 +114,12 @@ private:
         nearestBalls(cube, near.parts.balls, beyond, near.cubeParts);
         if (std::any_of(cube.distance, cube.distance + VoxelCube::size,
                         [&](float d) { return d < cube.rounding(); }))
-            nearestParts(cube, near.parts, caps_, 1.0001f * float(inside_), near.cubeParts);
+            nearestParts(cube, near.parts, boundary_.caps, 1.0001f * float(inside_),
+                         near.cubeParts);
     }
 
     const BallBoundary& boundary_;
     double voxel_, inside_, outside_;
-    const CapLists caps_;
     const PartTables tables_;
 };
 
@@ -253,7 +240,6 @@ DistanceBand distanceToUnion(BallUnion set, double voxelSize, const BandWidths& 
     band.phi.voxelSize = voxelSize;
     if (set.boundary.patches.empty()) return band;
     const Evaluator evaluator(set, voxelSize, width, progress);
-    set.boundary.caps = std::vector<Cap>(); // the evaluator has them as floats
     LeafTable& table = band.phi.table;
     table = LeafTable(evaluator.leaves(box, progress));
     band.phi.values = LeafField(table.size());
