@@ -374,16 +374,32 @@ void uncover(const VoxelCube& cube, const CapLists& all, CubeParts& near)
     patches.size = kept;
 }
 
-/// The nearest part so far of eight voxels, and the square of its distance.
+/// The nearest part so far of eight voxels.
 struct Nearest {
-    Floats d2;
+    Floats distance; // or its square
     Ints part;
+    Seen normal;
+    Floats bend;
 
-    MOLSURF_INLINE void offer(Floats other, std::int32_t otherPart)
+    /// @param[in] way  along the normal at the foot
+    MOLSURF_INLINE void offer(Floats other, std::int32_t otherPart, const Seen& way,
+                              Floats otherBend)
     {
-        const Ints nearer = other < d2;
-        d2 = nearer ? other : d2;
+        const Ints nearer = other < distance;
+        distance = nearer ? other : distance;
         part = nearer ? splat(otherPart) : part;
+        normal.x = nearer ? way.x : normal.x;
+        normal.y = nearer ? way.y : normal.y;
+        normal.z = nearer ? way.z : normal.z;
+        bend = nearer ? otherBend : bend;
+    }
+
+    MOLSURF_INLINE void storeFoot(VoxelCube& cube, int small) const
+    {
+        store(cube.normal[0] + floatLanes * small, normal.x);
+        store(cube.normal[1] + floatLanes * small, normal.y);
+        store(cube.normal[2] + floatLanes * small, normal.z);
+        store(cube.bend + floatLanes * small, bend);
     }
 };
 
@@ -396,17 +412,26 @@ MOLSURF_INLINE Seen seenFrom(const PartList& l, std::size_t i, const Places& at)
 MOLSURF_INLINE void offerCorner(const PartList& l, std::size_t i, const Places& at, Nearest& best)
 {
     const Seen s = seenFrom(l, i, at);
-    best.offer(s.y * s.y + s.z * s.z + s.x * s.x, l.part[i]);
+    best.offer(s.y * s.y + s.z * s.z + s.x * s.x, l.part[i], {-s.x, -s.y, -s.z}, Floats{});
 }
 
 MOLSURF_INLINE void offerArc(const PartList& l, std::size_t i, const Places& at, Nearest& best)
 {
     const float axis[3] = {l.numbers[AxisX][i], l.numbers[AxisY][i], l.numbers[AxisZ][i]};
     const float mid[3] = {l.numbers[MiddleX][i], l.numbers[MiddleY][i], l.numbers[MiddleZ][i]};
-    const FromCircle from(seenFrom(l, i, at), axis, mid);
-    const Floats off = from.aside - l.numbers[PartRadius][i];
+    const Seen s = seenFrom(l, i, at);
+    const FromCircle from(s, axis, mid);
+    const float radius = l.numbers[PartRadius][i];
+    const Floats off = from.aside - radius;
     const Ints between = from.middle >= (l.numbers[EndCosine][i] - rimTolerance) * from.aside;
-    best.offer(between ? from.along * from.along + off * off : splat(nowhere), l.part[i]);
+    const Floats d2 = from.along * from.along + off * off;
+    // With the radial unit vector u, which is (s - along axis)/aside, the way is -along axis - off
+    // u, and the circle's curvature counts by the cosine between them.
+    const Floats onAxis = -radius * from.along;
+    best.offer(
+        between ? d2 : splat(nowhere), l.part[i],
+        {onAxis * axis[0] - off * s.x, onAxis * axis[1] - off * s.y, onAxis * axis[2] - off * s.z},
+        -off / (radius * squareRoot(larger(d2, splat(1e-12f)))));
 }
 
 MOLSURF_INLINE void offerPatch(const PartList& l, const CapLists& caps, std::size_t i,
@@ -415,13 +440,13 @@ MOLSURF_INLINE void offerPatch(const PartList& l, const CapLists& caps, std::siz
     const Seen s = seenFrom(l, i, at);
     const Floats r = length(s), d = l.numbers[PartRadius][i] - r;
     const Floats d2 = d * d; // of voxels outside the ball too: the same holds for them
-    Ints open = d2 < best.d2;
+    Ints open = d2 < best.distance;
     if (!any(open)) return; // only directions that would be nearer are looked at further
     for (std::uint32_t k = l.caps[i].begin; k < l.caps[i].end; ++k) {
         const Floats along = s.x * caps.x[k] + s.y * caps.y[k] + s.z * caps.z[k];
         open &= along <= (caps.cosine[k] - rimTolerance) * r;
     }
-    best.offer(open ? d2 : splat(nowhere), l.part[i]);
+    best.offer(open ? d2 : splat(nowhere), l.part[i], s, splat(1.0f / l.numbers[PartRadius][i]));
 }
 
 /// Calls f(i) for each part with a key below a limit.
@@ -444,7 +469,7 @@ MOLSURF_KERNEL void settle(VoxelCube& cube, const PartsAt& parts, float inside, 
         if (!any(wanted)) continue;
         const Places at(cube, s);
         const float limit = limitAt(parts, at.centre, radius, inside, keys);
-        Nearest best{splat(inside * inside), splat(-1)};
+        Nearest best{splat(inside * inside), splat(-1), {}, {}};
         forEachBelow(keys.corners, parts.corners.size, limit,
                      [&](std::size_t i) { offerCorner(parts.corners, i, at, best); });
         forEachBelow(keys.arcs, parts.arcs.size, limit,
@@ -454,10 +479,18 @@ MOLSURF_KERNEL void settle(VoxelCube& cube, const PartsAt& parts, float inside, 
 
         // Outside, the boundary is as near as the nearest ball. If it is not, balls meet in the
         // voxel, and only by rounding does none of them hold it.
-        const Floats d = squareRoot(best.d2);
+        const Floats d = squareRoot(best.distance);
         const Ints held = (outer < 0.0f) | (wanted & (d > 2.0f * cube.rounding()));
         store(cube.distance + floatLanes * s, held ? -smaller(d, splat(inside)) : outer);
         store(cube.part + floatLanes * s, wanted ? best.part : load(cube.part + floatLanes * s));
+        const auto keep = [&](const float* from, Floats& of) {
+            of = wanted ? of : load(from + floatLanes * s);
+        };
+        keep(cube.normal[0], best.normal.x);
+        keep(cube.normal[1], best.normal.y);
+        keep(cube.normal[2], best.normal.z);
+        keep(cube.bend, best.bend);
+        best.storeFoot(cube, s);
     }
 }
 
@@ -585,19 +618,15 @@ MOLSURF_KERNEL void nearestBalls(VoxelCube& cube, const PartList& balls, float o
     }
     for (int s = 0; s < 8; ++s) {
         const Places at(cube, s);
-        Floats nearest = splat(nowhere);
-        Ints patch = splat(-1);
+        Nearest best{splat(nowhere), splat(-1), {}, {}};
         for (int k = 0; k < count; ++k) {
             const auto i = std::size_t(scratch.list[std::size_t(k)]);
-            const Floats dx = at.x - balls.numbers[PartX][i], dy = at.y - balls.numbers[PartY][i];
-            const Floats dz = at.z - balls.numbers[PartZ][i];
-            const Floats d = squareRoot(dx * dx + dy * dy + dz * dz) - balls.numbers[PartRadius][i];
-            const Ints nearer = d < nearest;
-            nearest = nearer ? d : nearest;
-            patch = nearer ? splat(balls.part[i]) : patch;
+            const Seen from = seenFrom(balls, i, at);
+            best.offer(length(from) - balls.numbers[PartRadius][i], balls.part[i], from, Floats{});
         }
-        store(cube.distance + floatLanes * s, nearest);
-        store(cube.part + floatLanes * s, patch);
+        store(cube.distance + floatLanes * s, best.distance);
+        store(cube.part + floatLanes * s, best.part);
+        best.storeFoot(cube, s);
     }
 }
 

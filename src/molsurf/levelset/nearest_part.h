@@ -83,6 +83,8 @@ struct VoxelCube {
     float voxel;          ///< its edge [Å]
     float distance[size]; ///< signed [Å]
     std::int32_t part[size];
+    float normal[3][size]; ///< of the boundary at the foot, outward; not of unit length
+    float bend[size];      ///< the largest curvature of the part there, inward [1/Å]
 
     /// Where the nearest ball is no farther than this, balls may meet that only by rounding do not
     /// hold the voxel [Å].
@@ -126,14 +128,14 @@ struct CubeParts {
     std::vector<std::int32_t> list;
 };
 
-/// The signed distance of each voxel to the nearest ball, which counts outside of all balls, and
-/// the patch of that ball.
+/// The signed distance of each voxel to the nearest ball, which counts outside of all balls, the
+/// patch of that ball and the normal there. (No curvature: it is 0 or less as seen from outside.)
 /// @param[in] outside  balls farther than this from all voxels are left out [Å]
 void nearestBalls(VoxelCube& cube, const PartList& balls, float outside, CubeParts& scratch);
 
 /// Completes what nearestBalls() has found, where a voxel lies inside, or may: the part nearest to
-/// it, and its distance below 0. Any corner, and any foot on an arc or an uncovered place of a
-/// sphere, is a point of the boundary.
+/// it, its foot, and its distance below 0. Any corner, and any foot on an arc or an uncovered place
+/// of a sphere, is a point of the boundary.
 ///
 /// Where a part can be the nearest, and the parts near the cube's centre, which bound the distances
 /// of its voxels, leave few parts of the leaf; the same is done for the voxels of each small cube.

@@ -2,8 +2,8 @@
 #include "molsurf/levelset/union_distance.h"
 
 #include "molsurf/core/parallel.h"
-#include "molsurf/grid/leaf_block.h"
 #include "molsurf/levelset/kink.h"
+#include "molsurf/levelset/leaf_feet.h"
 #include "molsurf/levelset/part_tables.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace molsurf
@@ -23,105 +22,6 @@ using openvdb::Vec3f;
 
 namespace
 {
-
-/// Everything near a leaf, relative to its centre, and the memory that its cubes take by turns.
-struct Near {
-    LeafParts parts;
-    CubeParts cubeParts;
-};
-
-class Evaluator
-{
-public:
-    Evaluator(const BallUnion& set, double voxelSize, const BandWidths& width,
-              const Progress& progress)
-        : boundary_(set.boundary), voxel_(voxelSize), inside_(width.inside),
-          outside_(width.outside),
-          tables_(set.boundary, set.balls, set.probe, 1.0001 * width.inside, progress)
-    {
-    }
-
-    /// The leaves that may have a voxel of the band.
-    std::vector<Coord> leaves(const openvdb::CoordBBox& box, const Progress& progress) const
-    {
-        const double edge = leafDim * voxel_;
-        std::vector<std::vector<Coord>> found(boundary_.patches.size());
-        parallelFor(found.size(), progress, [&](std::size_t i) {
-            const Patch& p = boundary_.patches[i];
-            const double far = p.radius + outside_, near = p.radius - inside_;
-            const Coord first = Coord::floor((p.centre - Vec3d(far)) / edge);
-            const Coord last = Coord::floor((p.centre + Vec3d(far)) / edge);
-            for (int x = first.x(); x <= last.x(); ++x) {
-                for (int y = first.y(); y <= last.y(); ++y) {
-                    for (int z = first.z(); z <= last.z(); ++z) {
-                        double least2 = 0.0, most2 = 0.0;
-                        const Vec3d low = Coord(x, y, z).asVec3d() * edge - p.centre;
-                        for (int k = 0; k < 3; ++k) {
-                            const double a = low[k], b = low[k] + edge - voxel_;
-                            const double n = a > 0.0 ? a : b < 0.0 ? b : 0.0;
-                            least2 += n * n;
-                            most2 += std::max(a * a, b * b);
-                        }
-                        if (least2 <= far * far && (near <= 0.0 || most2 >= near * near) &&
-                            box.isInside(Coord(leafDim * x, leafDim * y, leafDim * z))) {
-                            found[i].emplace_back(leafDim * x, leafDim * y, leafDim * z);
-                        }
-                    }
-                }
-            }
-        });
-        std::vector<Coord> all;
-        for (const auto& f : found) all.insert(all.end(), f.begin(), f.end());
-        tbb::parallel_sort(all.begin(), all.end());
-        all.erase(std::unique(all.begin(), all.end()), all.end());
-        return all;
-    }
-
-    /// @param[out] phi   of the leaf [Å]
-    /// @param[out] part  index of the nearest part: patches, then arcs, then corners
-    /// @return the voxels within the band
-    LeafMask evaluate(const Coord& origin, Near& near, float* phi, std::int32_t* part) const
-    {
-        const double half = 0.5 * (leafDim - 1) * voxel_;
-        tables_.gather(origin.asVec3d() * voxel_ + Vec3d(half), half, outside_ + voxel_,
-                       near.parts);
-        LeafMask active;
-        for (int b = 0; b < 8; ++b) {
-            constexpr int edge = VoxelCube::edge;
-            const Coord corner(edge * (b >> 2), edge * (b >> 1 & 1), edge * (b & 1));
-            VoxelCube cube;
-            const float half = 0.5f * (leafDim - 1);
-            cube.voxel = float(voxel_);
-            cube.first = (Vec3f(corner.asVec3s()) - Vec3f(half)) * cube.voxel;
-            evaluate(cube, near);
-            for (int k = 0; k < VoxelCube::size; ++k) {
-                const float distance = cube.distance[k];
-                const Coord at = corner + VoxelCube::coord(k);
-                const int v = 64 * at.x() + 8 * at.y() + at.z();
-                phi[v] = std::clamp(distance, float(-inside_), float(outside_));
-                part[v] = cube.part[k];
-                active.set(v, distance > float(-inside_) && distance < float(outside_));
-            }
-        }
-        return active;
-    }
-
-private:
-    /// Finds distances and nearest parts of a cube.
-    void evaluate(VoxelCube& cube, Near& near) const
-    {
-        const float beyond = float(outside_ + voxel_); // kinks look a voxel farther
-        nearestBalls(cube, near.parts.balls, beyond, near.cubeParts);
-        if (std::any_of(cube.distance, cube.distance + VoxelCube::size,
-                        [&](float d) { return d < cube.rounding(); }))
-            nearestParts(cube, near.parts, boundary_.caps, 1.0001f * float(inside_),
-                         near.cubeParts);
-    }
-
-    const BallBoundary& boundary_;
-    double voxel_, inside_, outside_;
-    const PartTables tables_;
-};
 
 /// The boundary point nearest to a voxel.
 struct Foot {
@@ -195,36 +95,157 @@ bool isNearAxis(const BallBoundary& boundary, std::int32_t part, const Vec3d& x,
     return w.lengthSqr() - height * height < 2.0 * voxelSize * voxelSize;
 }
 
-/// The voxels of a leaf with a kink between them and the next voxel along an axis.
-/// @param[in] part  index of the nearest part of each voxel of the table
-LeafMask kinksOf(const BallBoundary& boundary, const LeafTable& table,
-                 const LeafArray<std::int32_t>& part, double voxelSize, std::size_t n)
+/// Whether the distance has a kink between a voxel and the next one along an axis.
+/// @param[in] a,b  the parts nearest to them
+bool isKinkBeside(const BallBoundary& boundary, const Coord& voxel, int axis, double voxelSize,
+                  std::int32_t a, std::int32_t b)
 {
-    LeafMask kinks;
-    LeafBlock<std::int32_t, 1> block;
-    block.gather(table, part, n);
-    constexpr int strides[3] = {block.strideX, block.strideY, block.strideZ};
-    table.active(n).forEach([&](int v) {
-        const Coord local(v >> 6, v >> 3 & 7, v & 7);
-        const std::int32_t* p = block.at(local.x(), local.y(), local.z());
-        if (p[0] < 0) return;
-        const Vec3d x = (table.origin(n) + local).asVec3d() * voxelSize;
-        const bool alone = !isNearAxis(boundary, p[0], x, voxelSize);
-        std::optional<Foot> foot;
-        for (int axis = 0; axis < 3; ++axis) {
-            const std::int32_t next = p[strides[axis]];
-            if (next < 0 || (next == p[0] && alone)) continue;
-            if (!foot) foot = footOn(boundary, p[0], x);
-            Vec3d beside = x;
-            beside[axis] += voxelSize;
-            const Foot other = footOn(boundary, next, beside);
-            if (!isKinkBetween(boundary, x, *foot, beside, other)) continue;
-            kinks.set(v);
-            return;
-        }
-    });
-    return kinks;
+    const Vec3d x = voxel.asVec3d() * voxelSize;
+    if (a < 0 || b < 0 || (a == b && !isNearAxis(boundary, a, x, voxelSize))) return false;
+    Vec3d next = x;
+    next[axis] += voxelSize;
+    return isKinkBetween(boundary, x, footOn(boundary, a, x), next, footOn(boundary, b, next));
 }
+
+/// Adds the voxels of a leaf with a kink between them and the next leaf along an axis.
+/// @param[in] part  index of the nearest part of each voxel of the table
+void addKinksBetweenLeaves(const BallBoundary& boundary, const LeafTable& table,
+                           const LeafArray<std::int32_t>& part, double voxelSize, std::size_t n,
+                           LeafMask& kinks)
+{
+    constexpr int strides[3] = {64, 8, 1}, neighbours[3] = {22, 16, 14};
+    const std::int32_t* own = part.leaf(n);
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::int32_t m = table.neighbours(n)[std::size_t(neighbours[axis])];
+        if (m == noLeaf) continue;
+        const std::int32_t* next = part.leaf(std::size_t(m));
+        const int stride = strides[axis], across = strides[axis == 0 ? 1 : 0];
+        const int along = strides[axis == 2 ? 1 : 2];
+        for (int i = 0; i < leafDim; ++i) {
+            for (int j = 0; j < leafDim; ++j) {
+                const int w = i * across + j * along, v = w + (leafDim - 1) * stride;
+                if (!table.active(n).on(v) || kinks.on(v)) continue;
+                const Coord at = table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+                kinks.set(v, isKinkBeside(boundary, at, axis, voxelSize, own[v], next[w]));
+            }
+        }
+    }
+}
+
+/// Everything near a leaf, relative to its centre, and the memory that its cubes take by turns.
+struct Near {
+    LeafParts parts;
+    CubeParts cubeParts;
+    LeafFeet feet;
+};
+
+class Evaluator
+{
+public:
+    Evaluator(const BallUnion& set, double voxelSize, const BandWidths& width,
+              const Progress& progress)
+        : boundary_(set.boundary), voxel_(voxelSize), inside_(width.inside),
+          outside_(width.outside),
+          tables_(set.boundary, set.balls, set.probe, 1.0001 * width.inside, progress)
+    {
+    }
+
+    /// The leaves that may have a voxel of the band.
+    std::vector<Coord> leaves(const openvdb::CoordBBox& box, const Progress& progress) const
+    {
+        const double edge = leafDim * voxel_;
+        std::vector<std::vector<Coord>> found(boundary_.patches.size());
+        parallelFor(found.size(), progress, [&](std::size_t i) {
+            const Patch& p = boundary_.patches[i];
+            const double far = p.radius + outside_, near = p.radius - inside_;
+            const Coord first = Coord::floor((p.centre - Vec3d(far)) / edge);
+            const Coord last = Coord::floor((p.centre + Vec3d(far)) / edge);
+            for (int x = first.x(); x <= last.x(); ++x) {
+                for (int y = first.y(); y <= last.y(); ++y) {
+                    for (int z = first.z(); z <= last.z(); ++z) {
+                        double least2 = 0.0, most2 = 0.0;
+                        const Vec3d low = Coord(x, y, z).asVec3d() * edge - p.centre;
+                        for (int k = 0; k < 3; ++k) {
+                            const double a = low[k], b = low[k] + edge - voxel_;
+                            const double n = a > 0.0 ? a : b < 0.0 ? b : 0.0;
+                            least2 += n * n;
+                            most2 += std::max(a * a, b * b);
+                        }
+                        if (least2 <= far * far && (near <= 0.0 || most2 >= near * near) &&
+                            box.isInside(Coord(leafDim * x, leafDim * y, leafDim * z))) {
+                            found[i].emplace_back(leafDim * x, leafDim * y, leafDim * z);
+                        }
+                    }
+                }
+            }
+        });
+        std::vector<Coord> all;
+        for (const auto& f : found) all.insert(all.end(), f.begin(), f.end());
+        tbb::parallel_sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        return all;
+    }
+
+    /// @param[out] phi   of the leaf [Å]
+    /// @param[out] part  index of the nearest part: patches, then arcs, then corners
+    /// @param[out] kinks  the voxels with a kink between them and the next of the leaf along an
+    /// axis
+    /// @return the voxels within the band
+    LeafMask evaluate(const Coord& origin, Near& near, float* phi, std::int32_t* part,
+                      LeafMask& kinks) const
+    {
+        const double half = 0.5 * (leafDim - 1) * voxel_;
+        tables_.gather(origin.asVec3d() * voxel_ + Vec3d(half), half, outside_ + voxel_,
+                       near.parts);
+        for (int b = 0; b < 8; ++b) {
+            constexpr int edge = VoxelCube::edge;
+            const Coord corner(edge * (b >> 2), edge * (b >> 1 & 1), edge * (b & 1));
+            VoxelCube cube;
+            cube.voxel = float(voxel_);
+            cube.first = (Vec3f(corner.asVec3s()) - Vec3f(0.5f * (leafDim - 1))) * cube.voxel;
+            evaluate(cube, near);
+            near.feet.set(cube, corner);
+        }
+        LeafFeet& feet = near.feet;
+        feet.finish();
+        std::copy_n(feet.part, leafSize, part);
+        const LeafMask active = feet.cutOff(float(inside_), float(outside_), phi);
+        kinks = kinksWithin(origin, feet, active);
+        return active;
+    }
+
+private:
+    LeafMask kinksWithin(const Coord& origin, const LeafFeet& feet, const LeafMask& active) const
+    {
+        const KinkMasks found =
+            findKinks(feet, float(voxel_), std::int32_t(boundary_.patches.size()));
+        LeafMask kinks = found.sure & active;
+        for (int axis = 0; axis < 3; ++axis) {
+            (found.possible[axis] & active & ~kinks).forEach([&](int v) {
+                const Coord at = origin.offsetBy(v >> 6, v >> 3 & 7, v & 7);
+                const int next = v + (64 >> 3 * axis);
+                kinks.set(v,
+                          isKinkBeside(boundary_, at, axis, voxel_, feet.part[v], feet.part[next]));
+            });
+        }
+        return kinks;
+    }
+
+    /// Finds distances and nearest parts of a cube.
+    void evaluate(VoxelCube& cube, Near& near) const
+    {
+        const float beyond = float(outside_ + voxel_); // kinks look a voxel farther
+        nearestBalls(cube, near.parts.balls, beyond, near.cubeParts);
+        if (std::any_of(cube.distance, cube.distance + VoxelCube::size,
+                        [&](float d) { return d < cube.rounding(); }))
+            nearestParts(cube, near.parts, boundary_.caps, 1.0001f * float(inside_),
+                         near.cubeParts);
+    }
+
+    const BallBoundary& boundary_;
+    double voxel_, inside_, outside_;
+    const PartTables tables_;
+};
 
 } // namespace
 
@@ -245,13 +266,15 @@ DistanceBand distanceToUnion(BallUnion set, double voxelSize, const BandWidths& 
     band.phi.values = LeafField(table.size());
     LeafArray<std::int32_t> part(table.size());
     tbb::enumerable_thread_specific<Near> scratch;
+    std::vector<LeafMask> kinks(table.size());
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        table.active(n) =
-            evaluator.evaluate(table.origin(n), scratch.local(), band.phi.leaf(n), part.leaf(n));
+        table.active(n) = evaluator.evaluate(table.origin(n), scratch.local(), band.phi.leaf(n),
+                                             part.leaf(n), kinks[n]);
     });
     band.kinks = table;
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        band.kinks.active(n) = kinksOf(set.boundary, table, part, voxelSize, n);
+        addKinksBetweenLeaves(set.boundary, table, part, voxelSize, n, kinks[n]);
+        band.kinks.active(n) = kinks[n];
     });
     return band;
 }

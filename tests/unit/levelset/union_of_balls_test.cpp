@@ -200,6 +200,41 @@ TEST(UnionOfBalls, KinksOfTwoBallsAreOnTheirAxisAndBetweenThem)
     EXPECT_GT(beside, 50u);
 }
 
+// Kinks within a leaf and those between leaves are found in different ways.
+TEST(UnionOfBalls, KinksDoNotDependOnTheLeaves)
+{
+    constexpr double voxel = 0.5;
+    const auto kinksOf = [&](const Coord& shift, std::size_t& count) {
+        std::vector<Ball> balls = test::randomBalls(30, 8.0, Vec3d(3.0, -2.0, 1.0), 8);
+        for (Ball& b : balls) {
+            for (int a = 0; a < 3; ++a) // so that nothing is rounded when they are shifted
+                b.center[a] = std::round(1024.0f * b.center[a]) / 1024.0f;
+            b.center += Vec3f(shift.asVec3s()) * float(voxel);
+        }
+        DistanceBand band =
+            distanceToUnion(unionOf(balls, 1.4, Progress()), voxel, {3.4, 1.0}, Progress());
+        count = band.kinks.activeCount();
+        return std::move(band.kinks);
+    };
+    std::size_t count = 0, shifted = 0, missed = 0;
+    const LeafTable kinks = kinksOf({0, 0, 0}, count);
+    const Coord shift(3, 5, -2);
+    const LeafTable other = kinksOf(shift, shifted);
+    for (std::size_t n = 0; n < kinks.size(); ++n) {
+        kinks.active(n).forEach([&](int v) {
+            const Coord c = kinks.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7) + shift;
+            const std::int32_t m = other.find(c);
+            missed +=
+                m == noLeaf || !other.active(std::size_t(m))
+                                    .on(int(openvdb::FloatTree::LeafNodeType::coordToOffset(c)));
+        });
+    }
+    EXPECT_GT(count, 1000u);
+    // Balls are moved by 1e-9 Å, otherwise in each place, which decides a few.
+    EXPECT_NEAR(double(count), double(shifted), 0.003 * double(count));
+    EXPECT_LT(missed, std::size_t(0.003 * double(count)));
+}
+
 // Spheres that nearly meet in a voxel, inside of the union: all around are balls, but each foot
 // there lies within rounding of a cap.
 TEST(UnionOfBalls, NoBoundaryWhereSpheresMeetInside)
