@@ -37,6 +37,14 @@ struct BallParts {
     std::vector<Arc> arcs;
     std::vector<Corner> corners;
     CellVolume cells{}; // the sum of theirs
+
+    void clear()
+    {
+        capOthers.clear();
+        arcs.clear();
+        corners.clear();
+        cells = {};
+    }
 };
 
 /// Room for one ball, kept from ball to ball by a thread.
@@ -45,6 +53,7 @@ struct Scratch {
     CapArrays caps;
     CircleScratch circle;
     std::vector<Gap> gaps;
+    BallParts parts;
 };
 
 /// Adds a gap of a circle as an arc, with the corners at its ends that no other circle adds.
@@ -207,8 +216,10 @@ BallBoundary boundaryOf(std::vector<PlacedBall> placed, const Progress& progress
     parallelFor(all.size(), progress, [&](std::size_t c) {
         Scratch& s = scratches.local();
         const std::size_t begin = c * BallParts::balls;
+        s.parts.clear();
         for (std::size_t n = begin; n < std::min(begin + BallParts::balls, balls.size()); ++n)
-            find(n, s, all[c]);
+            find(n, s, s.parts);
+        all[c] = s.parts; // a copy takes no more memory than it needs
     });
     CellVolume cells{};
     for (const BallParts& parts : all) {

@@ -11,7 +11,7 @@ namespace molsurf
 
 using openvdb::Vec3d;
 
-PartTable::PartTable(std::size_t size, int count) : regions(size)
+PartTable::PartTable(std::size_t size, int count)
 {
     const std::size_t padded = (size + BoxTree::group - 1) / BoxTree::group * BoxTree::group;
     for (int n = PartRadius; n < count; ++n) list.numbers[std::size_t(n)].resize(padded);
@@ -206,16 +206,23 @@ PartTables::PartTables(const BallBoundary& boundary, const std::vector<Ball>& ba
 {
     const std::vector<FreeCone> cones = freeCones(boundary);
     patches_.list.caps.resize(patches_.list.part.size());
+    patches_.regions.resize(boundary.patches.size());
     parallelFor(boundary.patches.size(), progress,
                 [&](std::size_t i) { setPatch(boundary, cones[i], inside, i, patches_); });
+    patches_.finish();
+    arcs_.regions.resize(boundary.arcs.size());
     parallelFor(boundary.arcs.size(), progress,
                 [&](std::size_t i) { setArc(boundary, inside, i, arcs_); });
+    arcs_.finish();
+    corners_.regions.resize(boundary.corners.size());
     parallelFor(boundary.corners.size(), progress,
                 [&](std::size_t i) { setCorner(boundary, inside, i, corners_); });
+    corners_.finish();
 
     std::vector<std::int32_t> patchOf(boundary.balls.size(), -1);
     for (std::size_t p = 0; p < boundary.patches.size(); ++p)
         patchOf[std::size_t(boundary.patches[p].ball)] = std::int32_t(p);
+    balls_.regions.resize(boundary.balls.size());
     parallelFor(boundary.balls.size(), progress, [&](std::size_t i) {
         const Ball& ball = balls[std::size_t(boundary.balls[i].index)];
         const Vec3d centre(ball.center);
@@ -225,7 +232,7 @@ PartTables::PartTables(const BallBoundary& boundary, const std::vector<Ball>& ba
         balls_.set(i, PartRadius, radius);
         balls_.regions[i] = Box::about(centre, radius);
     });
-    for (PartTable* table : {&corners_, &arcs_, &patches_, &balls_}) table->finish();
+    balls_.finish();
 }
 
 void PartTables::gather(const Vec3d& centre, double half, double outside, LeafParts& out) const

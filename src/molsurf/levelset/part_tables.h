@@ -25,7 +25,7 @@ public:
 
     PartList list;                ///< without places
     std::vector<double> place[3]; ///< [Å]
-    std::vector<Box> regions;     ///< to be set before finish()
+    std::vector<Box> regions;     ///< until finish()
 
     void setPlace(std::size_t i, const openvdb::Vec3d& x)
     {
