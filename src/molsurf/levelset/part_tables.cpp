@@ -11,17 +11,16 @@ namespace molsurf
 
 using openvdb::Vec3d;
 
-PartTable::PartTable(std::size_t size, int count)
+void PartTable::make(std::size_t size, int count, const Progress& progress,
+                     const std::function<void(std::size_t)>& set)
 {
     const std::size_t padded = (size + BoxTree::group - 1) / BoxTree::group * BoxTree::group;
     for (int n = PartRadius; n < count; ++n) list.numbers[std::size_t(n)].resize(padded);
     for (auto& coordinates : place) coordinates.resize(padded);
     list.part.resize(padded);
     list.size = int(size);
-}
-
-void PartTable::finish()
-{
+    regions.resize(size);
+    parallelFor(size, progress, set);
     tree_.emplace(regions);
     regions = std::vector<Box>();
 }
@@ -169,10 +168,11 @@ void setArc(const BallBoundary& boundary, double inside, std::size_t i, PartTabl
         Box::about(ball.centre, ball.radius + 2.0 * std::sin(0.5 * arc.half) * arc.radius);
 }
 
-void setCorner(const BallBoundary& boundary, double inside, std::size_t i, PartTable& table)
+void setCorner(const BallBoundary& boundary, double inside, std::int32_t part, std::size_t i,
+               PartTable& table)
 {
     const Corner& corner = boundary.corners[i];
-    table.list.part[i] = std::int32_t(boundary.patches.size() + boundary.arcs.size() + i);
+    table.list.part[i] = part;
     table.setPlace(i, corner.position);
     Vec3d to[3]; // the centres
     for (int k = 0; k < 3; ++k) {
@@ -198,32 +198,28 @@ void setCorner(const BallBoundary& boundary, double inside, std::size_t i, PartT
 
 } // namespace
 
-PartTables::PartTables(const BallBoundary& boundary, const std::vector<Ball>& balls, double probe,
+PartTables::PartTables(BallBoundary& boundary, const std::vector<Ball>& balls, double probe,
                        double inside, const Progress& progress)
-    : inside_(inside), corners_(boundary.corners.size(), cornerNumbers),
-      arcs_(boundary.arcs.size(), arcNumbers), patches_(boundary.patches.size(), patchNumbers),
-      balls_(boundary.balls.size(), ballNumbers)
+    : inside_(inside)
 {
+    boundary.capOthers = std::vector<std::int32_t>();
     const std::vector<FreeCone> cones = freeCones(boundary);
-    patches_.list.caps.resize(patches_.list.part.size());
-    patches_.regions.resize(boundary.patches.size());
-    parallelFor(boundary.patches.size(), progress,
-                [&](std::size_t i) { setPatch(boundary, cones[i], inside, i, patches_); });
-    patches_.finish();
-    arcs_.regions.resize(boundary.arcs.size());
-    parallelFor(boundary.arcs.size(), progress,
-                [&](std::size_t i) { setArc(boundary, inside, i, arcs_); });
-    arcs_.finish();
-    corners_.regions.resize(boundary.corners.size());
-    parallelFor(boundary.corners.size(), progress,
-                [&](std::size_t i) { setCorner(boundary, inside, i, corners_); });
-    corners_.finish();
+    const std::size_t patches = boundary.patches.size(), arcs = boundary.arcs.size();
+    patches_.list.caps.resize(patches);
+    patches_.make(patches, patchNumbers, progress,
+                  [&](std::size_t i) { setPatch(boundary, cones[i], inside, i, patches_); });
+    arcs_.make(arcs, arcNumbers, progress,
+               [&](std::size_t i) { setArc(boundary, inside, i, arcs_); });
+    boundary.arcs = std::vector<Arc>();
+    corners_.make(boundary.corners.size(), cornerNumbers, progress, [&](std::size_t i) {
+        setCorner(boundary, inside, std::int32_t(patches + arcs + i), i, corners_);
+    });
+    boundary.corners = std::vector<Corner>();
 
     std::vector<std::int32_t> patchOf(boundary.balls.size(), -1);
-    for (std::size_t p = 0; p < boundary.patches.size(); ++p)
+    for (std::size_t p = 0; p < patches; ++p)
         patchOf[std::size_t(boundary.patches[p].ball)] = std::int32_t(p);
-    balls_.regions.resize(boundary.balls.size());
-    parallelFor(boundary.balls.size(), progress, [&](std::size_t i) {
+    balls_.make(boundary.balls.size(), ballNumbers, progress, [&](std::size_t i) {
         const Ball& ball = balls[std::size_t(boundary.balls[i].index)];
         const Vec3d centre(ball.center);
         const double radius = double(ball.radius) + probe;
@@ -232,7 +228,24 @@ PartTables::PartTables(const BallBoundary& boundary, const std::vector<Ball>& ba
         balls_.set(i, PartRadius, radius);
         balls_.regions[i] = Box::about(centre, radius);
     });
-    balls_.finish();
+}
+
+Part PartTables::part(std::int32_t index) const
+{
+    auto i = std::size_t(index);
+    PartKind kind = PartKind::Patch;
+    const PartTable* table = &patches_;
+    for (const PartTable* next : {&arcs_, &corners_}) {
+        const auto size = std::size_t(table->list.size);
+        if (i < size) break;
+        i -= size;
+        kind = next == &arcs_ ? PartKind::Arc : PartKind::Corner;
+        table = next;
+    }
+    const auto number = [&](int n) { return table->list.numbers[std::size_t(n)][i]; };
+    return {kind, Vec3d(table->place[0][i], table->place[1][i], table->place[2][i]),
+            number(PartRadius),
+            openvdb::Vec3f(number(AxisX), number(AxisY), number(AxisZ))}; // other for corners
 }
 
 void PartTables::gather(const Vec3d& centre, double half, double outside, LeafParts& out) const

@@ -25,7 +25,6 @@ namespace
 
 /// The boundary point nearest to a voxel.
 struct Foot {
-    std::int32_t part;
     bool inside; // whether the voxel is
     Vec3f y;     // from the voxel [Å]
     Vec3f n;     // unit normal of the distance there, outward
@@ -33,83 +32,68 @@ struct Foot {
 
 /// The foot of a voxel on the whole sphere or circle of its nearest part, or a corner. Only voxels
 /// inside are nearest to an arc or to a corner.
-Foot footOn(const BallBoundary& boundary, std::int32_t part, const Vec3d& x)
+Foot footOn(const Part& part, const Vec3d& x)
 {
-    const std::size_t patches = boundary.patches.size(), arcs = boundary.arcs.size();
-    const std::size_t i = std::size_t(part);
-    if (i < patches) {
-        const Patch& patch = boundary.patches[i];
-        const Vec3f w(x - patch.centre);
-        const float distance = w.length(), radius = float(patch.radius);
-        const Vec3f n = w / std::max(distance, 1e-6f * radius);
-        return {part, distance < radius, (radius - distance) * n, n};
+    const Vec3f w(x - part.place);
+    if (part.kind == PartKind::Patch) {
+        const float distance = w.length();
+        const Vec3f n = w / std::max(distance, 1e-6f * part.radius);
+        return {distance < part.radius, (part.radius - distance) * n, n};
     }
-    Vec3f y;
-    if (i < patches + arcs) {
-        const Arc& arc = boundary.arcs[i - patches];
-        const Vec3f w(x - arc.centre), axis(arc.axis);
-        const Vec3f u = w - w.dot(axis) * axis;
-        y = float(arc.radius) / std::max(u.length(), 1e-6f) * u - w;
-    } else {
-        y = Vec3f(boundary.corners[i - patches - arcs].position - x);
+    Vec3f y = -w;
+    if (part.kind == PartKind::Arc) {
+        const Vec3f u = w - w.dot(part.axis) * part.axis;
+        y += part.radius / std::max(u.length(), 1e-6f) * u;
     }
-    return {part, true, y, y / std::max(y.length(), 1e-6f)};
+    return {true, y, y / std::max(y.length(), 1e-6f)};
 }
 
 /// Curvature of the boundary at the foot of x, along the tangential part of a vector: that of a
 /// patch, or what an arc has of it [1/Å].
-float curvatureAlong(const BallBoundary& boundary, const Foot& foot, const Vec3d& x,
-                     const Vec3f& chord)
+float curvatureAlong(const Part& part, const Foot& foot, const Vec3d& x, const Vec3f& chord)
 {
-    const std::size_t patches = boundary.patches.size(), arcs = boundary.arcs.size();
-    const std::size_t i = std::size_t(foot.part);
-    if (i < patches) return 1.0f / float(boundary.patches[i].radius);
-    if (i >= patches + arcs) return 0.0f;
-    const Arc& arc = boundary.arcs[i - patches];
-    const Vec3f u = (Vec3f(x - arc.centre) + foot.y) / float(arc.radius);
-    const float along = chord.dot(Vec3f(arc.axis).cross(u)), across = chord.dot(foot.n);
+    if (part.kind == PartKind::Patch) return 1.0f / part.radius;
+    if (part.kind == PartKind::Corner) return 0.0f;
+    const Vec3f u = (Vec3f(x - part.place) + foot.y) / part.radius;
+    const float along = chord.dot(part.axis.cross(u)), across = chord.dot(foot.n);
     const float length2 = chord.lengthSqr() - across * across; // of the tangential part
-    return length2 > 0.0f ? foot.n.dot(u) / float(arc.radius) * along * along / length2 : 0.0f;
+    return length2 > 0.0f ? foot.n.dot(u) / part.radius * along * along / length2 : 0.0f;
 }
 
-bool isKinkBetween(const BallBoundary& boundary, const Vec3d& x, const Foot& a, const Vec3d& next,
-                   const Foot& b)
+/// Whether a voxel is so near to the axis of an arc that others about it may have feet far apart.
+bool isNearAxis(const Part& part, const Vec3d& x, double voxelSize)
 {
+    if (part.kind != PartKind::Arc) return false;
+    const Vec3d w = x - part.place;
+    const double height = w.dot(Vec3d(part.axis));
+    return w.lengthSqr() - height * height < 2.0 * voxelSize * voxelSize;
+}
+
+/// Whether the distance has a kink between a voxel and the next one along an axis.
+/// @param[in] p,q  the parts nearest to them, or -1
+bool isKinkBeside(const PartTables& tables, const Coord& voxel, int axis, double voxelSize,
+                  std::int32_t p, std::int32_t q)
+{
+    if (p < 0 || q < 0 || (p == q && std::size_t(p) < tables.patches())) return false;
+    const Vec3d x = voxel.asVec3d() * voxelSize;
+    const Part part = tables.part(p);
+    if (p == q && !isNearAxis(part, x, voxelSize)) return false;
+    Vec3d next = x;
+    next[axis] += voxelSize;
+    const Part other = tables.part(q);
+    const Foot a = footOn(part, x), b = footOn(other, next);
     const float side = a.inside ? 1.0f : -1.0f;
     const Vec3f spread = side * (b.n - a.n);
     if (a.inside != b.inside || spread.lengthSqr() < kinkSpread * kinkSpread) return false;
     const Vec3f chord = Vec3f(next - x) + b.y - a.y;
     return isKink(chord, spread,
-                  std::max(side * curvatureAlong(boundary, a, x, chord),
-                           side * curvatureAlong(boundary, b, next, chord)));
-}
-
-/// Whether the nearest part of a voxel is an arc about whose axis two voxels may have feet far
-/// apart.
-bool isNearAxis(const BallBoundary& boundary, std::int32_t part, const Vec3d& x, double voxelSize)
-{
-    const std::size_t i = std::size_t(part) - boundary.patches.size();
-    if (std::size_t(part) < boundary.patches.size() || i >= boundary.arcs.size()) return false;
-    const Vec3d w = x - boundary.arcs[i].centre;
-    const double height = w.dot(boundary.arcs[i].axis);
-    return w.lengthSqr() - height * height < 2.0 * voxelSize * voxelSize;
-}
-
-/// Whether the distance has a kink between a voxel and the next one along an axis.
-/// @param[in] a,b  the parts nearest to them
-bool isKinkBeside(const BallBoundary& boundary, const Coord& voxel, int axis, double voxelSize,
-                  std::int32_t a, std::int32_t b)
-{
-    const Vec3d x = voxel.asVec3d() * voxelSize;
-    if (a < 0 || b < 0 || (a == b && !isNearAxis(boundary, a, x, voxelSize))) return false;
-    Vec3d next = x;
-    next[axis] += voxelSize;
-    return isKinkBetween(boundary, x, footOn(boundary, a, x), next, footOn(boundary, b, next));
+                  std::max(side * curvatureAlong(part, a, x, chord),
+                           side * curvatureAlong(other, b, next, chord)));
 }
 
 /// Adds the voxels of a leaf with a kink between them and the next leaf along an axis.
 /// @param[in] part  index of the nearest part of each voxel of the table
-void addKinksBetweenLeaves(const BallBoundary& boundary, const LeafTable& table,
+void addKinksBetweenLeaves(const PartTables& tables, const LeafTable& table,
                            const LeafArray<std::int32_t>& part, double voxelSize, std::size_t n,
                            LeafMask& kinks)
 {
@@ -126,7 +110,7 @@ void addKinksBetweenLeaves(const BallBoundary& boundary, const LeafTable& table,
                 const int w = i * across + j * along, v = w + (leafDim - 1) * stride;
                 if (!table.active(n).on(v) || kinks.on(v)) continue;
                 const Coord at = table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
-                kinks.set(v, isKinkBeside(boundary, at, axis, voxelSize, own[v], next[w]));
+                kinks.set(v, isKinkBeside(tables, at, axis, voxelSize, own[v], next[w]));
             }
         }
     }
@@ -142,13 +126,15 @@ struct Near {
 class Evaluator
 {
 public:
-    Evaluator(const BallUnion& set, double voxelSize, const BandWidths& width,
-              const Progress& progress)
+    /// @param[in,out] set  the arcs and corners of its boundary are taken
+    Evaluator(BallUnion& set, double voxelSize, const BandWidths& width, const Progress& progress)
         : boundary_(set.boundary), voxel_(voxelSize), inside_(width.inside),
           outside_(width.outside),
           tables_(set.boundary, set.balls, set.probe, 1.0001 * width.inside, progress)
     {
     }
+
+    const PartTables& tables() const { return tables_; }
 
     /// The leaves that may have a voxel of the band.
     std::vector<Coord> leaves(const openvdb::CoordBBox& box, const Progress& progress) const
@@ -217,15 +203,14 @@ public:
 private:
     LeafMask kinksWithin(const Coord& origin, const LeafFeet& feet, const LeafMask& active) const
     {
-        const KinkMasks found =
-            findKinks(feet, float(voxel_), std::int32_t(boundary_.patches.size()));
+        const KinkMasks found = findKinks(feet, float(voxel_), std::int32_t(tables_.patches()));
         LeafMask kinks = found.sure & active;
         for (int axis = 0; axis < 3; ++axis) {
             (found.possible[axis] & active & ~kinks).forEach([&](int v) {
                 const Coord at = origin.offsetBy(v >> 6, v >> 3 & 7, v & 7);
                 const int next = v + (64 >> 3 * axis);
                 kinks.set(v,
-                          isKinkBeside(boundary_, at, axis, voxel_, feet.part[v], feet.part[next]));
+                          isKinkBeside(tables_, at, axis, voxel_, feet.part[v], feet.part[next]));
             });
         }
         return kinks;
@@ -273,7 +258,7 @@ DistanceBand distanceToUnion(BallUnion set, double voxelSize, const BandWidths& 
     });
     band.kinks = table;
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        addKinksBetweenLeaves(set.boundary, table, part, voxelSize, n, kinks[n]);
+        addKinksBetweenLeaves(evaluator.tables(), table, part, voxelSize, n, kinks[n]);
         band.kinks.active(n) = kinks[n];
     });
     return band;
