@@ -24,12 +24,27 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// The arcs and corners of a ball with later balls, the number of its caps and its cell.
+/// The numbers of what a ball has: caps, and arcs and corners with later balls.
+struct Counts {
+    std::uint32_t caps = 0, arcs = 0, corners = 0;
+};
+
+/// What some consecutive balls have.
 struct BallParts {
+    static constexpr std::size_t balls = 16; // of most
+
+    std::vector<std::int32_t> capOthers; // the caps themselves would take much memory
     std::vector<Arc> arcs;
     std::vector<Corner> corners;
-    std::uint32_t caps = 0;
-    CellVolume cell{};
+    CellVolume cells{}; // the sum of theirs
+
+    void clear()
+    {
+        capOthers.clear();
+        arcs.clear();
+        corners.clear();
+        cells = {};
+    }
 };
 
 /// Room for one ball, kept from ball to ball by a thread.
@@ -38,6 +53,7 @@ struct Scratch {
     CapArrays caps;
     CircleScratch circle;
     std::vector<Gap> gaps;
+    BallParts parts;
 };
 
 /// Adds a gap of a circle as an arc, with the corners at its ends that no other circle adds.
@@ -110,87 +126,156 @@ std::size_t numberComponents(std::vector<Patch>& patches, DisjointSets& joined)
     return numbers.size();
 }
 
-/// A boundary with the patches of exposed balls, and with room for their caps, arcs and corners.
-BallBoundary arranged(const std::vector<PlacedBall>& balls,
-                      const std::vector<std::uint8_t>& exposed, const std::vector<BallParts>& parts)
+/// The patches of exposed balls, for which there is the room for caps, arcs and corners.
+void arrange(const std::vector<std::uint8_t>& exposed, const std::vector<Counts>& counts,
+             BallBoundary& boundary)
 {
-    BallBoundary boundary;
-    std::uint32_t caps = 0, arcs = 0, corners = 0;
-    for (std::size_t n = 0; n < balls.size(); ++n) {
+    Counts sum;
+    for (std::size_t n = 0; n < boundary.balls.size(); ++n) {
         if (!exposed[n]) continue;
-        Patch patch{
-            balls[n].centre(), balls[n].radius, std::int32_t(n), -1, caps, 0, arcs, 0, corners, 0};
-        patch.capsEnd = caps += parts[n].caps;
-        patch.arcsEnd = arcs += std::uint32_t(parts[n].arcs.size());
-        patch.cornersEnd = corners += std::uint32_t(parts[n].corners.size());
+        const PlacedBall& ball = boundary.balls[n];
+        Patch patch{ball.centre(), ball.radius, std::int32_t(n), -1, sum.caps, 0,
+                    sum.arcs,      0,           sum.corners,     0};
+        patch.capsEnd = sum.caps += counts[n].caps;
+        patch.arcsEnd = sum.arcs += counts[n].arcs;
+        patch.cornersEnd = sum.corners += counts[n].corners;
         boundary.patches.push_back(patch);
     }
-    boundary.caps.resize(caps);
-    boundary.arcs.resize(arcs);
-    boundary.corners.resize(corners);
-    return boundary;
+    boundary.caps.resize(sum.caps);
+    boundary.capOthers.resize(sum.caps);
+    boundary.arcs.resize(sum.arcs);
+    boundary.corners.resize(sum.corners);
+}
+
+/// Copies what exposed balls have to its place in the boundary.
+/// @param[in] ball   the first of those that have the parts
+/// @param[in] patch  the first of theirs, or a later one
+void place(const BallParts& parts, std::size_t ball, const std::vector<Counts>& counts,
+           std::size_t patch, BallBoundary& boundary)
+{
+    Counts at;
+    const std::size_t end = std::min(ball + BallParts::balls, boundary.balls.size());
+    for (std::size_t n = ball; n < end; ++n) {
+        if (patch < boundary.patches.size() && boundary.patches[patch].ball == std::int32_t(n)) {
+            const Patch& p = boundary.patches[patch++];
+            for (std::size_t k = 0; k < counts[n].caps; ++k) {
+                const std::int32_t other = parts.capOthers[at.caps + k];
+                Cap cap{};
+                relate(boundary.balls[n], boundary.balls[std::size_t(other)], other, cap);
+                boundary.capOthers[p.capsBegin + k] = other;
+                boundary.caps.set(p.capsBegin + k, cap);
+            }
+            std::copy_n(parts.arcs.begin() + at.arcs, counts[n].arcs,
+                        boundary.arcs.begin() + p.arcsBegin);
+            std::copy_n(parts.corners.begin() + at.corners, counts[n].corners,
+                        boundary.corners.begin() + p.cornersBegin);
+        }
+        at.caps += counts[n].caps;
+        at.arcs += counts[n].arcs;
+        at.corners += counts[n].corners;
+    }
 }
 
 /// The boundary of balls in general position.
 /// @throws SpecialPosition if they are not
-BallBoundary boundaryOf(std::vector<PlacedBall> balls, const Progress& progress)
+BallBoundary boundaryOf(std::vector<PlacedBall> placed, const Progress& progress)
 {
+    BallBoundary boundary;
+    boundary.balls = std::move(placed);
+    const std::vector<PlacedBall>& balls = boundary.balls;
     const CapFinder finder(balls);
     tbb::enumerable_thread_specific<Scratch> scratches;
-    std::vector<BallParts> all(balls.size());
+    std::vector<BallParts> all((balls.size() + BallParts::balls - 1) / BallParts::balls);
+    std::vector<Counts> counts(balls.size());
     std::vector<std::uint8_t> exposed(balls.size());
     DisjointSets joined(balls.size());
     std::atomic<bool> anyLost{false}; // a ball whose overlaps are not all known
     const std::size_t rays = raysFor(balls.size());
-    parallelFor(balls.size(), progress, [&](std::size_t n) {
-        Scratch& s = scratches.local();
+    const auto find = [&](std::size_t n, Scratch& s, BallParts& parts) {
         const auto i = std::int32_t(n);
         const Exposure exposure = finder.find(i, s.finder, s.caps);
         if (exposure.amongMany) anyLost = true;
         if (!exposure.possible) return;
-        all[n].caps = std::uint32_t(s.caps.size());
-        all[n].cell = sampleCell(s.caps, balls[n].radius, i, rays);
+        const CellVolume cell = sampleCell(s.caps, balls[n].radius, i, rays);
+        parts.cells.volume += cell.volume;
+        parts.cells.variance += cell.variance;
         if (s.caps.size() == 0) exposed[n] = 1;
+        const std::size_t arcs = parts.arcs.size(), corners = parts.corners.size();
         for (int k = 0; k < s.caps.size(); ++k) {
             const Cap cap = s.caps[k];
             if (cap.other < i) continue; // found by the other
             joined.join(std::uint32_t(n), std::uint32_t(cap.other));
             Circle circle;
             findGaps(balls, i, s.caps, k, s.circle, circle, s.gaps);
-            for (const Gap& gap : s.gaps) addArc(balls[n], i, cap, circle, gap, s.caps, all[n]);
+            for (const Gap& gap : s.gaps) addArc(balls[n], i, cap, circle, gap, s.caps, parts);
         }
+        counts[n] = {std::uint32_t(s.caps.size()), std::uint32_t(parts.arcs.size() - arcs),
+                     std::uint32_t(parts.corners.size() - corners)};
+        parts.capOthers.insert(parts.capOthers.end(), s.caps.other.begin(), s.caps.other.end());
+    };
+    parallelFor(all.size(), progress, [&](std::size_t c) {
+        Scratch& s = scratches.local();
+        const std::size_t begin = c * BallParts::balls;
+        s.parts.clear();
+        for (std::size_t n = begin; n < std::min(begin + BallParts::balls, balls.size()); ++n)
+            find(n, s, s.parts);
+        all[c] = s.parts; // a copy takes no more memory than it needs
     });
     CellVolume cells{};
     for (const BallParts& parts : all) {
-        cells.volume += parts.cell.volume;
-        cells.variance += parts.cell.variance;
+        cells.volume += parts.cells.volume;
+        cells.variance += parts.cells.variance;
         for (const Arc& arc : parts.arcs) {
             for (const std::int32_t ball : arc.balls) exposed[std::size_t(ball)] = 1;
         }
     }
 
-    BallBoundary boundary = arranged(balls, exposed, all);
-    parallelFor(boundary.patches.size(), progress, [&](std::size_t p) {
-        const Patch& patch = boundary.patches[p];
-        const auto n = std::size_t(patch.ball);
-        Scratch& s = scratches.local();
-        finder.find(patch.ball, s.finder, s.caps); // once more: all would take much memory
-        for (int k = 0; k < s.caps.size(); ++k)
-            boundary.caps[patch.capsBegin + std::size_t(k)] = s.caps[k];
-        std::copy(all[n].arcs.begin(), all[n].arcs.end(), boundary.arcs.begin() + patch.arcsBegin);
-        std::copy(all[n].corners.begin(), all[n].corners.end(),
-                  boundary.corners.begin() + patch.cornersBegin);
-        all[n] = BallParts();
+    arrange(exposed, counts, boundary);
+    parallelFor(all.size(), progress, [&](std::size_t c) {
+        const auto first = std::int32_t(c * BallParts::balls);
+        const auto patch = std::partition_point(boundary.patches.begin(), boundary.patches.end(),
+                                                [&](const Patch& p) { return p.ball < first; });
+        place(all[c], std::size_t(first), counts, std::size_t(patch - boundary.patches.begin()),
+              boundary);
+        all[c] = BallParts();
     });
     if (!anyLost) {
         boundary.estimate = {numberComponents(boundary.patches, joined), cells.volume,
                              std::sqrt(cells.variance)};
     }
-    boundary.balls = std::move(balls);
     return boundary;
 }
 
 } // namespace
+
+void CapLists::resize(std::size_t count)
+{
+    const std::size_t padded = count + std::size_t(floatLanes);
+    for (auto* list : {&x, &y, &z, &sine}) list->resize(padded);
+    cosine.resize(padded);
+    std::fill(cosine.begin() + std::ptrdiff_t(count), cosine.end(), 2.0f);
+}
+
+void CapLists::add(float ax, float ay, float az, float capCosine, float capSine)
+{
+    const auto i = std::size_t(size());
+    for (auto* list : {&x, &y, &z, &sine}) list->push_back(0.0f);
+    cosine.push_back(2.0f);
+    x[i] = ax;
+    y[i] = ay;
+    z[i] = az;
+    cosine[i] = capCosine;
+    sine[i] = capSine;
+}
+
+void CapLists::set(std::size_t i, const Cap& cap)
+{
+    x[i] = float(cap.axis.x());
+    y[i] = float(cap.axis.y());
+    z[i] = float(cap.axis.z());
+    cosine[i] = float(cap.cosine);
+    sine[i] = float(std::sqrt((1.0 - cap.cosine) * (1.0 + cap.cosine)));
+}
 
 Vec3d Arc::end(int which) const
 {

@@ -9,6 +9,7 @@
 
 #include "molsurf/ball.h"
 #include "molsurf/balls/placed_ball.h"
+#include "molsurf/core/simd.h"
 #include "molsurf/progress.h"
 
 #include <openvdb/Types.h>
@@ -25,6 +26,20 @@ struct Cap {
     openvdb::Vec3d axis; ///< unit vector to the other ball
     double cosine;       ///< in (-1, 1)
     std::int32_t other;  ///< place of the other ball in BallBoundary::balls
+};
+
+/// Caps of spheres as floats, a list for each number. Eight can be read at any place.
+struct CapLists {
+    std::vector<float> x, y, z; ///< of the axis
+    std::vector<float> cosine, sine;
+
+    CapLists() { clear(); }
+    int size() const { return int(x.size()) - floatLanes; }
+    void clear() { resize(0); }
+    /// Makes room; what comes new covers nothing.
+    void resize(std::size_t count);
+    void add(float ax, float ay, float az, float capCosine, float capSine);
+    void set(std::size_t i, const Cap& cap);
 };
 
 /// A sphere with a part that no other ball covers.
@@ -90,7 +105,8 @@ struct UnionEstimate {
 struct BallBoundary {
     std::vector<PlacedBall> balls; ///< whose boundary this is
     std::vector<Patch> patches;    ///< in ascending order of the balls
-    std::vector<Cap> caps;
+    CapLists caps;
+    std::vector<std::int32_t> capOthers; ///< of each cap the other ball, its place in `balls`
     std::vector<Arc> arcs;
     std::vector<Corner> corners;
     std::optional<UnionEstimate> estimate; ///< none where very many balls are near each other

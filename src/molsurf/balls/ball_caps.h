@@ -5,7 +5,7 @@
 /// Finds the caps of a sphere that other balls cover.
 
 #include "molsurf/balls/ball_boundary.h"
-#include "molsurf/balls/ball_index.h"
+#include "molsurf/balls/box_tree.h"
 #include "molsurf/balls/dense_caps.h"
 #include "molsurf/balls/placed_ball.h"
 #include "molsurf/progress.h"
@@ -20,22 +20,11 @@ namespace molsurf
 struct CapArrays {
     std::vector<double> x, y, z, cosine, sine;
     std::vector<std::int32_t> other;
+    CapLists rounded; ///< the same as floats, padded
 
     int size() const { return int(other.size()); }
-    void resize(std::size_t count)
-    {
-        for (auto* v : {&x, &y, &z, &cosine, &sine}) v->resize(count);
-        other.resize(count);
-    }
-    void set(std::size_t i, const Cap& cap, double capSine)
-    {
-        x[i] = cap.axis.x();
-        y[i] = cap.axis.y();
-        z[i] = cap.axis.z();
-        cosine[i] = cap.cosine;
-        sine[i] = capSine;
-        other[i] = cap.other;
-    }
+    void clear();
+    void add(const openvdb::Vec3d& axis, double capCosine, double capSine, std::int32_t ball);
     Cap operator[](int k) const
     {
         const auto i = std::size_t(k);
@@ -70,19 +59,23 @@ public:
 
     /// Room for one ball, kept from ball to ball by a thread.
     struct Scratch {
+        std::vector<std::size_t> groups;
+        std::vector<std::int32_t> near; // balls that touch it, by rounded places
+        std::vector<double> wayX, wayY, wayZ, radius, cosine;
+        std::vector<std::int32_t> relation, order;
         std::vector<Cap> found;
     };
 
-    /// The caps of a ball, the largest first, without those that lie well within another one. Where
-    /// very many balls are near each other, without those that its power cell does not touch.
+    /// The caps of a ball, the large ones first, without those that lie well within another one.
+    /// Where very many balls are near each other, without those that its power cell does not touch.
     Exposure find(std::int32_t i, Scratch& scratch, CapArrays& caps) const;
 
 private:
-    bool gather(std::int32_t i, std::vector<Cap>& found) const;
+    bool gather(std::int32_t i, Scratch& scratch) const;
 
     const std::vector<PlacedBall>& balls_;
-    std::vector<Ball> grown_;
-    BallIndex index_;
+    std::vector<float> x_, y_, z_, radius_; // of the balls, rounded
+    BoxTree tree_;
     DenseCaps dense_;
 };
 

@@ -19,13 +19,13 @@ using openvdb::Vec3d;
 namespace
 {
 
-constexpr std::size_t bundle = 16; // directions side by side
+constexpr std::size_t bundle = floatLanes; // directions side by side
 
 /// Directions that are spread evenly, any run of them too: Roberts' low-discrepancy sequence R2 on
 /// a cylinder about the sphere.
 struct Directions {
     static constexpr std::size_t count = 1 << 13;
-    std::array<double, count> x, y, z;
+    std::array<float, count> x, y, z;
 
     Directions()
     {
@@ -35,9 +35,9 @@ struct Directions {
                 1.0 - 2.0 * (u - std::floor(u) + 0.5 / count) / (1.0 + 1.0 / count);
             const double angle = 2.0 * M_PI * (v - std::floor(v));
             const double wide = std::sqrt(std::max(0.0, 1.0 - height * height));
-            x[k] = wide * std::cos(angle);
-            y[k] = wide * std::sin(angle);
-            z[k] = height;
+            x[k] = float(wide * std::cos(angle));
+            y[k] = float(wide * std::sin(angle));
+            z[k] = float(height);
         }
     }
 };
@@ -48,43 +48,32 @@ const Directions& directions()
     return table;
 }
 
-/// Finds where rays from the centre of a sphere of radius 1 along a bundle of directions enter and
-/// leave the cell.
-MOLSURF_KERNEL void followRays(const double* ux, const double* uy, const double* uz,
-                               const CapArrays& caps, double* __restrict from,
-                               double* __restrict to)
+/// Finds where rays from the centre of a sphere of radius 1 along eight directions enter and leave
+/// the cell.
+MOLSURF_KERNEL void followRays(const float* ux, const float* uy, const float* uz,
+                               const CapLists& caps, float* from, float* to)
 {
-    std::fill_n(from, bundle, 0.0);
-    std::fill_n(to, bundle, 1.0);
-    for (std::size_t k = 0; k < caps.other.size(); ++k) {
-        const double x = caps.x[k], y = caps.y[k], z = caps.z[k], cosine = caps.cosine[k];
-        for (std::size_t d = 0; d < bundle; ++d) {
-            const double along = x * ux[d] + y * uy[d] + z * uz[d];
-            const double at = cosine / along; // the ray is beyond the plane where t along > cosine
-            const double leave = along > 0.0 ? at : 2.0, enter = along > 0.0 ? -1.0 : at;
-            to[d] = leave < to[d] ? leave : to[d];
-            from[d] = enter > from[d] ? enter : from[d];
-        }
+    const Floats x = load(ux), y = load(uy), z = load(uz);
+    Floats begin = splat(0.0f), end = splat(1.0f);
+    for (std::size_t k = 0; k < std::size_t(caps.size()); ++k) {
+        const Floats along = caps.x[k] * x + caps.y[k] * y + caps.z[k] * z;
+        const Floats at = caps.cosine[k] / along; // beyond the plane where t along > cosine
+        end = smaller(along > 0.0f ? at : splat(2.0f), end);
+        begin = larger(along < 0.0f ? at : splat(-1.0f), begin);
     }
+    store(from, begin);
+    store(to, end);
 }
 
-/// Counts the directions of a bundle that no cap holds.
-MOLSURF_KERNEL int countUncovered(const double* ux, const double* uy, const double* uz,
-                                  const Cap* caps, std::size_t count)
+/// Counts the directions among eight that no cap of a range holds.
+MOLSURF_KERNEL int countUncovered(const float* ux, const float* uy, const float* uz,
+                                  const CapLists& caps, std::size_t begin, std::size_t end)
 {
-    double most[bundle];
-    std::fill_n(most, bundle, -1.0);
-    for (std::size_t k = 0; k < count; ++k) {
-        const Cap& cap = caps[k];
-        for (std::size_t d = 0; d < bundle; ++d) {
-            const double beyond =
-                cap.axis.x() * ux[d] + cap.axis.y() * uy[d] + cap.axis.z() * uz[d] - cap.cosine;
-            most[d] = beyond > most[d] ? beyond : most[d];
-        }
-    }
-    int uncovered = 0;
-    for (const double m : most) uncovered += m <= 0.0;
-    return uncovered;
+    const Floats x = load(ux), y = load(uy), z = load(uz);
+    Ints covered = {};
+    for (std::size_t k = begin; k < end; ++k)
+        covered |= caps.x[k] * x + caps.y[k] * y + caps.z[k] * z > caps.cosine[k];
+    return floatLanes - __builtin_popcount(bitsOf(covered & (splat(1) << laneNumbers())));
 }
 
 /// The share of a patch's sphere that is uncovered, by a number of directions.
@@ -95,9 +84,8 @@ double uncoveredShare(const BallBoundary& boundary, const Patch& patch, std::siz
     int uncovered = 0;
     for (std::size_t k = 0; k < count; k += bundle) {
         const std::size_t at = (first + k) % Directions::count;
-        uncovered +=
-            countUncovered(&u.x[at], &u.y[at], &u.z[at], boundary.caps.data() + patch.capsBegin,
-                           patch.capsEnd - patch.capsBegin);
+        uncovered += countUncovered(&u.x[at], &u.y[at], &u.z[at], boundary.caps, patch.capsBegin,
+                                    patch.capsEnd);
     }
     return double(uncovered) / double(count);
 }
@@ -127,8 +115,8 @@ void checkArea(const BallBoundary& boundary, std::size_t p, double area)
 
 std::size_t raysFor(std::size_t balls)
 {
-    constexpr std::size_t all = 1 << 18, most = 1024;
-    return std::clamp(all / std::max<std::size_t>(balls, 1) / bundle * bundle, bundle, most);
+    constexpr std::size_t all = 1 << 18, least = 16, most = 1024;
+    return std::clamp(all / std::max<std::size_t>(balls, 1) / least * least, least, most);
 }
 
 CellVolume sampleCell(const CapArrays& caps, double radius, std::int32_t i, std::size_t rays)
@@ -137,11 +125,11 @@ CellVolume sampleCell(const CapArrays& caps, double radius, std::int32_t i, std:
     double sum = 0.0, squares = 0.0;
     for (std::size_t k = 0; k < rays; k += bundle) {
         const std::size_t at = (std::size_t(i) * rays + k) % Directions::count;
-        alignas(64) double from[bundle], to[bundle];
-        followRays(&u.x[at], &u.y[at], &u.z[at], caps, from, to);
+        float from[bundle], to[bundle];
+        followRays(&u.x[at], &u.y[at], &u.z[at], caps.rounded, from, to);
         for (std::size_t d = 0; d < bundle; ++d) {
-            const double length = std::max(from[d], to[d]);
-            const double cubes = length * length * length - from[d] * from[d] * from[d];
+            const double begin = from[d], length = std::max(from[d], to[d]);
+            const double cubes = length * length * length - begin * begin * begin;
             sum += cubes;
             squares += cubes * cubes;
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/balls/boundary_measure.h"
 
+#include "molsurf/balls/ball_caps.h"
 #include "molsurf/core/disjoint_sets.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
@@ -27,6 +28,15 @@ struct Side {
     double sign;        // +1: the arc's axis points away from the sphere's centre to the other ball
 };
 
+/// The sides of a patch.
+struct Sides {
+    const Side *first, *last;
+
+    std::size_t size() const { return std::size_t(last - first); }
+    bool empty() const { return first == last; }
+    const Side& operator[](std::size_t s) const { return first[s]; }
+};
+
 /// A connected part of a patch.
 struct Face {
     double area = 0.0;
@@ -35,11 +45,12 @@ struct Face {
     std::vector<std::uint32_t> arcs;
 };
 
-const Cap& capOf(const BallBoundary& boundary, const Patch& patch, std::int32_t other)
+/// The cap of a patch in another ball.
+Cap capOf(const BallBoundary& boundary, const Patch& patch, std::int32_t other)
 {
-    std::uint32_t k = patch.capsBegin;
-    while (k + 1 < patch.capsEnd && boundary.caps[k].other != other) ++k;
-    return boundary.caps[k];
+    Cap cap{};
+    relate(boundary.balls[std::size_t(patch.ball)], boundary.balls[std::size_t(other)], other, cap);
+    return cap;
 }
 
 double distance2(const Arc& arc, const Vec3d& x)
@@ -60,7 +71,7 @@ double distance2(const Arc& arc, const Vec3d& x)
 }
 
 /// The loops that the arcs of a sphere form: for each arc the number of its loop.
-std::vector<std::uint32_t> findLoops(const BallBoundary& boundary, const std::vector<Side>& sides,
+std::vector<std::uint32_t> findLoops(const BallBoundary& boundary, const Sides& sides,
                                      std::size_t& count)
 {
     struct End {
@@ -86,20 +97,20 @@ std::vector<std::uint32_t> findLoops(const BallBoundary& boundary, const std::ve
 
 /// For each loop of a sphere the number of the face that it bounds.
 std::vector<std::size_t> findFaces(const BallBoundary& boundary, const Patch& patch,
-                                   const std::vector<Side>& sides,
-                                   const std::vector<std::uint32_t>& loop, std::size_t loops)
+                                   const Sides& sides, const std::vector<std::uint32_t>& loop,
+                                   std::size_t loops)
 {
     std::vector<std::size_t> face(loops);
     std::iota(face.begin(), face.end(), 0u);
     if (loops == 1) return face;
 
-    const std::size_t caps = patch.capsEnd - patch.capsBegin;
-    DisjointSets sets(caps);
-    for (std::uint32_t i = 0; i < caps; ++i) {
+    std::vector<Cap> caps;
+    for (std::uint32_t k = patch.capsBegin; k < patch.capsEnd; ++k)
+        caps.push_back(capOf(boundary, patch, boundary.capOthers[k]));
+    DisjointSets sets(caps.size());
+    for (std::uint32_t i = 0; i < caps.size(); ++i) {
         for (std::uint32_t j = 0; j < i; ++j) {
-            if (sets.find(i) != sets.find(j) &&
-                capsOverlap(boundary, patch, boundary.caps[patch.capsBegin + i],
-                            boundary.caps[patch.capsBegin + j]))
+            if (sets.find(i) != sets.find(j) && capsOverlap(boundary, patch, caps[i], caps[j]))
                 sets.join(i, j);
         }
     }
@@ -109,9 +120,10 @@ std::vector<std::size_t> findFaces(const BallBoundary& boundary, const Patch& pa
     std::vector<Vec3d> sample(loops);
     std::vector<double> longest(loops, 0.0);
     for (std::size_t s = 0; s < sides.size(); ++s) {
-        const Cap& cap = capOf(boundary, patch, sides[s].other);
+        const auto cap = std::find_if(caps.begin(), caps.end(),
+                                      [&](const Cap& c) { return c.other == sides[s].other; });
         const Arc& arc = boundary.arcs[sides[s].arc];
-        clusterOf[loop[s]] = clusters[std::size_t(&cap - &boundary.caps[patch.capsBegin])];
+        clusterOf[loop[s]] = clusters[std::size_t(cap - caps.begin())];
         if (arc.half * arc.radius <= longest[loop[s]]) continue;
         longest[loop[s]] = arc.half * arc.radius;
         sample[loop[s]] = arc.centre + arc.radius * arc.middle;
@@ -148,8 +160,7 @@ std::vector<std::size_t> findFaces(const BallBoundary& boundary, const Patch& pa
 }
 
 /// The faces of a patch, without their loops' shares.
-std::vector<Face> findFaces(const BallBoundary& boundary, const Patch& patch,
-                            const std::vector<Side>& sides)
+std::vector<Face> findFaces(const BallBoundary& boundary, const Patch& patch, const Sides& sides)
 {
     const double R = patch.radius;
     if (sides.empty()) {
@@ -164,21 +175,22 @@ std::vector<Face> findFaces(const BallBoundary& boundary, const Patch& patch,
     for (std::size_t l = 0; l < loops; ++l) ++byLoop[faceOf[l]].loops;
     for (std::size_t s = 0; s < sides.size(); ++s) {
         const Arc& arc = boundary.arcs[sides[s].arc];
-        const Cap& cap = capOf(boundary, patch, sides[s].other);
+        const Cap cap = capOf(boundary, patch, sides[s].other);
         Face& face = byLoop[faceOf[loop[s]]];
         face.arcs.push_back(sides[s].arc);
         const double angle = 2.0 * arc.half;
         face.area += angle * cap.cosine;
-        for (int e = 0; e < 2 && arc.ends[e] >= 0; ++e) {
-            const Cap& next = capOf(boundary, patch, arc.ends[e]);
+        for (int e = 0; e < 2; ++e) {
+            if (arc.ends[e] < sides[s].other) continue; // none, or the other arc there counts it
+            const Cap next = capOf(boundary, patch, arc.ends[e]);
             const Vec3d u = (arc.centre + arc.radius * arc.end(e) - patch.centre) / R;
             const Vec3d a = u.cross(cap.axis), b = u.cross(next.axis);
-            const double exterior = std::atan2(a.cross(b).length(), a.dot(b));
-            face.area -= 0.5 * exterior; // the other half comes with the next arc
+            face.area -= std::atan2(a.cross(b).length(), a.dot(b)); // the exterior angle
         }
         // 1/2 of the integral of x cross dx, the face on the left: clockwise about the cap's axis
         const Vec3d m = arc.centre - patch.centre;
-        const Vec3d chord = arc.end(1) - arc.end(0); // about the arc's own axis
+        // From the first end to the last about the arc's own axis.
+        const Vec3d chord = 2.0 * std::sin(arc.half) * arc.axis.cross(arc.middle);
         face.normal -= 0.5 * sides[s].sign * arc.radius * m.cross(chord) +
                        0.5 * arc.radius * arc.radius * angle * cap.axis;
     }
@@ -218,20 +230,31 @@ void findOuter(std::vector<BoundaryPiece>& pieces)
                  pieces.end());
 }
 
-/// The sides of arcs that bound each patch.
-std::vector<std::vector<Side>> sidesOf(const BallBoundary& boundary)
-{
-    std::vector<std::uint32_t> patchOf(boundary.balls.size());
-    for (std::size_t p = 0; p < boundary.patches.size(); ++p)
-        patchOf[std::size_t(boundary.patches[p].ball)] = std::uint32_t(p);
-    std::vector<std::vector<Side>> sides(boundary.patches.size());
-    for (std::size_t a = 0; a < boundary.arcs.size(); ++a) {
-        const Arc& arc = boundary.arcs[a];
-        sides[patchOf[arc.balls[0]]].push_back({std::uint32_t(a), arc.balls[1], 1.0});
-        sides[patchOf[arc.balls[1]]].push_back({std::uint32_t(a), arc.balls[0], -1.0});
+/// The sides of arcs that bound each patch, one patch after the other.
+struct SideLists {
+    std::vector<Side> sides;
+    std::vector<std::uint32_t> begins; // of each patch, and the end of all
+
+    explicit SideLists(const BallBoundary& boundary) : begins(boundary.patches.size() + 1)
+    {
+        std::vector<std::uint32_t> patchOf(boundary.balls.size());
+        for (std::size_t p = 0; p < boundary.patches.size(); ++p)
+            patchOf[std::size_t(boundary.patches[p].ball)] = std::uint32_t(p);
+        for (const Arc& arc : boundary.arcs) {
+            for (const std::int32_t ball : arc.balls) ++begins[patchOf[std::size_t(ball)] + 1];
+        }
+        std::partial_sum(begins.begin(), begins.end(), begins.begin());
+        sides.resize(begins.back());
+        std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
+        for (std::size_t a = 0; a < boundary.arcs.size(); ++a) {
+            const std::int32_t* balls = boundary.arcs[a].balls;
+            for (int k = 0; k < 2; ++k) {
+                sides[next[patchOf[std::size_t(balls[k])]]++] = {std::uint32_t(a), balls[1 - k],
+                                                                 k == 0 ? 1.0 : -1.0};
+            }
+        }
     }
-    return sides;
-}
+};
 
 /// Joins the faces on both sides of every arc.
 /// @param[in] begins  number of the first face of each patch, and that of all faces
@@ -259,10 +282,12 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
     BoundaryMeasure out;
     const std::size_t patches = boundary.patches.size();
     if (patches == 0) return out;
-    const std::vector<std::vector<Side>> sides = sidesOf(boundary);
+    const SideLists lists(boundary);
     std::vector<std::vector<Face>> faces(patches);
     parallelFor(patches, progress, [&](std::size_t p) {
-        faces[p] = findFaces(boundary, boundary.patches[p], sides[p]);
+        const Side* sides = lists.sides.data();
+        faces[p] = findFaces(boundary, boundary.patches[p],
+                             {sides + lists.begins[p], sides + lists.begins[p + 1]});
     });
     std::vector<std::size_t> begins(patches + 1, 0);
     for (std::size_t p = 0; p < patches; ++p) begins[p + 1] = begins[p] + faces[p].size();

@@ -75,6 +75,119 @@ MOLSURF_KERNEL bool intersectCircle(const Circle& circle, const CapPointers& cap
     return whole != 0;
 }
 
+} // namespace
+
+void CapColumns::take(const CapArrays& caps, const std::vector<std::int32_t>& places)
+{
+    for (auto* list : {&x, &y, &z, &cosine}) list->resize(places.size());
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const auto i = std::size_t(places[k]);
+        x[k] = caps.x[i];
+        y[k] = caps.y[i];
+        z[k] = caps.z[i];
+        cosine[k] = caps.cosine[i];
+    }
+}
+
+void RoundedCovers::resize(std::size_t count)
+{
+    for (auto* list : {&base, &u, &v, &sine, &holds, &held})
+        list->resize(std::max(list->size(), count + std::size_t(floatLanes)));
+}
+
+namespace
+{
+
+/// Whether caps surely cover all of a circle, as floats tell: each of 16 equal parts of it lies in
+/// one of them. Most circles are covered well enough for that.
+///
+/// With the ends p and q of a part, a point of it is a p + b q, where a and b are not negative and
+/// 1
+/// <= a + b <= 1/cos(pi/16).
+/// @param[out] f  what the caps looked at cover
+MOLSURF_KERNEL bool isSurelyCovered(const Circle& circle, const CapLists& caps, RoundedCovers& f)
+{
+    constexpr float rounding = 3e-6f, longest = 1.01960f; // 1/cos(pi/16) = 1.019591
+    constexpr int ahead = 4; // caps, large ones first, before it is asked whether they suffice
+    const Floats cosines[2] = {
+        {1.0f, 0.92387953f, 0.70710678f, 0.38268343f, 0.0f, -0.38268343f, -0.70710678f,
+         -0.92387953f},
+        {0.92387953f, 0.70710678f, 0.38268343f, 0.0f, -0.38268343f, -0.70710678f, -0.92387953f,
+         -1.0f},
+    };
+    const Floats sines[2] = {
+        {0.0f, 0.38268343f, 0.70710678f, 0.92387953f, 1.0f, 0.92387953f, 0.70710678f, 0.38268343f},
+        {0.38268343f, 0.70710678f, 0.92387953f, 1.0f, 0.92387953f, 0.70710678f, 0.38268343f, 0.0f},
+    };
+    const float ax = float(circle.axis.x()), ay = float(circle.axis.y());
+    const float az = float(circle.axis.z()), height = float(circle.cosine);
+    const float r = float(circle.sine);
+    const float ux = r * float(circle.e1.x()), uy = r * float(circle.e1.y());
+    const float uz = r * float(circle.e1.z()), vx = r * float(circle.e2.x());
+    const float vy = r * float(circle.e2.y()), vz = r * float(circle.e2.z());
+    Ints first = {}, second = {}; // the parts of both halves that are covered
+    for (int k = 0; k < caps.size(); k += floatLanes) {
+        const Floats x = load(caps.x.data() + k), y = load(caps.y.data() + k);
+        const Floats z = load(caps.z.data() + k);
+        float *base = f.base.data() + k, *u = f.u.data() + k, *v = f.v.data() + k;
+        store(base, height * (ax * x + ay * y + az * z) - load(caps.cosine.data() + k));
+        store(u, ux * x + uy * y + uz * z);
+        store(v, vx * x + vy * y + vz * z);
+        for (int l = 0; l < floatLanes; ++l) {
+            const Floats p = u[l] * cosines[0] + v[l] * sines[0];
+            const Floats q = u[l] * cosines[1] + v[l] * sines[1];
+            const Floats low = smaller(p, q), high = -larger(p, q); // of the other half
+            first |= base[l] + smaller(low, longest * low) > rounding;
+            second |= base[l] + smaller(high, longest * high) > rounding;
+            if (l % ahead == ahead - 1 && !any(~(first & second))) return true;
+        }
+    }
+    return false;
+}
+
+/// Finds the covers of a circle that do not surely lie within another one, as floats tell: only
+/// these can be beside a gap.
+/// @param[in,out] f     from isSurelyCovered()
+/// @param[out]    kept  the places of their caps; room for all
+/// @return their number
+MOLSURF_KERNEL int keepCovers(RoundedCovers& f, int count, std::int32_t* kept)
+{
+    // With (u, v) of a length above 1/20, cosines have an error below 2e-5, and sines, of cosines
+    // that are cut off so that a cover becomes larger or one about it smaller, below 2e-4.
+    constexpr float margin = 1e-3f, most = 0.99f;
+    for (int k = 0; k < count; k += floatLanes) {
+        const Floats u = load(f.u.data() + k), v = load(f.v.data() + k);
+        const Floats inverse = 1.0f / squareRoot(u * u + v * v);
+        const Floats cosine = -load(f.base.data() + k) * inverse;
+        const Ints known = inverse < 20.0f;
+        const Ints none = known & (cosine > 1.0f + margin);
+        const Floats cut = clamped(cosine, splat(-most), splat(most));
+        store(f.u.data() + k, u * inverse);
+        store(f.v.data() + k, v * inverse);
+        store(f.base.data() + k, cut);
+        store(f.sine.data() + k, squareRoot(1.0f - cut * cut));
+        // Which may hold others, and which others may hold.
+        store(f.holds.data() + k, known & (cosine < most) ? cut : splat(2.0f));
+        store(f.held.data() + k, none ? splat(3.0f) : known ? cut : splat(-3.0f));
+    }
+    int m = 0;
+    for (int k = 0; k < count; ++k) {
+        const auto i = std::size_t(k);
+        const float x = f.u[i], y = f.v[i], cosine = f.base[i], sine = f.sine[i];
+        const float own = f.held[i];
+        Ints within = splat(own > 2.5f ? -1 : 0);
+        for (int l = 0; l < count; l += floatLanes) {
+            const Floats holds = load(f.holds.data() + l);
+            const Floats between = x * load(f.u.data() + l) + y * load(f.v.data() + l);
+            const Floats difference = cosine * holds + sine * load(f.sine.data() + l);
+            within |= (between >= difference + margin) & (holds <= own);
+        }
+        kept[m] = k;
+        m += !any(within);
+    }
+    return m;
+}
+
 /// Finds the ends of covers.
 MOLSURF_KERNEL void findEnds(int count, const double* x, const double* y, const double* cosine,
                              double* __restrict endX, double* __restrict endY)
@@ -148,15 +261,16 @@ bool coversOverlapAllAround(CircleCovers& m)
 
 enum class Answer { Yes, No, Unknown };
 
-/// The ends of all covers. No: one of them covers all of the circle.
+/// The ends of covers. No: one of them covers all of the circle.
+/// @param[in]  caps   the place of the cap of each
 /// @param[out] doubt  the largest error of an end
-Answer findCovers(const CircleCovers& m, int count, int own, std::vector<Cover<double>>& covers,
-                  double& doubt)
+Answer findCovers(const CircleCovers& m, const std::vector<std::int32_t>& caps, int own,
+                  std::vector<Cover<double>>& covers, double& doubt)
 {
     covers.clear();
     doubt = 0.0;
-    for (int k = 0; k < count; ++k) {
-        const auto i = std::size_t(k);
+    for (std::size_t i = 0; i < caps.size(); ++i) {
+        const std::int32_t k = caps[i];
         const double c = m.cosine[i], beyond = std::abs(c) - 1.0;
         if (k == own || (beyond > m.error[i] && c > 0.0)) continue;
         // Not a number counts as unknown.
@@ -282,15 +396,23 @@ void findGaps(const std::vector<PlacedBall>& balls, std::int32_t i, const CapArr
     const auto place = std::size_t(own);
     circle = {caps[own].axis, {}, {}, caps.cosine[place], caps.sine[place]};
     frame(circle.axis, circle.e1, circle.e2);
+    scratch.rounded.resize(std::size_t(caps.size()));
+    if (isSurelyCovered(circle, caps.rounded, scratch.rounded)) return;
+    std::vector<std::int32_t>& kept = scratch.kept;
+    kept.resize(std::size_t(caps.size() + floatLanes));
+    kept.resize(std::size_t(keepCovers(scratch.rounded, caps.size(), kept.data())));
+    CapColumns& near = scratch.caps;
+    near.take(caps, kept);
+    const int count = int(kept.size());
     CircleCovers& m = scratch.circleCovers;
-    m.resize(caps.size());
+    m.resize(count);
     // The own cap is never sure: its axis is that of the circle.
     const bool whole = intersectCircle(
-        circle, {caps.x.data(), caps.y.data(), caps.z.data(), caps.cosine.data()}, caps.size(),
+        circle, {near.x.data(), near.y.data(), near.z.data(), near.cosine.data()}, count,
         m.x.data(), m.y.data(), m.cosine.data(), m.error.data(), m.sure.data());
     if (whole || coversOverlapAllAround(m)) return;
     double doubt;
-    Answer found = findCovers(m, caps.size(), own, scratch.covers, doubt);
+    Answer found = findCovers(m, kept, own, scratch.covers, doubt);
     if (found == Answer::Yes && findGaps(scratch.covers, doubt, gaps)) return;
 
     thread_local std::vector<Cover<Quad>> covers;

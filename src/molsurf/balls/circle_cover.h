@@ -42,6 +42,22 @@ struct CircleCovers {
     void resize(int count);
 };
 
+/// What caps cover of a circle, as floats: the points x e1 + y e2 with u x + v y + base > 0. Eight
+/// can be read at any place.
+struct RoundedCovers {
+    std::vector<float> base, u, v;
+    std::vector<float> sine, holds, held; ///< used by findGaps()
+
+    void resize(std::size_t count);
+};
+
+/// Some of the caps of a sphere.
+struct CapColumns {
+    std::vector<double> x, y, z, cosine;
+
+    void take(const CapArrays& caps, const std::vector<std::int32_t>& places);
+};
+
 /// The part of a circle that a cap covers, between two directions.
 template<typename Real>
 struct Cover {
@@ -51,6 +67,9 @@ struct Cover {
 
 /// Room for one circle, kept from circle to circle by a thread.
 struct CircleScratch {
+    RoundedCovers rounded;
+    std::vector<std::int32_t> kept; // places of caps
+    CapColumns caps;
     CircleCovers circleCovers;
     std::vector<Cover<double>> covers;
 };

@@ -9,6 +9,7 @@
 namespace molsurf
 {
 
+using openvdb::Vec3d;
 using openvdb::Vec3f;
 
 namespace
@@ -42,38 +43,13 @@ MOLSURF_INLINE float least(Floats x)
 
 } // namespace
 
-void PartList::add(std::initializer_list<float> values, std::int32_t index, CapRange range)
+void PartList::makeRoom(int more, int count)
 {
-    if (part.size() < std::size_t(size + 1 + floatLanes)) {
-        const std::size_t room = 2 * std::size_t(size + 1 + floatLanes);
-        for (auto& list : numbers) list.resize(room, farAway);
-        part.resize(room);
-        caps.resize(room);
-    }
-    auto list = numbers.begin();
-    for (const float value : values) (*list++)[std::size_t(size)] = value;
-    part[std::size_t(size)] = index;
-    caps[std::size_t(size)] = range;
-    ++size;
-}
-
-void CapLists::clear()
-{
-    for (auto* list : {&x, &y, &z, &cosine, &sine}) list->clear();
-}
-
-void CapLists::add(float ax, float ay, float az, float cosineOf, float sineOf)
-{
-    x.push_back(ax);
-    y.push_back(ay);
-    z.push_back(az);
-    cosine.push_back(cosineOf);
-    sine.push_back(sineOf);
-}
-
-void CapLists::pad()
-{
-    for (int l = 0; l < floatLanes; ++l) add(0.0f, 0.0f, 0.0f, 2.0f, 0.0f);
+    const auto wanted = std::size_t(size + more + floatLanes);
+    if (part.size() >= wanted && numbers[std::size_t(count - 1)].size() >= wanted) return;
+    for (int n = 0; n < count; ++n) numbers[std::size_t(n)].resize(2 * wanted, farAway);
+    part.resize(2 * wanted);
+    caps.resize(2 * wanted);
 }
 
 namespace
@@ -95,30 +71,6 @@ struct Places {
         centre = Vec3f(x[0], y[0], z[0]) + Vec3f(0.5f * c.voxel);
     }
 };
-
-} // namespace
-
-MOLSURF_KERNEL void nearestBalls(VoxelCube& cube, const std::vector<NearBall>& balls)
-{
-    for (int s = 0; s < 8; ++s) {
-        const Places at(cube, s);
-        Floats nearest = splat(nowhere);
-        Ints patch = splat(-1);
-        for (const NearBall& ball : balls) {
-            const Floats dx = at.x - ball.centre.x(), dy = at.y - ball.centre.y();
-            const Floats dz = at.z - ball.centre.z();
-            const Floats d = squareRoot(dx * dx + dy * dy + dz * dz) - ball.radius;
-            const Ints nearer = d < nearest;
-            nearest = nearer ? d : nearest;
-            patch = nearer ? splat(ball.patch) : patch;
-        }
-        store(cube.distance + floatLanes * s, nearest);
-        store(cube.part + floatLanes * s, patch);
-    }
-}
-
-namespace
-{
 
 /// Eight parts of one kind as seen from a place, or one of them as seen from eight.
 struct Seen {
@@ -155,50 +107,98 @@ struct FromCircle {
     }
 };
 
-/// Bounds from below of the distances of the points of a ball from parts, less its radius.
-/// @param[out] keys  of the parts of a list
-/// @return the least distance of its centre from those that surely hold its foot
-MOLSURF_INLINE float boundCorners(const PartList& l, const Vec3f& c, float* keys)
+/// The distances of eight parts from a place, and which of them can be the nearest to a point of
+/// the ball of radius `room` about it.
+struct Reach {
+    Floats distance;
+    Ints possible;
+};
+
+MOLSURF_INLINE Floats column(const PartList& l, int number, int i)
 {
-    Floats sure = splat(nowhere);
-    for (int i = 0; i < l.size; i += floatLanes) {
-        const Floats d = laneNumbers() < splat(l.size - i) ? length(seen(l, i, c)) : splat(nowhere);
-        store(keys + i, d);
-        sure = smaller(d, sure);
-    }
-    return least(sure);
+    return load(l.numbers[std::size_t(number)].data() + i);
 }
 
-MOLSURF_INLINE float boundArcs(const PartList& l, const Vec3f& c, float radius, float* keys)
+MOLSURF_INLINE Reach reachOfCorners(const PartList& l, int i, const Seen& s, float room)
+{
+    Ints within = splat(-1);
+    for (int n = NormalX; n < cornerNumbers; n += 3) {
+        within &= s.x * column(l, n, i) + s.y * column(l, n + 1, i) + s.z * column(l, n + 2, i) >=
+                  splat(-room);
+    }
+    return {length(s), within};
+}
+
+/// @param[out] certain  whether the foot lies on the arc
+MOLSURF_INLINE Reach reachOfArcs(const PartList& l, int i, const Seen& s, float room, Ints& certain)
+{
+    const Floats axis[3] = {column(l, AxisX, i), column(l, AxisY, i), column(l, AxisZ, i)};
+    const Floats mid[3] = {column(l, MiddleX, i), column(l, MiddleY, i), column(l, MiddleZ, i)};
+    const FromCircle at(s, axis, mid);
+    const Floats off = at.aside - column(l, PartRadius, i);
+    const Floats endCosine = column(l, EndCosine, i);
+    certain = at.middle >= endCosine * at.aside;
+    const Floats across =
+        squareRoot(larger(at.aside * at.aside - at.middle * at.middle, splat(0.0f)));
+    // Distances from the planes through the ends and the axis, and from the cones.
+    const Floats between = column(l, EndSine, i) * at.middle - endCosine * across;
+    const Floats first = column(l, FirstSine, i) * at.along - column(l, FirstCosine, i) * off;
+    const Floats second = -column(l, SecondSine, i) * at.along - column(l, SecondCosine, i) * off;
+    const Floats outer = splat(-room);
+    return {squareRoot(at.along * at.along + off * off),
+            ((between >= outer) | certain) & (first >= outer) & (second >= outer)};
+}
+
+MOLSURF_INLINE Reach reachOfPatches(const PartList& l, int i, const Seen& s, float room)
+{
+    const Floats along =
+        s.x * column(l, AxisX, i) + s.y * column(l, AxisY, i) + s.z * column(l, AxisZ, i);
+    const Floats d2 = s.x * s.x + s.y * s.y + s.z * s.z;
+    const Floats aside = squareRoot(larger(d2 - along * along, splat(0.0f)));
+    const Floats beyond = column(l, FreeCosine, i) * aside - column(l, FreeSine, i) * along;
+    return {size(squareRoot(d2) - column(l, PartRadius, i)), beyond <= splat(room)};
+}
+
+/// Room for rounding, and for voxels that only by rounding lie outside.
+MOLSURF_INLINE float roomFor(float radius)
+{
+    return 1.003f * radius;
+}
+
+/// The keys of a list: the distances of its parts from the centre of a ball, `nowhere` for those
+/// that are the nearest to none of its points.
+/// @return the least distance of the centre from those that surely hold its foot
+MOLSURF_INLINE float boundCorners(const PartList& l, const Vec3f& c, float room, float* keys)
 {
     Floats sure = splat(nowhere);
     for (int i = 0; i < l.size; i += floatLanes) {
-        Floats axis[3], mid[3];
-        for (int a = 0; a < 3; ++a) {
-            axis[a] = load(l.numbers[AxisX + a].data() + i);
-            mid[a] = load(l.numbers[MiddleX + a].data() + i);
-        }
-        const FromCircle at(seen(l, i, c), axis, mid);
-        const Floats off = at.aside - load(l.numbers[PartRadius].data() + i);
-        const Floats d = squareRoot(at.along * at.along + off * off);
-        // Positive where the foot lies between the ends; it changes by (1 + |cosine|) at most over
-        // a unit of length.
-        const Floats cosine = load(l.numbers[EndCosine].data() + i);
-        const Floats within = at.middle - cosine * at.aside;
         const Ints used = laneNumbers() < splat(l.size - i);
-        const Ints possible = (within + 1.0001f * radius * (1.0f + size(cosine)) >= 0.0f) & used;
-        store(keys + i, possible ? d : splat(nowhere));
-        const Ints certain = (within >= 0.0f) & used;
-        sure = smaller(certain ? d : splat(nowhere), sure);
+        const Reach reach = reachOfCorners(l, i, seen(l, i, c), room);
+        store(keys + i, reach.possible & used ? reach.distance : splat(nowhere));
+        sure = smaller(used ? reach.distance : splat(nowhere), sure);
     }
     return least(sure);
 }
 
-MOLSURF_INLINE void boundPatches(const PartList& l, const Vec3f& c, float* keys)
+MOLSURF_INLINE float boundArcs(const PartList& l, const Vec3f& c, float room, float* keys)
+{
+    Floats sure = splat(nowhere);
+    for (int i = 0; i < l.size; i += floatLanes) {
+        const Ints used = laneNumbers() < splat(l.size - i);
+        Ints certain;
+        const Reach reach = reachOfArcs(l, i, seen(l, i, c), room, certain);
+        store(keys + i, reach.possible & used ? reach.distance : splat(nowhere));
+        sure = smaller(certain & used ? reach.distance : splat(nowhere), sure);
+    }
+    return least(sure);
+}
+
+MOLSURF_INLINE void boundPatches(const PartList& l, const Vec3f& c, float room, float* keys)
 {
     for (int i = 0; i < l.size; i += floatLanes) {
-        const Floats gap = size(length(seen(l, i, c)) - load(l.numbers[PartRadius].data() + i));
-        store(keys + i, laneNumbers() < splat(l.size - i) ? gap : splat(nowhere));
+        const Ints used = laneNumbers() < splat(l.size - i);
+        const Reach reach = reachOfPatches(l, i, seen(l, i, c), room);
+        store(keys + i, reach.possible & used ? reach.distance : splat(nowhere));
     }
 }
 
@@ -255,9 +255,10 @@ struct PartsAt {
 MOLSURF_INLINE float limitAt(const PartsAt& parts, const Vec3f& c, float radius, float inside,
                              const Keys& keys)
 {
-    float nearest = smaller(inside, boundCorners(parts.corners, c, keys.corners));
-    nearest = smaller(nearest, boundArcs(parts.arcs, c, radius, keys.arcs));
-    boundPatches(parts.patches, c, keys.patches);
+    const float room = roomFor(radius);
+    float nearest = smaller(inside, boundCorners(parts.corners, c, room, keys.corners));
+    nearest = smaller(nearest, boundArcs(parts.arcs, c, room, keys.arcs));
+    boundPatches(parts.patches, c, room, keys.patches);
     nearest = nearestOpen(parts.patches, parts.caps, c, keys.patches, nearest);
     return 1.00001f * smaller(nearest + 2.0f * radius, inside + radius) + 1e-5f;
 }
@@ -278,12 +279,8 @@ MOLSURF_KERNEL void takeParts(const PartList& from, const float* keys, float lim
         list[std::size_t(count)] = i;
         count += keys[i] < limit;
     }
-    const std::size_t room = std::size_t(count + floatLanes);
-    if (to.part.size() < room) {
-        for (auto& column : to.numbers) column.resize(2 * room, farAway);
-        to.part.resize(2 * room);
-        to.caps.resize(2 * room);
-    }
+    to.clear();
+    to.makeRoom(count, numbers);
     for (int n = 0; n < numbers; ++n) {
         const float* in = from.numbers[std::size_t(n)].data();
         float* out = to.numbers[std::size_t(n)].data();
@@ -363,31 +360,46 @@ void uncover(const VoxelCube& cube, const CapLists& all, CubeParts& near)
         const int count = capsAbout(Cone(cube.centre(), cube.radius(), apex), all, patches.caps[p],
                                     near.keys.data(), near.list.data());
         if (count < 0) continue;
-        const auto begin = std::uint32_t(near.caps.x.size());
+        const auto begin = std::uint32_t(near.caps.size());
         for (int k = 0; k < count; ++k) {
             const auto c = std::size_t(near.list[std::size_t(k)]);
             near.caps.add(all.x[c], all.y[c], all.z[c], all.cosine[c], all.sine[c]);
         }
-        for (int n = PartX; n <= PartRadius; ++n)
+        for (int n = 0; n < patchNumbers; ++n)
             patches.numbers[std::size_t(n)][q] = patches.numbers[std::size_t(n)][p];
         patches.part[q] = patches.part[p];
-        patches.caps[q] = {begin, std::uint32_t(near.caps.x.size())};
+        patches.caps[q] = {begin, std::uint32_t(near.caps.size())};
         ++kept;
     }
-    near.caps.pad();
     patches.size = kept;
 }
 
-/// The nearest part so far of eight voxels, and the square of its distance.
+/// The nearest part so far of eight voxels.
 struct Nearest {
-    Floats d2;
+    Floats distance; // or its square
     Ints part;
+    Seen normal;
+    Floats bend;
 
-    MOLSURF_INLINE void offer(Floats other, std::int32_t otherPart)
+    /// @param[in] way  along the normal at the foot
+    MOLSURF_INLINE void offer(Floats other, std::int32_t otherPart, const Seen& way,
+                              Floats otherBend)
     {
-        const Ints nearer = other < d2;
-        d2 = nearer ? other : d2;
+        const Ints nearer = other < distance;
+        distance = nearer ? other : distance;
         part = nearer ? splat(otherPart) : part;
+        normal.x = nearer ? way.x : normal.x;
+        normal.y = nearer ? way.y : normal.y;
+        normal.z = nearer ? way.z : normal.z;
+        bend = nearer ? otherBend : bend;
+    }
+
+    MOLSURF_INLINE void storeFoot(VoxelCube& cube, int small) const
+    {
+        store(cube.normal[0] + floatLanes * small, normal.x);
+        store(cube.normal[1] + floatLanes * small, normal.y);
+        store(cube.normal[2] + floatLanes * small, normal.z);
+        store(cube.bend + floatLanes * small, bend);
     }
 };
 
@@ -400,17 +412,26 @@ MOLSURF_INLINE Seen seenFrom(const PartList& l, std::size_t i, const Places& at)
 MOLSURF_INLINE void offerCorner(const PartList& l, std::size_t i, const Places& at, Nearest& best)
 {
     const Seen s = seenFrom(l, i, at);
-    best.offer(s.y * s.y + s.z * s.z + s.x * s.x, l.part[i]);
+    best.offer(s.y * s.y + s.z * s.z + s.x * s.x, l.part[i], {-s.x, -s.y, -s.z}, Floats{});
 }
 
 MOLSURF_INLINE void offerArc(const PartList& l, std::size_t i, const Places& at, Nearest& best)
 {
     const float axis[3] = {l.numbers[AxisX][i], l.numbers[AxisY][i], l.numbers[AxisZ][i]};
     const float mid[3] = {l.numbers[MiddleX][i], l.numbers[MiddleY][i], l.numbers[MiddleZ][i]};
-    const FromCircle from(seenFrom(l, i, at), axis, mid);
-    const Floats off = from.aside - l.numbers[PartRadius][i];
+    const Seen s = seenFrom(l, i, at);
+    const FromCircle from(s, axis, mid);
+    const float radius = l.numbers[PartRadius][i];
+    const Floats off = from.aside - radius;
     const Ints between = from.middle >= (l.numbers[EndCosine][i] - rimTolerance) * from.aside;
-    best.offer(between ? from.along * from.along + off * off : splat(nowhere), l.part[i]);
+    const Floats d2 = from.along * from.along + off * off;
+    // With the radial unit vector u, which is (s - along axis)/aside, the way is -along axis - off
+    // u, and the circle's curvature counts by the cosine between them.
+    const Floats onAxis = -radius * from.along;
+    best.offer(
+        between ? d2 : splat(nowhere), l.part[i],
+        {onAxis * axis[0] - off * s.x, onAxis * axis[1] - off * s.y, onAxis * axis[2] - off * s.z},
+        -off / (radius * squareRoot(larger(d2, splat(1e-12f)))));
 }
 
 MOLSURF_INLINE void offerPatch(const PartList& l, const CapLists& caps, std::size_t i,
@@ -419,13 +440,13 @@ MOLSURF_INLINE void offerPatch(const PartList& l, const CapLists& caps, std::siz
     const Seen s = seenFrom(l, i, at);
     const Floats r = length(s), d = l.numbers[PartRadius][i] - r;
     const Floats d2 = d * d; // of voxels outside the ball too: the same holds for them
-    Ints open = d2 < best.d2;
+    Ints open = d2 < best.distance;
     if (!any(open)) return; // only directions that would be nearer are looked at further
     for (std::uint32_t k = l.caps[i].begin; k < l.caps[i].end; ++k) {
         const Floats along = s.x * caps.x[k] + s.y * caps.y[k] + s.z * caps.z[k];
         open &= along <= (caps.cosine[k] - rimTolerance) * r;
     }
-    best.offer(open ? d2 : splat(nowhere), l.part[i]);
+    best.offer(open ? d2 : splat(nowhere), l.part[i], s, splat(1.0f / l.numbers[PartRadius][i]));
 }
 
 /// Calls f(i) for each part with a key below a limit.
@@ -448,7 +469,7 @@ MOLSURF_KERNEL void settle(VoxelCube& cube, const PartsAt& parts, float inside, 
         if (!any(wanted)) continue;
         const Places at(cube, s);
         const float limit = limitAt(parts, at.centre, radius, inside, keys);
-        Nearest best{splat(inside * inside), splat(-1)};
+        Nearest best{splat(inside * inside), splat(-1), {}, {}};
         forEachBelow(keys.corners, parts.corners.size, limit,
                      [&](std::size_t i) { offerCorner(parts.corners, i, at, best); });
         forEachBelow(keys.arcs, parts.arcs.size, limit,
@@ -458,14 +479,156 @@ MOLSURF_KERNEL void settle(VoxelCube& cube, const PartsAt& parts, float inside, 
 
         // Outside, the boundary is as near as the nearest ball. If it is not, balls meet in the
         // voxel, and only by rounding does none of them hold it.
-        const Floats d = squareRoot(best.d2);
+        const Floats d = squareRoot(best.distance);
         const Ints held = (outer < 0.0f) | (wanted & (d > 2.0f * cube.rounding()));
         store(cube.distance + floatLanes * s, held ? -smaller(d, splat(inside)) : outer);
         store(cube.part + floatLanes * s, wanted ? best.part : load(cube.part + floatLanes * s));
+        const auto keep = [&](const float* from, Floats& of) {
+            of = wanted ? of : load(from + floatLanes * s);
+        };
+        keep(cube.normal[0], best.normal.x);
+        keep(cube.normal[1], best.normal.y);
+        keep(cube.normal[2], best.normal.z);
+        keep(cube.bend, best.bend);
+        best.storeFoot(cube, s);
+    }
+}
+
+/// Eight parts of a table, from a place that they are seen from.
+MOLSURF_INLINE Seen seen(const PartGroup& group, const Vec3d& centre)
+{
+    Floats from[3];
+    for (int a = 0; a < 3; ++a) {
+        const double* place = group.place[a].data() + group.first;
+        for (int l = 0; l < floatLanes; ++l) from[a][l] = float(centre[a] - place[l]);
+    }
+    return {from[0], from[1], from[2]};
+}
+
+/// Adds some of eight parts.
+/// @param[in] chosen  which of them
+/// @param[in] count   of their numbers
+MOLSURF_INLINE void addChosen(const PartGroup& group, const Seen& s, Ints chosen, int count,
+                              PartList& out)
+{
+    const PartList& table = group.table;
+    chosen &= laneNumbers() < splat(table.size - std::int32_t(group.first));
+    std::uint32_t bits = bitsOf(chosen & laneBits());
+    if (bits == 0) return;
+    out.makeRoom(floatLanes, count);
+    alignas(32) float place[3][floatLanes];
+    store(place[0], -s.x);
+    store(place[1], -s.y);
+    store(place[2], -s.z);
+    for (; bits != 0; bits &= bits - 1) {
+        const auto lane = std::size_t(__builtin_ctz(bits)), to = std::size_t(out.size++);
+        for (std::size_t a = 0; a < 3; ++a) out.numbers[a][to] = place[a][lane];
+        for (std::size_t n = PartRadius; n < std::size_t(count); ++n)
+            out.numbers[n][to] = table.numbers[n][group.first + lane];
+        out.part[to] = table.part[group.first + lane];
+        if (!table.caps.empty()) out.caps[to] = table.caps[group.first + lane];
     }
 }
 
 } // namespace
+
+MOLSURF_KERNEL void addCorners(const PartGroup& group, const Vec3d& centre, float radius,
+                               float inside, PartList& out)
+{
+    const float room = roomFor(radius);
+    const Seen s = seen(group, centre);
+    const Reach reach = reachOfCorners(group.table, int(group.first), s, room);
+    addChosen(group, s, reach.possible & (reach.distance <= splat(inside + room)), cornerNumbers,
+              out);
+}
+
+MOLSURF_KERNEL void addArcs(const PartGroup& group, const Vec3d& centre, float radius, float inside,
+                            PartList& out)
+{
+    const float room = roomFor(radius);
+    const Seen s = seen(group, centre);
+    Ints certain;
+    const Reach reach = reachOfArcs(group.table, int(group.first), s, room, certain);
+    addChosen(group, s, reach.possible & (reach.distance <= splat(inside + room)), arcNumbers, out);
+}
+
+MOLSURF_KERNEL void addPatches(const PartGroup& group, const Vec3d& centre, float radius,
+                               float inside, PartList& out)
+{
+    const float room = roomFor(radius);
+    const Seen s = seen(group, centre);
+    const Reach reach = reachOfPatches(group.table, int(group.first), s, room);
+    addChosen(group, s, reach.possible & (reach.distance <= splat(inside + room)), patchNumbers,
+              out);
+}
+
+MOLSURF_KERNEL void addBalls(const PartGroup& group, const Vec3d& centre, float half, float outside,
+                             PartList& out)
+{
+    const Seen s = seen(group, centre);
+    const Floats zero = {};
+    const Floats x = larger(size(s.x) - half, zero), y = larger(size(s.y) - half, zero);
+    const Floats z = larger(size(s.z) - half, zero);
+    const Floats reach = column(group.table, PartRadius, int(group.first)) + outside;
+    addChosen(group, s, x * x + y * y + z * z <= reach * reach, ballNumbers, out);
+}
+
+namespace
+{
+
+/// Finds the balls that may be the nearest to a voxel of a cube, or hold it.
+/// @param[out] list  their places
+/// @return their number; -1 if one holds the whole cube
+MOLSURF_INLINE int chooseBalls(const VoxelCube& cube, const PartList& balls, float outside,
+                               float* keys, std::int32_t* list)
+{
+    const float radius = roomFor(cube.radius());
+    Floats nearest = splat(outside - radius);
+    for (int i = 0; i < balls.size; i += floatLanes) {
+        const Ints used = laneNumbers() < splat(balls.size - i);
+        const Floats d = length(seen(balls, i, cube.centre())) - column(balls, PartRadius, i);
+        if (any((d < splat(-radius)) & used)) return -1;
+        const Ints free = (load(balls.part.data() + i) >= 0) & used;
+        nearest = smaller(free ? d : splat(nowhere), nearest);
+        // One without a patch is the nearest to none, but may hold a voxel.
+        store(keys + i, free | (used & (d < splat(radius))) ? d : splat(nowhere));
+    }
+    const float limit = least(nearest) + 2.0f * radius;
+    int count = 0;
+    for (int i = 0; i < balls.size; ++i) {
+        list[count] = i;
+        count += keys[i] < limit;
+    }
+    return count;
+}
+
+} // namespace
+
+MOLSURF_KERNEL void nearestBalls(VoxelCube& cube, const PartList& balls, float outside,
+                                 CubeParts& scratch)
+{
+    const auto room = std::size_t(balls.size + floatLanes);
+    if (scratch.keys.size() < room) scratch.keys.resize(room);
+    if (scratch.list.size() < room) scratch.list.resize(room);
+    const int count = chooseBalls(cube, balls, outside, scratch.keys.data(), scratch.list.data());
+    if (count < 0) {
+        std::fill_n(cube.distance, VoxelCube::size, -1.0f);
+        std::fill_n(cube.part, VoxelCube::size, -1);
+        return;
+    }
+    for (int s = 0; s < 8; ++s) {
+        const Places at(cube, s);
+        Nearest best{splat(nowhere), splat(-1), {}, {}};
+        for (int k = 0; k < count; ++k) {
+            const auto i = std::size_t(scratch.list[std::size_t(k)]);
+            const Seen from = seenFrom(balls, i, at);
+            best.offer(length(from) - balls.numbers[PartRadius][i], balls.part[i], from, Floats{});
+        }
+        store(cube.distance + floatLanes * s, best.distance);
+        store(cube.part + floatLanes * s, best.part);
+        best.storeFoot(cube, s);
+    }
+}
 
 void nearestParts(VoxelCube& cube, const LeafParts& parts, const CapLists& caps, float inside,
                   CubeParts& near)
@@ -473,9 +636,9 @@ void nearestParts(VoxelCube& cube, const LeafParts& parts, const CapLists& caps,
     const Keys keys(near.keys, parts.corners.size, parts.arcs.size, parts.patches.size);
     const float limit =
         limitOf(cube, {parts.corners, parts.arcs, parts.patches, caps}, inside, keys);
-    takeParts(parts.corners, keys.corners, limit, PartZ + 1, near.list, near.corners);
-    takeParts(parts.arcs, keys.arcs, limit, partNumbers, near.list, near.arcs);
-    takeParts(parts.patches, keys.patches, limit, PartRadius + 1, near.list, near.patches);
+    takeParts(parts.corners, keys.corners, limit, cornerNumbers, near.list, near.corners);
+    takeParts(parts.arcs, keys.arcs, limit, arcNumbers, near.list, near.arcs);
+    takeParts(parts.patches, keys.patches, limit, patchNumbers, near.list, near.patches);
     uncover(cube, caps, near);
     settle(cube, {near.corners, near.arcs, near.patches, near.caps}, inside,
            Keys(near.keys, near.corners.size, near.arcs.size, near.patches.size));

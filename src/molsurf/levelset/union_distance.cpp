@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/levelset/union_distance.h"
 
-#include "molsurf/balls/ball_index.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/grid/leaf_block.h"
 #include "molsurf/levelset/kink.h"
-#include "molsurf/levelset/nearest_part.h"
+#include "molsurf/levelset/leaf_feet.h"
+#include "molsurf/levelset/part_tables.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace molsurf
@@ -25,35 +23,118 @@ using openvdb::Vec3f;
 namespace
 {
 
-/// The nearest ball first.
-struct BallAt {
-    NearBall ball;
-    float distance; // of its boundary from the leaf's centre, < 0 inside
+/// The boundary point nearest to a voxel.
+struct Foot {
+    bool inside; // whether the voxel is
+    Vec3f y;     // from the voxel [Å]
+    Vec3f n;     // unit normal of the distance there, outward
 };
+
+/// The foot of a voxel on the whole sphere or circle of its nearest part, or a corner. Only voxels
+/// inside are nearest to an arc or to a corner.
+Foot footOn(const Part& part, const Vec3d& x)
+{
+    const Vec3f w(x - part.place);
+    if (part.kind == PartKind::Patch) {
+        const float distance = w.length();
+        const Vec3f n = w / std::max(distance, 1e-6f * part.radius);
+        return {distance < part.radius, (part.radius - distance) * n, n};
+    }
+    Vec3f y = -w;
+    if (part.kind == PartKind::Arc) {
+        const Vec3f u = w - w.dot(part.axis) * part.axis;
+        y += part.radius / std::max(u.length(), 1e-6f) * u;
+    }
+    return {true, y, y / std::max(y.length(), 1e-6f)};
+}
+
+/// Curvature of the boundary at the foot of x, along the tangential part of a vector: that of a
+/// patch, or what an arc has of it [1/Å].
+float curvatureAlong(const Part& part, const Foot& foot, const Vec3d& x, const Vec3f& chord)
+{
+    if (part.kind == PartKind::Patch) return 1.0f / part.radius;
+    if (part.kind == PartKind::Corner) return 0.0f;
+    const Vec3f u = (Vec3f(x - part.place) + foot.y) / part.radius;
+    const float along = chord.dot(part.axis.cross(u)), across = chord.dot(foot.n);
+    const float length2 = chord.lengthSqr() - across * across; // of the tangential part
+    return length2 > 0.0f ? foot.n.dot(u) / part.radius * along * along / length2 : 0.0f;
+}
+
+/// Whether a voxel is so near to the axis of an arc that others about it may have feet far apart.
+bool isNearAxis(const Part& part, const Vec3d& x, double voxelSize)
+{
+    if (part.kind != PartKind::Arc) return false;
+    const Vec3d w = x - part.place;
+    const double height = w.dot(Vec3d(part.axis));
+    return w.lengthSqr() - height * height < 2.0 * voxelSize * voxelSize;
+}
+
+/// Whether the distance has a kink between a voxel and the next one along an axis.
+/// @param[in] p,q  the parts nearest to them, or -1
+bool isKinkBeside(const PartTables& tables, const Coord& voxel, int axis, double voxelSize,
+                  std::int32_t p, std::int32_t q)
+{
+    if (p < 0 || q < 0 || (p == q && std::size_t(p) < tables.patches())) return false;
+    const Vec3d x = voxel.asVec3d() * voxelSize;
+    const Part part = tables.part(p);
+    if (p == q && !isNearAxis(part, x, voxelSize)) return false;
+    Vec3d next = x;
+    next[axis] += voxelSize;
+    const Part other = tables.part(q);
+    const Foot a = footOn(part, x), b = footOn(other, next);
+    const float side = a.inside ? 1.0f : -1.0f;
+    const Vec3f spread = side * (b.n - a.n);
+    if (a.inside != b.inside || spread.lengthSqr() < kinkSpread * kinkSpread) return false;
+    const Vec3f chord = Vec3f(next - x) + b.y - a.y;
+    return isKink(chord, spread,
+                  std::max(side * curvatureAlong(part, a, x, chord),
+                           side * curvatureAlong(other, b, next, chord)));
+}
+
+/// Adds the voxels of a leaf with a kink between them and the next leaf along an axis.
+/// @param[in] part  index of the nearest part of each voxel of the table
+void addKinksBetweenLeaves(const PartTables& tables, const LeafTable& table,
+                           const LeafArray<std::int32_t>& part, double voxelSize, std::size_t n,
+                           LeafMask& kinks)
+{
+    constexpr int strides[3] = {64, 8, 1}, neighbours[3] = {22, 16, 14};
+    const std::int32_t* own = part.leaf(n);
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::int32_t m = table.neighbours(n)[std::size_t(neighbours[axis])];
+        if (m == noLeaf) continue;
+        const std::int32_t* next = part.leaf(std::size_t(m));
+        const int stride = strides[axis], across = strides[axis == 0 ? 1 : 0];
+        const int along = strides[axis == 2 ? 1 : 2];
+        for (int i = 0; i < leafDim; ++i) {
+            for (int j = 0; j < leafDim; ++j) {
+                const int w = i * across + j * along, v = w + (leafDim - 1) * stride;
+                if (!table.active(n).on(v) || kinks.on(v)) continue;
+                const Coord at = table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+                kinks.set(v, isKinkBeside(tables, at, axis, voxelSize, own[v], next[w]));
+            }
+        }
+    }
+}
 
 /// Everything near a leaf, relative to its centre, and the memory that its cubes take by turns.
 struct Near {
-    std::vector<BallAt> balls;
     LeafParts parts;
-    std::vector<NearBall> cubeBalls;
     CubeParts cubeParts;
+    LeafFeet feet;
 };
 
 class Evaluator
 {
 public:
-    /// @param[in,out] set  the caps of its boundary are taken
-    Evaluator(BallUnion& set, double voxelSize, const BandWidths& width)
-        : boundary_(set.boundary), probe_(set.probe), voxel_(voxelSize), inside_(width.inside),
-          outside_(width.outside), caps_(listsOf(std::move(set.boundary.caps))),
-          spheres_(patchBalls(set.boundary)), patchIndex_(spheres_, {1.5, 0.0, 2.0}),
-          ballIndex_(set.balls, {1.5, set.probe, 2.0}), patchOf_(set.balls.size(), -1)
+    /// @param[in,out] set  the arcs and corners of its boundary are taken
+    Evaluator(BallUnion& set, double voxelSize, const BandWidths& width, const Progress& progress)
+        : boundary_(set.boundary), voxel_(voxelSize), inside_(width.inside),
+          outside_(width.outside),
+          tables_(set.boundary, set.balls, set.probe, 1.0001 * width.inside, progress)
     {
-        for (std::size_t p = 0; p < spheres_.size(); ++p) {
-            const auto placed = std::size_t(boundary_.patches[p].ball);
-            patchOf_[std::size_t(boundary_.balls[placed].index)] = std::int32_t(p);
-        }
     }
+
+    const PartTables& tables() const { return tables_; }
 
     /// The leaves that may have a voxel of the band.
     std::vector<Coord> leaves(const openvdb::CoordBBox& box, const Progress& progress) const
@@ -93,245 +174,63 @@ public:
 
     /// @param[out] phi   of the leaf [Å]
     /// @param[out] part  index of the nearest part: patches, then arcs, then corners
+    /// @param[out] kinks  the voxels with a kink between them and the next of the leaf along an
+    /// axis
     /// @return the voxels within the band
-    LeafMask evaluate(const Coord& origin, Near& near, float* phi, std::int32_t* part) const
+    LeafMask evaluate(const Coord& origin, Near& near, float* phi, std::int32_t* part,
+                      LeafMask& kinks) const
     {
-        gather(origin, near);
-        LeafMask active;
+        const double half = 0.5 * (leafDim - 1) * voxel_;
+        tables_.gather(origin.asVec3d() * voxel_ + Vec3d(half), half, outside_ + voxel_,
+                       near.parts);
         for (int b = 0; b < 8; ++b) {
             constexpr int edge = VoxelCube::edge;
             const Coord corner(edge * (b >> 2), edge * (b >> 1 & 1), edge * (b & 1));
             VoxelCube cube;
-            const float half = 0.5f * (leafDim - 1);
             cube.voxel = float(voxel_);
-            cube.first = (Vec3f(corner.asVec3s()) - Vec3f(half)) * cube.voxel;
+            cube.first = (Vec3f(corner.asVec3s()) - Vec3f(0.5f * (leafDim - 1))) * cube.voxel;
             evaluate(cube, near);
-            for (int k = 0; k < VoxelCube::size; ++k) {
-                const float distance = cube.distance[k];
-                const Coord at = corner + VoxelCube::coord(k);
-                const int v = 64 * at.x() + 8 * at.y() + at.z();
-                phi[v] = std::clamp(distance, float(-inside_), float(outside_));
-                part[v] = cube.part[k];
-                active.set(v, distance > float(-inside_) && distance < float(outside_));
-            }
+            near.feet.set(cube, corner);
         }
+        LeafFeet& feet = near.feet;
+        feet.finish();
+        std::copy_n(feet.part, leafSize, part);
+        const LeafMask active = feet.cutOff(float(inside_), float(outside_), phi);
+        kinks = kinksWithin(origin, feet, active);
         return active;
     }
 
 private:
-    static CapLists listsOf(std::vector<Cap> caps)
+    LeafMask kinksWithin(const Coord& origin, const LeafFeet& feet, const LeafMask& active) const
     {
-        CapLists out;
-        for (auto* list : {&out.x, &out.y, &out.z, &out.cosine, &out.sine})
-            list->reserve(caps.size() + 8);
-        for (const Cap& cap : caps) {
-            out.add(float(cap.axis.x()), float(cap.axis.y()), float(cap.axis.z()),
-                    float(cap.cosine), float(std::sqrt(1.0 - cap.cosine * cap.cosine)));
-        }
-        out.pad();
-        return out;
-    }
-    static std::vector<Ball> patchBalls(const BallBoundary& boundary)
-    {
-        std::vector<Ball> out;
-        for (const Patch& p : boundary.patches) {
-            out.push_back({Vec3f(p.centre), float(p.radius), p.ball});
-        }
-        return out;
-    }
-
-    void gather(const Coord& origin, Near& near) const
-    {
-        const Vec3d centre = (origin.asVec3d() + Vec3d(0.5 * (leafDim - 1))) * voxel_;
-        const double radius = 0.5 * (leafDim - 1) * std::sqrt(3.0) * voxel_;
-        const double reach = inside_ + radius;
-        LeafParts& parts = near.parts;
-        parts.patches.clear();
-        parts.arcs.clear();
-        parts.corners.clear();
-        near.balls.clear();
-        const double aside = radius + outside_ + voxel_; // kinks look a voxel farther
-        ballIndex_.forEachNear(
-            centre, centre, probe_ + aside, [&](const Ball& ball, std::int32_t i) {
-                const Vec3f c(Vec3d(ball.center) - centre);
-                const float R = float(ball.radius + probe_);
-                const double touch = R + aside;
-                if (c.lengthSqr() < touch * touch)
-                    near.balls.push_back({{c, R, patchOf_[std::size_t(i)]}, c.length() - R});
+        const KinkMasks found = findKinks(feet, float(voxel_), std::int32_t(tables_.patches()));
+        LeafMask kinks = found.sure & active;
+        for (int axis = 0; axis < 3; ++axis) {
+            (found.possible[axis] & active & ~kinks).forEach([&](int v) {
+                const Coord at = origin.offsetBy(v >> 6, v >> 3 & 7, v & 7);
+                const int next = v + (64 >> 3 * axis);
+                kinks.set(v,
+                          isKinkBeside(tables_, at, axis, voxel_, feet.part[v], feet.part[next]));
             });
-        // The largest overlap first: it may hold all voxels of a cube.
-        std::sort(near.balls.begin(), near.balls.end(),
-                  [](const BallAt& a, const BallAt& b) { return a.distance < b.distance; });
-        patchIndex_.forEachNear(centre, centre, reach, [&](const Ball&, std::int32_t i) {
-            const Patch& patch = boundary_.patches[std::size_t(i)];
-            const Vec3d c = patch.centre - centre;
-            // All parts of a patch lie on its sphere.
-            if (std::abs(c.length() - patch.radius) > reach) return;
-            parts.patches.add({float(c.x()), float(c.y()), float(c.z()), float(patch.radius)}, i,
-                              {patch.capsBegin, patch.capsEnd});
-            const std::int32_t arcs = std::int32_t(boundary_.patches.size());
-            for (std::uint32_t k = patch.arcsBegin; k < patch.arcsEnd; ++k) {
-                const Arc& arc = boundary_.arcs[k];
-                const Vec3d m = arc.centre - centre;
-                if (distance2ToCircle(arc, -m) > reach * reach) continue;
-                const double cosine = arc.ends[0] < 0 ? -2.0 : std::cos(arc.half);
-                parts.arcs.add({float(m.x()), float(m.y()), float(m.z()), float(arc.radius),
-                                float(arc.axis.x()), float(arc.axis.y()), float(arc.axis.z()),
-                                float(arc.middle.x()), float(arc.middle.y()), float(arc.middle.z()),
-                                float(cosine)},
-                               arcs + std::int32_t(k));
-            }
-            const std::int32_t corners = arcs + std::int32_t(boundary_.arcs.size());
-            for (std::uint32_t k = patch.cornersBegin; k < patch.cornersEnd; ++k) {
-                const Vec3d p = boundary_.corners[k].position - centre;
-                if (p.lengthSqr() > reach * reach) continue;
-                parts.corners.add({float(p.x()), float(p.y()), float(p.z())},
-                                  corners + std::int32_t(k));
-            }
-        });
-    }
-
-    /// @param[in] x  relative to the circle's centre
-    static double distance2ToCircle(const Arc& arc, const Vec3d& x)
-    {
-        const double along = x.dot(arc.axis);
-        const double r = std::sqrt(std::max(0.0, x.lengthSqr() - along * along)) - arc.radius;
-        return along * along + r * r;
+        }
+        return kinks;
     }
 
     /// Finds distances and nearest parts of a cube.
     void evaluate(VoxelCube& cube, Near& near) const
     {
-        const Vec3f centre = cube.centre();
-        const float radius = cube.radius();
-        near.cubeBalls.clear();
-        bool within = false; // a ball
-        for (const auto& [ball, distance] : near.balls) {
-            const float d = (ball.centre - centre).length();
-            within = d + radius < ball.radius;
-            if (within) break;
-            if (d - radius < ball.radius + float(outside_ + voxel_)) near.cubeBalls.push_back(ball);
-        }
-        if (within) {
-            std::fill_n(cube.distance, VoxelCube::size, -1.0f);
-        } else {
-            nearestBalls(cube, near.cubeBalls);
-        }
+        const float beyond = float(outside_ + voxel_); // kinks look a voxel farther
+        nearestBalls(cube, near.parts.balls, beyond, near.cubeParts);
         if (std::any_of(cube.distance, cube.distance + VoxelCube::size,
                         [&](float d) { return d < cube.rounding(); }))
-            nearestParts(cube, near.parts, caps_, 1.0001f * float(inside_), near.cubeParts);
+            nearestParts(cube, near.parts, boundary_.caps, 1.0001f * float(inside_),
+                         near.cubeParts);
     }
 
     const BallBoundary& boundary_;
-    double probe_, voxel_, inside_, outside_;
-    const CapLists caps_;
-    std::vector<Ball> spheres_;
-    BallIndex patchIndex_, ballIndex_;
-    std::vector<std::int32_t> patchOf_; // of each ball, or -1
+    double voxel_, inside_, outside_;
+    const PartTables tables_;
 };
-
-/// The boundary point nearest to a voxel.
-struct Foot {
-    std::int32_t part;
-    bool inside; // whether the voxel is
-    Vec3f y;     // from the voxel [Å]
-    Vec3f n;     // unit normal of the distance there, outward
-};
-
-/// The foot of a voxel on the whole sphere or circle of its nearest part, or a corner. Only voxels
-/// inside are nearest to an arc or to a corner.
-Foot footOn(const BallBoundary& boundary, std::int32_t part, const Vec3d& x)
-{
-    const std::size_t patches = boundary.patches.size(), arcs = boundary.arcs.size();
-    const std::size_t i = std::size_t(part);
-    if (i < patches) {
-        const Patch& patch = boundary.patches[i];
-        const Vec3f w(x - patch.centre);
-        const float distance = w.length(), radius = float(patch.radius);
-        const Vec3f n = w / std::max(distance, 1e-6f * radius);
-        return {part, distance < radius, (radius - distance) * n, n};
-    }
-    Vec3f y;
-    if (i < patches + arcs) {
-        const Arc& arc = boundary.arcs[i - patches];
-        const Vec3f w(x - arc.centre), axis(arc.axis);
-        const Vec3f u = w - w.dot(axis) * axis;
-        y = float(arc.radius) / std::max(u.length(), 1e-6f) * u - w;
-    } else {
-        y = Vec3f(boundary.corners[i - patches - arcs].position - x);
-    }
-    return {part, true, y, y / std::max(y.length(), 1e-6f)};
-}
-
-/// Curvature of the boundary at the foot of x, along the tangential part of a vector: that of a
-/// patch, or what an arc has of it [1/Å].
-float curvatureAlong(const BallBoundary& boundary, const Foot& foot, const Vec3d& x,
-                     const Vec3f& chord)
-{
-    const std::size_t patches = boundary.patches.size(), arcs = boundary.arcs.size();
-    const std::size_t i = std::size_t(foot.part);
-    if (i < patches) return 1.0f / float(boundary.patches[i].radius);
-    if (i >= patches + arcs) return 0.0f;
-    const Arc& arc = boundary.arcs[i - patches];
-    const Vec3f u = (Vec3f(x - arc.centre) + foot.y) / float(arc.radius);
-    const float along = chord.dot(Vec3f(arc.axis).cross(u)), across = chord.dot(foot.n);
-    const float length2 = chord.lengthSqr() - across * across; // of the tangential part
-    return length2 > 0.0f ? foot.n.dot(u) / float(arc.radius) * along * along / length2 : 0.0f;
-}
-
-bool isKinkBetween(const BallBoundary& boundary, const Vec3d& x, const Foot& a, const Vec3d& next,
-                   const Foot& b)
-{
-    const float side = a.inside ? 1.0f : -1.0f;
-    const Vec3f spread = side * (b.n - a.n);
-    if (a.inside != b.inside || spread.lengthSqr() < kinkSpread * kinkSpread) return false;
-    const Vec3f chord = Vec3f(next - x) + b.y - a.y;
-    return isKink(chord, spread,
-                  std::max(side * curvatureAlong(boundary, a, x, chord),
-                           side * curvatureAlong(boundary, b, next, chord)));
-}
-
-/// Whether the nearest part of a voxel is an arc about whose axis two voxels may have feet far
-/// apart.
-bool isNearAxis(const BallBoundary& boundary, std::int32_t part, const Vec3d& x, double voxelSize)
-{
-    const std::size_t i = std::size_t(part) - boundary.patches.size();
-    if (std::size_t(part) < boundary.patches.size() || i >= boundary.arcs.size()) return false;
-    const Vec3d w = x - boundary.arcs[i].centre;
-    const double height = w.dot(boundary.arcs[i].axis);
-    return w.lengthSqr() - height * height < 2.0 * voxelSize * voxelSize;
-}
-
-/// The voxels of a leaf with a kink between them and the next voxel along an axis.
-/// @param[in] part  index of the nearest part of each voxel of the table
-LeafMask kinksOf(const BallBoundary& boundary, const LeafTable& table,
-                 const LeafArray<std::int32_t>& part, double voxelSize, std::size_t n)
-{
-    LeafMask kinks;
-    LeafBlock<std::int32_t, 1> block;
-    block.gather(table, part, n);
-    constexpr int strides[3] = {block.strideX, block.strideY, block.strideZ};
-    table.active(n).forEach([&](int v) {
-        const Coord local(v >> 6, v >> 3 & 7, v & 7);
-        const std::int32_t* p = block.at(local.x(), local.y(), local.z());
-        if (p[0] < 0) return;
-        const Vec3d x = (table.origin(n) + local).asVec3d() * voxelSize;
-        const bool alone = !isNearAxis(boundary, p[0], x, voxelSize);
-        std::optional<Foot> foot;
-        for (int axis = 0; axis < 3; ++axis) {
-            const std::int32_t next = p[strides[axis]];
-            if (next < 0 || (next == p[0] && alone)) continue;
-            if (!foot) foot = footOn(boundary, p[0], x);
-            Vec3d beside = x;
-            beside[axis] += voxelSize;
-            const Foot other = footOn(boundary, next, beside);
-            if (!isKinkBetween(boundary, x, *foot, beside, other)) continue;
-            kinks.set(v);
-            return;
-        }
-    });
-    return kinks;
-}
 
 } // namespace
 
@@ -346,19 +245,21 @@ DistanceBand distanceToUnion(BallUnion set, double voxelSize, const BandWidths& 
     DistanceBand band;
     band.phi.voxelSize = voxelSize;
     if (set.boundary.patches.empty()) return band;
-    const Evaluator evaluator(set, voxelSize, width);
+    const Evaluator evaluator(set, voxelSize, width, progress);
     LeafTable& table = band.phi.table;
     table = LeafTable(evaluator.leaves(box, progress));
     band.phi.values = LeafField(table.size());
     LeafArray<std::int32_t> part(table.size());
     tbb::enumerable_thread_specific<Near> scratch;
+    std::vector<LeafMask> kinks(table.size());
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        table.active(n) =
-            evaluator.evaluate(table.origin(n), scratch.local(), band.phi.leaf(n), part.leaf(n));
+        table.active(n) = evaluator.evaluate(table.origin(n), scratch.local(), band.phi.leaf(n),
+                                             part.leaf(n), kinks[n]);
     });
     band.kinks = table;
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        band.kinks.active(n) = kinksOf(set.boundary, table, part, voxelSize, n);
+        addKinksBetweenLeaves(evaluator.tables(), table, part, voxelSize, n, kinks[n]);
+        band.kinks.active(n) = kinks[n];
     });
     return band;
 }

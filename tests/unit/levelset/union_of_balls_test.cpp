@@ -134,6 +134,18 @@ TEST(UnionOfBalls, DistanceOfSpecialPositions)
     for (int k = 0; k < 8; ++k)
         cube.push_back(ball(2 * (k & 1), 2 * (k >> 1 & 1), k >> 1 & 2, 1.5));
     expectExact(cube, 0.5, 0.5, 2.0, 1.0, "a cube");
+    std::vector<Ball> hexagon, far;
+    for (int k = 0; k < 6; ++k) {
+        hexagon.push_back(ball(2 * std::cos(k * M_PI / 3), 2 * std::sin(k * M_PI / 3), 0, 1.2));
+        far.push_back(hexagon.back());
+        far.back().center += Vec3f(65536, -65536, 32768);
+    }
+    expectExact(hexagon, 1.4, 0.5, 3.4, 0.6, "a hexagon");
+    expectExact(hexagon, 1.4, 1.0, 5.4, 2.6, "a hexagon, by large voxels");
+    expectExact(far, 1.4, 0.5, 3.4, 0.6, "a hexagon far from the origin");
+    // Of the small ball's circle on the large one, the third ball covers less than half.
+    expectExact({ball(0, 0, 0, 3), ball(3, 0, 0, 1.2), ball(3, 1.5, 0, 0.8)}, 0.0, 0.25, 1.5, 1.0,
+                "an arc of more than half a circle");
 }
 
 TEST(UnionOfBalls, OneBallHasNoKink)
@@ -186,6 +198,41 @@ TEST(UnionOfBalls, KinksOfTwoBallsAreOnTheirAxisAndBetweenThem)
     EXPECT_GT(outer, 100u);
     EXPECT_EQ(marked, beside);
     EXPECT_GT(beside, 50u);
+}
+
+// Kinks within a leaf and those between leaves are found in different ways.
+TEST(UnionOfBalls, KinksDoNotDependOnTheLeaves)
+{
+    constexpr double voxel = 0.5;
+    const auto kinksOf = [&](const Coord& shift, std::size_t& count) {
+        std::vector<Ball> balls = test::randomBalls(30, 8.0, Vec3d(3.0, -2.0, 1.0), 8);
+        for (Ball& b : balls) {
+            for (int a = 0; a < 3; ++a) // so that nothing is rounded when they are shifted
+                b.center[a] = std::round(1024.0f * b.center[a]) / 1024.0f;
+            b.center += Vec3f(shift.asVec3s()) * float(voxel);
+        }
+        DistanceBand band =
+            distanceToUnion(unionOf(balls, 1.4, Progress()), voxel, {3.4, 1.0}, Progress());
+        count = band.kinks.activeCount();
+        return std::move(band.kinks);
+    };
+    std::size_t count = 0, shifted = 0, missed = 0;
+    const LeafTable kinks = kinksOf({0, 0, 0}, count);
+    const Coord shift(3, 5, -2);
+    const LeafTable other = kinksOf(shift, shifted);
+    for (std::size_t n = 0; n < kinks.size(); ++n) {
+        kinks.active(n).forEach([&](int v) {
+            const Coord c = kinks.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7) + shift;
+            const std::int32_t m = other.find(c);
+            missed +=
+                m == noLeaf || !other.active(std::size_t(m))
+                                    .on(int(openvdb::FloatTree::LeafNodeType::coordToOffset(c)));
+        });
+    }
+    EXPECT_GT(count, 1000u);
+    // Balls are moved by 1e-9 Å, otherwise in each place, which decides a few.
+    EXPECT_NEAR(double(count), double(shifted), 0.003 * double(count));
+    EXPECT_LT(missed, std::size_t(0.003 * double(count)));
 }
 
 // Spheres that nearly meet in a voxel, inside of the union: all around are balls, but each foot
