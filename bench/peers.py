@@ -3,17 +3,20 @@
 """Runs the same surfaces through vdb_molsurf and through other programs, in turn, and compares them.
 
     bench/peers.py --tool build-release/tools/vdb_molsurf --runs 5 --voxel 0.5 BALLS.xyzr ...
+    bench/peers.py --equal-error BALLS.xyzr ...
 
 Each program that is installed makes the solvent-excluded surface of the same balls with a probe of
 1.4 Å (FreeSASA: the area of the solvent-accessible one). Programs take turns, run by run, so that
 what else goes on on the machine hits all alike; times are medians of whole processes, ratios are
 medians of the ratios within a turn. Every answer is checked: its area and volume against those of
 the exact surface (vdb_molsurf --surface ses at a quarter of the voxel, or --reference), and whether
-its mesh is closed. Needs python3-numpy and time. Debian has EDTSurf (edtsurf), PyMOL (pymol) and FreeSASA
+its mesh is closed. With --equal-error each program takes the coarsest of its grids whose mesh is within 1 % of
+the exact area and 0.1 % of the exact volume, and that is timed; else its finest. Needs python3-numpy and time. Debian has EDTSurf (edtsurf), PyMOL (pymol) and FreeSASA
 (freesasa); NanoShaper is used if it is on PATH, and Mol* if node is, and finds its package: `npm
 install molstar` in a folder, and NODE_PATH=FOLDER/node_modules.
 """
 import argparse
+import contextlib
 import json
 import os
 import platform
@@ -81,6 +84,24 @@ def read_text_ply(path):
     return points, triangles
 
 
+def read_binary_ply(path):
+    """Points and triangles of a little-endian file whose faces have a list of indices and nothing else."""
+    kinds = {"float": "<f4", "double": "<f8", "int": "<i4", "uint": "<u4", "uchar": "u1", "char": "i1",
+             "short": "<i2", "ushort": "<u2"}
+    data = open(path, "rb").read()
+    header, body = data.split(b"end_header\n", 1)
+    counts, fields, element = {}, [], ""
+    for words in (line.split() for line in header.decode().splitlines()):
+        if words[0] == "element":
+            element = words[1]
+            counts[element] = int(words[2])
+        elif words[0] == "property" and element == "vertex":
+            fields.append((words[2], kinds[words[1]]))
+    vertices = np.frombuffer(body, np.dtype(fields), counts["vertex"])
+    faces = np.frombuffer(body, np.dtype([("n", "u1"), ("i", "<i4", 3)]), counts["face"], vertices.nbytes)
+    return np.stack([vertices[k] for k in "xyz"], 1).astype(float), faces["i"].astype(np.int64)
+
+
 def read_off(path):
     with open(path) as file:
         lines = (line for line in file if line.strip() and not line.startswith("#"))
@@ -95,6 +116,7 @@ class Program:
     """One program: its name, what it is called with, and the numbers that it leaves behind."""
 
     surface = "SES"
+    settings = (1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125)  # edges of cells, or what the program has instead
 
     def version(self):
         return ""
@@ -104,9 +126,11 @@ class Program:
 
 
 class Molsurf(Program):
-    def __init__(self, tool, kind, threads):
+    def __init__(self, tool, kind, threads, triangles=False):
         self.tool, self.kind, self.threads = tool, kind, threads
+        self.triangles = triangles  # whether its numbers are those of the triangles, not of the report
         self.name = f"vdb_molsurf {kind}, {threads} thread{'s' if threads > 1 else ''}"
+        self.name += ", by its triangles" if triangles else ""
         self.surface = {"ses": "SES", "sas": "SAS"}.get(kind, kind)
 
     def version(self):
@@ -118,6 +142,8 @@ class Molsurf(Program):
                 str(self.threads), "--force", "-q", "-o", out + ".vdb", "-o", out + ".ply", "-o", out + ".json"]
 
     def result(self, case, folder, output):
+        if self.triangles:
+            return mesh_numbers(*read_binary_ply(os.path.join(folder, "molsurf.ply")))
         surface = json.load(open(os.path.join(folder, "molsurf.json")))["surface"]
         return {key: surface[key] for key in ("area", "volume", "closed", "triangles")}
 
@@ -139,7 +165,11 @@ class EDTSurf(Program):
 
 
 class PyMOL(Program):
-    name = "PyMOL, default quality"
+    name = "PyMOL"
+    settings = (0, 1, 2, 3)  # surface_quality
+
+    def __init__(self, by_voxel=True):
+        self.by_voxel = by_voxel  # cases say voxels: the default quality
 
     def prepare(self, case, folder):
         write_pdb(case.balls, os.path.join(folder, "pymol.pdb"))
@@ -149,6 +179,7 @@ cmd.load({os.path.join(folder, 'pymol.pdb')!r}, "m")
 cmd.alter("all", "vdw=b")
 cmd.rebuild()
 cmd.set("solvent_radius", {PROBE})
+cmd.set("surface_quality", {0 if self.by_voxel else case.voxel})
 cmd.hide("everything")
 cmd.show("surface")
 cmd.save({os.path.join(folder, 'pymol.obj')!r})
@@ -226,6 +257,8 @@ class FreeSASA(Program):
     """The area of the solvent-accessible surface by a hundred points an atom; no mesh, no volume."""
 
     name, surface = "FreeSASA, 100 points an atom", "SAS"
+
+    settings = ()
 
     def prepare(self, case, folder):
         write_pdb(case.balls, os.path.join(folder, "freesasa.pdb"), radius_as_occupancy=True)
@@ -308,6 +341,61 @@ def measure(case, programs, runs, limit):
     return rows
 
 
+MOST_AREA, MOST_VOLUME = 0.01, 0.001  # errors that --equal-error allows
+
+
+def coarsest(program, path, exact, limit):
+    """The first of a program's settings whose mesh is near enough to the exact surface, else the last that it can do;
+    whether it is near enough, or why there is none."""
+    case, why = None, ""
+    for setting in program.settings:
+        finer = Case(path, setting)
+        row = measure(finer, [program], 0, limit)[program.name]
+        if "error" in row:
+            return case, case is None and row["error"]
+        case = finer
+        area, volume = (abs(row[k] / e - 1.0) for k, e in zip(("area", "volume"), exact))
+        if area <= MOST_AREA and volume <= MOST_VOLUME:
+            return case, True
+    return case, False
+
+
+def equal_error(paths, programs, tool, options):
+    """A table for each molecule: what each program takes to be within the allowed errors."""
+    for path in paths:
+        exact = reference(tool, Case(path, options.voxel), "ses", 2)
+        found = {p: coarsest(p, path, exact, options.limit) for p in programs}
+        seconds = {p: [] for p in programs}
+        memory = dict.fromkeys(programs, 0.0)
+        rows = {}
+        with contextlib.ExitStack() as stack:
+            folders = {p: stack.enter_context(tempfile.TemporaryDirectory()) for p in programs}
+            for p in programs:
+                if found[p][0]:
+                    p.prepare(found[p][0], folders[p])
+            for turn in range(options.runs):
+                for p in programs:
+                    if not found[p][0]:
+                        continue
+                    used, most, text = run_once(p, found[p][0], folders[p], options.limit)
+                    seconds[p].append(used)
+                    memory[p] = max(memory[p], most)
+                    if turn == 0:
+                        rows[p] = p.result(found[p][0], folders[p], text)
+        print(f"### {Case(path, 1).name}: within {100 * MOST_AREA:g} % of the area, {100 * MOST_VOLUME:g} % of the volume\n")
+        print("| program | grid or quality | reached | s | MB | area % | volume % | closed |")
+        print("|---|---|---|---|---|---|---|---|")
+        for p in programs:
+            case, reached = found[p]
+            if not case:
+                print(f"| {p.name} | {reached} | | | | | | |")
+                continue
+            row = rows[p]
+            print(f"| {p.name} | {case.voxel:g} | {'yes' if reached else 'no'} | {statistics.median(seconds[p]):.2f} | {memory[p]:.0f} | "
+                  f"{per_cent(row['area'], exact[0])} | {per_cent(row['volume'], exact[1])} | {row['closed']} |")
+        print(flush=True)
+
+
 def per_cent(value, exact):
     return "" if value is None or not exact else f"{100.0 * (value / exact - 1.0):+.2f}"
 
@@ -320,17 +408,24 @@ def main():
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--limit", type=float, default=600.0, help="seconds a run may take (600)")
     parser.add_argument("--no-reference", action="store_true", help="skip the runs at a quarter of the voxel")
+    parser.add_argument("--equal-error", action="store_true",
+                        help="time the coarsest grids that reach an error, of solvent-excluded surfaces")
     parser.add_argument("--json", help="also write all figures here")
     options = parser.parse_args()
     tool = os.path.abspath(options.tool)
 
-    programs = [Molsurf(tool, "ses", 2), Molsurf(tool, "ses", 1), Molsurf(tool, "variational", 2),
-                Molsurf(tool, "variational", 1), Molsurf(tool, "sas", 2)]
+    programs = [Molsurf(tool, "ses", 2), Molsurf(tool, "ses", 1)]
+    if options.equal_error:
+        programs.append(Molsurf(tool, "ses", 2, triangles=True))
+    else:
+        programs += [Molsurf(tool, "variational", 2), Molsurf(tool, "variational", 1), Molsurf(tool, "sas", 2)]
     for name, found, peer in (("EDTSurf", shutil.which("EDTSurf"), EDTSurf()),
-                              ("pymol", shutil.which("pymol"), PyMOL()),
+                              ("pymol", shutil.which("pymol"), PyMOL(not options.equal_error)),
                               ("NanoShaper", shutil.which("NanoShaper"), NanoShaper()),
                               ("molstar", Molstar.found(), Molstar()),
                               ("freesasa", shutil.which("freesasa"), FreeSASA())):
+        if options.equal_error and not peer.settings:
+            continue
         if found:
             programs.append(peer)
         else:
@@ -341,6 +436,9 @@ def main():
                             cwd=os.path.dirname(os.path.abspath(__file__))).stdout.strip()
     print(f"{processor}, {os.cpu_count()} processors, load {os.getloadavg()[0]:.1f}; {platform.platform()}; "
           f"commit {commit}; medians of {options.runs} runs in turn\n")
+    if options.equal_error:
+        equal_error(options.balls, programs, tool, options)
+        return
     everything = []
     for path in options.balls:
         case = Case(path, options.voxel)
