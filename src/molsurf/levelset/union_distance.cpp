@@ -6,6 +6,9 @@
 #include "molsurf/levelset/leaf_feet.h"
 #include "molsurf/levelset/part_tables.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>
 
@@ -232,20 +235,23 @@ private:
     const PartTables tables_;
 };
 
-} // namespace
-
-BallUnion unionOf(const std::vector<Ball>& balls, double probe, const Progress& progress)
+/// Gives memory that was freed back to the system. The boundary of a large molecule is made of many
+/// small pieces, which the allocator would keep.
+void trimHeap()
 {
-    return {balls, probe, ballBoundary(balls, probe, progress)};
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
-DistanceBand distanceToUnion(BallUnion set, double voxelSize, const BandWidths& width,
-                             const Progress& progress, const openvdb::CoordBBox& box)
+DistanceBand bandOf(BallUnion set, double voxelSize, const BandWidths& width,
+                    const Progress& progress, const openvdb::CoordBBox& box)
 {
     DistanceBand band;
     band.phi.voxelSize = voxelSize;
     if (set.boundary.patches.empty()) return band;
     const Evaluator evaluator(set, voxelSize, width, progress);
+    trimHeap();
     LeafTable& table = band.phi.table;
     table = LeafTable(evaluator.leaves(box, progress));
     band.phi.values = LeafField(table.size());
@@ -261,6 +267,21 @@ DistanceBand distanceToUnion(BallUnion set, double voxelSize, const BandWidths& 
         addKinksBetweenLeaves(evaluator.tables(), table, part, voxelSize, n, kinks[n]);
         band.kinks.active(n) = kinks[n];
     });
+    return band;
+}
+
+} // namespace
+
+BallUnion unionOf(const std::vector<Ball>& balls, double probe, const Progress& progress)
+{
+    return {balls, probe, ballBoundary(balls, probe, progress)};
+}
+
+DistanceBand distanceToUnion(BallUnion set, double voxelSize, const BandWidths& width,
+                             const Progress& progress, const openvdb::CoordBBox& box)
+{
+    DistanceBand band = bandOf(std::move(set), voxelSize, width, progress, box);
+    trimHeap();
     return band;
 }
 

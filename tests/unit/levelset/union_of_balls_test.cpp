@@ -200,6 +200,38 @@ TEST(UnionOfBalls, KinksOfTwoBallsAreOnTheirAxisAndBetweenThem)
     EXPECT_GT(beside, 50u);
 }
 
+// Voxels on the axis of a circle itself, where every direction from it is as good.
+TEST(UnionOfBalls, KinksOnVoxelsOfTheAxis)
+{
+    constexpr double voxel = 0.25;
+    const std::vector<Ball> balls = {ball(-3, 0, 0, 1.7), ball(3, 0, 0, 1.7)};
+    const DistanceBand band =
+        distanceToUnion(unionOf(balls, 1.4, Progress()), voxel, {2.4, 1.0}, Progress());
+    std::size_t inner = 0, onAxis = 0, marked = 0;
+    for (std::size_t n = 0; n < band.phi.table.size(); ++n) {
+        band.phi.table.active(n).forEach([&](int v) {
+            const Coord c = band.phi.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+            const bool kink = band.kinks.active(n).on(v);
+            if (band.phi.leaf(n)[v] > 0.0f) return;
+            inner += kink;
+            // The arc is the nearest to what lies between the planes through it and the centres.
+            if (c.y() != 0 || c.z() != 0 || std::abs(c.x()) * voxel > 1.0) return;
+            ++onAxis;
+            bool beside = false; // with the voxel before it or after it
+            for (const Coord& d : {Coord(0, 0, 0), Coord(0, -1, 0), Coord(0, 0, -1)}) {
+                const std::int32_t m = band.kinks.find(c + d);
+                beside |= m != noLeaf &&
+                          band.kinks.active(std::size_t(m))
+                              .on(int(openvdb::FloatTree::LeafNodeType::coordToOffset(c + d)));
+            }
+            marked += beside;
+        });
+    }
+    EXPECT_GT(onAxis, 6u);
+    EXPECT_EQ(marked, onAxis);
+    EXPECT_LT(inner, 5 * std::size_t(6.0 / voxel)); // about the axis alone
+}
+
 // Kinks within a leaf and those between leaves are found in different ways.
 TEST(UnionOfBalls, KinksDoNotDependOnTheLeaves)
 {
