@@ -94,7 +94,7 @@ int brick(const Call& call)
     build.quiet = call.quiet;
     prepareOutputs(build);
     openvdb::initialize();
-    const auto limit = limitThreads(call);
+    limitThreads(call);
     Terminal terminal(call.progress);
     const Clock::time_point start = Clock::now();
     Report report;

@@ -135,7 +135,7 @@ Report buildSurface(const Call& call, Clock::time_point start)
 {
     prepareOutputs(call);
     openvdb::initialize();
-    const auto limit = limitThreads(call);
+    limitThreads(call);
     Terminal terminal(call.progress);
     Report read;
     const BallSet balls = readBalls(call, terminal, read);

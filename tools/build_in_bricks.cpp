@@ -94,7 +94,7 @@ int buildInBricks(const Call& call, Clock::time_point start)
 {
     prepareOutputs(call);
     openvdb::initialize();
-    const auto limit = limitThreads(call);
+    limitThreads(call);
 
     Terminal terminal(call.progress);
     Report report;

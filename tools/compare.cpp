@@ -199,7 +199,7 @@ int compare(const Call& call, Clock::time_point start)
 {
     prepareOutputs(call);
     openvdb::initialize();
-    const auto limit = limitThreads(call);
+    limitThreads(call);
     Terminal terminal(call.progress);
     ComparisonReport report;
     Clock::time_point lapStart = Clock::now();

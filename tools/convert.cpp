@@ -55,7 +55,7 @@ int convert(const Call& asked, Clock::time_point start)
 {
     prepareOutputs(asked);
     openvdb::initialize();
-    const auto limit = limitThreads(asked);
+    limitThreads(asked);
     Terminal terminal(asked.progress);
     Clock::time_point lapStart = Clock::now();
     terminal.update("read", 0.0);

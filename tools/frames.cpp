@@ -237,7 +237,7 @@ private:
 int frames(const Call& call, Clock::time_point start)
 {
     openvdb::initialize();
-    const auto limit = limitThreads(call);
+    limitThreads(call);
     Terminal terminal(call.progress);
     terminal.update("read", 0.0);
     FrameRun run(call, terminal);

@@ -56,7 +56,7 @@ int merge(const Call& call, Clock::time_point start)
     build.command = call.command;
     prepareOutputs(build);
     openvdb::initialize();
-    const auto limit = limitThreads(call);
+    limitThreads(call);
     Terminal terminal(call.progress);
     std::vector<std::string> paths;
     for (std::size_t k = 1; k <= manifest.plan.bricks.size(); ++k)

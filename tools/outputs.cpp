@@ -45,11 +45,14 @@ void stopIfAsked()
     if (stopRequested()) throw Cancelled();
 }
 
-std::unique_ptr<tbb::global_control> limitThreads(const Call& call)
+void limitThreads(const Call& call)
 {
-    if (call.threads == 0) return nullptr;
-    return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                 std::size_t(call.threads));
+    // It is never taken back: TBB would start the other threads then, for the end of the program to
+    // stop.
+    static tbb::global_control* limit = nullptr;
+    if (call.threads == 0 || limit) return;
+    limit = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                    std::size_t(call.threads));
 }
 
 void beginReport(const Call& call, Report& report)

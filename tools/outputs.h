@@ -15,7 +15,6 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -32,8 +31,8 @@ std::size_t peakMemory();
 /// @throws Cancelled after a signal
 void stopIfAsked();
 
-/// Holds TBB to the threads of a call, while it lives; null without --threads.
-std::unique_ptr<tbb::global_control> limitThreads(const Call& call);
+/// Holds TBB to the threads of a call from now on, if it has --threads.
+void limitThreads(const Call& call);
 
 /// Fills in what every report begins with: version, command, input and threads.
 void beginReport(const Call& call, Report& report);

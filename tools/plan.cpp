@@ -79,7 +79,7 @@ int plan(const Call& call)
 {
     prepareOutputs(call);
     openvdb::initialize();
-    const auto limit = limitThreads(call);
+    limitThreads(call);
     Terminal terminal(call.progress);
     Report report;
     PlanManifest manifest;

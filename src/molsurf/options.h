@@ -79,7 +79,8 @@ struct SurfaceOptions {
     /// Names of further grids to make: "sas", "spline", "density", "atom_id", "chain_id",
     /// "group_id", "Cd", or a curvature as "mean_curvature", which the mesh then has as well.
     std::vector<std::string> fields;
-    bool meshLabels = true; ///< whether the mesh has the atom, chain and group of its vertices
+    bool halfFloats = false; ///< whether the grids' values are saved as 16-bit floats
+    bool meshLabels = true;  ///< whether the mesh has the atom, chain and group of its vertices
     bool curvatureTotals = false; ///< whether the report has the integrals of curvature
 };
 

@@ -4,6 +4,7 @@
 import collections
 import hashlib
 import json
+import re
 import shlex
 import subprocess
 import unittest
@@ -187,6 +188,23 @@ class Vdb(ToolTest):
         self.assertGreater(inside, 0.95 * atoms)
         self.assertGreater(deep, 0)
         self.assertEqual(voxels.probeValue((10000, 0, 0)), (grid.background, False))
+
+    def test_half_floats(self):
+        def build(*words):
+            self.build("--fields", "Cd", "--color", "chain", *FAST, *words)
+            self.check(0, "convert", "a.vdb", "-o", "a.json", "--force")
+            report = json.loads((self.folder / "a.json").read_text())
+            info = self.check(0, "info", "a.vdb").stdout.decode()
+            return (self.folder / "a.vdb").stat().st_size, report["surface"]["area"], info
+
+        size, area, info = build()
+        half_size, half_area, half_info = build("--vdb-half")
+        self.assertLess(half_size, size)
+        self.assertAlmostEqual(half_area / area, 1.0, delta=1e-4)
+        self.assertNotEqual(half_area, area)
+        self.assertNotIn("half_float", info)
+        self.assertEqual(len(re.findall(r"is_saved_as_half_float +true", half_info)), 2)
+        self.assertRegex(half_info, r"option.vdb-half +true")
 
     @needs("openvdb")
     def test_metadata(self):

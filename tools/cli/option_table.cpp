@@ -541,6 +541,8 @@ OptionGroup surfaceOptions()
                 OF(options.blobbiness)),
          flag("fill-cavities", "drop the inner walls", wholes | Compare, OF(options.fillCavities)),
          fields, attributes,
+         flag("vdb-half", "floats of the .vdb in 16 bits, within 0.05 %: half the size", surfaces,
+              OF(options.halfFloats)),
          flag("curvature-totals", "integrate curvature over the surface, for the report", wholes,
               OF(options.curvatureTotals))}};
 }

@@ -26,7 +26,7 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<char, 8> magic = {'M', 'O', 'L', 'B', 'R', 'K', '0', '3'};
+constexpr std::array<char, 8> magic = {'M', 'O', 'L', 'B', 'R', 'K', '0', '4'};
 
 // Appends sections, and knows where it is.
 class Writer
@@ -56,12 +56,12 @@ private:
 // The values of a leaf as they stand in a .vdb.
 template<typename LeafT>
 std::string valuesOf(const LeafT& leaf, const typename LeafT::ValueType& background,
-                     std::uint32_t compression)
+                     std::uint32_t compression, bool half)
 {
     std::ostringstream stream;
     openvdb::io::setDataCompression(stream, compression);
     openvdb::io::setGridBackgroundValuePtr(stream, &background);
-    leaf.writeBuffers(stream);
+    leaf.writeBuffers(stream, half);
     return stream.str();
 }
 
@@ -94,13 +94,14 @@ StoredGrid addGrid(const GridT& grid, std::uint32_t compression, Writer& writer,
     grid.tree().getNodes(leaves);
     std::vector<StoredLeaf> stored(leaves.size());
     const auto background = grid.background();
+    const bool half = grid.saveFloatAsHalf();
     constexpr std::size_t run = 4096;
     for (std::size_t begin = 0; begin < leaves.size(); begin += run) {
         const std::size_t count = std::min(run, leaves.size() - begin);
         std::vector<std::string> values(count);
         parallelFor(count, progress, [&](std::size_t i) {
             const Leaf& leaf = *leaves[begin + i];
-            values[i] = valuesOf(leaf, background, compression);
+            values[i] = valuesOf(leaf, background, compression, half);
             StoredLeaf& out = stored[begin + i];
             out.origin = {leaf.origin().x(), leaf.origin().y(), leaf.origin().z()};
             out.negative = std::uint32_t(isNegative(leaf.getFirstValue())) |
@@ -115,8 +116,12 @@ StoredGrid addGrid(const GridT& grid, std::uint32_t compression, Writer& writer,
             writer.bytes(values[i].data(), values[i].size());
         }
     }
-    return {grid.getName(), grid.type(), openvdb::GridBase::gridClassToString(grid.getGridClass()),
-            numbersOf(background), writer.add(stored)};
+    return {grid.getName(),
+            grid.type(),
+            openvdb::GridBase::gridClassToString(grid.getGridClass()),
+            numbersOf(background),
+            half,
+            writer.add(stored)};
 }
 
 StoredGrid addAnyGrid(const openvdb::GridBase::Ptr& grid, std::uint32_t compression, Writer& writer,
@@ -203,6 +208,7 @@ std::string headerText(const BrickHeader& h)
                              {"type", g.type},
                              {"class", g.gridClass},
                              {"background", g.background},
+                             {"half", g.half},
                              {"leaves", json(g.leaves)}});
     }
     for (const GroupReport& g : h.sums.groups)
@@ -243,7 +249,8 @@ BrickHeader parseHeader(const std::string& text)
     h.number = j.at("brick");
     for (const Json& g : j.at("grids")) {
         h.grids.push_back({g.at("name"), g.at("type"), g.at("class"),
-                           g.at("background").get<std::vector<double>>(), section(g.at("leaves"))});
+                           g.at("background").get<std::vector<double>>(), g.at("half"),
+                           section(g.at("leaves"))});
     }
     h.layout.scalars = j.at("scalars").get<std::vector<std::string>>();
     h.layout.labels = j.at("labels").get<std::vector<std::string>>();

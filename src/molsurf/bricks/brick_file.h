@@ -36,6 +36,7 @@ struct StoredLeaf {
 struct StoredGrid {
     std::string name, type, gridClass; ///< as OpenVDB calls them
     std::vector<double> background;    ///< one number, or three
+    bool half;                         ///< floats have 16 bits
     Section leaves;                    ///< of StoredLeaf
 };
 

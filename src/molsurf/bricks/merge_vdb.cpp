@@ -123,6 +123,7 @@ Skeleton skeletonOf(const std::vector<BrickFile>& bricks, std::size_t g, double 
     grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
     grid->setGridClass(openvdb::GridBase::stringToGridClass(first.gridClass));
     grid->setName(first.name);
+    if (first.half) grid->setSaveFloatAsHalf(true);
 
     std::vector<Place> places;
     for (std::size_t b = 0; b < bricks.size(); ++b) {
@@ -180,7 +181,7 @@ public:
              const std::vector<BrickFile>& bricks, const Progress& progress) const
     {
         const openvdb::GridBase& grid = *skeleton.grid;
-        openvdb::io::GridDescriptor descriptor(grid.getName(), grid.type());
+        openvdb::io::GridDescriptor descriptor(grid.getName(), grid.type(), grid.saveFloatAsHalf());
         descriptor.writeHeader(stream);
         const auto offsets = seekable ? stream.tellp() : std::ostream::pos_type(0);
         descriptor.writeStreamPos(stream);

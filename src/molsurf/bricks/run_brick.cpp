@@ -193,6 +193,8 @@ Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope&
     brick.mesh.mesh = std::move(result.mesh);
     brick.grids = {result.surface};
     brick.grids.insert(brick.grids.end(), result.fields.begin(), result.fields.end());
+    if (options.halfFloats)
+        for (const auto& grid : brick.grids) grid->setSaveFloatAsHalf(true);
     brick.evolution = result.report.evolution;
     brick.displacements = run.displacements();
     brick.groups = result.report.groups;

@@ -3,6 +3,7 @@
 
 #include <sys/mman.h>
 
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <mutex>
@@ -52,12 +53,30 @@ private:
         const auto start = reinterpret_cast<std::uintptr_t>(memory);
         auto* first = static_cast<char*>(memory) + (pageBytes - start % pageBytes) % pageBytes;
 #ifdef MADV_HUGEPAGE
-        madvise(first, pages * pageBytes, MADV_HUGEPAGE); // a hint; refusing it is no error
+        adviseHugePages(first, pages * pageBytes);
 #endif
         for (std::size_t i = pages; i-- > 0;) pages_.push_back(first + i * pageBytes);
         total_ += pages;
     }
 
+#ifdef MADV_HUGEPAGE
+    /// Asks for huge pages as long as they come quickly: a virtual machine may have to collect them
+    /// from its host, which takes longer than 512 small ones. Advice is a hint; that it is refused
+    /// is no error.
+    void adviseHugePages(char* first, std::size_t bytes)
+    {
+        using Clock = std::chrono::steady_clock;
+        if (hugePages_) {
+            madvise(first, bytes, MADV_HUGEPAGE);
+            const auto start = Clock::now();
+            *static_cast<volatile char*>(first) = 0;
+            hugePages_ = Clock::now() - start < std::chrono::milliseconds(1);
+        }
+        if (!hugePages_) madvise(first, bytes, MADV_NOHUGEPAGE);
+    }
+
+    bool hugePages_ = true;
+#endif
     std::mutex mutex_;
     std::vector<void*> pages_;
     std::size_t total_ = 0;

@@ -89,6 +89,10 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
             {group.rule.select, group.rule.resolution, group.balls, group.level});
     }
     if (options.interfaces) measureInterfaces(atoms, options, progress, report);
+    if (options.halfFloats) {
+        if (result.surface) result.surface->setSaveFloatAsHalf(true);
+        for (const auto& field : result.fields) field->setSaveFloatAsHalf(true);
+    }
     return result;
 }
 

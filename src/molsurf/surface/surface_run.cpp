@@ -230,10 +230,11 @@ void SurfaceRun::levelSet()
     reinitialize(S, width, 4, progress_);
     // A leaf inside the cut, values are those of the whole surface.
     S = clipped(std::move(S), scope_.region.grown(scope_.splineHalo - 1), progress_);
+    if (!scope_.keepsMemory) releasePages(); // grids and meshes have memory of their own
     result_.surface = toLevelSet(S, width, progress_);
     result_.surface->setName("surface");
     S = SparseField();
-    if (!scope_.keepsMemory) releasePages(); // grids and meshes have memory of their own
+    if (!scope_.keepsMemory) releasePages();
     watch_.stop("redistance");
 }
 

@@ -14,6 +14,7 @@ openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const Ba
 {
     auto grid = gridLike<openvdb::Vec3SGrid>(surface, "v", openvdb::Vec3f(0.0f));
     grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
+    if (options.halfFloats) grid->setSaveFloatAsHalf(true);
     std::vector<openvdb::Vec3f> points;
     for (auto it = surface.cbeginValueOn(); it; ++it)
         points.emplace_back(surface.indexToWorld(it.getCoord()));

@@ -6,6 +6,8 @@
 #include "molsurf/bricks/merge_vdb.h"
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/error.h"
+#include "molsurf/io/read_vdb.h"
+#include "molsurf/io/write_vdb.h"
 #include "molsurf/mesh/measure.h"
 #include "support/mesh_checks.h"
 
@@ -74,6 +76,15 @@ protected:
         return files;
     }
 
+    /// The level set as its file gives it back.
+    openvdb::FloatGrid::Ptr saved(const openvdb::FloatGrid::Ptr& grid)
+    {
+        OutputFile file(path("saved.vdb"), true);
+        writeVdb({grid}, {}, file);
+        file.commit();
+        return openvdb::gridPtrCast<openvdb::FloatGrid>(readVdb(path("saved.vdb")).grids.at(0));
+    }
+
     /// Compares bricks with the whole, bit by bit.
     void expectSame(const std::vector<Ball>& balls, SurfaceOptions options, std::size_t count,
                     bool exact = true)
@@ -82,7 +93,8 @@ protected:
         Progress progress;
         BallSet atoms;
         atoms.balls = balls;
-        const MolecularSurface whole = makeSurface(atoms, options, &progress);
+        MolecularSurface whole = makeSurface(atoms, options, &progress);
+        whole.surface = saved(whole.surface);
         const BrickPlan plan = planBricks(atoms, options, {count, 0}, progress);
         ASSERT_GT(plan.bricks.size(), 1u);
         const std::vector<BrickFile> bricks = bricksOf(atoms, options, plan);
@@ -94,6 +106,7 @@ protected:
         file.open();
         const auto merged = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("surface"));
         EXPECT_EQ(merged->activeVoxelCount(), whole.surface->activeVoxelCount());
+        EXPECT_EQ(merged->saveFloatAsHalf(), options.halfFloats);
         auto accessor = merged->getConstAccessor();
         float worst = 0.0f;
         std::size_t wrong = 0;
@@ -162,6 +175,13 @@ TEST_F(Bricks, RoundedRidgesAreThoseOfTheWhole)
     SurfaceOptions options = coarse();
     options.voxel = 0.2;
     expectSame(test::randomBalls(60, 16.0, openvdb::Vec3d(1.3, -2.1, 0.4), 3), options, 8);
+}
+
+TEST_F(Bricks, HalfFloatsAreThoseOfTheWhole)
+{
+    SurfaceOptions options = coarse(SurfaceKind::Gaussian);
+    options.halfFloats = true;
+    expectSame(chain(), options, 4);
 }
 
 TEST_F(Bricks, GaussianSurfaceIsThatOfTheWhole)

@@ -10,6 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <sstream>
 
 namespace molsurf
@@ -67,6 +70,35 @@ TEST(WriteVdb, CompressesFilesWithLabels)
     expectSame(*grid, *openvdb::gridPtrCast<openvdb::FloatGrid>(back.grids[0]));
     for (const auto& read : back.grids)
         EXPECT_EQ(read->metaValue<std::string>("file_compression"), "blosc + active values");
+}
+
+// Half floats have 11 significant bits, and signs stay what they are.
+TEST(WriteVdb, HalfFloatsAreWithinTheirRounding)
+{
+    const test::Folder folder;
+    const auto grid = test::ballGrid();
+    const auto write = [&](const std::string& name) {
+        OutputFile file(folder / name, false);
+        writeVdb({grid}, openvdb::MetaMap(), file);
+        file.commit();
+        return double(std::filesystem::file_size(folder / name));
+    };
+    const double whole = write("whole.vdb");
+    grid->setSaveFloatAsHalf(true);
+    const double active = double(grid->activeVoxelCount());
+    EXPECT_NEAR(whole - write("half.vdb"), 2.0 * active, 0.05 * active);
+    const VdbFile back = readVdb(folder / "half.vdb");
+    const auto& read = *openvdb::gridPtrCast<openvdb::FloatGrid>(back.grids.at(0));
+    EXPECT_TRUE(read.saveFloatAsHalf());
+    ASSERT_TRUE(grid->tree().hasSameTopology(read.tree()));
+    float worst = 0.0f;
+    for (auto voxel = grid->cbeginValueOn(); voxel; ++voxel) {
+        const float value = read.tree().getValue(voxel.getCoord());
+        ASSERT_EQ(value < 0.0f, *voxel < 0.0f);
+        if (*voxel != 0.0f) worst = std::max(worst, std::abs(value / *voxel - 1.0f));
+    }
+    EXPECT_LE(worst, 0.0005f);
+    EXPECT_GT(worst, 0.0f);
 }
 
 TEST(WriteVdb, ErrorIfTheDiskIsFull)
