@@ -377,7 +377,11 @@ def equal_error(paths, programs, tool, options):
                 for p in programs:
                     if not found[p][0]:
                         continue
-                    used, most, text = run_once(p, found[p][0], folders[p], options.limit)
+                    try:
+                        used, most, text = run_once(p, found[p][0], folders[p], options.limit)
+                    except RuntimeError as error:  # near the limit
+                        found[p] = None, str(error)
+                        continue
                     seconds[p].append(used)
                     memory[p] = max(memory[p], most)
                     if turn == 0:
