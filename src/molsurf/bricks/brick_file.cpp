@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <openvdb/io/Compression.h>
 #include <openvdb/io/io.h>
+#include <zlib.h>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -16,6 +17,7 @@
 #include <cerrno>
 #include <cstring>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace molsurf
@@ -26,9 +28,21 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<char, 8> magic = {'M', 'O', 'L', 'B', 'R', 'K', '0', '4'};
+constexpr std::array<char, 8> magic = {'M', 'O', 'L', 'B', 'R', 'K', '0', '5'};
 
-// Appends sections, and knows where it is.
+/// What follows the magic: where the header is, its length, and the checksum of all that follows.
+struct Head {
+    std::uint64_t header = 0, length = 0, checksum = 0;
+};
+constexpr std::uint64_t bodyAt = sizeof magic + sizeof(Head);
+
+std::uint32_t addToChecksum(std::uint32_t sum, const void* from, std::size_t size)
+{
+    if (size == 0) return sum; // zlib takes null for a new start
+    return std::uint32_t(crc32_z(sum, static_cast<const Bytef*>(from), size));
+}
+
+// Appends sections to the head, and knows where it is.
 class Writer
 {
 public:
@@ -45,12 +59,15 @@ public:
     {
         file_.write(from, size);
         at_ += size;
+        checksum_ = addToChecksum(checksum_, from, size);
     }
     std::uint64_t at() const { return at_; }
+    std::uint32_t checksum() const { return checksum_; }
 
 private:
     OutputFile& file_;
-    std::uint64_t at_ = 0;
+    std::uint64_t at_ = bodyAt;
+    std::uint32_t checksum_ = 0;
 };
 
 // The values of a leaf as they stand in a .vdb.
@@ -281,6 +298,50 @@ BrickHeader parseHeader(const std::string& text)
     return h;
 }
 
+/// Checks what a hostile header could break: that sections lie in the file, and counts agree.
+/// @param[in] end  where the header begins
+/// @throws std::range_error
+void checkHeader(const BrickHeader& h, std::uint64_t end)
+{
+    const auto check = [](bool good, const char* what) {
+        if (!good) throw std::range_error(std::string("its ") + what);
+    };
+    const auto inside = [&](const Section& section, std::uint64_t size, const char* what) {
+        check(section.offset >= bodyAt && section.offset <= end &&
+                  (size == 0 || section.count <= (end - section.offset) / size),
+              what);
+    };
+    check(!h.grids.empty(), "list of grids is empty");
+    for (const StoredGrid& grid : h.grids) {
+        const bool vectors = grid.type == openvdb::Vec3SGrid::gridType();
+        check(vectors || grid.type == openvdb::FloatGrid::gridType() ||
+                  grid.type == openvdb::Int32Grid::gridType(),
+              "grids have unknown types");
+        check(grid.background.size() == (vectors ? 3u : 1u), "grids have no background");
+        inside(grid.leaves, sizeof(StoredLeaf), "leaves lie outside of it");
+    }
+    const bool meshed = h.triangles.offset > 0;
+    inside(h.vertices, meshed ? h.layout.vertexSize() : 0, "vertices lie outside of it");
+    if (meshed) inside(h.triangles, 12, "triangles lie outside of it");
+    inside(h.areas, sizeof(float), "areas lie outside of it");
+    inside(h.curvatures, 2 * sizeof(float), "curvatures lie outside of it");
+    inside(h.border, sizeof(BorderVertex), "border lies outside of it");
+    inside(h.openEdges, sizeof(OpenEdge), "edges lie outside of it");
+    inside(h.pieces, sizeof(PieceMeasure), "pieces lie outside of it");
+    check(h.areas.count == h.vertices.count && h.curvatures.count == h.vertices.count,
+          "vertices are not as many as their areas and curvatures");
+    check(h.sums.kinkVertices <= h.vertices.count &&
+              h.sums.unitVertices <= h.vertices.count - h.sums.kinkVertices,
+          "vertices are fewer than those of a kind");
+    if (!h.sums.evolution) return;
+    const EvolutionReport& e = *h.sums.evolution;
+    const auto steps = std::size_t(e.steps);
+    check(e.steps >= 0 && e.energy.size() == steps + 1 && e.area.size() == steps + 1 &&
+              e.volume.size() == steps + 1 && e.meanDisplacement.size() == steps &&
+              e.maxSpeed.size() == steps,
+          "steps are not as many as their sums");
+}
+
 } // namespace
 
 void writeBrick(const Brick& brick, const std::string& plan, std::size_t number, bool meshed,
@@ -301,9 +362,9 @@ void writeBrick(const Brick& brick, const std::string& plan, std::size_t number,
     header.sums.mesh.flat = brick.mesh.flat;
 
     Writer writer(file);
-    std::array<std::uint64_t, 2> tail = {0, 0}; // where the header is, and its length
-    writer.bytes(magic.data(), magic.size());
-    writer.bytes(tail.data(), sizeof tail);
+    Head head;
+    file.write(magic.data(), magic.size());
+    file.write(&head, sizeof head);
     const std::uint32_t compression =
         vdbCompression(std::all_of(brick.grids.begin(), brick.grids.end(), [](const auto& grid) {
             return grid->template isType<openvdb::FloatGrid>();
@@ -329,39 +390,64 @@ void writeBrick(const Brick& brick, const std::string& plan, std::size_t number,
     header.openEdges = writer.add(brick.mesh.openEdges);
     header.pieces = writer.add(brick.mesh.pieces);
     const std::string text = headerText(header);
-    tail = {writer.at(), text.size()};
+    head.header = writer.at();
+    head.length = text.size();
     writer.bytes(text.data(), text.size());
+    head.checksum = writer.checksum();
     try {
         file.stream().seekp(std::streamoff(magic.size()));
     } catch (const std::ios_base::failure&) {
         file.fail("cannot write");
     }
-    file.write(tail.data(), sizeof tail);
+    file.write(&head, sizeof head);
     file.finish();
 }
 
 BrickFile::BrickFile(const std::string& path)
     : path_(path), file_(open(path.c_str(), O_RDONLY | O_CLOEXEC))
 {
-    const auto refuse = [&] {
-        if (file_ >= 0) close(file_);
-        throw Error(ErrorKind::Input, path + ": is not the file of a brick");
+    const auto refuse = [&](const std::string& why) {
+        throw Error(ErrorKind::Input,
+                    path + " is not the file of a brick: " + why + " [hint: run the brick again]");
     };
     if (file_ < 0) throw Error(ErrorKind::Input, "cannot read " + path + ": " + strerror(errno));
     std::array<char, 8> mark{};
-    std::array<std::uint64_t, 2> tail{};
-    const off_t size = lseek(file_, 0, SEEK_END);
-    if (size < off_t(sizeof mark + sizeof tail)) refuse();
+    Head head;
+    const off_t end = lseek(file_, 0, SEEK_END);
+    const std::uint64_t size = end < 0 ? 0 : std::uint64_t(end);
+    if (size < bodyAt) refuse("it is too short");
     try {
         read(0, mark.data(), mark.size());
-        read(mark.size(), tail.data(), sizeof tail);
-        if (mark != magic || tail[0] + tail[1] != std::uint64_t(size)) refuse();
-        std::string text(tail[1], ' ');
-        read(tail[0], text.data(), text.size());
+        if (mark != magic) refuse("it does not begin with MOLBRK05");
+        read(mark.size(), &head, sizeof head);
+        if (head.header < bodyAt || head.header > size || head.length != size - head.header)
+            refuse("it is cut short");
+        if (checksumOf(size) != head.checksum) refuse("it is damaged: its checksum is another");
+        std::string text(head.length, ' ');
+        read(head.header, text.data(), text.size());
         header_ = parseHeader(text);
+        checkHeader(header_, head.header);
     } catch (const Json::exception&) {
-        refuse();
+        refuse("its header cannot be read");
+    } catch (const std::range_error& e) {
+        refuse(e.what());
+    } catch (...) {
+        close(file_);
+        throw;
     }
+}
+
+std::uint64_t BrickFile::checksumOf(std::uint64_t size) const
+{
+    constexpr std::uint64_t run = 1 << 20;
+    std::vector<char> bytes(run);
+    std::uint32_t sum = 0;
+    for (std::uint64_t at = bodyAt; at < size; at += run) {
+        const std::size_t count = std::size_t(std::min(run, size - at));
+        read(at, bytes.data(), count);
+        sum = addToChecksum(sum, bytes.data(), count);
+    }
+    return sum;
 }
 
 BrickFile::~BrickFile()

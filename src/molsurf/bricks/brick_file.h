@@ -63,11 +63,12 @@ struct BrickHeader {
 void writeBrick(const Brick& brick, const std::string& plan, std::size_t number, bool meshed,
                 OutputFile& file, const Progress& progress);
 
-/// A brick that lies on disk. Reads nothing that is not asked for.
+/// A brick that lies on disk. Once its checksum is verified it reads nothing that is not asked for.
 class BrickFile
 {
 public:
-    /// @throws Error(ErrorKind::Input) if it cannot be read, or is not the file of a brick
+    /// @throws Error(ErrorKind::Input) if it cannot be read, is damaged, or is not the file of a
+    ///         brick
     explicit BrickFile(const std::string& path);
     ~BrickFile();
     BrickFile(BrickFile&& other) noexcept;
@@ -86,7 +87,12 @@ public:
         return out;
     }
 
+    const std::string& path() const { return path_; }
+
 private:
+    /// CRC-32 of what follows the head.
+    std::uint64_t checksumOf(std::uint64_t size) const;
+
     std::string path_;
     int file_ = -1;
     BrickHeader header_;

@@ -16,6 +16,25 @@ namespace molsurf
 namespace
 {
 
+/// Whether two bricks hold the same kinds of things.
+bool fits(const BrickHeader& a, const BrickHeader& b)
+{
+    const auto same = [](const auto& x, const auto& y, const auto& equal) {
+        return std::equal(x.begin(), x.end(), y.begin(), y.end(), equal);
+    };
+    return same(a.grids, b.grids,
+                [](const StoredGrid& x, const StoredGrid& y) {
+                    return x.name == y.name && x.type == y.type && x.gridClass == y.gridClass &&
+                           x.background == y.background && x.half == y.half;
+                }) &&
+           same(a.sums.groups, b.sums.groups,
+                [](const GroupReport& x, const GroupReport& y) {
+                    return x.name == y.name && x.atoms == y.atoms;
+                }) &&
+           a.sums.evolution.has_value() == b.sums.evolution.has_value() &&
+           (!a.sums.evolution || a.sums.evolution->steps == b.sums.evolution->steps);
+}
+
 std::vector<BrickFile> openBricks(const std::vector<std::string>& paths, const std::string& id)
 {
     std::string missing;
@@ -34,6 +53,10 @@ std::vector<BrickFile> openBricks(const std::vector<std::string>& paths, const s
         bricks.emplace_back(paths[k]);
         if (bricks.back().header().plan != id || bricks.back().header().number != k + 1)
             throw Error(ErrorKind::Input, paths[k] + " belongs to another plan");
+        if (!fits(bricks.back().header(), bricks.front().header()))
+            throw Error(ErrorKind::Input, paths[k] +
+                                              ": its grids or groups are others than those of " +
+                                              paths[0] + " [hint: run the bricks again]");
     }
     return bricks;
 }

@@ -4,7 +4,9 @@
 #include "molsurf/bricks/brick_file.h"
 #include "molsurf/bricks/merge_mesh.h"
 #include "molsurf/bricks/merge_vdb.h"
+#include "molsurf/bricks/merged_bricks.h"
 #include "molsurf/bricks/plan_bricks.h"
+#include "molsurf/bricks/run_brick.h"
 #include "molsurf/error.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/write_vdb.h"
@@ -13,8 +15,10 @@
 
 #include <gtest/gtest.h>
 #include <openvdb/tools/SignedFloodFill.h>
+#include <zlib.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -297,6 +301,167 @@ TEST_F(Bricks, ACutFileIsRefused)
     EXPECT_THROW(BrickFile(path("cut.brick")), Error);
     std::ofstream(path("other.brick"), std::ios::binary) << "something else, of some length";
     EXPECT_THROW(BrickFile(path("other.brick")), Error);
+}
+
+/// Two bricks of a molecule, and what is done to them.
+struct HostileBricks : Bricks {
+    void SetUp() override
+    {
+        Bricks::SetUp();
+        BallSet atoms;
+        for (int i = 0; i < 12; ++i)
+            atoms.balls.push_back({Vec3f(3.0f * float(i), 0.2f, 0.3f), 1.7f, i});
+        options = coarse();
+        options.evolution.steps = 2;
+        plan = planBricks(atoms, options, {2, 0}, progress);
+        ASSERT_EQ(plan.bricks.size(), 2u);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const Scope scope = scopeOf(plan, k, options);
+            bricks.push_back(runBrick(ballsNear(atoms, options, scope), options, scope, progress));
+            write(k);
+        }
+    }
+
+    std::string pathOf(std::size_t k) { return path(std::to_string(k) + ".brick"); }
+
+    void write(std::size_t k)
+    {
+        OutputFile file(pathOf(k), true);
+        writeBrick(bricks[k], "test", k + 1, true, file, progress);
+        file.commit();
+    }
+
+    std::string bytesOf(std::size_t k)
+    {
+        std::ifstream in(pathOf(k), std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+
+    /// Writes a file again, with the checksum of what it has now.
+    void putBack(std::size_t k, std::string bytes)
+    {
+        constexpr std::size_t body = 32;
+        const std::uint64_t sum =
+            crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()) + body, bytes.size() - body);
+        std::memcpy(&bytes[24], &sum, sizeof sum);
+        std::ofstream(pathOf(k), std::ios::binary) << bytes;
+    }
+
+    /// What merging says; nothing if it succeeds.
+    std::string merged()
+    {
+        try {
+            const MergedBricks all({pathOf(0), pathOf(1)}, "test", 12, options);
+            OutputFile vdb(path("m.vdb"), true), ply(path("m.ply"), true);
+            all.writeVdb({}, vdb, progress);
+            all.writePly(ply, progress);
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return {};
+    }
+
+    void expectRefused(const char* why)
+    {
+        const std::string text = merged();
+        EXPECT_NE(text.find(why), std::string::npos) << text;
+    }
+
+    SurfaceOptions options;
+    BrickPlan plan;
+    std::vector<Brick> bricks;
+    Progress progress;
+};
+
+TEST_F(HostileBricks, AreMergedAsLongAsTheyAreGood)
+{
+    EXPECT_EQ(merged(), "");
+}
+
+TEST_F(HostileBricks, EveryFlippedBitIsSeen)
+{
+    const std::string good = bytesOf(0);
+    std::mt19937 random(3);
+    for (int i = 0; i < 100; ++i) {
+        std::string bytes = good;
+        const std::size_t at = random() % bytes.size();
+        bytes[at] = char(bytes[at] ^ (1 << random() % 8));
+        std::ofstream(pathOf(0), std::ios::binary) << bytes;
+        EXPECT_NE(merged(), "") << at;
+    }
+}
+
+TEST_F(HostileBricks, LengthsThatWrapAreRefusedBeforeMemoryIsTaken)
+{
+    std::string bytes = bytesOf(0);
+    const std::uint64_t length = ~std::uint64_t(0) - 40, header = bytes.size() - length;
+    std::memcpy(&bytes[8], &header, sizeof header);
+    std::memcpy(&bytes[16], &length, sizeof length);
+    putBack(0, bytes);
+    expectRefused("cut short");
+}
+
+TEST_F(HostileBricks, OthersGroupsAreRefused)
+{
+    bricks[1].groups.resize(3);
+    write(1);
+    expectRefused("groups are others");
+}
+
+TEST_F(HostileBricks, StepsWithoutSumsAreRefused)
+{
+    bricks[0].evolution->area.pop_back();
+    write(0);
+    expectRefused("steps are not as many");
+}
+
+TEST_F(HostileBricks, NoGridsAreRefused)
+{
+    bricks[0].grids.clear();
+    write(0);
+    expectRefused("grids is empty");
+}
+
+TEST_F(HostileBricks, LeavesThatAreNoneAreRefused)
+{
+    const BrickFile file(pathOf(0));
+    const Section leaves = file.header().grids.front().leaves;
+    ASSERT_GT(leaves.count, 1u);
+    const std::string good = bytesOf(0);
+    const auto with = [&](const auto& change) {
+        std::string bytes = good;
+        StoredLeaf leaf;
+        std::memcpy(&leaf, &bytes[leaves.offset], sizeof leaf);
+        change(leaf);
+        std::memcpy(&bytes[leaves.offset], &leaf, sizeof leaf);
+        putBack(0, bytes);
+    };
+    with([](StoredLeaf& leaf) { leaf.negative = 4; });
+    expectRefused("unknown signs");
+    with([](StoredLeaf& leaf) { leaf.origin[1] += 3; });
+    expectRefused("between leaves");
+    with([](StoredLeaf& leaf) { leaf.size = ~std::uint64_t(0) - 7; });
+    expectRefused("lie outside");
+    with([](StoredLeaf& leaf) { leaf.offset = std::uint64_t(1) << 50; });
+    expectRefused("lie outside");
+    with([&](StoredLeaf& leaf) {
+        StoredLeaf next;
+        std::memcpy(&next, &good[leaves.offset + sizeof next], sizeof next);
+        leaf.origin = next.origin;
+    });
+    expectRefused("another brick has");
+}
+
+TEST_F(HostileBricks, VerticesThatAreNoneAreRefused)
+{
+    bricks[0].mesh.mesh.triangles.front()[1] = 1u << 30;
+    write(0);
+    expectRefused("a vertex that it does not have");
+    bricks[0].mesh.mesh.triangles.front()[1] = 0;
+    ASSERT_FALSE(bricks[0].mesh.border.empty());
+    bricks[0].mesh.border.front().piece = 1u << 30;
+    write(0);
+    expectRefused("a piece that it does not have");
 }
 
 // Beyond 4096 voxels a tree has another node under its root: what lies between two of them along z
