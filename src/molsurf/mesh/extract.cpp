@@ -103,8 +103,8 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
     mesher.pointList().reset();
     for (const float r : largest) stats.maxResidual = std::max(stats.maxResidual, double(r));
 
-    std::vector<std::vector<std::uint32_t>> bad(begins.size() - 1);
-    parallelFor(bad.size(), progress, [&](std::size_t n) {
+    VertexSet bad(count);
+    parallelFor(begins.size() - 1, progress, [&](std::size_t n) {
         std::vector<std::array<std::uint32_t, 4>> quads(pools[n].numQuads());
         for (std::size_t i = 0; i < quads.size(); ++i) {
             // OpenVDB's polygons run clockwise seen from outside.
@@ -112,11 +112,9 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
             quads[i] = {q[3], q[2], q[1], q[0]};
         }
         pools[n].clearQuads();
-        splitQuads(mesh, quads, mesh.triangles.data() + 2 * begins[n], bad[n]);
+        splitQuads(mesh, quads, mesh.triangles.data() + 2 * begins[n], bad);
     });
-    std::vector<std::uint32_t> corners; // of bad triangles
-    for (const auto& some : bad) corners.insert(corners.end(), some.begin(), some.end());
-    relax(vertices, spline, voxel, std::move(corners), progress);
+    relax(vertices, spline, voxel, std::move(bad), progress);
     return mesh;
 }
 

@@ -7,6 +7,7 @@
 #include "molsurf/mesh/vertex_slices.h"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -17,18 +18,44 @@ namespace molsurf
 namespace
 {
 
-/// Triangles listed by the places of their corners.
-/// @param[in] visit  calls its argument with the place and the triangle of each corner, in order
+/// Calls f(triangle) for all triangles, by all threads at once.
 template<typename F>
-VertexTriangles listed(std::size_t places, const F& visit)
+void forEachTriangle(const Mesh& mesh, const Progress& progress, const F& f)
 {
+    constexpr std::size_t block = 1024;
+    const std::size_t count = mesh.triangles.size();
+    parallelFor((count + block - 1) / block, progress, [&](std::size_t b) {
+        const std::size_t end = std::min(count, (b + 1) * block);
+        for (std::size_t i = b * block; i < end; ++i) f(std::uint32_t(i));
+    });
+}
+
+/// Triangles listed by the places of their corners.
+/// @param[in] visit  visit(i, take) calls take(place) for corners of triangle i
+template<typename F>
+VertexTriangles listed(const Mesh& mesh, std::size_t places, const Progress& progress,
+                       const F& visit)
+{
+    constexpr auto relaxed = std::memory_order_relaxed;
+    std::vector<std::atomic<std::uint32_t>> next(places); // place in the list
+    forEachTriangle(mesh, progress, [&](std::uint32_t i) {
+        visit(i, [&](std::uint32_t place) { next[place].fetch_add(1, relaxed); });
+    });
     VertexTriangles out;
-    out.begins.assign(places + 1, 0);
-    visit([&](std::uint32_t place, std::uint32_t) { ++out.begins[place + 1]; });
-    std::partial_sum(out.begins.begin(), out.begins.end(), out.begins.begin());
+    out.begins.resize(places + 1, 0);
+    for (std::size_t n = 0; n < places; ++n) {
+        out.begins[n + 1] = out.begins[n] + next[n].load(relaxed);
+        next[n].store(out.begins[n], relaxed);
+    }
     out.triangles.resize(out.begins.back());
-    std::vector<std::uint32_t> next(out.begins.begin(), out.begins.end() - 1);
-    visit([&](std::uint32_t place, std::uint32_t i) { out.triangles[next[place]++] = i; });
+    forEachTriangle(mesh, progress, [&](std::uint32_t i) {
+        visit(i,
+              [&](std::uint32_t place) { out.triangles[next[place].fetch_add(1, relaxed)] = i; });
+    });
+    // Threads come in any order.
+    parallelFor(places, progress, [&](std::size_t n) {
+        std::sort(out.triangles.begin() + out.begins[n], out.triangles.begin() + out.begins[n + 1]);
+    });
     return out;
 }
 
@@ -36,33 +63,28 @@ VertexTriangles listed(std::size_t places, const F& visit)
 
 VertexTriangles vertexTriangles(const Mesh& mesh)
 {
-    return listed(mesh.positions.size(), [&](const auto& take) {
-        for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-            for (const std::uint32_t v : mesh.triangles[i]) take(v, std::uint32_t(i));
+    return listed(mesh, mesh.positions.size(), Progress(), [&](std::uint32_t i, const auto& take) {
+        for (const std::uint32_t v : mesh.triangles[i]) take(v);
     });
 }
 
-VertexTriangles vertexTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& some,
-                                const Progress& progress)
+VertexTriangles vertexTriangles(const Mesh& mesh, const VertexSet& some, const Progress& progress)
 {
-    std::vector<char> wanted(mesh.positions.size());
-    for (const std::uint32_t v : some) wanted[v] = 1;
-    struct Corner {
-        std::uint32_t place, triangle;
-    };
-    const auto corners =
-        parallelCollect<Corner>(mesh.triangles.size(), progress, [&](std::size_t i, auto& found) {
-            const auto& t = mesh.triangles[i];
-            if ((wanted[t[0]] | wanted[t[1]] | wanted[t[2]]) == 0) return;
-            for (const std::uint32_t v : t) {
-                if (!wanted[v]) continue;
-                const auto place = std::lower_bound(some.begin(), some.end(), v) - some.begin();
-                found.push_back({std::uint32_t(place), std::uint32_t(i)});
-            }
-        });
-    return listed(some.size(), [&](const auto& take) {
-        for (const Corner& c : corners) take(c.place, c.triangle);
+    return listed(mesh, some.size(), progress, [&](std::uint32_t i, const auto& take) {
+        for (const std::uint32_t v : mesh.triangles[i])
+            if (some.has(v)) take(some.place(v));
     });
+}
+
+VertexSet withNeighbours(const Mesh& mesh, const VertexSet& some, const Progress& progress)
+{
+    VertexSet all(mesh.positions.size());
+    forEachTriangle(mesh, progress, [&](std::uint32_t i) {
+        const auto& t = mesh.triangles[i];
+        if (some.has(t[0]) || some.has(t[1]) || some.has(t[2]))
+            for (const std::uint32_t v : t) all.add(v);
+    });
+    return all;
 }
 
 namespace
@@ -215,14 +237,10 @@ Topology checkTopology(const Mesh& mesh, const std::vector<char>& wanted, const 
 std::vector<std::uint32_t> connectedPieces(const Mesh& mesh, std::size_t& count,
                                            const Progress& progress)
 {
-    constexpr std::size_t block = 1024; // triangles
     DisjointSets sets(mesh.positions.size());
-    parallelFor((mesh.triangles.size() + block - 1) / block, progress, [&](std::size_t c) {
-        const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * block);
-        for (std::size_t i = c * block; i < end; ++i) {
-            sets.join(mesh.triangles[i][0], mesh.triangles[i][1]);
-            sets.join(mesh.triangles[i][1], mesh.triangles[i][2]);
-        }
+    forEachTriangle(mesh, progress, [&](std::uint32_t i) {
+        sets.join(mesh.triangles[i][0], mesh.triangles[i][1]);
+        sets.join(mesh.triangles[i][1], mesh.triangles[i][2]);
     });
     return sets.numbers(count);
 }

@@ -5,6 +5,7 @@
 /// Topology of a mesh: neighbours, connected pieces, and whether it is closed.
 
 #include "molsurf/mesh.h"
+#include "molsurf/mesh/vertex_set.h"
 #include "molsurf/progress.h"
 
 #include <cstdint>
@@ -22,10 +23,11 @@ struct VertexTriangles {
 
 VertexTriangles vertexTriangles(const Mesh& mesh);
 
-/// The same of some vertices alone: those of some[i] are triangles[begins[i]] and so on.
-/// @param[in] some  in ascending order
-VertexTriangles vertexTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& some,
-                                const Progress& progress);
+/// The same of some vertices alone: those of vertex v begin at begins[some.place(v)].
+VertexTriangles vertexTriangles(const Mesh& mesh, const VertexSet& some, const Progress& progress);
+
+/// The corners of all triangles at some vertices: these and their neighbours.
+VertexSet withNeighbours(const Mesh& mesh, const VertexSet& some, const Progress& progress);
 
 /// The properties of a mesh as a surface.
 struct Topology {

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/mesh/triangle_shape.h"
 
+#include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"
 #include "molsurf/mesh/topology.h"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 namespace molsurf
 {
 
+using openvdb::Coord;
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 
@@ -104,7 +110,7 @@ MOLSURF_INLINE int splitQuad(const Vec3f* const* p, const Vec3f* const* n, bool*
 
 MOLSURF_KERNEL void splitQuads(const Mesh& mesh,
                                const std::vector<std::array<std::uint32_t, 4>>& quads,
-                               std::array<std::uint32_t, 3>* out, std::vector<std::uint32_t>& bad)
+                               std::array<std::uint32_t, 3>* out, VertexSet& bad)
 {
     for (const auto& q : quads) {
         const Vec3f *p[4], *n[4];
@@ -116,7 +122,8 @@ MOLSURF_KERNEL void splitQuads(const Mesh& mesh,
         const int first = splitQuad(p, n, isBad);
         for (int k = 0; k < 2; ++k, ++out) {
             for (int c = 0; c < 3; ++c) (*out)[c] = q[halves[first + k][c]];
-            if (isBad[k]) bad.insert(bad.end(), out->begin(), out->end());
+            if (!isBad[k]) continue;
+            for (const std::uint32_t v : *out) bad.add(v);
         }
     }
 }
@@ -138,87 +145,117 @@ float worstOf(const Mesh& mesh, const std::uint32_t* begin, const std::uint32_t*
     return worst;
 }
 
-/// Sorts indices and drops those that come again.
-void makeSet(std::vector<std::uint32_t>& indices)
-{
-    std::sort(indices.begin(), indices.end());
-    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-}
-
-/// The triangles about some vertices and about their neighbours.
+/// The triangles at some vertices and at their neighbours.
 struct Surroundings {
-    std::vector<std::uint32_t> vertices; // in ascending order
-    VertexTriangles triangles;           // at each of these
+    VertexSet vertices;
+    VertexTriangles triangles; // at each of these
 
-    bool hold(const std::vector<std::uint32_t>& some) const
+    /// Each pass goes through all triangles: two rings of neighbours are asked for at once, since
+    /// the vertices that move next are among them.
+    Surroundings(const Mesh& mesh, const VertexSet& some, const Progress& progress)
+        : vertices(withNeighbours(mesh, withNeighbours(mesh, some, progress), progress))
     {
-        return std::includes(vertices.begin(), vertices.end(), some.begin(), some.end());
+        vertices.count();
+        triangles = vertexTriangles(mesh, vertices, progress);
     }
 
     /// The first and the end of the triangles at one of the vertices.
     std::pair<const std::uint32_t*, const std::uint32_t*> at(std::uint32_t v) const
     {
-        const auto place = std::lower_bound(vertices.begin(), vertices.end(), v);
-        const auto* begin = triangles.begins.data() + (place - vertices.begin());
+        const auto* begin = triangles.begins.data() + vertices.place(v);
         return {triangles.triangles.data() + begin[0], triangles.triangles.data() + begin[1]};
-    }
-
-    /// Each pass goes through all triangles: two rings of neighbours are asked for at once, since
-    /// the vertices that move next are among them.
-    void find(const Mesh& mesh, const std::vector<std::uint32_t>& some, const Progress& progress)
-    {
-        constexpr int rings = 2;
-        vertices = some;
-        triangles = vertexTriangles(mesh, vertices, progress);
-        for (int ring = 0; ring < rings; ++ring) {
-            for (const std::uint32_t i : triangles.triangles)
-                vertices.insert(vertices.end(), mesh.triangles[i].begin(), mesh.triangles[i].end());
-            makeSet(vertices);
-            triangles = vertexTriangles(mesh, vertices, progress);
-        }
     }
 };
 
+/// When a vertex is moved in a round: blocks of space take turns by the parity of their places.
+/// Edges are shorter than blocks, so no triangle has corners in two blocks of a turn.
+struct Place {
+    int turn; // 0 to 7
+    Coord block;
+    std::uint32_t vertex;
+
+    bool operator<(const Place& other) const
+    {
+        return std::tie(turn, block, vertex) < std::tie(other.turn, other.block, other.vertex);
+    }
+};
+
+std::vector<Place> placesOf(const Mesh& mesh, const std::vector<std::uint32_t>& some, double voxel,
+                            const Progress& progress)
+{
+    constexpr double blockVox = 8.0;
+    std::vector<Place> places(some.size());
+    parallelFor(some.size(), progress, [&](std::size_t n) {
+        const Coord block = Coord::floor(Vec3d(mesh.positions[some[n]]) / (blockVox * voxel));
+        const int turn = (block.x() & 1) << 2 | (block.y() & 1) << 1 | (block.z() & 1);
+        places[n] = {turn, block, some[n]};
+    });
+    tbb::parallel_sort(places.begin(), places.end());
+    return places;
+}
+
+/// Moves a vertex to the centroid of its neighbours if that mends its triangles.
+/// @param[out] bad  the corners of those that stay bad are added to it
+void relaxOne(SurfaceVertices& vertices, std::uint32_t v, const Surroundings& around, double voxel,
+              SplineSampler& sampler, VertexSet& bad)
+{
+    Mesh& mesh = vertices.mesh;
+    const auto [begin, end] = around.at(v);
+    const float before = worstOf(mesh, begin, end);
+    if (before >= leastQuality) return;
+    Vec3d centroid(0.0);
+    for (auto i = begin; i != end; ++i) {
+        for (const std::uint32_t w : mesh.triangles[*i]) {
+            if (w != v) centroid += Vec3d(mesh.positions[w]);
+        }
+    }
+    centroid /= 2.0 * double(end - begin); // each neighbour lies on two triangles
+    const Vec3f oldPosition = mesh.positions[v], oldNormal = mesh.normals[v];
+    const float oldSlope = vertices.slopes[v];
+    const float oldMean = mesh.scalars[0].values[v], oldGauss = mesh.scalars[1].values[v];
+    Vec3d x = centroid;
+    Jet jet;
+    if (!moveToSurface(sampler, voxel, 1.0, x, jet)) return;
+    vertices.set(v, x, jet);
+    if (worstOf(mesh, begin, end) <= before) {
+        vertices.set(v, oldPosition, oldNormal, oldSlope, oldMean, oldGauss);
+        return;
+    }
+    for (auto i = begin; i != end; ++i) {
+        if (worstOf(mesh, i, i + 1) >= leastQuality) continue;
+        for (const std::uint32_t w : mesh.triangles[*i]) bad.add(w);
+    }
+}
+
 } // namespace
 
-void relax(SurfaceVertices& vertices, const Spline& spline, double voxel,
-           std::vector<std::uint32_t> bad, const Progress& progress)
+void relax(SurfaceVertices& vertices, const Spline& spline, double voxel, VertexSet bad,
+           const Progress& progress)
 {
     constexpr int rounds = 8;
-    Mesh& mesh = vertices.mesh;
-    SplineSampler sampler(spline);
-    Surroundings around;
-    for (int round = 0; round < rounds && !bad.empty(); ++round) {
-        makeSet(bad);
-        if (!around.hold(bad)) around.find(mesh, bad, progress);
-        std::vector<std::uint32_t> still;
-        for (const std::uint32_t v : bad) {
-            const auto [begin, end] = around.at(v);
-            const float before = worstOf(mesh, begin, end);
-            if (before >= leastQuality) continue;
-            Vec3d centroid(0.0);
-            for (auto i = begin; i != end; ++i) {
-                for (const std::uint32_t w : mesh.triangles[*i]) {
-                    if (w != v) centroid += Vec3d(mesh.positions[w]);
-                }
-            }
-            centroid /= 2.0 * double(end - begin); // each neighbour lies on two triangles
-            const Vec3f oldPosition = mesh.positions[v], oldNormal = mesh.normals[v];
-            const float oldSlope = vertices.slopes[v];
-            const float oldMean = mesh.scalars[0].values[v], oldGauss = mesh.scalars[1].values[v];
-            Vec3d x = centroid;
-            Jet jet;
-            if (!moveToSurface(sampler, voxel, 1.0, x, jet)) continue;
-            vertices.set(v, x, jet);
-            if (worstOf(mesh, begin, end) <= before) {
-                vertices.set(v, oldPosition, oldNormal, oldSlope, oldMean, oldGauss);
-                continue;
-            }
-            for (auto i = begin; i != end; ++i) {
-                if (worstOf(mesh, i, i + 1) >= leastQuality) continue;
-                const auto& t = mesh.triangles[*i];
-                still.insert(still.end(), t.begin(), t.end());
-            }
+    const Mesh& mesh = vertices.mesh;
+    std::optional<Surroundings> around;
+    for (int round = 0; round < rounds; ++round) {
+        bad.count();
+        const std::vector<std::uint32_t> listed = bad.list();
+        if (listed.empty()) break;
+        const auto known = [&](std::uint32_t v) { return around->vertices.has(v); };
+        if (!around || !std::all_of(listed.begin(), listed.end(), known))
+            around.emplace(mesh, bad, progress);
+        VertexSet still(mesh.positions.size());
+        const std::vector<Place> places = placesOf(mesh, listed, voxel, progress);
+        std::vector<std::size_t> begins; // of blocks, and the end
+        for (std::size_t n = 0; n < places.size(); ++n)
+            if (n == 0 || places[n].block != places[n - 1].block) begins.push_back(n);
+        begins.push_back(places.size());
+        for (std::size_t b = 0, end; b + 1 < begins.size(); b = end) {
+            const int turn = places[begins[b]].turn;
+            for (end = b; end + 1 < begins.size() && places[begins[end]].turn == turn;) ++end;
+            parallelFor(end - b, progress, [&](std::size_t k) {
+                SplineSampler sampler(spline);
+                for (std::size_t n = begins[b + k]; n < begins[b + k + 1]; ++n)
+                    relaxOne(vertices, places[n].vertex, *around, voxel, sampler, still);
+            });
         }
         bad = std::move(still);
     }

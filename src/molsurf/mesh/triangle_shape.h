@@ -6,6 +6,7 @@
 /// of bad ones slide along the surface.
 
 #include "molsurf/mesh/surface_vertices.h"
+#include "molsurf/mesh/vertex_set.h"
 #include "molsurf/progress.h"
 
 #include <array>
@@ -19,13 +20,14 @@ namespace molsurf
 /// of the other one agree clearly better with the normals at their corners.
 /// @param[in]  mesh   positions and normals
 /// @param[out] out    two triangles a quad
-/// @param[out] bad    the corners of needle-like and folded triangles are appended to it
+/// @param[out] bad    the corners of needle-like and folded triangles are added to it
 void splitQuads(const Mesh& mesh, const std::vector<std::array<std::uint32_t, 4>>& quads,
-                std::array<std::uint32_t, 3>* out, std::vector<std::uint32_t>& bad);
+                std::array<std::uint32_t, 3>* out, VertexSet& bad);
 
-/// Slides the vertices of bad triangles along the surface to the centroid of their neighbours.
+/// Slides the vertices of bad triangles along the surface to the centroid of their neighbours, a
+/// few times. Blocks of 8 voxels take turns, and in each the vertices come as they are numbered.
 /// @param[in] bad  the corners of the bad triangles
-void relax(SurfaceVertices& vertices, const Spline& spline, double voxel,
-           std::vector<std::uint32_t> bad, const Progress& progress);
+void relax(SurfaceVertices& vertices, const Spline& spline, double voxel, VertexSet bad,
+           const Progress& progress);
 
 } // namespace molsurf

@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tbb/global_control.h>
+
 #include <cmath>
 #include <random>
 
@@ -152,6 +154,26 @@ TEST(ExtractMesh, OfNoiseIsAManifoldWithTheTopologyOfTheSigns)
         EXPECT_GT(test::digitalEuler(*n.grid).ambiguousCells, 100u);
         EXPECT_EQ(measure(mesh, Progress()).eulerCharacteristic, test::mesherEuler(*n.grid))
             << "seed " << seed;
+    }
+}
+
+// Nearly all vertices of noise are moved: where two threads moved neighbours at once, bits would
+// depend on which was the first.
+TEST(ExtractMesh, OfNoiseIsTheSameForAnyNumberOfThreads)
+{
+    for (unsigned seed = 1; seed <= 12; ++seed) {
+        const Noise n = noise(seed, 10 + 7 * int(seed));
+        std::vector<Mesh> meshes;
+        for (const int threads : {1, 2, 4}) {
+            tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                        std::size_t(threads));
+            ExtractStats stats;
+            meshes.push_back(extractMesh(*n.grid, n.spline, Progress(), stats));
+        }
+        for (const Mesh& mesh : meshes) {
+            EXPECT_EQ(mesh.positions, meshes[0].positions) << "seed " << seed;
+            EXPECT_EQ(mesh.triangles, meshes[0].triangles) << "seed " << seed;
+        }
     }
 }
 

@@ -199,8 +199,13 @@ TEST(VertexTriangles, ListsThoseOfSomeVertices)
 {
     const Mesh mesh = sharedEdge();
     const VertexTriangles all = vertexTriangles(mesh);
-    const std::vector<std::uint32_t> some = {1, 2, 5};
-    const VertexTriangles part = vertexTriangles(mesh, some, Progress());
+    VertexSet set(mesh.positions.size());
+    for (const std::uint32_t v : {5, 1, 2}) set.add(v);
+    set.count();
+    const std::vector<std::uint32_t> some = set.list();
+    EXPECT_EQ(some, (std::vector<std::uint32_t>{1, 2, 5}));
+    EXPECT_EQ(set.place(5), 2u);
+    const VertexTriangles part = vertexTriangles(mesh, set, Progress());
     ASSERT_EQ(part.begins.size(), some.size() + 1);
     for (std::size_t i = 0; i < some.size(); ++i) {
         const auto of = [](const VertexTriangles& t, std::size_t v) {
