@@ -20,11 +20,22 @@ using namespace molsurf::tool;
 namespace
 {
 
+/// Writes out what was printed so far.
+/// @pre errno is 0
+void flushPrinted()
+{
+    if (std::cout.flush()) return;
+    throw Error(ErrorKind::Output, std::string("cannot write standard output: ") +
+                                       std::strerror(errno != 0 ? errno : EIO));
+}
+
 int perform(int argc, char** argv)
 {
     const auto start = std::chrono::steady_clock::now();
     const Parsed parsed = parse(argc, argv);
+    errno = 0;
     std::cout << parsed.text;
+    flushPrinted();
     return parsed.call ? infoOf(parsed.call->verb).perform(*parsed.call, start) : 0;
 }
 
@@ -45,9 +56,7 @@ int main(int argc, char** argv)
     try {
         const int status = perform(argc, argv);
         errno = 0;
-        if (!std::cout.flush())
-            throw Error(ErrorKind::Output,
-                        std::string("cannot write standard output: ") + std::strerror(errno));
+        flushPrinted();
         return status;
     } catch (const Error& e) {
         say(std::string("error: ") + e.what());
@@ -58,7 +67,7 @@ int main(int argc, char** argv)
     } catch (const std::bad_alloc&) {
         say(noMemoryText);
     } catch (const std::exception& e) {
-        say(std::string("error: internal: ") + e.what());
+        say(unforeseenText(e));
     }
     return 1;
 }

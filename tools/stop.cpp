@@ -9,6 +9,8 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <system_error>
+#include <utility>
 
 namespace molsurf::tool
 {
@@ -21,15 +23,17 @@ constexpr suseconds_t patience = 700000; // [µs]
 // What a signal handler needs has to be global.
 std::atomic<bool> requested{false};
 std::atomic<bool> deaf{false};
-std::vector<std::string>* names = nullptr; // never freed: a handler may run until the very end
+std::atomic<const std::vector<std::string>*> names{nullptr}; // a handler may run until the very end
 
 static_assert(std::atomic<bool>::is_always_lock_free, "used in signal handlers");
 
 // Only what a signal handler may do.
 [[noreturn]] void leave(const char* text, int status)
 {
-    for (const std::string& name : *names) {
-        if (unlink(name.c_str()) != 0) rmdir(name.c_str());
+    if (const std::vector<std::string>* all = names) {
+        for (const std::string& name : *all) {
+            if (unlink(name.c_str()) != 0) rmdir(name.c_str());
+        }
     }
     const auto print = [](const char* words) {
         const ssize_t printed = write(STDERR_FILENO, words, std::strlen(words));
@@ -55,8 +59,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "used in signal handlers")
     } catch (const std::bad_alloc&) {
         leave(noMemoryText, 1);
     } catch (const std::exception& e) {
-        const std::string text = std::string("error: internal: ") + e.what();
-        leave(text.c_str(), 1);
+        leave(unforeseenText(e).c_str(), 1);
     } catch (...) {
     }
     leave("error: internal", 1);
@@ -86,13 +89,36 @@ void handle(int signal, void (*handler)(int))
     sigaction(signal, &action, nullptr);
 }
 
+/// Libraries start threads before main(): what they throw for want of memory is to be said, too.
+void handleEarly()
+{
+    std::set_terminate(onTerminate);
+}
+__attribute__((section(".preinit_array"), used)) void (*const early)() = handleEarly;
+
 } // namespace
+
+std::string unforeseenText(const std::exception& e)
+{
+    const auto* system = dynamic_cast<const std::system_error*>(&e);
+    const bool refused = system && system->code() == std::errc::resource_unavailable_try_again;
+    const bool noThread = refused || std::strstr(e.what(), "pthread_create");
+    return noThread ? noMemoryText : std::string("error: internal: ") + e.what();
+}
 
 void handleSignals(const std::vector<std::string>& temporaries)
 {
+    // A handler may still read the list before this one, but not the one before that.
+    static const std::vector<std::string>* before = nullptr;
+    delete std::exchange(before, names.load());
     names = new std::vector<std::string>(temporaries);
     deaf = false;
-    for (int signal : {SIGINT, SIGTERM, SIGHUP}) handle(signal, onStop);
+    for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction present {
+        };
+        sigaction(signal, nullptr, &present);
+        if (present.sa_handler != SIG_IGN) handle(signal, onStop);
+    }
     handle(SIGALRM, onAlarm);
     std::set_terminate(onTerminate);
     for (int signal : {SIGPIPE, SIGXFSZ}) handle(signal, SIG_IGN);

@@ -51,10 +51,34 @@ std::string withOptionNames(const std::string& message)
     return out.append(rest, message.end());
 }
 
+std::string printable(const std::string& text)
+{
+    std::string out;
+    const auto escape = [&](unsigned char c) {
+        char code[8];
+        std::snprintf(code, sizeof code, "\\x%02x", c);
+        out += code;
+    };
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto c = static_cast<unsigned char>(text[i]);
+        const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+        if (c == '\n') {
+            out += ' ';
+        } else if (c == 0xc2 && next >= 0x80 && next < 0xa0) { // U+0080 to U+009F
+            escape(next);
+            ++i;
+        } else if (c < 0x20 || c == 0x7f) {
+            escape(c);
+        } else {
+            out += text[i];
+        }
+    }
+    return out;
+}
+
 void say(const std::string& text)
 {
-    std::string line = "vdb_molsurf: " + withOptionNames(text);
-    std::replace(line.begin(), line.end(), '\n', ' ');
+    const std::string line = "vdb_molsurf: " + printable(withOptionNames(text));
     std::fprintf(stderr, "%s\n", line.c_str());
 }
 
@@ -84,7 +108,7 @@ void Terminal::update(const char* stage, double fraction)
                        std::string(std::size_t(width - full), '.') + "]";
     char text[64];
     std::snprintf(text, sizeof text, " %3.0f %%  ", 100.0 * done);
-    line += text + prefix_ + stage;
+    line += text + printable(prefix_) + stage;
     const double spent = std::chrono::duration<double>(now - stageStart_).count();
     if (done > 0.02 && done < 1.0 && spent > 0.5)
         line += ", " + duration(spent * (1.0 - done) / done) + " left";

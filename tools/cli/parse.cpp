@@ -144,7 +144,12 @@ void readConfig(const std::string& path, const po::options_description& all, Cal
     if (errno == EISDIR || !file)
         throw Error(ErrorKind::Input, "cannot read " + path + ": " + std::strerror(errno));
     try {
-        add(call.verb, po::parse_config_file(file, all), call.given, call.inputs);
+        errno = 0;
+        const auto options = po::parse_config_file(file, all);
+        if (file.bad())
+            throw Error(ErrorKind::Input,
+                        "it cannot be read: " + std::string(std::strerror(errno)));
+        add(call.verb, options, call.given, call.inputs);
     } catch (const po::error& e) {
         misuse("--config " + path + ": " + e.what());
     } catch (const Error& e) {

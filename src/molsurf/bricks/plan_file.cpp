@@ -2,13 +2,11 @@
 #include "molsurf/bricks/plan_file.h"
 
 #include "molsurf/error.h"
+#include "molsurf/structure/load_text.h"
 
 #include <nlohmann/json.hpp>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
+#include <filesystem>
 
 namespace molsurf
 {
@@ -69,10 +67,10 @@ void writeManifest(const PlanManifest& manifest, OutputFile& file)
 
 PlanManifest readManifest(const std::string& path)
 {
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw Error(ErrorKind::Input, "cannot read " + path + ": " + std::strerror(errno));
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+        throw Error(ErrorKind::Input, path + ": is a folder, expected a plan");
+    const std::string text = loadText(path);
     try {
         const Json j = Json::parse(text);
         PlanManifest m;
