@@ -40,7 +40,7 @@ def cases():
     yield ["@4at1.ent.gz --voxel 1 --coarse residue --surface sas --fields sas,density " + FILES.format("a")]
     yield ["@1ubq.pdb --for blender --center --color residue " + FILES.format("a")]
     yield ["@1ubq.pdb --print-scale 2 --min-wall 3 --spline-level 1 -o a.stl -o a.obj " + FILES.format("a")]
-    yield ["@1ubq.pdb --flow plain --max-steps 40 --regularizer area --lambda 0.2 " + FILES.format("a")]
+    yield ["@1ubq.pdb --flow paper --max-steps 40 --regularizer area --lambda 0.2 " + FILES.format("a")]
     for kind in ["variational", "ses", "vdw"]:
         plan = f"@4at1.ent.gz --surface {kind} --voxel 1 --fields sas,chain_id,mean_curvature --bricks 3 -o p.json"
         yield ([("plan", plan)] + [("brick", f"p.json {k}") for k in (1, 2, 3)] +
