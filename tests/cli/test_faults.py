@@ -4,6 +4,7 @@
 import resource
 import shutil
 import signal
+import struct
 import subprocess
 import time
 import unittest
@@ -56,6 +57,17 @@ class Faults(ToolTest):
     def test_a_config_that_cannot_be_read(self):
         self.check(1, CRAMBIN, "--config", "/proc/self/mem", *FAST, "-o", "a.json", says="cannot be read")
         self.assertEqual(self.names(), [])
+
+    def test_a_trajectory_that_promises_much_takes_little_memory(self):
+        def record(content):
+            return struct.pack("<i", len(content)) + content + struct.pack("<i", len(content))
+
+        head = record(b"CORD" + struct.pack("<20i", 1, *[0] * 18, 24))
+        (self.folder / "t.dcd").write_bytes(head + struct.pack("<i", 1 << 30) + b"x")
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+        self.check(1, CRAMBIN, "--trajectory", "t.dcd", "-o", "a.json", says="cut short")
+        after = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+        self.assertLess(after, max(before, 300 * 1024))  # [KiB]
 
     def test_a_folder_is_no_plan(self):
         (self.folder / "plan").mkdir()

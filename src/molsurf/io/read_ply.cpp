@@ -229,6 +229,7 @@ void readFaces(const Element& element, std::size_t vertices, Values& values, Mes
 template<typename Values>
 void skip(const Element& element, Values& values)
 {
+    if (element.properties.empty()) return; // billions of them take no bytes
     for (std::size_t n = 0; n < element.count; ++n) {
         values.beginElement(element.name, n);
         for (const Property& property : element.properties) {

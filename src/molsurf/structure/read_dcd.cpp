@@ -34,6 +34,7 @@ std::vector<char> DcdFile::record()
     const std::uint32_t size = word(mark);
     if (size > largest)
         fail("expected a record of DCD, got one of " + std::to_string(size) + " bytes");
+    if (size > size_ - std::uint64_t(file_.tellg())) fail("cut short");
     std::vector<char> content(size);
     if (!file_.read(content.data(), size) || !file_.read(mark, 4)) fail("cut short");
     if (word(mark) != size) fail("a record of DCD ends with another length than it begins with");
