@@ -3,9 +3,10 @@
 
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/simd.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace molsurf
 {
@@ -22,20 +23,50 @@ struct Candidate {
     std::int32_t i;
 };
 
-std::int32_t nearest(const Vec3f& point, const std::vector<Candidate>& candidates, float within)
+/// Points, and the ball that each belongs to as far as balls were looked at.
+struct Points {
+    float x[3][floatLanes];
+    float gap[floatLanes]; ///< to that ball
+    std::int32_t ball[floatLanes];
+};
+
+MOLSURF_KERNEL void lookAt(const std::vector<Candidate>& candidates, Points& points)
 {
-    std::int32_t found = -1;
-    float best = within;
+    const Floats x = load(points.x[0]), y = load(points.x[1]), z = load(points.x[2]);
+    Floats least = load(points.gap);
+    Ints ball = load(points.ball);
     for (const Candidate& b : candidates) {
-        const float limit = best + b.radius, d2 = (point - b.center).lengthSqr();
-        if (limit < 0.0f || d2 > limit * limit) continue;
-        const float gap = std::sqrt(d2) - b.radius;
-        if (gap < best || (gap == best && (found < 0 || b.i < found))) {
-            best = gap;
-            found = b.i;
+        const Floats dx = x - b.center[0], dy = y - b.center[1], dz = z - b.center[2];
+        const Floats gap = squareRoot(dx * dx + dy * dy + dz * dz) - b.radius;
+        const Ints i = splat(b.i);
+        ball = (gap < least) | ((gap == least) & (i < ball)) ? i : ball;
+        least = gap < least ? gap : least;
+    }
+    store(points.ball, ball);
+}
+
+/// Finds the balls of points that have none, as far as they are within a distance.
+/// @return whether all of them have one now
+bool settle(const std::vector<Vec3f>& points, std::size_t begin, std::size_t end,
+            const std::vector<Candidate>& candidates, float within, std::vector<std::int32_t>& out)
+{
+    constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+    bool all = true;
+    for (std::size_t first = begin; first < end; first += floatLanes) {
+        const std::size_t used = std::min<std::size_t>(floatLanes, end - first);
+        Points lanes;
+        for (std::size_t l = 0; l < floatLanes; ++l) {
+            for (int a = 0; a < 3; ++a) lanes.x[a][l] = points[first + std::min(l, used - 1)][a];
+            lanes.gap[l] = within;
+            lanes.ball[l] = none;
+        }
+        lookAt(candidates, lanes);
+        for (std::size_t l = 0; l < used; ++l) {
+            if (out[first + l] < 0 && lanes.ball[l] != none) out[first + l] = lanes.ball[l];
+            all = all && out[first + l] >= 0;
         }
     }
-    return found;
+    return all;
 }
 
 } // namespace
@@ -49,7 +80,7 @@ std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
     // Points are taken by runs that stay in a small box and share its candidates. Most lie close to
     // their ball; for those that do not the search goes on twice as far.
     constexpr std::size_t chunk = 256;
-    constexpr float runSize = 2.0f; // [Å]
+    constexpr float runSize = 6.0f; // [Å]
     constexpr double close = 0.5;   // [Å]
     std::vector<std::int32_t> out(points.size(), -1);
     parallelFor((points.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
@@ -72,11 +103,7 @@ std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
                                   [&](const Ball& ball, std::int32_t i) {
                                       candidates.push_back({ball.center, ball.radius, i});
                                   });
-                missing = false;
-                for (std::size_t p = begin; p < stop; ++p) {
-                    if (out[p] < 0) out[p] = nearest(points[p], candidates, float(within));
-                    missing = missing || out[p] < 0;
-                }
+                missing = !settle(points, begin, stop, candidates, float(within), out);
                 if (within == reach) break;
             }
         }
