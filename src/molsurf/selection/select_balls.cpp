@@ -12,12 +12,17 @@
 #include "molsurf/structure/read_structure.h"
 #include "molsurf/structure/text_fields.h"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <set>
+#include <tuple>
+#include <utility>
 
 namespace molsurf
 {
@@ -219,6 +224,40 @@ std::vector<Ball> makeBalls(const Structure& structure, const SelectOptions& opt
     return balls;
 }
 
+/// Leaves out each ball that is the same as one before it, and warns of it: a sum of Gaussians
+/// would count it twice.
+void dropDuplicates(const Structure& structure, Filter& filter, std::vector<Ball>& balls,
+                    BallSet& out)
+{
+    std::vector<std::size_t> order(balls.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto key = [&](std::size_t i) {
+        const Ball& b = balls[i];
+        return std::make_tuple(b.center.x(), b.center.y(), b.center.z(), b.radius);
+    };
+    tbb::parallel_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::make_pair(key(a), a) < std::make_pair(key(b), b);
+    });
+    std::vector<char> isDuplicate(balls.size(), 0);
+    std::size_t first = balls.size(), count = 0; // the first duplicate in the file's order
+    for (std::size_t n = 1; n < order.size(); ++n) {
+        if (key(order[n]) != key(order[n - 1])) continue;
+        isDuplicate[order[n]] = 1;
+        first = std::min(first, order[n]);
+        ++count;
+    }
+    if (count == 0) return;
+    out.warnings.push_back(
+        std::to_string(count) + (count == 1 ? " atom lies" : " atoms lie") +
+        " exactly where another of the same radius lies: dropped; the first is " +
+        describeAtom(structure, std::size_t(balls[first].atom)));
+    filter.note("duplicate", count);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < balls.size(); ++i)
+        if (!isDuplicate[i]) balls[kept++] = balls[i];
+    balls.resize(kept);
+}
+
 /// Refuses a molecule that no grid can hold.
 void checkExtent(const Structure& structure, const std::vector<Ball>& balls)
 {
@@ -379,6 +418,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     Filter filter(model, out);
     applyFilters(structure, options, match, filter, out);
     std::vector<Ball> balls = makeBalls(structure, options, filter, out);
+    dropDuplicates(structure, filter, balls, out);
     std::vector<std::int32_t> beadAtoms; // by the representative atom: how many a bead stands for
     if (!options.coarse.empty()) {
         CoarseBalls coarse = coarseGrain(structure, balls, options.coarse, probe, progress);

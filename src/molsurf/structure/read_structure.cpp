@@ -19,17 +19,6 @@ namespace
 
 constexpr double largestCoordinate = 1e6; // [Å]
 
-std::string describeAtom(const Structure& structure, const Atom& atom, std::size_t index)
-{
-    const Residue& residue = structure.residues[std::size_t(atom.residue)];
-    std::string text = "atom " + std::to_string(index + 1);
-    if (!atom.name.empty()) text += " (" + atom.name;
-    if (!atom.name.empty() && !residue.name.empty()) {
-        text += " of " + residue.name + " " + std::to_string(residue.number);
-    }
-    return atom.name.empty() ? text : text + ")";
-}
-
 void checkCoordinates(const Structure& structure, const std::string& path)
 {
     for (std::size_t i = 0; i < structure.atoms.size(); ++i) {
@@ -37,9 +26,8 @@ void checkCoordinates(const Structure& structure, const std::string& path)
         for (int axis = 0; axis < 3; ++axis) {
             if (std::abs(x[axis]) <= largestCoordinate) continue; // false for NaN
             throw Error(ErrorKind::Input,
-                        displayName(path) + ": " + describeAtom(structure, structure.atoms[i], i) +
-                            ": " + "xyz"[axis] + ": expected -1e6 to 1e6 Å, got " +
-                            std::to_string(x[axis]));
+                        displayName(path) + ": " + describeAtom(structure, i) + ": " + "xyz"[axis] +
+                            ": expected -1e6 to 1e6 Å, got " + std::to_string(x[axis]));
         }
     }
 }
@@ -60,6 +48,18 @@ Structure parse(StructureFormat format, std::string text, const std::string& pat
 }
 
 } // namespace
+
+std::string describeAtom(const Structure& structure, std::size_t index)
+{
+    const Atom& atom = structure.atoms[index];
+    const Residue& residue = structure.residues[std::size_t(atom.residue)];
+    std::string text = "atom " + std::to_string(index + 1);
+    if (!atom.name.empty()) text += " (" + atom.name;
+    if (!atom.name.empty() && !residue.name.empty()) {
+        text += " of " + residue.name + " " + std::to_string(residue.number);
+    }
+    return atom.name.empty() ? text : text + ")";
+}
 
 Structure readStructure(const std::string& path)
 {

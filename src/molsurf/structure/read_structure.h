@@ -32,4 +32,7 @@ namespace molsurf
 ///         lies beyond 1e6 Å
 Structure readStructure(const std::string& path);
 
+/// "atom 17 (CA of ALA 5)", for messages; the number counts from 1.
+std::string describeAtom(const Structure& structure, std::size_t index);
+
 } // namespace molsurf

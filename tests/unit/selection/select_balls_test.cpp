@@ -52,6 +52,21 @@ TEST(SelectBalls, DropsWatersUnlessAsked)
               "1ubq.pdb: PDB, 1 model, 660 atoms; used 602 balls; dropped 58 water");
 }
 
+TEST(SelectBalls, DropsExactDuplicatesAndWarns)
+{
+    std::string text = "1 2 3 1.5\n1 2 3 1.7\n1 2 3 1.5\n-0.0 2 3 1.5\n0 2 3 1.5\n1 2 3 1.5\n";
+    const Structure s = readText("twice.xyzr", text);
+    const BallSet selection = selectBalls(s, {});
+    EXPECT_EQ(dropsOf(selection), (Drops{{"duplicate", 3}}));
+    ASSERT_EQ(selection.balls.size(), 3u);
+    EXPECT_EQ(selection.balls[0].atom, 0);
+    EXPECT_EQ(selection.balls[1].atom, 1); // another radius
+    EXPECT_EQ(selection.balls[2].atom, 3);
+    ASSERT_EQ(selection.warnings.size(), 1u);
+    EXPECT_EQ(selection.warnings[0], "3 atoms lie exactly where another of the same radius lies: "
+                                     "dropped; the first is atom 3");
+}
+
 TEST(SelectBalls, DropsLigandsAndHydrogensOnRequest)
 {
     SelectOptions options;
