@@ -8,6 +8,7 @@
 #include "outputs.h"
 #include "terminal.h"
 
+#include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/bricks/plan_file.h"
 #include "molsurf/report.h"
 #include "molsurf/selection/select_balls.h"
@@ -37,6 +38,9 @@ Call callOf(PlanManifest manifest, const std::string& path);
 void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std::string>& paths,
                  const std::string& id, Terminal& terminal, Clock::time_point start,
                  Report& report);
+
+/// What a surface may take by a call and on this machine.
+RunLimits limitsOf(const Call& call);
 
 /// The last line of a run.
 std::string summary(const Report& report);

@@ -7,8 +7,12 @@
 #include "terminal.h"
 #include "write_result.h"
 
+#include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/surface.h"
+#include "molsurf/surface/check_balls.h"
+
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -47,6 +51,13 @@ void completeReport(const Call& call, std::size_t atoms, const Report& read, Rep
 }
 
 } // namespace
+
+RunLimits limitsOf(const Call& call)
+{
+    const std::size_t threads =
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    return {std::max(call.memory, availableMemory()), call.hours, int(threads)};
+}
 
 std::string summary(const Report& report)
 {
@@ -105,6 +116,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
                  const std::function<void(MolecularSurface&)>& extend)
 {
     stopIfAsked();
+    checkCost(balls, call.options, limitsOf(call), terminal);
     call.options.meshLabels = showsMesh(call.outputs);
     MolecularSurface result = makeSurface(balls, call.options, &terminal, warm);
     terminal.erase();

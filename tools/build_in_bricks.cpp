@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 
 namespace molsurf::tool
 {
@@ -99,9 +100,14 @@ int buildInBricks(const Call& call, Clock::time_point start)
     Terminal terminal(call.progress);
     Report report;
     BallSet atoms = readBalls(call, terminal, report);
-    if (call.memory == 0) checkBalls(atoms.balls, call.options, Pieces::One, physicalMemory());
+    if (call.memory == 0) checkBalls(atoms.balls, call.options, Pieces::One, availableMemory());
     const BrickPlan one = planWhole(atoms, call.options, terminal);
     const std::size_t whole = one.bricks[0].bytes;
+    if (!call.dryRun) {
+        RunLimits limits = limitsOf(call);
+        limits.memory = std::numeric_limits<std::size_t>::max(); // bricks take less
+        checkCost(one.bricks[0], limits);
+    }
     if (call.memory == 0 || whole <= call.memory) {
         if (!call.dryRun) return endOf(buildSurface(call, atoms, report, terminal, start));
         terminal.erase();

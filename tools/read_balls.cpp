@@ -24,7 +24,7 @@ DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& te
         throw Error(
             ErrorKind::Input,
             path + ": it is a mesh, expected atoms [hint: vdb_molsurf compare measures meshes]");
-    const Structure structure = readStructure(path);
+    const Structure structure = readStructure(path, call.atoms.maxInput);
     stopIfAsked();
     BallSet balls = selectBalls(structure, call.atoms, probeOf(call.options), terminal);
     std::string description = describeSelection(structure, balls);

@@ -115,12 +115,16 @@ struct SelectOptions {
     /// none.
     std::string groupBy;
     bool labels = false; ///< whether the balls are labelled even if there are no groups
+    /// The bytes that the file's text may have, unpacked; 0: 4 GiB, and no more than 200 times its
+    /// packed size.
+    std::size_t maxInput = 0;
 };
 
 /// A number of atoms that are left out for one reason.
 struct Excluded {
     std::string reason; ///< "not selected", "water", "ligand or ion", "hydrogen", "dummy",
-                        ///< "alternate location", "zero radius", "not in the assembly"
+                        ///< "alternate location", "zero radius", "duplicate",
+                        ///< "not in the assembly"
     std::size_t count;
 };
 

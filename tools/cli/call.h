@@ -77,6 +77,7 @@ struct Call {
     double colorRange = 0.0;  ///< Compare: distance at the end of the colours [Å]; 0: choose
     int bricks = 0;           ///< BricksPlan: how many; 0: by `memory`
     std::size_t memory = 0;   ///< bytes at most; 0: no limit
+    double hours = 24.0;      ///< that a surface may take, by the estimate
     bool dryRun = false;      ///< only say what it takes
     int threads = 0;          ///< 0: as many as there are
     bool quiet = false;

@@ -293,7 +293,7 @@ void setFields(Call& call, const Values& values)
 }
 
 /// "4G", "500M": bytes. K, M, G and T are powers of 1024.
-std::size_t parseSize(const std::string& text)
+std::size_t parseSize(const std::string& option, const std::string& text)
 {
     const std::string expected = "a size such as 500M or 4G";
     double size = 0.0;
@@ -304,9 +304,9 @@ std::size_t parseSize(const std::string& text)
     const std::string rest = unit.empty() ? "" : unit.substr(1);
     if (problem != std::errc() || !std::isfinite(size) || place == std::string::npos ||
         !(rest.empty() || rest == "B" || rest == "iB"))
-        wrong("memory", expected, text);
+        wrong(option, expected, text);
     const double bytes = size * (unit.empty() ? 1.0 : std::pow(1024.0, double(place + 1)));
-    if (!(bytes >= 1.0 && bytes < 1e18)) wrong("memory", expected, text);
+    if (!(bytes >= 1.0 && bytes < 1e18)) wrong(option, expected, text);
     return std::size_t(bytes);
 }
 
@@ -458,6 +458,12 @@ OptionGroup atomOptions()
             return c.atoms.*member;
         };
     };
+    Option maxInput{"max-input", 0,
+                    "SIZE",      "bytes that INPUT may have, unpacked, such as 10G",
+                    "4G",        structures | Info};
+    maxInput.set = [](Call& call, const Values& values) {
+        call.atoms.maxInput = parseSize("max-input", values.back());
+    };
     return {
         "Atoms",
         {text("select", "EXPR", "gemmi selections joined by |, e.g. \"/1/A/53-132|*;polymer\"",
@@ -484,7 +490,7 @@ OptionGroup atomOptions()
          flag("waters", "keep waters", structures, of(&SelectOptions::waters)),
          text("radii", "SET", "van der Waals radii: a name of --list-radii, or a file", "",
               structures, of(&SelectOptions::radii)),
-         number("probe", "R", "probe radius [Å]", structures, OF(options.probe))}};
+         number("probe", "R", "probe radius [Å]", structures, OF(options.probe)), maxInput}};
 }
 
 OptionGroup frameOptions()
@@ -769,7 +775,9 @@ OptionGroup runOptions()
 {
     const auto memory = [](unsigned verbs, std::string text) {
         Option o{"memory", 0, "SIZE", std::move(text), "", verbs};
-        o.set = [](Call& call, const Values& values) { call.memory = parseSize(values.back()); };
+        o.set = [](Call& call, const Values& values) {
+            call.memory = parseSize("memory", values.back());
+        };
         return o;
     };
     const auto flagOf = [](const char* name, char letter, const char* text, unsigned verbs,
@@ -786,6 +794,8 @@ OptionGroup runOptions()
                                 "such as 500M or 4G"),
              memory(Build, "memory at most, such as 4G: in bricks, one by one, if\n"
                            "the whole takes more; the flow then takes so many --steps"),
+             number("max-hours", "H", "refuse what is estimated to take more hours", "24",
+                    Build | Batch, 1e-6, 1e6, "hours, from 1e-6 to 1e6", OF(hours)),
              flagOf("dry-run", 0, "say what it takes, and stop", Build, OF(dryRun)),
              with(count("threads", "N", "threads at most", "all", runs, 1, 4096, OF(threads)),
                   [](Option& o) { o.letter = 'j'; }),

@@ -87,7 +87,8 @@ const std::vector<VerbInfo>& verbTable()
          "", completeInfo, [](const Call& call, auto) {
              openvdb::initialize();
              for (const std::string& path : call.inputs)
-                 std::cout << (isVdbFile(path) ? describeVdb(path) : describeStructure(path));
+                 std::cout << (isVdbFile(path) ? describeVdb(path)
+                                               : describeStructure(path, call.atoms.maxInput));
              return 0;
          }}};
     return all;

@@ -40,9 +40,10 @@ constexpr double bytesPerMeshLeaf = 12.5e3;    // within the halo of the spline
 constexpr double bytesPerFineLeaf = 25e3;      // the same of a surface that runs between atoms
 constexpr double bytesPerKeptLeaf = 5.5e3; // of the flow, where these are kept for the next brick
 constexpr double bytesPerValueOfLeaf = 2.5e3; // of a grid that goes along with the surface
-// On one core.
-constexpr double secondsPerLeaf = 0.2e-3, secondsPerFlowLeaf = 0.14e-3;
-constexpr double secondsPerBoundaryBall = 25e-6;
+// On one core of a Xeon of 2.6 GHz: on 6ZU5 and 1K4R at 0.5 and 1 Å, both kinds, these give 0.75 to
+// 1.2 times what was measured.
+constexpr double secondsPerLeaf = 0.09e-3, secondsPerFlowLeaf = 0.11e-3;
+constexpr double secondsPerBoundaryBall = 15e-6;
 constexpr double bytesToMerge =
     7.0; // an active voxel: leaves without values, statistics of vertices
 constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
@@ -84,16 +85,79 @@ void addShell(const Vec3d& centre, double inner, double outer, double edge,
     }
 }
 
+/// Whether a ball has so many leaves inside that its shell alone is taken.
+bool isLarge(const Ball& ball, double edge)
+{
+    constexpr double many = 4.0;
+    return ball.radius > many * edge;
+}
+
+/// How many leaves occupancyOf() finds at most, to the factor of a few that a limit needs.
+double leavesAtMost(const std::vector<Ball>& balls, double voxel, double reach)
+{
+    const double edge = leafDim * voxel;
+    double ofSmall = 0.0, ofShells = 0.0;
+    openvdb::BBoxd box;
+    for (const Ball& ball : balls) {
+        const double across = 2.0 * (ball.radius + reach) / edge + 2.0;
+        const bool large = isLarge(ball, edge);
+        (large ? ofShells : ofSmall) += large ? M_PI * across * across * 4.0 : std::pow(across, 3);
+        if (!large) box.expand(Vec3d(ball.center));
+    }
+    if (ofSmall == 0.0) return ofShells;
+    const Vec3d extents = (box.extents() + Vec3d(2.0 * reach)) / edge + Vec3d(3.0 + 2.0 * 4.0);
+    return std::min(ofSmall, extents.product()) + ofShells;
+}
+
+/// The voxels on which the whole is estimated: as large as it takes for few leaves.
+double grainOf(const std::vector<Ball>& balls, double voxel, double reach)
+{
+    const double few = std::max(4e6, 2.0 * double(balls.size()));
+    while (leavesAtMost(balls, voxel, reach) > few) voxel *= 2.0;
+    return voxel;
+}
+
+/// The places that lie within some steps of others along each axis; far from each other they may
+/// come more than once.
+/// @param[in] own  places, ascending
+std::vector<Coord> placesNear(const std::vector<Coord>& own, int steps, const Progress& progress)
+{
+    std::vector<Coord> near, blocks;
+    for (const Coord& place : own) blocks.push_back(place & ~(leafDim - 1));
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    // A list takes less memory than a table where places are few or far from each other.
+    constexpr double few = 3e6, perBlock = 300.0;
+    const double listed = double(own.size()) * std::pow(2 * steps + 1, 3);
+    if (listed < std::max(few, perBlock * double(blocks.size()))) {
+        for (const Coord& place : own) {
+            for (auto ijk = CoordBBox(place, place).expandBy(steps).begin(); ijk; ++ijk)
+                near.push_back(*ijk);
+        }
+        return near;
+    }
+    // Voxels of this table stand for leaves.
+    LeafTable table(std::move(blocks));
+    using Leaf = openvdb::FloatTree::LeafNodeType;
+    for (const Coord& place : own)
+        table.active(std::size_t(table.find(place))).set(int(Leaf::coordToOffset(place)));
+    for (; steps > 0; steps -= leafDim)
+        table = dilated(table, std::min(steps, leafDim), Spread::Cube, progress);
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        table.active(n).forEach(
+            [&](int v) { near.push_back(table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7)); });
+    }
+    return near;
+}
+
 /// @param[in] reach  how far the surface may lie from the balls [Å]
 Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach,
                       const Progress& progress)
 {
     const double edge = leafDim * voxel;
-    constexpr double many = 4.0; // leaves within a ball: of a larger one its shell alone is taken
-    const auto isLarge = [&](const Ball& ball) { return ball.radius > many * edge; };
     float largestSmall = 0.0f;
     for (const Ball& ball : balls) {
-        if (!isLarge(ball)) largestSmall = std::max(largestSmall, ball.radius);
+        if (!isLarge(ball, edge)) largestSmall = std::max(largestSmall, ball.radius);
     }
     std::vector<Coord> places(balls.size());
     for (std::size_t i = 0; i < balls.size(); ++i)
@@ -108,32 +172,23 @@ Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach
         }
         ++counts.back();
     }
-    // Voxels of this table stand for leaves.
-    std::vector<Coord> blocks;
-    for (const Coord& place : own) blocks.push_back(place & ~(leafDim - 1));
-    std::sort(blocks.begin(), blocks.end());
-    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-    LeafTable table(std::move(blocks));
-    using Leaf = openvdb::FloatTree::LeafNodeType;
-    for (const Coord& place : own) {
-        table.active(std::size_t(table.find(place))).set(int(Leaf::coordToOffset(place)));
-    }
-    for (int steps = int(std::ceil((largestSmall + reach) / edge)); steps > 0; steps -= leafDim)
-        table = dilated(table, std::min(steps, leafDim), Spread::Cube, progress);
-
+    const int steps = int(std::ceil((largestSmall + reach) / edge));
     Occupancy out;
-    for (std::size_t n = 0; n < table.size(); ++n) {
-        table.active(n).forEach([&](int v) {
-            out.leaves.push_back(table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7));
-        });
-    }
+    out.leaves = placesNear(own, steps, progress);
+    const auto sortLeaves = [&] {
+        tbb::parallel_sort(out.leaves.begin(), out.leaves.end());
+        out.leaves.erase(std::unique(out.leaves.begin(), out.leaves.end()), out.leaves.end());
+    };
+    std::size_t most = 2 * out.leaves.size() + 1000000; // before equal ones are sorted out
     for (const Ball& ball : balls) {
-        if (isLarge(ball))
-            addShell(Vec3d(ball.center), ball.radius - 2.0 * voxel,
-                     ball.radius + reach + 2.0 * voxel, edge, out.leaves);
+        if (!isLarge(ball, edge)) continue;
+        addShell(Vec3d(ball.center), ball.radius - 2.0 * voxel, ball.radius + reach + 2.0 * voxel,
+                 edge, out.leaves);
+        if (out.leaves.size() < most) continue;
+        sortLeaves();
+        most = 2 * out.leaves.size() + 1000000;
     }
-    tbb::parallel_sort(out.leaves.begin(), out.leaves.end());
-    out.leaves.erase(std::unique(out.leaves.begin(), out.leaves.end()), out.leaves.end());
+    sortLeaves();
     for (std::size_t n = 0, m = 0; n < out.leaves.size(); ++n) {
         out.box.expand(out.leaves[n]);
         const bool found = m < own.size() && own[m] == out.leaves[n];
@@ -165,10 +220,12 @@ bool startsCoarse(const SurfaceOptions& options)
 class Planner
 {
 public:
+    /// @param[in] grain  edge of the voxels whose leaves are counted [Å]; above that of the options
+    ///                   for estimates of the whole
     Planner(const BallSet& atoms, const SurfaceOptions& options, const Influence& influence,
-            const Progress& progress)
-        : options_(options), influence_(influence), atoms_(atoms.balls.size()),
-          occupancy_(occupancyOf(atoms.balls, options.voxel, influence.ofSurface(), progress))
+            double grain, const Progress& progress)
+        : options_(options), influence_(influence), grain_(grain), atoms_(atoms.balls.size()),
+          occupancy_(occupancyOf(atoms.balls, grain, influence.ofSurface(), progress))
     {
     }
 
@@ -185,41 +242,43 @@ public:
         Region region;
         region.owned = brick.box;
         const Scope scope = brickScope(options_, region, influence_.extent());
-        const int reach = int(std::ceil(influence_.onVoxels() / leafDim / options_.voxel));
+        const int reach = int(std::ceil(influence_.onVoxels() / leafDim / grain_));
         const int widest = std::max(scope.flowHalo, scope.splineHalo);
         CoordBBox splined = box, flowed = box, near = box;
         splined.expand(scope.splineHalo);
         flowed.expand(widest);
         near.expand(widest + reach);
-        std::size_t own = 0, inSpline = 0, inFlow = 0, balls = 0;
+        const double count = std::pow(grain_ / options_.voxel, 2); // a surface has so many more
+        double own = 0, inSpline = 0, inFlow = 0;
+        std::size_t balls = 0;
         for (std::size_t n = 0; n < occupancy_.leaves.size(); ++n) {
             const Coord& place = occupancy_.leaves[n];
             if (!near.isInside(place)) continue;
             balls += occupancy_.atoms[n];
-            inFlow += flowed.isInside(place);
-            inSpline += splined.isInside(place);
+            inFlow += count * flowed.isInside(place);
+            inSpline += count * splined.isInside(place);
             if (!box.isInside(place)) continue;
             brick.atoms += occupancy_.atoms[n];
-            ++own;
+            own += count;
         }
         // Grids with wider bands may have leaves in a box that holds no other.
-        brick.voxels =
-            std::max(std::size_t(voxelsPerLeaf * double(own)), std::min<std::size_t>(inSpline, 1));
+        brick.voxels = std::max(std::size_t(voxelsPerLeaf * own), std::size_t(inSpline > 0.0));
         const double forBoundary = !isUnion(options_.kind)    ? 0.0
                                    : offsetOf(options_) > 0.0 ? bytesPerOffsetBall
                                                               : bytesPerBoundaryBall;
         const double perBall = bytesPerNear + forBoundary;
         const bool fine =
             options_.kind == SurfaceKind::Gaussian || options_.kind == SurfaceKind::VanDerWaals;
-        const double forFlow = bytesPerFlowLeaf * double(inFlow);
+        const double forFlow = bytesPerFlowLeaf * inFlow;
         const double coarse = startsCoarse(options_) ? bytesPerCoarseLeaf * coarseLeaves() : 0.0;
-        const double forMesh = (fine ? bytesPerFineLeaf : bytesPerMeshLeaf) * double(inSpline);
+        const double forMesh = (fine ? bytesPerFineLeaf : bytesPerMeshLeaf) * inSpline;
         brick.bytes = std::size_t(
             processBytes + coarse + bytesPerAtom * double(atoms_) + perBall * double(balls) +
-            (keeping_ ? bytesPerKeptLeaf * double(inFlow) + forMesh : std::max(forFlow, forMesh)) +
-            bytesPerValueOfLeaf * valuesAlong(options_) * double(own));
-        brick.seconds = secondsPerLeaf * double(inSpline) + secondsPerFlowLeaf * double(inFlow) +
-                        (isUnion(options_.kind) ? secondsPerBoundaryBall * double(balls) : 0.0);
+            (keeping_ ? bytesPerKeptLeaf * inFlow + forMesh : std::max(forFlow, forMesh)) +
+            bytesPerValueOfLeaf * valuesAlong(options_) * own);
+        brick.seconds = secondsPerLeaf * inSpline + (isUnion(options_.kind)
+                                                         ? secondsPerBoundaryBall * double(balls)
+                                                         : secondsPerFlowLeaf * inFlow);
         return brick;
     }
 
@@ -227,7 +286,7 @@ public:
     double coarseLeaves() const
     {
         constexpr double share = 0.3; // a fourth for a surface, and its band is wider
-        return share * double(occupancy_.leaves.size());
+        return share * std::pow(grain_ / options_.voxel, 2) * double(occupancy_.leaves.size());
     }
 
     /// Peak memory of the flow of the whole on voxels twice as large [byte].
@@ -329,6 +388,7 @@ private:
     const SurfaceOptions& options_;
     const Influence& influence_;
     bool keeping_ = false;
+    double grain_;
     std::size_t atoms_;
     Occupancy occupancy_;
 };
@@ -341,13 +401,12 @@ double secondsOf(const std::vector<PlannedBrick>& bricks)
 }
 
 /// Cuts by the limits; without any the whole is one brick.
-BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const BrickLimits& limits,
-                   const Progress& progress)
+BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const Influence& influence,
+                   const BrickLimits& limits, double grain, const Progress& progress)
 {
     checkBalls(atoms.balls, options, Pieces::Bricks,
-               limits.memory > 0 ? limits.memory : physicalMemory());
+               limits.memory > 0 ? limits.memory : availableMemory());
     BrickPlan plan;
-    const Influence influence(atoms, options);
     plan.maxRadius = influence.extent().maxRadius;
     plan.maxGrownRadius = influence.extent().maxGrownRadius;
     plan.maxTolerance = influence.extent().maxTolerance;
@@ -355,7 +414,7 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const Br
     plan.steps = options.evolution.steps >= 0 ? options.evolution.steps
                  : startsCoarse(options)      ? defaultFrontSteps
                                               : defaultBrickSteps;
-    Planner planner(atoms, options, influence, progress);
+    Planner planner(atoms, options, influence, grain, progress);
     const CoordBBox& box = planner.box();
     if (limits.memory > 0) {
         plan.bricks = planner.cutEvenly(limits.memory, box);
@@ -390,12 +449,56 @@ BrickPlan planBricks(const BallSet& atoms, const SurfaceOptions& options, const 
                      const Progress& progress)
 {
     checkBrickOptions(options);
-    return makePlan(atoms, options, limits, progress);
+    return makePlan(atoms, options, Influence(atoms, options), limits, options.voxel, progress);
 }
 
 BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const Progress& progress)
 {
-    return makePlan(atoms, options, {1, 0}, progress);
+    const Influence influence(atoms, options);
+    const double grain = grainOf(atoms.balls, options.voxel, influence.ofSurface());
+    return makePlan(atoms, options, influence, {1, 0}, grain, progress);
+}
+
+void checkCost(const PlannedBrick& cost, const RunLimits& limits)
+{
+    char text[200];
+    if (cost.bytes > limits.memory) {
+        std::snprintf(text, sizeof text,
+                      "the surface takes about %.3g GB of memory, and there are %.3g",
+                      double(cost.bytes) / 1e9, double(limits.memory) / 1e9);
+        std::string hint = " [hint: a larger `voxel`";
+        if (bytesToMerge * double(cost.voxels) < 0.5 * double(limits.memory)) {
+            char size[64];
+            std::snprintf(size, sizeof size, ", or `memory` %.2gG, which makes it in bricks",
+                          0.8 * double(limits.memory) / (1 << 30));
+            hint += size;
+        }
+        throw Error(ErrorKind::Input, text + hint + "]");
+    }
+    const double hours = cost.seconds / limits.threads / 3600.0;
+    if (hours <= limits.hours) return;
+    const std::string threads =
+        std::to_string(limits.threads) + (limits.threads == 1 ? " thread" : " threads");
+    std::snprintf(text, sizeof text,
+                  "the surface takes about %.3g hours on %s, expected at most %g [hint: a larger "
+                  "`voxel`, or `maxHours` %.0f]",
+                  hours, threads.c_str(), limits.hours, std::ceil(1.1 * hours));
+    throw Error(ErrorKind::Input, text);
+}
+
+void checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLimits& limits,
+               const Progress& progress)
+{
+    const double leaves =
+        leavesAtMost(atoms.balls, options.voxel, Influence(atoms, options).ofSurface());
+    const double balls = double(atoms.balls.size());
+    const double bytes =
+        processBytes + (bytesPerAtom + bytesPerNear + bytesPerBoundaryBall) * balls +
+        (2.0 * bytesPerFineLeaf + bytesPerValueOfLeaf * valuesAlong(options)) * leaves;
+    const double seconds =
+        2.0 * (secondsPerLeaf + secondsPerFlowLeaf) * leaves + secondsPerBoundaryBall * balls;
+    if (bytes < double(limits.memory) && seconds < 3600.0 * limits.hours * limits.threads) return;
+    checkCost(planWhole(atoms, options, progress).bricks[0], limits);
 }
 
 GaussianExtent extentOf(const BrickPlan& plan)

@@ -13,8 +13,24 @@
 namespace molsurf
 {
 
-/// The plan of a run in one piece: one brick, whatever the options.
+/// The plan of a run in one piece: one brick, whatever the options. Its box counts for nothing:
+/// where leaves are many, larger ones are counted.
 BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const Progress& progress);
+
+/// What a run may take.
+struct RunLimits {
+    std::size_t memory; ///< [byte]
+    double hours;       ///< by the clock
+    int threads;        ///< that it has
+};
+
+/// Refuses what is estimated to take more than it may.
+/// @throws Error(ErrorKind::Input) with both numbers
+void checkCost(const PlannedBrick& cost, const RunLimits& limits);
+
+/// The same of a surface in one piece. It takes no time to speak of where the molecule is small.
+void checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLimits& limits,
+               const Progress& progress);
 
 /// The extent that a plan keeps.
 GaussianExtent extentOf(const BrickPlan& plan);

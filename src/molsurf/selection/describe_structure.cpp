@@ -125,9 +125,9 @@ std::string describe(const Structure& structure, const Assembly& assembly)
 
 } // namespace
 
-std::string describeStructure(const std::string& path)
+std::string describeStructure(const std::string& path, std::size_t maxInput)
 {
-    const Structure structure = readStructure(path);
+    const Structure structure = readStructure(path, maxInput);
     std::string out = path + "\n  structure\n";
     out += infoLine("format", structure.format);
     std::vector<std::string> models;

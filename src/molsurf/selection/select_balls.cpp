@@ -397,7 +397,7 @@ BallSet readAtoms(const std::string& path, const SelectOptions& options, double 
                   const Progress& progress)
 {
     checkOptions(options);
-    return selectBalls(readStructure(path), options, probe, progress);
+    return selectBalls(readStructure(path, options.maxInput), options, probe, progress);
 }
 
 BallSet selectBalls(const Structure& structure, const SelectOptions& options, double probe,

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 namespace molsurf
@@ -23,10 +24,35 @@ namespace
     throw Error(ErrorKind::Input, displayName(path) + ": " + what);
 }
 
+/// What a text may have. Files of atoms shrink to a tenth, hardly ever to a fiftieth.
+struct Limit {
+    explicit Limit(std::size_t maxBytes) : bytes(maxBytes ? maxBytes : std::size_t{4} << 30)
+    {
+        if (maxBytes) ratio = std::numeric_limits<std::size_t>::max();
+    }
+
+    std::size_t bytes;
+    std::size_t ratio = 200;                         ///< of unpacked to packed bytes
+    std::size_t unsuspected = std::size_t{16} << 20; ///< unpacked bytes at any ratio
+};
+
+[[noreturn]] void failTooLarge(const std::string& path, const std::string& what)
+{
+    fail(path, what + " [hint: `maxInput` 10G takes up to 10 GiB]");
+}
+
+void checkSize(std::size_t bytes, const Limit& limit, const std::string& path)
+{
+    if (bytes > limit.bytes)
+        failTooLarge(path, "expected at most " + std::to_string(limit.bytes) + " bytes of text");
+}
+
 /// Reads to the end of a file or a pipe.
 /// @param[in] expected  its size, as far as it is known [bytes]
-std::string readAll(std::FILE* file, const std::string& path, std::size_t expected)
+std::string readAll(std::FILE* file, const std::string& path, std::size_t expected,
+                    const Limit& limit)
 {
+    checkSize(expected, limit, path);
     constexpr std::size_t chunk = std::size_t{1} << 20;
     std::string bytes;
     bytes.reserve(expected + chunk);
@@ -36,14 +62,15 @@ std::string readAll(std::FILE* file, const std::string& path, std::size_t expect
         bytes.resize(size + chunk);
         got = std::fread(&bytes[size], 1, chunk, file);
         bytes.resize(size + got);
+        checkSize(bytes.size(), limit, path);
     } while (got == chunk);
     if (std::ferror(file)) fail(path, std::string("cannot be read: ") + std::strerror(errno));
     return bytes;
 }
 
-std::string readBytes(const std::string& path)
+std::string readBytes(const std::string& path, const Limit& limit)
 {
-    if (path == "-") return readAll(stdin, path, 0);
+    if (path == "-") return readAll(stdin, path, 0, limit);
     std::error_code status;
     if (std::filesystem::is_directory(path, status)) {
         fail(path, "is a folder, expected a structure file");
@@ -52,7 +79,7 @@ std::string readBytes(const std::string& path)
                                                                &std::fclose);
     if (!file) fail(path, std::string("cannot be opened: ") + std::strerror(errno));
     const std::uintmax_t size = std::filesystem::file_size(path, status);
-    return readAll(file.get(), path, status ? 0 : std::size_t(size));
+    return readAll(file.get(), path, status ? 0 : std::size_t(size), limit);
 }
 
 bool isGzip(const std::string& bytes, std::size_t at)
@@ -62,7 +89,7 @@ bool isGzip(const std::string& bytes, std::size_t at)
 
 /// Unpacks one gzip member that starts at `begin`, appends it to `text`, and returns its end.
 std::size_t unpackMember(std::string& bytes, std::size_t begin, const std::string& path,
-                         std::string& text)
+                         const Limit& limit, std::string& text)
 {
     constexpr std::size_t maxFeed = std::size_t{1} << 30; // zlib counts with 32 bits
     z_stream stream{};
@@ -81,6 +108,10 @@ std::size_t unpackMember(std::string& bytes, std::size_t begin, const std::strin
         state = inflate(&stream, Z_NO_FLUSH);
         next += feed - stream.avail_in;
         text.append(buffer, sizeof buffer - stream.avail_out);
+        checkSize(text.size(), limit, path);
+        if (text.size() > limit.unsuspected && text.size() / limit.ratio > next)
+            failTooLarge(path, "its gzip data unpack to more than " + std::to_string(limit.ratio) +
+                                   " times their size, which no file of atoms does");
         if (state == Z_BUF_ERROR || (state == Z_OK && next == bytes.size() && stream.avail_out)) {
             fail(path, "is cut short: its gzip data end after " + std::to_string(bytes.size()) +
                            " bytes without the closing checksum [copy or download it again]");
@@ -94,21 +125,22 @@ std::size_t unpackMember(std::string& bytes, std::size_t begin, const std::strin
     return next;
 }
 
-std::string unpack(std::string bytes, const std::string& path)
+std::string unpack(std::string bytes, const std::string& path, const Limit& limit)
 {
     std::string text;
-    text.reserve(bytes.size() * 5);
+    text.reserve(std::min(bytes.size() * 5, limit.bytes));
     std::size_t next = 0;
-    while (isGzip(bytes, next)) next = unpackMember(bytes, next, path, text);
+    while (isGzip(bytes, next)) next = unpackMember(bytes, next, path, limit, text);
     return text;
 }
 
 } // namespace
 
-std::string loadText(const std::string& path)
+std::string loadText(const std::string& path, std::size_t maxBytes)
 {
-    std::string text = readBytes(path);
-    if (isGzip(text, 0)) text = unpack(std::move(text), path);
+    const Limit limit(maxBytes);
+    std::string text = readBytes(path, limit);
+    if (isGzip(text, 0)) text = unpack(std::move(text), path, limit);
     if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail(path, "is empty");
     return text;

@@ -4,6 +4,7 @@
 /// @file
 /// A whole file, or standard input, as text.
 
+#include <cstddef>
 #include <string>
 
 namespace molsurf
@@ -12,8 +13,10 @@ namespace molsurf
 /// Reads a file, or standard input for "-", and unpacks it if it starts with the gzip magic bytes.
 /// Members of a concatenated gzip file are joined. A leading UTF-8 byte order mark is removed.
 ///
+/// @param[in] maxBytes  that the text may have, unpacked [byte]; 0: 4 GiB, and where it is above
+///                      16 MiB no more than 200 times what it was packed
 /// @throws Error(ErrorKind::Input) if the file does not exist, is a folder, cannot be read, is
-///         empty, or if its gzip data are damaged or cut short
-std::string loadText(const std::string& path);
+///         empty or larger than it may be, or if its gzip data are damaged or cut short
+std::string loadText(const std::string& path, std::size_t maxBytes = 0);
 
 } // namespace molsurf

@@ -61,9 +61,9 @@ std::string describeAtom(const Structure& structure, std::size_t index)
     return atom.name.empty() ? text : text + ")";
 }
 
-Structure readStructure(const std::string& path)
+Structure readStructure(const std::string& path, std::size_t maxBytes)
 {
-    std::string text = loadText(path);
+    std::string text = loadText(path, maxBytes);
     const StructureFormat format = detectFormat(path, text);
     Structure structure = parse(format, std::move(text), path);
     structure.source = path == "-" ? path : std::filesystem::path(path).filename().string();

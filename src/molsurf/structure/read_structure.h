@@ -6,6 +6,7 @@
 
 #include "molsurf/structure/structure.h"
 
+#include <cstddef>
 #include <string>
 
 namespace molsurf
@@ -26,11 +27,11 @@ namespace molsurf
 /// - xyzr: the last four columns are x y z r. Three columns before them are chain, residue number
 ///   and atom name; any other number of leading columns is ignored. '#' starts a comment line.
 ///
-/// @throws Error(ErrorKind::Input) if the file does not exist, is a folder, is empty or is cut
-/// short,
-///         is not a structure, has no model or no atom, or has a coordinate that is not finite or
-///         lies beyond 1e6 Å
-Structure readStructure(const std::string& path);
+/// @param[in] maxBytes  that the text may have; see loadText()
+/// @throws Error(ErrorKind::Input) if the file does not exist, is a folder, is empty, too large or
+///         cut short, is not a structure, has no model or no atom, or has a coordinate that is not
+///         finite or lies beyond 1e6 Å
+Structure readStructure(const std::string& path, std::size_t maxBytes = 0);
 
 /// "atom 17 (CA of ALA 5)", for messages; the number counts from 1.
 std::string describeAtom(const Structure& structure, std::size_t index);

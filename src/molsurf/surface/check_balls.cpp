@@ -4,18 +4,27 @@
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/error.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <string>
 
 namespace molsurf
 {
 
-std::size_t physicalMemory()
+std::size_t availableMemory()
 {
-    return std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGE_SIZE));
+    std::size_t bytes = std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGE_SIZE));
+    rlimit limit;
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+        bytes = std::min(bytes, std::size_t(limit.rlim_cur));
+    std::size_t ofGroup = 0; // "max" where there is none
+    if (std::ifstream("/sys/fs/cgroup/memory.max") >> ofGroup) bytes = std::min(bytes, ofGroup);
+    return bytes;
 }
 
 void checkBalls(const std::vector<Ball>& balls, const SurfaceOptions& options, Pieces pieces,

@@ -13,8 +13,9 @@
 namespace molsurf
 {
 
-/// Memory of this machine [byte].
-std::size_t physicalMemory();
+/// Memory that a process on this machine may have: all of it, or the limit of the control group or
+/// of `ulimit -v` [byte].
+std::size_t availableMemory();
 
 /// Tells what is in memory at once: a surface in one piece, or no more of it than its bricks'
 /// merge needs.

@@ -47,7 +47,7 @@ FrameSource::FrameSource(const std::string& input, const std::string& trajectory
     : input_(input), trajectoryName_(trajectory), atoms_(atoms), probe_(probe), progress_(progress)
 {
     const FrameRange range = parseFrames(frames);
-    structure_ = readStructure(input);
+    structure_ = readStructure(input, atoms.maxInput);
     if (trajectory.empty()) {
         chooseModels(range);
     } else {

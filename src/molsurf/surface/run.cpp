@@ -68,7 +68,7 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
         matchVolumes(matched, once, progress);
         return makeSurface(matched, once, &progress, warm);
     }
-    checkBalls(atoms.balls, options, Pieces::One, physicalMemory());
+    checkBalls(atoms.balls, options, Pieces::One, availableMemory());
     const bool whole = !options.split && options.surfaceOf.empty();
     if ((!whole || options.interfaces) && (!atoms.labels || atoms.labels->groups.empty())) {
         throw Error(ErrorKind::Input, "there are no groups to surface alone");

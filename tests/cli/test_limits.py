@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: MPL-2.0
+"""What would take too much memory or time is refused before the work, and takes little itself."""
+
+import gzip
+import os
+import subprocess
+import unittest
+
+from tool import CRAMBIN, FAST, TOOL, ToolTest
+
+LITTLE = 300e6  # bytes: the program takes 40 to 130 MB, and sanitizers take three times as much
+
+
+class Limits(ToolTest):
+    def refuse(self, *words, says):
+        before = self.names()
+        child = subprocess.Popen([TOOL, *map(str, words)], cwd=self.folder, stdin=subprocess.DEVNULL,
+                                 stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
+        error = child.stderr.read().decode()
+        child.stderr.close()
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(child.returncode, 1, error)
+        for word in says:
+            self.assertIn(word, error.splitlines()[-1])
+        if "asan" not in TOOL and "tsan" not in TOOL:
+            self.assertLess(usage.ru_maxrss * 1024, LITTLE)
+        self.assertEqual(self.names(), before)
+
+    def balls(self, name, lines):
+        (self.folder / name).write_text("".join(lines))
+        return name
+
+    def test_gzip_bomb(self):
+        member = gzip.compress(bytes(10 ** 8))
+        (self.folder / "bomb.pdb.gz").write_bytes(member * 20)
+        for words in (("bomb.pdb.gz", "-o", "a.json"), ("info", "bomb.pdb.gz")):
+            self.refuse(*words, says=["bomb.pdb.gz", "200 times", "--max-input"])
+
+    def test_input_above_its_limit(self):
+        packed = gzip.compress(CRAMBIN.read_bytes())
+        (self.folder / "a.pdb.gz").write_bytes(packed)
+        for name in (CRAMBIN, "a.pdb.gz"):
+            self.refuse(name, "-o", "a.json", "--max-input", "40K", says=["40960 bytes"])
+            self.check(0, name, "-o", "a.json", "--max-input", "1M", "--force", *FAST)
+            os.remove(self.folder / "a.json")
+        self.check(2, CRAMBIN, "-o", "a.json", "--max-input", "much", says="--max-input")
+
+    def test_more_memory_than_there_is(self):
+        grid = [f"{6 * i} {6 * j} {6 * k} 1.7\n"
+                for i in range(40) for j in range(40) for k in range(40)]
+        self.balls("grid.xyzr", grid)
+        for kind in ("variational", "ses", "vdw"):
+            self.refuse("grid.xyzr", "--surface", kind, "--voxel", "0.05", "-o", "a.vdb",
+                        says=["GB of memory, and there are", "--voxel"])
+        self.balls("huge.xyzr", [f"{i} 0 0 {20000 + i}\n" for i in range(1000)])
+        self.refuse("huge.xyzr", "--voxel", "0.05", "-o", "a.vdb", says=["GB"])
+        self.balls("giant.xyzr", ["0 0 0 1e6\n"])
+        self.refuse("giant.xyzr", "-o", "a.vdb", says=["GB"])
+
+    def test_more_hours_than_allowed(self):
+        for words in ((), ("--memory", "60M")):
+            self.refuse(CRAMBIN, "--voxel", "0.2", "--max-hours", "1e-5", "-o", "a.vdb", *words,
+                        says=["hours", "--max-hours"])
+
+    def test_a_dry_run_answers_in_any_case(self):
+        self.balls("giant.xyzr", ["0 0 0 1000\n"])
+        for words in (("--probe", "100", "--voxel", "0.05"), ("--max-hours", "1e-6")):
+            self.check(0, CRAMBIN, "--dry-run", "-o", "a.vdb", *words, says="GB of memory")
+        self.check(0, "giant.xyzr", "--dry-run", "-o", "a.vdb", "--voxel", "1", says="GB of memory")
+
+    def test_many_copies_of_an_atom(self):
+        lines = ["REMARK 350 BIOMOLECULE: 1\n", "REMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n"]
+        for n in range(100000):
+            shift = (10.0 * (n % 50), 10.0 * (n // 50 % 50), 10.0 * (n // 2500))
+            for row in range(3):
+                unit = [float(row == column) for column in range(3)]
+                lines.append("REMARK 350   BIOMT%d %3d %9.6f %9.6f %9.6f %14.5f\n"
+                             % (row + 1, n + 1, *unit, shift[row]))
+        lines.append("ATOM      1  CA  ALA A   1       0.000   0.000   0.000  1.00  0.00           C\n")
+        self.balls("copies.pdb", lines)
+        self.check(0, "copies.pdb", "--assembly", "1", "--voxel", "10", "-o", "a.json",
+                   says="100000 balls")
+
+
+if __name__ == "__main__":
+    unittest.main()
