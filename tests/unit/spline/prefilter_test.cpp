@@ -45,8 +45,10 @@ TEST(Prefilter, OfAConstantIsThatConstant)
     const test::Shape ball = test::sphere(2.0);
     const Spline spline = test::splineOf([](const Vec3d&) { return -2.75; }, ball.distance,
                                          ball.centre, ball.extent, 0.4, 1.6);
+    // 16 units in the last place: along each axis some ten operations are rounded, one by one where
+    // the processor does not fuse them.
     test::forEachActive(spline.table(), 0.4, [&](std::size_t n, int v, const Vec3d&) {
-        ASSERT_NEAR(spline.coefficients.leaf(n)[v], -2.75f, 2e-6f);
+        ASSERT_NEAR(spline.coefficients.leaf(n)[v], -2.75f, 4e-6f);
     });
 }
 
