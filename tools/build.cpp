@@ -40,11 +40,21 @@ void writeAll(const Call& call, const BallSet& atoms, MolecularSurface& result, 
 }
 
 // What makeSurface() reports, behind what was read.
-void completeReport(const Call& call, std::size_t atoms, const Report& read, Report& report)
+void completeReport(const Call& call, const BallSet& balls, const Report& read, Report& report)
 {
     beginReport(call, report);
-    report.atoms = atoms;
+    report.atoms = balls.balls.size();
     report.voxel = call.options.voxel;
+    for (const Instance& instance : balls.instances) {
+        InstanceReport& copy = report.instances.emplace_back();
+        copy.part = instance.prototype;
+        copy.name = instance.name;
+        for (std::size_t row = 0; row < 3; ++row) {
+            const auto& r = instance.rotation[row];
+            copy.matrix[row] = {r[0], r[1], r[2], instance.translation[int(row)]};
+        }
+        copy.matrix[3] = {0.0, 0.0, 0.0, 1.0};
+    }
     report.warnings.insert(report.warnings.begin(), read.warnings.begin(), read.warnings.end());
     report.seconds.insert(report.seconds.begin(), read.seconds.begin(), read.seconds.end());
     for (std::string& warning : report.warnings) warning = withOptionNames(warning);
@@ -118,11 +128,12 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     stopIfAsked();
     checkCost(balls, call.options, limitsOf(call), terminal);
     call.options.meshLabels = showsMesh(call.outputs);
+    if (balls.instances.size() > 0 && balls.copies > 1) call.options.split = true;
     MolecularSurface result = makeSurface(balls, call.options, &terminal, warm);
     terminal.erase();
     if (!call.quiet)
         for (const std::string& warning : result.report.warnings) say("warning: " + warning);
-    completeReport(call, balls.balls.size(), read, result.report);
+    completeReport(call, balls, read, result.report);
     if (extend) extend(result);
     const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
     if (result.surface) result.surface->setCreator(creator);

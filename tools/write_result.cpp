@@ -6,6 +6,7 @@
 #include "sidecar.h"
 
 #include "molsurf/color/legend.h"
+#include "molsurf/color/palette.h"
 #include "molsurf/io/write_3mf.h"
 #include "molsurf/io/write_glb.h"
 #include "molsurf/io/write_mesh.h"
@@ -128,6 +129,23 @@ std::vector<Legend> legendsOf(const Call& call, const BallSet& atoms, const Mesh
     return legends;
 }
 
+/// The copies of an assembly as nodes; copies that are near have different colours.
+std::vector<GlbInstance> instancesOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
+                                     const Progress& progress)
+{
+    const Color plain = mesh.colors.empty() ? call.picture.plain : Color{255, 255, 255};
+    const std::vector<Color> colors =
+        call.colorCopies ? instanceColors(atoms, progress) : std::vector<Color>();
+    std::vector<GlbInstance> out;
+    for (std::size_t i = 0; i < atoms.instances.size(); ++i) {
+        const Instance& copy = atoms.instances[i];
+        out.push_back({copy.prototype,
+                       "copy " + (copy.name.empty() ? std::to_string(i + 1) : copy.name),
+                       copy.rotation, copy.translation, colors.empty() ? plain : colors[i]});
+    }
+    return out;
+}
+
 void writePicture(const Call& call, const BallSet& atoms, const Mesh& mesh, double turn,
                   const Progress& progress, OutputFile& file)
 {
@@ -185,7 +203,10 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
         writeOff(result.mesh, file);
         break;
     case Format::Glb:
-        writeGlb(result.mesh, {stemOf(output.path), call.scene.scale, call.picture.plain}, file);
+        writeGlb(result.mesh,
+                 {stemOf(output.path), call.scene.scale, call.picture.plain,
+                  instancesOf(call, atoms, result.mesh, progress)},
+                 file);
         break;
     case Format::ThreeMf:
         write3mf(result.mesh, stemOf(output.path), printUnit(call).perAngstrom, file);

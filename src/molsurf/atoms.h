@@ -114,7 +114,9 @@ struct SelectOptions {
     /// "copy" (of the assembly), or "residues:N" (N residues of a chain each); empty: it makes
     /// none.
     std::string groupBy;
-    bool labels = false; ///< whether the balls are labelled even if there are no groups
+    bool instances = false; ///< whether the balls are those of each prototype of the assembly once,
+                            ///< in the coordinates of the file
+    bool labels = false;    ///< whether the balls are labelled even if there are no groups
     /// The bytes that the file's text may have, unpacked; 0: 4 GiB, and no more than 200 times its
     /// packed size.
     std::size_t maxInput = 0;
@@ -135,6 +137,15 @@ struct ResolutionGroup {
     double level = 0.0;    ///< Decay::level of all of them
 };
 
+/// A copy of a prototype, that is of balls that an assembly moves together: x -> rotation x +
+/// translation.
+struct Instance {
+    std::size_t prototype = 0;                     ///< its index
+    std::string name;                              ///< of the operator
+    std::array<std::array<double, 3>, 3> rotation; ///< rows
+    openvdb::Vec3d translation;                    ///< [Å]
+};
+
 /// Balls with their labels, and a record of how they were chosen.
 struct BallSet {
     std::vector<Ball> balls;
@@ -146,6 +157,8 @@ struct BallSet {
     std::size_t copies = 1;      ///< copies that the assembly makes; 1 without an assembly
     std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
     std::vector<int> copyNumbers;       ///< number of copy i in the whole assembly, from 1
+    std::vector<Instance> instances;    ///< with SelectOptions::instances the copies of the
+                                        ///< prototypes, which copyBegin then tells apart
     std::size_t beads = 0;              ///< balls that coarse rules made
     std::size_t beadAtoms = 0;          ///< atoms that these balls stand for
     std::optional<BallLabels> labels;   ///< present if they were asked for or if there are groups

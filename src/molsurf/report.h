@@ -149,6 +149,14 @@ struct PartReport {
     SurfaceReport surface;
 };
 
+/// A copy of a part that is surfaced once.
+struct InstanceReport {
+    std::size_t part = 0; ///< index in Report::parts; 0 if there is one prototype
+    std::string name;     ///< of the operator that places it
+    /// x -> matrix x of points (x, y, z, 1) [Å], row by row; moved as the files are.
+    std::array<std::array<double, 4>, 4> matrix;
+};
+
 /// The whole report.
 struct Report {
     std::string program = "vdb_molsurf";
@@ -167,6 +175,7 @@ struct Report {
                                              ///< SurfaceOptions::interfaces
     std::vector<PartReport> parts; ///< surfaces of their own, of which `surface` is the sum; empty
                                    ///< if there is only one
+    std::vector<InstanceReport> instances;    ///< copies; `surface` has each distinct one once
     std::optional<EvolutionReport> evolution; ///< absent for kinds without a flow
     std::size_t activeVoxels = 0;             ///< number of active voxels of the grid `surface`
     std::size_t gridBytes = 0;                ///< memory of the grid `surface` [byte]

@@ -104,11 +104,74 @@ class Glb(ToolTest):
             self.assertEqual(len(indices), 3 * part["surface"]["triangles"])
             self.assertEqual(max(indices)[0], count - 1)
 
+    def test_instances(self):
+        """Two nodes share the numbers of one copy, and lie where the copies do."""
+        dimer = [DATA / "1a8o.cif.gz", "--assembly", "1", *FAST]
+        self.check(0, *dimer, "--instances", "--color", "copy", "-o", "a.glb", "-o", "a.json",
+                   says="1 prototype for 2 copies")
+        document, body = read_glb((self.folder / "a.glb").read_bytes())
+        report = json.loads((self.folder / "a.json").read_text())
+        self.check(0, *dimer, "--group-by", "copy", "--split", "group", "-o", "whole.glb")
+        whole, _ = read_glb((self.folder / "whole.glb").read_bytes())
+        first, second = (mesh["primitives"][0] for mesh in document["meshes"])
+        self.assertEqual(first["attributes"], second["attributes"])
+        self.assertEqual(first["indices"], second["indices"])
+        colors = [material["pbrMetallicRoughness"]["baseColorFactor"]
+                  for material in document["materials"]]
+        self.assertNotEqual(*colors)
+        points = accessor(document, body, first["attributes"]["POSITION"])
+        copies = document["nodes"][1:]
+        self.assertEqual(document["nodes"][0]["children"], [1, 2])
+        self.assertEqual([node["mesh"] for node in copies], [0, 1])
+        self.assertEqual([entry["part"] for entry in report["instances"]], [0, 0])
+        for node, entry, mesh in zip(copies, report["instances"], whole["meshes"]):
+            x, y, z, w = node["rotation"]
+            turn = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                    [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                    [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+            box = whole["accessors"][mesh["primitives"][0]["attributes"]["POSITION"]]
+            for row in range(3):
+                matrix = entry["matrix"][row]
+                for a, b in zip([*turn[row], node["translation"][row]], matrix):
+                    self.assertAlmostEqual(a, b, places=4)
+                moved = [sum(m * p for m, p in zip(matrix, point)) + matrix[3] for point in points]
+                self.assertAlmostEqual(min(moved), box["min"][row], delta=0.5)
+                self.assertAlmostEqual(max(moved), box["max"][row], delta=0.5)
+
+    def test_instances_of_two_prototypes(self):
+        lines = []
+        for number, chain, shifts in ((1, "A", (0, 30)), (1, "B", (0, 30, 60))):
+            lines.append(f"REMARK 350 APPLY THE FOLLOWING TO CHAINS: {chain}\n")
+            for n, shift in enumerate(shifts):
+                for row in range(3):
+                    unit = [float(row == column) for column in range(3)]
+                    lines.append("REMARK 350   BIOMT%d %3d %9.6f %9.6f %9.6f %14.5f\n"
+                                 % (row + 1, n + 1, *unit, shift if row == 0 else 0.0))
+        atom = "ATOM      1  CA  ALA {}   1    {:8.3f}   0.000   0.000  1.00  0.00           C\n"
+        text = ["REMARK 350 BIOMOLECULE: 1\n", *lines, atom.format("A", 1), atom.format("B", 2), "END\n"]
+        (self.folder / "two.pdb").write_text("".join(text))
+        self.check(0, "two.pdb", "--assembly", "1", "--instances", "-o", "a.glb", "-o", "a.json")
+        document, _ = read_glb((self.folder / "a.glb").read_bytes())
+        report = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual([part["atoms"] for part in report["parts"]], [2, 1])
+        self.assertEqual([node["mesh"] for node in document["nodes"][1:]], [0, 0, 1])
+        self.assertEqual([node["translation"][0] for node in document["nodes"][1:]], [0, 30, 60])
+
+    def test_instances_need_an_assembly(self):
+        self.check(2, CRAMBIN, "--instances", "-o", "a.glb", says="--assembly")
+        self.check(2, CRAMBIN, "--color", "copy", "-o", "a.glb", says="--assembly")
+        for option in (["--memory", "1G"], ["--interfaces"], ["--center"]):
+            self.check(2, DATA / "1a8o.cif.gz", "--assembly", "1", "--instances", *option, "-o",
+                       "a.glb", says=[option[0], "together"])
+        self.check(0, DATA / "1a8o.cif.gz", "-o", "a.json", *FAST,
+                   says="assembly 1 has 2 copies [hint: --assembly 1]")
+
     @needs("gltf-validator")
     def test_khronos_validator(self):
         dimer = [DATA / "1a8o.cif.gz", "--assembly", "1", *FAST]
         for words in ([], ["--color", "chain"], ["--group-by", "copy", "--split", "group"],
-                      ["--for", "blender=mn-0.01", "--fields", "shape_index"]):
+                      ["--for", "blender=mn-0.01", "--fields", "shape_index"],
+                      ["--instances", "--color", "copy"]):
             self.check(0, *dimer, *words, "-o", "a.glb", "--force")
             done = subprocess.run([NODE, str(VALIDATE), "a.glb"], cwd=self.folder, check=True,
                                   capture_output=True, text=True, env=NODE_ENVIRONMENT)

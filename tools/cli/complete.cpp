@@ -203,6 +203,13 @@ void completeGroups(Call& call)
     if (!call.groupsFile.empty() && !call.atoms.groupBy.empty())
         misuse("--groups and --group-by together");
     if (!call.groupsFile.empty()) call.atoms.groups = readGroups(call.groupsFile);
+    if (call.colorCopies && !call.atoms.instances) {
+        if (call.atoms.assembly == "none") misuse("--color copy: expected --assembly too");
+        if (!call.groupsFile.empty() || !call.atoms.groupBy.empty())
+            misuse("--color copy and groups together [hint: --group-by copy --color group]");
+        call.atoms.groupBy = "copy";
+        options.color = ColorBy::Group;
+    }
     const bool groups = !call.groupsFile.empty() || !call.atoms.groupBy.empty();
     for (const char* name : {"split", "surface-of", "interfaces"})
         if (call.has(name) && !groups)
@@ -213,6 +220,21 @@ void completeGroups(Call& call)
     if (has("Cd") && options.color == ColorBy::Nothing) options.color = ColorBy::Chain;
     call.atoms.labels = options.color != ColorBy::Nothing || has("chain_id") || has("Cd") ||
                         writes(call, {Format::Html});
+}
+
+void completeInstances(Call& call)
+{
+    if (!call.atoms.instances) return;
+    if (call.atoms.assembly == "none")
+        misuse("--instances: expected --assembly too [hint: --assembly 1]");
+    for (const char* option :
+         {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center"})
+        if (call.has(option)) misuse("--instances and --" + std::string(option) + " together");
+    for (const Output& output : call.outputs)
+        if (output.format != Format::Glb && output.format != Format::Json)
+            call.warnings.push_back("-o " + output.path +
+                                    ": it holds each distinct copy once [hint: -o .glb and -o "
+                                    ".json place all]");
 }
 
 void completeResolutions(Call& call)
@@ -257,6 +279,7 @@ void completeBuild(Call& call)
     takeInput(call, "expected one INPUT", " [hint: vdb_molsurf molecule.pdb -o surface.vdb]");
     if (!call.dryRun || !call.paths.empty()) call.outputs = surfaceOutputs(call);
     completeFrames(call);
+    completeInstances(call);
     completeScene(call);
     completeSurface(call);
     completePicture(call);

@@ -479,6 +479,10 @@ OptionGroup atomOptions()
               "biological assembly to build; none: as in the file;\n"
               "ncs: with the copies of MTRIX records or struct_ncs_oper",
               "", structures, of(&SelectOptions::assembly)),
+         flag("instances",
+              "the surface of each distinct copy of the assembly once:\n"
+              "the .glb and the .json place the copies",
+              Build, of(&SelectOptions::instances)),
          text("copies", "LIST",
               "copies of the assembly: numbers such as 1,7,20-25, or\n"
               "fold:N, those about the nearest N-fold axis, with copy 1",
@@ -634,6 +638,18 @@ OptionGroup groupOptions()
         o.preset = std::move(preset);
         return o;
     };
+    const auto orCopy = [](Option o) {
+        o.words.push_back("copy");
+        o.set = [others = o.set](Call& call, const Values& values) {
+            call.colorCopies = lowered(values.back()) == "copy";
+            call.options.color = ColorBy::Nothing;
+            if (!call.colorCopies) others(call, values);
+        };
+        o.stored = [others = o.stored](const Call& call) {
+            return call.colorCopies ? stored("copy") : others(call);
+        };
+        return o;
+    };
     return {"Groups",
             {with(text("groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]",
                        "", surfaces, OF(groupsFile)),
@@ -654,9 +670,9 @@ OptionGroup groupOptions()
              with(flag("interfaces", "buried areas between groups, for the report", wholes,
                        OF(options.interfaces)),
                   [](Option& o) { o.stored = nullptr; }),
-             color("colours of the mesh and the grid Cd: chain, group,\n"
-                   "element, residue, mean-curvature, gaussian-curvature",
-                   "none", surfaces),
+             orCopy(color("colours of the mesh and the grid Cd: chain, group, copy,\n"
+                          "element, residue, mean-curvature, gaussian-curvature",
+                          "none", surfaces)),
              color("chain, group (of grids chain_id, group_id), element,\n"
                    "residue (of Cd so coloured), mean-curvature,\n"
                    "gaussian-curvature; those of Cd unless given",

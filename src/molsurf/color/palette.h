@@ -34,6 +34,10 @@ std::vector<Color> ballColors(const BallSet& atoms, ColorBy by, const Progress& 
 /// The colours of the chains themselves, as ballColors() gives them.
 std::vector<Color> chainColors(const BallSet& atoms, const Progress& progress);
 
+/// The colours of the copies of an assembly, BallSet::instances, by distinctColors() of those whose
+/// middles are near.
+std::vector<Color> instanceColors(const BallSet& atoms, const Progress& progress);
+
 /// The colours of the groups themselves, as ballColors() gives them.
 std::vector<Color> groupColors(const BallSet& atoms, const Progress& progress);
 

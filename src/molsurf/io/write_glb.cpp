@@ -4,6 +4,9 @@
 #include "molsurf/error.h"
 #include "molsurf/io/part_ranges.h"
 
+#include <boost/qvm/mat.hpp>
+#include <boost/qvm/quat.hpp>
+#include <boost/qvm/quat_operations.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -12,6 +15,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace molsurf
@@ -50,9 +55,16 @@ public:
         Json root = {{"name", options.name}, {"rotation", {-half, 0.0, 0.0, half}}};
         if (scale != 1.0) root["scale"] = {scale, scale, scale};
         json_["nodes"] = Json::array({root});
-        addMaterial(options.plain);
         const std::vector<PartRange> ranges = partRanges(mesh, options.name);
-        for (const PartRange& range : ranges) addPart(range, ranges.size() > 1);
+        if (options.instances.empty()) {
+            addMaterial("surface", mesh.colors.empty() ? options.plain : white);
+            for (const PartRange& range : ranges) {
+                const Json primitive = primitiveOf(range);
+                addNode(addMesh(range.name, primitive, 0), range.name, ranges.size() > 1);
+            }
+        } else {
+            addInstances(ranges, options.instances);
+        }
         json_["buffers"] = Json::array({Json{{"byteLength", bytes_.size()}}});
     }
 
@@ -63,20 +75,20 @@ public:
     const std::vector<char>& bytes() const { return bytes_; }
 
 private:
-    void addMaterial(const Color& plain)
+    static constexpr Color white = {255, 255, 255};
+
+    void addMaterial(const std::string& name, const Color& color)
     {
-        Json base = {1.0, 1.0, 1.0, 1.0};
-        if (mesh_.colors.empty()) {
-            const Vec3f light = linearLight(plain);
-            for (int i = 0; i < 3; ++i) base[std::size_t(i)] = light[i];
-        }
-        json_["materials"] = Json::array({Json{
-            {"name", "surface"},
-            {"pbrMetallicRoughness",
-             {{"baseColorFactor", base}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.5}}}}});
+        const Vec3f light = linearLight(color);
+        const Json base = {light[0], light[1], light[2], 1.0};
+        json_["materials"].push_back(
+            {{"name", name},
+             {"pbrMetallicRoughness",
+              {{"baseColorFactor", base}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.5}}}});
     }
 
-    void addPart(const PartRange& range, bool several)
+    /// The attributes and indices of a part.
+    Json primitiveOf(const PartRange& range)
     {
         Json attributes = Json::object();
         attributes["POSITION"] = addPositions(range);
@@ -86,18 +98,55 @@ private:
             attributes[attributeName(scalar.name)] = addNumbers(range, scalar.values);
         for (const auto& label : mesh_.labels)
             attributes[attributeName(label.name)] = addNumbers(range, label.values);
-        const std::size_t number = json_["meshes"].size(); // null counts as none
+        return {{"attributes", attributes}, {"indices", addTriangles(range)}};
+    }
+
+    std::size_t addMesh(const std::string& name, Json primitive, std::size_t material)
+    {
+        primitive["material"] = material;
         json_["meshes"].push_back(
-            {{"name", range.name},
-             {"primitives", Json::array({Json{{"attributes", attributes},
-                                              {"indices", addTriangles(range)},
-                                              {"material", 0}}})}});
+            {{"name", name}, {"primitives", Json::array({std::move(primitive)})}});
+        return json_["meshes"].size() - 1;
+    }
+
+    Json& addNode(std::size_t mesh, const std::string& name, bool several)
+    {
         if (!several) {
-            json_["nodes"][0]["mesh"] = number;
-            return;
+            json_["nodes"][0]["mesh"] = mesh;
+            return json_["nodes"][0];
         }
         json_["nodes"][0]["children"].push_back(json_["nodes"].size());
-        json_["nodes"].push_back({{"name", range.name}, {"mesh", number}});
+        json_["nodes"].push_back({{"name", name}, {"mesh", mesh}});
+        return json_["nodes"].back();
+    }
+
+    void addInstances(const std::vector<PartRange>& ranges,
+                      const std::vector<GlbInstance>& instances)
+    {
+        std::vector<Json> primitives;
+        for (const PartRange& range : ranges) primitives.push_back(primitiveOf(range));
+        std::map<Color, std::size_t> materials;
+        std::map<std::pair<std::size_t, std::size_t>, std::size_t> meshes; // by part and material
+        for (const GlbInstance& instance : instances) {
+            const PartRange& range = ranges[instance.part];
+            const auto [material, isNew] = materials.emplace(instance.color, materials.size());
+            if (isNew) addMaterial("color " + std::to_string(materials.size()), instance.color);
+            const auto [mesh, isNewMesh] =
+                meshes.emplace(std::make_pair(instance.part, material->second), std::size_t(0));
+            if (isNewMesh)
+                mesh->second = addMesh(range.name, primitives[instance.part], material->second);
+            Json& node = addNode(mesh->second, instance.name, true);
+            const auto& r = instance.rotation;
+            boost::qvm::mat<double, 3, 3> matrix;
+            for (std::size_t row = 0; row < 3; ++row)
+                std::copy(r[row].begin(), r[row].end(), matrix.a[row]);
+            auto q = boost::qvm::convert_to<boost::qvm::quat<double>>(matrix);
+            boost::qvm::normalize(q); // files give rotations to six digits
+            // To the single precision that readers keep.
+            node["rotation"] = {float(q.a[1]), float(q.a[2]), float(q.a[3]), float(q.a[0])};
+            const openvdb::Vec3d& t = instance.translation;
+            node["translation"] = {float(t[0]), float(t[1]), float(t[2])};
+        }
     }
 
     template<typename T>

@@ -8,20 +8,35 @@
 #include "molsurf/io/output_file.h"
 #include "molsurf/mesh.h"
 
+#include <array>
 #include <string>
+#include <vector>
 
 namespace molsurf
 {
+
+/// A copy of a part of the mesh: x -> rotation x + translation.
+struct GlbInstance {
+    std::size_t part = 0; ///< index in Mesh::parts; 0 without any
+    std::string name;
+    std::array<std::array<double, 3>, 3> rotation; ///< rows
+    openvdb::Vec3d translation;                    ///< [Å]
+    Color color;                                   ///< multiplies the colours of vertices
+};
 
 /// The name, scale and colour of the mesh in the scene of the file.
 struct GlbOptions {
     std::string name = "surface";  ///< of the node
     double scale = 1.0;            ///< scene units per Å, in the node
     Color plain = {140, 181, 222}; ///< of a mesh without colours
+    /// The copies of parts; empty: each part is there once, where it lies.
+    std::vector<GlbInstance> instances{};
 };
 
 /// Writes a .glb: a node that turns z up into glTF's y up and scales, below it one with a mesh for
-/// each of the mesh's parts. The vertices themselves stay as they are [Å].
+/// each of the mesh's parts, or one for each copy of them, which share its mesh. Copies of another
+/// colour have a mesh of their own with the same numbers. The vertices themselves stay as they are
+/// [Å].
 ///
 /// Attributes: POSITION, NORMAL, COLOR_0 (linear light, 16 bits) if there are colours, and each of
 /// Mesh::scalars and Mesh::labels as a float under its name in capitals after an underscore

@@ -118,6 +118,14 @@ Json resolutionJson(const std::vector<ResolutionReport>& resolutions)
     return out;
 }
 
+Json instancesJson(const std::vector<InstanceReport>& instances)
+{
+    Json out = Json::array();
+    for (const InstanceReport& i : instances)
+        out.push_back(Json{{"part", i.part}, {"operator", i.name}, {"matrix", i.matrix}});
+    return out;
+}
+
 Json coarseJson(const CoarseReport& coarse)
 {
     return {{"beads", coarse.beads}, {"atoms", coarse.atoms}};
@@ -149,6 +157,7 @@ std::string reportText(const Report& report)
         {"groups", groupsJson(report.groups)},
         {"interfaces", interfacesJson(report.interfaces)},
         {"parts", partsJson(report.parts)},
+        {"instances", instancesJson(report.instances)},
         {"warnings", report.warnings},
     };
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -111,31 +111,41 @@ std::vector<int> findCopies(const Structure& structure, const std::string& name,
     return numbers;
 }
 
+AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
+                        const std::string& copies, const std::vector<Ball>& balls)
+{
+    const Assembly& assembly = findAssembly(structure, name);
+    AssemblyCopies out;
+    std::vector<char> used(balls.size());
+    out.parts = ballsOfParts(structure, assembly, balls, used);
+    out.unused = std::size_t(std::count(used.begin(), used.end(), char{0}));
+    const std::vector<Operator> operators = operatorsOf(assembly);
+    const std::vector<std::size_t> partOf = partsOfCopies(assembly);
+    for (const std::size_t i :
+         chooseCopies(structure, assembly, parseCopies(copies), centroidOf(structure, out.parts))) {
+        if (out.parts[partOf[i]].empty()) continue;
+        const std::string problem = rotationProblem(operators[i]);
+        if (!problem.empty()) fail(structure, name, problem);
+        out.copies.push_back({int(i) + 1, partOf[i], operators[i]});
+    }
+    return out;
+}
+
 ExpandedBalls expandAssembly(const Structure& structure, const std::string& name,
                              const std::string& copies, const std::vector<Ball>& balls)
 {
-    const Assembly& assembly = findAssembly(structure, name);
+    const AssemblyCopies assembly = copiesOf(structure, name, copies, balls);
     ExpandedBalls out;
-    std::vector<char> used(balls.size());
-    const auto parts = ballsOfParts(structure, assembly, balls, used);
-    const std::vector<Operator> operators = operatorsOf(assembly);
-    const std::vector<std::size_t> partOf = partsOfCopies(assembly);
-    const std::vector<std::size_t> chosen =
-        chooseCopies(structure, assembly, parseCopies(copies), centroidOf(structure, parts));
     std::size_t total = 0;
-    for (const std::size_t i : chosen) total += parts[partOf[i]].size();
+    for (const auto& copy : assembly.copies) total += assembly.parts[copy.part].size();
     out.balls.reserve(total);
-    for (const std::size_t i : chosen) {
-        const std::vector<Ball>& part = parts[partOf[i]];
-        if (part.empty()) continue;
-        const std::string problem = rotationProblem(operators[i]);
-        if (!problem.empty()) fail(structure, name, problem);
+    for (const auto& copy : assembly.copies) {
         out.copyBegin.push_back(out.balls.size());
-        out.copyNumbers.push_back(static_cast<int>(i) + 1);
-        appendCopy(structure, operators[i], part, out.balls);
+        out.copyNumbers.push_back(copy.number);
+        appendCopy(structure, copy.op, assembly.parts[copy.part], out.balls);
     }
     out.copyBegin.push_back(out.balls.size());
-    out.unused = std::size_t(std::count(used.begin(), used.end(), char{0}));
+    out.unused = assembly.unused;
     return out;
 }
 

@@ -22,6 +22,27 @@ struct ExpandedBalls {
     std::size_t unused = 0;             ///< balls that no part of the assembly lists
 };
 
+/// One copy of a part of an assembly.
+struct AssemblyCopy {
+    int number;       ///< in the whole assembly, from 1
+    std::size_t part; ///< its index
+    Operator op;
+};
+
+/// The copies of an assembly before they are made.
+struct AssemblyCopies {
+    std::vector<std::vector<Ball>> parts; ///< in the coordinates of the file
+    std::vector<AssemblyCopy> copies;     ///< those whose part has balls
+    std::size_t unused = 0;               ///< balls that no part of the assembly lists
+};
+
+/// Finds the copies of an assembly.
+/// @param[in] copies  which copies, see parseCopies(); empty: all
+/// @param[in] balls   in the coordinates of the file
+/// @throws Error as expandAssembly()
+AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
+                        const std::string& copies, const std::vector<Ball>& balls);
+
 /// The numbers of some copies of an assembly.
 ///
 /// @param[in] copies  see parseCopies()

@@ -7,16 +7,20 @@
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/selection/expand_assembly.h"
 #include "molsurf/selection/groups.h"
+#include "molsurf/selection/instance_assembly.h"
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/selection/radii.h"
 #include "molsurf/structure/read_structure.h"
+#include "molsurf/structure/symmetry.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -224,38 +228,72 @@ std::vector<Ball> makeBalls(const Structure& structure, const SelectOptions& opt
     return balls;
 }
 
-/// Leaves out each ball that is the same as one before it, and warns of it: a sum of Gaussians
-/// would count it twice.
-void dropDuplicates(const Structure& structure, Filter& filter, std::vector<Ball>& balls,
-                    BallSet& out)
+/// The same for balls of one place and radius.
+std::uint64_t hashOf(const Ball& ball)
 {
-    std::vector<std::size_t> order(balls.size());
-    std::iota(order.begin(), order.end(), std::size_t(0));
-    const auto key = [&](std::size_t i) {
-        const Ball& b = balls[i];
-        return std::make_tuple(b.center.x(), b.center.y(), b.center.z(), b.radius);
-    };
-    tbb::parallel_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::make_pair(key(a), a) < std::make_pair(key(b), b);
-    });
-    std::vector<char> isDuplicate(balls.size(), 0);
-    std::size_t first = balls.size(), count = 0; // the first duplicate in the file's order
-    for (std::size_t n = 1; n < order.size(); ++n) {
-        if (key(order[n]) != key(order[n - 1])) continue;
-        isDuplicate[order[n]] = 1;
-        first = std::min(first, order[n]);
-        ++count;
+    std::uint64_t hash = 0;
+    for (const float value : {ball.center.x(), ball.center.y(), ball.center.z(), ball.radius}) {
+        const float positive = value + 0.0f; // -0 is 0
+        std::uint32_t bits;
+        std::memcpy(&bits, &positive, sizeof bits);
+        hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 29;
     }
-    if (count == 0) return;
+    return hash;
+}
+
+/// Whether each ball is the same as one before it of the same set.
+/// @param[in] begin  set s is balls [begin[s], begin[s + 1])
+std::vector<char> findDuplicates(const std::vector<Ball>& balls,
+                                 const std::vector<std::size_t>& begin)
+{
+    struct Entry {
+        std::uint64_t hash;
+        std::size_t set, ball;
+        auto key() const { return std::make_tuple(hash, set, ball); }
+    };
+    std::vector<Entry> entries(balls.size());
+    for (std::size_t s = 0; s + 1 < begin.size(); ++s) {
+        for (std::size_t i = begin[s]; i < begin[s + 1]; ++i) entries[i] = {hashOf(balls[i]), s, i};
+    }
+    tbb::parallel_sort(entries.begin(), entries.end(),
+                       [](const Entry& a, const Entry& b) { return a.key() < b.key(); });
+    std::vector<char> duplicate(balls.size(), 0);
+    for (std::size_t n = 1, first = 0; n < entries.size(); ++n) {
+        const Entry &a = entries[first], &b = entries[n];
+        const bool same = a.hash == b.hash && a.set == b.set &&
+                          balls[a.ball].center == balls[b.ball].center &&
+                          balls[a.ball].radius == balls[b.ball].radius;
+        duplicate[b.ball] = same;
+        if (!same) first = n;
+    }
+    return duplicate;
+}
+
+/// Leaves out each ball that is the same as one before it, and warns of it: a sum of Gaussians
+/// would count it twice. Prototypes are surfaces of their own, and keep theirs.
+void dropDuplicates(const Structure& structure, Filter& filter, BallSet& out)
+{
+    const bool apart = !out.instances.empty();
+    const std::vector<char> duplicate = findDuplicates(
+        out.balls, apart ? out.copyBegin : std::vector<std::size_t>{0, out.balls.size()});
+    const std::size_t first =
+        std::size_t(std::find(duplicate.begin(), duplicate.end(), 1) - duplicate.begin());
+    if (first == duplicate.size()) return;
+    const std::size_t atom = std::size_t(out.balls[first].atom);
+    std::size_t kept = 0, copy = 0;
+    for (std::size_t i = 0; i < out.balls.size(); ++i) {
+        while (out.copyBegin[copy] == i) out.copyBegin[copy++] = kept;
+        if (!duplicate[i]) out.balls[kept++] = out.balls[i];
+    }
+    std::fill(out.copyBegin.begin() + std::ptrdiff_t(copy), out.copyBegin.end(), kept);
+    const std::size_t count = out.balls.size() - kept;
+    out.balls.resize(kept);
+    filter.note("duplicate", count);
     out.warnings.push_back(
         std::to_string(count) + (count == 1 ? " atom lies" : " atoms lie") +
         " exactly where another of the same radius lies: dropped; the first is " +
-        describeAtom(structure, std::size_t(balls[first].atom)));
-    filter.note("duplicate", count);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < balls.size(); ++i)
-        if (!isDuplicate[i]) balls[kept++] = balls[i];
-    balls.resize(kept);
+        describeAtom(structure, atom));
 }
 
 /// Refuses a molecule that no grid can hold.
@@ -418,7 +456,6 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     Filter filter(model, out);
     applyFilters(structure, options, match, filter, out);
     std::vector<Ball> balls = makeBalls(structure, options, filter, out);
-    dropDuplicates(structure, filter, balls, out);
     std::vector<std::int32_t> beadAtoms; // by the representative atom: how many a bead stands for
     if (!options.coarse.empty()) {
         CoarseBalls coarse = coarseGrain(structure, balls, options.coarse, probe, progress);
@@ -431,6 +468,16 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
         out.balls = std::move(balls);
         out.copyBegin = {0, out.balls.size()};
         out.copyNumbers = {1};
+    } else if (options.instances) {
+        InstancedBalls instanced =
+            instanceAssembly(structure, options.assembly, options.copies, balls);
+        filter.note("not in the assembly", instanced.unused);
+        out.balls = std::move(instanced.balls);
+        out.copyBegin = std::move(instanced.begin);
+        out.copies = out.copyBegin.size() - 1;
+        out.copyNumbers.resize(out.copies);
+        std::iota(out.copyNumbers.begin(), out.copyNumbers.end(), 1);
+        out.instances = std::move(instanced.instances);
     } else {
         ExpandedBalls expanded = expandAssembly(structure, options.assembly, options.copies, balls);
         filter.note("not in the assembly", expanded.unused);
@@ -443,6 +490,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
         failInput(structure, "nothing is left of " + std::to_string(model.end - model.begin) +
                                  " atoms: dropped " + describeDrops(out.drops));
     }
+    dropDuplicates(structure, filter, out);
     checkExtent(structure, out.balls);
     warnOfRounding(out.balls, out.warnings);
     for (const Ball& ball : out.balls) {
@@ -451,9 +499,15 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
         out.beadAtoms += std::size_t(n);
     }
     applyResolutions(structure, options, out);
-    if (options.labels || !options.groups.empty() || !options.groupBy.empty()) {
+    const bool several = options.instances && out.copies > 1; // a surface for each prototype
+    if (several && (!options.groups.empty() || !options.groupBy.empty()))
+        throw Error(ErrorKind::Usage,
+                    "`groups` and `groupBy`: expected one prototype, the assembly "
+                    "has " +
+                        std::to_string(out.copies) + " with `instances`");
+    if (options.labels || !options.groups.empty() || !options.groupBy.empty() || several) {
         out.labels = labelBalls(structure, out.balls, out.copyBegin, out.copyNumbers, groups,
-                                options.groupBy);
+                                several ? "copy" : options.groupBy);
         out.warnings.insert(out.warnings.end(), out.labels->warnings.begin(),
                             out.labels->warnings.end());
     }
@@ -476,10 +530,23 @@ std::string describeSelection(const Structure& structure, const BallSet& selecti
                        counted(structure.models.size(), "model") + ", " + counted(atoms, "atom");
     if (structure.models.size() > 1) text += " in model " + std::to_string(selection.model);
     text += "; used " + counted(selection.balls.size(), "ball");
-    if (selection.copies > 1) text += " (" + std::to_string(selection.copies) + " copies)";
+    if (!selection.instances.empty()) {
+        text += " of " + counted(selection.copies, "prototype") + " for " +
+                std::to_string(selection.instances.size()) + " copies";
+    } else if (selection.copies > 1)
+        text += " (" + std::to_string(selection.copies) + " copies)";
     if (selection.beads > 0) {
         text += ", of them " + counted(selection.beads, "bead") + " for " +
                 counted(selection.beadAtoms, "atom");
+    }
+    if (selection.copies == 1 && selection.instances.empty()) {
+        for (const Assembly& assembly : structure.assemblies) {
+            const std::size_t copies = operatorsOf(assembly).size();
+            if (copies < 2 || !assembly.problem.empty()) continue;
+            text += "; assembly " + assembly.name + " has " + std::to_string(copies) +
+                    " copies [hint: `assembly` " + assembly.name + "]";
+            break;
+        }
     }
     if (!selection.drops.empty()) text += "; dropped " + describeDrops(selection.drops);
     return text;

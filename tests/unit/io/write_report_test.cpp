@@ -44,10 +44,12 @@ Names keys(const Json& json)
 TEST(WriteReport, HasTheKeysOfTheContractInItsOrder)
 {
     const Json json = Json::parse(reportText(sample()));
-    EXPECT_EQ(keys(json),
-              (Names{"program", "version", "command", "input", "atoms", "voxel", "center",
-                     "surface", "coarse", "resolution", "evolution", "grid", "seconds",
-                     "peak_memory_bytes", "threads", "groups", "interfaces", "parts", "warnings"}));
+    EXPECT_EQ(
+        keys(json),
+        (Names{"program",   "version",           "command", "input",      "atoms",      "voxel",
+               "center",    "surface",           "coarse",  "resolution", "evolution",  "grid",
+               "seconds",   "peak_memory_bytes", "threads", "groups",     "interfaces", "parts",
+               "instances", "warnings"}));
     Names surface = keys(json["surface"]);
     surface.resize(13); // later keys are additions
     EXPECT_EQ(surface, (Names{"kind", "area", "volume", "euler_characteristic", "components",

@@ -14,11 +14,11 @@ namespace
 /// One line of a PDB file.
 std::string atom(const char* name, char altloc, const char* residue, int number, double occupancy)
 {
+    static int count = 0; // no two atoms lie in one place
     char line[96];
-    std::snprintf(
-        line, sizeof line,
-        "ATOM      1  %-3s%c%3s A%4d       1.000   2.000   3.000%6.2f  0.00           C\n", name,
-        altloc, residue, number, occupancy);
+    std::snprintf(line, sizeof line,
+                  "ATOM      1  %-3s%c%3s A%4d    %8.3f   2.000   3.000%6.2f  0.00           C\n",
+                  name, altloc, residue, number, 0.1 * ++count, occupancy);
     return line;
 }
 

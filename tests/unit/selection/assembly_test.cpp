@@ -16,7 +16,7 @@ SelectOptions assembly(const std::string& name)
     return options;
 }
 
-/// A structure of one carbon at (1, 2, 3) in each of the chains A, B and C.
+/// A structure of one carbon in each of the chains A, B and C, at (1, 2, 3), (1, 2, 4), (1, 2, 5).
 Structure threeChains()
 {
     Structure s;
@@ -24,7 +24,7 @@ Structure threeChains()
     s.chains = s.asyms = {"A", "B", "C"};
     for (std::int32_t i = 0; i < 3; ++i) {
         s.residues.push_back({"GLY", i, i, 1, ' ', false, false});
-        s.atoms.push_back({openvdb::Vec3d(1, 2, 3), "CA", i, 6, '\0', 1, 0, -1});
+        s.atoms.push_back({openvdb::Vec3d(1, 2, 3 + i), "CA", i, 6, '\0', 1, 0, -1});
     }
     s.models = {{1, 0, 3}};
     return s;
@@ -86,12 +86,55 @@ TEST(Assembly, CopyByCopyAndOnlyItsChains)
     const std::vector<float> x{11, 11, 21, 21, 31};
     const std::vector<std::int32_t> atoms{0, 1, 0, 1, 0};
     for (std::size_t i = 0; i < 5; ++i) {
-        EXPECT_EQ(selection.balls[i].center, openvdb::Vec3f(x[i], 2, 3)) << i;
+        EXPECT_EQ(selection.balls[i].center, openvdb::Vec3f(x[i], 2, float(3 + atoms[i]))) << i;
         EXPECT_EQ(selection.balls[i].atom, atoms[i]) << i;
     }
     ASSERT_EQ(selection.drops.size(), 1u);
     EXPECT_EQ(selection.drops[0].reason, "not in the assembly");
     EXPECT_EQ(selection.drops[0].count, 1u);
+}
+
+TEST(Assembly, CopiesInOnePlaceCountOnce)
+{
+    Structure s = threeChains();
+    s.assemblies = {{"1", {{{}, {moved(10), moved(20), moved(10), moved(30)}}}, ""}};
+    const BallSet selection = selectBalls(s, assembly("1"));
+    EXPECT_EQ(selection.balls.size(), 9u);
+    EXPECT_EQ(selection.copyBegin, (std::vector<std::size_t>{0, 3, 6, 6, 9}));
+    EXPECT_EQ(selection.balls[6].center, openvdb::Vec3f(31, 2, 3));
+    EXPECT_EQ(selection.warnings.size(), 1u);
+    // Atoms that the file has in one place, and the assembly moves apart, all stay.
+    for (Atom& atom : s.atoms) atom.position = openvdb::Vec3d(1, 2, 3);
+    s.assemblies = {{"1", {{{"A"}, {moved(10)}}, {{"B"}, {moved(20)}}}, ""}};
+    EXPECT_EQ(selectBalls(s, assembly("1")).balls.size(), 2u);
+}
+
+TEST(Assembly, InstancesAreThePrototypesOnce)
+{
+    Structure s = threeChains();
+    s.assemblies = {{"1",
+                     {{{"A"}, {moved(10), moved(20)}},
+                      {{"B"}, {moved(10), moved(20), moved(30)}},
+                      {{"C", "A"}, {moved(20)}}},
+                     ""}};
+    SelectOptions options = assembly("1");
+    options.instances = true;
+    const BallSet selection = selectBalls(s, options);
+    // A and B at 10; A, B and C at 20; B at 30.
+    EXPECT_EQ(selection.copyBegin, (std::vector<std::size_t>{0, 2, 5, 6}));
+    const std::vector<std::int32_t> atoms{0, 1, 0, 1, 2, 1};
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_EQ(selection.balls[i].atom, atoms[i]);
+        EXPECT_EQ(selection.balls[i].center, openvdb::Vec3f(1, 2, float(3 + atoms[i])));
+    }
+    ASSERT_EQ(selection.instances.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(selection.instances[i].prototype, i);
+        EXPECT_EQ(selection.instances[i].translation, openvdb::Vec3d(10.0 * double(i + 1), 0, 0));
+    }
+    s.assemblies = {{"1", {{{}, {moved(10), moved(20), moved(30)}}}, ""}};
+    EXPECT_EQ(selectBalls(s, options).copyBegin, (std::vector<std::size_t>{0, 3}));
+    EXPECT_EQ(selectBalls(s, options).instances.size(), 3u);
 }
 
 TEST(Assembly, TurnsThenShifts)
