@@ -130,13 +130,13 @@ std::vector<Legend> legendsOf(const Call& call, const BallSet& atoms, const Mesh
 }
 
 /// The copies of an assembly as nodes; copies that are near have different colours.
-std::vector<GlbInstance> instancesOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
-                                     const Progress& progress)
+std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
+                                      const Progress& progress)
 {
     const Color plain = mesh.colors.empty() ? call.picture.plain : Color{255, 255, 255};
     const std::vector<Color> colors =
         call.colorCopies ? instanceColors(atoms, progress) : std::vector<Color>();
-    std::vector<GlbInstance> out;
+    std::vector<MeshInstance> out;
     for (std::size_t i = 0; i < atoms.instances.size(); ++i) {
         const Instance& copy = atoms.instances[i];
         out.push_back({copy.prototype,
@@ -151,6 +151,7 @@ void writePicture(const Call& call, const BallSet& atoms, const Mesh& mesh, doub
 {
     DrawOptions options = call.picture;
     options.turn += turn;
+    options.instances = instancesOf(call, atoms, mesh, progress);
     const auto legend = call.drawsLegend() ? legendOf(call.options.color, atoms, mesh, progress)
                                            : std::optional<Legend>();
     if (!legend) {

@@ -231,10 +231,11 @@ void completeInstances(Call& call)
          {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center"})
         if (call.has(option)) misuse("--instances and --" + std::string(option) + " together");
     for (const Output& output : call.outputs)
-        if (output.format != Format::Glb && output.format != Format::Json)
+        if (output.format != Format::Glb && output.format != Format::Json &&
+            output.format != Format::Png)
             call.warnings.push_back("-o " + output.path +
-                                    ": it holds each distinct copy once [hint: -o .glb and -o "
-                                    ".json place all]");
+                                    ": it holds each distinct copy once [hint: -o .glb, .png "
+                                    "and .json have all]");
 }
 
 void completeResolutions(Call& call)

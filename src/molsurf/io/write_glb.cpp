@@ -121,13 +121,13 @@ private:
     }
 
     void addInstances(const std::vector<PartRange>& ranges,
-                      const std::vector<GlbInstance>& instances)
+                      const std::vector<MeshInstance>& instances)
     {
         std::vector<Json> primitives;
         for (const PartRange& range : ranges) primitives.push_back(primitiveOf(range));
         std::map<Color, std::size_t> materials;
         std::map<std::pair<std::size_t, std::size_t>, std::size_t> meshes; // by part and material
-        for (const GlbInstance& instance : instances) {
+        for (const MeshInstance& instance : instances) {
             const PartRange& range = ranges[instance.part];
             const auto [material, isNew] = materials.emplace(instance.color, materials.size());
             if (isNew) addMaterial("color " + std::to_string(materials.size()), instance.color);

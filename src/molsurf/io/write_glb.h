@@ -7,22 +7,13 @@
 #include "molsurf/color/color_map.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/mesh.h"
+#include "molsurf/mesh/mesh_instance.h"
 
-#include <array>
 #include <string>
 #include <vector>
 
 namespace molsurf
 {
-
-/// A copy of a part of the mesh: x -> rotation x + translation.
-struct GlbInstance {
-    std::size_t part = 0; ///< index in Mesh::parts; 0 without any
-    std::string name;
-    std::array<std::array<double, 3>, 3> rotation; ///< rows
-    openvdb::Vec3d translation;                    ///< [Å]
-    Color color;                                   ///< multiplies the colours of vertices
-};
 
 /// The name, scale and colour of the mesh in the scene of the file.
 struct GlbOptions {
@@ -30,7 +21,7 @@ struct GlbOptions {
     double scale = 1.0;            ///< scene units per Å, in the node
     Color plain = {140, 181, 222}; ///< of a mesh without colours
     /// The copies of parts; empty: each part is there once, where it lies.
-    std::vector<GlbInstance> instances{};
+    std::vector<MeshInstance> instances{};
 };
 
 /// Writes a .glb: a node that turns z up into glTF's y up and scales, below it one with a mesh for

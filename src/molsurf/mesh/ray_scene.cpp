@@ -14,31 +14,65 @@ RayScene::RayScene(const Mesh& mesh)
 {
     device_ = rtcNewDevice(nullptr);
     if (!device_) throw std::bad_alloc();
+    scene_ = sceneOf(mesh, 0, mesh.triangles.size());
+}
+
+RayScene::RayScene(const Mesh& mesh, const std::vector<std::pair<std::size_t, std::size_t>>& parts,
+                   const std::vector<MeshInstance>& instances)
+{
+    device_ = rtcNewDevice(nullptr);
+    if (!device_) throw std::bad_alloc();
+    for (const auto& [first, end] : parts) parts_.push_back(sceneOf(mesh, first, end));
     scene_ = rtcNewScene(device_);
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const MeshInstance& instance = instances[i];
+        const RTCGeometry copy = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(copy, parts_[instance.part]);
+        float rows[12];
+        for (std::size_t row = 0; row < 3; ++row) {
+            for (std::size_t column = 0; column < 3; ++column)
+                rows[4 * row + column] = float(instance.rotation[row][column]);
+            rows[4 * row + 3] = float(instance.translation[int(row)]);
+        }
+        rtcSetGeometryTransform(copy, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
+        rtcCommitGeometry(copy);
+        rtcAttachGeometryByID(scene_, copy, unsigned(i));
+        rtcReleaseGeometry(copy);
+    }
+    check();
+    rtcCommitScene(scene_);
+    check();
+}
+
+RTCScene RayScene::sceneOf(const Mesh& mesh, std::size_t first, std::size_t end)
+{
+    const RTCScene scene = rtcNewScene(device_);
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     // Embree reads 16 bytes at the last vertex too, so it gets buffers of its own.
     void* positions =
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 sizeof(openvdb::Vec3f), mesh.positions.size());
     void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                              3 * sizeof(std::uint32_t), mesh.triangles.size());
+                                              3 * sizeof(std::uint32_t), end - first);
     if (positions && triangles) {
         std::memcpy(positions, mesh.positions.data(),
                     mesh.positions.size() * sizeof(openvdb::Vec3f));
-        std::memcpy(triangles, mesh.triangles.data(),
-                    mesh.triangles.size() * 3 * sizeof(std::uint32_t));
+        std::memcpy(triangles, mesh.triangles.data() + first,
+                    (end - first) * 3 * sizeof(std::uint32_t));
         rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene_, geometry);
+        rtcAttachGeometry(scene, geometry);
     }
     rtcReleaseGeometry(geometry);
     check();
-    rtcCommitScene(scene_);
+    rtcCommitScene(scene);
     check();
+    return scene;
 }
 
 RayScene::~RayScene()
 {
     if (scene_) rtcReleaseScene(scene_);
+    for (const RTCScene part : parts_) rtcReleaseScene(part);
     if (device_) rtcReleaseDevice(device_);
 }
 

@@ -5,8 +5,12 @@
 /// A triangle mesh in Embree's hands.
 
 #include "molsurf/mesh.h"
+#include "molsurf/mesh/mesh_instance.h"
 
 #include <embree3/rtcore.h>
+
+#include <utility>
+#include <vector>
 
 namespace molsurf
 {
@@ -19,6 +23,12 @@ public:
     /// @throws std::bad_alloc
     /// @throws Error(ErrorKind::Numeric) if Embree refuses
     explicit RayScene(const Mesh& mesh);
+
+    /// The same of copies of parts, without making them: a hit has the index of its instance, and
+    /// the triangle's within its part.
+    /// @param[in] parts  triangles [first, end) of each
+    RayScene(const Mesh& mesh, const std::vector<std::pair<std::size_t, std::size_t>>& parts,
+             const std::vector<MeshInstance>& instances);
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
@@ -26,10 +36,12 @@ public:
     RTCScene get() const { return scene_; }
 
 private:
+    RTCScene sceneOf(const Mesh& mesh, std::size_t first, std::size_t end);
     void check() const;
 
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;
+    std::vector<RTCScene> parts_;
 };
 
 } // namespace molsurf

@@ -2,6 +2,7 @@
 #include "molsurf/picture/draw_mesh.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/io/part_ranges.h"
 #include "molsurf/mesh/ray_scene.h"
 
 #include <openvdb/math/Mat3.h>
@@ -10,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace molsurf
 {
@@ -42,15 +45,49 @@ struct View {
     }
 };
 
-/// Principal axes of the vertices, the longest first.
-std::array<Vec3d, 3> principalAxes(const Mesh& mesh)
+/// The vertices of a part that lie farthest out in some direction of a few hundred.
+std::vector<Vec3d> outermost(const Mesh& mesh, const PartRange& part)
+{
+    constexpr int directions = 400;
+    std::vector<Vec3d> out;
+    for (int k = 0; k < directions; ++k) { // by a golden spiral
+        const double z = 1.0 - (2.0 * k + 1.0) / directions, r = std::sqrt(1.0 - z * z);
+        const double angle = 2.0 * M_PI * 0.6180339887498949 * k;
+        const Vec3f way(float(r * std::cos(angle)), float(r * std::sin(angle)), float(z));
+        std::size_t farthest = part.firstVertex;
+        for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v) {
+            if (mesh.positions[v].dot(way) > mesh.positions[farthest].dot(way)) farthest = v;
+        }
+        out.push_back(Vec3d(mesh.positions[farthest]));
+    }
+    return out;
+}
+
+/// Points that span what is shown: the vertices, or of copies the outermost ones.
+std::vector<Vec3d> spanOf(const Mesh& mesh, const std::vector<MeshInstance>& instances)
+{
+    std::vector<Vec3d> out;
+    if (instances.empty()) {
+        for (const Vec3f& p : mesh.positions) out.push_back(Vec3d(p));
+        return out;
+    }
+    std::vector<std::vector<Vec3d>> outer;
+    for (const PartRange& part : partRanges(mesh, "")) outer.push_back(outermost(mesh, part));
+    for (const MeshInstance& instance : instances) {
+        for (const Vec3d& x : outer[instance.part]) out.push_back(instance.placed(x));
+    }
+    return out;
+}
+
+/// Principal axes of points, the longest first.
+std::array<Vec3d, 3> principalAxes(const std::vector<Vec3d>& points)
 {
     Vec3d mean(0.0);
-    for (const Vec3f& p : mesh.positions) mean += Vec3d(p);
-    mean /= double(mesh.positions.size());
+    for (const Vec3d& p : points) mean += p;
+    mean /= double(points.size());
     openvdb::Mat3d covariance = openvdb::Mat3d::zero();
-    for (const Vec3f& p : mesh.positions) {
-        const Vec3d d = Vec3d(p) - mean;
+    for (const Vec3d& p : points) {
+        const Vec3d d = p - mean;
         for (int i = 0; i < 3; ++i) {
             for (int j = 0; j < 3; ++j) covariance(i, j) += d[i] * d[j];
         }
@@ -75,10 +112,29 @@ std::array<Vec3d, 3> principalAxes(const Mesh& mesh)
     return axes;
 }
 
+/// viewAxes() of points.
+std::array<Vec3d, 3> axesOf(const std::vector<Vec3d>& points, const DrawOptions& options)
+{
+    Vec3d right, toEye;
+    if (options.toEye.lengthSqr() > 0.0) {
+        toEye = options.toEye.unit();
+        right = options.up.cross(toEye).unit();
+    } else {
+        const auto axes = principalAxes(points);
+        right = axes[0];
+        toEye = axes[0].cross(axes[1]);
+    }
+    const Vec3d up = toEye.cross(right);
+    const double angle = options.turn * M_PI / 180.0;
+    return {std::cos(angle) * right - std::sin(angle) * toEye, up,
+            std::cos(angle) * toEye + std::sin(angle) * right};
+}
+
 View chooseView(const Mesh& mesh, const DrawOptions& options)
 {
     View view;
-    const std::array<Vec3d, 3> axes = viewAxes(mesh, options);
+    const std::vector<Vec3d> points = spanOf(mesh, options.instances);
+    const std::array<Vec3d, 3> axes = axesOf(points, options);
     view.right = axes[0];
     view.up = axes[1];
     view.toEye = axes[2];
@@ -86,8 +142,7 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
     // A turn must not change the scale, so the extent across is that of all turns.
     Vec3d low(std::numeric_limits<double>::max()), high(-low);
     double reach = 0.0;
-    for (const Vec3f& p : mesh.positions) {
-        const Vec3d x(p);
+    for (const Vec3d& x : points) {
         const Vec3d seen(x.dot(view.right), x.dot(view.up), x.dot(view.toEye));
         low = openvdb::math::minComponent(low, seen);
         high = openvdb::math::maxComponent(high, seen);
@@ -95,8 +150,8 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
     const Vec3d mid = 0.5 * (low + high), extent = high - low;
     view.center = mid[0] * view.right + mid[1] * view.up + mid[2] * view.toEye;
     if (options.turn != 0.0 || options.turnable) {
-        for (const Vec3f& p : mesh.positions) {
-            const Vec3d d = Vec3d(p) - view.center;
+        for (const Vec3d& p : points) {
+            const Vec3d d = p - view.center;
             reach = std::max(reach, std::hypot(d.dot(view.right), d.dot(view.toEye)));
         }
     }
@@ -138,8 +193,10 @@ double noise(int x, int y)
 class Tracer
 {
 public:
-    Tracer(const Mesh& mesh, const View& view, const Color& plain)
-        : mesh_(mesh), view_(view), plain_(linearLight(plain)), scene_(mesh),
+    Tracer(const Mesh& mesh, const View& view, const DrawOptions& options)
+        : mesh_(mesh), view_(view), plain_(linearLight(options.plain)),
+          instances_(options.instances), parts_(trianglesOf(mesh)),
+          scene_(instances_.empty() ? RayScene(mesh) : RayScene(mesh, parts_, instances_)),
           lamp_((view.toEye - 0.35 * view.right + 0.55 * view.up).unit())
     {
     }
@@ -156,7 +213,7 @@ public:
             const double dy = (double(s / subpixels) + 0.5) / subpixels;
             from[s] = view_.at(x + dx, y + dy) + (view_.far + 1.0) * view_.toEye;
             set(rays.ray, s, from[s], -view_.toEye, view_.far - view_.low + 2.0);
-            rays.hit.geomID[s] = RTC_INVALID_GEOMETRY_ID;
+            rays.hit.geomID[s] = rays.hit.instID[0][s] = RTC_INVALID_GEOMETRY_ID;
         }
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
@@ -166,16 +223,25 @@ public:
         for (std::size_t s = 0; s < eyeRays; ++s) {
             if (rays.hit.geomID[s] == RTC_INVALID_GEOMETRY_ID) continue;
             ++hits;
-            const auto& t = mesh_.triangles[rays.hit.primID[s]];
+            const MeshInstance* instance = nullptr;
+            std::size_t first = 0;
+            if (!instances_.empty()) {
+                instance = &instances_[rays.hit.instID[0][s]];
+                first = parts_[instance->part].first;
+            }
+            const auto& t = mesh_.triangles[first + rays.hit.primID[s]];
             const float u = rays.hit.u[s], v = rays.hit.v[s], w = 1.0f - u - v;
             Vec3f normal =
                 w * mesh_.normals[t[0]] + u * mesh_.normals[t[1]] + v * mesh_.normals[t[2]];
+            if (instance) normal = Vec3f(instance->turned(Vec3d(normal)));
             normal.normalize();
             if (normal.dot(Vec3f(view_.toEye)) < 0.0f) normal = -normal;
-            const Vec3f color = mesh_.colors.empty() ? plain_
-                                                     : w * linearLight(mesh_.colors[t[0]]) +
-                                                           u * linearLight(mesh_.colors[t[1]]) +
-                                                           v * linearLight(mesh_.colors[t[2]]);
+            Vec3f color = mesh_.colors.empty() ? plain_
+                                               : w * linearLight(mesh_.colors[t[0]]) +
+                                                     u * linearLight(mesh_.colors[t[1]]) +
+                                                     v * linearLight(mesh_.colors[t[2]]);
+            if (instance)
+                color = linearLight(instance->color) * (mesh_.colors.empty() ? Vec3f(1.0f) : color);
             out.color += lit(color, normal);
             out.normal += normal;
             const float depth = float(view_.far + 1.0) - rays.ray.tfar[s];
@@ -193,6 +259,15 @@ public:
     }
 
 private:
+    /// Triangles [first, end) of each part.
+    static std::vector<std::pair<std::size_t, std::size_t>> trianglesOf(const Mesh& mesh)
+    {
+        std::vector<std::pair<std::size_t, std::size_t>> out;
+        for (const PartRange& part : partRanges(mesh, ""))
+            out.emplace_back(part.firstTriangle, part.triangleEnd);
+        return out;
+    }
+
     template<typename Rays>
     static void set(Rays& rays, std::size_t k, const Vec3d& from, const Vec3d& way, double length)
     {
@@ -240,6 +315,8 @@ private:
     const Mesh& mesh_;
     const View& view_;
     Vec3f plain_;
+    const std::vector<MeshInstance>& instances_;
+    std::vector<std::pair<std::size_t, std::size_t>> parts_;
     RayScene scene_;
     Vec3d lamp_;
 };
@@ -321,19 +398,7 @@ private:
 
 std::array<Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options)
 {
-    Vec3d right, toEye;
-    if (options.toEye.lengthSqr() > 0.0) {
-        toEye = options.toEye.unit();
-        right = options.up.cross(toEye).unit();
-    } else {
-        const auto axes = principalAxes(mesh);
-        right = axes[0];
-        toEye = axes[0].cross(axes[1]);
-    }
-    const Vec3d up = toEye.cross(right);
-    const double angle = options.turn * M_PI / 180.0;
-    return {std::cos(angle) * right - std::sin(angle) * toEye, up,
-            std::cos(angle) * toEye + std::sin(angle) * right};
+    return axesOf(spanOf(mesh, options.instances), options);
 }
 
 Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& progress)
@@ -352,7 +417,7 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
     const auto width = std::size_t(view.width), height = std::size_t(view.height);
     std::vector<Sample> samples(width * height);
     {
-        const Tracer tracer(mesh, view, options.plain);
+        const Tracer tracer(mesh, view, options);
         parallelFor(height, progress, [&](std::size_t y) {
             for (std::size_t x = 0; x < width; ++x) {
                 samples[y * width + x] = tracer.trace(int(x), int(y));

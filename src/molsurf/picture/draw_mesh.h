@@ -6,6 +6,7 @@
 
 #include "molsurf/color/color_map.h"
 #include "molsurf/mesh.h"
+#include "molsurf/mesh/mesh_instance.h"
 #include "molsurf/progress.h"
 
 #include <array>
@@ -33,10 +34,12 @@ struct DrawOptions {
     Color background = {255, 255, 255}; ///< also what distant parts fade to
     bool transparent = false;           ///< there is nothing behind the surface
     Color plain = {140, 181, 222};      ///< of a mesh without colours
+    /// The copies of parts that are shown in the place of the mesh; empty: the mesh.
+    std::vector<MeshInstance> instances{};
 };
 
 /// The directions to the right, up and toward the eye of a picture, as right-handed unit vectors.
-/// @param[in] mesh  with at least one vertex
+/// @param[in] mesh  with at least one vertex; those of copies are left to a few hundred outermost
 std::array<openvdb::Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options);
 
 /// Draws a mesh: orthographic, shaded by ambient occlusion and a lamp over the eye's shoulder,

@@ -95,6 +95,39 @@ TEST(DrawMesh, LooksFromWhereItIsTold)
     EXPECT_GT(middle[0], middle[2]);
 }
 
+// Two parts, one of them twice and turned by a right angle, are drawn as if they had been copied.
+TEST(DrawMesh, CopiesLookLikeWhatTheyAreCopiesOf)
+{
+    Mesh parts, whole;
+    addBall(parts, {3.0f, 0.0f, 0.0f}, 2.0f, {255, 255, 255});
+    parts.parts = {{"a", 0}, {"b", std::uint32_t(parts.triangles.size())}};
+    addBall(parts, {0.0f, 0.0f, 0.0f}, 1.5f, {255, 255, 255});
+    addBall(whole, {3.0f, 5.0f, 0.0f}, 2.0f, red);   // x -> x + (0, 5, 0)
+    addBall(whole, {-1.0f, 3.0f, 1.0f}, 2.0f, blue); // (x, y, z) -> (-y - 1, x, z + 1)
+    addBall(whole, {0.0f, 0.0f, -4.0f}, 1.5f, red);
+    DrawOptions options;
+    options.width = 120;
+    options.toEye = {1, 2, 3};
+    options.up = {0, 1, 0};
+    const Picture expected = drawMesh(whole, options, Progress());
+    const std::array<std::array<double, 3>, 3> same = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    options.instances = {{0, "1", same, {0, 5, 0}, red},
+                         {0, "2", {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}, {-1, 0, 1}, blue},
+                         {1, "3", same, {0, 0, -4}, red}};
+    const Picture copies = drawMesh(parts, options, Progress());
+    // The frame comes from the outermost vertices alone, and the triangles of a turned ball differ.
+    ASSERT_NEAR(copies.height, expected.height, 1);
+    int differs = 0;
+    for (int y = 0; y < expected.height; ++y) {
+        for (int x = 0; x < options.width; ++x) {
+            const Color a = pixel(expected, x, y),
+                        b = pixel(copies, x, y * copies.height / expected.height);
+            for (std::size_t c = 0; c < 3; ++c) differs += std::abs(int(a[c]) - int(b[c])) > 40;
+        }
+    }
+    EXPECT_LT(differs, 0.05 * double(expected.rgb.size()));
+}
+
 TEST(DrawMesh, CrevicesAreDark)
 {
     Mesh mesh;
