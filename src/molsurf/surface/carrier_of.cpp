@@ -41,23 +41,24 @@ LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
     const std::vector<double> slopes = slopesOf(atoms.balls, gaussian, decays);
     const LeafTable& table = band.phi.table;
     LeafField out(table.size());
-    const auto [least, most] = std::minmax_element(slopes.begin(), slopes.end());
-    if (*most - *least < 1e-4 * *most) {
+    const auto ends = std::minmax_element(slopes.begin(), slopes.end());
+    const double least = *ends.first, most = *ends.second;
+    if (most - least < 1e-4 * most) {
         parallelFor(table.size(), progress,
-                    [&](std::size_t n) { std::fill_n(out.leaf(n), leafSize, float(*most)); });
+                    [&](std::size_t n) { std::fill_n(out.leaf(n), leafSize, float(most)); });
         return out;
     }
     gaussian.extent = extent ? extent : extentOf(atoms.balls, gaussian, decays);
     decays.resize(atoms.balls.size());
     for (std::size_t i = 0; i < slopes.size(); ++i)
-        decays[i].level += float(std::log(slopes[i] / *most));
+        decays[i].level += float(std::log(slopes[i] / most));
     const SparseField weighted =
         GaussianSum(atoms.balls, gaussian, decays).evaluate(table, progress);
     parallelFor(table.size(), progress, [&](std::size_t n) {
         const float *w = weighted.leaf(n), *psi = band.psi.leaf(n);
         for (int v = 0; v < leafSize; ++v)
             out.leaf(n)[v] =
-                std::clamp(float(*most) * std::exp(w[v] - psi[v]), float(*least), float(*most));
+                std::clamp(float(most) * std::exp(w[v] - psi[v]), float(least), float(most));
     });
     return out;
 }
