@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "cli/parse.h"
 #include "cli/verb_table.h"
+#include "outputs.h"
 #include "stop.h"
 #include "terminal.h"
 #include "verbs.h"
@@ -36,7 +37,9 @@ int perform(int argc, char** argv)
     errno = 0;
     std::cout << parsed.text;
     flushPrinted();
-    return parsed.call ? infoOf(parsed.call->verb).perform(*parsed.call, start) : 0;
+    if (!parsed.call) return 0;
+    recoverOutputs(*parsed.call);
+    return infoOf(parsed.call->verb).perform(*parsed.call, start);
 }
 
 int statusOf(ErrorKind kind)

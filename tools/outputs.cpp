@@ -5,6 +5,8 @@
 #include "stop.h"
 
 #include "molsurf/flow/evolve.h"
+#include "molsurf/io/commit.h"
+#include "molsurf/io/temporary_file.h"
 #include "molsurf/io/write_3mf.h"
 
 #include <sys/resource.h>
@@ -16,8 +18,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <memory>
-#include <vector>
+#include <set>
 
 namespace molsurf::tool
 {
@@ -108,6 +109,29 @@ void prepareOutputs(const Call& call, const std::vector<std::string>& more)
     handleSignals(temporaries);
 }
 
+void commitUndisturbed(const OutputFiles& files)
+{
+    std::vector<OutputFile*> all;
+    for (const auto& file : files) {
+        file->finish();
+        all.push_back(file.get());
+    }
+    stopIfAsked();
+    ignoreSignals();
+    commit(all);
+}
+
+void recoverOutputs(const Call& call)
+{
+    if (call.dryRun) return;
+    std::set<std::string> folders;
+    if (call.verb == Batch) folders.insert(call.folder);
+    if (call.verb == BricksRun) folders.insert(folderOf(call.input));
+    for (const Output& output : call.outputs)
+        if (call.verb != Batch && output.path != "-") folders.insert(folderOf(output.path));
+    for (const std::string& folder : folders) recover(folder);
+}
+
 void writeOutputs(const Call& call, Terminal& terminal,
                   const std::function<void(const Output&, OutputFile&)>& writeOne,
                   const std::function<void(double)>& timed, bool sideBySide)
@@ -121,7 +145,7 @@ void writeOutputs(const Call& call, Terminal& terminal,
     });
 
     const Clock::time_point start = Clock::now();
-    std::vector<std::unique_ptr<OutputFile>> files;
+    OutputFiles files;
     bool done = false;
     const auto timeIt = [&] {
         if (!done) timed(secondsSince(start));
@@ -140,8 +164,10 @@ void writeOutputs(const Call& call, Terminal& terminal,
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, files.size()),
         [&](const auto& range) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i)
+            for (std::size_t i = range.begin(); i != range.end(); ++i) {
                 writeOne(outputs[i], *files[i]);
+                files[i]->finish();
+            }
         },
         tbb::simple_partitioner());
     stopIfAsked();
@@ -153,8 +179,7 @@ void writeOutputs(const Call& call, Terminal& terminal,
         stopIfAsked();
     }
     timeIt();
-    ignoreSignals();
-    for (const auto& file : files) file->commit();
+    commitUndisturbed(files);
 }
 
 } // namespace molsurf::tool

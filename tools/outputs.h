@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,17 @@ void checkOutput(const Call& call, const Output& output);
 /// @throws Error(ErrorKind::Output) as checkOutput()
 /// @param[in] more  further files and folders to be removed then
 void prepareOutputs(const Call& call, const std::vector<std::string>& more = {});
+
+/// Files that are being written.
+using OutputFiles = std::vector<std::unique_ptr<OutputFile>>;
+
+/// Puts complete files in their places as molsurf::commit() does, whatever signals come then.
+/// @throws Cancelled after a signal that came before
+void commitUndisturbed(const OutputFiles& files);
+
+/// Ends what killed runs have begun in the folders that a call writes to. To be called first.
+/// @throws Error(ErrorKind::Output) as molsurf::recover()
+void recoverOutputs(const Call& call);
 
 /// Writes all files, and only when every one is complete puts them in their place. The report comes
 /// last, because it tells how long the others took; standard output, which cannot be taken back,

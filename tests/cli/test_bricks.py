@@ -229,7 +229,7 @@ class Memory(ToolTest):
         words = [TOOL, *words, "--memory", str(self.too_little_for(*words)), "-o", "m.ply"]
         process = subprocess.Popen(words, cwd=self.folder, stderr=subprocess.DEVNULL)
         deadline = time.time() + 60
-        while not any(name.endswith(".bricks") for name in self.names()):
+        while not any(name.startswith(".bricks.") for name in self.names()):
             self.assertIsNone(process.poll(), "it ended before there was a brick")
             self.assertLess(time.time(), deadline)
             time.sleep(0.02)
