@@ -7,6 +7,7 @@
 
 #include "molsurf/error.h"
 #include "molsurf/io/batch_summary.h"
+#include "molsurf/io/temporary_file.h"
 #include "molsurf/structure/structure_list.h"
 
 #include <algorithm>
@@ -65,39 +66,83 @@ bool allExist(const std::vector<Output>& outputs)
     });
 }
 
-BatchEntry buildEntry(const Call& call, const Task& task)
+// What is known of each task.
+using Table = std::vector<std::optional<BatchEntry>>;
+
+// The files that tell what was done.
+std::vector<std::string> summaryPaths(const Call& call)
+{
+    const fs::path folder = call.folder;
+    return {(folder / "summary.json").string(), (folder / "summary.csv").string()};
+}
+
+void addSummary(const Call& call, const std::string& options, const Table& table,
+                OutputFiles& files)
+{
+    BatchSummary summary{options, {}};
+    for (const auto& entry : table)
+        if (entry) summary.entries.push_back(*entry);
+    for (const std::string& path : summaryPaths(call))
+        files.push_back(std::make_unique<OutputFile>(path, true));
+    writeSummaryJson(summary, *files[files.size() - 2]);
+    writeSummaryCsv(summary, *files.back());
+}
+
+void save(const Call& call, const std::string& options, const Table& table)
+{
+    OutputFiles files;
+    addSummary(call, options, table, files);
+    commitUndisturbed(files);
+}
+
+BatchEntry doneEntry(const Task& task, const Report& report)
 {
     BatchEntry entry;
     entry.input = task.input;
+    const bool rests = !report.evolution || report.evolution->converged;
+    entry.status = rests ? "done" : "not converged";
+    entry.atoms = report.atoms;
+    entry.area = report.surface.area;
+    entry.volume = report.surface.volume;
+    entry.eulerCharacteristic = report.surface.eulerCharacteristic;
+    entry.components = report.surface.components;
+    entry.cavities = report.surface.cavities.size();
+    entry.seconds = report.seconds.back().second;
+    return entry;
+}
+
+// Does one task. Its files and its line of the summary appear together, so that a run that is
+// killed can go on. A failure has a line only.
+void perform(const Call& call, const std::string& options, const Task& task,
+             std::optional<BatchEntry>& entry, const Table& table)
+{
     Call one = call;
     one.input = task.input;
     one.outputs = task.outputs;
     one.warnings.clear();
     one.quiet = !call.verbose;
-    const Clock::time_point start = Clock::now();
+    Companions summary;
+    for (const std::string& path : summaryPaths(call))
+        summary.temporaries.push_back(temporaryName(path));
+    summary.add = [&](const Report& report, OutputFiles& files) {
+        entry = doneEntry(task, report);
+        addSummary(call, options, table, files);
+    };
+    std::string problem;
     try {
-        const Report report = buildSurface(one, start);
-        const bool rests = !report.evolution || report.evolution->converged;
-        entry.status = rests ? "done" : "not converged";
-        entry.atoms = report.atoms;
-        entry.area = report.surface.area;
-        entry.volume = report.surface.volume;
-        entry.eulerCharacteristic = report.surface.eulerCharacteristic;
-        entry.components = report.surface.components;
-        entry.cavities = report.surface.cavities.size();
-        entry.seconds = report.seconds.back().second;
+        buildSurface(one, Clock::now(), summary);
+        return;
     } catch (const Error& e) {
-        entry.status = "failed";
-        entry.message = withOptionNames(e.what());
+        problem = withOptionNames(e.what());
     } catch (const std::bad_alloc&) {
-        entry.status = "failed";
-        entry.message = "out of memory";
+        problem = "out of memory";
     }
-    return entry;
+    entry = BatchEntry();
+    entry->input = task.input;
+    entry->status = "failed";
+    entry->message = problem;
+    save(call, options, table);
 }
-
-// What is known of each task.
-using Table = std::vector<std::optional<BatchEntry>>;
 
 // Fills in what an earlier call has done.
 void takeOver(const BatchSummary& before, const std::vector<Task>& tasks, Table& table)
@@ -107,19 +152,6 @@ void takeOver(const BatchSummary& before, const std::vector<Task>& tasks, Table&
         for (const BatchEntry& entry : before.entries)
             if (entry.input == tasks[i].input && entry.status != "failed") table[i] = entry;
     }
-}
-
-void save(const std::string& options, const Table& table, const fs::path& folder)
-{
-    BatchSummary summary{options, {}};
-    for (const auto& entry : table)
-        if (entry) summary.entries.push_back(*entry);
-    OutputFile json((folder / "summary.json").string(), true);
-    writeSummaryJson(summary, json);
-    OutputFile csv((folder / "summary.csv").string(), true);
-    writeSummaryCsv(summary, csv);
-    json.commit();
-    csv.commit();
 }
 
 std::string describe(const BatchEntry& entry)
@@ -174,17 +206,14 @@ int batch(const Call& call)
     std::size_t failed = 0, creeping = 0;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         const bool fresh = !table[i];
-        if (fresh) {
-            table[i] = buildEntry(call, tasks[i]);
-            save(options, table, folder);
-        }
+        if (fresh) perform(call, options, tasks[i], table[i], table);
         failed += table[i]->status == "failed";
         creeping += table[i]->status == "not converged";
         if (fresh && !call.quiet)
             say(std::to_string(i + 1) + "/" + std::to_string(tasks.size()) + " " + tasks[i].input +
                 ": " + describe(*table[i]));
     }
-    save(options, table, folder);
+    save(call, options, table);
     if (!call.quiet) {
         std::string line = counted(tasks.size(), "structure", "structures");
         if (kept > 0) line += ", " + std::to_string(kept) + " done before";

@@ -134,7 +134,8 @@ void recoverOutputs(const Call& call)
 
 void writeOutputs(const Call& call, Terminal& terminal,
                   const std::function<void(const Output&, OutputFile&)>& writeOne,
-                  const std::function<void(double)>& timed, bool sideBySide)
+                  const std::function<void(double)>& timed, bool sideBySide,
+                  const std::function<void(OutputFiles&)>& addMore)
 {
     std::vector<Output> outputs = call.outputs;
     std::stable_sort(outputs.begin(), outputs.end(), [](const Output& a, const Output& b) {
@@ -179,6 +180,7 @@ void writeOutputs(const Call& call, Terminal& terminal,
         stopIfAsked();
     }
     timeIt();
+    if (addMore) addMore(files);
     commitUndisturbed(files);
 }
 

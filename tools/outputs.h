@@ -52,7 +52,7 @@ void checkOutput(const Call& call, const Output& output);
 /// Finds out whether all outputs can be written, and has them cleaned up after a signal. To be
 /// called before any work.
 /// @throws Error(ErrorKind::Output) as checkOutput()
-/// @param[in] more  further files and folders to be removed then
+/// @param[in] more  further temporary files and folders to be removed then
 void prepareOutputs(const Call& call, const std::vector<std::string>& more = {});
 
 /// Files that are being written.
@@ -74,8 +74,10 @@ void recoverOutputs(const Call& call);
 /// @param[in] timed     is called once with the seconds that writing took, before the report is
 ///                      written or else at the end
 /// @param[in] sideBySide  files other than reports are written at the same time
+/// @param[in] addMore   adds further files, complete, at the end; may be empty
 void writeOutputs(const Call& call, Terminal& terminal,
                   const std::function<void(const Output&, OutputFile&)>& writeOne,
-                  const std::function<void(double)>& timed, bool sideBySide = true);
+                  const std::function<void(double)>& timed, bool sideBySide = true,
+                  const std::function<void(OutputFiles&)>& addMore = {});
 
 } // namespace molsurf::tool

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """What a hostile surrounding does: full devices, little memory, signals that a shell ignores, odd names."""
 
+import itertools
 import resource
 import shutil
 import signal
@@ -9,8 +10,9 @@ import subprocess
 import time
 import unittest
 
+from kill import NAMING, killed_at, state
 from needs import needs
-from tool import CRAMBIN, FAST, TOOL, ToolTest
+from tool import CRAMBIN, DATA, FAST, TOOL, ToolTest
 
 MEGABYTE = 1 << 20
 
@@ -80,6 +82,44 @@ class Faults(ToolTest):
             error = self.check(0, name, *FAST, "--force", "-o", "a.json", says="a\\x").stderr.decode()
             self.assertTrue(all(c == "\n" or c >= " " and not "\x7f" <= c < "\xa0" for c in error), error)
             self.check(1, name + "x", *FAST, "-o", "b.json", says="a\\x")
+
+
+@needs("strace")
+class Restart(ToolTest):
+    """A run that is killed at any change of a name, and is started again, ends as an undisturbed one."""
+
+    def compare(self, *words, outputs="out"):
+        """The same words are run in two folders."""
+        whole, killed = self.folder / "whole", self.folder / "killed"
+        shutil.copytree(self.folder / "start", whole)
+        self.check(0, *words, cwd=whole)
+        expected = state(whole / outputs)
+        kills = 0
+        for call in NAMING:
+            for number in itertools.count(1):
+                shutil.copytree(self.folder / "start", killed)
+                dead = killed_at(call, number, words, killed)
+                if dead:
+                    self.check(0, *words, cwd=killed)
+                self.assertEqual(state(killed / outputs), expected, f"killed at {call} {number}")
+                shutil.rmtree(killed)
+                if not dead:
+                    break
+                kills += 1
+        self.assertGreater(kills, 8)
+
+    def test_batch(self):
+        start = self.folder / "start"
+        start.mkdir()
+        for name in "ab":
+            shutil.copy(CRAMBIN, start / f"{name}.pdb")
+        (start / "list").write_text("a.pdb\nb.pdb\n")
+        self.compare("batch", "list", "-O", "out", *FAST)
+
+    def test_frames(self):
+        (self.folder / "start").mkdir()
+        self.compare(DATA / "1d3z.pdb.gz", *FAST, "--frames", "1-2", "-o", "a.vdb", "-o", "a.ply", "-o", "a.csv",
+                     outputs=".")
 
 
 if __name__ == "__main__":
