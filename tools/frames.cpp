@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
+#include "input_files.h"
 #include "outputs.h"
 #include "sidecar.h"
 #include "write_result.h"
@@ -133,7 +134,10 @@ public:
     {
         if (call_.center) call_.scene.center = centerOf(source_.balls(0).balls);
         options_ = optionsDigest(call_);
-        if (!tableName_.empty()) checkWritable(tableName_, true);
+        if (!tableName_.empty()) {
+            InputFiles(call_).refuse(tableName_);
+            checkWritable(tableName_, true);
+        }
         if (!tableName_.empty() && !call_.force) table_ = readFrameTable(tableName_);
         for (std::size_t i = 0; i < source_.size(); ++i) {
             calls_.push_back(callOf(call_, i + 1, source_.number(i)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "outputs.h"
 
+#include "input_files.h"
 #include "sidecar.h"
 #include "stop.h"
 
@@ -95,6 +96,7 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 
 void checkOutput(const Call& call, const Output& output)
 {
+    InputFiles(call).refuse(output.path);
     checkWritable(output.path, mayReplace(call, output));
     if (output.format == Format::ThreeMf) load3mf();
 }

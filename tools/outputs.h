@@ -46,7 +46,9 @@ std::string unrestText(const EvolutionReport& evolution, double voxel);
 std::string counted(std::size_t count, const std::string& one, const std::string& many);
 
 /// Finds out whether an output can be written.
-/// @throws Error(ErrorKind::Output) as checkWritable(), or if a library is missing
+/// @throws Error(ErrorKind::Output) as checkWritable(), if the call reads that file, or if a
+/// library
+///         is missing
 void checkOutput(const Call& call, const Output& output);
 
 /// Finds out whether all outputs can be written, and has them cleaned up after a signal. To be

@@ -168,6 +168,7 @@ class Bricks(ToolTest):
         self.check(2, "bricks", "plan", "dimer.cif.gz", "-o", "p.vdb", "--bricks", 2, says=".json")
         self.check(2, "bricks", "plan", "dimer.cif.gz", "-o", "p.json", "--bricks", 2, "--fill-cavities",
                    says="--fill-cavities is for build")
+        self.check(1, "bricks", "merge", "plan.json", "-o", "plan.json", "--force", says="which is read")
         self.check(2, "bricks", "merge", "plan.json", "-o", "m.stl", says="merge writes .vdb, .ply or .json")
         self.check(2, "bricks", "merge", "plan.json", "--voxel", 1, "-o", "m.ply", says="--voxel is for build")
         self.check(2, CRAMBIN, "-o", "m.ply", "--memory", "lots", says="expected a size")
