@@ -2,6 +2,7 @@
 #include "verbs.h"
 
 #include "cli/option_table.h"
+#include "input_files.h"
 #include "outputs.h"
 #include "terminal.h"
 
@@ -39,6 +40,31 @@ std::string stemOf(const std::string& input)
     return name.stem().string();
 }
 
+// The files that tell what was done.
+std::vector<std::string> summaryPaths(const Call& call)
+{
+    const fs::path folder = call.folder;
+    return {(folder / "summary.json").string(), (folder / "summary.csv").string()};
+}
+
+// Refuses to write what is read, and the files of a structure that is called summary.
+void checkNames(const Call& call, const std::vector<Task>& tasks)
+{
+    const std::vector<std::string> own = summaryPaths(call);
+    InputFiles inputs(call);
+    for (const Task& task : tasks) inputs.add(task.input);
+    for (const std::string& path : own) inputs.refuse(path);
+    for (const Task& task : tasks) {
+        for (const Output& output : task.outputs) {
+            inputs.refuse(output.path);
+            if (std::count(own.begin(), own.end(), output.path) > 0)
+                throw Error(ErrorKind::Input, call.input + ": " + task.input +
+                                                  " and the summary would both be written to " +
+                                                  output.path + " [hint: another name]");
+        }
+    }
+}
+
 std::vector<Task> tasksOf(const Call& call)
 {
     std::vector<Task> tasks;
@@ -55,6 +81,7 @@ std::vector<Task> tasksOf(const Call& call)
                 {(fs::path(call.folder) / stem).string() + kind.path, kind.format, ""});
         tasks.push_back(std::move(task));
     }
+    checkNames(call, tasks);
     return tasks;
 }
 
@@ -68,13 +95,6 @@ bool allExist(const std::vector<Output>& outputs)
 
 // What is known of each task.
 using Table = std::vector<std::optional<BatchEntry>>;
-
-// The files that tell what was done.
-std::vector<std::string> summaryPaths(const Call& call)
-{
-    const fs::path folder = call.folder;
-    return {(folder / "summary.json").string(), (folder / "summary.csv").string()};
-}
 
 void addSummary(const Call& call, const std::string& options, const Table& table,
                 OutputFiles& files)
@@ -190,6 +210,7 @@ int batch(const Call& call)
     fs::create_directories(call.folder, problem);
     if (problem)
         throw Error(ErrorKind::Output, "cannot make " + call.folder + ": " + problem.message());
+    for (const std::string& path : summaryPaths(call)) checkWritable(path, true);
     const fs::path folder = call.folder;
     const std::optional<BatchSummary> before = readSummary((folder / "summary.json").string());
     if (before && before->options != options && !call.force)
