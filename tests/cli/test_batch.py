@@ -94,6 +94,16 @@ class Batch(ToolTest):
         self.batch(3, "--max-steps", "1", "--formats", "json", says="1 not converged")
         self.assertEqual(self.files(), ["1crn.json", "summary.csv", "summary.json"])
 
+    def test_names_are_no_formulas(self):
+        names = ["=1+1.pdb", "+a.pdb", "-a, b.pdb", "@c.pdb", "a=b.pdb"]
+        for name in names:
+            (self.folder / name).write_bytes(CRAMBIN.read_bytes())
+        (self.folder / "list").write_text("\n".join([*names, "=none.pdb"]))
+        self.batch(1, "--formats", "ply")
+        self.assertEqual([row["input"] for row in self.table()],
+                         ["'=1+1.pdb", "'+a.pdb", "'-a, b.pdb", "'@c.pdb", "a=b.pdb", "'=none.pdb"])
+        self.batch(1, "--formats", "ply", says="5 done before")
+
     def test_a_structure_that_is_called_summary(self):
         (self.folder / "summary.pdb").write_bytes(CRAMBIN.read_bytes())
         (self.folder / "list").write_text("summary.pdb\n")
