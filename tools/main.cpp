@@ -9,6 +9,9 @@
 #include "molsurf/error.h"
 #include "molsurf/progress.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <iostream>
@@ -47,10 +50,20 @@ int statusOf(ErrorKind kind)
     return kind == ErrorKind::Usage ? 2 : kind == ErrorKind::Check ? failedCheckStatus : 1;
 }
 
+/// Keeps a file that is opened from becoming standard output, if that is closed. What uses a closed
+/// stream fails as before.
+void holdStandardStreams()
+{
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) < 0)
+            open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
+    holdStandardStreams();
     std::ios_base::sync_with_stdio(false);
     // Fields of many megabytes come and go between the stages: kept by the allocator, their pages
     // need not be mapped and cleared anew each time.
