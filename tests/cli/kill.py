@@ -10,12 +10,16 @@ from tool import TOOL
 NAMING = ("rename", "renameat", "renameat2", "unlink", "unlinkat")
 
 
-def killed_at(call, number, words, folder):
-    """Whether a run was killed (SIGKILL) at such a call of the system, the first one being number 1."""
-    done = subprocess.run(["strace", "-f", "-qq", "-o", "/dev/null", "-e", f"trace={call}",
-                           "-e", f"inject={call}:signal=KILL:when={number}", TOOL, *map(str, words)],
+def signalled_at(call, number, signal, words, folder):
+    """Runs the tool, with a signal at such a call of the system, the first one being number 1."""
+    return subprocess.run(["strace", "-f", "-qq", "-o", "/dev/null", "-e", f"trace={call}",
+                           "-e", f"inject={call}:signal={signal}:when={number}", TOOL, *map(str, words)],
                           cwd=folder, capture_output=True, timeout=60)
-    return done.returncode != 0
+
+
+def killed_at(call, number, words, folder):
+    """Whether a run was killed (SIGKILL) there, and did not end before."""
+    return signalled_at(call, number, "KILL", words, folder).returncode != 0
 
 
 def without(names, entry):

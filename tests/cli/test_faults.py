@@ -11,7 +11,7 @@ import subprocess
 import time
 import unittest
 
-from kill import NAMING, killed_at, state
+from kill import NAMING, killed_at, signalled_at, state
 from needs import needs
 from tool import CRAMBIN, DATA, FAST, TOOL, ToolTest
 
@@ -160,6 +160,22 @@ class Commit(ToolTest):
         self.assertGreater(len(results), len(NAMING) + len(FILES))
         self.assertIn("old", results)
         self.assertIn("new", results)
+
+    @needs("strace")
+    def test_signals_wait_while_names_change(self):
+        for name in FILES:
+            (self.folder / name).unlink()
+        done = signalled_at("renameat2", 1, "INT", self.WORDS[:-len(SEVERAL) - 1] + SEVERAL, self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.names(), FILES)
+        # What follows is not begun.
+        for name in "xy":
+            shutil.copy(CRAMBIN, self.folder / f"{name}.pdb")
+        (self.folder / "list").write_text("x.pdb\ny.pdb\n")
+        done = signalled_at("renameat2", 1, "INT", ["batch", "list", "-O", "out", *FAST], self.folder)
+        self.assertEqual(done.returncode, 130, done.stderr)
+        self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir()),
+                         ["summary.csv", "summary.json", "x.json", "x.ply", "x.vdb"])
 
     def test_interrupt_and_terminate(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):

@@ -7,7 +7,8 @@
 /// A record of all names, ".vdb_molsurf.MAKER.commit" in the folder of the first file, says that
 /// all of them are complete. While it is there they are put in their places. Whoever comes after a
 /// killed process does what its records say, and removes what no record names. The folders of the
-/// other files have records that name the first folder.
+/// other files have records that name the first folder. A record can rename the temporary files of
+/// its maker alone, in their folders, so that a folder from elsewhere does no harm.
 
 #include "molsurf/io/output_file.h"
 
