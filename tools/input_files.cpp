@@ -31,8 +31,8 @@ void InputFiles::refuse(const std::string& output) const
     if (output == "-" || stat(output.c_str(), &info) != 0) return;
     const auto found = names_.find({info.st_dev, info.st_ino});
     if (found != names_.end())
-        throw Error(ErrorKind::Output, "cannot write " + output + ": it is the file of " +
-                                           found->second + ", which is read [hint: another name]");
+        throw Error(ErrorKind::Output, "cannot write " + output + ": it is " + found->second +
+                                           ", which is read [hint: another name]");
 }
 
 } // namespace molsurf::tool
