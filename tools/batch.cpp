@@ -2,11 +2,13 @@
 #include "verbs.h"
 
 #include "cli/option_table.h"
+#include "input_files.h"
 #include "outputs.h"
 #include "terminal.h"
 
 #include "molsurf/error.h"
 #include "molsurf/io/batch_summary.h"
+#include "molsurf/io/temporary_file.h"
 #include "molsurf/structure/structure_list.h"
 
 #include <algorithm>
@@ -38,6 +40,31 @@ std::string stemOf(const std::string& input)
     return name.stem().string();
 }
 
+// The files that tell what was done.
+std::vector<std::string> summaryPaths(const Call& call)
+{
+    const fs::path folder = call.folder;
+    return {(folder / "summary.json").string(), (folder / "summary.csv").string()};
+}
+
+// Refuses to write what is read, and the files of a structure that is called summary.
+void checkNames(const Call& call, const std::vector<Task>& tasks)
+{
+    const std::vector<std::string> own = summaryPaths(call);
+    InputFiles inputs(call);
+    for (const Task& task : tasks) inputs.add(task.input);
+    for (const std::string& path : own) inputs.refuse(path);
+    for (const Task& task : tasks) {
+        for (const Output& output : task.outputs) {
+            inputs.refuse(output.path);
+            if (std::count(own.begin(), own.end(), output.path) > 0)
+                throw Error(ErrorKind::Input, call.input + ": " + task.input +
+                                                  " and the summary would both be written to " +
+                                                  output.path + " [hint: another name]");
+        }
+    }
+}
+
 std::vector<Task> tasksOf(const Call& call)
 {
     std::vector<Task> tasks;
@@ -54,6 +81,7 @@ std::vector<Task> tasksOf(const Call& call)
                 {(fs::path(call.folder) / stem).string() + kind.path, kind.format, ""});
         tasks.push_back(std::move(task));
     }
+    checkNames(call, tasks);
     return tasks;
 }
 
@@ -65,39 +93,76 @@ bool allExist(const std::vector<Output>& outputs)
     });
 }
 
-BatchEntry buildEntry(const Call& call, const Task& task)
+// What is known of each task.
+using Table = std::vector<std::optional<BatchEntry>>;
+
+void addSummary(const Call& call, const std::string& options, const Table& table,
+                OutputFiles& files)
+{
+    BatchSummary summary{options, {}};
+    for (const auto& entry : table)
+        if (entry) summary.entries.push_back(*entry);
+    for (const std::string& path : summaryPaths(call))
+        files.push_back(std::make_unique<OutputFile>(path, true));
+    writeSummaryJson(summary, *files[files.size() - 2]);
+    writeSummaryCsv(summary, *files.back());
+}
+
+void save(const Call& call, const std::string& options, const Table& table)
+{
+    OutputFiles files;
+    addSummary(call, options, table, files);
+    commitUndisturbed(files);
+}
+
+BatchEntry doneEntry(const Task& task, const Report& report)
 {
     BatchEntry entry;
     entry.input = task.input;
+    const bool rests = !report.evolution || report.evolution->converged;
+    entry.status = rests ? "done" : "not converged";
+    entry.atoms = report.atoms;
+    entry.area = report.surface.area;
+    entry.volume = report.surface.volume;
+    entry.eulerCharacteristic = report.surface.eulerCharacteristic;
+    entry.components = report.surface.components;
+    entry.cavities = report.surface.cavities.size();
+    entry.seconds = report.seconds.back().second;
+    return entry;
+}
+
+// Does one task. Its files and its line of the summary appear together, so that a run that is
+// killed can go on. A failure has a line only.
+void perform(const Call& call, const std::string& options, const Task& task,
+             std::optional<BatchEntry>& entry, const Table& table)
+{
     Call one = call;
     one.input = task.input;
     one.outputs = task.outputs;
     one.warnings.clear();
     one.quiet = !call.verbose;
-    const Clock::time_point start = Clock::now();
+    Companions summary;
+    for (const std::string& path : summaryPaths(call))
+        summary.temporaries.push_back(temporaryName(path));
+    summary.add = [&](const Report& report, OutputFiles& files) {
+        entry = doneEntry(task, report);
+        addSummary(call, options, table, files);
+    };
+    std::string problem;
     try {
-        const Report report = buildSurface(one, start);
-        const bool rests = !report.evolution || report.evolution->converged;
-        entry.status = rests ? "done" : "not converged";
-        entry.atoms = report.atoms;
-        entry.area = report.surface.area;
-        entry.volume = report.surface.volume;
-        entry.eulerCharacteristic = report.surface.eulerCharacteristic;
-        entry.components = report.surface.components;
-        entry.cavities = report.surface.cavities.size();
-        entry.seconds = report.seconds.back().second;
+        buildSurface(one, Clock::now(), summary);
+        return;
     } catch (const Error& e) {
-        entry.status = "failed";
-        entry.message = withOptionNames(e.what());
+        problem = withOptionNames(e.what());
     } catch (const std::bad_alloc&) {
-        entry.status = "failed";
-        entry.message = "out of memory";
+        problem = "out of memory";
     }
-    return entry;
+    entry = BatchEntry();
+    entry->input = task.input;
+    entry->status = "failed";
+    entry->message = problem;
+    save(call, options, table);
 }
-
-// What is known of each task.
-using Table = std::vector<std::optional<BatchEntry>>;
 
 // Fills in what an earlier call has done.
 void takeOver(const BatchSummary& before, const std::vector<Task>& tasks, Table& table)
@@ -107,19 +172,6 @@ void takeOver(const BatchSummary& before, const std::vector<Task>& tasks, Table&
         for (const BatchEntry& entry : before.entries)
             if (entry.input == tasks[i].input && entry.status != "failed") table[i] = entry;
     }
-}
-
-void save(const std::string& options, const Table& table, const fs::path& folder)
-{
-    BatchSummary summary{options, {}};
-    for (const auto& entry : table)
-        if (entry) summary.entries.push_back(*entry);
-    OutputFile json((folder / "summary.json").string(), true);
-    writeSummaryJson(summary, json);
-    OutputFile csv((folder / "summary.csv").string(), true);
-    writeSummaryCsv(summary, csv);
-    json.commit();
-    csv.commit();
 }
 
 std::string describe(const BatchEntry& entry)
@@ -158,6 +210,7 @@ int batch(const Call& call)
     fs::create_directories(call.folder, problem);
     if (problem)
         throw Error(ErrorKind::Output, "cannot make " + call.folder + ": " + problem.message());
+    for (const std::string& path : summaryPaths(call)) checkWritable(path, true);
     const fs::path folder = call.folder;
     const std::optional<BatchSummary> before = readSummary((folder / "summary.json").string());
     if (before && before->options != options && !call.force)
@@ -174,17 +227,14 @@ int batch(const Call& call)
     std::size_t failed = 0, creeping = 0;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         const bool fresh = !table[i];
-        if (fresh) {
-            table[i] = buildEntry(call, tasks[i]);
-            save(options, table, folder);
-        }
+        if (fresh) perform(call, options, tasks[i], table[i], table);
         failed += table[i]->status == "failed";
         creeping += table[i]->status == "not converged";
         if (fresh && !call.quiet)
             say(std::to_string(i + 1) + "/" + std::to_string(tasks.size()) + " " + tasks[i].input +
                 ": " + describe(*table[i]));
     }
-    save(options, table, folder);
+    save(call, options, table);
     if (!call.quiet) {
         std::string line = counted(tasks.size(), "structure", "structures");
         if (kept > 0) line += ", " + std::to_string(kept) + " done before";

@@ -92,6 +92,7 @@ int brick(const Call& call)
     build.outputs = {{path, Format::Vdb, "", 0.0}};
     build.force = true;
     build.quiet = call.quiet;
+    build.inputs = {call.input, call.config};
     prepareOutputs(build);
     openvdb::initialize();
     limitThreads(call);

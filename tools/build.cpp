@@ -8,7 +8,6 @@
 #include "write_result.h"
 
 #include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/io/output_file.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/check_balls.h"
 
@@ -24,7 +23,7 @@ namespace
 {
 
 void writeAll(const Call& call, const BallSet& atoms, MolecularSurface& result, Terminal& terminal,
-              Clock::time_point programStart)
+              Clock::time_point programStart, const Companions& companions)
 {
     writeOutputs(
         call, terminal,
@@ -36,6 +35,10 @@ void writeAll(const Call& call, const BallSet& atoms, MolecularSurface& result, 
             seconds.emplace_back("write", writeSeconds);
             seconds.emplace_back("total", secondsSince(programStart));
             result.report.peakMemoryBytes = peakMemory();
+        },
+        true,
+        [&](OutputFiles& files) {
+            if (companions.add) companions.add(result.report, files);
         });
 }
 
@@ -123,7 +126,7 @@ void centerMesh(Call& call, MolecularSurface& result)
 
 Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& terminal,
                  Clock::time_point start, WarmStart* warm,
-                 const std::function<void(MolecularSurface&)>& extend)
+                 const std::function<void(MolecularSurface&)>& extend, const Companions& companions)
 {
     stopIfAsked();
     checkCost(balls, call.options, limitsOf(call), terminal);
@@ -140,29 +143,30 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     for (const auto& field : result.fields) field->setCreator(creator);
 
     if (call.center) centerMesh(call, result);
-    writeAll(call, balls, result, terminal, start);
+    writeAll(call, balls, result, terminal, start, companions);
     terminal.erase();
     return result.report;
 }
 
 Report buildSurface(const Call& call, const BallSet& balls, const Report& read, Terminal& terminal,
-                    Clock::time_point start)
+                    Clock::time_point start, const Companions& companions)
 {
-    const Report report = surfaceOf(call, balls, read, terminal, start);
+    const Report report =
+        surfaceOf(call, balls, read, terminal, start, nullptr, nullptr, companions);
     if (call.verbose) sayTimes(report);
     if (!call.quiet) say(summary(report));
     return report;
 }
 
-Report buildSurface(const Call& call, Clock::time_point start)
+Report buildSurface(const Call& call, Clock::time_point start, const Companions& companions)
 {
-    prepareOutputs(call);
+    prepareOutputs(call, companions.temporaries);
     openvdb::initialize();
     limitThreads(call);
     Terminal terminal(call.progress);
     Report read;
     const BallSet balls = readBalls(call, terminal, read);
-    return buildSurface(call, balls, read, terminal, start);
+    return buildSurface(call, balls, read, terminal, start, companions);
 }
 
 int build(const Call& call, Clock::time_point start)

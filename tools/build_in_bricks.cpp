@@ -6,10 +6,11 @@
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/error.h"
 #include "molsurf/grid/paged_array.h"
+#include "molsurf/io/commit.h"
+#include "molsurf/io/temporary_file.h"
 #include "molsurf/surface/check_balls.h"
 
 #include <malloc.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -26,28 +27,30 @@ namespace
 {
 
 // A hidden folder beside the first output, where the bricks wait for the merge. It goes when the
-// program ends, whatever the reason.
+// program ends; if that is killed, with the next one that writes there.
 class BrickFolder
 {
 public:
     explicit BrickFolder(const std::string& output)
-        : path_((output == "-" ? std::filesystem::temp_directory_path().string() + "/vdb_molsurf." +
-                                     std::to_string(getpid())
-                               : temporaryName(output)) +
-                ".bricks")
+        : beside_(output == "-" ? std::filesystem::temp_directory_path().string()
+                                : folderOf(output)),
+          path_(temporaryName(beside_ + "/bricks", ownMaker()))
     {
     }
     ~BrickFolder()
     {
         std::error_code ignored;
         std::filesystem::remove_all(path_, ignored);
+        if (lock_ >= 0) close(lock_);
     }
     BrickFolder(const BrickFolder&) = delete;
     BrickFolder& operator=(const BrickFolder&) = delete;
 
-    void make() const
+    void make()
     {
-        if (mkdir(path_.c_str(), 0700) != 0)
+        recover(beside_);
+        lock_ = makeLockedFolder(path_);
+        if (lock_ < 0)
             throw Error(ErrorKind::Output, "cannot make " + path_ + ": " + std::strerror(errno));
     }
     std::string brick(std::size_t number) const
@@ -67,7 +70,8 @@ public:
     }
 
 private:
-    std::string path_;
+    std::string beside_, path_;
+    int lock_ = -1;
 };
 
 void checkOutputs(const Call& call)
@@ -124,7 +128,7 @@ int buildInBricks(const Call& call, Clock::time_point start)
     }
     if (call.dryRun) return 0;
 
-    const BrickFolder folder(call.outputs[0].path);
+    BrickFolder folder(call.outputs[0].path);
     prepareOutputs(call, folder.content(plan.bricks.size()));
     folder.make();
     colorBalls(call.options, terminal, atoms);

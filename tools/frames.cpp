@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
+#include "input_files.h"
 #include "outputs.h"
 #include "sidecar.h"
 #include "write_result.h"
@@ -8,6 +9,7 @@
 #include "molsurf/error.h"
 #include "molsurf/io/frame_table.h"
 #include "molsurf/io/read_vdb.h"
+#include "molsurf/io/temporary_file.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/frame_source.h"
 #include "molsurf/surface/velocity.h"
@@ -132,7 +134,10 @@ public:
     {
         if (call_.center) call_.scene.center = centerOf(source_.balls(0).balls);
         options_ = optionsDigest(call_);
-        if (!tableName_.empty()) checkWritable(tableName_, true);
+        if (!tableName_.empty()) {
+            InputFiles(call_).refuse(tableName_);
+            checkWritable(tableName_, true);
+        }
         if (!tableName_.empty() && !call_.force) table_ = readFrameTable(tableName_);
         for (std::size_t i = 0; i < source_.size(); ++i) {
             calls_.push_back(callOf(call_, i + 1, source_.number(i)));
@@ -194,7 +199,9 @@ private:
     void make(std::size_t i)
     {
         const Clock::time_point start = Clock::now();
-        prepareOutputs(calls_[i]);
+        Companions table;
+        if (!tableName_.empty()) table.temporaries.push_back(temporaryName(tableName_));
+        prepareOutputs(calls_[i], table.temporaries);
         terminal_.setPrefix("frame " + std::to_string(i + 1) + "/" + std::to_string(size()) + ": ");
         std::vector<openvdb::Vec3f> displacement;
         if (moves_) displacement = source_.displacement(i);
@@ -206,11 +213,15 @@ private:
         const auto extend = [&](MolecularSurface& result) {
             if (moves_) addVelocity(call_, balls, displacement, terminal_, result);
         };
+        FrameRow row;
+        table.add = [&](const Report& report, OutputFiles& files) {
+            table_[i + 1] = row = frameRow(i + 1, source_.number(i), begun, options_, report);
+            if (tableName_.empty()) return;
+            files.push_back(std::make_unique<OutputFile>(tableName_, true));
+            writeFrameTable(table_, *files.back());
+        };
         const Report report = surfaceOf(calls_[i], balls, read, terminal_, start,
-                                        call_.warm ? &warm_ : nullptr, extend);
-        const FrameRow row = frameRow(i + 1, source_.number(i), begun, options_, report);
-        table_[i + 1] = row;
-        if (!tableName_.empty()) saveFrameTable(table_, tableName_);
+                                        call_.warm ? &warm_ : nullptr, extend, table);
         creeping_ += !row.rests;
         if (euler_ && *euler_ != row.euler)
             changes_ += (changes_.empty() ? "" : ", ") + std::to_string(row.frame);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "cli/parse.h"
 #include "cli/verb_table.h"
+#include "outputs.h"
 #include "stop.h"
 #include "terminal.h"
 #include "verbs.h"
 
 #include "molsurf/error.h"
 #include "molsurf/progress.h"
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -36,7 +40,9 @@ int perform(int argc, char** argv)
     errno = 0;
     std::cout << parsed.text;
     flushPrinted();
-    return parsed.call ? infoOf(parsed.call->verb).perform(*parsed.call, start) : 0;
+    if (!parsed.call) return 0;
+    recoverOutputs(*parsed.call);
+    return infoOf(parsed.call->verb).perform(*parsed.call, start);
 }
 
 int statusOf(ErrorKind kind)
@@ -44,10 +50,20 @@ int statusOf(ErrorKind kind)
     return kind == ErrorKind::Usage ? 2 : kind == ErrorKind::Check ? failedCheckStatus : 1;
 }
 
+/// Keeps a file that is opened from becoming standard output, if that is closed. What uses a closed
+/// stream fails as before.
+void holdStandardStreams()
+{
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) < 0)
+            open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
+    holdStandardStreams();
     std::ios_base::sync_with_stdio(false);
     // Fields of many megabytes come and go between the stages: kept by the allocator, their pages
     // need not be mapped and cleared anew each time.

@@ -54,13 +54,15 @@ int merge(const Call& call, Clock::time_point start)
     build.force = call.force;
     build.quiet = call.quiet;
     build.command = call.command;
+    std::vector<std::string> paths;
+    for (std::size_t k = 1; k <= manifest.plan.bricks.size(); ++k)
+        paths.push_back(brickPath(call.input, k));
+    build.inputs = paths;
+    build.inputs.insert(build.inputs.end(), {call.input, call.config});
     prepareOutputs(build);
     openvdb::initialize();
     limitThreads(call);
     Terminal terminal(call.progress);
-    std::vector<std::string> paths;
-    for (std::size_t k = 1; k <= manifest.plan.bricks.size(); ++k)
-        paths.push_back(brickPath(call.input, k));
     Report report;
     report.warnings = build.warnings;
     mergeBricks(build, manifest.plan, paths, sha256OfFile(call.input), terminal, start, report);

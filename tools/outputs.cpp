@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "outputs.h"
 
+#include "input_files.h"
 #include "sidecar.h"
 #include "stop.h"
 
 #include "molsurf/flow/evolve.h"
+#include "molsurf/io/commit.h"
+#include "molsurf/io/temporary_file.h"
 #include "molsurf/io/write_3mf.h"
 
 #include <sys/resource.h>
@@ -16,8 +19,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <memory>
-#include <vector>
+#include <set>
 
 namespace molsurf::tool
 {
@@ -94,6 +96,7 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 
 void checkOutput(const Call& call, const Output& output)
 {
+    InputFiles(call).refuse(output.path);
     checkWritable(output.path, mayReplace(call, output));
     if (output.format == Format::ThreeMf) load3mf();
 }
@@ -108,9 +111,33 @@ void prepareOutputs(const Call& call, const std::vector<std::string>& more)
     handleSignals(temporaries);
 }
 
+void commitUndisturbed(const OutputFiles& files)
+{
+    std::vector<OutputFile*> all;
+    for (const auto& file : files) {
+        file->finish();
+        all.push_back(file.get());
+    }
+    stopIfAsked();
+    ignoreSignals();
+    commit(all);
+}
+
+void recoverOutputs(const Call& call)
+{
+    if (call.dryRun) return;
+    std::set<std::string> folders;
+    if (call.verb == Batch) folders.insert(call.folder);
+    if (call.verb == BricksRun) folders.insert(folderOf(call.input));
+    for (const Output& output : call.outputs)
+        if (call.verb != Batch && output.path != "-") folders.insert(folderOf(output.path));
+    for (const std::string& folder : folders) recover(folder);
+}
+
 void writeOutputs(const Call& call, Terminal& terminal,
                   const std::function<void(const Output&, OutputFile&)>& writeOne,
-                  const std::function<void(double)>& timed, bool sideBySide)
+                  const std::function<void(double)>& timed, bool sideBySide,
+                  const std::function<void(OutputFiles&)>& addMore)
 {
     std::vector<Output> outputs = call.outputs;
     std::stable_sort(outputs.begin(), outputs.end(), [](const Output& a, const Output& b) {
@@ -121,7 +148,7 @@ void writeOutputs(const Call& call, Terminal& terminal,
     });
 
     const Clock::time_point start = Clock::now();
-    std::vector<std::unique_ptr<OutputFile>> files;
+    OutputFiles files;
     bool done = false;
     const auto timeIt = [&] {
         if (!done) timed(secondsSince(start));
@@ -140,8 +167,10 @@ void writeOutputs(const Call& call, Terminal& terminal,
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, files.size()),
         [&](const auto& range) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i)
+            for (std::size_t i = range.begin(); i != range.end(); ++i) {
                 writeOne(outputs[i], *files[i]);
+                files[i]->finish();
+            }
         },
         tbb::simple_partitioner());
     stopIfAsked();
@@ -153,8 +182,8 @@ void writeOutputs(const Call& call, Terminal& terminal,
         stopIfAsked();
     }
     timeIt();
-    ignoreSignals();
-    for (const auto& file : files) file->commit();
+    if (addMore) addMore(files);
+    commitUndisturbed(files);
 }
 
 } // namespace molsurf::tool

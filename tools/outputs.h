@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -45,14 +46,27 @@ std::string unrestText(const EvolutionReport& evolution, double voxel);
 std::string counted(std::size_t count, const std::string& one, const std::string& many);
 
 /// Finds out whether an output can be written.
-/// @throws Error(ErrorKind::Output) as checkWritable(), or if a library is missing
+/// @throws Error(ErrorKind::Output) as checkWritable(), if the call reads that file, or if a
+/// library
+///         is missing
 void checkOutput(const Call& call, const Output& output);
 
 /// Finds out whether all outputs can be written, and has them cleaned up after a signal. To be
 /// called before any work.
 /// @throws Error(ErrorKind::Output) as checkOutput()
-/// @param[in] more  further files and folders to be removed then
+/// @param[in] more  further temporary files and folders to be removed then
 void prepareOutputs(const Call& call, const std::vector<std::string>& more = {});
+
+/// Files that are being written.
+using OutputFiles = std::vector<std::unique_ptr<OutputFile>>;
+
+/// Puts complete files in their places as molsurf::commit() does, whatever signals come then.
+/// @throws Cancelled after a signal that came before
+void commitUndisturbed(const OutputFiles& files);
+
+/// Ends what killed runs have begun in the folders that a call writes to. To be called first.
+/// @throws Error(ErrorKind::Output) as molsurf::recover()
+void recoverOutputs(const Call& call);
 
 /// Writes all files, and only when every one is complete puts them in their place. The report comes
 /// last, because it tells how long the others took; standard output, which cannot be taken back,
@@ -62,8 +76,10 @@ void prepareOutputs(const Call& call, const std::vector<std::string>& more = {})
 /// @param[in] timed     is called once with the seconds that writing took, before the report is
 ///                      written or else at the end
 /// @param[in] sideBySide  files other than reports are written at the same time
+/// @param[in] addMore   adds further files, complete, at the end; may be empty
 void writeOutputs(const Call& call, Terminal& terminal,
                   const std::function<void(const Output&, OutputFile&)>& writeOne,
-                  const std::function<void(double)>& timed, bool sideBySide = true);
+                  const std::function<void(double)>& timed, bool sideBySide = true,
+                  const std::function<void(OutputFiles&)>& addMore = {});
 
 } // namespace molsurf::tool

@@ -2,7 +2,6 @@
 #include "bricks.h"
 #include "cli/option_table.h"
 #include "sha256.h"
-#include "stop.h"
 #include "verbs.h"
 
 #include "molsurf/bricks/plan_bricks.h"
@@ -95,10 +94,10 @@ int plan(const Call& call)
         planBricks(atoms, call.options, {std::size_t(call.bricks), call.memory}, terminal);
     terminal.erase();
 
-    OutputFile file(call.outputs[0].path, call.force);
-    writeManifest(manifest, file);
-    ignoreSignals();
-    file.commit();
+    OutputFiles files;
+    files.push_back(std::make_unique<OutputFile>(call.outputs[0].path, call.force));
+    writeManifest(manifest, *files[0]);
+    commitUndisturbed(files);
     if (!call.quiet) {
         for (const std::string& line : describePlan(manifest.plan)) say(line);
         if (manifest.plan.bricks.size() < std::size_t(call.bricks))

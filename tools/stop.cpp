@@ -30,7 +30,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "used in signal handlers")
 // Only what a signal handler may do.
 [[noreturn]] void leave(const char* text, int status)
 {
-    if (const std::vector<std::string>* all = names) {
+    if (const std::vector<std::string>* all = deaf ? nullptr : names.load()) {
         for (const std::string& name : *all) {
             if (unlink(name.c_str()) != 0) rmdir(name.c_str());
         }
@@ -67,8 +67,9 @@ static_assert(std::atomic<bool>::is_always_lock_free, "used in signal handlers")
 
 void onStop(int)
 {
+    const bool again = requested.exchange(true);
     if (deaf) return;
-    if (requested.exchange(true)) endNow();
+    if (again) endNow();
     itimerval timer{};
     timer.it_value.tv_usec = patience;
     setitimer(ITIMER_REAL, &timer, nullptr);

@@ -37,7 +37,8 @@ void handleSignals(const std::vector<std::string>& temporaries);
 /// True once a signal has come.
 bool stopRequested();
 
-/// From here on signals have no effect: the files are being put in their place.
+/// From here on signals end nothing: the files are being put in their place. What follows, after
+/// another handleSignals(), finds that the run is to stop.
 void ignoreSignals();
 
 } // namespace molsurf::tool

@@ -5,6 +5,7 @@
 /// The verbs of the tool, one file each. They return the exit status.
 
 #include "cli/call.h"
+#include "outputs.h"
 #include "terminal.h"
 
 #include "molsurf/report.h"
@@ -28,14 +29,22 @@ constexpr int failedCheckStatus = 3;
 /// @param[in] start  when the program began, for the total time
 int build(const Call& call, std::chrono::steady_clock::time_point start);
 
+/// Files of a verb's own that are one commit with the outputs of a surface.
+struct Companions {
+    std::vector<std::string> temporaries; ///< to be removed after a signal
+    /// Adds them, written, when the report of the surface is complete; may be empty.
+    std::function<void(const Report&, OutputFiles&)> add;
+};
+
 /// The same without its last word on standard error, but for errors.
 /// @return the report, complete
-Report buildSurface(const Call& call, std::chrono::steady_clock::time_point start);
+Report buildSurface(const Call& call, std::chrono::steady_clock::time_point start,
+                    const Companions& companions = {});
 
 /// The part of it behind the atoms.
 /// @param[in] read  what readBalls() has put in the report
 Report buildSurface(const Call& call, const BallSet& balls, const Report& read, Terminal& terminal,
-                    std::chrono::steady_clock::time_point start);
+                    std::chrono::steady_clock::time_point start, const Companions& companions = {});
 
 /// The part of that which says little: runs and writes. prepareOutputs() has been called.
 /// @param[in]     call    with --center and a frame the centre of the scene is taken, else chosen
@@ -43,7 +52,8 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
 /// @param[in]     extend  changes the result before it is written; may be empty
 Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& terminal,
                  std::chrono::steady_clock::time_point start, WarmStart* warm = nullptr,
-                 const std::function<void(MolecularSurface&)>& extend = nullptr);
+                 const std::function<void(MolecularSurface&)>& extend = nullptr,
+                 const Companions& companions = {});
 
 /// What is read of a structure file: read_balls.cpp.
 struct DescribedBalls {

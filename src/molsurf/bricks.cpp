@@ -4,7 +4,9 @@
 #include "molsurf/bricks/merged_bricks.h"
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/color/palette.h"
-#include "molsurf/io/output_file.h"
+#include "molsurf/io/commit.h"
+
+#include <optional>
 
 namespace molsurf
 {
@@ -42,16 +44,17 @@ Report mergeBricks(const std::vector<std::string>& bricks, const BrickPlan& plan
     Progress nobody;
     Progress& progress = listener ? *listener : nobody;
     const MergedBricks merged(bricks, libraryPlan, plan.atoms, options);
+    std::optional<OutputFile> grids, mesh;
+    std::vector<OutputFile*> files;
     if (!vdb.empty()) {
-        OutputFile file(vdb, true);
-        merged.writeVdb(openvdb::MetaMap(), file, progress);
-        file.commit();
+        files.push_back(&grids.emplace(vdb, true));
+        merged.writeVdb(openvdb::MetaMap(), *grids, progress);
     }
     if (!ply.empty()) {
-        OutputFile file(ply, true);
-        merged.writePly(file, progress);
-        file.commit();
+        files.push_back(&mesh.emplace(ply, true));
+        merged.writePly(*mesh, progress);
     }
+    commit(files);
     return merged.report();
 }
 

@@ -68,6 +68,8 @@ NEEDS = {
                 "scripts/install_deps.sh python3-openvdb python3-numpy"),
     "readelf": (program("readelf"), "scripts/install_deps.sh binutils"),
     "snakemake": (program("snakemake"), "scripts/install_deps.sh snakemake"),
+    "strace": (lambda: runs("strace", "-qq", "-o", "/dev/null", "-e", "inject=all:delay_exit=1:when=1", "true"),
+               "scripts/install_deps.sh strace, and the right to trace"),
     "full": (lambda: os.path.exists("/dev/full"), "a system with /dev/full"),
     "mount": (can_mount, "the right to mount a file system, as root has it"),
     "memory": (lambda: runs(os.environ["VDB_MOLSURF"], "--version", preexec_fn=small_address_space),

@@ -94,6 +94,35 @@ class Batch(ToolTest):
         self.batch(3, "--max-steps", "1", "--formats", "json", says="1 not converged")
         self.assertEqual(self.files(), ["1crn.json", "summary.csv", "summary.json"])
 
+    def test_names_are_no_formulas(self):
+        names = ["=1+1.pdb", "+a.pdb", "-a, b.pdb", "@c.pdb", "a=b.pdb"]
+        for name in names:
+            (self.folder / name).write_bytes(CRAMBIN.read_bytes())
+        (self.folder / "list").write_text("\n".join([*names, "=none.pdb"]))
+        self.batch(1, "--formats", "ply")
+        self.assertEqual([row["input"] for row in self.table()],
+                         ["'=1+1.pdb", "'+a.pdb", "'-a, b.pdb", "'@c.pdb", "a=b.pdb", "'=none.pdb"])
+        self.batch(1, "--formats", "ply", says="5 done before")
+
+    def test_a_structure_that_is_called_summary(self):
+        (self.folder / "summary.pdb").write_bytes(CRAMBIN.read_bytes())
+        (self.folder / "list").write_text("summary.pdb\n")
+        self.batch(1, says=["summary.pdb and the summary would both be written to out/summary.json"])
+        self.assertFalse((self.folder / "out").exists())
+        self.batch(0, "--formats", "ply")
+        self.assertEqual(self.files(), ["summary.csv", "summary.json", "summary.ply"])
+
+    def test_files_that_are_read_are_not_written(self):
+        (self.folder / "out").mkdir()
+        source = self.folder / "out" / "x.json"
+        source.write_bytes(CRAMBIN.read_bytes())
+        (self.folder / "list").write_text("out/x.json\n")
+        self.batch(1, "--force", says=["out/x.json", "which is read"])
+        (self.folder / "out" / "summary.csv").write_text(f"{CRAMBIN}\n")
+        self.check(1, "batch", "out/summary.csv", "-O", "out", *FAST, "--force", says="which is read")
+        self.assertEqual(source.read_bytes(), CRAMBIN.read_bytes())
+        self.assertEqual(self.files(), ["summary.csv", "x.json"])
+
     def test_wrong_calls(self):
         self.check(2, "batch", says="one list")
         self.check(2, "batch", "list", says="-O DIR")

@@ -168,6 +168,7 @@ class Bricks(ToolTest):
         self.check(2, "bricks", "plan", "dimer.cif.gz", "-o", "p.vdb", "--bricks", 2, says=".json")
         self.check(2, "bricks", "plan", "dimer.cif.gz", "-o", "p.json", "--bricks", 2, "--fill-cavities",
                    says="--fill-cavities is for build")
+        self.check(1, "bricks", "merge", "plan.json", "-o", "plan.json", "--force", says="which is read")
         self.check(2, "bricks", "merge", "plan.json", "-o", "m.stl", says="merge writes .vdb, .ply or .json")
         self.check(2, "bricks", "merge", "plan.json", "--voxel", 1, "-o", "m.ply", says="--voxel is for build")
         self.check(2, CRAMBIN, "-o", "m.ply", "--memory", "lots", says="expected a size")
@@ -225,17 +226,27 @@ class Memory(ToolTest):
         self.assertLess(json.loads((self.folder / "s.json").read_text())["peak_memory_bytes"], limit)
 
     def test_an_interrupt_leaves_nothing(self):
+        self.stop(signal.SIGINT, 130)
+        self.assertEqual(self.names(), [])
+
+    def test_the_bricks_of_a_killed_run_go_with_the_next(self):
+        self.stop(signal.SIGKILL, -signal.SIGKILL)
+        self.assertEqual(len(self.names()), 1)
+        self.check(1, "none.pdb", "-o", "m.ply")
+        self.assertEqual(self.names(), [])
+
+    def stop(self, number, status):
+        """Stops a run that has begun with its bricks."""
         words = [DATA / "4at1.ent.gz", "--voxel", "0.5"]
         words = [TOOL, *words, "--memory", str(self.too_little_for(*words)), "-o", "m.ply"]
         process = subprocess.Popen(words, cwd=self.folder, stderr=subprocess.DEVNULL)
         deadline = time.time() + 60
-        while not any(name.endswith(".bricks") for name in self.names()):
+        while not any(name.startswith(".bricks.") for name in self.names()):
             self.assertIsNone(process.poll(), "it ended before there was a brick")
             self.assertLess(time.time(), deadline)
             time.sleep(0.02)
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(timeout=60), 130)
-        self.assertEqual(self.names(), [])
+        process.send_signal(number)
+        self.assertEqual(process.wait(timeout=60), status)
 
 
 if __name__ == "__main__":

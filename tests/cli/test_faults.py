@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MPL-2.0
-"""What a hostile surrounding does: full devices, little memory, signals that a shell ignores, odd names."""
+"""What a hostile surrounding does: kills and signals at any moment, full devices, little memory, odd names."""
 
+import itertools
+import os
 import resource
 import shutil
 import signal
@@ -9,10 +11,18 @@ import subprocess
 import time
 import unittest
 
+from kill import NAMING, killed_at, signalled_at, state
 from needs import needs
-from tool import CRAMBIN, FAST, TOOL, ToolTest
+from tool import CRAMBIN, DATA, FAST, TOOL, ToolTest
 
 MEGABYTE = 1 << 20
+FILES = ["a.json", "a.obj", "a.ply", "a.vdb"]
+SEVERAL = [word for name in FILES for word in ("-o", name)]
+
+
+def limited(what, size):
+    """How a program is started that may take only so much."""
+    return lambda: resource.setrlimit(what, (size, size))
 
 
 class Faults(ToolTest):
@@ -20,9 +30,9 @@ class Faults(ToolTest):
         # As with nohup, and as a shell does with SIGINT of jobs in the background.
         for number in (signal.SIGHUP, signal.SIGINT):
             with self.subTest(signal=number):
-                process = subprocess.Popen([TOOL, CRAMBIN, "--voxel", "0.15", "-q", "--force", "-o", "a.json"],
+                process = subprocess.Popen([TOOL, CRAMBIN, "--voxel", "0.1", "-q", "--force", "-o", "a.json"],
                                            cwd=self.folder, preexec_fn=lambda: signal.signal(number, signal.SIG_IGN))
-                time.sleep(0.3)
+                time.sleep(0.2)
                 self.assertIsNone(process.poll(), "the run ended before the signal came")
                 process.send_signal(number)
                 self.assertEqual(process.wait(60), 0)
@@ -30,11 +40,9 @@ class Faults(ToolTest):
     def test_little_memory_is_said(self):
         # From where libraries start their threads to where the run is through.
         statuses = []
-        for megabytes in range(120, 400, 20):
-            def limit():
-                resource.setrlimit(resource.RLIMIT_AS, (megabytes * MEGABYTE, megabytes * MEGABYTE))
-
-            done = self.run_tool(CRAMBIN, "--voxel", "0.5", "-j", "1", "-q", "--force", "-o", "a.json", preexec_fn=limit)
+        for megabytes in range(100, 500, 10):
+            done = self.run_tool(CRAMBIN, "--voxel", "0.5", "-j", "1", "-q", "--force", *SEVERAL,
+                                 preexec_fn=limited(resource.RLIMIT_AS, megabytes * MEGABYTE))
             error = done.stderr.decode()
             if "loading shared libraries" in error:
                 continue  # the system's words
@@ -43,6 +51,7 @@ class Faults(ToolTest):
                 self.assertEqual(done.returncode, 1, f"{megabytes} MB: {error}")
                 self.assertIn("not enough memory", error)
                 self.assertEqual(error.count("\n"), 1, error)
+                self.assertEqual(self.names(), [])
         self.assertEqual(statuses[-1], 0)
         self.assertIn(1, statuses)
 
@@ -80,6 +89,260 @@ class Faults(ToolTest):
             error = self.check(0, name, *FAST, "--force", "-o", "a.json", says="a\\x").stderr.decode()
             self.assertTrue(all(c == "\n" or c >= " " and not "\x7f" <= c < "\xa0" for c in error), error)
             self.check(1, name + "x", *FAST, "-o", "b.json", says="a\\x")
+
+
+class Commit(ToolTest):
+    """The files of a run are all old or all new, whatever happens to it."""
+
+    WORDS = [CRAMBIN, "--voxel", "0.5", "-q", "--force", *SEVERAL]
+
+    def setUp(self):
+        super().setUp()
+        start = time.monotonic()
+        self.check(0, *self.WORDS)
+        self.duration = time.monotonic() - start
+        self.new = state(self.folder)
+        self.assertEqual(sorted(self.new), FILES)
+
+    def begin(self):
+        """Old files."""
+        for name in FILES:
+            (self.folder / name).write_text("old")
+
+    def result(self):
+        """"old" or "new", after a check that the files agree and that nothing is left."""
+        self.assertEqual(self.names(), FILES)
+        contents = [(self.folder / name).read_bytes() for name in FILES]
+        if contents == [b"old"] * len(FILES):
+            return "old"
+        self.assertTrue(state(self.folder) == self.new)
+        return "new"
+
+    def start_another(self):
+        """A run in the same folder that ends at once."""
+        self.check(1, "none.pdb", "-o", "b.json")
+
+    def moments(self, count):
+        """Seconds after the start, a half of them about the end."""
+        half = count // 2
+        return [self.duration * n / half for n in range(half)] + [
+            self.duration * (0.7 + 0.4 * n / half) for n in range(count - half)]
+
+    def signal_at(self, moment, number):
+        """The status and what was said."""
+        self.begin()
+        process = subprocess.Popen([TOOL, *map(str, self.WORDS)], cwd=self.folder, stderr=subprocess.PIPE)
+        time.sleep(moment)
+        process.send_signal(number)
+        error = process.communicate(timeout=60)[1].decode()
+        return process.returncode, error
+
+    def test_kill(self):
+        results = []
+        for moment in self.moments(50):
+            self.signal_at(moment, signal.SIGKILL)
+            self.start_another()
+            results.append(self.result())
+        self.assertIn("old", results)
+
+    @needs("strace")
+    def test_kill_at_every_change_of_a_name(self):
+        results = []
+        for call in NAMING:
+            for number in itertools.count(1):
+                self.begin()
+                dead = killed_at(call, number, self.WORDS, self.folder)
+                if dead:
+                    self.start_another()
+                results.append(self.result())
+                if not dead:
+                    break
+        self.assertGreater(len(results), len(NAMING) + len(FILES))
+        self.assertIn("old", results)
+        self.assertIn("new", results)
+
+    @needs("strace")
+    def test_signals_wait_while_names_change(self):
+        for name in FILES:
+            (self.folder / name).unlink()
+        done = signalled_at("renameat2", 1, "INT", self.WORDS[:-len(SEVERAL) - 1] + SEVERAL, self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.names(), FILES)
+        # What follows is not begun.
+        for name in "xy":
+            shutil.copy(CRAMBIN, self.folder / f"{name}.pdb")
+        (self.folder / "list").write_text("x.pdb\ny.pdb\n")
+        done = signalled_at("renameat2", 1, "INT", ["batch", "list", "-O", "out", *FAST], self.folder)
+        self.assertEqual(done.returncode, 130, done.stderr)
+        self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir()),
+                         ["summary.csv", "summary.json", "x.json", "x.ply", "x.vdb"])
+
+    def test_interrupt_and_terminate(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            for moment in self.moments(8):
+                status, error = self.signal_at(moment, number)
+                # Before the program takes signals they end it at once.
+                self.assertIn(status, (0, 130, -number), error)
+                self.assertEqual(self.result(), "new" if status == 0 else "old")
+                if status == 130:
+                    self.assertTrue(error.endswith("vdb_molsurf: interrupted\n"), error)
+
+    def full(self, **options):
+        """A run that succeeds, or says in a line why it cannot."""
+        done = self.run_tool(*self.WORDS, **options)
+        error = done.stderr.decode()
+        self.assertEqual((done.returncode, error.count("\n")), (1, 1) if done.returncode else (0, 0), error)
+        return done.returncode
+
+    def test_files_that_may_not_grow(self):
+        statuses = []
+        largest = max((self.folder / name).stat().st_size for name in FILES)
+        for tenth in range(12):
+            self.begin()
+            statuses.append(self.full(preexec_fn=limited(resource.RLIMIT_FSIZE, largest * tenth // 10)))
+            self.assertEqual(self.result(), "old" if statuses[-1] else "new")
+        self.assertEqual(statuses, [1] * 10 + [0] * 2)
+
+    @needs("mount")
+    def test_small_file_systems(self):
+        place = self.folder / "small"
+        place.mkdir()
+        needed = sum((self.folder / name).stat().st_size for name in FILES) // 1024
+        statuses = []
+        for tenth in range(1, 16):
+            subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={needed * tenth // 10}k", "tmpfs", place], check=True)
+            try:
+                statuses.append(self.full(cwd=place))
+                self.assertEqual(sorted(path.name for path in place.iterdir()), [] if statuses[-1] else FILES)
+            finally:
+                subprocess.run(["umount", place], check=True)
+        self.assertEqual((statuses[0], statuses[-1]), (1, 0))
+
+    @needs("mount")
+    def test_a_file_system_to_read_only(self):
+        place = self.folder / "still"
+        place.mkdir()
+        subprocess.run(["mount", "-t", "tmpfs", "-o", "ro", "tmpfs", place], check=True)
+        try:
+            self.check(1, "none.pdb", "-o", "a.ply", says="Read-only file system", cwd=place)
+            self.check(1, "batch", "none", "-O", "new", cwd=place)
+            (self.folder / "list").write_text(f"{CRAMBIN}\n")
+            self.check(1, "batch", "list", "-O", "still", says="Read-only file system")
+        finally:
+            subprocess.run(["umount", place], check=True)
+
+
+class Pipes(ToolTest):
+    def test_nobody_reads(self):
+        for words in (["--help"], ["info", str(CRAMBIN)], [str(CRAMBIN), "-o", "-", "--format", "ply", *FAST]):
+            with self.subTest(words=words):
+                reader, writer = os.pipe()
+                os.close(reader)
+                done = subprocess.run([TOOL, *words], cwd=self.folder, stdout=writer, stderr=subprocess.PIPE)
+                os.close(writer)
+                if "-o" in words:
+                    self.assertEqual(done.returncode, 1)
+                    self.assertIn(b"Broken pipe", done.stderr)
+                else:  # a text ends as that of every other program does
+                    self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))
+
+    def test_a_closed_output(self):
+        done = self.run_tool(CRAMBIN, "-q", "-o", "-", "--format", "ply", *FAST, "-o", "a.ply",
+                             preexec_fn=lambda: os.close(1))
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(self.names(), [])
+
+
+class Truncation(ToolTest):
+    """Files that become shorter while they are read."""
+
+    def shorten(self, name, *words):
+        whole = (self.folder / name).read_bytes()
+        start = time.monotonic()
+        self.check(0, *words)
+        duration = time.monotonic() - start
+        for n in range(12):
+            (self.folder / name).write_bytes(whole)
+            process = subprocess.Popen([TOOL, *words], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.PIPE)
+            time.sleep(duration * n / 12)
+            os.truncate(self.folder / name, len(whole) * n // 24)
+            error = process.communicate(timeout=60)[1].decode()
+            self.assertIn(process.returncode, (0, 1), error)
+            if process.returncode:
+                self.assertEqual(error.count("error: "), 1, error)
+        (self.folder / name).write_bytes(whole)
+
+    def test_structure(self):
+        text = CRAMBIN.read_bytes().split(b"CONECT")[0].replace(b"END\n", b"")
+        with open(self.folder / "a.pdb", "wb") as file:
+            for model in range(1, 100):
+                file.write(b"MODEL     %4d\n%sENDMDL\n" % (model, text))
+        self.shorten("a.pdb", "info", "a.pdb")
+
+    def test_grids(self):
+        self.check(0, CRAMBIN, "--voxel", "0.2", "-q", "-o", "a.vdb")
+        self.shorten("a.vdb", "info", "a.vdb")
+        self.shorten("a.vdb", "convert", "a.vdb", "-q", "--force", "-o", "a.stl")
+
+    def test_trajectory(self):
+        shutil.copy(DATA / "1d3z.xtc", self.folder / "a.xtc")
+        self.shorten("a.xtc", str(DATA / "1d3z.pdb.gz"), *FAST, "-q", "--trajectory", "a.xtc", "--force", "-o", "a.stl")
+
+
+@needs("strace")
+class Restart(ToolTest):
+    """A run that is killed at any change of a name, and is started again, ends as an undisturbed one."""
+
+    def compare(self, *words, outputs="out"):
+        """The same words are run in two folders."""
+        whole, killed = self.folder / "whole", self.folder / "killed"
+        shutil.copytree(self.folder / "start", whole)
+        self.check(0, *words, cwd=whole)
+        expected = state(whole / outputs)
+        kills = 0
+        for call in NAMING:
+            for number in itertools.count(1):
+                shutil.copytree(self.folder / "start", killed)
+                dead = killed_at(call, number, words, killed)
+                if dead:
+                    self.check(0, *words, cwd=killed)
+                self.assertTrue(state(killed / outputs) == expected, f"killed at {call} {number}")
+                shutil.rmtree(killed)
+                if not dead:
+                    break
+                kills += 1
+        self.assertGreater(kills, 8)
+
+    def test_batch(self):
+        start = self.folder / "start"
+        start.mkdir()
+        for name in "ab":
+            shutil.copy(CRAMBIN, start / f"{name}.pdb")
+        (start / "list").write_text("a.pdb\nb.pdb\n")
+        self.compare("batch", "list", "-O", "out", *FAST)
+
+    def test_frames(self):
+        (self.folder / "start").mkdir()
+        self.compare(DATA / "1d3z.pdb.gz", *FAST, "--frames", "1-2", "-o", "a.vdb", "-o", "a.ply", "-o", "a.csv",
+                     outputs=".")
+
+    def test_bricks(self):
+        """Of a plan, its bricks and their merge any may be killed."""
+        whole, killed = self.folder / "whole", self.folder / "killed"
+        runs = [["bricks", "plan", CRAMBIN, "-o", "plan.json", "--bricks", "2", "--steps", "3", *FAST],
+                ["bricks", "run", "plan.json", "1"], ["bricks", "run", "plan.json", "2"],
+                ["bricks", "merge", "plan.json", "-o", "a.vdb", "-o", "a.ply"]]
+        for folder in (whole, killed):
+            folder.mkdir()
+        for words in runs:
+            self.assertIn(self.run_tool(*words, cwd=whole).returncode, (0, 3))
+            for call in NAMING:
+                if killed_at(call, 1, words, killed):
+                    done = self.run_tool(*words, cwd=killed)
+                    complete = done.returncode == 1 and b"it exists already" in done.stderr
+                    self.assertTrue(complete or done.returncode in (0, 3), done.stderr)
+            self.assertTrue(state(killed) == state(whole), words)
 
 
 if __name__ == "__main__":

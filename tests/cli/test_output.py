@@ -3,6 +3,7 @@
 
 import os
 import resource
+import shutil
 import subprocess
 import unittest
 
@@ -49,6 +50,41 @@ class Files(ToolTest):
         self.check(1, "none.pdb", "-o", "a.ply", "--force")
         self.assertEqual((self.folder / "a.ply").read_text(), "old")
         self.assertEqual(self.names(), ["a.ply"])
+
+    def test_files_that_are_read_are_never_replaced(self):
+        """Under no name: another path, a symbolic link, a hard link, standard input."""
+        source = self.folder / "a.ply"
+        shutil.copy(CRAMBIN, source)
+        (self.folder / "hard.ply").hardlink_to(source)
+        (self.folder / "g.ply").write_text("all /1/A\n")
+        (self.folder / "c.ply").write_text("voxel = 1\n")
+        (self.folder / "r.ply").write_text("C 1.7\n")
+        before = {name: (self.folder / name).read_bytes() for name in self.names()}
+        words = [*FAST, "--force"]
+        read = "which is read"
+        with open(source, "rb") as stream:
+            self.check(1, "-", *words, "-o", "a.ply", stdin=stream, says=["standard input", read])
+        for option, name in (("--groups", "g.ply"), ("--config", "c.ply"), ("--radii", "r.ply")):
+            with self.subTest(name):
+                self.check(1, CRAMBIN, *(words if option != "--config" else ["--force"]), option, name, "-o", name,
+                           says=[name, read])
+        # Names of meshes are refused as inputs; the content of a .vdb decides.
+        source.rename(self.folder / "a.vdb")
+        (self.folder / "link.vdb").symlink_to("a.vdb")
+        (self.folder / "hard.ply").rename(self.folder / "hard.vdb")
+        for name in ("a.vdb", "./a.vdb", self.folder / "a.vdb", "link.vdb", "hard.vdb"):
+            with self.subTest(name):
+                self.check(1, "a.vdb", *words, "-o", "x.json", "-o", name, says=[name, read])
+        (self.folder / "link.vdb").unlink()
+        self.assertEqual({name.replace(".vdb", ".ply"): (self.folder / name).read_bytes()
+                          for name in self.names()}, before)
+
+    def test_names_that_are_too_long(self):
+        """They are refused before the input is read, which is not there."""
+        for length in (245, 255, 256):
+            self.check(1, "none.pdb", "-o", "a" * (length - 4) + ".ply", says="File name too long")
+        self.check(0, CRAMBIN, *FAST, "-o", "a" * 220 + ".ply")
+        self.check(1, CRAMBIN, *FAST, "--frames", "1", "-o", "a" * 240 + ".ply", says="File name too long")
 
     @needs("user")
     def test_folder_that_cannot_be_written(self):

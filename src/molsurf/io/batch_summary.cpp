@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <charconv>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -24,8 +25,11 @@ void put(const std::string& text, OutputFile& file)
     file.finish();
 }
 
-std::string cell(const std::string& text)
+// A name of the user's as a cell. Spreadsheets would take some for formulas.
+std::string cell(const std::string& name)
 {
+    const bool formula = !name.empty() && std::strchr("=+-@\t\r", name[0]);
+    const std::string text = formula ? "'" + name : name;
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
     std::string out = "\"";
     for (const char letter : text) out += letter == '"' ? "\"\"" : std::string(1, letter);

@@ -2,7 +2,6 @@
 #include "molsurf/io/frame_table.h"
 
 #include "molsurf/error.h"
-#include "molsurf/io/output_file.h"
 
 #include <charconv>
 #include <filesystem>
@@ -82,13 +81,11 @@ FrameTable readFrameTable(const std::string& path)
     return table;
 }
 
-void saveFrameTable(const FrameTable& table, const std::string& path)
+void writeFrameTable(const FrameTable& table, OutputFile& file)
 {
     std::string text = std::string(title) + "\n";
     for (const auto& [file, row] : table) text += row.line + "\n";
-    OutputFile file(path, true);
     file.write(text.data(), text.size());
-    file.commit();
 }
 
 } // namespace molsurf

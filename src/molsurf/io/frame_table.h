@@ -4,6 +4,7 @@
 /// @file
 /// The table of the frames of a run, a .csv file.
 
+#include "molsurf/io/output_file.h"
 #include "molsurf/report.h"
 
 #include <cstddef>
@@ -29,12 +30,11 @@ using FrameTable = std::map<std::size_t, FrameRow>;
 FrameRow frameRow(std::size_t file, int frame, bool warm, const std::string& options,
                   const Report& report);
 
-/// Reads what saveFrameTable() wrote; empty if the file does not exist.
+/// Reads what writeFrameTable() wrote; empty if the file does not exist.
 /// @throws Error(ErrorKind::Output) if it is another file
 FrameTable readFrameTable(const std::string& path);
 
-/// Replaces the file.
 /// @throws Error(ErrorKind::Output) if it cannot be written
-void saveFrameTable(const FrameTable& table, const std::string& path);
+void writeFrameTable(const FrameTable& table, OutputFile& file);
 
 } // namespace molsurf

@@ -2,9 +2,10 @@
 #include "molsurf/io/output_file.h"
 
 #include "molsurf/error.h"
+#include "molsurf/io/commit.h"
+#include "molsurf/io/temporary_file.h"
 
 #include <fcntl.h>
-#include <stdio.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,7 +13,6 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
-#include <system_error>
 
 namespace molsurf
 {
@@ -21,21 +21,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-
-// A symbolic link stays one: its target is replaced.
-std::string followed(const std::string& path)
-{
-    std::error_code ignored;
-    if (!fs::is_symlink(path, ignored)) return path;
-    const fs::path real = fs::weakly_canonical(path, ignored);
-    return ignored ? path : real.string();
-}
-
-std::string folderOf(const std::string& target)
-{
-    const fs::path folder = fs::path(target).parent_path();
-    return folder.empty() ? "." : folder.string();
-}
 
 std::string hint(int reason)
 {
@@ -47,6 +32,8 @@ std::string hint(int reason)
     case EPERM:
     case EROFS:
         return " [hint: choose a folder you may write to]";
+    case ENAMETOOLONG:
+        return " [hint: a shorter name]";
     default:
         return "";
     }
@@ -64,20 +51,10 @@ std::string hint(int reason)
 
 } // namespace
 
-std::string temporaryName(const std::string& path)
-{
-    if (path == "-") return "";
-    const std::string target = followed(path);
-    const std::string name = fs::path(target).filename().string();
-    const std::string part = "." + name + "." + std::to_string(getpid()) + ".part";
-    return (fs::path(target).parent_path() / part).string();
-}
-
 void checkWritable(const std::string& path, bool overwrite)
 {
     if (path == "-") return;
-    const std::string target = followed(path);
-    const std::string folder = folderOf(target);
+    const std::string target = followed(path), folder = folderOf(path);
     struct stat info;
     if (stat(folder.c_str(), &info) != 0)
         refuse(path, "folder " + folder + ": " + std::strerror(errno) +
@@ -89,14 +66,16 @@ void checkWritable(const std::string& path, bool overwrite)
             refuse(path, "it exists and is not a regular file");
         if (!overwrite) refuseExisting(path);
     } else if (errno != ENOENT) {
-        refuse(path, std::strerror(errno));
+        refuse(path, std::strerror(errno) + hint(errno));
     }
+    if (lstat(temporaryName(path).c_str(), &info) != 0 && errno != ENOENT) // its name is longer
+        refuse(path, std::strerror(errno) + hint(errno));
     if (access(folder.c_str(), W_OK | X_OK) != 0)
         refuse(path, "folder " + folder + ": " + std::strerror(errno) + hint(errno));
 }
 
 OutputFile::OutputFile(const std::string& path, bool overwrite)
-    : path_(path), target_(path == "-" ? path : followed(path)), overwrite_(overwrite)
+    : path_(path), target_(followed(path)), replaces_(overwrite)
 {
     if (path == "-") {
         std::cout.exceptions(std::ios_base::badbit | std::ios_base::failbit);
@@ -104,31 +83,22 @@ OutputFile::OutputFile(const std::string& path, bool overwrite)
     }
     checkWritable(path, overwrite);
     const std::string name = temporaryName(path);
-    unlink(name.c_str()); // left by a process of the same number that was killed
-    const int made = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const int made = makeLockedFile(name);
     if (made < 0) fail("cannot create");
-    close(made);
     temporary_ = name;
-    errno = 0;
-    file_.open(name, std::ios_base::binary | std::ios_base::in | std::ios_base::out);
-    if (!file_) {
-        const int reason = errno;
-        unlink(name.c_str());
-        errno = reason;
-        fail("cannot open");
-    }
+    buffer_ = __gnu_cxx::stdio_filebuf<char>(made, std::ios_base::in | std::ios_base::out);
+    file_.rdbuf(&buffer_);
     file_.exceptions(std::ios_base::badbit | std::ios_base::failbit);
 }
 
 OutputFile::~OutputFile()
 {
-    if (!temporary_.empty()) unlink(temporary_.c_str());
-    file_.exceptions(std::ios_base::goodbit); // closing may fail again, and nobody cares now
+    if (seekable() && !placed_) unlink(temporary_.c_str());
 }
 
 std::ostream& OutputFile::stream()
 {
-    return seekable() ? static_cast<std::ostream&>(file_) : std::cout;
+    return seekable() ? file_ : std::cout;
 }
 
 void OutputFile::write(const void* bytes, std::size_t size)
@@ -145,26 +115,29 @@ void OutputFile::finish()
     if (finished_) return;
     try {
         stream().flush();
-        if (seekable()) file_.close();
     } catch (const std::ios_base::failure&) {
         fail("cannot write");
     }
+    const bool unable = seekable() && fsync(buffer_.fd()) != 0;
+    if (unable && errno != EINVAL && errno != ENOSYS) fail("cannot write");
     finished_ = true;
+}
+
+void OutputFile::place()
+{
+    placed_ = moveFile(temporary_, target_, replaces_);
+    if (!placed_ && errno == EEXIST) refuseExisting(path_);
+    if (!placed_) fail("cannot rename");
+}
+
+void OutputFile::takeBack()
+{
+    if (!replaces_) placed_ = !moveFile(target_, temporary_, false);
 }
 
 void OutputFile::commit()
 {
-    finish();
-    if (!seekable()) return;
-    int status = renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(),
-                           overwrite_ ? 0 : RENAME_NOREPLACE);
-    if (status != 0 && (errno == EINVAL || errno == ENOSYS)) { // a file system that cannot refuse
-        checkWritable(path_, overwrite_);
-        status = rename(temporary_.c_str(), target_.c_str());
-    }
-    if (status != 0 && errno == EEXIST) refuseExisting(path_);
-    if (status != 0) fail("cannot rename");
-    temporary_.clear();
+    molsurf::commit({this});
 }
 
 void OutputFile::fail(const char* step) const

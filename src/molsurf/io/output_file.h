@@ -4,24 +4,21 @@
 /// @file
 /// Output files that appear whole or not at all.
 
-#include <fstream>
+#include <ext/stdio_filebuf.h>
+
+#include <ostream>
 #include <string>
 
 namespace molsurf
 {
-
-/// The name under which the output @a path is written until it is complete: a hidden file in the
-/// same folder whose name ends in the process number and ".part". A symbolic link is followed.
-/// Empty for standard output ("-").
-std::string temporaryName(const std::string& path);
 
 /// Finds out before any work is done whether OutputFile could be made and committed.
 ///
 /// @param[in] path       file name, or "-" for standard output, which always passes
 /// @param[in] overwrite  true if an existing file may be replaced
 /// @throws Error(ErrorKind::Output) if the folder does not exist or cannot be written to, if the
-///         path is a folder or another thing that is no file, or if the file exists and may not be
-///         replaced
+///         name is too long, if the path is a folder or another thing that is no file, or if the
+///         file exists and may not be replaced
 void checkWritable(const std::string& path, bool overwrite);
 
 /// A file that is written under temporaryName() and gets its own name by commit(). Without a commit
@@ -51,23 +48,31 @@ public:
     /// @throws Error(ErrorKind::Output) if they cannot be written
     void write(const void* bytes, std::size_t size);
 
-    /// Flushes and closes. No-op if it was done before.
+    /// Flushes, and waits until the content is on the disk. No-op if it was done before.
     /// @throws Error(ErrorKind::Output) if that fails, for example because the disk is full
     void finish();
 
-    /// finish(), then puts the file in its place.
+    /// finish(), then puts the file in its place. For several files see molsurf::commit().
     /// @throws Error(ErrorKind::Output) if that fails, or if without @a overwrite somebody else has
     ///         made a file of that name meanwhile
     void commit();
+
+    /// The parts of molsurf::commit(): where the file goes, whether it may replace another one
+    /// there, the renaming alone, and the way back, unless another file was replaced.
+    const std::string& target() const { return target_; }
+    bool replaces() const { return replaces_; }
+    void place();
+    void takeBack();
 
     /// Throws the Error for a write that failed with the present errno.
     [[noreturn]] void fail(const char* step) const;
 
 private:
     std::string path_, target_, temporary_;
-    bool overwrite_;
-    bool finished_ = false;
-    std::ofstream file_;
+    bool replaces_;
+    bool finished_ = false, placed_ = false;
+    __gnu_cxx::stdio_filebuf<char> buffer_; // holds the lock of the temporary file
+    std::ostream file_{nullptr};
 };
 
 } // namespace molsurf

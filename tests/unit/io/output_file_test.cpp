@@ -2,6 +2,7 @@
 #include "molsurf/io/output_file.h"
 
 #include "molsurf/error.h"
+#include "molsurf/io/temporary_file.h"
 #include "support/folder.h"
 
 #include <gtest/gtest.h>
@@ -100,6 +101,17 @@ TEST(OutputFile, RefusesFoldersThatAreNotThereAndFoldersAsFiles)
     std::filesystem::create_directory(folder / "a.ply");
     refusal([&] { checkWritable(folder / "a.ply", true); });
     refusal([&] { checkWritable("/dev/null", true); });
+}
+
+TEST(OutputFile, RefusesNamesThatAreTooLong)
+{
+    const Folder folder;
+    for (const int length : {255, 256, 5000}) {
+        const std::string why =
+            refusal([&] { checkWritable(folder / std::string(std::size_t(length), 'a'), true); });
+        EXPECT_NE(why.find("File name too long"), std::string::npos) << why;
+    }
+    checkWritable(folder / std::string(220, 'a'), false);
 }
 
 TEST(OutputFile, FollowsASymbolicLink)

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Files and folders that stand for an output until it is complete. Each is locked (flock) by the
+/// process that made it, so that others can tell whether it is still at work.
+
+#include <string>
+
+namespace molsurf
+{
+
+/// The name under which the output @a path is written until it is complete: a hidden file in the
+/// same folder, ".NAME.MAKER.part". A symbolic link is followed. Empty for standard output ("-").
+std::string temporaryName(const std::string& path);
+
+/// The same for a maker, in the place of this process, and a path that is no symbolic link.
+std::string temporaryName(const std::string& path, const std::string& maker);
+
+/// The maker in the names of this process: its number and a random one, since processes of other
+/// machines may write into the same folder.
+const std::string& ownMaker();
+
+/// The maker of a file of such a name; empty for other names.
+std::string makerOf(const std::string& name);
+
+/// Where an output lies: the path itself, or where a symbolic link leads.
+std::string followed(const std::string& path);
+
+/// The folder that an output is written to, at least ".".
+std::string folderOf(const std::string& path);
+
+/// Makes a file under a name of temporaryName(), locked until its descriptor is closed.
+/// @return a descriptor to read and write, or -1 with errno
+int makeLockedFile(const std::string& name);
+
+/// The same for a folder, which only its owner may enter.
+int makeLockedFolder(const std::string& name);
+
+/// Locks a file or folder of this user that another process has made.
+/// @return a descriptor, or -1 if it is gone, locked, or somebody else's
+int lockAbandoned(const std::string& name);
+
+/// Gives a file another name in its folder.
+/// @return false if that fails, with errno: EEXIST if it may not @a replace another file
+bool moveFile(const std::string& from, const std::string& to, bool replace);
+
+/// Waits until the names in a folder are on the disk, where the file system can tell.
+void syncFolder(const std::string& folder);
+
+} // namespace molsurf

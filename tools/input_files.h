@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The files that a call reads, none of which it may replace.
+
+#include "cli/call.h"
+
+#include <sys/types.h>
+
+#include <map>
+#include <string>
+#include <utility>
+
+namespace molsurf::tool
+{
+
+class InputFiles
+{
+public:
+    explicit InputFiles(const Call& call);
+
+    void add(const std::string& path);
+
+    /// @throws Error(ErrorKind::Output) if an output is one of them, by whatever name
+    void refuse(const std::string& output) const;
+
+private:
+    std::map<std::pair<dev_t, ino_t>, std::string> names_;
+};
+
+} // namespace molsurf::tool
