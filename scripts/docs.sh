@@ -11,7 +11,7 @@ scripts/install_deps.sh mkdocs mkdocs-material
 
 rm -rf build-docs
 mkdir -p build-docs/pages
-cp -r README.md CONTRIBUTING.md CHANGELOG.md LICENSE docs build-docs/pages/
+cp -r README.md CONTRIBUTING.md SECURITY.md CHANGELOG.md LICENSE docs build-docs/pages/
 mkdir -p build-docs/pages/scripts/workflow
 cp scripts/workflow/config.yaml build-docs/pages/scripts/workflow/
 mkdocs build >build-docs/log 2>&1 || { cat build-docs/log >&2; exit 1; }
