@@ -5,6 +5,7 @@
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace molsurf
 {
@@ -12,8 +13,6 @@ namespace
 {
 
 using std::string_view;
-
-constexpr std::size_t maxOperators = 1'000'000;
 
 [[noreturn]] void fail(const std::string& expression, const std::string& what)
 {
@@ -32,13 +31,15 @@ std::vector<std::string> parseList(string_view list, const std::string& expressi
         int first = 0, last = 0;
         if (dash != string_view::npos && parseInteger(trimmed(item.substr(0, dash)), first) &&
             parseInteger(trimmed(item.substr(dash + 1)), last)) {
-            if (last < first || last - first >= static_cast<int>(maxOperators)) {
+            if (last < first || std::int64_t(last) - first >= std::int64_t(maxOperators)) {
                 fail(expression, "expected a range that ascends, got " + inQuotes(item));
             }
             for (int i = first; i <= last; ++i) names.push_back(std::to_string(i));
         } else {
             names.emplace_back(item);
         }
+        if (names.size() > maxOperators)
+            fail(expression, "lists more than " + std::to_string(maxOperators) + " operators");
         if (comma == string_view::npos) return names;
         list.remove_prefix(comma + 1);
     }
@@ -178,11 +179,15 @@ std::vector<std::vector<std::string>> parseOperatorExpression(const std::string&
 std::vector<Operator> expandOperators(const std::string& expression,
                                       const std::map<std::string, Operator>& operators)
 {
-    std::vector<Operator> products;
-    for (const auto& factor : parseOperatorExpression(expression)) {
-        if (std::max<std::size_t>(products.size(), 1) * factor.size() > maxOperators) {
+    const auto factors = parseOperatorExpression(expression);
+    std::size_t count = 1;
+    for (const auto& factor : factors) {
+        count *= factor.size();
+        if (count > maxOperators)
             fail(expression, "has more than " + std::to_string(maxOperators) + " products");
-        }
+    }
+    std::vector<Operator> products;
+    for (const auto& factor : factors) {
         std::vector<Operator> next;
         for (std::size_t i = 0; i < std::max<std::size_t>(products.size(), 1); ++i) {
             for (const std::string& name : factor) {

@@ -6,6 +6,7 @@
 
 #include "molsurf/structure/structure.h"
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,6 +15,9 @@
 
 namespace molsurf
 {
+
+/// The operators that an expression may stand for, and all expressions of a file together.
+constexpr std::size_t maxOperators = 100'000;
 
 /// The motion that applies `second` first:  x -> first(second(x)).
 Operator multiplied(const Operator& first, const Operator& second);
@@ -29,7 +33,7 @@ std::vector<std::vector<std::string>> parseOperatorExpression(const std::string&
 ///
 /// @param[in] operators  _pdbx_struct_oper_list by id
 /// @throws Error(ErrorKind::Input) if the expression does not parse, names an operator that is not
-///         in the list, or has more than a million products
+///         in the list, or has more than maxOperators products
 std::vector<Operator> expandOperators(const std::string& expression,
                                       const std::map<std::string, Operator>& operators);
 

@@ -252,6 +252,7 @@ std::vector<Assembly> readAssemblies(Block& block)
                   [&](const Operator& op, const std::string&) { operators[op.name] = op; });
     std::vector<Assembly> assemblies;
     std::map<std::pair<std::size_t, std::string>, std::size_t> partOf;
+    std::size_t count = 0; // of operators
     auto table = block.find("_pdbx_struct_assembly_gen.",
                             {"assembly_id", "oper_expression", "asym_id_list"});
     for (auto row : table) {
@@ -266,7 +267,13 @@ std::vector<Assembly> readAssemblies(Block& block)
         const auto index = std::size_t(found - assemblies.begin());
         const auto known = partOf.emplace(std::pair(index, expression), found->parts.size());
         try {
-            if (known.second) found->parts.push_back({{}, expandOperators(expression, operators)});
+            if (known.second) {
+                if (count > maxOperators)
+                    throw Error(ErrorKind::Input, "the assemblies before it have more than " +
+                                                      std::to_string(maxOperators) + " operators");
+                found->parts.push_back({{}, expandOperators(expression, operators)});
+                count += found->parts.back().operators.size();
+            }
             auto& list = found->parts[known.first->second].chains;
             for (std::string& chain : splitList(chains)) list.push_back(std::move(chain));
         } catch (const Error& error) {

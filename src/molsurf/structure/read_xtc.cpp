@@ -218,6 +218,9 @@ std::uint64_t XtcFile::startFrame(std::size_t frame)
     length |= word();
     if (!file_) return 0;
     const std::uint64_t content = std::uint64_t(file_.tellg());
+    // An atom takes a bit of its coordinates and one that tells whether a run follows, at least.
+    expect(count / 4 <= length, "coordinates of " + std::to_string(count) + " atoms, got " +
+                                    std::to_string(length) + " bytes");
     return length > size_ ? 0 : content + (length + 3) / 4 * 4;
 }
 

@@ -39,7 +39,8 @@ TEST(OperatorExpression, ParsesListsRangesAndProducts)
 
 TEST(OperatorExpression, RefusesWhatDoesNotParse)
 {
-    for (const char* text : {"", "1,", "(1-3", "(1)2", "()", "9-5", "1-99999999"}) {
+    for (const char* text :
+         {"", "1,", "(1-3", "(1)2", "()", "9-5", "1-99999999", "-2147483648-2147483647"}) {
         EXPECT_HAS(errorOf(ErrorKind::Input, [&] { parseOperatorExpression(text); }),
                    "operator expression");
     }
@@ -74,7 +75,11 @@ TEST(OperatorExpression, RefusesUnknownOperatorsAndTooManyProducts)
     EXPECT_HAS(errorOf(ErrorKind::Input, [&] { expandOperators("(1)(X)", list); }),
                "operator \"X\" is not listed");
     EXPECT_HAS(errorOf(ErrorKind::Input, [&] { expandOperators("(1-1001)(1-1001)", list); }),
-               "more than 1000000 products");
+               "more than 100000 products");
+    std::string repeated = "1-99999"; // 6 KB that would become 32 GB of names
+    for (int i = 0; i < 1000; ++i) repeated += ",1-99999";
+    EXPECT_HAS(errorOf(ErrorKind::Input, [&] { parseOperatorExpression(repeated); }),
+               "more than 100000 operators");
 }
 
 TEST(Remark350, ReadsSeveralBlocksOfChains)

@@ -133,6 +133,17 @@ TEST(ReadXtc, WrongFiles)
 }
 
 /// Whatever byte is wrong, there is an answer or an error.
+/// The number of atoms would take 10 GB.
+TEST(ReadXtc, MoreAtomsThanTheFileCanHold)
+{
+    std::string many = apart;
+    const std::string count = bigEndian(1u << 28, 4);
+    many.replace(4, 4, count).replace(52, 4, count);
+    const TempFile file("a.xtc", many);
+    EXPECT_HAS(errorOf(ErrorKind::Input, [&] { openTrajectory(file.path()); }),
+               "coordinates of 268435456 atoms");
+}
+
 TEST(ReadXtc, DamagedFilesDoNoHarm)
 {
     const std::string frames = contentOf(dataFile("1d3z.xtc"));
