@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 
 namespace molsurf
 {
@@ -70,8 +71,9 @@ FrameSource::FrameSource(const std::string& input, const std::string& trajectory
         const int frameCount = int(trajectory_->frames());
         if (range.first > frameCount || range.last > frameCount)
             missing(std::max(range.first, range.last), "1-" + std::to_string(frameCount));
-        for (int i = range.first; i <= (range.last ? range.last : frameCount); i += range.step)
-            numbers_.push_back(i);
+        for (std::int64_t i = range.first; i <= (range.last ? range.last : frameCount);
+             i += range.step)
+            numbers_.push_back(int(i));
     }
     first_ = load(0);
     if (first_.labels) {
@@ -112,9 +114,9 @@ void FrameSource::chooseModels(const FrameRange& range)
                 numbers_.push_back(model.number);
         return;
     }
-    for (int i = range.first; i <= range.last; i += range.step) {
-        if (!has(i)) missing(i, there);
-        numbers_.push_back(i);
+    for (std::int64_t i = range.first; i <= range.last; i += range.step) {
+        if (!has(int(i))) missing(int(i), there);
+        numbers_.push_back(int(i));
     }
     if (!has(range.last)) missing(range.last, there);
 }
