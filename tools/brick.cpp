@@ -29,7 +29,8 @@ Call callOf(PlanManifest manifest, const std::string& path)
     const auto resolve = [&](std::string& file) {
         for (const char* name : {"groups", "radii"}) {
             const auto found = manifest.options.find(name);
-            if (found != manifest.options.end() && found->second.back() == file)
+            if (found != manifest.options.end() && !found->second.empty() &&
+                found->second.back() == file)
                 found->second.back() = (folder / file).string();
         }
         file = (folder / file).string();
@@ -53,6 +54,7 @@ Call callOf(PlanManifest manifest, const std::string& path)
     call.input = manifest.input;
     setOptions(manifest.options, call);
     completeSurface(call);
+    checkPlan(manifest.plan, call.options);
     call.options.evolution.steps = manifest.plan.steps;
     checkBrickOptions(call.options);
     return call;

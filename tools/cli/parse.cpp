@@ -177,7 +177,10 @@ void setOptions(const GivenOptions& given, Call& call)
         for (const Option& option : group.options) {
             if (!(option.verbs & call.verb)) continue;
             const auto found = given.find(option.name);
-            if (found != given.end()) option.set(call, found->second);
+            if (found == given.end()) continue;
+            if (option.value && found->second.empty()) // in a plan
+                misuse(std::string("--") + option.name + ": expected a value, got none");
+            option.set(call, found->second);
         }
     }
     if (call.quiet && call.verbose) misuse("--quiet and --verbose together");

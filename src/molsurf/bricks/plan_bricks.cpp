@@ -400,6 +400,13 @@ double secondsOf(const std::vector<PlannedBrick>& bricks)
     return seconds;
 }
 
+/// The number of steps that all bricks make.
+int stepsOf(const SurfaceOptions& options)
+{
+    if (options.evolution.steps >= 0) return options.evolution.steps;
+    return startsCoarse(options) ? defaultFrontSteps : defaultBrickSteps;
+}
+
 /// Cuts by the limits; without any the whole is one brick.
 BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const Influence& influence,
                    const BrickLimits& limits, double grain, const Progress& progress)
@@ -411,9 +418,7 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const In
     plan.maxGrownRadius = influence.extent().maxGrownRadius;
     plan.maxTolerance = influence.extent().maxTolerance;
     plan.atoms = atoms.balls.size();
-    plan.steps = options.evolution.steps >= 0 ? options.evolution.steps
-                 : startsCoarse(options)      ? defaultFrontSteps
-                                              : defaultBrickSteps;
+    plan.steps = stepsOf(options);
     Planner planner(atoms, options, influence, grain, progress);
     const CoordBBox& box = planner.box();
     if (limits.memory > 0) {
@@ -441,6 +446,17 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const In
     }
     plan.anchor = Coord::floor(0.5 * leafDim * (box.min() + box.max()).asVec3d());
     return plan;
+}
+
+/// Refuses a plan of other balls. Machines may differ in the last digits.
+void checkExtent(const BrickPlan& plan, const GaussianExtent& extent)
+{
+    const auto equal = [](double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b); };
+    if (equal(plan.maxRadius, extent.maxRadius) &&
+        equal(plan.maxGrownRadius, extent.maxGrownRadius) &&
+        equal(plan.maxTolerance, extent.maxTolerance))
+        return;
+    throw Error(ErrorKind::Input, "the plan is damaged: its largest ball is not that of the atoms");
 }
 
 } // namespace
@@ -501,6 +517,23 @@ void checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLim
     checkCost(planWhole(atoms, options, progress).bricks[0], limits);
 }
 
+void checkPlan(const BrickPlan& plan, const SurfaceOptions& options)
+{
+    const auto check = [](bool good, const char* what) {
+        if (!good) throw Error(ErrorKind::Input, std::string("the plan is damaged: ") + what);
+    };
+    check(plan.steps == stepsOf(options), "its steps are not those of its options");
+    constexpr int far = 1 << 28; // [voxel], beyond any atom
+    const CoordBBox space(Coord(-far), Coord(far - 1));
+    check(space.isInside(plan.anchor), "its anchor is far away");
+    for (const PlannedBrick& brick : plan.bricks) {
+        const Coord begin = brick.box.min(), end = brick.box.max().offsetBy(1);
+        check(!brick.box.empty() && space.isInside(begin) && space.isInside(brick.box.max()) &&
+                  (begin & (leafDim - 1)) == Coord(0) && (end & (leafDim - 1)) == Coord(0),
+              "a brick is no box of whole leaves");
+    }
+}
+
 GaussianExtent extentOf(const BrickPlan& plan)
 {
     return {plan.maxRadius, plan.maxGrownRadius, plan.maxTolerance};
@@ -519,6 +552,7 @@ void computeBrick(const BallSet& balls, const SurfaceOptions& options, const Bri
 {
     SurfaceOptions fixed = options;
     fixed.evolution.steps = plan.steps;
+    checkExtent(plan, Influence(balls, fixed).extent());
     Scope scope = scopeOf(plan, number - 1, fixed);
     Report ofCoarse;
     if (!coarse && startsCoarse(fixed)) {

@@ -32,6 +32,12 @@ void checkCost(const PlannedBrick& cost, const RunLimits& limits);
 void checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLimits& limits,
                const Progress& progress);
 
+/// Checks the numbers of a plan that was read from a file, which could prolong a run or lead it out
+/// of space: its steps are those that the options say, and its bricks are boxes of whole leaves.
+/// computeBrick() checks the lengths.
+/// @throws Error(ErrorKind::Input) with what is wrong
+void checkPlan(const BrickPlan& plan, const SurfaceOptions& options);
+
 /// The extent that a plan keeps.
 GaussianExtent extentOf(const BrickPlan& plan);
 

@@ -286,6 +286,34 @@ TEST_F(Bricks, RefuseWhatNeedsTheWhole)
     refused([](SurfaceOptions& o) { o.surfaceOf = {{"a", SurfaceKind::VanDerWaals}}; });
 }
 
+TEST_F(Bricks, DamagedPlansAreRefused)
+{
+    BallSet atoms;
+    atoms.balls = {{Vec3f(0.0f), 2.0f, 0}, {Vec3f(3.0f, 0.0f, 0.0f), 2.0f, 1}};
+    SurfaceOptions options;
+    options.voxel = 1.0;
+    const BrickPlan good = planBricks(atoms, options, {1, 0});
+    checkPlan(good, options);
+    const auto expectRefused = [&](const auto& damage) {
+        BrickPlan plan = good;
+        damage(plan);
+        EXPECT_THROW(checkPlan(plan, options), Error);
+    };
+    expectRefused([](BrickPlan& plan) { plan.steps = 2'000'000'000; });
+    expectRefused([](BrickPlan& plan) { plan.steps = -1; });
+    expectRefused([](BrickPlan& plan) { plan.anchor.x() = 1 << 30; });
+    expectRefused([](BrickPlan& plan) { plan.bricks[0].box.max().x() = 2147483647; });
+    expectRefused([](BrickPlan& plan) { plan.bricks[0].box.min().y() -= 1; });
+    expectRefused(
+        [](BrickPlan& plan) { std::swap(plan.bricks[0].box.min(), plan.bricks[0].box.max()); });
+    for (double BrickPlan::*length :
+         {&BrickPlan::maxRadius, &BrickPlan::maxGrownRadius, &BrickPlan::maxTolerance}) {
+        BrickPlan plan = good;
+        plan.*length = 1e9;
+        EXPECT_THROW(makeBrick(atoms, options, plan, 1, path("a.brick")), Error);
+    }
+}
+
 TEST_F(Bricks, ACutFileIsRefused)
 {
     BallSet atoms;
