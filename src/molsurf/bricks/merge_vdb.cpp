@@ -119,6 +119,9 @@ T valueFrom(const std::vector<double>& numbers)
 void checkLeaf(const StoredLeaf& leaf, const Coord& origin, const BrickFile& brick)
 {
     if ((origin & 7) != Coord(0)) refuse(brick, "a leaf between leaves");
+    constexpr int far = 1 << 26; // [voxel], beyond any ball; what lies between leaves is filled
+    if (!openvdb::CoordBBox(Coord(-far), Coord(far)).isInside(origin))
+        refuse(brick, "a leaf far away");
     if (leaf.negative >> signBits != 0) refuse(brick, "a leaf of unknown signs");
     const std::uint64_t end = brick.header().areas.offset;
     if (leaf.offset > end || leaf.size > end - leaf.offset)

@@ -527,9 +527,9 @@ void checkPlan(const BrickPlan& plan, const SurfaceOptions& options)
     const CoordBBox space(Coord(-far), Coord(far - 1));
     check(space.isInside(plan.anchor), "its anchor is far away");
     for (const PlannedBrick& brick : plan.bricks) {
-        const Coord begin = brick.box.min(), end = brick.box.max().offsetBy(1);
-        check(!brick.box.empty() && space.isInside(begin) && space.isInside(brick.box.max()) &&
-                  (begin & (leafDim - 1)) == Coord(0) && (end & (leafDim - 1)) == Coord(0),
+        const Coord &min = brick.box.min(), &max = brick.box.max();
+        check(!brick.box.empty() && space.isInside(min) && space.isInside(max) &&
+                  (min & (leafDim - 1)) == Coord(0) && (max & (leafDim - 1)) == Coord(leafDim - 1),
               "a brick is no box of whole leaves");
     }
 }

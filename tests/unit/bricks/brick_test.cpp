@@ -468,6 +468,8 @@ TEST_F(HostileBricks, LeavesThatAreNoneAreRefused)
     expectRefused("unknown signs");
     with([](StoredLeaf& leaf) { leaf.origin[1] += 3; });
     expectRefused("between leaves");
+    with([](StoredLeaf& leaf) { leaf.origin[2] = 1 << 30; });
+    expectRefused("far away");
     with([](StoredLeaf& leaf) { leaf.size = ~std::uint64_t(0) - 7; });
     expectRefused("lie outside");
     with([](StoredLeaf& leaf) { leaf.offset = std::uint64_t(1) << 50; });
