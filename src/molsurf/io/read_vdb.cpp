@@ -2,7 +2,9 @@
 #include "molsurf/io/read_vdb.h"
 
 #include "molsurf/error.h"
+#include "molsurf/io/check_vdb.h"
 
+#include <openvdb/io/DelayedLoadMetadata.h>
 #include <openvdb/io/Stream.h>
 
 #include <cerrno>
@@ -10,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <new>
 
 namespace molsurf
 {
@@ -21,6 +24,17 @@ namespace
 {
     throw Error(ErrorKind::Input, "cannot read " + path + ": " + why);
 }
+
+/// Has OpenVDB skip the sizes of leaves that a file may hold for readers that load later, while it
+/// lives: it would take as much memory for them as they say.
+class WithoutDelayedLoad
+{
+public:
+    WithoutDelayedLoad() { openvdb::io::DelayedLoadMetadata::unregisterType(); }
+    ~WithoutDelayedLoad() { openvdb::io::DelayedLoadMetadata::registerType(); }
+    WithoutDelayedLoad(const WithoutDelayedLoad&) = delete;
+    WithoutDelayedLoad& operator=(const WithoutDelayedLoad&) = delete;
+};
 
 } // namespace
 
@@ -43,6 +57,9 @@ VdbFile readVdb(const std::string& path)
         // Not io::File: beyond the end of a file that is cut short it goes on with whatever its
         // variables held before. A stream that throws there stops it.
         stream.exceptions(std::ios_base::badbit | std::ios_base::failbit | std::ios_base::eofbit);
+        const WithoutDelayedLoad guard;
+        checkVdb(stream, std::filesystem::file_size(path));
+        stream.seekg(0);
         openvdb::io::Stream reader(stream, false);
         VdbFile content;
         content.grids = *reader.getGrids();
@@ -50,8 +67,12 @@ VdbFile readVdb(const std::string& path)
         return content;
     } catch (const openvdb::Exception& e) {
         refuse(path, std::string("not a .vdb file, or damaged (") + e.what() + ")");
-    } catch (const std::exception&) {
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::ios_base::failure&) {
         refuse(path, "not a .vdb file, or damaged or cut short");
+    } catch (const std::exception& e) {
+        refuse(path, std::string("not a .vdb file, or damaged (") + e.what() + ")");
     }
 }
 

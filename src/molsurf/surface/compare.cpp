@@ -144,6 +144,10 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
     const FloatGrid::Ptr stored = findLevelSet(grids);
     const Pose pose = poseOf(*stored);
     operand.voxel = stored->voxelSize()[0];
+    // A tile is a few bytes of a file, and may be 2^36 voxels.
+    const auto leaves = stored->tree().leafCount();
+    if (stored->activeVoxelCount() - stored->tree().activeLeafVoxelCount() > leafSize * leaves)
+        refuse(gridName(*stored) + ": expected a narrow band, got more voxels in tiles than in it");
     stored->tree().voxelizeActiveTiles();
     if (stored->tree().leafCount() == 0) refuse(gridName(*stored) + ": expected voxels, got none");
     for (auto it = stored->cbeginValueOn(); it; ++it)

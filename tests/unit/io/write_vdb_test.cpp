@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <random>
 #include <sstream>
 
 namespace molsurf
@@ -138,6 +140,75 @@ TEST(ReadVdb, RefusesWhatIsNoVdbFile)
         } catch (const Error& e) {
             EXPECT_EQ(e.kind(), ErrorKind::Input);
             EXPECT_NE(std::string(e.what()).find(folder / name), std::string::npos) << e.what();
+        }
+    }
+}
+
+/// A file of a ball, with packed values.
+std::string packedFile(const test::Folder& folder)
+{
+    std::ofstream file(folder / "packed.vdb", std::ios::binary);
+    openvdb::io::Stream stream(file);
+    stream.setCompression(openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK);
+    stream.write(openvdb::GridCPtrVec{test::ballGrid()});
+    file.close();
+    return test::contentOf(folder / "packed.vdb");
+}
+
+void expectDamaged(const test::Folder& folder, const std::string& bytes, const char* why)
+{
+    std::ofstream(folder / "damaged.vdb", std::ios::binary) << bytes;
+    try {
+        readVdb(folder / "damaged.vdb");
+        ADD_FAILURE() << "expected an Error: " << why;
+    } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::Input);
+        EXPECT_NE(std::string(e.what()).find(why), std::string::npos) << e.what();
+    }
+}
+
+// OpenVDB would read as many bytes into the array of a leaf as stand before its values.
+TEST(ReadVdb, RefusesValuesThatAreTooManyForTheirLeaf)
+{
+    const test::Folder folder;
+    std::string bytes = packedFile(folder);
+    std::int64_t size = 1; // of the last leaf's values, before which it stands
+    for (std::int64_t found = 0;; ++size) {
+        std::memcpy(&found, &bytes[bytes.size() - std::size_t(size) - sizeof found], sizeof found);
+        if (found == size) break;
+    }
+    const std::int64_t much = -1'000'000;
+    std::memcpy(&bytes[bytes.size() - std::size_t(size) - sizeof much], &much, sizeof much);
+    bytes.resize(bytes.size() + 1'000'000);
+    expectDamaged(folder, bytes, "values of another length");
+}
+
+// A text of 4 GB would be made before the file is found too short.
+TEST(ReadVdb, RefusesLengthsBeyondTheFile)
+{
+    const test::Folder folder;
+    const std::string good = packedFile(folder);
+    for (const char* word : {"surface", "Tree_float_5_4_3", "class", "UniformScaleMap"}) {
+        std::string bytes = good;
+        const std::uint32_t much = 0xf0000000;
+        std::memcpy(&bytes[bytes.find(word) - sizeof much], &much, sizeof much);
+        expectDamaged(folder, bytes, "a length in it is wrong");
+    }
+}
+
+TEST(ReadVdb, DamagedBytesDoNoHarm)
+{
+    const test::Folder folder;
+    const std::string good = packedFile(folder);
+    std::mt19937 random(5);
+    for (int i = 0; i < 300; ++i) {
+        std::string bytes = good;
+        bytes[random() % bytes.size()] = char(random());
+        std::ofstream(folder / "damaged.vdb", std::ios::binary) << bytes;
+        try {
+            readVdb(folder / "damaged.vdb");
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::Input);
         }
     }
 }

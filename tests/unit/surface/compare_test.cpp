@@ -151,6 +151,14 @@ TEST(OperandOfGrids, BadGrids)
 
 // A run and what it leaves in a file are the same surface: exactly with the spline, nearly from the
 // level set, which was made a distance again.
+/// A tile of a few bytes would become 2^36 voxels.
+TEST(OperandOfGrids, TilesAreNoBand)
+{
+    const auto grid = sphereGrid(3.0, centre, 0.5, "surface");
+    grid->tree().addTile(3, openvdb::Coord(1 << 20), 0.1f, true);
+    EXPECT_SAYS({grid}, "more voxels in tiles");
+}
+
 TEST(OperandOfResult, AgreesWithItsGrids)
 {
     for (const int level : {0, 1}) {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// A look over a .vdb file before OpenVDB reads it.
+
+#include <cstdint>
+#include <istream>
+
+namespace molsurf
+{
+
+/// Follows a .vdb file from its first byte to the end of its last grid, and checks what OpenVDB
+/// believes: lengths of texts and metadata buy memory, a length of packed values says how many
+/// bytes go into an array, places of nodes decide which is freed. What passes is read in memory in
+/// proportion to the size of the file.
+///
+/// @param[in] stream  at its beginning
+/// @param[in] size    of the file [byte]
+/// @throws std::runtime_error with what is wrong
+void checkVdb(std::istream& stream, std::uint64_t size);
+
+} // namespace molsurf
