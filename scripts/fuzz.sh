@@ -1,33 +1,42 @@
 #!/bin/bash
-# Fuzzes the readers: scripts/fuzz.sh [SECONDS [TARGET ...]]. Each target (tests/fuzz) runs so many seconds, 60
-# unless told, as many at once as there are cores, from the corpus in the repository and what earlier runs have
-# found in build-fuzz/corpus. The last line of each says how many inputs it has tried. An input that ends a
-# target by a signal, a sanitizer, 1 GB of memory or 10 s lies in build-fuzz/findings then, and the status is 1.
-# The target vdb has to be named: OpenVDB's own reader leaks and takes memory on some damaged files.
+# Fuzzes the readers of files, each target for some seconds, as many at once as there are processors:
+#     scripts/fuzz.sh [SECONDS] [TARGET...]
+# Without targets it runs all (tests/fuzz/CMakeLists.txt), without seconds each for 60. It needs clang.
+# What libFuzzer learns stays in build-fuzz/corpus/, what it finds in build-fuzz/findings/. The exit status is 1
+# if there is a finding: a crash, a report of a sanitizer, a leak, more than a second or 400 MB. (The sanitizers
+# themselves need half of this.)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-seconds=${1:-60}
-shift || true
-targets=${*:-structure trajectory mesh text brick}
+seconds=60
+if [[ ${1:-} =~ ^[0-9]+$ ]]; then
+  seconds=$1
+  shift
+fi
+command -v clang++ > /dev/null || { echo "fuzz.sh: clang is missing [hint: apt-get install clang]" >&2; exit 2; }
 cmake --preset fuzz > /dev/null
-cmake --build --preset fuzz $(printf -- '--target fuzz_%s ' $targets)
-mkdir -p build-fuzz/findings
+cmake --build --preset fuzz
+targets=("$@")
+if [[ ${#targets[@]} -eq 0 ]]; then
+  mapfile -t targets < <(sed -n 's/^molsurf_fuzz(\([a-z]*\) .*/\1/p' tests/fuzz/CMakeLists.txt)
+fi
 
 run() {
-  mkdir -p "build-fuzz/corpus/$1"
-  local leaks=1
-  [ "$1" = vdb ] && leaks=0
-  # OpenVDB and TBB are not built with sanitizers, so their containers cannot be followed.
-  if ASAN_OPTIONS=detect_container_overflow=0:allocator_may_return_null=0 \
-    "build-fuzz/tests/fuzz/fuzz_$1" -max_total_time="$2" -timeout=10 -rss_limit_mb=1024 -malloc_limit_mb=1024 \
-    -artifact_prefix="build-fuzz/findings/$1." -detect_leaks=$leaks "build-fuzz/corpus/$1" "tests/fuzz/corpus/$1" \
-    > "build-fuzz/findings/$1.log" 2>&1; then
-    echo "$1: $(grep -E '^Done' "build-fuzz/findings/$1.log")"
-  else
-    echo "$1: a finding, see build-fuzz/findings/$1.log"
-    return 1
-  fi
+  local target=$1 log=build-fuzz/$1.log options=()
+  mkdir -p "build-fuzz/corpus/$target" build-fuzz/findings
+  [[ ! -f tests/fuzz/$target.dict ]] || options+=("-dict=tests/fuzz/$target.dict")
+  local status=0
+  "build-fuzz/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=1 -rss_limit_mb=400 -max_len=65536 \
+    -artifact_prefix="build-fuzz/findings/$target-" -print_final_stats=1 "${options[@]}" \
+    "build-fuzz/corpus/$target" "tests/fuzz/corpus/$target" > "$log" 2>&1 || status=$?
+  printf '%-12s %s, %s\n' "$target" "$(sed -n 's/stat::number_of_executed_units: */executions /p' "$log")" \
+    "$(grep -o 'cov: [0-9]* ft: [0-9]*' "$log" | tail -1)"
+  [[ $status -eq 0 ]] && return
+  echo "$target: a finding, see $log and build-fuzz/findings/"
+  grep -m1 -E 'ERROR|runtime error|SUMMARY' "$log" || true
+  return 1
 }
 export -f run
-printf '%s\n' $targets | xargs -P "$(nproc)" -I TARGET bash -c "run TARGET $seconds"
+export seconds ASAN_OPTIONS=detect_odr_violation=0 LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0
+export TBB_NUM_THREADS=1
+printf '%s\n' "${targets[@]}" | xargs -P "$(nproc)" -I {} bash -c 'run {}'

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-/// Trajectories: .dcd and .xtc, told by their content.
-#include "fuzz.h"
+/// @file
+/// Trajectories, DCD and XTC.
+
+#include "input.h"
 
 #include "molsurf/structure/trajectory.h"
 
@@ -9,11 +11,11 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace molsurf;
-    const fuzz::InputFile file(data, size, ".dcd");
-    fuzz::tryTo([&] {
-        const auto trajectory = openTrajectory(file.path());
-        const std::size_t frames = std::min<std::size_t>(trajectory->frames(), 4);
-        for (std::size_t i = 0; i < frames; ++i) trajectory->read(i);
+    fuzz::expectErrorAtMost([&] {
+        const auto trajectory = openTrajectory(fuzz::inputFile(data, size, ".dcd"));
+        constexpr std::size_t most = 4;
+        for (std::size_t i = 0; i < std::min(trajectory->frames(), most); ++i) trajectory->read(i);
+        trajectory->read(trajectory->frames() - 1);
     });
     return 0;
 }

@@ -1,0 +1,46 @@
+#!/bin/bash
+# Runs the unit tests under sanitizers:
+#     scripts/sanitizers.sh [asan] [tsan]
+# asan is the address and the undefined behaviour sanitizer, tsan the thread sanitizer; without words both run. tsan
+# reports races that there are none unless oneTBB is instrumented too: the script gets Debian's source (2 MB) and builds
+# it once, in build-tsan/onetbb/. What stays uninstrumented is in tests/tsan.supp.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+onetbb=$PWD/build-tsan/onetbb
+
+# Debian's source of the package that is installed, without a line in /etc/apt.
+get_onetbb() {
+  mkdir -p "$onetbb/lists/partial"
+  local key=/usr/share/keyrings/debian-archive-keyring.gpg
+  echo "deb-src [signed-by=$key] http://deb.debian.org/debian bookworm main" > "$onetbb/sources.list"
+  local apt=(apt-get -q -o "Dir::Etc::SourceList=$onetbb/sources.list" -o Dir::Etc::SourceParts=/dev/null
+             -o "Dir::State::Lists=$onetbb/lists" -o "Dir::Cache=$onetbb/cache" -o "APT::Sandbox::User=$(id -un)")
+  command -v dpkg-source > /dev/null ||
+    { echo "sanitizers.sh: dpkg-source is missing [hint: apt-get install dpkg-dev]" >&2; exit 2; }
+  (cd "$onetbb" && "${apt[@]}" update && "${apt[@]}" source onetbb)
+}
+
+build_onetbb() {
+  [[ -e $onetbb/libtbb.so.12 ]] && return
+  get_onetbb
+  cmake -G Ninja -S "$onetbb"/onetbb-*/ -B "$onetbb/build" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DTBB_TEST=OFF \
+    -DTBB_STRICT=OFF -DCMAKE_CXX_FLAGS="-fsanitize=thread -fno-omit-frame-pointer"
+  cmake --build "$onetbb/build" --target tbb
+  cp -P "$onetbb"/build/*/libtbb.so* "$onetbb"
+}
+
+[[ $# -gt 0 ]] || set -- asan tsan
+for preset in "$@"; do
+  case $preset in
+    asan) ;;
+    tsan)
+      build_onetbb
+      export LD_LIBRARY_PATH=$onetbb${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+      ;;
+    *) echo "usage: scripts/sanitizers.sh [asan] [tsan]" >&2; exit 2 ;;
+  esac
+  cmake --preset "$preset"
+  cmake --build --preset "$preset"
+  ctest --preset "$preset" --label-exclude 'cli|package'
+done

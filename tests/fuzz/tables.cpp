@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MPL-2.0
+/// @file
+/// Small files of text: those that users write, and those that the program reads back. The first
+/// byte says which, the others are the file.
+
+#include "input.h"
+
+#include "cli/parse.h"
+#include "molsurf/io/batch_summary.h"
+#include "molsurf/io/frame_table.h"
+#include "molsurf/io/write_usda.h"
+#include "molsurf/selection/groups.h"
+#include "molsurf/selection/radii.h"
+#include "molsurf/structure/structure_list.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    using namespace molsurf;
+    if (size == 0) return 0;
+    const std::string path = fuzz::inputFile(data + 1, size - 1, ".txt");
+    fuzz::expectErrorAtMost([&] {
+        switch (data[0]) {
+        case 'r':
+            readRadii(path);
+            break;
+        case 'g':
+            readGroups(path);
+            break;
+        case 's':
+            readSummary(path);
+            break;
+        case 'f':
+            readFrameTable(path);
+            break;
+        case 'l':
+            readStructureList(path);
+            break;
+        case 'u':
+            isOwnUsda(path);
+            break;
+        case 'c': {
+            const char* words[] = {"vdb_molsurf", "--config", path.c_str(), "a.pdb"};
+            tool::parse(4, words);
+            break;
+        }
+        }
+    });
+    return 0;
+}
