@@ -38,14 +38,15 @@ namespace molsurf
 {
 
 /// Vectors of 32 bytes, the width of AVX2. Wider ones are slower: GCC 12 splits their comparisons
-/// into single numbers, except those in the condition of ?: with AVX-512.
+/// into single numbers, except those in the condition of ?: with AVX-512. The alignment stands before
+/// the vector, where clang heeds it, too.
 constexpr int floatLanes = 8, doubleLanes = 4;
-using Floats = float __attribute__((vector_size(32), aligned(4)));
-using Ints = std::int32_t __attribute__((vector_size(32), aligned(4)));
-using Doubles = double __attribute__((vector_size(32), aligned(8)));
-using Longs = std::int64_t __attribute__((vector_size(32), aligned(8)));
+using Floats __attribute__((aligned(4))) = float __attribute__((vector_size(32)));
+using Ints __attribute__((aligned(4))) = std::int32_t __attribute__((vector_size(32)));
+using Doubles __attribute__((aligned(8))) = double __attribute__((vector_size(32)));
+using Longs __attribute__((aligned(8))) = std::int64_t __attribute__((vector_size(32)));
 /// Four floats, one for each of the cubic B-splines that overlap a cell.
-using Floats4 = float __attribute__((vector_size(16), aligned(4)));
+using Floats4 __attribute__((aligned(4))) = float __attribute__((vector_size(16)));
 
 /// The vector that begins at p, which needs no alignment beyond that of its numbers.
 MOLSURF_INLINE Floats load(const float* p)
