@@ -37,6 +37,8 @@ run() {
   return 1
 }
 export -f run
-export seconds ASAN_OPTIONS=detect_odr_violation=0 LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0
+export seconds LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0
+# Freed memory that waits for late readers counts, too.
+export ASAN_OPTIONS=quarantine_size_mb=32:detect_odr_violation=0
 export TBB_NUM_THREADS=1
 printf '%s\n' "${targets[@]}" | xargs -P "$(nproc)" -I {} bash -c 'run {}'

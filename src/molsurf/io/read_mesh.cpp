@@ -37,7 +37,7 @@ std::string contentOf(const std::string& path)
     std::string content;
     const auto size = std::filesystem::file_size(path, failure);
     if (!failure) content.reserve(size);
-    std::vector<char> piece(std::size_t(1) << 20);
+    std::vector<char> piece(std::size_t(1) << 16);
     while (file.read(piece.data(), std::streamsize(piece.size())) || file.gcount() > 0)
         content.append(piece.data(), std::size_t(file.gcount()));
     if (file.bad()) badMesh(std::strerror(errno));
