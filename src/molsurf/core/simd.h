@@ -38,8 +38,8 @@ namespace molsurf
 {
 
 /// Vectors of 32 bytes, the width of AVX2. Wider ones are slower: GCC 12 splits their comparisons
-/// into single numbers, except those in the condition of ?: with AVX-512. The alignment stands before
-/// the vector, where clang heeds it, too.
+/// into single numbers, except those in the condition of ?: with AVX-512. The alignment stands
+/// before the vector, where clang heeds it, too.
 constexpr int floatLanes = 8, doubleLanes = 4;
 using Floats __attribute__((aligned(4))) = float __attribute__((vector_size(32)));
 using Ints __attribute__((aligned(4))) = std::int32_t __attribute__((vector_size(32)));

@@ -78,6 +78,9 @@ Pose poseOf(const openvdb::GridBase& grid)
     Pose pose;
     pose.shift = transform.indexToWorld(Vec3d(0.0));
     const double voxel = grid.voxelSize()[0];
+    constexpr double least = 1e-6, most = 1e6; // [Å]
+    if (!(voxel >= least && voxel <= most) || !(pose.shift.length() <= 1e3 * most))
+        refuse(gridName(grid) + ": expected voxels of 1e-6 to 1e6 Å, within 1e9 Å of the origin");
     for (int axis = 0; axis < 3; ++axis) {
         Vec3d step(0.0);
         step[axis] = 1.0;
@@ -118,6 +121,16 @@ Spline fitted(const FloatGrid& grid, const Progress& progress)
     return fitSpline(S, 0, progress);
 }
 
+/// Refuses leaves near the largest whole numbers.
+void checkPlace(const FloatGrid& grid)
+{
+    constexpr int far = 1 << 26; // [voxel]
+    openvdb::CoordBBox box;
+    grid.tree().evalLeafBoundingBox(box);
+    if (!openvdb::CoordBBox(Coord(-far), Coord(far)).isInside(box))
+        refuse(gridName(grid) + ": expected voxels within 2^26 of the origin");
+}
+
 FloatGrid::Ptr findSpline(const openvdb::GridPtrVec& grids)
 {
     for (const auto& grid : grids) {
@@ -150,6 +163,7 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
         refuse(gridName(*stored) + ": expected a narrow band, got more voxels in tiles than in it");
     stored->tree().voxelizeActiveTiles();
     if (stored->tree().leafCount() == 0) refuse(gridName(*stored) + ": expected voxels, got none");
+    checkPlace(*stored);
     for (auto it = stored->cbeginValueOn(); it; ++it)
         if (!std::isfinite(*it)) refuse(gridName(*stored) + ": a value is not a number");
 
@@ -158,6 +172,7 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
     const FloatGrid::Ptr coefficients = findSpline(grids);
     if (coefficients) {
         const Pose other = poseOf(*coefficients);
+        checkPlace(*coefficients);
         if ((other.shift - pose.shift).length() > 1e-3 * operand.voxel ||
             !other.turn.eq(pose.turn, 1e-5))
             refuse("grids 'surface' and 'spline': expected one origin and direction, got two");

@@ -58,6 +58,10 @@ openvdb::GridPtrVec inAngstrom(const openvdb::GridPtrVec& grids, const openvdb::
     const double scale = numberOf(metadata, "scene.units_per_angstrom", 1.0);
     const double shift = numberOf(metadata, "scene.shift_in_voxels", 0.0);
     if (scale == 1.0 && shift == 0.0) return grids;
+    constexpr double least = 1e-9, most = 1e9;
+    if (!(scale >= least && scale <= most && std::abs(shift) <= most))
+        throw Error(ErrorKind::Input, "metadata scene.units_per_angstrom and shift_in_voxels: "
+                                      "expected numbers from 1e-9 to 1e9");
     openvdb::GridPtrVec out;
     for (const auto& grid : grids) {
         const auto placed = openvdb::gridPtrCast<FloatGrid>(grid);
@@ -137,9 +141,13 @@ std::vector<Group> readLabels(const std::string& text)
 std::vector<Group> labelsOf(const Int32Grid& grid, const openvdb::MetaMap& metadata)
 {
     std::vector<Group> labels = readLabels(textOf(metadata, "label." + grid.getName()));
+    if (!labels.empty()) return labels;
     std::int32_t most = -1;
     for (auto it = grid.cbeginValueOn(); it; ++it) most = std::max(most, *it);
-    if (std::size_t(most + 1) <= labels.size()) return labels;
+    constexpr std::int32_t last = 4095; // every pair of them takes memory
+    if (most > last)
+        throw Error(ErrorKind::Input, "grid '" + grid.getName() + "': expected labels up to " +
+                                          std::to_string(last) + ", got " + std::to_string(most));
     std::vector<std::vector<std::int32_t>> others(std::size_t(most) + 1);
     for (std::size_t i = 0; i < others.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) others[i].push_back(std::int32_t(j));
