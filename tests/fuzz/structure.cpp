@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 /// @file
-/// Structures: files whose names end in FUZZ_ENDING, from the text to the balls of an assembly.
+/// Structures: files whose names end in FUZZ_ENDING, from the text to the balls of an assembly. The
+/// last byte, which no format needs, chooses what is made of them.
 
 #include "input.h"
 
@@ -12,13 +13,20 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace molsurf;
+    const unsigned choice = size > 0 ? data[size - 1] : 0;
+    const std::string path = fuzz::inputFile(data, size, FUZZ_ENDING);
     fuzz::expectErrorAtMost([&] {
-        const std::string path = fuzz::inputFile(data, size, FUZZ_ENDING);
         const Structure structure = readStructure(path);
         SelectOptions options;
-        if (!structure.assemblies.empty()) options.assembly = structure.assemblies[0].name;
-        selectBalls(structure, options, 1.4, Progress());
-        describeStructure(path);
+        options.labels = true;
+        if (choice & 1 && !structure.assemblies.empty())
+            options.assembly = structure.assemblies.back().name;
+        options.instances = options.assembly != "none" && choice & 2;
+        if (choice & 4) options.groupBy = "entity";
+        if (choice & 8) options.coarse = {{"", CoarseRule::Level::Residue, 1}};
+        const BallSet balls = selectBalls(structure, options, 1.4, Progress());
+        describeSelection(structure, balls);
     });
+    if (choice & 16) fuzz::expectErrorAtMost([&] { describeStructure(path); });
     return 0;
 }
