@@ -18,6 +18,7 @@
 #include "molsurf/picture/write_png.h"
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/surface/stored_surface.h"
+#include "molsurf/surface/unit_mesh.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -146,6 +147,13 @@ std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, co
     return out;
 }
 
+/// Whether a file holds the mesh of a whole, triangle by triangle.
+bool holdsWhole(Format format)
+{
+    return format == Format::Ply || format == Format::Obj || format == Format::Stl ||
+           format == Format::Off || format == Format::ThreeMf;
+}
+
 void writePicture(const Call& call, const BallSet& atoms, const Mesh& mesh, double turn,
                   const Progress& progress, OutputFile& file)
 {
@@ -181,6 +189,12 @@ std::string optionsDigest(const Call& call)
 void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,
                  const Output& output, const Progress& progress, OutputFile& file)
 {
+    std::optional<Mesh> whole;
+    if (atoms.unit && holdsWhole(output.format))
+        whole = wholeMesh(atoms, result, call.weld,
+                          call.colorCopies ? instanceColors(atoms, progress) : std::vector<Color>(),
+                          progress);
+    const Mesh& mesh = whole ? *whole : result.mesh;
     switch (output.format) {
     case Format::Vdb: {
         openvdb::MetaMap metadata = vdbMetadata(call, result.report);
@@ -192,16 +206,16 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
         writeUsda(gridsOf(call, result), usdVolume(call, output), file);
         break;
     case Format::Ply:
-        writePly(result.mesh, file);
+        writePly(mesh, file);
         break;
     case Format::Obj:
-        writeObj(result.mesh, file, printUnit(call));
+        writeObj(mesh, file, printUnit(call));
         break;
     case Format::Stl:
-        writeStl(result.mesh, file, printUnit(call));
+        writeStl(mesh, file, printUnit(call));
         break;
     case Format::Off:
-        writeOff(result.mesh, file);
+        writeOff(mesh, file);
         break;
     case Format::Glb:
         writeGlb(result.mesh,
@@ -210,7 +224,7 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
                  file);
         break;
     case Format::ThreeMf:
-        write3mf(result.mesh, stemOf(output.path), printUnit(call).perAngstrom, file);
+        write3mf(mesh, stemOf(output.path), printUnit(call).perAngstrom, file);
         break;
     case Format::Png:
         writePicture(call, atoms, result.mesh, output.turn, progress, file);
