@@ -136,7 +136,7 @@ std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, co
 {
     const Color plain = mesh.colors.empty() ? call.picture.plain : Color{255, 255, 255};
     const std::vector<Color> colors =
-        call.colorCopies ? instanceColors(atoms, progress) : std::vector<Color>();
+        call.colorGroups == "copy" ? instanceColors(atoms, progress) : std::vector<Color>();
     std::vector<MeshInstance> out;
     for (std::size_t i = 0; i < atoms.instances.size(); ++i) {
         const Instance& copy = atoms.instances[i];
@@ -192,7 +192,8 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
     std::optional<Mesh> whole;
     if (atoms.unit && holdsWhole(output.format))
         whole = wholeMesh(atoms, result, call.weld,
-                          call.colorCopies ? instanceColors(atoms, progress) : std::vector<Color>(),
+                          call.colorGroups == "copy" ? instanceColors(atoms, progress)
+                                                     : std::vector<Color>(),
                           progress);
     const Mesh& mesh = whole ? *whole : result.mesh;
     switch (output.format) {

@@ -111,8 +111,8 @@ struct SelectOptions {
     std::vector<ResolutionRule> resolutions; ///< resolutions; the later rule wins
     std::vector<GroupRule> groups;           ///< groups; the later rule wins
     /// Makes the groups instead of `groups`: "chain", "entity" (chains of the same residues),
-    /// "copy" (of the assembly), or "residues:N" (N residues of a chain each); empty: it makes
-    /// none.
+    /// "class" (a chain of the file with all its copies), "copy" (of the assembly), or "residues:N"
+    /// (N residues of a chain each); empty: it makes none.
     std::string groupBy;
     bool instances = false; ///< whether the balls are those of each prototype of the assembly once,
                             ///< in the coordinates of the file

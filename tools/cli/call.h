@@ -66,12 +66,12 @@ struct Call {
     std::string trajectory; ///< a .dcd or .xtc with the frames; empty: models are
     bool warm = false;      ///< a frame begins at the surface of the one before
     std::string groupsFile;
-    Scene scene;              ///< of the .vdb and the node of the .glb
-    bool colorCopies = false; ///< copies of an assembly have colours
-    bool weld = false;        ///< units of a whole share their vertices
-    bool center = false;      ///< the middle of the surface comes to the origin
-    double printScale = 0.0;  ///< of .stl, .obj and .3mf [mm/Å]; 0: they are in Å
-    double wall = 0.0;        ///< least thickness of a print [mm]; 0: none
+    Scene scene;             ///< of the .vdb and the node of the .glb
+    std::string colorGroups; ///< what has colours that are no ColorBy: copy, entity or class
+    bool weld = false;       ///< units of a whole share their vertices
+    bool center = false;     ///< the middle of the surface comes to the origin
+    double printScale = 0.0; ///< of .stl, .obj and .3mf [mm/Å]; 0: they are in Å
+    double wall = 0.0;       ///< least thickness of a print [mm]; 0: none
     DrawOptions picture;
     LegendChoice legend = LegendChoice::Auto;
     int turntable = 0;        ///< number of pictures; 0: one

@@ -203,11 +203,15 @@ void completeGroups(Call& call)
     if (!call.groupsFile.empty() && !call.atoms.groupBy.empty())
         misuse("--groups and --group-by together");
     if (!call.groupsFile.empty()) call.atoms.groups = readGroups(call.groupsFile);
-    if (call.colorCopies && !call.atoms.instances && !call.atoms.bySymmetry) {
-        if (call.atoms.assembly == "none") misuse("--color copy: expected --assembly too");
+    const bool copies = call.colorGroups == "copy";
+    const bool asNodes = copies && (call.atoms.instances || call.atoms.bySymmetry);
+    if (!call.colorGroups.empty() && !asNodes) {
+        if (copies && call.atoms.assembly == "none")
+            misuse("--color copy: expected --assembly too");
         if (!call.groupsFile.empty() || !call.atoms.groupBy.empty())
-            misuse("--color copy and groups together [hint: --group-by copy --color group]");
-        call.atoms.groupBy = "copy";
+            misuse("--color " + call.colorGroups + " and groups together [hint: --group-by " +
+                   call.colorGroups + " --color group]");
+        call.atoms.groupBy = call.colorGroups;
         options.color = ColorBy::Group;
     }
     const bool groups = !call.groupsFile.empty() || !call.atoms.groupBy.empty();

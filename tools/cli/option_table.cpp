@@ -644,45 +644,50 @@ OptionGroup groupOptions()
         o.preset = std::move(preset);
         return o;
     };
-    const auto orCopy = [](Option o) {
-        o.words.push_back("copy");
-        o.set = [others = o.set](Call& call, const Values& values) {
-            call.colorCopies = lowered(values.back()) == "copy";
+    const auto orGroups = [](Option o) {
+        const Values words = {"copy", "entity", "class"};
+        o.words.insert(o.words.end(), words.begin(), words.end());
+        o.set = [words, others = o.set](Call& call, const Values& values) {
+            const std::string word = lowered(values.back());
+            const bool grouped = std::count(words.begin(), words.end(), word) > 0;
+            call.colorGroups = grouped ? word : "";
             call.options.color = ColorBy::Nothing;
-            if (!call.colorCopies) others(call, values);
+            if (!grouped) others(call, values);
         };
         o.stored = [others = o.stored](const Call& call) {
-            return call.colorCopies ? stored("copy") : others(call);
+            return call.colorGroups.empty() ? others(call) : stored(call.colorGroups);
         };
         return o;
     };
-    return {"Groups",
-            {with(text("groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]",
-                       "", surfaces, OF(groupsFile)),
-                  [](Option& o) {
-                      o.stored = [](const Call& c) {
-                          Values all;
-                          for (const GroupRule& group : c.atoms.groups)
-                              all.push_back(group.name + " " + group.select);
-                          return stored(joinWords(all, ", "));
-                      };
-                  }),
-             with(text("group-by", "WORD", "groups by chain, entity, copy or residues:N instead",
-                       "", surfaces, OF(atoms.groupBy)),
-                  [](Option& o) {
-                      o.words = {"chain", "entity", "copy"};
-                  }),
-             split, surfaceOf,
-             with(flag("interfaces", "buried areas between groups, for the report", wholes,
-                       OF(options.interfaces)),
-                  [](Option& o) { o.stored = nullptr; }),
-             orCopy(color("colours of the mesh and the grid Cd: chain, group, copy,\n"
-                          "element, residue, mean-curvature, gaussian-curvature",
-                          "none", surfaces)),
-             color("chain, group (of grids chain_id, group_id), element,\n"
-                   "residue (of Cd so coloured), mean-curvature,\n"
-                   "gaussian-curvature; those of Cd unless given",
-                   "", Convert)}};
+    return {
+        "Groups",
+        {with(text("groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]", "",
+                   surfaces, OF(groupsFile)),
+              [](Option& o) {
+                  o.stored = [](const Call& c) {
+                      Values all;
+                      for (const GroupRule& group : c.atoms.groups)
+                          all.push_back(group.name + " " + group.select);
+                      return stored(joinWords(all, ", "));
+                  };
+              }),
+         with(text("group-by", "WORD",
+                   "groups by chain, entity, class (a chain's copies),\ncopy or residues:N instead",
+                   "", surfaces, OF(atoms.groupBy)),
+              [](Option& o) {
+                  o.words = {"chain", "entity", "class", "copy"};
+              }),
+         split, surfaceOf,
+         with(flag("interfaces", "buried areas between groups, for the report", wholes,
+                   OF(options.interfaces)),
+              [](Option& o) { o.stored = nullptr; }),
+         orGroups(color("colours of the mesh and the grid Cd: chain, group, copy,\n"
+                        "element, residue, mean-curvature, gaussian-curvature",
+                        "none", surfaces)),
+         color("chain, group (of grids chain_id, group_id), element,\n"
+               "residue (of Cd so coloured), mean-curvature,\n"
+               "gaussian-curvature; those of Cd unless given",
+               "", Convert)}};
 }
 
 OptionGroup sceneOptions()
@@ -733,20 +738,23 @@ OptionGroup pictureOptions()
     plain.set = [](Call& call, const Values& values) {
         call.picture.plain = colorOf("plain-color", "", values.back());
     };
-    return {"Picture",
-            {view,
-             number("turn", "A", "turned by so many degrees about the upright", "0", draw, -1e9,
-                    1e9, "a number of degrees", OF(picture.turn)),
-             count("size", "N", "width in pixels; the height follows the shape", "1200", draw, 16,
-                   16384, OF(picture.width)),
-             background, plain,
-             with(word("legend", "WORD",
-                       "on or off; auto: beside colours, if 600 pixels wide\n"
-                       "or more",
-                       draw, OF(legend), {LegendChoice::Auto, LegendChoice::On, LegendChoice::Off}),
-                  [](Option& o) { o.stored = nullptr; }),
-             count("turntable", "N", "N pictures round the upright: name.0001.png, ...", "", draw,
-                   2, 9999, OF(turntable))}};
+    return {
+        "Picture",
+        {view,
+         number("turn", "A", "turned by so many degrees about the upright", "0", draw, -1e9, 1e9,
+                "a number of degrees", OF(picture.turn)),
+         count("size", "N", "width in pixels; the height follows the shape", "1200", draw, 16,
+               16384, OF(picture.width)),
+         background, plain,
+         with(flag("depth-cue", "distant parts fade to the background", draw, OF(picture.depthCue)),
+              [](Option& o) { o.stored = nullptr; }),
+         with(word("legend", "WORD",
+                   "on or off; auto: beside colours, if 600 pixels wide\n"
+                   "or more",
+                   draw, OF(legend), {LegendChoice::Auto, LegendChoice::On, LegendChoice::Off}),
+              [](Option& o) { o.stored = nullptr; }),
+         count("turntable", "N", "N pictures round the upright: name.0001.png, ...", "", draw, 2,
+               9999, OF(turntable))}};
 }
 
 OptionGroup flowOptions()

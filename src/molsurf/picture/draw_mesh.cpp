@@ -27,6 +27,8 @@ constexpr std::size_t subpixels = 2; // a pixel is the mean of 2 x 2 rays
 constexpr std::size_t eyeRays = subpixels * subpixels;
 constexpr std::size_t occlusionRays = 12; // a pixel; at most 16
 constexpr int smoothing = 2;              // occlusion is averaged over so many pixels to each side
+constexpr double nearby = 60.0;           // what half of the occlusion looks at [Å]
+constexpr double farthestFade = 0.22;     // of a depth cue
 constexpr double border = 1.04;           // width of the picture over that of the molecule
 constexpr double outlinePixels = 8;       // least jump in depth that gets an outline, in pixels,
 constexpr double outlineLength = 2;       // and in Å
@@ -134,7 +136,8 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
 {
     View view;
     const std::vector<Vec3d> points = spanOf(mesh, options.instances);
-    const std::array<Vec3d, 3> axes = axesOf(points, options);
+    const std::array<Vec3d, 3> axes =
+        axesOf(options.about.empty() ? points : options.about, options);
     view.right = axes[0];
     view.up = axes[1];
     view.toEye = axes[2];
@@ -288,7 +291,8 @@ private:
         return (0.66f + 0.42f * lamp) * color;
     }
 
-    /// Share of the sky over a point, weighted by the cosine: rays by a golden spiral.
+    /// Share of the sky over a point, weighted by the cosine: rays by a golden spiral. To every
+    /// other ray only what is near hides the sky, so that the insides of shells are not all dark.
     float openness(const Vec3d& at, const Vec3d& normal, double turn) const
     {
         const Vec3d side = std::abs(normal[0]) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
@@ -301,7 +305,7 @@ private:
             const double angle = 2.0 * M_PI * (double(k) * 0.6180339887498949 + turn);
             const Vec3d way =
                 r * std::cos(angle) * u + r * std::sin(angle) * v + std::sqrt(1.0 - r * r) * normal;
-            set(rays, k, from, way, std::numeric_limits<double>::infinity());
+            set(rays, k, from, way, k % 2 ? nearby : std::numeric_limits<double>::infinity());
             valid[k] = -1;
         }
         RTCIntersectContext context;
@@ -325,8 +329,8 @@ private:
 class Canvas
 {
 public:
-    Canvas(const View& view, std::vector<Sample> samples)
-        : view_(view), samples_(std::move(samples))
+    Canvas(const View& view, bool depthCue, std::vector<Sample> samples)
+        : view_(view), fade_(depthCue ? farthestFade : 0.0), samples_(std::move(samples))
     {
     }
 
@@ -339,7 +343,7 @@ public:
         if (s.cover <= 0.0f) return background;
         const float shade = 0.12f + 0.88f * smoothOpen(x, y);
         const double behind = (view_.far - double(s.depth)) / (view_.far - view_.low);
-        const float haze = float(0.22 * std::clamp(behind, 0.0, 1.0));
+        const float haze = float(fade_ * std::clamp(behind, 0.0, 1.0));
         Vec3f lit = (1.0f - haze) * shade * s.color + haze * background;
         return lit * (1.0f - 0.75f * outline(x, y));
     }
@@ -391,6 +395,7 @@ private:
     }
 
     const View& view_;
+    double fade_; // of the most distant parts
     std::vector<Sample> samples_;
 };
 
@@ -398,7 +403,7 @@ private:
 
 std::array<Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options)
 {
-    return axesOf(spanOf(mesh, options.instances), options);
+    return axesOf(options.about.empty() ? spanOf(mesh, options.instances) : options.about, options);
 }
 
 Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& progress)
@@ -424,7 +429,7 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
             }
         });
     }
-    const Canvas canvas(view, std::move(samples));
+    const Canvas canvas(view, options.depthCue, std::move(samples));
     const Vec3f background = linearLight(options.background);
     picture.width = view.width;
     picture.height = view.height;

@@ -26,14 +26,18 @@ struct Picture {
 /// From where, and how large.
 struct DrawOptions {
     int width = 1200; ///< of the picture [pixel], > 0; the height follows the shape
-    /// Toward the eye, and what is up; zero: the shortest principal axis of the vertices toward the
-    /// eye, the longest one across the picture.
+    /// Toward the eye, and what is up; zero: the shortest principal axis toward the eye, the
+    /// longest one across the picture.
     openvdb::Vec3d toEye{0.0}, up{0.0};
-    double turn = 0.0;                  ///< about `up` [degree]
-    bool turnable = false;              ///< the scale is the same for every turn, also for 0
-    Color background = {255, 255, 255}; ///< also what distant parts fade to
-    bool transparent = false;           ///< there is nothing behind the surface
-    Color plain = {140, 181, 222};      ///< of a mesh without colours
+    double turn = 0.0;     ///< about `up` [degree]
+    bool turnable = false; ///< the scale is the same for every turn, also for 0
+    /// Points whose principal axes make the automatic view, so that it is the same for any mesh of
+    /// them; empty: the vertices.
+    std::vector<openvdb::Vec3d> about{};
+    Color background = {255, 255, 255};
+    bool depthCue = false;         ///< whether distant parts fade to the background
+    bool transparent = false;      ///< there is nothing behind the surface
+    Color plain = {140, 181, 222}; ///< of a mesh without colours
     /// The copies of parts that are shown in the place of the mesh; empty: the mesh.
     std::vector<MeshInstance> instances{};
 };
@@ -42,8 +46,8 @@ struct DrawOptions {
 /// @param[in] mesh  with at least one vertex; those of copies are left to a few hundred outermost
 std::array<openvdb::Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options);
 
-/// Draws a mesh: orthographic, shaded by ambient occlusion and a lamp over the eye's shoulder,
-/// paler with distance, with dark outlines where one part stands before another. Rays by Embree.
+/// Draws a mesh: orthographic, shaded by ambient occlusion and a lamp over the eye's shoulder, with
+/// dark outlines where one part stands before another. Rays by Embree.
 /// The picture does not depend on the number of threads.
 ///
 /// @param[in] mesh  with normals; one without triangles gives a blank picture

@@ -255,11 +255,14 @@ public:
             const auto [end, problem] = std::from_chars(by.data() + 9, last, perGroup_);
             if (problem != std::errc() || end != last) perGroup_ = 0;
         }
-        if (!by.empty() && by != "chain" && by != "entity" && by != "copy" && perGroup_ < 1) {
+        if (!by.empty() && by != "chain" && by != "entity" && by != "class" && by != "copy" &&
+            perGroup_ < 1) {
             throw Error(ErrorKind::Usage,
-                        "`groupBy`: expected chain, entity, copy or residues:N, got '" + by + "'");
+                        "`groupBy`: expected chain, entity, class, copy or residues:N, got '" + by +
+                            "'");
         }
         if (by == "entity") sequences_ = sequences(structure);
+        chains_ = &structure.chains;
     }
 
     /// The name of the group of a residue.
@@ -268,6 +271,7 @@ public:
     std::string nameOf(const Residue& residue, const std::string& chain, int copy)
     {
         if (by_ == "chain") return chain;
+        if (by_ == "class") return "class " + (*chains_)[std::size_t(residue.chain)];
         if (by_ == "copy") return "copy " + std::to_string(copy);
         if (by_ == "entity") {
             const std::int32_t next = std::int32_t(entities_.size()) + 1;
@@ -284,6 +288,7 @@ public:
 private:
     const std::string& by_;
     int perGroup_ = 0;                             // residues
+    const std::vector<std::string>* chains_;       // names in the file
     std::vector<std::string> sequences_;           // of the chains
     std::map<std::string, std::int32_t> entities_; // by sequence
 };

@@ -36,9 +36,9 @@ std::vector<GroupRule> readGroups(const std::string& path);
 /// @param[in] copyBegin    copy i is balls [copyBegin[i], copyBegin[i + 1])
 /// @param[in] copyNumbers  of copy i in the whole assembly, from 1
 /// @param[in] rules        groups; an atom of several belongs to the last
-/// @param[in] by         "", "chain", "entity" (chains of the same residues), "copy" (of the
-///                       assembly), or "residues:N" (N residues of a chain each): groups instead of
-///                       the rules
+/// @param[in] by         "", "chain", "entity" (chains of the same residues), "class" (a
+///                       chain of the file with all its copies), "copy" (of the assembly), or
+///                       "residues:N" (N residues of a chain each): groups instead of the rules
 /// @throws Error(ErrorKind::Input) if a selection does not parse or matches nothing
 /// @throws Error(ErrorKind::Usage) if `by` is none of these
 BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls,

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/color/crisp_borders.h"
+
+#include "molsurf/balls/power_owners.h"
+#include "molsurf/core/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+namespace
+{
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// The middle of the arc between two vertices, from the middle of the edge [Å].
+Vec3d bulge(const Mesh& mesh, std::uint32_t a, std::uint32_t b)
+{
+    const Vec3d edge = Vec3d(mesh.positions[b]) - Vec3d(mesh.positions[a]);
+    const Vec3d m(mesh.normals[a]), n(mesh.normals[b]);
+    return (edge.dot(n) * n - edge.dot(m) * m) / 8.0;
+}
+
+/// A point on the arc from a to b.
+Vec3d onArc(const Mesh& mesh, std::uint32_t a, std::uint32_t b, double t)
+{
+    return (1.0 - t) * Vec3d(mesh.positions[a]) + t * Vec3d(mesh.positions[b]) +
+           4.0 * t * (1.0 - t) * bulge(mesh, a, b);
+}
+
+/// A point of the patch over a triangle, at barycentric coordinates w.
+Vec3d onPatch(const Mesh& mesh, const Triangle& t, const Vec3d& w)
+{
+    Vec3d x(0.0);
+    for (int k = 0; k < 3; ++k) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        x += w[k] * Vec3d(mesh.positions[t[std::size_t(k)]]);
+        x += 4.0 * w[i] * w[j] * bulge(mesh, t[std::size_t(i)], t[std::size_t(j)]);
+    }
+    return x;
+}
+
+class Cutter
+{
+public:
+    Cutter(const Mesh& mesh, const PowerOwners& owners) : mesh_(mesh), owners_(owners) {}
+
+    std::int32_t ownerAt(const Vec3d& x)
+    {
+        owners_.at(x, 0.0, near_);
+        return near_.empty() ? 0 : near_[0].owner;
+    }
+
+    /// How much more power owner a has at a point than owner b, in [-slack, slack] [Å^2].
+    double excess(const Vec3d& x, std::int32_t a, std::int32_t b)
+    {
+        constexpr double slack = 16.0;
+        owners_.at(x, slack, near_);
+        double ofA = 0.0, ofB = 0.0;
+        bool hasA = false, hasB = false;
+        for (const OwnersPower& near : near_) {
+            if (near.owner == a) ofA = near.power, hasA = true;
+            if (near.owner == b) ofB = near.power, hasB = true;
+        }
+        if (hasA && hasB) return ofA - ofB;
+        return hasA ? -slack : slack;
+    }
+
+    /// Where the arc from a vertex of owner `own` to one of owner `other` crosses their border.
+    double crossing(std::uint32_t a, std::uint32_t b, std::int32_t own, std::int32_t other)
+    {
+        double low = 0.0, high = 1.0;
+        double below = excess(onArc(mesh_, a, b, 0.0), own, other);
+        double above = excess(onArc(mesh_, a, b, 1.0), own, other);
+        double t = 0.5;
+        for (int i = 0; i < 20 && high - low > 1e-5; ++i) { // regula falsi (Illinois)
+            t = low + (high - low) * below / (below - above);
+            if (!(t > low && t < high)) t = 0.5 * (low + high);
+            const double f = excess(onArc(mesh_, a, b, t), own, other);
+            if (std::abs(f) < 1e-6) break;
+            if (f < 0.0) {
+                low = t;
+                below = f;
+                above *= 0.5;
+            } else {
+                high = t;
+                above = f;
+                below *= 0.5;
+            }
+        }
+        return t;
+    }
+
+    /// Moves a point near the circle in which the spheres of two owners meet onto it, if it is closer
+    /// than a limit [Å]: a mesh cuts off the crease there.
+    void snap(Vec3d& x, std::int32_t a, std::int32_t b, double limit)
+    {
+        const Vec3d start = x;
+        for (int i = 0; i < 6; ++i) {
+            owners_.at(x, 16.0, near_);
+            const OwnersPower *first = nullptr, *second = nullptr;
+            for (const OwnersPower& near : near_) {
+                if (near.owner == a) first = &near;
+                if (near.owner == b) second = &near;
+            }
+            if (!first || !second) break;
+            // Newton's method of least steps for both powers to vanish.
+            const Vec3d u = 2.0 * (x - first->centre), v = 2.0 * (x - second->centre);
+            const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), det = uu * vv - uv * uv;
+            if (det < 1e-6 * uu * vv) break;
+            const double f = first->power, g = second->power;
+            const Vec3d step = ((vv * f - uv * g) * u + (uu * g - uv * f) * v) / det;
+            x -= step;
+            if ((x - start).length() > limit) break;
+            if (step.length() < 1e-6) return;
+        }
+        x = start;
+    }
+
+    /// Barycentric coordinates of the point of a triangle where its three owners meet; its middle,
+    /// if there is no such point in it.
+    Vec3d meeting(const Triangle& t, const std::array<std::int32_t, 3>& owner)
+    {
+        const Vec3d middle(1.0 / 3.0);
+        Vec3d w = middle;
+        constexpr double small = 1e-3;
+        const auto at = [&](double u, double v) {
+            const Vec3d x = onPatch(mesh_, t, {1.0 - u - v, u, v});
+            return std::pair(excess(x, owner[0], owner[1]), excess(x, owner[0], owner[2]));
+        };
+        for (int i = 0; i < 8; ++i) {
+            const auto [f, g] = at(w[1], w[2]);
+            const auto [fu, gu] = at(w[1] + small, w[2]);
+            const auto [fv, gv] = at(w[1], w[2] + small);
+            const double a = (fu - f) / small, b = (fv - f) / small;
+            const double c = (gu - g) / small, d = (gv - g) / small;
+            const double det = a * d - b * c;
+            if (std::abs(det) < 1e-12) return middle;
+            const double du = (d * f - b * g) / det, dv = (a * g - c * f) / det;
+            w[1] = std::clamp(w[1] - du, 0.0, 1.0);
+            w[2] = std::clamp(w[2] - dv, 0.0, 1.0);
+            w[0] = 1.0 - w[1] - w[2];
+            if (std::abs(du) + std::abs(dv) < 1e-5) break;
+        }
+        for (int k = 0; k < 3; ++k)
+            if (!(w[k] > 0.01)) return middle;
+        return w;
+    }
+
+private:
+    const Mesh& mesh_;
+    const PowerOwners& owners_;
+    std::vector<OwnersPower> near_;
+};
+
+/// The mesh as it grows.
+class Builder
+{
+public:
+    Builder(const Mesh& mesh) : from_(mesh), to_(mesh) { to_.triangles.clear(); }
+
+    /// A vertex between others, on the side of one of them.
+    std::uint32_t add(const Vec3d& x, const Triangle& between, const Vec3d& w, std::uint32_t side,
+                      const Color& color)
+    {
+        const auto v = std::uint32_t(to_.positions.size());
+        to_.positions.push_back(Vec3f(x));
+        Vec3d normal(0.0);
+        for (int k = 0; k < 3; ++k) normal += w[k] * Vec3d(from_.normals[between[std::size_t(k)]]);
+        to_.normals.push_back(normal.lengthSqr() > 0.0 ? Vec3f(normal.unit())
+                                                       : from_.normals[side]);
+        for (std::size_t a = 0; a < to_.scalars.size(); ++a) {
+            double mean = 0.0;
+            for (int k = 0; k < 3; ++k)
+                mean += w[k] * double(from_.scalars[a].values[between[std::size_t(k)]]);
+            to_.scalars[a].values.push_back(float(mean));
+        }
+        for (std::size_t a = 0; a < to_.labels.size(); ++a)
+            to_.labels[a].values.push_back(from_.labels[a].values[side]);
+        to_.colors.push_back(color);
+        return v;
+    }
+
+    void add(std::uint32_t a, std::uint32_t b, std::uint32_t c)
+    {
+        to_.triangles.push_back({a, b, c});
+    }
+
+    Mesh& mesh() { return to_; }
+
+private:
+    const Mesh& from_;
+    Mesh to_;
+};
+
+} // namespace
+
+Mesh withCrispBorders(const Mesh& mesh, const std::vector<Ball>& balls,
+                      const std::vector<Color>& ballColor, double crease,
+                      const Progress& progress)
+{
+    std::map<Color, std::int32_t> number;
+    std::vector<Color> colors;
+    std::vector<std::int32_t> ownerOf;
+    for (const Color& color : ballColor) {
+        const auto [found, isNew] = number.emplace(color, std::int32_t(colors.size()));
+        if (isNew) colors.push_back(color);
+        ownerOf.push_back(found->second);
+    }
+    const PowerOwners owners(balls, ownerOf);
+    const std::size_t vertices = mesh.positions.size();
+    std::vector<std::int32_t> owner(vertices, 0);
+    constexpr std::size_t chunk = 256;
+    if (colors.size() > 1) {
+        parallelFor((vertices + chunk - 1) / chunk, progress, [&](std::size_t c) {
+            Cutter cutter(mesh, owners);
+            for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v)
+                owner[v] = cutter.ownerAt(Vec3d(mesh.positions[v]));
+        });
+    }
+
+    Builder out(mesh);
+    out.mesh().colors.clear();
+    for (const std::int32_t k : owner) out.mesh().colors.push_back(colors[std::size_t(k)]);
+
+    // The edges that a border crosses, with two vertices each.
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    std::unordered_map<std::uint64_t, std::size_t> edgeOf;
+    const auto keyOf = [](std::uint32_t a, std::uint32_t b) {
+        return std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
+    };
+    for (const Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+            if (owner[a] != owner[b] && edgeOf.emplace(keyOf(a, b), edges.size()).second)
+                edges.push_back({std::min(a, b), std::max(a, b)});
+        }
+    }
+    std::vector<double> crossings(edges.size());
+    std::vector<Vec3d> places(edges.size());
+    parallelFor((edges.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
+        Cutter cutter(mesh, owners);
+        for (std::size_t e = c * chunk; e < std::min(edges.size(), (c + 1) * chunk); ++e) {
+            const auto [a, b] = edges[e];
+            crossings[e] = cutter.crossing(a, b, owner[a], owner[b]);
+            places[e] = onArc(mesh, a, b, crossings[e]);
+            if (crease > 0.0) cutter.snap(places[e], owner[a], owner[b], crease);
+        }
+    });
+    const auto first = std::uint32_t(vertices);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        const auto [a, b] = edges[e];
+        const double t = crossings[e];
+        const Vec3d& x = places[e];
+        for (const std::uint32_t side : {a, b})
+            out.add(x, {a, b, b}, {1.0 - t, t, 0.0}, side, colors[std::size_t(owner[side])]);
+    }
+    // The vertex on an edge, on the side of its end `a`.
+    const auto onEdge = [&](std::uint32_t a, std::uint32_t b) {
+        return first + std::uint32_t(2 * edgeOf.at(keyOf(a, b)) + (a > b));
+    };
+
+    Cutter cutter(mesh, owners);
+    for (const Triangle& t : mesh.triangles) {
+        const std::array<std::int32_t, 3> o = {owner[t[0]], owner[t[1]], owner[t[2]]};
+        if (o[0] == o[1] && o[1] == o[2]) {
+            out.add(t[0], t[1], t[2]);
+        } else if (o[0] != o[1] && o[1] != o[2] && o[2] != o[0]) {
+            const Vec3d w = cutter.meeting(t, o);
+            const Vec3d x = onPatch(mesh, t, w);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+                const std::uint32_t middle = out.add(x, t, w, a, colors[std::size_t(o[k])]);
+                out.add(a, onEdge(a, b), middle);
+                out.add(a, middle, onEdge(a, c));
+            }
+        } else {
+            std::size_t k = 0; // the corner that is unlike the others
+            while (o[(k + 1) % 3] != o[(k + 2) % 3]) ++k;
+            const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+            out.add(a, onEdge(a, b), onEdge(a, c));
+            out.add(b, c, onEdge(b, a));
+            out.add(c, onEdge(c, a), onEdge(b, a));
+        }
+    }
+    return std::move(out.mesh());
+}
+
+} // namespace molsurf

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Meshes whose colours meet along exact lines.
+
+#include "molsurf/ball.h"
+#include "molsurf/color/color_map.h"
+#include "molsurf/mesh.h"
+#include "molsurf/progress.h"
+
+#include <vector>
+
+namespace molsurf
+{
+
+/// Cuts triangles along the borders between colours, so that each triangle has one. A point has the
+/// colour of the ball whose power distance |x - c|^2 - r^2 to it is the least: the border of two
+/// balls is the circle in which their spheres meet.
+///
+/// New vertices lie on the cubic arcs that the normals imply (see measure()); there is one for each
+/// colour, with the labels of its side and means of the scalars. The vertices of the mesh keep
+/// their indices and come first.
+///
+/// @param[in] mesh       with normals and without parts, near the balls (within 30 Å)
+/// @param[in] balls      that it is the surface of
+/// @param[in] ballColor  one a ball
+/// @param[in] crease     how far from the circle of two spheres the mesh cuts off the crease there,
+///                       at most [Å]; 0: it is not that of their union
+Mesh withCrispBorders(const Mesh& mesh, const std::vector<Ball>& balls,
+                      const std::vector<Color>& ballColor, double crease,
+                      const Progress& progress);
+
+} // namespace molsurf

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MPL-2.0
+// Borders of colours on real surfaces.
+
+#include "molsurf/color/crisp_borders.h"
+#include "molsurf/mesh/statistics.h"
+#include "molsurf/surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+constexpr Color red = {255, 0, 0}, green = {0, 255, 0}, blue = {0, 0, 255};
+
+Mesh surfaceOf(const std::vector<Ball>& balls, SurfaceKind kind)
+{
+    SurfaceOptions options;
+    options.kind = kind;
+    options.voxel = 1.0;
+    return makeSurface(balls, options).mesh;
+}
+
+/// The places of vertices that are there in two colours.
+std::map<Vec3f, std::set<Color>> bordersOf(const Mesh& mesh)
+{
+    std::map<Vec3f, std::set<Color>> all;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        all[mesh.positions[v]].insert(mesh.colors[v]);
+    for (auto place = all.begin(); place != all.end();)
+        place = place->second.size() < 2 ? all.erase(place) : std::next(place);
+    return all;
+}
+
+double areaOf(const Mesh& mesh)
+{
+    double sum = 0.0;
+    for (const float area : vertexAreas(mesh, Progress())) sum += double(area);
+    return sum;
+}
+
+TEST(CrispBorders, TwoBallsMeetInACircle)
+{
+    const std::vector<Ball> balls = {{Vec3f(0.3f, 0.1f, 0.2f), 2.5f, 0},
+                                     {Vec3f(2.3f, 1.1f, 0.7f), 1.9f, 1}};
+    const Mesh mesh = surfaceOf(balls, SurfaceKind::VanDerWaals);
+    const Mesh crisp = withCrispBorders(mesh, balls, {red, blue}, 1.0, Progress());
+    const Vec3d a(balls[0].center), axis = (Vec3d(balls[1].center) - a).unit();
+    const double d = (Vec3d(balls[1].center) - a).length();
+    const double along = (d * d + 2.5 * 2.5 - 1.9 * 1.9) / (2.0 * d);
+    const double radius = std::sqrt(2.5 * 2.5 - along * along);
+    const auto borders = bordersOf(crisp);
+    EXPECT_GT(borders.size(), 15u);
+    for (const auto& [x, colors] : borders) {
+        const Vec3d from = Vec3d(x) - a;
+        const double off = from.dot(axis) - along;
+        const double out = (from - from.dot(axis) * axis).length() - radius;
+        EXPECT_LT(std::hypot(off, out), 1e-3); // of the exact circle [Å]
+    }
+    for (const auto& t : crisp.triangles) {
+        EXPECT_EQ(crisp.colors[t[0]], crisp.colors[t[1]]);
+        EXPECT_EQ(crisp.colors[t[0]], crisp.colors[t[2]]);
+    }
+    EXPECT_NEAR(areaOf(crisp), areaOf(mesh), 5e-3 * areaOf(mesh));
+}
+
+TEST(CrispBorders, ThreeBallsMeetInPoints)
+{
+    const std::vector<Ball> balls = {{Vec3f(0, 0, 0), 2.2f, 0},
+                                     {Vec3f(2.4f, 0, 0), 2.0f, 1},
+                                     {Vec3f(1.1f, 2.1f, 0), 1.8f, 2}};
+    const Mesh mesh = surfaceOf(balls, SurfaceKind::SolventExcluded);
+    const Mesh crisp = withCrispBorders(mesh, balls, {red, green, blue}, 0.0, Progress());
+    std::size_t meetings = 0;
+    for (const auto& [x, colors] : bordersOf(crisp)) {
+        std::map<double, Color> powers;
+        const Color all[] = {red, green, blue};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double r = double(balls[i].radius);
+            powers[(Vec3d(x) - Vec3d(balls[i].center)).lengthSqr() - r * r] = all[i];
+        }
+        const auto first = powers.begin(), second = std::next(first), last = std::next(second);
+        EXPECT_NEAR(first->first, second->first, 0.02); // [Å^2]
+        EXPECT_TRUE(colors.count(first->second) && colors.count(second->second));
+        if (colors.size() < 3) continue;
+        ++meetings;
+        EXPECT_NEAR(first->first, last->first, 0.05);
+    }
+    EXPECT_EQ(meetings, 2u); // above and below the plane of the centres
+    EXPECT_NEAR(areaOf(crisp), areaOf(mesh), 5e-3 * areaOf(mesh));
+}
+
+TEST(CrispBorders, KeepWhatVerticesHave)
+{
+    const std::vector<Ball> balls = {{Vec3f(0, 0, 0), 2.0f, 0}, {Vec3f(2.5f, 0, 0), 2.0f, 1}};
+    const Mesh mesh = surfaceOf(balls, SurfaceKind::SolventExcluded);
+    const Mesh one = withCrispBorders(mesh, balls, {red, red}, 0.0, Progress());
+    EXPECT_EQ(one.triangles, mesh.triangles);
+    EXPECT_EQ(one.colors, std::vector<Color>(mesh.positions.size(), red));
+    const Mesh two = withCrispBorders(mesh, balls, {red, blue}, 0.0, Progress());
+    ASSERT_EQ(two.labels.size(), mesh.labels.size());
+    for (std::size_t v = 0; v < two.positions.size(); ++v) {
+        if (v < mesh.positions.size()) {
+            EXPECT_EQ(two.positions[v], mesh.positions[v]);
+        }
+        EXPECT_EQ(two.labels[0].values[v], two.colors[v] == red ? 0 : 1); // atom_id
+        EXPECT_NEAR(two.normals[v].length(), 1.0f, 1e-5f);
+    }
+    for (const auto& scalar : two.scalars) EXPECT_EQ(scalar.values.size(), two.positions.size());
+}
+
+} // namespace
+} // namespace molsurf
