@@ -59,6 +59,22 @@ void addOther(const Mesh& mesh, Legend& legend)
     }
 }
 
+/// If the groups are classes of chains, the title says how many chains they are: "180 chains in 3
+/// classes".
+void foldClasses(const BallSet& atoms, Legend& legend)
+{
+    const std::string word = "class ";
+    for (const LegendEntry& entry : legend.entries)
+        if (entry.name.rfind(word, 0) != 0) return;
+    const std::size_t chains =
+        atoms.labels->chains.size() * std::max<std::size_t>(atoms.instances.size(), 1);
+    const std::size_t classes = legend.entries.size();
+    if (chains <= classes) return;
+    legend.title = std::to_string(chains) + " chains in " + std::to_string(classes) +
+                   (classes == 1 ? " class" : " classes");
+    for (LegendEntry& entry : legend.entries) entry.name.erase(0, word.size());
+}
+
 /// Entries of what occurs among the balls, by a value of each.
 template<typename Value, typename Name>
 void addKinds(const std::vector<Value>& values, const std::vector<Color>& colors, const Name& name,
@@ -93,6 +109,7 @@ std::optional<Legend> legendOf(ColorBy by, const BallSet& atoms, const Mesh& mes
             const std::vector<Color> colors = groupColors(atoms, progress);
             for (std::size_t i = 0; i < colors.size(); ++i)
                 legend.entries.push_back({labels.groups[i].name, colors[i]});
+            foldClasses(atoms, legend);
         } else if (by == ColorBy::Element) {
             legend.title = "Element";
             addKinds(labels.elementOf, ballColors(atoms, by, progress), elementSymbol, legend);
