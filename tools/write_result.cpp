@@ -12,6 +12,7 @@
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_report.h"
 #include "molsurf/io/write_usda.h"
+#include "molsurf/io/write_usda_instances.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/write_html.h"
@@ -179,8 +180,11 @@ std::string optionsDigest(const Call& call)
 }
 
 void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,
-                 const Output& output, const Progress& progress, OutputFile& file)
+                 const Output& output, const Progress& progress, OutputFile& file,
+                 const std::vector<Mesh>& coarser)
 {
+    std::vector<const Mesh*> levels;
+    for (const Mesh& mesh : coarser) levels.push_back(&mesh);
     switch (output.format) {
     case Format::Vdb: {
         openvdb::MetaMap metadata = vdbMetadata(call, result.report);
@@ -189,7 +193,13 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
         break;
     }
     case Format::Usda:
-        writeUsda(gridsOf(call, result), usdVolume(call, output), file);
+        if (output.of.empty() && !atoms.instances.empty())
+            writeUsdaInstances(result.mesh,
+                               {stemOf(output.path), call.scene.scale,
+                                instancesOf(call, atoms, result.mesh, progress), levels},
+                               file);
+        else
+            writeUsda(gridsOf(call, result), usdVolume(call, output), file);
         break;
     case Format::Ply:
         writePly(result.mesh, file);
@@ -206,7 +216,7 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
     case Format::Glb:
         writeGlb(result.mesh,
                  {stemOf(output.path), call.scene.scale, call.picture.plain,
-                  instancesOf(call, atoms, result.mesh, progress)},
+                  instancesOf(call, atoms, result.mesh, progress), levels},
                  file);
         break;
     case Format::ThreeMf:

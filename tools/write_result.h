@@ -19,8 +19,10 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report);
 std::string optionsDigest(const Call& call);
 
 /// Writes one output. The report must be complete but for what is timed by writing.
+/// @param[in] coarser  the meshes of the further levels of detail of --lod
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,
-                 const Output& output, const Progress& progress, OutputFile& file);
+                 const Output& output, const Progress& progress, OutputFile& file,
+                 const std::vector<Mesh>& coarser = {});
 
 } // namespace molsurf::tool

@@ -66,6 +66,7 @@ struct Call {
     std::string trajectory; ///< a .dcd or .xtc with the frames; empty: models are
     bool warm = false;      ///< a frame begins at the surface of the one before
     std::string groupsFile;
+    std::vector<double> lod;  ///< voxels of levels of detail [Å], the finest first; empty: one
     Scene scene;              ///< of the .vdb and the node of the .glb
     bool colorCopies = false; ///< copies of an assembly have colours
     bool center = false;      ///< the middle of the surface comes to the origin

@@ -28,7 +28,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* fileNames = "a name that ends in .vdb, .ply, .obj, .stl, .off, .glb, .3mf, "
-                                  ".html, .json or .png";
+                                  ".html, .json, .png or .usda";
 
 std::string endOf(const std::string& path)
 {
@@ -67,7 +67,8 @@ std::vector<Output> surfaceOutputs(const Call& call)
     if (call.paths.empty()) misuse("nothing to write [hint: -o FILE, for example -o surface.vdb]");
     return outputsOf(call,
                      {Format::Vdb, Format::Ply, Format::Obj, Format::Stl, Format::Off, Format::Glb,
-                      Format::Json, Format::Png, Format::Html, Format::Csv, Format::ThreeMf},
+                      Format::Json, Format::Png, Format::Html, Format::Csv, Format::ThreeMf,
+                      Format::Usda},
                      fileNames);
 }
 
@@ -108,8 +109,8 @@ void warnIfGiven(Call& call, std::initializer_list<const char*> options, const s
 void completeScene(Call& call)
 {
     if (call.scene.known()) {
-        if (!writes(call, {Format::Vdb, Format::Glb}))
-            call.warnings.push_back("--for is for .vdb and .glb");
+        if (!writes(call, {Format::Vdb, Format::Glb, Format::Usda}))
+            call.warnings.push_back("--for is for .vdb, .glb and .usda");
         for (const char* field : {"density", "Cd"})
             if (!hasField(call.options.fields, field)) call.options.fields.push_back(field);
     }
@@ -160,7 +161,7 @@ void warnOfLosses(Call& call)
     const bool vdb = writes(call, {Format::Vdb}), mesh = writes(call, {Format::Ply, Format::Glb});
     if (call.has("color") && call.options.color != ColorBy::Nothing && !vdb &&
         !writes(call, {Format::Ply, Format::Obj, Format::Off, Format::Glb, Format::ThreeMf,
-                       Format::Png, Format::Html}))
+                       Format::Png, Format::Html, Format::Usda}))
         call.warnings.push_back("--color: none of the files can hold colours [hint: -o .ply, .glb, "
                                 ".png or .html, for example]");
     if (!call.has("fields") || vdb) return;
@@ -224,7 +225,14 @@ void completeGroups(Call& call)
 
 void completeInstances(Call& call)
 {
-    if (!call.atoms.instances) return;
+    if (!call.atoms.instances) {
+        if (!call.lod.empty()) misuse("--lod: expected --instances too");
+        for (const Output& output : call.outputs)
+            if (output.format == Format::Usda)
+                misuse("-o " + output.path +
+                       ": expected --instances too [hint: --for usd -o FILE.vdb writes a volume]");
+        return;
+    }
     if (call.atoms.assembly == "none")
         misuse("--instances: expected --assembly too [hint: --assembly 1]");
     for (const char* option :
@@ -232,10 +240,19 @@ void completeInstances(Call& call)
         if (call.has(option)) misuse("--instances and --" + std::string(option) + " together");
     for (const Output& output : call.outputs)
         if (output.format != Format::Glb && output.format != Format::Json &&
-            output.format != Format::Png)
+            output.format != Format::Png && output.format != Format::Usda &&
+            output.format != Format::Html)
             call.warnings.push_back("-o " + output.path +
-                                    ": it holds each distinct copy once [hint: -o .glb, .png "
-                                    "and .json have all]");
+                                    ": it holds each distinct copy once [hint: -o .glb, .usda, "
+                                    ".html, .png and .json have all]");
+    if (call.lod.empty()) return;
+    if (call.has("voxel")) misuse("--voxel and --lod together: the first of --lod is the voxel");
+    if (!writes(call, {Format::Glb, Format::Usda, Format::Html}))
+        call.warnings.push_back("--lod is for .glb, .usda and .html");
+    call.options.voxel = call.lod.front();
+    SurfaceOptions coarsest = call.options;
+    coarsest.voxel = call.lod.back();
+    checkOptions(coarsest);
 }
 
 void completeResolutions(Call& call)
@@ -295,7 +312,8 @@ void completeBatch(Call& call)
     std::set<std::string> seen;
     for (const std::string& word : splitWords(lowered(call.formats))) {
         const auto found = formatWords.find(word);
-        if (found == formatWords.end() || found->second == Format::Csv || !seen.insert(word).second)
+        if (found == formatWords.end() || found->second == Format::Csv ||
+            found->second == Format::Usda || !seen.insert(word).second)
             misuse("--formats: expected some of vdb, ply, obj, stl, off, glb, 3mf, html, json, "
                    "png, got '" +
                    call.formats + "'");
