@@ -32,9 +32,9 @@ void addSidecars(Call& call)
                    fs::path(sidecars.back().path).lexically_normal();
         };
         if (std::any_of(call.outputs.begin(), call.outputs.end(), same))
-            throw Error(ErrorKind::Usage,
-                        "-o " + sidecars.back().path + ": --for usd writes that file beside " +
-                            output.path + " [hint: another name]");
+            throw Error(ErrorKind::Usage, "-o " + sidecars.back().path +
+                                              ": --for usd writes that file beside " + output.path +
+                                              " [hint: another name]");
         if (std::count_if(sidecars.begin(), sidecars.end(), same) > 1)
             throw Error(ErrorKind::Usage, "--for usd: two .vdb files would have " +
                                               sidecars.back().path + " beside them");

@@ -130,13 +130,14 @@ std::vector<Legend> legendsOf(const Call& call, const BallSet& atoms, const Mesh
     return legends;
 }
 
-/// The copies of an assembly as nodes; copies that are near have different colours.
+/// The copies of an assembly as nodes.
+/// @param[in] colored  copies that are near have different colours
 std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
-                                      const Progress& progress)
+                                      bool colored, const Progress& progress)
 {
     const Color plain = mesh.colors.empty() ? call.picture.plain : Color{255, 255, 255};
     const std::vector<Color> colors =
-        call.colorCopies ? instanceColors(atoms, progress) : std::vector<Color>();
+        colored ? instanceColors(atoms, progress) : std::vector<Color>();
     std::vector<MeshInstance> out;
     for (std::size_t i = 0; i < atoms.instances.size(); ++i) {
         const Instance& copy = atoms.instances[i];
@@ -152,7 +153,7 @@ void writePicture(const Call& call, const BallSet& atoms, const Mesh& mesh, doub
 {
     DrawOptions options = call.picture;
     options.turn += turn;
-    options.instances = instancesOf(call, atoms, mesh, progress);
+    options.instances = instancesOf(call, atoms, mesh, call.colorCopies, progress);
     const auto legend = call.drawsLegend() ? legendOf(call.options.color, atoms, mesh, progress)
                                            : std::optional<Legend>();
     if (!legend) {
@@ -196,7 +197,8 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
         if (output.of.empty() && !atoms.instances.empty())
             writeUsdaInstances(result.mesh,
                                {stemOf(output.path), call.scene.scale,
-                                instancesOf(call, atoms, result.mesh, progress), levels},
+                                instancesOf(call, atoms, result.mesh, call.colorCopies, progress),
+                                levels},
                                file);
         else
             writeUsda(gridsOf(call, result), usdVolume(call, output), file);
@@ -216,7 +218,7 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
     case Format::Glb:
         writeGlb(result.mesh,
                  {stemOf(output.path), call.scene.scale, call.picture.plain,
-                  instancesOf(call, atoms, result.mesh, progress), levels},
+                  instancesOf(call, atoms, result.mesh, call.colorCopies, progress), levels},
                  file);
         break;
     case Format::ThreeMf:
@@ -225,12 +227,16 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
     case Format::Png:
         writePicture(call, atoms, result.mesh, output.turn, progress, file);
         break;
-    case Format::Html:
+    case Format::Html: {
+        DrawOptions view = call.picture;
+        view.instances = instancesOf(call, atoms, result.mesh, true, progress);
         writeHtml(result.mesh,
                   {titleOf(call.input), legendsOf(call, atoms, result.mesh, progress),
-                   call.picture.plain, viewAxes(result.mesh, call.picture)},
+                   call.picture.plain, viewAxes(result.mesh, view), view.instances,
+                   call.colorCopies, levels},
                   file);
         break;
+    }
     case Format::Json:
         writeReport(result.report, file);
         break;

@@ -111,8 +111,11 @@ void completeScene(Call& call)
     if (call.scene.known()) {
         if (!writes(call, {Format::Vdb, Format::Glb, Format::Usda}))
             call.warnings.push_back("--for is for .vdb, .glb and .usda");
-        for (const char* field : {"density", "Cd"})
+        for (const char* field : {"density", "Cd"}) {
+            // Copies have colours instead of vertices.
+            if (field == std::string("Cd") && call.colorCopies && call.atoms.instances) continue;
             if (!hasField(call.options.fields, field)) call.options.fields.push_back(field);
+        }
     }
     if (call.scene.host == Host::Usd) addSidecars(call);
     if (!writes(call, {Format::Stl, Format::Obj, Format::ThreeMf}))

@@ -17,8 +17,8 @@ namespace molsurf::tool
 {
 
 const std::map<std::string, Format> formatWords = {
-    {"vdb", Format::Vdb},   {"ply", Format::Ply}, {"obj", Format::Obj},    {"stl", Format::Stl},
-    {"off", Format::Off},   {"glb", Format::Glb}, {"json", Format::Json},  {"png", Format::Png},
+    {"vdb", Format::Vdb},   {"ply", Format::Ply}, {"obj", Format::Obj},     {"stl", Format::Stl},
+    {"off", Format::Off},   {"glb", Format::Glb}, {"json", Format::Json},   {"png", Format::Png},
     {"html", Format::Html}, {"csv", Format::Csv}, {"3mf", Format::ThreeMf}, {"usda", Format::Usda}};
 
 const std::vector<std::string>& knownFields()

@@ -242,7 +242,7 @@ private:
                      indexTarget);
     }
 
-    const Mesh* mesh_;       // of the level that is being added
+    const Mesh* mesh_;     // of the level that is being added
     std::size_t root_ = 0; // its node
     std::map<Color, std::size_t> materials_;
     Json json_;

@@ -316,8 +316,9 @@ private:
         for (const MeshInstance& copy : copies_.instances) {
             const Vec3d &low = level.boxes[copy.part].min(), &high = level.boxes[copy.part].max();
             for (int corner = 0; corner < 8; ++corner)
-                all.expand(copy.placed({corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
-                                        corner & 4 ? high[2] : low[2]}));
+                all.expand(
+                    copy.placed({corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
+                                 corner & 4 ? high[2] : low[2]}));
         }
         return all;
     }
