@@ -351,6 +351,7 @@ void completeConvert(Call& call)
               " [hint: vdb_molsurf convert surface.vdb -o surface.ply]");
     call.outputs = surfaceOutputs(call);
     if (writes(call, {Format::Csv})) misuse("-o .csv is for --frames");
+    if (writes(call, {Format::Usda})) misuse("-o .usda is for --instances");
     if (writes(call, {Format::Vdb}) && call.options.color == ColorBy::Nothing)
         misuse("-o .vdb: expected --color too, without which it would be a copy");
     completePicture(call);

@@ -158,7 +158,7 @@ private:
             return std::string(unit, std::to_chars(unit, unit + sizeof unit, value).ptr);
         };
         out_ << usdaFirstLine << "\n(\n    customLayerData = {\n"
-             << "        string creator = \"vdb_molsurf --instances\"\n    }\n    defaultPrim = \""
+             << "        string creator = \"vdb_molsurf, copies\"\n    }\n    defaultPrim = \""
              << name_ << "\"\n    metersPerUnit = " << number(usdaMetersPerAngstrom / copies_.scale)
              << "\n    upAxis = \"Z\"\n)\n\ndef Xform \"" << name_
              << "\" (\n    kind = \"component\"\n";
