@@ -140,8 +140,8 @@ openvdb::BBoxd boxOf(const Mesh& mesh)
 {
     openvdb::BBoxd box;
     for (const openvdb::Vec3f& p : mesh.positions) box.expand(openvdb::Vec3d(p));
-    const openvdb::Vec3d origin(0.0);
-    return box.empty() ? openvdb::BBoxd(origin, origin) : box;
+    if (mesh.positions.empty()) box = openvdb::BBoxd(openvdb::Vec3d(0.0), openvdb::Vec3d(0.0));
+    return box;
 }
 
 /// Packs vertices and triangles.
