@@ -228,8 +228,9 @@ const quickShader = {
 // What is drawn: the copies of parts, each by one of the shapes of its part.
 class Copies {
   constructor(header, arrays, material) {
-    const unit = [0, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], [255, 255, 255]];
-    const list = header.copies.length > 0 ? header.copies : header.levels[0].parts.map((_, part) => [part, ...unit.slice(1)]);
+    const still = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
+    const list = header.copies.length > 0 ? header.copies :
+      header.levels[0].parts.map((_, part) => [part, still, [255, 255, 255]]);
     this.group = new Group();
     this.material = material;
     this.quick = new ShaderMaterial(quickShader);
