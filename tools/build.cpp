@@ -50,7 +50,6 @@ void writeAll(const Call& call, const BallSet& atoms, MolecularSurface& result,
 void completeReport(const Call& call, const BallSet& balls, const Report& read, Report& report)
 {
     beginReport(call, report);
-    report.atoms = balls.balls.size();
     report.voxel = call.options.voxel;
     for (const Instance& instance : balls.instances) {
         InstanceReport& copy = report.instances.emplace_back();

@@ -19,6 +19,7 @@
 #include "molsurf/picture/write_png.h"
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/surface/stored_surface.h"
+#include "molsurf/surface/unit_mesh.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -148,6 +149,13 @@ std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, co
     return out;
 }
 
+/// Whether a file holds the mesh of a whole, triangle by triangle.
+bool holdsWhole(Format format)
+{
+    return format == Format::Ply || format == Format::Obj || format == Format::Stl ||
+           format == Format::Off || format == Format::ThreeMf;
+}
+
 void writePicture(const Call& call, const BallSet& atoms, const Mesh& mesh, double turn,
                   const Progress& progress, OutputFile& file)
 {
@@ -186,6 +194,12 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
 {
     std::vector<const Mesh*> levels;
     for (const Mesh& mesh : coarser) levels.push_back(&mesh);
+    std::optional<Mesh> whole;
+    if (atoms.unit && holdsWhole(output.format))
+        whole = wholeMesh(atoms, result, call.weld,
+                          call.colorCopies ? instanceColors(atoms, progress) : std::vector<Color>(),
+                          progress);
+    const Mesh& mesh = whole ? *whole : result.mesh;
     switch (output.format) {
     case Format::Vdb: {
         openvdb::MetaMap metadata = vdbMetadata(call, result.report);
@@ -204,16 +218,16 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
             writeUsda(gridsOf(call, result), usdVolume(call, output), file);
         break;
     case Format::Ply:
-        writePly(result.mesh, file);
+        writePly(mesh, file);
         break;
     case Format::Obj:
-        writeObj(result.mesh, file, printUnit(call));
+        writeObj(mesh, file, printUnit(call));
         break;
     case Format::Stl:
-        writeStl(result.mesh, file, printUnit(call));
+        writeStl(mesh, file, printUnit(call));
         break;
     case Format::Off:
-        writeOff(result.mesh, file);
+        writeOff(mesh, file);
         break;
     case Format::Glb:
         writeGlb(result.mesh,
@@ -222,7 +236,7 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
                  file);
         break;
     case Format::ThreeMf:
-        write3mf(result.mesh, stemOf(output.path), printUnit(call).perAngstrom, file);
+        write3mf(mesh, stemOf(output.path), printUnit(call).perAngstrom, file);
         break;
     case Format::Png:
         writePicture(call, atoms, result.mesh, output.turn, progress, file);

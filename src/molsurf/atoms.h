@@ -116,7 +116,12 @@ struct SelectOptions {
     std::string groupBy;
     bool instances = false; ///< whether the balls are those of each prototype of the assembly once,
                             ///< in the coordinates of the file
-    bool labels = false;    ///< whether the balls are labelled even if there are no groups
+    /// Whether the balls are those of a unit, of which the rotations of the assembly make the
+    /// whole, and those around it, as BallSet::unit says. Not with `instances` and `copies`.
+    bool bySymmetry = false;
+    double surroundings = 20.0; ///< how far around the unit the balls lie with `bySymmetry` [Å];
+                                ///< see surroundingsOf()
+    bool labels = false;        ///< whether the balls are labelled even if there are no groups
     /// The bytes that the file's text may have, unpacked; 0: 4 GiB, and no more than 200 times its
     /// packed size.
     std::size_t maxInput = 0;
@@ -146,6 +151,19 @@ struct Instance {
     openvdb::Vec3d translation;                    ///< [Å]
 };
 
+/// A unit of an assembly, of which rotations about a point make the whole: the motions of
+/// BallSet::instances, of which the first is the identity. They are a group.
+struct SymmetricUnit {
+    std::string pointGroup; ///< Schoenflies: "C5", "D3", "T", "O", "I"; "" if other
+    openvdb::Vec3d centre;  ///< the point [Å]
+    std::size_t copies = 0; ///< copies of the assembly in the unit
+    std::size_t balls = 0;  ///< balls of the unit; they come first
+    double deviation = 0.0; ///< largest distance of a copy from where a motion brings it [Å]
+    std::vector<std::int32_t> motionOf; ///< of each ball: the motion that made it; 0: the unit's
+    std::vector<std::vector<std::size_t>> product; ///< motion k after motion l is product[k][l]
+    std::vector<std::size_t> inverse;              ///< of each motion
+};
+
 /// Balls with their labels, and a record of how they were chosen.
 struct BallSet {
     std::vector<Ball> balls;
@@ -158,7 +176,9 @@ struct BallSet {
     std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
     std::vector<int> copyNumbers;       ///< number of copy i in the whole assembly, from 1
     std::vector<Instance> instances;    ///< with SelectOptions::instances the copies of the
-                                        ///< prototypes, which copyBegin then tells apart
+                                        ///< prototypes, which copyBegin then tells apart; with
+                                        ///< SelectOptions::bySymmetry those of the unit
+    std::optional<SymmetricUnit> unit;  ///< with SelectOptions::bySymmetry
     std::size_t beads = 0;              ///< balls that coarse rules made
     std::size_t beadAtoms = 0;          ///< atoms that these balls stand for
     std::optional<BallLabels> labels;   ///< present if they were asked for or if there are groups

@@ -157,6 +157,16 @@ struct InstanceReport {
     std::array<std::array<double, 4>, 4> matrix;
 };
 
+/// How a whole was made from a unit of it, by symmetry.
+struct SymmetryReport {
+    std::string pointGroup; ///< Schoenflies; "" if it is none of C, D, T, O and I
+    std::size_t order = 1;  ///< number of units
+    std::size_t copies = 1; ///< copies of the assembly in a unit
+    double deviation = 0.0; ///< farthest that a copy lies from where a rotation brings it [Å]
+    double gap = 0.0;       ///< largest gap between units that was closed [Å]
+    std::size_t openVertices = 0; ///< of a unit's border, that meet none of a neighbour's
+};
+
 /// The whole report.
 struct Report {
     std::string program = "vdb_molsurf";
@@ -176,6 +186,7 @@ struct Report {
     std::vector<PartReport> parts; ///< surfaces of their own, of which `surface` is the sum; empty
                                    ///< if there is only one
     std::vector<InstanceReport> instances;    ///< copies; `surface` has each distinct one once
+    std::optional<SymmetryReport> symmetry;   ///< present if the whole follows from a unit
     std::optional<EvolutionReport> evolution; ///< absent for kinds without a flow
     std::size_t activeVoxels = 0;             ///< number of active voxels of the grid `surface`
     std::size_t gridBytes = 0;                ///< memory of the grid `surface` [byte]

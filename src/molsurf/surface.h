@@ -12,11 +12,20 @@
 
 #include <openvdb/openvdb.h>
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace molsurf
 {
+
+/// A vertex on the border of a symmetric unit (BallSet::unit): in unit k it is the vertex `other`
+/// of the unit that motion k after `motion` makes.
+struct SharedVertex {
+    std::uint32_t vertex;
+    std::int32_t motion;
+    std::uint32_t other;
+};
 
 /// The surface of a molecule, as a level set and as a mesh.
 struct MolecularSurface {
@@ -26,6 +35,7 @@ struct MolecularSurface {
     openvdb::FloatGrid::Ptr surface;
     std::vector<openvdb::GridBase::Ptr> fields; ///< the grids that SurfaceOptions::fields names
     Mesh mesh;                                  ///< closed, with its vertices on the surface
+    std::vector<SharedVertex> shared; ///< of a symmetric unit, whose mesh is open: its border
     Report report; ///< measures of the surface; its caller fills in command, input and the like
 };
 
@@ -45,6 +55,10 @@ public:
 
     std::unique_ptr<State> state; ///< of use to the library alone
 };
+
+/// How far around a symmetric unit balls have an influence on its surface, for
+/// SelectOptions::surroundings [Å].
+double surroundingsOf(const SurfaceOptions& options);
 
 /// Makes the surface of balls and uses their resolutions, groups and colours.
 ///

@@ -210,6 +210,19 @@ class Instances(ToolTest):
         self.assertNotIn("COLOR_0", document["meshes"][0]["primitives"][0]["attributes"])
         self.assertGreater(len(document["materials"]), 1)
 
+    def test_units_of_a_whole(self):
+        """--by-symmetry: what is placed is the unit of the joint surface."""
+        self.write(assembly("icosahedral"))
+        self.check(0, "a.pdb", "--assembly", "1", "--by-symmetry", *QUICK, *FAST, "--color", "copy", "-o", "a.usda",
+                   "-o", "a.html", "-o", "a.glb")
+        _, roots = self.usda()
+        self.assertEqual(len(roots["a"].children["copies"].value("protoIndices")), 60)
+        header, arrays = self.page()
+        self.assertEqual(len(header["copies"]), 60)
+        document, _ = read_glb((self.folder / "a.glb").read_bytes())
+        primitive = document["meshes"][0]["primitives"][0]
+        self.assertEqual(document["accessors"][primitive["indices"]]["count"], len(arrays["index"]))
+
     def test_two_prototypes(self):
         operators = assembly("cyclic")
         head = biomt(operators) + biomt(operators[1:3]).replace("CHAINS: A", "CHAINS: B").split("\n", 1)[1]

@@ -69,6 +69,7 @@ struct Call {
     std::vector<double> lod;  ///< voxels of levels of detail [Å], the finest first; empty: one
     Scene scene;              ///< of the .vdb and the node of the .glb
     bool colorCopies = false; ///< copies of an assembly have colours
+    bool weld = false;        ///< units of a whole share their vertices
     bool center = false;      ///< the middle of the surface comes to the origin
     double printScale = 0.0;  ///< of .stl, .obj and .3mf [mm/Å]; 0: they are in Å
     double wall = 0.0;        ///< least thickness of a print [mm]; 0: none

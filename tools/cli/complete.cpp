@@ -207,7 +207,7 @@ void completeGroups(Call& call)
     if (!call.groupsFile.empty() && !call.atoms.groupBy.empty())
         misuse("--groups and --group-by together");
     if (!call.groupsFile.empty()) call.atoms.groups = readGroups(call.groupsFile);
-    if (call.colorCopies && !call.atoms.instances) {
+    if (call.colorCopies && !call.atoms.instances && !call.atoms.bySymmetry) {
         if (call.atoms.assembly == "none") misuse("--color copy: expected --assembly too");
         if (!call.groupsFile.empty() || !call.atoms.groupBy.empty())
             misuse("--color copy and groups together [hint: --group-by copy --color group]");
@@ -231,7 +231,7 @@ void completeInstances(Call& call)
     if (!call.atoms.instances) {
         if (!call.lod.empty()) misuse("--lod: expected --instances too");
         for (const Output& output : call.outputs)
-            if (output.format == Format::Usda)
+            if (output.format == Format::Usda && !call.atoms.bySymmetry)
                 misuse("-o " + output.path +
                        ": expected --instances too [hint: --for usd -o FILE.vdb writes a volume]");
         return;
@@ -256,6 +256,28 @@ void completeInstances(Call& call)
     SurfaceOptions coarsest = call.options;
     coarsest.voxel = call.lod.back();
     checkOptions(coarsest);
+}
+
+void completeSymmetry(Call& call)
+{
+    if (!call.atoms.bySymmetry) {
+        if (call.weld) misuse("--weld: expected --by-symmetry too");
+        return;
+    }
+    if (call.atoms.assembly == "none")
+        misuse("--by-symmetry: expected --assembly too [hint: --assembly 1]");
+    for (const char* option :
+         {"instances", "copies", "split", "surface-of", "interfaces", "frames", "trajectory",
+          "memory", "dry-run", "center", "fill-cavities", "match-volume"})
+        if (call.has(option)) misuse("--by-symmetry and --" + std::string(option) + " together");
+    for (const Output& output : call.outputs)
+        if (output.format == Format::Vdb)
+            misuse("-o " + output.path +
+                   ": --by-symmetry makes no grid of the whole [hint: --memory 8G in its place "
+                   "makes it in bricks]");
+    for (const std::string& field : call.options.fields)
+        if (!findCurvatureField(field)) misuse("--by-symmetry and --fields " + field + " together");
+    call.atoms.surroundings = surroundingsOf(call.options);
 }
 
 void completeResolutions(Call& call)
@@ -301,6 +323,7 @@ void completeBuild(Call& call)
     if (!call.dryRun || !call.paths.empty()) call.outputs = surfaceOutputs(call);
     completeFrames(call);
     completeInstances(call);
+    completeSymmetry(call);
     completeScene(call);
     completeSurface(call);
     completePicture(call);

@@ -484,6 +484,12 @@ OptionGroup atomOptions()
               "the surface of each distinct copy of the assembly once:\n"
               "the .glb, .usda, .html, .png and .json place the copies",
               Build, of(&SelectOptions::instances)),
+         flag("by-symmetry",
+              "the joint surface of the whole assembly from one unit,\n"
+              "which its rotations repeat",
+              Build, of(&SelectOptions::bySymmetry)),
+         flag("weld", "with --by-symmetry: units share the vertices of their borders", Build,
+              OF(weld)),
          text("copies", "LIST",
               "copies of the assembly: numbers such as 1,7,20-25, or\n"
               "fold:N, those about the nearest N-fold axis, with copy 1",

@@ -29,6 +29,9 @@ constexpr double leastCavity = 1e-8;
 struct BoundaryMeasure {
     std::vector<BoundaryPiece> pieces; ///< in the order of their first ball
     std::vector<double> patchAreas;    ///< one a patch [Å^2]
+    /// What each patch adds to the Euler characteristic: its faces, less half of the arcs about
+    /// them and with a third of the corners. They add up to those of all pieces.
+    std::vector<double> patchEuler;
 };
 
 /// Measures the boundary of a union of balls, without a grid.

@@ -126,6 +126,12 @@ Json instancesJson(const std::vector<InstanceReport>& instances)
     return out;
 }
 
+Json symmetryJson(const SymmetryReport& s)
+{
+    return {{"point_group", s.pointGroup}, {"order", s.order}, {"copies_in_unit", s.copies},
+            {"deviation", s.deviation},    {"gap", s.gap},     {"open_vertices", s.openVertices}};
+}
+
 Json coarseJson(const CoarseReport& coarse)
 {
     return {{"beads", coarse.beads}, {"atoms", coarse.atoms}};
@@ -158,6 +164,7 @@ std::string reportText(const Report& report)
         {"interfaces", interfacesJson(report.interfaces)},
         {"parts", partsJson(report.parts)},
         {"instances", instancesJson(report.instances)},
+        {"symmetry", report.symmetry ? symmetryJson(*report.symmetry) : Json()},
         {"warnings", report.warnings},
     };
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

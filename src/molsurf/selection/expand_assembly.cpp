@@ -60,19 +60,6 @@ openvdb::Vec3d centreOf(const Structure& structure, const Ball& ball)
     return openvdb::Vec3f(atom) == ball.center ? atom : openvdb::Vec3d(ball.center);
 }
 
-void appendCopy(const Structure& structure, const Operator& op, const std::vector<Ball>& balls,
-                std::vector<Ball>& out)
-{
-    const auto& r = op.rotation;
-    for (const Ball& ball : balls) {
-        const openvdb::Vec3d p = centreOf(structure, ball);
-        const openvdb::Vec3d center(r[0][0] * p[0] + r[0][1] * p[1] + r[0][2] * p[2],
-                                    r[1][0] * p[0] + r[1][1] * p[1] + r[1][2] * p[2],
-                                    r[2][0] * p[0] + r[2][1] * p[1] + r[2][2] * p[2]);
-        out.push_back({openvdb::Vec3f(center + op.translation), ball.radius, ball.atom});
-    }
-}
-
 /// The centre of the balls that an assembly uses first: those of its first part that has any.
 openvdb::Vec3d centroidOf(const Structure& structure, const std::vector<std::vector<Ball>>& parts)
 {
@@ -96,6 +83,19 @@ std::vector<std::vector<Ball>> ballsOfParts(const Structure& structure, const As
 }
 
 } // namespace
+
+void appendCopy(const Structure& structure, const Operator& op, const std::vector<Ball>& balls,
+                std::vector<Ball>& out)
+{
+    const auto& r = op.rotation;
+    for (const Ball& ball : balls) {
+        const openvdb::Vec3d p = centreOf(structure, ball);
+        const openvdb::Vec3d center(r[0][0] * p[0] + r[0][1] * p[1] + r[0][2] * p[2],
+                                    r[1][0] * p[0] + r[1][1] * p[1] + r[1][2] * p[2],
+                                    r[2][0] * p[0] + r[2][1] * p[1] + r[2][2] * p[2]);
+        out.push_back({openvdb::Vec3f(center + op.translation), ball.radius, ball.atom});
+    }
+}
 
 std::vector<int> findCopies(const Structure& structure, const std::string& name,
                             const std::string& copies, const std::vector<Ball>& balls)

@@ -51,6 +51,11 @@ AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
 std::vector<int> findCopies(const Structure& structure, const std::string& name,
                             const std::string& copies, const std::vector<Ball>& balls);
 
+/// Appends the balls of a part of an assembly as an operator moves them, in double precision from
+/// the atoms' positions.
+void appendCopy(const Structure& structure, const Operator& op, const std::vector<Ball>& balls,
+                std::vector<Ball>& out);
+
 /// Applies the operators of an assembly to the balls whose chains it lists.
 ///
 /// Centres of atoms are computed in double precision from the atoms' positions. A part of the

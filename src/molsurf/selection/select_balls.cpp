@@ -10,6 +10,7 @@
 #include "molsurf/selection/instance_assembly.h"
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/selection/radii.h"
+#include "molsurf/selection/symmetric_unit.h"
 #include "molsurf/structure/read_structure.h"
 #include "molsurf/structure/symmetry.h"
 #include "molsurf/structure/text_fields.h"
@@ -274,7 +275,7 @@ std::vector<char> findDuplicates(const std::vector<Ball>& balls,
 /// would count it twice. Prototypes are surfaces of their own, and keep theirs.
 void dropDuplicates(const Structure& structure, Filter& filter, BallSet& out)
 {
-    const bool apart = !out.instances.empty();
+    const bool apart = !out.instances.empty() && !out.unit;
     const std::vector<char> duplicate = findDuplicates(
         out.balls, apart ? out.copyBegin : std::vector<std::size_t>{0, out.balls.size()});
     const std::size_t first =
@@ -399,6 +400,22 @@ void applyResolutions(const Structure& structure, const SelectOptions& options, 
     }
 }
 
+/// Makes groups and rules count the balls of the whole that a unit stands for, and forgets its
+/// copies.
+void countWhole(BallSet& out)
+{
+    const std::size_t own = out.unit->balls;
+    const auto count = [&](const std::vector<std::int32_t>& memberOf, auto& groups) {
+        for (auto& group : groups) group.balls = 0;
+        for (std::size_t i = 0; i < std::min(own, memberOf.size()); ++i)
+            if (memberOf[i] >= 0) groups[std::size_t(memberOf[i])].balls += out.instances.size();
+    };
+    count(out.resolutionOf, out.resolutions);
+    if (out.labels) count(out.labels->groupOf, out.labels->groups);
+    out.copyBegin = {0, own, out.balls.size()};
+    out.copyNumbers = {1};
+}
+
 /// The groups, with the numbers of their copies.
 /// @param[in] balls  in the coordinates of the file
 std::vector<GroupRule> withCopies(const Structure& structure, const SelectOptions& options,
@@ -429,6 +446,11 @@ void checkOptions(const SelectOptions& options)
         throw Error(ErrorKind::Usage,
                     "`copies` is for an assembly [hint: `assembly` 1, for example]");
     }
+    if (options.bySymmetry && options.assembly == "none")
+        throw Error(ErrorKind::Usage,
+                    "`bySymmetry` is for an assembly [hint: `assembly` 1, for example]");
+    if (options.bySymmetry && !options.copies.empty())
+        throw Error(ErrorKind::Usage, "`bySymmetry` and `copies` together");
 }
 
 BallSet readAtoms(const std::string& path, const SelectOptions& options, double probe,
@@ -463,11 +485,29 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
         beadAtoms = std::move(coarse.beadAtoms);
         out.warnings.insert(out.warnings.end(), coarse.warnings.begin(), coarse.warnings.end());
     }
+    RotationGroup group; // of a symmetric unit
     const std::vector<GroupRule> groups = withCopies(structure, options, balls);
     if (options.assembly == "none") {
         out.balls = std::move(balls);
         out.copyBegin = {0, out.balls.size()};
         out.copyNumbers = {1};
+    } else if (options.bySymmetry) {
+        UnitBalls found = unitBalls(structure, options.assembly, balls);
+        filter.note("not in the assembly", found.unused);
+        out.balls = std::move(found.balls);
+        out.copyBegin = std::move(found.copyBegin);
+        out.copyNumbers = std::move(found.copyNumbers);
+        group = std::move(found.group);
+        out.unit = SymmetricUnit{group.symmetry.pointGroup,
+                                 group.symmetry.centre,
+                                 out.copyNumbers.size(),
+                                 0,
+                                 found.deviation,
+                                 {},
+                                 group.product,
+                                 group.inverse};
+        for (const Operator& motion : group.motions)
+            out.instances.push_back({0, motion.name, motion.rotation, motion.translation});
     } else if (options.instances) {
         InstancedBalls instanced =
             instanceAssembly(structure, options.assembly, options.copies, balls);
@@ -492,11 +532,17 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     }
     dropDuplicates(structure, filter, out);
     checkExtent(structure, out.balls);
+    if (out.unit) {
+        out.unit->balls = out.balls.size();
+        out.unit->motionOf = surround(group, options.surroundings, out);
+    }
     warnOfRounding(out.balls, out.warnings);
-    for (const Ball& ball : out.balls) {
-        const std::int32_t n = beadAtoms.empty() ? 0 : beadAtoms[std::size_t(ball.atom)];
-        out.beads += n > 0;
-        out.beadAtoms += std::size_t(n);
+    const std::size_t own = out.unit ? out.unit->balls : out.balls.size();
+    const std::size_t times = out.unit ? out.instances.size() : 1;
+    for (std::size_t i = 0; i < own; ++i) {
+        const std::int32_t n = beadAtoms.empty() ? 0 : beadAtoms[std::size_t(out.balls[i].atom)];
+        out.beads += times * (n > 0);
+        out.beadAtoms += times * std::size_t(n);
     }
     applyResolutions(structure, options, out);
     const bool several = options.instances && out.copies > 1; // a surface for each prototype
@@ -511,6 +557,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
         out.warnings.insert(out.warnings.end(), out.labels->warnings.begin(),
                             out.labels->warnings.end());
     }
+    if (out.unit) countWhole(out);
     return out;
 }
 
@@ -529,8 +576,15 @@ std::string describeSelection(const Structure& structure, const BallSet& selecti
     std::string text = displayName(structure.source) + ": " + structure.format + ", " +
                        counted(structure.models.size(), "model") + ", " + counted(atoms, "atom");
     if (structure.models.size() > 1) text += " in model " + std::to_string(selection.model);
-    text += "; used " + counted(selection.balls.size(), "ball");
-    if (!selection.instances.empty()) {
+    text += "; used " +
+            counted(selection.unit ? selection.unit->balls : selection.balls.size(), "ball");
+    if (const auto& unit = selection.unit) {
+        text += " (" + std::to_string(unit->copies) +
+                (unit->copies == 1 ? " copy) " : " copies) ") + "in each of " +
+                std::to_string(selection.instances.size()) + " units that rotations make (" +
+                (unit->pointGroup.empty() ? "no point group" : unit->pointGroup) + "), and " +
+                std::to_string(selection.balls.size() - unit->balls) + " around one";
+    } else if (!selection.instances.empty()) {
         text += " of " + counted(selection.copies, "prototype") + " for " +
                 std::to_string(selection.instances.size()) + " copies";
     } else if (selection.copies > 1)

@@ -45,6 +45,9 @@ BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which, Coun
     out.colors = gather(atoms.colors, which);
     out.copyBegin = {0, out.balls.size()};
     out.model = atoms.model;
+    out.instances = atoms.instances;
+    out.unit = atoms.unit;
+    if (out.unit) out.unit->motionOf = gather(atoms.unit->motionOf, which);
     if (counted == Counted::Subset) count(out.resolutionOf, out.resolutions);
     if (!atoms.labels) return out;
     const BallLabels& all = *atoms.labels;
@@ -62,7 +65,7 @@ BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which, Coun
 BallSet inSpatialOrder(const BallSet& atoms)
 {
     const std::vector<std::int32_t> order = spatialOrder(atoms.balls);
-    return subset(atoms, {order.begin(), order.end()});
+    return subset(atoms, {order.begin(), order.end()}, Counted::Whole);
 }
 
 } // namespace molsurf

@@ -30,25 +30,6 @@ struct Motion {
     Vec3d shift;
 };
 
-Mat3d matrixOf(const Operator& op)
-{
-    Mat3d m;
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            m(i, j) = op.rotation[std::size_t(i)][std::size_t(j)];
-        }
-    }
-    return m;
-}
-
-/// The nearest rotation: Newton's iteration for the orthogonal factor of the polar decomposition
-/// (N. Higham, SIAM J. Sci. Stat. Comput. 7:1160-1174, 1986).
-Mat3d nearestRotation(Mat3d m)
-{
-    for (int i = 0; i < 4; ++i) m = 0.5 * (m + m.inverse().transpose());
-    return m;
-}
-
 /// Rotation vector: unit axis times angle in [0, pi].
 Vec3d rotationVector(const Mat3d& r)
 {
@@ -345,6 +326,25 @@ std::string rotationProblem(const Operator& op)
         }
     }
     return "";
+}
+
+Mat3d matrixOf(const Operator& op)
+{
+    Mat3d m;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            m(i, j) = op.rotation[std::size_t(i)][std::size_t(j)];
+        }
+    }
+    return m;
+}
+
+Mat3d nearestRotation(Mat3d m)
+{
+    // Newton's iteration for the orthogonal factor of the polar decomposition (N. Higham, SIAM J.
+    // Sci. Stat. Comput. 7:1160-1174, 1986).
+    for (int i = 0; i < 4; ++i) m = 0.5 * (m + m.inverse().transpose());
+    return m;
 }
 
 Symmetry findSymmetry(const Assembly& assembly, const openvdb::Vec3d& reference)

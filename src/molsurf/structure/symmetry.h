@@ -6,6 +6,7 @@
 
 #include "molsurf/structure/structure.h"
 
+#include <openvdb/math/Mat3.h>
 #include <openvdb/Types.h>
 
 #include <cstddef>
@@ -51,6 +52,12 @@ std::vector<std::size_t> partsOfCopies(const Assembly& assembly);
 /// Why an operator is no rotation with a translation, by name: "operator 7: expected a rotation,
 /// got a reflection (determinant -1)"; empty if it is one, but for 1 % in every component.
 std::string rotationProblem(const Operator& op);
+
+/// The rotation of an operator as a matrix.
+openvdb::Mat3d matrixOf(const Operator& op);
+
+/// The rotation that is nearest to a matrix, which must be near one.
+openvdb::Mat3d nearestRotation(openvdb::Mat3d m);
 
 /// Finds the rotations that take the copies of an assembly onto each other.
 ///

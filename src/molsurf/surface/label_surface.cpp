@@ -31,6 +31,7 @@ void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Lab
     std::vector<double> points(other + 1, 0.0);
     const std::vector<Vec3f> inside = pointsInside(*result.surface, result.report.surface.volume);
     for (const std::int32_t ball : nearestBalls(atoms.balls, inside, reach, progress)) {
+        if (atoms.unit && (ball < 0 || atoms.unit->motionOf[std::size_t(ball)] != 0)) continue;
         const std::int32_t g = ball < 0 ? -1 : labels.groupOf[std::size_t(ball)];
         points[g < 0 ? other : std::size_t(g)] += 1.0;
     }
@@ -45,7 +46,8 @@ void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Lab
         result.report.groups.push_back(
             {group.name, group.balls, area[g], volume[g], colors.empty() ? "" : hexOf(colors[g])});
     }
-    const std::size_t rest = atoms.balls.size() - grouped;
+    const std::size_t rest =
+        (atoms.unit ? atoms.unit->balls * atoms.instances.size() : atoms.balls.size()) - grouped;
     if (rest > 0 || area[other] > 0.0) {
         result.report.groups.push_back(
             {"other", rest, area[other], volume[other], colors.empty() ? "" : hexOf(neutralColor)});

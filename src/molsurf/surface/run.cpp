@@ -11,6 +11,7 @@
 #include "molsurf/surface/match_volume.h"
 #include "molsurf/surface/parts.h"
 #include "molsurf/surface/surface_run.h"
+#include "molsurf/surface/unit_run.h"
 
 namespace molsurf
 {
@@ -77,11 +78,17 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
     const bool helps = shown && !hasField(options.fields, shown);
     SurfaceOptions wanted = options;
     if (helps) wanted.fields.push_back(shown);
-    MolecularSurface result = whole ? runWhole(inSpatialOrder(atoms), wanted, progress, warm)
-                                    : runParts(atoms, wanted, progress);
+    MolecularSurface result;
+    if (atoms.unit) {
+        result = runUnit(inSpatialOrder(atoms), wanted, progress);
+    } else if (whole) {
+        result = runWhole(inSpatialOrder(atoms), wanted, progress, warm);
+    } else {
+        result = runParts(atoms, wanted, progress);
+    }
     if (shown) addCurvatureColors(options.color, !helps, result.mesh, result.fields);
     Report& report = result.report;
-    report.atoms = atoms.balls.size();
+    report.atoms = atoms.unit ? atoms.unit->balls * atoms.instances.size() : atoms.balls.size();
     report.voxel = options.voxel;
     if (atoms.beads > 0) report.coarse = CoarseReport{atoms.beads, atoms.beadAtoms};
     for (const ResolutionGroup& group : atoms.resolutions) {

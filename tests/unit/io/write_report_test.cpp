@@ -49,7 +49,7 @@ TEST(WriteReport, HasTheKeysOfTheContractInItsOrder)
         (Names{"program",   "version",           "command", "input",      "atoms",      "voxel",
                "center",    "surface",           "coarse",  "resolution", "evolution",  "grid",
                "seconds",   "peak_memory_bytes", "threads", "groups",     "interfaces", "parts",
-               "instances", "warnings"}));
+               "instances", "symmetry",          "warnings"}));
     Names surface = keys(json["surface"]);
     surface.resize(13); // later keys are additions
     EXPECT_EQ(surface, (Names{"kind", "area", "volume", "euler_characteristic", "components",

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The border of a symmetric unit, made to fit those of its neighbours vertex on vertex.
+
+#include "molsurf/atoms.h"
+#include "molsurf/core/disjoint_sets.h"
+#include "molsurf/surface.h"
+#include "molsurf/surface/unit_cut.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace molsurf
+{
+
+/// What is known of a border that was fitted.
+struct BorderFit {
+    std::vector<SharedVertex> shared; ///< every vertex of the border, once for each neighbour
+    std::size_t open = 0;             ///< edges of the border that fit none of a neighbour's
+    std::size_t caps = 0; ///< holes that were left in the whole, and closed by triangles
+    double largest = 0.0; ///< gap that was closed [Å]
+};
+
+/// The vertices of a whole that vertices of its units share.
+class BorderClasses
+{
+public:
+    /// @param[in] vertices  of the unit's mesh
+    BorderClasses(const SymmetricUnit& unit, const std::vector<SharedVertex>& shared,
+                  std::size_t vertices);
+
+    /// Vertices of the unit that are shared, ascending.
+    const std::vector<std::uint32_t>& border() const { return border_; }
+
+    /// The place of a vertex of the unit in border(), or -1.
+    std::int32_t placeOf(std::uint32_t vertex) const { return place_[vertex]; }
+
+    /// The first of the unit and place that are the same vertex, as unit * border().size() + place.
+    std::size_t firstOf(std::size_t unit, std::int32_t place)
+    {
+        return sets_.find(std::uint32_t(unit * border_.size() + std::size_t(place)));
+    }
+
+    /// The number of vertices of the whole that are shared.
+    std::size_t count();
+
+private:
+    std::size_t order_;
+    std::vector<std::uint32_t> border_;
+    std::vector<std::int32_t> place_;
+    DisjointSets sets_;
+};
+
+/// Makes the border of a unit congruent with those of its neighbours.
+///
+/// The surface of a neighbour is that of the unit, turned, but was found on other voxels. Lines
+/// that meet are replaced by the mean of both, which gets the vertices of both; corners by the mean
+/// of the corners that meet there.
+///
+/// @param[in]     voxel  what is farther apart than two of these does not meet [Å]
+/// @param[in,out] part   what owner 0 has; its loops are used up
+BorderFit fitBorder(const std::vector<Instance>& motions, const SymmetricUnit& unit, double voxel,
+                    CutMesh& part);
+
+} // namespace molsurf

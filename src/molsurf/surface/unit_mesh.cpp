@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/unit_mesh.h"
+
+#include "molsurf/core/parallel.h"
+#include "molsurf/error.h"
+#include "molsurf/mesh/mesh_instance.h"
+#include "molsurf/mesh/topology.h"
+#include "molsurf/surface/unit_border.h"
+
+#include <algorithm>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+namespace
+{
+
+/// The vertex that each vertex of each unit is in the whole: that of unit k and vertex v at
+/// k * vertices + v.
+std::vector<std::uint32_t> vertexNumbers(const SymmetricUnit& unit,
+                                         const std::vector<SharedVertex>& shared,
+                                         std::size_t vertices, std::size_t& count)
+{
+    const std::size_t order = unit.inverse.size();
+    BorderClasses classes(unit, shared, vertices);
+    const std::vector<std::uint32_t>& border = classes.border();
+    std::vector<std::uint32_t> out(order * vertices);
+    count = 0;
+    for (std::size_t k = 0; k < order; ++k) {
+        for (std::size_t v = 0; v < vertices; ++v) {
+            std::uint32_t& number = out[k * vertices + v];
+            number = std::uint32_t(count);
+            if (const std::int32_t place = classes.placeOf(std::uint32_t(v)); place >= 0) {
+                const std::size_t first = classes.firstOf(k, place);
+                if (first != k * border.size() + std::size_t(place)) {
+                    number = out[first / border.size() * vertices + border[first % border.size()]];
+                    continue;
+                }
+            }
+            ++count;
+        }
+    }
+    return out;
+}
+
+/// Turns the columns that are components of vectors: their names end in _x, _y and _z.
+void turnVectors(const MeshInstance& motion, std::vector<Attribute<float>>& scalars,
+                 std::size_t begin, std::size_t end)
+{
+    for (std::size_t a = 0; a + 2 < scalars.size(); ++a) {
+        const auto ends = [&](std::size_t i, const char* with) {
+            const std::string& name = scalars[i].name;
+            return name.size() > 2 && name.compare(name.size() - 2, 2, with) == 0;
+        };
+        if (!ends(a, "_x") || !ends(a + 1, "_y") || !ends(a + 2, "_z")) continue;
+        for (std::size_t v = begin; v < end; ++v) {
+            const Vec3d turned = motion.turned(
+                Vec3d(scalars[a].values[v], scalars[a + 1].values[v], scalars[a + 2].values[v]));
+            for (std::size_t i = 0; i < 3; ++i) scalars[a + i].values[v] = float(turned[int(i)]);
+        }
+    }
+}
+
+} // namespace
+
+Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, bool weld,
+               const std::vector<std::array<std::uint8_t, 3>>& colors, const Progress& progress)
+{
+    const Mesh& unit = surface.mesh;
+    const std::size_t order = atoms.instances.size(), vertices = unit.positions.size();
+    if (order * vertices > 0xffffffffu)
+        throw Error(ErrorKind::Output, "the mesh of the whole has more vertices than 32 bits count "
+                                       "[hint: a .glb file holds the unit once]");
+    std::size_t count = order * vertices;
+    std::vector<std::uint32_t> numbers;
+    if (weld) numbers = vertexNumbers(*atoms.unit, surface.shared, vertices, count);
+
+    Mesh out;
+    const auto repeat = [&](auto& to, const auto& from) {
+        to.reserve(count);
+        for (std::size_t k = 0; k < order; ++k) {
+            for (std::size_t v = 0; v < from.size(); ++v)
+                if (!weld || numbers[k * vertices + v] == to.size()) to.push_back(from[v]);
+        }
+    };
+    repeat(out.positions, unit.positions);
+    repeat(out.normals, unit.normals);
+    for (const auto& a : unit.scalars) repeat(out.scalars.emplace_back().values, a.values);
+    for (const auto& a : unit.labels) repeat(out.labels.emplace_back().values, a.values);
+    for (std::size_t i = 0; i < unit.scalars.size(); ++i)
+        out.scalars[i].name = unit.scalars[i].name;
+    for (std::size_t i = 0; i < unit.labels.size(); ++i) out.labels[i].name = unit.labels[i].name;
+    if (colors.empty()) repeat(out.colors, unit.colors);
+
+    std::size_t first = 0; // vertex of unit k
+    for (std::size_t k = 0; k < order; ++k) {
+        const Instance& m = atoms.instances[k];
+        const MeshInstance motion{0, {}, m.rotation, m.translation, {}};
+        std::size_t last = first;
+        for (std::size_t v = 0; v < vertices; ++v)
+            last += !weld || numbers[k * vertices + v] == last;
+        parallelFor(last - first, progress, [&](std::size_t i) {
+            const std::size_t v = first + i;
+            out.positions[v] = Vec3f(motion.placed(Vec3d(out.positions[v])));
+            out.normals[v] = Vec3f(motion.turned(Vec3d(out.normals[v])));
+        });
+        turnVectors(motion, out.scalars, first, last);
+        if (!colors.empty()) out.colors.insert(out.colors.end(), last - first, colors[k]);
+        first = last;
+        if (!weld) out.parts.push_back({"unit " + m.name, out.triangles.size()});
+        for (const auto& t : unit.triangles) {
+            auto& corners = out.triangles.emplace_back();
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::size_t v = k * vertices + t[c];
+                corners[c] = weld ? numbers[v] : std::uint32_t(v);
+            }
+        }
+    }
+    if (weld && surface.report.surface.closed && !checkTopology(out, progress).closed)
+        throw Error(ErrorKind::Check, "the units' meshes do not close when they are welded");
+    return out;
+}
+
+} // namespace molsurf

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The mesh of a whole from that of a symmetric unit.
+
+#include "molsurf/atoms.h"
+#include "molsurf/surface.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace molsurf
+{
+
+/// Puts the units of a whole together, in the order of BallSet::instances.
+///
+/// @param[in] atoms    with a unit
+/// @param[in] surface  of it
+/// @param[in] weld     whether vertices that units share become one: then the mesh is closed if the
+///                     report says so; else each unit is a part of its own
+/// @param[in] colors   one a unit; empty: the vertices keep theirs
+/// @throws Error(ErrorKind::Check) if the welded mesh is not closed although the report says so
+Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, bool weld,
+               const std::vector<std::array<std::uint8_t, 3>>& colors, const Progress& progress);
+
+} // namespace molsurf

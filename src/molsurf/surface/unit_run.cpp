@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/unit_run.h"
+
+#include "molsurf/balls/ball_index.h"
+#include "molsurf/balls/power_cells.h"
+#include "molsurf/balls/power_owners.h"
+#include "molsurf/core/disjoint_sets.h"
+#include "molsurf/error.h"
+#include "molsurf/mesh/integrate.h"
+#include "molsurf/mesh/measure.h"
+#include "molsurf/mesh/mesh_instance.h"
+#include "molsurf/mesh/statistics.h"
+#include "molsurf/mesh/topology.h"
+#include "molsurf/spline/curvature.h"
+#include "molsurf/surface/surface_kind.h"
+#include "molsurf/surface/surface_run.h"
+#include "molsurf/surface/unit_border.h"
+#include "molsurf/surface/unit_cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+
+namespace
+{
+
+/// How near the images of a ball on an axis are [Å].
+constexpr double onAxis = 0.05;
+
+void checkUnitOptions(const SurfaceOptions& options)
+{
+    const auto refuse = [](const std::string& what) {
+        throw Error(ErrorKind::Usage,
+                    what + " needs the whole assembly at once [hint: without `bySymmetry`]");
+    };
+    if (options.split) refuse("`split`");
+    if (!options.surfaceOf.empty()) refuse("`surfaceOf`");
+    if (options.interfaces) refuse("`interfaces`");
+    if (options.matchVolume) refuse("`matchVolume`");
+    if (options.fillCavities) refuse("`fillCavities`");
+    for (const std::string& field : options.fields)
+        if (!findCurvatureField(field)) refuse("`fields` " + field);
+}
+
+/// The images of a ball of the unit that lie where it is: it is on an axis.
+std::vector<std::size_t> imagesAt(const BallSet& atoms, const BallIndex& index, std::size_t i)
+{
+    std::vector<std::size_t> out;
+    const Vec3d x(atoms.balls[i].center);
+    index.forEachNear(x, x, 0.0, [&](const Ball& ball, std::int32_t j) {
+        if (atoms.unit->motionOf[std::size_t(j)] == atoms.unit->motionOf[i]) return;
+        if (ball.atom != atoms.balls[i].atom || ball.radius != atoms.balls[i].radius) return;
+        if ((Vec3d(ball.center) - x).length() < onAxis) out.push_back(std::size_t(j));
+    });
+    return out;
+}
+
+/// The balls that decide whose a point is. Images of a ball on an axis move a little toward their
+/// own units, so that each has an equal part.
+std::vector<Ball> owningBalls(const BallSet& atoms, double grown)
+{
+    const BallIndex index(atoms.balls, {0.0, 0.0, 2.0});
+    Vec3d middle(0.0);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
+        if (atoms.unit->motionOf[i] != 0) continue;
+        middle += Vec3d(atoms.balls[i].center);
+        ++count;
+    }
+    middle /= double(count);
+    std::vector<Ball> out = atoms.balls;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i].radius += float(grown);
+        if (imagesAt(atoms, index, i).empty()) continue;
+        const Instance& m = atoms.instances[std::size_t(atoms.unit->motionOf[i])];
+        const MeshInstance motion{0, {}, m.rotation, m.translation, {}};
+        const Vec3d away = motion.placed(middle) - Vec3d(out[i].center);
+        if (away.lengthSqr() > 0.0) out[i].center += openvdb::Vec3f(onAxis * away.unit());
+    }
+    return out;
+}
+
+/// What the unit has of a union of balls, in closed form.
+struct UnionShare {
+    double area = 0.0, volume = 0.0; ///< [Å^2], [Å^3]
+    double euler = 0.0;              ///< of the Euler characteristic of the boundary
+};
+
+/// Rotations by which more than three spheres can meet in a point, on their axis: of each the
+/// powers from itself on, as indices of motions.
+std::vector<std::vector<std::size_t>> highAxes(const SymmetricUnit& unit)
+{
+    std::vector<std::vector<std::size_t>> out;
+    for (std::size_t g = 1; g < unit.inverse.size(); ++g) {
+        std::vector<std::size_t> powers = {g};
+        while (unit.product[g][powers.back()] != 0)
+            powers.push_back(unit.product[g][powers.back()]);
+        if (powers.size() >= 3) out.push_back(std::move(powers));
+    }
+    return out;
+}
+
+/// What a ball adds to the Euler characteristic. Where spheres of images meet in a point of an
+/// axis, they are moved apart, each in its own way: the mean of the images has a fair share.
+double eulerOf(const BallSet& atoms, const BallIndex& index, const PowerCells& cells,
+               const std::vector<std::vector<std::size_t>>& axes, std::size_t i, double radius)
+{
+    const Vec3d x(atoms.balls[i].center);
+    for (const std::vector<std::size_t>& powers : axes) {
+        double sum = cells.euler[i];
+        std::size_t found = 1;
+        for (const std::size_t g : powers) {
+            const Instance& m = atoms.instances[g];
+            const Vec3d image = MeshInstance{0, {}, m.rotation, m.translation, {}}.placed(x);
+            if ((image - x).length() > 2.0 * radius) break;
+            index.forEachNear(image, image, 0.0, [&](const Ball& ball, std::int32_t j) {
+                if ((Vec3d(ball.center) - image).length() > onAxis ||
+                    atoms.unit->motionOf[std::size_t(j)] != std::int32_t(g))
+                    return;
+                sum += cells.euler[std::size_t(j)];
+                ++found;
+            });
+        }
+        if (found == powers.size() + 1) return sum / double(found);
+    }
+    return cells.euler[i];
+}
+
+UnionShare shareOf(const BallSet& atoms, double grown, const Progress& progress)
+{
+    const std::vector<std::vector<std::size_t>> axes = highAxes(*atoms.unit);
+    std::vector<Ball> balls = atoms.balls;
+    for (Ball& ball : balls) ball.radius += float(grown);
+    const PowerCells cells = powerCells(balls, progress);
+    const BallIndex index(atoms.balls, {0.0, 0.0, 2.0});
+    UnionShare sum;
+    const auto add = [&](std::size_t i, double part) {
+        sum.area += part * cells.areas[i];
+        sum.volume += part * cells.volumes[i];
+    };
+    const auto eulerAt = [&](std::size_t i, const std::vector<std::size_t>& images) {
+        double euler = cells.euler[i];
+        for (const std::size_t j : images) euler += cells.euler[j];
+        return euler;
+    };
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        if (atoms.unit->motionOf[i] != 0) continue;
+        const std::vector<std::size_t> images = imagesAt(atoms, index, i);
+        const double part = 1.0 / double(images.size() + 1);
+        add(i, part);
+        for (const std::size_t j : images) add(j, part);
+        sum.euler += images.empty() ? eulerOf(atoms, index, cells, axes, i, balls[i].radius)
+                                    : part * eulerAt(i, images);
+    }
+    return sum;
+}
+
+/// The connected pieces of the whole: each piece of every unit joined to those that it meets.
+std::vector<PieceMeasure> wholePieces(const SymmetricUnit& unit, const BorderFit& fit,
+                                      const std::vector<std::uint32_t>& pieceOf,
+                                      const std::vector<PieceMeasure>& pieces)
+{
+    const std::size_t order = unit.inverse.size(), n = pieces.size();
+    DisjointSets sets(order * n);
+    std::vector<std::array<std::uint32_t, 3>> meetings;
+    for (const SharedVertex& s : fit.shared)
+        meetings.push_back({pieceOf[s.vertex], std::uint32_t(s.motion), pieceOf[s.other]});
+    std::sort(meetings.begin(), meetings.end());
+    meetings.erase(std::unique(meetings.begin(), meetings.end()), meetings.end());
+    for (std::size_t k = 0; k < order; ++k) {
+        for (const auto& [piece, motion, other] : meetings)
+            sets.join(std::uint32_t(k * n + piece),
+                      std::uint32_t(unit.product[k][motion] * n + other));
+    }
+    std::size_t count = 0;
+    const std::vector<std::uint32_t> number = sets.numbers(count);
+    std::vector<PieceMeasure> out(count);
+    for (std::size_t i = 0; i < number.size(); ++i) out[number[i]] += pieces[i % n];
+    return out;
+}
+
+} // namespace
+
+double surroundingsOf(const SurfaceOptions& options)
+{
+    // Two balls that touch through a probe, and the voxels between a surface and what it depends
+    // on.
+    constexpr double largest = 2.5; // of atoms [Å]
+    const double voxels = isUnion(options.kind) ? 8.0 : 12.0;
+    return 2.0 * (largest + options.probe) + voxels * options.voxel + options.minWall;
+}
+
+MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
+{
+    checkUnitOptions(options);
+    const SymmetricUnit& unit = *atoms.unit;
+    const double order = double(unit.inverse.size());
+    SurfaceRun run(atoms, options, Scope(), progress);
+    run.density();
+    run.flow(nullptr);
+    run.distance();
+    run.spline();
+    run.levelSet();
+    run.mesh();
+
+    Stopwatch watch(run.result().report);
+    Mesh& mesh = run.result().mesh;
+    ExtractStats& stats = run.stats();
+    const Topology topology = checkTopology(mesh, progress);
+    if (!topology.manifold)
+        for (const std::uint32_t v : splitNonManifold(mesh))
+            stats.slopes.push_back(stats.slopes[v]);
+    const double grown = isUnion(options.kind) ? grownBy(options) : 0.0;
+    const PowerOwners owners(owningBalls(atoms, grown), unit.motionOf);
+    CutMesh part = cutToOwner(mesh, owners, run.currentSpline(), progress);
+    if (part.mesh.triangles.empty())
+        throw Error(ErrorKind::Numeric, "mesh: nothing of the unit is left at this resolution "
+                                        "[hint: a smaller `voxel`]");
+    // Areas are those of the surface that was found, volumes those that the fitted one encloses.
+    SurfaceReport& surface = run.result().report.surface;
+    std::size_t count = 0;
+    std::vector<std::uint32_t> pieceOf = connectedPieces(part.mesh, count, progress);
+    std::vector<PieceMeasure> pieces = measurePieces(part.mesh, pieceOf, count, unit.centre,
+                                                     surface.degenerateTriangles, progress);
+    const BorderFit fit = fitBorder(atoms.instances, unit, options.voxel, part);
+    std::vector<float> slopes;
+    for (const std::uint32_t v : part.sources) slopes.push_back(stats.slopes[v]);
+    mesh = std::move(part.mesh);
+
+    surface.kind = nameOf(options.kind);
+    surface.degenerateTriangles = 0;
+    pieceOf = connectedPieces(mesh, count, progress);
+    const std::vector<PieceMeasure> fitted =
+        measurePieces(mesh, pieceOf, count, unit.centre, surface.degenerateTriangles, progress);
+    for (std::size_t i = 0; i < count; ++i) pieces[i].volume = fitted[i].volume;
+    std::vector<PieceMeasure> whole = wholePieces(unit, fit, pieceOf, pieces);
+    if (isClosedForm(options)) {
+        // Where spheres meet in sharp creases a mesh has specks that the surface does not have.
+        const double least = 0.1 * options.voxel * options.voxel * options.voxel;
+        whole.erase(std::remove_if(
+                        whole.begin(), whole.end(),
+                        [&](const PieceMeasure& piece) { return std::abs(piece.volume) < least; }),
+                    whole.end());
+    }
+    countPieces(whole, surface);
+    BorderClasses classes(unit, fit.shared, mesh.positions.size());
+    const std::size_t units = unit.inverse.size();
+    surface.triangles = units * mesh.triangles.size();
+    surface.vertices = units * (mesh.positions.size() - classes.border().size()) + classes.count();
+    const std::size_t edges = (3 * surface.triangles + units * fit.open) / 2;
+    surface.eulerCharacteristic =
+        int(std::int64_t(surface.vertices + surface.triangles) - std::int64_t(edges));
+    surface.closed = topology.closed && fit.open == 0;
+    surface.manifold = topology.oriented;
+    surface.maxResidual = stats.maxResidual;
+    const GradientCounts counts = run.countGradients(slopes);
+    surface.kinkShare = slopes.empty() ? 0.0 : double(counts.kink) / double(slopes.size());
+    surface.gradientShare = double(counts.unit) / double(slopes.size() - counts.kink); // or 0/0
+
+    run.curvatures();
+    const std::vector<float> areas = vertexAreas(mesh, progress);
+    surface.meanCurvature = statistics(mesh.scalars[0].values, areas);
+    surface.gaussianCurvature = statistics(mesh.scalars[1].values, areas);
+    if (isClosedForm(options)) {
+        const UnionShare share = shareOf(atoms, grown, progress);
+        const double euler = order * share.euler;
+        if (std::abs(euler - std::round(euler)) < 0.01)
+            surface.eulerCharacteristic = int(std::lround(euler));
+        surface.area = surface.outerArea = order * share.area;
+        surface.volume = surface.outerVolume = order * share.volume;
+        for (const Cavity& cavity : surface.cavities) {
+            surface.outerArea -= cavity.area;
+            surface.outerVolume += cavity.volume;
+        }
+    }
+    watch.stop("unit");
+    run.freeFields();
+    run.labels();
+    MolecularSurface result = run.finish();
+    if (fit.open > 0)
+        result.report.warnings.push_back(
+            "mesh: " + std::to_string(fit.open) + " edges of the unit's border fit none of its " +
+            "neighbours': the whole is not closed there [hint: a smaller `voxel`]");
+    result.surface.reset();
+    result.shared = fit.shared;
+    result.report.symmetry =
+        SymmetryReport{unit.pointGroup, units, unit.copies, unit.deviation, fit.largest, fit.open};
+    return result;
+}
+
+} // namespace molsurf

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: MPL-2.0
+"""The surface of a whole assembly from one unit of it."""
+
+import collections
+import json
+import random
+import struct
+import unittest
+
+from test_symmetry import biomt, icosahedron, ring
+from tool import CRAMBIN, DATA, ToolTest, read_ply, read_png
+
+DIMER = DATA / "1a8o.cif.gz"
+ASSEMBLY = ["--assembly", "1", "--voxel", "1"]
+
+
+def blob(count=120, middle=(14.0, 40.0, 52.0), radius=11.0):
+    """ATOM records of carbons at random places in a ball."""
+    chance = random.Random(4)
+    text = ""
+    for i in range(count):
+        while True:
+            x = [chance.uniform(-1, 1) for _ in range(3)]
+            if sum(t * t for t in x) < 1:
+                break
+        place = "".join(f"{m + radius * t:8.3f}" for m, t in zip(middle, x))
+        text += f"ATOM  {i + 1:5}  CA  ALA A{i + 1:4}    {place}  1.00  0.00           C  \n"
+    return text
+
+
+class BySymmetry(ToolTest):
+    def write(self, name, content):
+        (self.folder / name).write_text(content)
+
+    def report(self, name):
+        return json.loads((self.folder / name).read_text())
+
+    def shell(self):
+        self.write("shell.pdb", biomt([(m, (0, 0, 0)) for m in icosahedron()]) + blob())
+
+    def test_a_shell(self):
+        self.shell()
+        done = self.check(0, "shell.pdb", *ASSEMBLY, "--surface", "ses", "--by-symmetry", "-o",
+                          "a.json", "-o", "a.glb", "-o", "a.png", "--color", "copy", "--size", "300",
+                          says=["used 120 balls (1 copy) in each of 60 units", "(I)"])
+        self.check(0, "shell.pdb", *ASSEMBLY, "--surface", "ses", "-o", "b.json")
+        unit, whole = self.report("a.json"), self.report("b.json")
+        symmetry = unit["symmetry"]
+        self.assertEqual((symmetry["point_group"], symmetry["order"]), ("I", 60))
+        self.assertLess(symmetry["deviation"], 1e-3)
+        self.assertEqual(unit["atoms"], whole["atoms"])
+        for name, within in (("area", 0.005), ("volume", 0.002)):
+            found, expected = unit["surface"][name], whole["surface"][name]
+            self.assertLess(abs(found - expected), within * expected, name)
+        self.assertEqual(len(unit["instances"]), 60)
+        self.assertIsNone(whole["symmetry"])
+        # The mesh of the unit once, and its copies.
+        data = (self.folder / "a.glb").read_bytes()
+        size, = struct.unpack("<I", data[12:16])
+        scene = json.loads(data[20:20 + size])
+        self.assertEqual(sum("mesh" in node for node in scene["nodes"]), 60)
+        width, rows = read_png((self.folder / "a.png").read_bytes())
+        self.assertGreater(len({bytes(row[3 * i:3 * i + 3]) for row in rows
+                                for i in range(width)}), 100)
+
+    def test_welded_it_is_closed(self):
+        self.shell()
+        for name, words in (("a", ["--weld"]), ("b", [])):
+            self.check(0, "shell.pdb", *ASSEMBLY, "--by-symmetry", *words, "-o", name + ".ply", "-o",
+                       name + ".json")
+        surface = self.report("a.json")["surface"]
+        self.assertTrue(surface["closed"])
+        _, vertices, triangles = read_ply((self.folder / "a.ply").read_bytes())
+        self.assertEqual(len(vertices), surface["vertices"])
+        self.assertEqual(len(triangles), surface["triangles"])
+        edges = collections.Counter()
+        for a, b, c in triangles:
+            edges.update([(a, b), (b, c), (c, a)])
+        self.assertEqual(set(edges.values()), {1})
+        self.assertTrue(all((b, a) in edges for a, b in edges))
+        _, apart, again = read_ply((self.folder / "b.ply").read_bytes())
+        self.assertEqual(len(again), len(triangles))
+        self.assertGreater(len(apart), len(vertices))
+
+    def test_a_ring_and_a_dimer(self):
+        self.write("ring.pdb", ring(7).replace(ring(7).splitlines(True)[-1],
+                                               blob(60, (12.0, 1.0, 0.0), 6.0)))
+        self.check(0, "ring.pdb", *ASSEMBLY, "--by-symmetry", "-o", "r.json", says="(C7)")
+        self.check(0, DIMER, *ASSEMBLY, "--by-symmetry", "--weld", "-o", "d.json", "-o", "d.stl",
+                   says="(C2)")
+        self.assertTrue(self.report("d.json")["surface"]["closed"])
+
+    def test_wrong_calls(self):
+        self.shell()
+        self.check(2, CRAMBIN, "--by-symmetry", "-o", "a.json", says="--assembly")
+        self.check(2, "shell.pdb", *ASSEMBLY, "--weld", "-o", "a.ply", says="--by-symmetry")
+        self.check(2, "shell.pdb", *ASSEMBLY, "--by-symmetry", "-o", "a.vdb", says="--memory")
+        for words in (["--instances"], ["--copies", "1"], ["--memory", "1G"], ["--center"],
+                      ["--fill-cavities"], ["--dry-run"],
+                      ["--fields", "sas"], ["--interfaces", "--group-by", "chain"]):
+            self.check(2, "shell.pdb", *ASSEMBLY, "--by-symmetry", *words, "-o", "a.json",
+                       says="--by-symmetry")
+        self.assertEqual(self.names(), ["shell.pdb"])
+
+    def test_operators_that_are_no_group(self):
+        operators = [(m, (0, 0, 0)) for m in icosahedron()[:4]]
+        operators.append((operators[1][0], (70, 0, 0)))
+        self.write("some.pdb", biomt(operators) + blob())
+        self.check(1, "some.pdb", *ASSEMBLY, "--by-symmetry", "-o", "a.json",
+                   says=['assembly "1"', "by symmetry", "--by-symmetry"])
+        identity = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+        self.write("row.pdb", biomt([(identity, (30 * i, 0, 0)) for i in range(4)]) + blob())
+        self.check(1, "row.pdb", *ASSEMBLY, "--by-symmetry", "-o", "a.json",
+                   says="a helix with ends")
+        self.assertEqual(self.names(), ["row.pdb", "some.pdb"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/balls/power_owners.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+TEST(PowerOwners, TwoBallsMeetInThePlaneOfEqualPower)
+{
+    // |x|^2 - 4 = |x - 5|^2 - 1: x = 2.8.
+    const PowerOwners owners({{Vec3f(0, 0, 0), 2.0f, 0}, {Vec3f(5, 0, 0), 1.0f, 1}}, {3, 1});
+    std::vector<OwnersPower> near;
+    owners.at({2.79, 1.0, 0.5}, 0.0, near);
+    EXPECT_EQ(near[0].owner, 3);
+    owners.at({2.81, 1.0, 0.5}, 1.0, near);
+    ASSERT_EQ(near.size(), 2u);
+    EXPECT_EQ(near[0].owner, 1);
+    EXPECT_NEAR(near[0].power, 2.19 * 2.19 + 1.25 - 1.0, 1e-9);
+    EXPECT_NEAR(near[1].power, 2.81 * 2.81 + 1.25 - 4.0, 1e-9);
+    EXPECT_EQ(near[1].centre, Vec3d(0.0));
+}
+
+TEST(PowerOwners, AgreesWithAllBalls)
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> place(-12.0, 12.0), radius(0.5, 9.0);
+    std::vector<Ball> balls;
+    std::vector<std::int32_t> ownerOf;
+    for (std::int32_t i = 0; i < 60; ++i) {
+        balls.push_back(
+            {Vec3f(Vec3d(place(random), place(random), place(random))), float(radius(random)), i});
+        ownerOf.push_back(i % 5);
+    }
+    const PowerOwners owners(balls, ownerOf);
+    std::vector<OwnersPower> near;
+    constexpr double slack = 10.0;
+    for (int n = 0; n < 500; ++n) {
+        const Vec3d x(place(random), place(random), place(random));
+        std::vector<double> least(5, 1e9);
+        for (std::size_t i = 0; i < balls.size(); ++i) {
+            const double r = double(balls[i].radius);
+            double& power = least[std::size_t(ownerOf[i])];
+            power = std::min(power, (x - Vec3d(balls[i].center)).lengthSqr() - r * r);
+        }
+        const double first = *std::min_element(least.begin(), least.end());
+        owners.at(x, slack, near);
+        std::size_t expected = 0;
+        for (const double power : least) expected += power <= first + slack;
+        ASSERT_GE(near.size(), expected);
+        for (std::size_t k = 0; k < expected; ++k)
+            EXPECT_NEAR(near[k].power, least[std::size_t(near[k].owner)], 1e-9);
+        EXPECT_EQ(near[0].power, first);
+    }
+}
+
+} // namespace
+} // namespace molsurf

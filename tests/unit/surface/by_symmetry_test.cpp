@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MPL-2.0
+// A whole from one unit of it, against the whole in one piece.
+
+#include "molsurf/error.h"
+#include "molsurf/mesh/topology.h"
+#include "molsurf/selection/select_balls.h"
+#include "molsurf/structure/rotation_group.h"
+#include "molsurf/surface.h"
+#include "molsurf/surface/unit_mesh.h"
+#include "support/groups.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace molsurf::test
+{
+namespace
+{
+
+using openvdb::Vec3d;
+
+/// Atoms of one chain at random places within a ball.
+Structure blob(const Vec3d& middle, double radius, std::size_t atoms, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(-1.0, 1.0);
+    Structure s;
+    s.source = "blob";
+    s.format = "PQR";
+    s.hasRadii = true;
+    s.chains = s.asyms = {"A"};
+    Residue residue{};
+    residue.name = "ALA";
+    s.residues = {residue};
+    while (s.atoms.size() < atoms) {
+        const Vec3d x(place(random), place(random), place(random));
+        if (x.length() > 1.0) continue;
+        Atom atom{};
+        atom.position = middle + radius * x;
+        atom.radius = float(1.6 + 0.2 * place(random));
+        atom.element = 6;
+        s.atoms.push_back(atom);
+    }
+    s.models = {{1, 0, atoms}};
+    return s;
+}
+
+/// The operators about another centre, turned.
+std::vector<Operator> elsewhere(const std::vector<Operator>& operators, const Vec3d& centre)
+{
+    const Operator there = turn({1, 2, 3}, 0.7, centre), back = inverseOf(there);
+    std::vector<Operator> out;
+    for (const Operator& op : operators) out.push_back(multiplied(there, multiplied(op, back)));
+    return out;
+}
+
+struct Case {
+    const char* name;
+    std::vector<Operator> operators;
+    double away;     ///< of the blob's middle from the centre [Å]
+    Vec3d direction; ///< of it
+    bool clear;      ///< no gap or neck is as narrow as a voxel
+};
+
+std::vector<Case> cases()
+{
+    return {{"C2", cyclic(2), 6.0, {1, 0.2, 0.1}, true},
+            {"C3", cyclic(3), 7.0, {1, 0.2, 0.1}, true},
+            {"C4", cyclic(4), 8.0, {1, 0.2, 0.1}, true},
+            {"C7", cyclic(7), 13.0, {1, 0.2, 0.1}, true},
+            {"D2", dihedral(2), 8.0, {1, 0.8, 0.9}, true},
+            {"D3", dihedral(3), 11.0, {1, 0.3, 0.5}, false},
+            {"T", tetrahedral(), 14.0, {1, 0.3, 0.2}, true},
+            {"O", octahedral(), 20.0, {1, 0.5, 0.2}, false},
+            {"I", icosahedral(), 32.0, {0.3, 0.9, 1.2}, true}};
+}
+
+SelectOptions assembly(bool bySymmetry, const SurfaceOptions& surface)
+{
+    SelectOptions options;
+    options.assembly = "1";
+    options.bySymmetry = bySymmetry;
+    options.surroundings = surroundingsOf(surface);
+    return options;
+}
+
+class BySymmetry : public testing::TestWithParam<SurfaceKind>
+{
+};
+
+TEST_P(BySymmetry, IsTheWhole)
+{
+    SurfaceOptions options;
+    options.kind = GetParam();
+    for (const Case& c : cases()) {
+        SCOPED_TRACE(c.name);
+        const Vec3d centre(11.0, -7.0, 23.0);
+        const Operator there = turn({1, 2, 3}, 0.7, centre);
+        Structure s = blob(applied(there, c.away * c.direction.unit()), 6.5, 200, 7);
+        s.assemblies = {assemblyOf(elsewhere(c.operators, centre))};
+        const BallSet unit = selectBalls(s, assembly(true, options));
+        const BallSet whole = selectBalls(s, assembly(false, options));
+        ASSERT_TRUE(unit.unit);
+        EXPECT_EQ(unit.unit->pointGroup, c.name);
+        EXPECT_NEAR((unit.unit->centre - centre).length(), 0.0, c.name[0] == 'C' ? 50.0 : 1e-3);
+        EXPECT_LT(unit.unit->deviation, 1e-4);
+
+        const MolecularSurface a = makeSurface(unit, options), b = makeSurface(whole, options);
+        const SurfaceReport &found = a.report.surface, &expected = b.report.surface;
+        const bool exact = options.kind == SurfaceKind::SolventAccessible ||
+                           options.kind == SurfaceKind::VanDerWaals;
+        EXPECT_EQ(a.report.atoms, b.report.atoms);
+        const bool rough = options.kind == SurfaceKind::Gaussian; // with pieces as small as voxels
+        const double tolerance = exact ? 1e-4 : rough ? 1e-2 : 3e-3;
+        EXPECT_NEAR(found.area, expected.area, tolerance * expected.area);
+        EXPECT_NEAR(found.volume, expected.volume, (exact ? 1e-5 : 2e-3) * expected.volume);
+        EXPECT_FALSE(a.surface);
+        if (exact || (c.clear && !rough)) {
+            EXPECT_EQ(found.eulerCharacteristic, expected.eulerCharacteristic);
+        }
+        if (exact || rough) continue;
+        if (c.clear) {
+            EXPECT_EQ(found.components, expected.components);
+        }
+        EXPECT_NEAR(found.outerArea, expected.outerArea, 5e-3 * expected.outerArea);
+        EXPECT_NEAR(found.meanCurvature.mean, expected.meanCurvature.mean, 0.01);
+        EXPECT_TRUE(found.closed);
+
+        const Mesh welded = wholeMesh(unit, a, true, {}, Progress());
+        const Topology topology = checkTopology(welded, Progress());
+        EXPECT_TRUE(topology.closed && topology.oriented);
+        EXPECT_EQ(welded.positions.size(), found.vertices);
+        EXPECT_EQ(welded.triangles.size(), found.triangles);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, BySymmetry,
+                         testing::Values(SurfaceKind::Variational, SurfaceKind::SolventExcluded,
+                                         SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals,
+                                         SurfaceKind::Gaussian),
+                         [](const auto& info) { return std::string(nameOf(info.param)); });
+
+/// A helix has ends: only the axes that take it onto itself count.
+TEST(SymmetricUnit, OfAHelix)
+{
+    const SurfaceOptions options;
+    Structure s = blob({9.0, 1.0, 0.0}, 5.0, 60, 3);
+    s.assemblies = {assemblyOf(helix(7, 6.0, 0.8))};
+    try {
+        selectBalls(s, assembly(true, options));
+        ADD_FAILURE() << "expected an Error";
+    } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::Input);
+        EXPECT_NE(std::string(e.what()).find("a helix with ends"), std::string::npos) << e.what();
+    }
+    // Three strands of it have a three-fold axis: a unit is one strand.
+    std::vector<Operator> strands;
+    for (const Operator& op : helix(5, 6.0, 0.5))
+        for (const Operator& strand : cyclic(3)) strands.push_back(multiplied(strand, op));
+    s.assemblies = {assemblyOf(strands)};
+    const BallSet unit = selectBalls(s, assembly(true, options));
+    EXPECT_EQ(unit.unit->pointGroup, "C3");
+    EXPECT_EQ(unit.unit->copies, 5u);
+    const MolecularSurface a = makeSurface(unit, options);
+    const MolecularSurface b = makeSurface(selectBalls(s, assembly(false, options)), options);
+    EXPECT_NEAR(a.report.surface.area, b.report.surface.area, 3e-3 * b.report.surface.area);
+    EXPECT_NEAR(a.report.surface.volume, b.report.surface.volume, 2e-3 * b.report.surface.volume);
+    EXPECT_TRUE(a.report.surface.closed);
+}
+
+TEST(SymmetricUnit, RefusesWhatIsNoGroup)
+{
+    Structure s = blob({9.0, 1.0, 0.0}, 5.0, 60, 3);
+    std::vector<Operator> some = icosahedral();
+    some.resize(4);
+    some.push_back(turn({1, 2, 3}, 1.0, {40, 0, 0}));
+    std::vector<Operator> bent = cyclic(5);
+    bent[2].translation += Vec3d(1.2, 0, 0); // as near as findSymmetry() takes it, but too far
+    for (const auto& operators : {some, bent}) {
+        s.assemblies = {assemblyOf(operators)};
+        SelectOptions options;
+        options.assembly = "1";
+        options.bySymmetry = true;
+        try {
+            selectBalls(s, options);
+            ADD_FAILURE() << "expected an Error";
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::Input);
+            EXPECT_NE(std::string(e.what()).find("by symmetry"), std::string::npos) << e.what();
+        }
+    }
+}
+
+/// Operators of files have six digits or fewer: the motions are a group all the same.
+TEST(SymmetricUnit, MotionsAreAGroup)
+{
+    std::vector<Operator> rounded = elsewhere(icosahedral(), {100.0, 50.0, -30.0});
+    for (Operator& op : rounded) {
+        for (auto& row : op.rotation)
+            for (double& x : row) x = std::round(1e5 * x) / 1e5;
+        for (int i = 0; i < 3; ++i) op.translation[i] = std::round(1e3 * op.translation[i]) / 1e3;
+    }
+    const RotationGroup group = findRotationGroup(assemblyOf(rounded), {130.0, 70.0, 10.0});
+    ASSERT_EQ(group.motions.size(), 60u);
+    const Vec3d x(140.0, 80.0, 20.0);
+    for (std::size_t k = 0; k < 60; ++k) {
+        const Operator& m = group.motions[k];
+        EXPECT_NEAR((applied(m, group.symmetry.centre) - group.symmetry.centre).length(), 0.0,
+                    1e-9);
+        for (std::size_t l = 0; l < 60; ++l) {
+            const Vec3d both = applied(m, applied(group.motions[l], x));
+            EXPECT_NEAR((both - applied(group.motions[group.product[k][l]], x)).length(), 0.0,
+                        1e-9);
+        }
+        EXPECT_EQ(group.product[k][group.inverse[k]], 0u);
+    }
+}
+
+/// An ion on an axis stands in the place of its images: each unit has its part of it.
+TEST(SymmetricUnit, SharesABallOnAnAxis)
+{
+    for (const int fold : {2, 3, 5}) {
+        Structure s = blob({12.0, 1.0, 0.0}, 5.0, 60, 3);
+        Atom ion = s.atoms[0];
+        ion.position = Vec3d(0.0, 0.0, 9.0);
+        s.atoms.push_back(ion);
+        ++s.models[0].end;
+        s.assemblies = {assemblyOf(cyclic(fold))};
+        for (const SurfaceKind kind :
+             {SurfaceKind::SolventAccessible, SurfaceKind::SolventExcluded}) {
+            SurfaceOptions options;
+            options.kind = kind;
+            const MolecularSurface a =
+                makeSurface(selectBalls(s, assembly(true, options)), options);
+            const MolecularSurface b =
+                makeSurface(selectBalls(s, assembly(false, options)), options);
+            EXPECT_NEAR(a.report.surface.area, b.report.surface.area, 2e-3 * b.report.surface.area)
+                << fold;
+            EXPECT_NEAR(a.report.surface.volume, b.report.surface.volume,
+                        2e-3 * b.report.surface.volume);
+            EXPECT_TRUE(a.report.surface.closed) << fold;
+        }
+    }
+}
+
+/// Groups count the whole; a name stands for all copies that the rotations make of a chain.
+TEST(SymmetricUnit, GroupsAddUp)
+{
+    const SurfaceOptions options;
+    Structure s = blob({9.0, 1.0, 0.0}, 6.0, 100, 3);
+    for (std::size_t i = 0; i < s.atoms.size(); ++i) s.atoms[i].residue = i % 3 == 0;
+    s.chains.push_back("B");
+    s.asyms.push_back("B");
+    s.residues.push_back(s.residues[0]);
+    s.residues[1].chain = s.residues[1].asym = 1;
+    s.assemblies = {assemblyOf(dihedral(3))};
+    SelectOptions select = assembly(true, options);
+    select.groups = {{"b", "B", {}}};
+    const MolecularSurface a = makeSurface(selectBalls(s, select), options);
+    select.bySymmetry = false;
+    const MolecularSurface b = makeSurface(selectBalls(s, select), options);
+    ASSERT_EQ(a.report.groups.size(), b.report.groups.size());
+    double area = 0.0;
+    for (std::size_t g = 0; g < a.report.groups.size(); ++g) {
+        EXPECT_EQ(a.report.groups[g].name, b.report.groups[g].name);
+        EXPECT_EQ(a.report.groups[g].atoms, b.report.groups[g].atoms);
+        EXPECT_NEAR(a.report.groups[g].area, b.report.groups[g].area,
+                    1e-2 * b.report.groups[g].area);
+        EXPECT_NEAR(a.report.groups[g].volume, b.report.groups[g].volume,
+                    3e-2 * b.report.groups[g].volume);
+        area += a.report.groups[g].area;
+    }
+    EXPECT_NEAR(area, a.report.surface.area, 1e-6 * area);
+}
+
+TEST(SymmetricUnit, RefusesWhatNeedsTheWhole)
+{
+    Structure s = blob({9.0, 1.0, 0.0}, 5.0, 60, 3);
+    s.assemblies = {assemblyOf(cyclic(3))};
+    const BallSet unit = selectBalls(s, assembly(true, {}));
+    SurfaceOptions cavities, sas;
+    cavities.fillCavities = true;
+    sas.fields = {"sas"};
+    EXPECT_THROW(makeSurface(unit, cavities), Error);
+    EXPECT_THROW(makeSurface(unit, sas), Error);
+}
+
+/// The vertices of a border lie where those of the neighbour do.
+TEST(SymmetricUnit, BordersMeet)
+{
+    const SurfaceOptions options;
+    Structure s = blob({9.0, 1.0, 0.0}, 6.0, 150, 3);
+    s.assemblies = {assemblyOf(dihedral(3))};
+    const BallSet unit = selectBalls(s, assembly(true, options));
+    const MolecularSurface a = makeSurface(unit, options);
+    ASSERT_FALSE(a.shared.empty());
+    for (const SharedVertex& v : a.shared) {
+        const Instance& m = unit.instances[std::size_t(v.motion)];
+        const Operator op{m.rotation, m.translation, {}};
+        const Vec3d there = applied(op, Vec3d(a.mesh.positions[v.other]));
+        EXPECT_NEAR((there - Vec3d(a.mesh.positions[v.vertex])).length(), 0.0, 1e-4);
+    }
+    // Apart, every unit is a part of its own.
+    const Mesh apart = wholeMesh(unit, a, false, {}, Progress());
+    EXPECT_EQ(apart.parts.size(), 6u);
+    EXPECT_EQ(apart.triangles.size(), a.report.surface.triangles);
+    EXPECT_FALSE(checkTopology(apart, Progress()).closed);
+}
+
+} // namespace
+} // namespace molsurf::test
