@@ -2,12 +2,15 @@
 #include "verbs.h"
 
 #include "bricks.h"
+#include "cli/option_table.h"
 #include "outputs.h"
 #include "stop.h"
 #include "terminal.h"
 #include "write_result.h"
 
 #include "molsurf/bricks/plan_bricks.h"
+#include "molsurf/error.h"
+#include "molsurf/spline/curvature.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/check_balls.h"
 
@@ -22,13 +25,14 @@ namespace molsurf::tool
 namespace
 {
 
-void writeAll(const Call& call, const BallSet& atoms, MolecularSurface& result, Terminal& terminal,
-              Clock::time_point programStart, const Companions& companions)
+void writeAll(const Call& call, const BallSet& atoms, MolecularSurface& result,
+              const ShownMeshes& shown, Terminal& terminal, Clock::time_point programStart,
+              const Companions& companions)
 {
     writeOutputs(
         call, terminal,
         [&](const Output& output, OutputFile& file) {
-            writeOutput(call, atoms, result, output, terminal, file);
+            writeOutput(call, atoms, result, output, terminal, file, shown);
         },
         [&](double writeSeconds) {
             auto& seconds = result.report.seconds;
@@ -110,13 +114,39 @@ bool showsMesh(const std::vector<Output>& outputs)
     });
 }
 
+// The meshes of --lod behind the first one.
+std::vector<Mesh> coarserMeshes(const Call& call, const BallSet& balls, Report& report,
+                                Terminal& terminal)
+{
+    std::vector<Mesh> meshes;
+    SurfaceOptions options = call.options;
+    options.fields.erase(std::remove_if(options.fields.begin(), options.fields.end(),
+                                        [](const auto& f) { return !findCurvatureField(f); }),
+                         options.fields.end());
+    for (std::size_t level = 1; level < call.lod.size(); ++level) {
+        const Clock::time_point start = Clock::now();
+        options.voxel = call.lod[level];
+        try {
+            meshes.push_back(makeSurface(balls, options, &terminal).mesh);
+        } catch (const Error& error) {
+            throw Error(error.kind(), "--lod " + shortest(options.voxel) + ": " + error.what());
+        }
+        report.addSeconds("lod", secondsSince(start));
+    }
+    return meshes;
+}
+
 // The middle of the mesh's box comes to the origin; the grids follow when they are written.
-void centerMesh(Call& call, MolecularSurface& result)
+void centerMesh(Call& call, MolecularSurface& result, ShownMeshes& shown)
 {
     openvdb::BBoxd box;
     for (const openvdb::Vec3f& p : result.mesh.positions) box.expand(openvdb::Vec3d(p));
     const openvdb::Vec3d center = call.frame > 0 ? call.scene.center : box.getCenter();
-    for (openvdb::Vec3f& p : result.mesh.positions) p = openvdb::Vec3f(openvdb::Vec3d(p) - center);
+    const auto move = [&](Mesh& mesh) {
+        for (openvdb::Vec3f& p : mesh.positions) p = openvdb::Vec3f(openvdb::Vec3d(p) - center);
+    };
+    move(result.mesh);
+    if (shown.crisp) move(*shown.crisp);
     call.scene.center = center;
     result.report.center = {center[0], center[1], center[2]};
 }
@@ -141,8 +171,11 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     if (result.surface) result.surface->setCreator(creator);
     for (const auto& field : result.fields) field->setCreator(creator);
 
-    if (call.center) centerMesh(call, result);
-    writeAll(call, balls, result, terminal, start, companions);
+    ShownMeshes shown;
+    shown.crisp = crispMesh(call, balls, result.mesh, terminal);
+    shown.coarser = coarserMeshes(call, balls, result.report, terminal);
+    if (call.center) centerMesh(call, result, shown);
+    writeAll(call, balls, result, shown, terminal, start, companions);
     terminal.erase();
     return result.report;
 }

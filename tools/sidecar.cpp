@@ -3,6 +3,7 @@
 
 #include "molsurf/error.h"
 #include "molsurf/io/usda_sequence.h"
+#include "molsurf/io/usda_text.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -26,7 +27,14 @@ void addSidecars(Call& call)
             sidecars.push_back(
                 {(path.parent_path() / (frameName(output.path).stem + ".usda")).string(),
                  Format::Usda, output.path});
-        const auto same = [&](const Output& o) { return o.path == sidecars.back().path; };
+        const auto same = [&](const Output& o) {
+            return fs::path(o.path).lexically_normal() ==
+                   fs::path(sidecars.back().path).lexically_normal();
+        };
+        if (std::any_of(call.outputs.begin(), call.outputs.end(), same))
+            throw Error(ErrorKind::Usage, "-o " + sidecars.back().path +
+                                              ": --for usd writes that file beside " + output.path +
+                                              " [hint: another name]");
         if (std::count_if(sidecars.begin(), sidecars.end(), same) > 1)
             throw Error(ErrorKind::Usage, "--for usd: two .vdb files would have " +
                                               sidecars.back().path + " beside them");
@@ -42,10 +50,9 @@ bool mayReplace(const Call& call, const Output& output)
 
 UsdVolume usdVolume(const Call& call, const Output& output)
 {
-    constexpr double angstrom = 1e-10; // [m]
     const std::string vdb =
         output.of.empty() ? fs::path(output.path).replace_extension(".vdb").string() : output.of;
-    return usdVolumeOf(vdb, !output.of.empty(), angstrom / call.scene.scale);
+    return usdVolumeOf(vdb, !output.of.empty(), usdaMetersPerAngstrom / call.scene.scale);
 }
 
 } // namespace molsurf::tool

@@ -5,6 +5,7 @@
 #include "sha256.h"
 #include "sidecar.h"
 
+#include "molsurf/color/crisp_borders.h"
 #include "molsurf/color/legend.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/io/write_3mf.h"
@@ -12,12 +13,14 @@
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_report.h"
 #include "molsurf/io/write_usda.h"
+#include "molsurf/io/write_usda_instances.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/write_html.h"
 #include "molsurf/picture/write_png.h"
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/surface/stored_surface.h"
+#include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/unit_mesh.h"
 
 #include <algorithm>
@@ -130,13 +133,14 @@ std::vector<Legend> legendsOf(const Call& call, const BallSet& atoms, const Mesh
     return legends;
 }
 
-/// The copies of an assembly as nodes; copies that are near have different colours.
+/// The copies of an assembly as nodes.
+/// @param[in] colored  copies that are near have different colours
 std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
-                                      const Progress& progress)
+                                      bool colored, const Progress& progress)
 {
     const Color plain = mesh.colors.empty() ? call.picture.plain : Color{255, 255, 255};
     const std::vector<Color> colors =
-        call.colorGroups == "copy" ? instanceColors(atoms, progress) : std::vector<Color>();
+        colored ? instanceColors(atoms, progress) : std::vector<Color>();
     std::vector<MeshInstance> out;
     for (std::size_t i = 0; i < atoms.instances.size(); ++i) {
         const Instance& copy = atoms.instances[i];
@@ -154,12 +158,31 @@ bool holdsWhole(Format format)
            format == Format::Off || format == Format::ThreeMf;
 }
 
+/// The options of a picture of a surface, whose automatic view comes from the atoms: it is the same
+/// for every voxel.
+DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, bool coloredCopies,
+                      const Progress& progress)
+{
+    DrawOptions options = call.picture;
+    options.instances = instancesOf(call, atoms, mesh, coloredCopies, progress);
+    if (atoms.instances.empty()) {
+        for (const Ball& ball : atoms.balls) options.about.emplace_back(ball.center);
+        return options;
+    }
+    constexpr std::size_t enough = 300; // balls of a prototype
+    for (const MeshInstance& copy : options.instances) {
+        const std::size_t begin = atoms.copyBegin[copy.part], end = atoms.copyBegin[copy.part + 1];
+        for (std::size_t i = begin; i < end; i += 1 + (end - begin) / enough)
+            options.about.push_back(copy.placed(openvdb::Vec3d(atoms.balls[i].center)));
+    }
+    return options;
+}
+
 void writePicture(const Call& call, const BallSet& atoms, const Mesh& mesh, double turn,
                   const Progress& progress, OutputFile& file)
 {
-    DrawOptions options = call.picture;
+    DrawOptions options = pictureOf(call, atoms, mesh, call.colorsCopies(), progress);
     options.turn += turn;
-    options.instances = instancesOf(call, atoms, mesh, progress);
     const auto legend = call.drawsLegend() ? legendOf(call.options.color, atoms, mesh, progress)
                                            : std::optional<Legend>();
     if (!legend) {
@@ -186,16 +209,43 @@ std::string optionsDigest(const Call& call)
     return sha256OfText(all).substr(0, 16);
 }
 
-void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,
-                 const Output& output, const Progress& progress, OutputFile& file)
+bool isCrisp(const Call& call, Format format)
 {
-    std::optional<Mesh> whole;
+    return call.crisp || format == Format::Png || format == Format::Html;
+}
+
+std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh& mesh,
+                              const Progress& progress)
+{
+    const ColorBy by = call.options.color;
+    const bool named = by == ColorBy::Chain || by == ColorBy::Group || by == ColorBy::Element ||
+                       by == ColorBy::Residue;
+    const bool shown = std::any_of(call.outputs.begin(), call.outputs.end(),
+                                   [&](const Output& o) { return isCrisp(call, o.format); });
+    if (!named || !shown || !mesh.parts.empty()) return std::nullopt;
+    const SurfaceKind kind = call.options.kind;
+    const bool spheres = kind == SurfaceKind::VanDerWaals || kind == SurfaceKind::SolventAccessible;
+    std::vector<Ball> balls = atoms.balls;
+    for (Ball& ball : balls)
+        if (isUnion(kind)) ball.radius += float(grownBy(call.options));
+    return withCrispBorders(mesh, balls,
+                            atoms.colors.empty() ? ballColors(atoms, by, progress) : atoms.colors,
+                            spheres ? call.options.voxel : 0.0, progress);
+}
+
+void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,
+                 const Output& output, const Progress& progress, OutputFile& file,
+                 const ShownMeshes& shown)
+{
+    std::vector<const Mesh*> levels;
+    for (const Mesh& mesh : shown.coarser) levels.push_back(&mesh);
+    const Mesh& mesh = shown.crisp && isCrisp(call, output.format) ? *shown.crisp : result.mesh;
+    std::optional<Mesh> wholes;
     if (atoms.unit && holdsWhole(output.format))
-        whole = wholeMesh(atoms, result, call.weld,
-                          call.colorGroups == "copy" ? instanceColors(atoms, progress)
-                                                     : std::vector<Color>(),
-                          progress);
-    const Mesh& mesh = whole ? *whole : result.mesh;
+        wholes = wholeMesh(
+            atoms, result, mesh, call.weld,
+            call.colorsCopies() ? instanceColors(atoms, progress) : std::vector<Color>(), progress);
+    const Mesh& whole = wholes ? *wholes : mesh;
     switch (output.format) {
     case Format::Vdb: {
         openvdb::MetaMap metadata = vdbMetadata(call, result.report);
@@ -204,38 +254,47 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
         break;
     }
     case Format::Usda:
-        writeUsda(gridsOf(call, result), usdVolume(call, output), file);
+        if (output.of.empty() && !atoms.instances.empty())
+            writeUsdaInstances(mesh,
+                               {stemOf(output.path), call.scene.scale,
+                                instancesOf(call, atoms, mesh, call.colorsCopies(), progress),
+                                levels},
+                               file);
+        else
+            writeUsda(gridsOf(call, result), usdVolume(call, output), file);
         break;
     case Format::Ply:
-        writePly(mesh, file);
+        writePly(whole, file);
         break;
     case Format::Obj:
-        writeObj(mesh, file, printUnit(call));
+        writeObj(whole, file, printUnit(call));
         break;
     case Format::Stl:
-        writeStl(mesh, file, printUnit(call));
+        writeStl(whole, file, printUnit(call));
         break;
     case Format::Off:
-        writeOff(mesh, file);
+        writeOff(whole, file);
         break;
     case Format::Glb:
-        writeGlb(result.mesh,
+        writeGlb(mesh,
                  {stemOf(output.path), call.scene.scale, call.picture.plain,
-                  instancesOf(call, atoms, result.mesh, progress)},
+                  instancesOf(call, atoms, mesh, call.colorsCopies(), progress), levels},
                  file);
         break;
     case Format::ThreeMf:
-        write3mf(mesh, stemOf(output.path), printUnit(call).perAngstrom, file);
+        write3mf(whole, stemOf(output.path), printUnit(call).perAngstrom, file);
         break;
     case Format::Png:
-        writePicture(call, atoms, result.mesh, output.turn, progress, file);
+        writePicture(call, atoms, mesh, output.turn, progress, file);
         break;
-    case Format::Html:
-        writeHtml(result.mesh,
-                  {titleOf(call.input), legendsOf(call, atoms, result.mesh, progress),
-                   call.picture.plain, viewAxes(result.mesh, call.picture)},
+    case Format::Html: {
+        const DrawOptions view = pictureOf(call, atoms, mesh, true, progress);
+        writeHtml(mesh,
+                  {titleOf(call.input), legendsOf(call, atoms, mesh, progress), call.picture.plain,
+                   viewAxes(mesh, view), view.instances, call.colorsCopies(), levels},
                   file);
         break;
+    }
     case Format::Json:
         writeReport(result.report, file);
         break;

@@ -9,6 +9,9 @@
 #include "molsurf/io/output_file.h"
 #include "molsurf/surface.h"
 
+#include <optional>
+#include <vector>
+
 namespace molsurf::tool
 {
 
@@ -18,9 +21,21 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report);
 /// What a surface depends on but its atoms: 16 hexadecimal digits that change with any option.
 std::string optionsDigest(const Call& call);
 
+/// What files show of a surface besides its mesh.
+struct ShownMeshes {
+    std::optional<Mesh> crisp{}; ///< the mesh, with the borders between its colours cut
+    std::vector<Mesh> coarser{}; ///< the further levels of detail of --lod
+};
+
+/// The mesh with crisp borders, if a file of the call shows them and it has colours with names.
+/// @param[in] mesh  of the surface, where the atoms are
+std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh& mesh,
+                              const Progress& progress);
+
 /// Writes one output. The report must be complete but for what is timed by writing.
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,
-                 const Output& output, const Progress& progress, OutputFile& file);
+                 const Output& output, const Progress& progress, OutputFile& file,
+                 const ShownMeshes& shown = {});
 
 } // namespace molsurf::tool

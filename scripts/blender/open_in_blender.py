@@ -143,17 +143,22 @@ def colors_of_grid(mesh, path):
     return out
 
 
+def import_ply(path):
+    """The object of a .ply file."""
+    before = set(bpy.data.objects)
+    if "ply_import" in dir(bpy.ops.wm):  # Blender 3.6 and later
+        bpy.ops.wm.ply_import(filepath=str(path))
+    else:
+        bpy.ops.import_mesh.ply(filepath=str(path))
+    return (set(bpy.data.objects) - before).pop()
+
+
 def colors_of_ply(mesh, path):
     """The same by the nearest vertex of the .ply beside the .vdb, or None."""
     ply = path.with_suffix(".ply")
     if not ply.exists():
         return None
-    before = set(bpy.data.objects)
-    if hasattr(bpy.ops.wm, "ply_import"):  # Blender 3.6 and later
-        bpy.ops.wm.ply_import(filepath=str(ply))
-    else:
-        bpy.ops.import_mesh.ply(filepath=str(ply))
-    other = (set(bpy.data.objects) - before).pop()
+    other = import_ply(ply)
     colors = other.data.color_attributes
     if not colors:
         bpy.data.objects.remove(other)

@@ -47,11 +47,12 @@ class Page(ToolTest):
         self.assertEqual([tuple(corners[i:i + 3]) for i in range(0, len(corners), 3)], triangles)
         low = [min(v[i] for v in vertices) for i in range(3)]
         high = [max(v[i] for v in vertices) for i in range(3)]
-        self.assertLess(header["step"], 0.002)
+        step = header["levels"][0]["step"]
+        self.assertLess(step, 0.002)
         for q, v in zip(arrays["position"], vertices):
             for i in range(3):
-                x = (q[i] - 32767.5) * header["step"] + (low[i] + high[i]) / 2
-                self.assertLess(abs(x - v[i]), header["step"])
+                x = (q[i] - 32767.5) * step + (low[i] + high[i]) / 2
+                self.assertLess(abs(x - v[i]), step)
         self.assertEqual([m["id"] for m in header["modes"]],
                          ["chain", "mean-curvature", "gaussian-curvature", "none"])
         chain, mean = header["modes"][:2]

@@ -66,8 +66,10 @@ struct Call {
     std::string trajectory; ///< a .dcd or .xtc with the frames; empty: models are
     bool warm = false;      ///< a frame begins at the surface of the one before
     std::string groupsFile;
+    std::vector<double> lod; ///< voxels of levels of detail [Å], the finest first; empty: one
     Scene scene;             ///< of the .vdb and the node of the .glb
     std::string colorGroups; ///< what has colours that are no ColorBy: copy, entity or class
+    bool crisp = false;      ///< mesh files have the borders between colours cut
     bool weld = false;       ///< units of a whole share their vertices
     bool center = false;     ///< the middle of the surface comes to the origin
     double printScale = 0.0; ///< of .stl, .obj and .3mf [mm/Å]; 0: they are in Å
@@ -95,6 +97,12 @@ struct Call {
 
     bool has(const char* option) const { return given.count(option) > 0; }
     bool drawsLegend() const;
+
+    /// Whether copies of an assembly, which nodes place, have colours.
+    bool colorsCopies() const
+    {
+        return colorGroups == "copy" && (atoms.instances || atoms.bySymmetry);
+    }
 };
 
 } // namespace molsurf::tool

@@ -28,7 +28,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* fileNames = "a name that ends in .vdb, .ply, .obj, .stl, .off, .glb, .3mf, "
-                                  ".html, .json or .png";
+                                  ".html, .json, .png or .usda";
 
 std::string endOf(const std::string& path)
 {
@@ -67,7 +67,8 @@ std::vector<Output> surfaceOutputs(const Call& call)
     if (call.paths.empty()) misuse("nothing to write [hint: -o FILE, for example -o surface.vdb]");
     return outputsOf(call,
                      {Format::Vdb, Format::Ply, Format::Obj, Format::Stl, Format::Off, Format::Glb,
-                      Format::Json, Format::Png, Format::Html, Format::Csv, Format::ThreeMf},
+                      Format::Json, Format::Png, Format::Html, Format::Csv, Format::ThreeMf,
+                      Format::Usda},
                      fileNames);
 }
 
@@ -108,10 +109,13 @@ void warnIfGiven(Call& call, std::initializer_list<const char*> options, const s
 void completeScene(Call& call)
 {
     if (call.scene.known()) {
-        if (!writes(call, {Format::Vdb, Format::Glb}))
-            call.warnings.push_back("--for is for .vdb and .glb");
-        for (const char* field : {"density", "Cd"})
+        if (!writes(call, {Format::Vdb, Format::Glb, Format::Usda}))
+            call.warnings.push_back("--for is for .vdb, .glb and .usda");
+        for (const char* field : {"density", "Cd"}) {
+            // Copies have colours instead of vertices.
+            if (field == std::string("Cd") && call.colorsCopies()) continue;
             if (!hasField(call.options.fields, field)) call.options.fields.push_back(field);
+        }
     }
     if (call.scene.host == Host::Usd) addSidecars(call);
     if (!writes(call, {Format::Stl, Format::Obj, Format::ThreeMf}))
@@ -156,11 +160,17 @@ void completePicture(Call& call)
 // Says what none of the files can hold.
 void warnOfLosses(Call& call)
 {
+    const ColorBy by = call.options.color;
+    if (call.crisp && (by == ColorBy::Nothing || by == ColorBy::MeanCurvature ||
+                       by == ColorBy::GaussianCurvature))
+        call.warnings.push_back("--crisp is for --color chain, group, element or residue");
+    if (call.crisp && (call.options.split || !call.options.surfaceOf.empty()))
+        call.warnings.push_back("--crisp is not for surfaces of their own");
     if (call.outputs.empty()) return;
     const bool vdb = writes(call, {Format::Vdb}), mesh = writes(call, {Format::Ply, Format::Glb});
     if (call.has("color") && call.options.color != ColorBy::Nothing && !vdb &&
         !writes(call, {Format::Ply, Format::Obj, Format::Off, Format::Glb, Format::ThreeMf,
-                       Format::Png, Format::Html}))
+                       Format::Png, Format::Html, Format::Usda}))
         call.warnings.push_back("--color: none of the files can hold colours [hint: -o .ply, .glb, "
                                 ".png or .html, for example]");
     if (!call.has("fields") || vdb) return;
@@ -228,7 +238,15 @@ void completeGroups(Call& call)
 
 void completeInstances(Call& call)
 {
-    if (!call.atoms.instances) return;
+    if (!call.atoms.instances) {
+        if (!call.lod.empty() && !call.atoms.bySymmetry)
+            misuse("--lod: expected --instances or --by-symmetry too");
+        for (const Output& output : call.outputs)
+            if (output.format == Format::Usda && !call.atoms.bySymmetry)
+                misuse("-o " + output.path +
+                       ": expected --instances too [hint: --for usd -o FILE.vdb writes a volume]");
+        return;
+    }
     if (call.atoms.assembly == "none")
         misuse("--instances: expected --assembly too [hint: --assembly 1]");
     for (const char* option :
@@ -236,10 +254,23 @@ void completeInstances(Call& call)
         if (call.has(option)) misuse("--instances and --" + std::string(option) + " together");
     for (const Output& output : call.outputs)
         if (output.format != Format::Glb && output.format != Format::Json &&
-            output.format != Format::Png)
+            output.format != Format::Png && output.format != Format::Usda &&
+            output.format != Format::Html)
             call.warnings.push_back("-o " + output.path +
-                                    ": it holds each distinct copy once [hint: -o .glb, .png "
-                                    "and .json have all]");
+                                    ": it holds each distinct copy once [hint: -o .glb, .usda, "
+                                    ".html, .png and .json have all]");
+}
+
+void completeLevels(Call& call)
+{
+    if (call.lod.empty()) return;
+    if (call.has("voxel")) misuse("--voxel and --lod together: the first of --lod is the voxel");
+    if (!writes(call, {Format::Glb, Format::Usda, Format::Html}))
+        call.warnings.push_back("--lod is for .glb, .usda and .html");
+    call.options.voxel = call.lod.front();
+    SurfaceOptions coarsest = call.options;
+    coarsest.voxel = call.lod.back();
+    checkOptions(coarsest);
 }
 
 void completeSymmetry(Call& call)
@@ -255,13 +286,16 @@ void completeSymmetry(Call& call)
           "memory", "dry-run", "center", "fill-cavities", "match-volume"})
         if (call.has(option)) misuse("--by-symmetry and --" + std::string(option) + " together");
     for (const Output& output : call.outputs)
-        if (output.format == Format::Vdb || output.format == Format::Usda)
+        if (output.format == Format::Vdb)
             misuse("-o " + output.path +
                    ": --by-symmetry makes no grid of the whole [hint: --memory 8G in its place "
                    "makes it in bricks]");
     for (const std::string& field : call.options.fields)
         if (!findCurvatureField(field)) misuse("--by-symmetry and --fields " + field + " together");
-    call.atoms.surroundings = surroundingsOf(call.options);
+    if (call.weld && call.crisp) misuse("--weld and --crisp together");
+    SurfaceOptions coarsest = call.options;
+    if (!call.lod.empty()) coarsest.voxel = call.lod.back();
+    call.atoms.surroundings = surroundingsOf(coarsest);
 }
 
 void completeResolutions(Call& call)
@@ -307,6 +341,7 @@ void completeBuild(Call& call)
     if (!call.dryRun || !call.paths.empty()) call.outputs = surfaceOutputs(call);
     completeFrames(call);
     completeInstances(call);
+    completeLevels(call);
     completeSymmetry(call);
     completeScene(call);
     completeSurface(call);
@@ -322,7 +357,8 @@ void completeBatch(Call& call)
     std::set<std::string> seen;
     for (const std::string& word : splitWords(lowered(call.formats))) {
         const auto found = formatWords.find(word);
-        if (found == formatWords.end() || found->second == Format::Csv || !seen.insert(word).second)
+        if (found == formatWords.end() || found->second == Format::Csv ||
+            found->second == Format::Usda || !seen.insert(word).second)
             misuse("--formats: expected some of vdb, ply, obj, stl, off, glb, 3mf, html, json, "
                    "png, got '" +
                    call.formats + "'");
@@ -357,6 +393,7 @@ void completeConvert(Call& call)
               " [hint: vdb_molsurf convert surface.vdb -o surface.ply]");
     call.outputs = surfaceOutputs(call);
     if (writes(call, {Format::Csv})) misuse("-o .csv is for --frames");
+    if (writes(call, {Format::Usda})) misuse("-o .usda is for --instances");
     if (writes(call, {Format::Vdb}) && call.options.color == ColorBy::Nothing)
         misuse("-o .vdb: expected --color too, without which it would be a copy");
     completePicture(call);

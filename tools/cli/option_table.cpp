@@ -17,9 +17,9 @@ namespace molsurf::tool
 {
 
 const std::map<std::string, Format> formatWords = {
-    {"vdb", Format::Vdb},   {"ply", Format::Ply}, {"obj", Format::Obj},    {"stl", Format::Stl},
-    {"off", Format::Off},   {"glb", Format::Glb}, {"json", Format::Json},  {"png", Format::Png},
-    {"html", Format::Html}, {"csv", Format::Csv}, {"3mf", Format::ThreeMf}};
+    {"vdb", Format::Vdb},   {"ply", Format::Ply}, {"obj", Format::Obj},     {"stl", Format::Stl},
+    {"off", Format::Off},   {"glb", Format::Glb}, {"json", Format::Json},   {"png", Format::Png},
+    {"html", Format::Html}, {"csv", Format::Csv}, {"3mf", Format::ThreeMf}, {"usda", Format::Usda}};
 
 const std::vector<std::string>& knownFields()
 {
@@ -428,7 +428,8 @@ OptionGroup outputOptions()
             {output(Build, "file to write; repeats; the extension says what:\n"
                            ".vdb level set and fields; .ply .obj .stl .off .glb\n"
                            ".3mf mesh; .html page that shows it; .json report;\n"
-                           ".png picture; - is standard output"),
+                           ".png picture; .usda copies, with --instances; - is\n"
+                           "standard output"),
              output(Convert, "file to write; repeats; the extension says what:\n"
                              ".ply .obj .stl .off .glb .3mf mesh; .html page;\n"
                              ".json report; .png picture; with --color .vdb, the\n"
@@ -481,7 +482,7 @@ OptionGroup atomOptions()
               "", structures, of(&SelectOptions::assembly)),
          flag("instances",
               "the surface of each distinct copy of the assembly once:\n"
-              "the .glb and the .json place the copies",
+              "the .glb, .usda, .html, .png and .json place the copies",
               Build, of(&SelectOptions::instances)),
          flag("by-symmetry",
               "the joint surface of the whole assembly from one unit,\n"
@@ -546,6 +547,30 @@ OptionGroup surfaceOptions()
     attributes.text =
         "curvatures for the vertices of a .ply or .glb, by commas,\nas of vdb_molsurf --help";
     attributes.verbs = Convert;
+    Option levels{"lod",
+                  0,
+                  "LIST",
+                  "with --instances: voxels such as 1,2,4 in the place of\n"
+                  "--voxel, a mesh each; the .html shows the finest that is\n"
+                  "worth it, in .glb and .usda the first one is the default",
+                  "",
+                  Build};
+    levels.set = [](Call& call, const Values& values) {
+        const std::string expected = "2 to 8 ascending voxels by commas [Å], such as 1,2,4";
+        call.lod.clear();
+        for (const std::string& word : splitWords(values.back())) {
+            const double voxel = parsed<double>("lod", expected, word);
+            if (!(voxel > (call.lod.empty() ? 0.0 : call.lod.back())))
+                wrong("lod", expected, values.back());
+            call.lod.push_back(voxel);
+        }
+        if (call.lod.size() < 2 || call.lod.size() > 8) wrong("lod", expected, values.back());
+    };
+    levels.stored = [](const Call& c) {
+        Values all;
+        for (const double voxel : c.lod) all.push_back(shortest(voxel));
+        return stored(all.empty() ? "none" : joinWords(all, ","));
+    };
     return {
         "Surface",
         {word("surface", "KIND",
@@ -553,6 +578,7 @@ OptionGroup surfaceOptions()
               "vdw: van der Waals; gaussian",
               structures, OF(options.kind), surfaceKinds),
          number("voxel", "H", "edge of a voxel [Å], 0.05 to 10", structures, OF(options.voxel)),
+         levels,
          number("blobbiness", "D", "decay of the Gaussians of --surface gaussian", structures,
                 OF(options.blobbiness)),
          flag("fill-cavities", "drop the inner walls", wholes | Compare, OF(options.fillCavities)),
@@ -681,9 +707,12 @@ OptionGroup groupOptions()
          with(flag("interfaces", "buried areas between groups, for the report", wholes,
                    OF(options.interfaces)),
               [](Option& o) { o.stored = nullptr; }),
-         orGroups(color("colours of the mesh and the grid Cd: chain, group, copy,\n"
-                        "element, residue, mean-curvature, gaussian-curvature",
+         orGroups(color("colours of the mesh and the grid Cd: chain, entity, class,\n"
+                        "copy, group, element, residue, mean-curvature,\n"
+                        "gaussian-curvature",
                         "none", surfaces)),
+         with(flag("crisp", "mesh files: triangles are cut where colours meet", Build, OF(crisp)),
+              [](Option& o) { o.stored = nullptr; }),
          color("chain, group (of grids chain_id, group_id), element,\n"
                "residue (of Cd so coloured), mean-curvature,\n"
                "gaussian-curvature; those of Cd unless given",

@@ -99,8 +99,8 @@ public:
         return t;
     }
 
-    /// Moves a point near the circle in which the spheres of two owners meet onto it, if it is closer
-    /// than a limit [Å]: a mesh cuts off the crease there.
+    /// Moves a point near the circle in which the spheres of two owners meet onto it, if it is
+    /// closer than a limit [Å]: a mesh cuts off the crease there.
     void snap(Vec3d& x, std::int32_t a, std::int32_t b, double limit)
     {
         const Vec3d start = x;
@@ -204,8 +204,7 @@ private:
 } // namespace
 
 Mesh withCrispBorders(const Mesh& mesh, const std::vector<Ball>& balls,
-                      const std::vector<Color>& ballColor, double crease,
-                      const Progress& progress)
+                      const std::vector<Color>& ballColor, double crease, const Progress& progress)
 {
     std::map<Color, std::int32_t> number;
     std::vector<Color> colors;

@@ -28,7 +28,6 @@ namespace molsurf
 /// @param[in] crease     how far from the circle of two spheres the mesh cuts off the crease there,
 ///                       at most [Å]; 0: it is not that of their union
 Mesh withCrispBorders(const Mesh& mesh, const std::vector<Ball>& balls,
-                      const std::vector<Color>& ballColor, double crease,
-                      const Progress& progress);
+                      const std::vector<Color>& ballColor, double crease, const Progress& progress);
 
 } // namespace molsurf

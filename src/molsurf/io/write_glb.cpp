@@ -3,10 +3,8 @@
 
 #include "molsurf/error.h"
 #include "molsurf/io/part_ranges.h"
+#include "molsurf/io/rotation_quaternion.h"
 
-#include <boost/qvm/mat.hpp>
-#include <boost/qvm/quat.hpp>
-#include <boost/qvm/quat_operations.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -46,24 +44,26 @@ std::string attributeName(const std::string& name)
 class Document
 {
 public:
-    Document(const Mesh& mesh, const GlbOptions& options) : mesh_(mesh)
+    Document(const Mesh& mesh, const GlbOptions& options) : mesh_(&mesh)
     {
         json_["asset"] = {{"version", "2.0"}, {"generator", "vdb_molsurf"}};
         json_["scene"] = 0;
-        json_["scenes"] = Json::array({Json{{"nodes", {0}}}});
-        const double half = std::sqrt(0.5), scale = options.scale;
-        Json root = {{"name", options.name}, {"rotation", {-half, 0.0, 0.0, half}}};
-        if (scale != 1.0) root["scale"] = {scale, scale, scale};
-        json_["nodes"] = Json::array({root});
-        const std::vector<PartRange> ranges = partRanges(mesh, options.name);
         if (options.instances.empty()) {
+            addRoot(options, "");
             addMaterial("surface", mesh.colors.empty() ? options.plain : white);
+            const std::vector<PartRange> ranges = partRanges(mesh, options.name);
             for (const PartRange& range : ranges) {
                 const Json primitive = primitiveOf(range);
                 addNode(addMesh(range.name, primitive, 0), range.name, ranges.size() > 1);
             }
         } else {
-            addInstances(ranges, options.instances);
+            const std::size_t levels = 1 + options.coarser.size();
+            for (std::size_t level = 0; level < levels; ++level) {
+                if (level > 0) mesh_ = options.coarser[level - 1];
+                const std::string name = levels > 1 ? " lod" + std::to_string(level) : "";
+                addRoot(options, name);
+                addInstances(partRanges(*mesh_, options.name), options.instances, name);
+            }
         }
         json_["buffers"] = Json::array({Json{{"byteLength", bytes_.size()}}});
     }
@@ -76,6 +76,17 @@ public:
 
 private:
     static constexpr Color white = {255, 255, 255};
+
+    /// A scene with one node, below which the next ones come.
+    void addRoot(const GlbOptions& options, const std::string& level)
+    {
+        const double half = std::sqrt(0.5), scale = options.scale;
+        Json root = {{"name", options.name + level}, {"rotation", {-half, 0.0, 0.0, half}}};
+        if (scale != 1.0) root["scale"] = {scale, scale, scale};
+        root_ = json_["nodes"].size();
+        json_["nodes"].push_back(root);
+        json_["scenes"].push_back({{"name", options.name + level}, {"nodes", {root_}}});
+    }
 
     void addMaterial(const std::string& name, const Color& color)
     {
@@ -93,10 +104,10 @@ private:
         Json attributes = Json::object();
         attributes["POSITION"] = addPositions(range);
         attributes["NORMAL"] = addNormals(range);
-        if (!mesh_.colors.empty()) attributes["COLOR_0"] = addColors(range);
-        for (const auto& scalar : mesh_.scalars)
+        if (!mesh_->colors.empty()) attributes["COLOR_0"] = addColors(range);
+        for (const auto& scalar : mesh_->scalars)
             attributes[attributeName(scalar.name)] = addNumbers(range, scalar.values);
-        for (const auto& label : mesh_.labels)
+        for (const auto& label : mesh_->labels)
             attributes[attributeName(label.name)] = addNumbers(range, label.values);
         return {{"attributes", attributes}, {"indices", addTriangles(range)}};
     }
@@ -112,38 +123,33 @@ private:
     Json& addNode(std::size_t mesh, const std::string& name, bool several)
     {
         if (!several) {
-            json_["nodes"][0]["mesh"] = mesh;
-            return json_["nodes"][0];
+            json_["nodes"][root_]["mesh"] = mesh;
+            return json_["nodes"][root_];
         }
-        json_["nodes"][0]["children"].push_back(json_["nodes"].size());
+        json_["nodes"][root_]["children"].push_back(json_["nodes"].size());
         json_["nodes"].push_back({{"name", name}, {"mesh", mesh}});
         return json_["nodes"].back();
     }
 
     void addInstances(const std::vector<PartRange>& ranges,
-                      const std::vector<MeshInstance>& instances)
+                      const std::vector<MeshInstance>& instances, const std::string& level)
     {
         std::vector<Json> primitives;
         for (const PartRange& range : ranges) primitives.push_back(primitiveOf(range));
-        std::map<Color, std::size_t> materials;
         std::map<std::pair<std::size_t, std::size_t>, std::size_t> meshes; // by part and material
         for (const MeshInstance& instance : instances) {
             const PartRange& range = ranges[instance.part];
-            const auto [material, isNew] = materials.emplace(instance.color, materials.size());
-            if (isNew) addMaterial("color " + std::to_string(materials.size()), instance.color);
+            const auto [material, isNew] = materials_.emplace(instance.color, materials_.size());
+            if (isNew) addMaterial("color " + std::to_string(materials_.size()), instance.color);
             const auto [mesh, isNewMesh] =
                 meshes.emplace(std::make_pair(instance.part, material->second), std::size_t(0));
             if (isNewMesh)
-                mesh->second = addMesh(range.name, primitives[instance.part], material->second);
+                mesh->second =
+                    addMesh(range.name + level, primitives[instance.part], material->second);
             Json& node = addNode(mesh->second, instance.name, true);
-            const auto& r = instance.rotation;
-            boost::qvm::mat<double, 3, 3> matrix;
-            for (std::size_t row = 0; row < 3; ++row)
-                std::copy(r[row].begin(), r[row].end(), matrix.a[row]);
-            auto q = boost::qvm::convert_to<boost::qvm::quat<double>>(matrix);
-            boost::qvm::normalize(q); // files give rotations to six digits
+            const auto [x, y, z, w] = quaternionOf(instance.rotation);
             // To the single precision that readers keep.
-            node["rotation"] = {float(q.a[1]), float(q.a[2]), float(q.a[3]), float(q.a[0])};
+            node["rotation"] = {float(x), float(y), float(z), float(w)};
             const openvdb::Vec3d& t = instance.translation;
             node["translation"] = {float(t[0]), float(t[1]), float(t[2])};
         }
@@ -177,7 +183,7 @@ private:
         low.fill(std::numeric_limits<float>::max());
         high.fill(std::numeric_limits<float>::lowest());
         for (std::size_t v = range.firstVertex; v < range.vertexEnd; ++v) {
-            const Vec3f& p = mesh_.positions[v];
+            const Vec3f& p = mesh_->positions[v];
             for (int i = 0; i < 3; ++i) {
                 append(p[i]);
                 low[std::size_t(i)] = std::min(low[std::size_t(i)], p[i]);
@@ -195,7 +201,7 @@ private:
     {
         const std::size_t begin = bytes_.size();
         for (std::size_t v = range.firstVertex; v < range.vertexEnd; ++v) {
-            openvdb::Vec3d normal(mesh_.normals[v]);
+            openvdb::Vec3d normal(mesh_->normals[v]);
             if (!(normal.length() > 0.0)) normal = openvdb::Vec3d(0.0, 0.0, 1.0);
             normal.normalize();
             for (int i = 0; i < 3; ++i) append(float(normal[i]));
@@ -208,7 +214,7 @@ private:
         constexpr double full = std::numeric_limits<std::uint16_t>::max();
         const std::size_t begin = bytes_.size();
         for (std::size_t v = range.firstVertex; v < range.vertexEnd; ++v) {
-            const Vec3f light = linearLight(mesh_.colors[v]);
+            const Vec3f light = linearLight(mesh_->colors[v]);
             for (int i = 0; i < 3; ++i) append(std::uint16_t(std::lround(full * double(light[i]))));
             append(std::uint16_t(full)); // opaque; an element is a multiple of four bytes
         }
@@ -230,13 +236,15 @@ private:
     {
         const std::size_t begin = bytes_.size();
         for (std::size_t t = range.firstTriangle; t < range.triangleEnd; ++t)
-            for (const std::uint32_t corner : mesh_.triangles[t])
+            for (const std::uint32_t corner : mesh_->triangles[t])
                 append(std::uint32_t(corner - range.firstVertex));
         return close(begin, 3 * (range.triangleEnd - range.firstTriangle), indexType, "SCALAR",
                      indexTarget);
     }
 
-    const Mesh& mesh_;
+    const Mesh* mesh_;     // of the level that is being added
+    std::size_t root_ = 0; // its node
+    std::map<Color, std::size_t> materials_;
     Json json_;
     std::vector<char> bytes_;
 };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_usda.h"
 
-#include <cctype>
+#include "molsurf/io/usda_text.h"
+
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -12,17 +13,7 @@ namespace molsurf
 namespace
 {
 
-constexpr const char* firstLine = "#usda 1.0";
 constexpr const char* creator = "        string creator = \"vdb_molsurf\"";
-
-std::string identifier(const std::string& name)
-{
-    std::string word;
-    for (const char letter : name)
-        word += std::isalnum(static_cast<unsigned char>(letter)) ? letter : '_';
-    if (word.empty() || std::isdigit(static_cast<unsigned char>(word[0]))) word = "_" + word;
-    return word;
-}
 
 // A string of USD.
 std::string quoted(const std::string& text)
@@ -75,7 +66,7 @@ openvdb::BBoxd extentOf(const openvdb::GridCPtrVec& grids)
 
 void writeField(const openvdb::GridBase& grid, const UsdVolume& volume, std::ostream& out)
 {
-    out << "\n        def OpenVDBAsset \"" << identifier(grid.getName()) << "\"\n        {\n"
+    out << "\n        def OpenVDBAsset \"" << usdaIdentifier(grid.getName()) << "\"\n        {\n"
         << "            token fieldName = " << quoted(grid.getName()) << "\n"
         << "            token fieldClass = \"" << classOf(grid) << "\"\n"
         << "            token fieldDataType = \"" << typeOf(grid) << "\"\n";
@@ -97,8 +88,8 @@ std::string usdaText(const openvdb::GridCPtrVec& grids, const UsdVolume& volume)
 {
     std::ostringstream out;
     out.precision(std::numeric_limits<float>::max_digits10);
-    const std::string name = identifier(volume.name);
-    out << firstLine << "\n(\n    customLayerData = {\n"
+    const std::string name = usdaIdentifier(volume.name);
+    out << usdaFirstLine << "\n(\n    customLayerData = {\n"
         << creator << "\n    }\n    defaultPrim = \"" << name << "\"\n";
     if (!volume.frames.empty()) out << "    endTimeCode = " << volume.frames.back().first << "\n";
     out << "    metersPerUnit = " << volume.metersPerUnit << "\n";
@@ -117,7 +108,7 @@ std::string usdaText(const openvdb::GridCPtrVec& grids, const UsdVolume& volume)
     point(box.max());
     out << "]\n";
     for (const auto& grid : grids) {
-        const std::string field = identifier(grid->getName());
+        const std::string field = usdaIdentifier(grid->getName());
         out << "        rel field:" << field << " = </" << name << "/volume/" << field << ">\n";
     }
     for (const auto& grid : grids) writeField(*grid, volume, out);
@@ -138,7 +129,7 @@ bool isOwnUsda(const std::string& path)
 {
     std::ifstream file(path);
     std::string line;
-    if (!std::getline(file, line) || line != firstLine) return false;
+    if (!std::getline(file, line) || line != usdaFirstLine) return false;
     for (int n = 0; n < 3 && std::getline(file, line); ++n)
         if (line == creator) return true;
     return false;

@@ -2,6 +2,7 @@
 #include "molsurf/picture/write_html.h"
 
 #include "molsurf/error.h"
+#include "molsurf/io/part_ranges.h"
 #include "molsurf/picture/viewer_text.h"
 
 #include <nlohmann/json.hpp>
@@ -89,7 +90,8 @@ Json colorJson(const Color& color)
 }
 
 /// Packs what a legend shows; the mode of the viewer, or nothing if the mesh has no such thing.
-Json modeOf(const Legend& legend, const Mesh& mesh, Arrays& arrays)
+/// @param[in] level  behind the names of its arrays
+Json modeOf(const Legend& legend, const Mesh& mesh, const std::string& level, Arrays& arrays)
 {
     Json mode = {{"title", legend.title}, {"id", legend.id}};
     if (legend.scale) {
@@ -97,7 +99,7 @@ Json modeOf(const Legend& legend, const Mesh& mesh, Arrays& arrays)
                                          [&](const auto& s) { return s.name == legend.attribute; });
         if (scalar == mesh.scalars.end()) return {};
         const double low = legend.scale->low, range = legend.scale->high - low;
-        arrays.add(legend.attribute, scalar->values.size(), 1, 1, [&](std::size_t i, int) {
+        arrays.add(legend.attribute + level, scalar->values.size(), 1, 1, [&](std::size_t i, int) {
             const double place = (double(scalar->values[i]) - low) / range;
             return std::uint32_t(std::lround(255.0 * std::clamp(place, 0.0, 1.0)));
         });
@@ -113,7 +115,7 @@ Json modeOf(const Legend& legend, const Mesh& mesh, Arrays& arrays)
                                     [&](const auto& l) { return l.name == legend.attribute; });
     if (label != mesh.labels.end()) {
         const std::size_t last = legend.entries.size() - 1; // also that of what has no label
-        arrays.add(legend.attribute, label->values.size(), 1, last < 256 ? 1 : 4,
+        arrays.add(legend.attribute + level, label->values.size(), 1, last < 256 ? 1 : 4,
                    [&](std::size_t i, int) {
                        const std::int32_t v = label->values[i];
                        return std::uint32_t(v < 0 ? last : std::min(std::size_t(v), last));
@@ -121,7 +123,7 @@ Json modeOf(const Legend& legend, const Mesh& mesh, Arrays& arrays)
         mode["kind"] = "names";
         mode["array"] = legend.attribute;
     } else if (!mesh.colors.empty()) {
-        arrays.add("color", mesh.colors.size(), 3, 1, [&](std::size_t i, int c) {
+        arrays.add("color" + level, mesh.colors.size(), 3, 1, [&](std::size_t i, int c) {
             return std::uint32_t(mesh.colors[i][std::size_t(c)]);
         });
         mode["kind"] = "colors";
@@ -134,35 +136,85 @@ Json modeOf(const Legend& legend, const Mesh& mesh, Arrays& arrays)
     return mode;
 }
 
-Json headerOf(const Mesh& mesh, const HtmlPage& page, Arrays& arrays)
+openvdb::BBoxd boxOf(const Mesh& mesh)
 {
     openvdb::BBoxd box;
     for (const openvdb::Vec3f& p : mesh.positions) box.expand(openvdb::Vec3d(p));
     if (mesh.positions.empty()) box = openvdb::BBoxd(openvdb::Vec3d(0.0), openvdb::Vec3d(0.0));
+    return box;
+}
+
+/// Packs vertices and triangles.
+/// @param[in] origin  of the page [Å]
+Json levelOf(const Mesh& mesh, const openvdb::Vec3d& origin, const std::string& level,
+             Arrays& arrays)
+{
     constexpr double full = std::numeric_limits<std::uint16_t>::max();
+    const openvdb::BBoxd box = boxOf(mesh);
     const openvdb::Vec3d extent = box.extents(), center = box.getCenter();
     const double step = std::max({extent[0], extent[1], extent[2], 1e-6}) / full; // [Å]
-    arrays.add("position", mesh.positions.size(), 3, 2, [&](std::size_t i, int c) {
+    arrays.add("position" + level, mesh.positions.size(), 3, 2, [&](std::size_t i, int c) {
         const double place = (double(mesh.positions[i][c]) - center[c]) / step + 0.5 * full;
         return std::uint32_t(std::lround(std::clamp(place, 0.0, full)));
     });
-    arrays.add("index", 3 * mesh.triangles.size(), 1, 4,
+    arrays.add("index" + level, 3 * mesh.triangles.size(), 1, 4,
                [&](std::size_t i, int) { return mesh.triangles[i / 3][i % 3]; });
+    Json parts = Json::array();
+    for (const PartRange& part : partRanges(mesh, ""))
+        parts.push_back(
+            Json::array({part.firstVertex, part.vertexEnd, part.firstTriangle, part.triangleEnd}));
+    const openvdb::Vec3d middle = center - origin;
+    return {{"level", level},
+            {"step", step},
+            {"middle", {middle[0], middle[1], middle[2]}},
+            {"parts", parts}};
+}
+
+double rounded(double x, double unit)
+{
+    return std::round(x / unit) * unit + 0.0; // no -0
+}
+
+/// The copies: part, rows of the matrix about the origin of the page, and colour of each.
+Json copiesOf(const std::vector<MeshInstance>& instances, const openvdb::Vec3d& origin)
+{
+    Json copies = Json::array();
+    for (const MeshInstance& copy : instances) {
+        const openvdb::Vec3d place = copy.placed(origin);
+        Json rows = Json::array();
+        for (std::size_t row = 0; row < 3; ++row) {
+            for (const double number : copy.rotation[row]) rows.push_back(rounded(number, 1e-6));
+            rows.push_back(rounded(place[int(row)], 1e-3));
+        }
+        copies.push_back(Json::array({copy.part, rows, colorJson(copy.color)}));
+    }
+    return copies;
+}
+
+Json headerOf(const Mesh& mesh, const HtmlPage& page, Arrays& arrays)
+{
+    const openvdb::Vec3d origin = boxOf(mesh).getCenter();
+    Json levels = Json::array({levelOf(mesh, origin, "", arrays)});
+    for (std::size_t n = 0; n < page.coarser.size(); ++n)
+        levels.push_back(levelOf(*page.coarser[n], origin, "_lod" + std::to_string(n + 1), arrays));
     Json modes = Json::array();
     for (const Legend& legend : page.legends) {
-        Json mode = modeOf(legend, mesh, arrays);
-        if (!mode.is_null()) modes.push_back(std::move(mode));
+        Json mode = modeOf(legend, mesh, "", arrays);
+        if (mode.is_null()) continue;
+        modes.push_back(std::move(mode));
+        for (std::size_t n = 0; n < page.coarser.size(); ++n)
+            modeOf(legend, *page.coarser[n], levels[n + 1]["level"].get<std::string>(), arrays);
     }
+    if (!page.instances.empty())
+        modes.insert(page.copiesFirst ? modes.begin() : modes.end(),
+                     Json{{"title", "Copy"}, {"id", "copy"}, {"kind", "copies"}});
     modes.push_back(Json{
         {"title", "Plain"}, {"id", "none"}, {"kind", "plain"}, {"color", colorJson(page.plain)}});
     Json axes = Json::array();
     for (const openvdb::Vec3d& axis : page.axes)
         axes.push_back(Json::array({axis[0], axis[1], axis[2]}));
-    return {{"title", page.title},
-            {"step", step},
-            {"axes", axes},
-            {"modes", modes},
-            {"arrays", arrays.table()}};
+    return {{"title", page.title}, {"levels", levels}, {"copies", copiesOf(page.instances, origin)},
+            {"axes", axes},        {"modes", modes},   {"arrays", arrays.table()}};
 }
 
 /// Text that may stand anywhere in HTML; in JSON the escape means the same letter.

@@ -7,6 +7,7 @@
 #include "molsurf/color/legend.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/mesh.h"
+#include "molsurf/mesh/mesh_instance.h"
 
 #include <array>
 #include <string>
@@ -23,13 +24,21 @@ struct HtmlPage {
     std::array<openvdb::Vec3d, 3> axes =
         { ///< directions to the right, up and toward the eye at first
             openvdb::Vec3d(1, 0, 0), openvdb::Vec3d(0, 1, 0), openvdb::Vec3d(0, 0, 1)};
+    /// The copies of parts that are shown in the place of the mesh, and their colours to choose;
+    /// empty: the mesh.
+    std::vector<MeshInstance> instances{};
+    bool copiesFirst = false; ///< whether the colours of copies come before the legends
+    /// With copies: the same parts at larger voxels, one mesh for each further level of detail.
+    std::vector<const Mesh*> coarser{};
 };
 
 /// Writes a page of HTML with the mesh in it and a viewer (three.js, WebGL 2).
 ///
 /// The mesh is packed: positions by steps of 1/65535 of its largest extent, values of curvature in
 /// 256 steps of their scale, names of chains and groups as numbers; differences from vertex to
-/// vertex, compressed by zlib, in base64. A legend without an attribute shows Mesh::colors.
+/// vertex, compressed by zlib, in base64. Copies have a matrix each; the page shows each by the
+/// coarsest level whose triangles are small on the screen, and while it is turned by a coarser one
+/// if it has to, which it makes itself. A legend without an attribute shows Mesh::colors.
 ///
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeHtml(const Mesh& mesh, const HtmlPage& page, OutputFile& file);

@@ -66,10 +66,9 @@ void turnVectors(const MeshInstance& motion, std::vector<Attribute<float>>& scal
 
 } // namespace
 
-Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, bool weld,
+Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, const Mesh& unit, bool weld,
                const std::vector<std::array<std::uint8_t, 3>>& colors, const Progress& progress)
 {
-    const Mesh& unit = surface.mesh;
     const std::size_t order = atoms.instances.size(), vertices = unit.positions.size();
     if (order * vertices > 0xffffffffu)
         throw Error(ErrorKind::Output, "the mesh of the whole has more vertices than 32 bits count "

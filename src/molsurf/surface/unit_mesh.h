@@ -18,11 +18,12 @@ namespace molsurf
 ///
 /// @param[in] atoms    with a unit
 /// @param[in] surface  of it
+/// @param[in] unit     its mesh, or one with further vertices behind those of its mesh
 /// @param[in] weld     whether vertices that units share become one: then the mesh is closed if the
 ///                     report says so; else each unit is a part of its own
 /// @param[in] colors   one a unit; empty: the vertices keep theirs
 /// @throws Error(ErrorKind::Check) if the welded mesh is not closed although the report says so
-Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, bool weld,
+Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, const Mesh& unit, bool weld,
                const std::vector<std::array<std::uint8_t, 3>>& colors, const Progress& progress);
 
 } // namespace molsurf

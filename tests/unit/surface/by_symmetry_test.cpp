@@ -128,7 +128,7 @@ TEST_P(BySymmetry, IsTheWhole)
         EXPECT_NEAR(found.meanCurvature.mean, expected.meanCurvature.mean, 0.01);
         EXPECT_TRUE(found.closed);
 
-        const Mesh welded = wholeMesh(unit, a, true, {}, Progress());
+        const Mesh welded = wholeMesh(unit, a, a.mesh, true, {}, Progress());
         const Topology topology = checkTopology(welded, Progress());
         EXPECT_TRUE(topology.closed && topology.oriented);
         EXPECT_EQ(welded.positions.size(), found.vertices);
@@ -303,7 +303,7 @@ TEST(SymmetricUnit, BordersMeet)
         EXPECT_NEAR((there - Vec3d(a.mesh.positions[v.vertex])).length(), 0.0, 1e-4);
     }
     // Apart, every unit is a part of its own.
-    const Mesh apart = wholeMesh(unit, a, false, {}, Progress());
+    const Mesh apart = wholeMesh(unit, a, a.mesh, false, {}, Progress());
     EXPECT_EQ(apart.parts.size(), 6u);
     EXPECT_EQ(apart.triangles.size(), a.report.surface.triangles);
     EXPECT_FALSE(checkTopology(apart, Progress()).closed);

@@ -74,9 +74,8 @@ TEST(CrispBorders, TwoBallsMeetInACircle)
 
 TEST(CrispBorders, ThreeBallsMeetInPoints)
 {
-    const std::vector<Ball> balls = {{Vec3f(0, 0, 0), 2.2f, 0},
-                                     {Vec3f(2.4f, 0, 0), 2.0f, 1},
-                                     {Vec3f(1.1f, 2.1f, 0), 1.8f, 2}};
+    const std::vector<Ball> balls = {
+        {Vec3f(0, 0, 0), 2.2f, 0}, {Vec3f(2.4f, 0, 0), 2.0f, 1}, {Vec3f(1.1f, 2.1f, 0), 1.8f, 2}};
     const Mesh mesh = surfaceOf(balls, SurfaceKind::SolventExcluded);
     const Mesh crisp = withCrispBorders(mesh, balls, {red, green, blue}, 0.0, Progress());
     std::size_t meetings = 0;

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/write_usda_instances.h"
+
+#include "molsurf/color/color_map.h"
+#include "molsurf/io/output_buffer.h"
+#include "molsurf/io/part_ranges.h"
+#include "molsurf/io/rotation_quaternion.h"
+#include "molsurf/io/usda_text.h"
+
+#include <array>
+#include <charconv>
+#include <map>
+#include <string_view>
+#include <utility>
+
+namespace molsurf
+{
+
+namespace
+{
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+constexpr int lengthDigits = 4;     // behind the point [Å]
+constexpr int directionDigits = 4;  // of normals and colours
+constexpr int quaternionDigits = 8; // single precision
+
+/// The text of the file.
+class Text
+{
+public:
+    explicit Text(OutputFile& file) : buffer_(file) {}
+
+    Text& operator<<(std::string_view text)
+    {
+        for (std::size_t at = 0; at < text.size(); at += piece) {
+            const std::string_view now = text.substr(at, piece);
+            now.copy(buffer_.take(now.size()), now.size());
+        }
+        return *this;
+    }
+
+    Text& operator<<(std::size_t number)
+    {
+        char* to = buffer_.take(longest);
+        const auto end = std::to_chars(to, to + longest, number).ptr;
+        buffer_.untake(std::size_t(to + longest - end));
+        return *this;
+    }
+
+    /// (a, b, ...), with so many digits behind the point.
+    template<typename Numbers>
+    void tuple(const Numbers& numbers, int size, int digits)
+    {
+        for (int i = 0; i < size; ++i) {
+            *this << (i == 0 ? "(" : ", ");
+            char* to = buffer_.take(longest);
+            const auto end = std::to_chars(to, to + longest, double(numbers[std::size_t(i)]),
+                                           std::chars_format::fixed, digits)
+                                 .ptr;
+            buffer_.untake(std::size_t(to + longest - end));
+        }
+        *this << ")";
+    }
+
+    /// name = [...], with one call of `put` for each element.
+    template<typename Put>
+    void array(std::string_view name, std::size_t count, const Put& put)
+    {
+        *this << name << " = [";
+        for (std::size_t i = 0; i < count; ++i) {
+            if (i > 0) *this << ", ";
+            put(i);
+        }
+        *this << "]";
+    }
+
+    void flush() { buffer_.flush(); }
+
+private:
+    static constexpr std::size_t piece = 256, longest = 32;
+    Buffer buffer_;
+};
+
+/// A part of the mesh in the colour of some of its copies.
+struct Prototype {
+    std::size_t part;
+    std::array<std::uint8_t, 3> color;
+};
+
+/// One mesh and what is known of its parts.
+struct Level {
+    const Mesh* mesh;
+    std::vector<PartRange> parts;
+    std::vector<openvdb::BBoxd> boxes;
+};
+
+class Stage
+{
+public:
+    Stage(const Mesh& mesh, const UsdInstances& copies, OutputFile& file)
+        : copies_(copies), name_(usdaIdentifier(copies.name)), out_(file)
+    {
+        std::vector<const Mesh*> meshes = {&mesh};
+        meshes.insert(meshes.end(), copies.coarser.begin(), copies.coarser.end());
+        for (const Mesh* each : meshes) {
+            Level level{each, partRanges(*each, copies.name), {}};
+            for (const PartRange& part : level.parts) {
+                openvdb::BBoxd& box = level.boxes.emplace_back();
+                for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v)
+                    box.expand(Vec3d(each->positions[v]));
+            }
+            levels_.push_back(std::move(level));
+        }
+        std::map<std::pair<std::size_t, std::array<std::uint8_t, 3>>, std::size_t> numbers;
+        for (const MeshInstance& copy : copies.instances) {
+            const auto [found, isNew] =
+                numbers.emplace(std::make_pair(copy.part, copy.color), prototypes_.size());
+            if (isNew) prototypes_.push_back({copy.part, copy.color});
+            prototypeOf_.push_back(found->second);
+        }
+        for (const Prototype& prototype : prototypes_)
+            materials_.emplace(prototype.color, materials_.size());
+    }
+
+    void write()
+    {
+        writeHead();
+        for (const auto& [color, number] : materials_) writeMaterial(color, number);
+        out_ << "    }\n\n    class \"geometry\"\n    {\n";
+        for (std::size_t level = 0; level < levels_.size(); ++level)
+            for (std::size_t part = 0; part < levels_[level].parts.size(); ++part)
+                writeGeometry(level, part);
+        out_ << "    }\n\n";
+        writeInstancer();
+        if (levels_.size() > 1) {
+            out_ << "    variantSet \"lod\" = {\n";
+            for (std::size_t level = 0; level < levels_.size(); ++level) {
+                out_ << "        \"lod" << level << "\" {\n            over \"copies\"\n"
+                     << "            {\n";
+                writeLevel(level, "                ");
+                out_ << "            }\n        }\n";
+            }
+            out_ << "    }\n";
+        }
+        out_ << "}\n";
+        out_.flush();
+    }
+
+private:
+    Vec3d middle(std::size_t part) const { return levels_[0].boxes[part].getCenter(); }
+
+    void writeHead()
+    {
+        char unit[64];
+        const auto number = [&](double value) {
+            return std::string(unit, std::to_chars(unit, unit + sizeof unit, value).ptr);
+        };
+        out_ << usdaFirstLine << "\n(\n    customLayerData = {\n"
+             << "        string creator = \"vdb_molsurf, copies\"\n    }\n    defaultPrim = \""
+             << name_ << "\"\n    metersPerUnit = " << number(usdaMetersPerAngstrom / copies_.scale)
+             << "\n    upAxis = \"Z\"\n)\n\ndef Xform \"" << name_
+             << "\" (\n    kind = \"component\"\n";
+        if (levels_.size() > 1)
+            out_ << "    variants = {\n        string lod = \"lod0\"\n    }\n"
+                 << "    prepend variantSets = \"lod\"\n";
+        out_ << ")\n{\n";
+        if (copies_.scale != 1.0) {
+            const std::string scale = number(copies_.scale);
+            out_ << "    double3 xformOp:scale = (" << scale << ", " << scale << ", " << scale
+                 << ")\n    uniform token[] xformOpOrder = [\"xformOp:scale\"]\n\n";
+        }
+        out_ << "    def Scope \"materials\"\n    {\n";
+    }
+
+    void writeMaterial(const std::array<std::uint8_t, 3>& color, std::size_t number)
+    {
+        const std::string in = "            ", path = "</" + name_ + "/materials/color_";
+        out_ << "        def Material \"color_" << number << "\"\n        {\n"
+             << in << "token outputs:surface.connect = " << path << number
+             << "/surface.outputs:surface>\n\n"
+             << in << "def Shader \"surface\"\n"
+             << in << "{\n"
+             << in << "    uniform token info:id = \"UsdPreviewSurface\"\n"
+             << in << "    color3f inputs:diffuseColor";
+        const bool byVertex = !levels_[0].mesh->colors.empty();
+        if (byVertex) {
+            out_ << ".connect = " << path << number << "/color.outputs:result>";
+        } else {
+            out_ << " = ";
+            out_.tuple(linearLight(color), 3, directionDigits);
+        }
+        out_ << "\n"
+             << in << "    float inputs:roughness = 0.5\n"
+             << in << "    token outputs:surface\n"
+             << in << "}\n";
+        if (byVertex)
+            out_ << "\n"
+                 << in << "def Shader \"color\"\n"
+                 << in << "{\n"
+                 << in << "    uniform token info:id = \"UsdPrimvarReader_float3\"\n"
+                 << in << "    string inputs:varname = \"displayColor\"\n"
+                 << in << "    float3 outputs:result\n"
+                 << in << "}\n";
+        out_ << "        }\n";
+    }
+
+    void writeGeometry(std::size_t number, std::size_t part)
+    {
+        const Level& level = levels_[number];
+        const PartRange& range = level.parts[part];
+        const Mesh& mesh = *level.mesh;
+        const Vec3d origin = middle(part);
+        const openvdb::BBoxd& box = level.boxes[part];
+        const std::size_t vertices = range.vertexEnd - range.firstVertex;
+        const std::size_t triangles = range.triangleEnd - range.firstTriangle;
+        const std::string in = "            ";
+        out_ << "        def Mesh \"" << partName(number, part) << "\"\n        {\n" << in;
+        out_.array("float3[] extent", 2, [&](std::size_t i) {
+            out_.tuple((i == 0 ? box.min() : box.max()) - origin, 3, lengthDigits);
+        });
+        out_ << "\n" << in;
+        out_.array("int[] faceVertexCounts", triangles, [&](std::size_t) { out_ << "3"; });
+        out_ << "\n" << in;
+        out_.array("int[] faceVertexIndices", 3 * triangles, [&](std::size_t i) {
+            out_ << mesh.triangles[range.firstTriangle + i / 3][i % 3] - range.firstVertex;
+        });
+        out_ << "\n" << in;
+        out_.array("point3f[] points", vertices, [&](std::size_t v) {
+            out_.tuple(Vec3d(mesh.positions[range.firstVertex + v]) - origin, 3, lengthDigits);
+        });
+        out_ << "\n" << in;
+        out_.array("normal3f[] normals", vertices, [&](std::size_t v) {
+            out_.tuple(mesh.normals[range.firstVertex + v], 3, directionDigits);
+        });
+        out_ << " (\n" << in << "    interpolation = \"vertex\"\n" << in << ")\n";
+        if (!mesh.colors.empty()) {
+            out_ << in;
+            out_.array("color3f[] primvars:displayColor", vertices, [&](std::size_t v) {
+                out_.tuple(linearLight(mesh.colors[range.firstVertex + v]), 3, directionDigits);
+            });
+            out_ << " (\n" << in << "    interpolation = \"vertex\"\n" << in << ")\n";
+        }
+        out_ << in << "uniform token subdivisionScheme = \"none\"\n        }\n";
+    }
+
+    void writeInstancer()
+    {
+        const std::string in = "        ";
+        const std::vector<MeshInstance>& all = copies_.instances;
+        out_ << "    def PointInstancer \"copies\"\n    {\n";
+        if (levels_.size() == 1) writeLevel(0, in);
+        out_ << in;
+        out_.array("int64[] ids", all.size(), [&](std::size_t i) { out_ << i + 1; });
+        out_ << "\n" << in;
+        out_.array("int[] protoIndices", all.size(),
+                   [&](std::size_t i) { out_ << prototypeOf_[i]; });
+        out_ << "\n" << in;
+        out_.array("point3f[] positions", all.size(), [&](std::size_t i) {
+            out_.tuple(all[i].placed(middle(all[i].part)), 3, lengthDigits);
+        });
+        for (const char* type : {"quath[] orientations", "quatf[] orientationsf"}) {
+            out_ << "\n" << in;
+            out_.array(type, all.size(), [&](std::size_t i) {
+                const auto [x, y, z, w] = quaternionOf(all[i].rotation);
+                out_.tuple(std::array<double, 4>{w, x, y, z}, 4, quaternionDigits);
+            });
+        }
+        out_ << "\n\n" << in << "def Scope \"prototypes\"\n" << in << "{\n";
+        for (std::size_t level = 0; level < levels_.size(); ++level)
+            for (const Prototype& prototype : prototypes_) writePrototype(level, prototype);
+        out_ << in << "}\n    }\n";
+    }
+
+    void writePrototype(std::size_t level, const Prototype& prototype)
+    {
+        const std::string in = "            ", more = in + "    ";
+        const std::size_t material = materials_.at(prototype.color);
+        out_ << in << "def Mesh \"" << prototypeName(level, prototype) << "\" (\n"
+             << more << "prepend apiSchemas = [\"MaterialBindingAPI\"]\n"
+             << more << "prepend references = </" << name_ << "/geometry/"
+             << partName(level, prototype.part) << ">\n"
+             << in << ")\n"
+             << in << "{\n"
+             << more << "rel material:binding = </" << name_ << "/materials/color_" << material
+             << ">\n";
+        if (levels_[level].mesh->colors.empty()) {
+            out_ << more << "color3f[] primvars:displayColor = [";
+            out_.tuple(linearLight(prototype.color), 3, directionDigits);
+            out_ << "]\n";
+        }
+        out_ << in << "}\n";
+    }
+
+    /// What depends on the level of detail that is shown.
+    void writeLevel(std::size_t number, const std::string& in)
+    {
+        out_ << in;
+        const openvdb::BBoxd box = extentOf(levels_[number]);
+        out_.array("float3[] extent", 2, [&](std::size_t i) {
+            out_.tuple(i == 0 ? box.min() : box.max(), 3, lengthDigits);
+        });
+        out_ << "\n" << in;
+        out_.array("rel prototypes", prototypes_.size(), [&](std::size_t i) {
+            out_ << "</" << name_ << "/copies/prototypes/" << prototypeName(number, prototypes_[i])
+                 << ">";
+        });
+        out_ << "\n";
+    }
+
+    /// The box of the turned boxes of the copies, as USD computes it.
+    openvdb::BBoxd extentOf(const Level& level) const
+    {
+        openvdb::BBoxd all;
+        for (const MeshInstance& copy : copies_.instances) {
+            const Vec3d &low = level.boxes[copy.part].min(), &high = level.boxes[copy.part].max();
+            for (int corner = 0; corner < 8; ++corner)
+                all.expand(
+                    copy.placed({corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
+                                 corner & 4 ? high[2] : low[2]}));
+        }
+        return all;
+    }
+
+    /// Names of parts may be alike once they are identifiers, hence the number.
+    std::string partName(std::size_t level, std::size_t part) const
+    {
+        return "part_" + std::to_string(part) +
+               (levels_.size() > 1 ? "_lod" + std::to_string(level) : "");
+    }
+    std::string prototypeName(std::size_t level, const Prototype& prototype) const
+    {
+        return partName(level, prototype.part) + "_color_" +
+               std::to_string(materials_.at(prototype.color));
+    }
+
+    const UsdInstances& copies_;
+    std::string name_;
+    Text out_;
+    std::vector<Level> levels_; // the finest first
+    std::vector<Prototype> prototypes_;
+    std::vector<std::size_t> prototypeOf_; // of each copy
+    std::map<std::array<std::uint8_t, 3>, std::size_t> materials_;
+};
+
+} // namespace
+
+void writeUsdaInstances(const Mesh& mesh, const UsdInstances& copies, OutputFile& file)
+{
+    Stage(mesh, copies, file).write();
+    file.finish();
+}
+
+} // namespace molsurf
