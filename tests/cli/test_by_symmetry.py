@@ -90,6 +90,17 @@ class BySymmetry(ToolTest):
                    says="(C2)")
         self.assertTrue(self.report("d.json")["surface"]["closed"])
 
+    def test_levels_of_detail(self):
+        self.shell()
+        self.check(0, "shell.pdb", "--assembly", "1", "--by-symmetry", "--lod", "1,2", "-o", "a.glb",
+                   "-o", "a.html")
+        data = (self.folder / "a.glb").read_bytes()
+        size, = struct.unpack("<I", data[12:16])
+        scene = json.loads(data[20:20 + size])
+        self.assertEqual(sum("mesh" in node for node in scene["nodes"]), 120)
+        self.check(2, "shell.pdb", *ASSEMBLY, "--by-symmetry", "--weld", "--crisp", "-o", "a.ply",
+                   says="--weld and --crisp")
+
     def test_wrong_calls(self):
         self.shell()
         self.check(2, CRAMBIN, "--by-symmetry", "-o", "a.json", says="--assembly")
