@@ -49,8 +49,9 @@ class Pictures(ToolTest):
             self.assertEqual(width, 400)
             column = [row[x] for row in rows for x in range(330, 400)]
             sizes[legend] = sum(pixel != WHITE for pixel in column)
-            exact = all(self.has(rows, color) for color in ((0xD0, 0, 0), (0, 0, 0xD0)))
-            self.assertEqual(exact, legend == "on", legend)
+            patches = [sum(pixel == color for pixel in column)
+                       for color in ((0xD0, 0, 0), (0, 0, 0xD0))]
+            self.assertEqual(min(patches) > 60, legend == "on", patches)
         self.assertEqual(sizes["off"], sizes["auto"])  # too small for one unasked
 
     def test_legend_of_curvature(self):
