@@ -218,8 +218,10 @@ std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh
                               const Progress& progress)
 {
     const ColorBy by = call.options.color;
+    const bool ofBalls = by == ColorBy::Value && atoms.labels && atoms.labels->values &&
+                         !atoms.labels->values->centre;
     const bool named = by == ColorBy::Chain || by == ColorBy::Group || by == ColorBy::Element ||
-                       by == ColorBy::Residue;
+                       by == ColorBy::Residue || ofBalls;
     const bool shown = std::any_of(call.outputs.begin(), call.outputs.end(),
                                    [&](const Output& o) { return isCrisp(call, o.format); });
     if (!named || !shown || !mesh.parts.empty()) return std::nullopt;
@@ -228,9 +230,9 @@ std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh
     std::vector<Ball> balls = atoms.balls;
     for (Ball& ball : balls)
         if (isUnion(kind)) ball.radius += float(grownBy(call.options));
-    return withCrispBorders(mesh, balls,
-                            atoms.colors.empty() ? ballColors(atoms, by, progress) : atoms.colors,
-                            spheres ? call.options.voxel : 0.0, progress);
+    return withCrispBorders(
+        mesh, balls, atoms.colors.empty() ? ballColors(atoms, by, progress) : atoms.colors,
+        spheres ? call.options.voxel : 0.0, ofBalls ? atoms.labels->values->name : "", progress);
 }
 
 void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,

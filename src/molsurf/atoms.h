@@ -59,6 +59,20 @@ enum class ResidueClass : std::uint8_t {
     Other
 };
 
+/// A value of every ball, and how colours show it.
+struct BallValues {
+    /// Colours: of a quantity from nothing up, of one with a sign, of a charge (red below 0), of
+    /// the confidence of a predicted model in four steps, of a place along a chain.
+    enum class Map { Magnitude, Signed, Charge, Confidence, Rainbow };
+    std::string name;  ///< of the vertex attribute: "bfactor"
+    std::string title; ///< for people: "B factor"
+    std::string unit;  ///< empty: none
+    Map map = Map::Magnitude;
+    double low = 0.0, high = 1.0;         ///< values at the ends of the colours
+    std::optional<openvdb::Vec3d> centre; ///< the value of a point is its distance from here [Å]
+    std::vector<float> valueOf;           ///< one a ball; not a number: it has none
+};
+
 /// Labels of the balls: vectors whose names end in "Of" have one entry for every ball.
 struct BallLabels {
     std::vector<std::int32_t> chainOf; ///< index into `chains`
@@ -68,6 +82,7 @@ struct BallLabels {
     std::vector<Group> groups;                ///< the groups that were asked for, in their order
     std::vector<std::uint8_t> elementOf;      ///< atomic number; 0: the element is unknown
     std::vector<ResidueClass> residueClassOf; ///< the kind of the ball's residue
+    std::optional<BallValues> values;         ///< with SelectOptions::valueBy
     std::vector<std::string>
         warnings; ///< one line each, as of groups that lost atoms to later ones
     /// Red, green, blue (sRGB) of each chain. If it is empty the library chooses colours of which
@@ -114,6 +129,11 @@ struct SelectOptions {
     /// "class" (a chain of the file with all its copies), "copy" (of the assembly), or "residues:N"
     /// (N residues of a chain each); empty: it makes none.
     std::string groupBy;
+    /// The values that ColorBy::Value shows: "bfactor", "occupancy", "charge", "hydrophobicity",
+    /// "rainbow", "radius" or "table=FILE", see ballValues(); empty: none.
+    std::string valueBy;
+    std::optional<std::array<double, 2>>
+        valueRange;         ///< BallValues::low and high, if they are given
     bool instances = false; ///< whether the balls are those of each prototype of the assembly once,
                             ///< in the coordinates of the file
     /// Whether the balls are those of a unit, of which the rotations of the assembly make the

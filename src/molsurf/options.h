@@ -23,7 +23,16 @@ enum class SurfaceKind {
 };
 
 /// Properties that the colours of a surface may show.
-enum class ColorBy { Nothing, Chain, Group, Element, Residue, MeanCurvature, GaussianCurvature };
+enum class ColorBy {
+    Nothing,
+    Chain,
+    Group,
+    Element,
+    Residue,
+    MeanCurvature,
+    GaussianCurvature,
+    Value ///< BallLabels::values
+};
 
 /// The term h that lambda weighs in the energy density w = g^2 + lambda h; section 2 of the paper
 /// has both. docs/math.md, section 4.

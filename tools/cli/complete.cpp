@@ -161,6 +161,8 @@ void completePicture(Call& call)
 void warnOfLosses(Call& call)
 {
     const ColorBy by = call.options.color;
+    if (call.atoms.valueRange && call.atoms.valueBy.empty())
+        call.warnings.push_back("--range is for --color by a value, as bfactor");
     if (call.crisp && (by == ColorBy::Nothing || by == ColorBy::MeanCurvature ||
                        by == ColorBy::GaussianCurvature))
         call.warnings.push_back("--crisp is for --color chain, group, element or residue");
@@ -249,6 +251,7 @@ void completeInstances(Call& call)
     }
     if (call.atoms.assembly == "none")
         misuse("--instances: expected --assembly too [hint: --assembly 1]");
+    if (call.atoms.valueBy == "radius") misuse("--instances and --color radius together");
     for (const char* option :
          {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center"})
         if (call.has(option)) misuse("--instances and --" + std::string(option) + " together");

@@ -3,6 +3,7 @@
 
 #include "molsurf/bricks.h"
 #include "molsurf/error.h"
+#include "molsurf/selection/ball_values.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/selection/groups.h"
@@ -670,20 +671,45 @@ OptionGroup groupOptions()
         o.preset = std::move(preset);
         return o;
     };
-    const auto orGroups = [](Option o) {
+    const auto orMore = [](Option o) {
         const Values words = {"copy", "entity", "class"};
         o.words.insert(o.words.end(), words.begin(), words.end());
-        o.set = [words, others = o.set](Call& call, const Values& values) {
+        o.words.insert(o.words.end(), valueWords().begin(), valueWords().end());
+        o.words.push_back("table=FILE");
+        o.set = [words, all = o.words, others = o.set](Call& call, const Values& values) {
             const std::string word = lowered(values.back());
-            const bool grouped = std::count(words.begin(), words.end(), word) > 0;
-            call.colorGroups = grouped ? word : "";
-            call.options.color = ColorBy::Nothing;
-            if (!grouped) others(call, values);
+            const auto among = [&](const Values& some) {
+                return std::count(some.begin(), some.end(), word) > 0;
+            };
+            const bool table = word.rfind("table=", 0) == 0;
+            call.colorGroups = among(words) ? word : "";
+            call.atoms.valueBy = among(valueWords()) ? word : "";
+            if (table) call.atoms.valueBy = "table=" + values.back().substr(6);
+            call.options.color = call.atoms.valueBy.empty() ? ColorBy::Nothing : ColorBy::Value;
+            if (!call.colorGroups.empty() || !call.atoms.valueBy.empty()) return;
+            if (!among(all))
+                wrong("color", joinWords(all, ", "), values.back(), didYouMean(word, all));
+            others(call, values);
         };
         o.stored = [others = o.stored](const Call& call) {
-            return call.colorGroups.empty() ? others(call) : stored(call.colorGroups);
+            if (!call.colorGroups.empty()) return stored(call.colorGroups);
+            return call.atoms.valueBy.empty() ? others(call) : stored(call.atoms.valueBy);
         };
         return o;
+    };
+    Option range{"range", 0, "LOW,HIGH", "values at the ends of the colours", "", surfaces};
+    range.set = [](Call& call, const Values& values) {
+        const std::string expected = "two numbers LOW,HIGH, the first one less";
+        const Values words = splitWords(values.back());
+        if (words.size() != 2) wrong("range", expected, values.back());
+        const double low = parsed<double>("range", expected, words[0]);
+        const double high = parsed<double>("range", expected, words[1]);
+        if (!(low < high)) wrong("range", expected, values.back());
+        call.atoms.valueRange = {low, high};
+    };
+    range.stored = [](const Call& c) {
+        const auto& r = c.atoms.valueRange;
+        return stored(r ? shortest((*r)[0]) + "," + shortest((*r)[1]) : "auto");
     };
     return {
         "Groups",
@@ -707,10 +733,12 @@ OptionGroup groupOptions()
          with(flag("interfaces", "buried areas between groups, for the report", wholes,
                    OF(options.interfaces)),
               [](Option& o) { o.stored = nullptr; }),
-         orGroups(color("colours of the mesh and the grid Cd: chain, entity, class,\n"
-                        "copy, group, element, residue, mean-curvature,\n"
-                        "gaussian-curvature",
-                        "none", surfaces)),
+         orMore(color("colours of the mesh and the grid Cd: chain, entity, class,\n"
+                      "copy, group, element, residue, mean-curvature,\n"
+                      "gaussian-curvature; by value: bfactor, occupancy,\n"
+                      "charge, hydrophobicity, rainbow, radius, table=FILE",
+                      "none", surfaces)),
+         range,
          with(flag("crisp", "mesh files: triangles are cut where colours meet", Build, OF(crisp)),
               [](Option& o) { o.stored = nullptr; }),
          color("chain, group (of grids chain_id, group_id), element,\n"

@@ -19,6 +19,8 @@ const char* nameOf(ColorBy color)
         return "mean-curvature";
     case ColorBy::GaussianCurvature:
         return "gaussian-curvature";
+    case ColorBy::Value:
+        return "value";
     default:
         return "none";
     }

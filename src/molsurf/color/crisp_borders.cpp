@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <string>
 #include <unordered_map>
 
 namespace molsurf
@@ -165,7 +166,11 @@ private:
 class Builder
 {
 public:
-    Builder(const Mesh& mesh) : from_(mesh), to_(mesh) { to_.triangles.clear(); }
+    Builder(const Mesh& mesh, const std::string& stepwise)
+        : from_(mesh), to_(mesh), stepwise_(stepwise)
+    {
+        to_.triangles.clear();
+    }
 
     /// A vertex between others, on the side of one of them.
     std::uint32_t add(const Vec3d& x, const Triangle& between, const Vec3d& w, std::uint32_t side,
@@ -181,7 +186,8 @@ public:
             double mean = 0.0;
             for (int k = 0; k < 3; ++k)
                 mean += w[k] * double(from_.scalars[a].values[between[std::size_t(k)]]);
-            to_.scalars[a].values.push_back(float(mean));
+            const bool step = to_.scalars[a].name == stepwise_;
+            to_.scalars[a].values.push_back(step ? from_.scalars[a].values[side] : float(mean));
         }
         for (std::size_t a = 0; a < to_.labels.size(); ++a)
             to_.labels[a].values.push_back(from_.labels[a].values[side]);
@@ -199,12 +205,14 @@ public:
 private:
     const Mesh& from_;
     Mesh to_;
+    const std::string& stepwise_;
 };
 
 } // namespace
 
 Mesh withCrispBorders(const Mesh& mesh, const std::vector<Ball>& balls,
-                      const std::vector<Color>& ballColor, double crease, const Progress& progress)
+                      const std::vector<Color>& ballColor, double crease,
+                      const std::string& stepwise, const Progress& progress)
 {
     std::map<Color, std::int32_t> number;
     std::vector<Color> colors;
@@ -226,7 +234,7 @@ Mesh withCrispBorders(const Mesh& mesh, const std::vector<Ball>& balls,
         });
     }
 
-    Builder out(mesh);
+    Builder out(mesh, stepwise);
     out.mesh().colors.clear();
     for (const std::int32_t k : owner) out.mesh().colors.push_back(colors[std::size_t(k)]);
 

@@ -9,6 +9,7 @@
 #include "molsurf/mesh.h"
 #include "molsurf/progress.h"
 
+#include <string>
 #include <vector>
 
 namespace molsurf
@@ -27,7 +28,9 @@ namespace molsurf
 /// @param[in] ballColor  one a ball
 /// @param[in] crease     how far from the circle of two spheres the mesh cuts off the crease there,
 ///                       at most [Å]; 0: it is not that of their union
+/// @param[in] stepwise   name of a scalar that belongs to a side, as labels do; may be none's
 Mesh withCrispBorders(const Mesh& mesh, const std::vector<Ball>& balls,
-                      const std::vector<Color>& ballColor, double crease, const Progress& progress);
+                      const std::vector<Color>& ballColor, double crease,
+                      const std::string& stepwise, const Progress& progress);
 
 } // namespace molsurf

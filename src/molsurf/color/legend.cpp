@@ -3,6 +3,7 @@
 
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/color/palette.h"
+#include "molsurf/color/value_colors.h"
 #include "molsurf/structure/element.h"
 
 #include <algorithm>
@@ -110,6 +111,12 @@ std::optional<Legend> legendOf(ColorBy by, const BallSet& atoms, const Mesh& mes
             for (std::size_t i = 0; i < colors.size(); ++i)
                 legend.entries.push_back({labels.groups[i].name, colors[i]});
             foldClasses(atoms, legend);
+        } else if (by == ColorBy::Value) {
+            if (!labels.values) return {};
+            legend.title = labels.values->title;
+            legend.attribute = labels.values->name;
+            legend.unit = labels.values->unit;
+            legend.scale = scaleOf(*labels.values);
         } else if (by == ColorBy::Element) {
             legend.title = "Element";
             addKinds(labels.elementOf, ballColors(atoms, by, progress), elementSymbol, legend);
@@ -119,10 +126,8 @@ std::optional<Legend> legendOf(ColorBy by, const BallSet& atoms, const Mesh& mes
                 labels.residueClassOf, ballColors(atoms, by, progress),
                 [](ResidueClass c) { return std::string(nameOf(c)); }, legend);
         }
-        if (!legend.entries.empty()) {
-            addOther(mesh, legend);
-            found = legend;
-        }
+        if (!legend.entries.empty()) addOther(mesh, legend);
+        if (!legend.entries.empty() || legend.scale) found = legend;
     }
     if (found) found->id = molsurf::nameOf(by);
     return found;

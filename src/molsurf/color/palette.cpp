@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/color/palette.h"
 
+#include "molsurf/color/value_colors.h"
+
 #include "molsurf/balls/contacts.h"
 
 #include <algorithm>
@@ -172,6 +174,9 @@ std::vector<Color> ballColors(const BallSet& atoms, ColorBy by, const Progress& 
     case ColorBy::Group:
         if (labels.groups.empty()) return out;
         return spread(groupColors(atoms, progress), labels.groupOf);
+    case ColorBy::Value:
+        if (!labels.values) return out;
+        return valueColors(*labels.values);
     case ColorBy::Element:
         for (std::size_t i = 0; i < out.size(); ++i) out[i] = elementColor(labels.elementOf[i]);
         return out;

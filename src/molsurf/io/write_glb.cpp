@@ -105,8 +105,12 @@ private:
         attributes["POSITION"] = addPositions(range);
         attributes["NORMAL"] = addNormals(range);
         if (!mesh_->colors.empty()) attributes["COLOR_0"] = addColors(range);
-        for (const auto& scalar : mesh_->scalars)
-            attributes[attributeName(scalar.name)] = addNumbers(range, scalar.values);
+        for (const auto& scalar : mesh_->scalars) {
+            std::vector<float> values = scalar.values; // glTF has no NaN
+            for (float& value : values)
+                if (!std::isfinite(value)) value = 0.0f;
+            attributes[attributeName(scalar.name)] = addNumbers(range, values);
+        }
         for (const auto& label : mesh_->labels)
             attributes[attributeName(label.name)] = addNumbers(range, label.values);
         return {{"attributes", attributes}, {"indices", addTriangles(range)}};

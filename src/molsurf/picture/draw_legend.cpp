@@ -185,7 +185,7 @@ Picture withLegend(const Picture& picture, const Legend& legend, int width, cons
     if (legend.scale) {
         Column column(sizes, font, left, (out.height - fixed) / 2, ink, out);
         column.text(legend.title);
-        column.text("[" + legend.unit + "]");
+        if (!legend.unit.empty()) column.text("[" + legend.unit + "]");
         column.skip(sizes.gap + line / 2);
         column.bar(*legend.scale, barHeight);
         return out;

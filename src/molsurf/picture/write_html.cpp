@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/picture/write_html.h"
 
+#include "molsurf/color/palette.h"
+
 #include "molsurf/error.h"
 #include "molsurf/io/part_ranges.h"
 #include "molsurf/picture/viewer_text.h"
@@ -99,10 +101,16 @@ Json modeOf(const Legend& legend, const Mesh& mesh, const std::string& level, Ar
                                          [&](const auto& s) { return s.name == legend.attribute; });
         if (scalar == mesh.scalars.end()) return {};
         const double low = legend.scale->low, range = legend.scale->high - low;
+        const bool missing = std::any_of(scalar->values.begin(), scalar->values.end(),
+                                         [](float value) { return !std::isfinite(value); });
+        const double last = missing ? 254.0 : 255.0;
         arrays.add(legend.attribute + level, scalar->values.size(), 1, 1, [&](std::size_t i, int) {
-            const double place = (double(scalar->values[i]) - low) / range;
-            return std::uint32_t(std::lround(255.0 * std::clamp(place, 0.0, 1.0)));
+            const double value = double(scalar->values[i]);
+            if (!std::isfinite(value)) return std::uint32_t(255);
+            const double place = (value - low) / range;
+            return std::uint32_t(std::lround(last * std::clamp(place, 0.0, 1.0)));
         });
+        if (missing) mode["missing"] = colorJson(neutralColor);
         mode["kind"] = "scale";
         mode["array"] = legend.attribute;
         mode["unit"] = legend.unit;

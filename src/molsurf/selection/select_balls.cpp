@@ -2,6 +2,7 @@
 #include "molsurf/selection/select_balls.h"
 
 #include "molsurf/error.h"
+#include "molsurf/selection/ball_values.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/choose_locations.h"
 #include "molsurf/selection/coarse_grain.h"
@@ -400,6 +401,24 @@ void applyResolutions(const Structure& structure, const SelectOptions& options, 
     }
 }
 
+/// Adds the values that a surface is coloured by.
+void addValues(const Structure& structure, const SelectOptions& options, BallSet& out)
+{
+    openvdb::Vec3d centre(0.0);
+    for (const Ball& ball : out.balls)
+        centre += openvdb::Vec3d(ball.center) / double(out.balls.size());
+    if (out.unit) centre = out.unit->centre;
+    BallValues values = ballValues(structure, out.balls, options.valueBy, centre, out.warnings);
+    if (options.valueRange) {
+        values.low = (*options.valueRange)[0];
+        values.high = (*options.valueRange)[1];
+    }
+    const std::size_t none = std::size_t(std::count_if(values.valueOf.begin(), values.valueOf.end(),
+                                                       [](float v) { return !std::isfinite(v); }));
+    if (none == values.valueOf.size()) failInput(structure, values.title + ": no atom has one");
+    out.labels->values = std::move(values);
+}
+
 /// Makes groups and rules count the balls of the whole that a unit stands for, and forgets its
 /// copies.
 void countWhole(BallSet& out)
@@ -551,12 +570,14 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
                     "`groups` and `groupBy`: expected one prototype, the assembly "
                     "has " +
                         std::to_string(out.copies) + " with `instances`");
-    if (options.labels || !options.groups.empty() || !options.groupBy.empty() || several) {
+    if (options.labels || !options.valueBy.empty() || !options.groups.empty() ||
+        !options.groupBy.empty() || several) {
         out.labels = labelBalls(structure, out.balls, out.copyBegin, out.copyNumbers, groups,
                                 several ? "copy" : options.groupBy);
         out.warnings.insert(out.warnings.end(), out.labels->warnings.begin(),
                             out.labels->warnings.end());
     }
+    if (!options.valueBy.empty()) addValues(structure, options, out);
     if (out.unit) countWhole(out);
     return out;
 }

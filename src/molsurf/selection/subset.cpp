@@ -58,6 +58,8 @@ BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which, Coun
     labels.groupOf = gather(all.groupOf, which);
     labels.elementOf = gather(all.elementOf, which);
     labels.residueClassOf = gather(all.residueClassOf, which);
+    labels.values = all.values;
+    if (labels.values) labels.values->valueOf = gather(all.values->valueOf, which);
     if (counted == Counted::Subset) count(labels.groupOf, labels.groups);
     return out;
 }

@@ -200,7 +200,7 @@ Structure readPqr(const std::string& text, const std::string& path)
                             inQuotes(line));
         }
         const auto [x, y, z, charge, radius] = lastNumbers(fields, names, place);
-        static_cast<void>(charge);
+        out.charges.push_back(float(charge));
         builder.add(pqrIdentity(fields, fields.size() - names.size(), hetero), {x, y, z}, radius);
     }
     builder.finish();

@@ -85,6 +85,7 @@ struct Structure {
     std::vector<std::string> asyms;  ///< label_asym_id in mmCIF; elsewhere the same as chains
     std::vector<Assembly> assemblies;
     BeadKind beads = BeadKind::None;
+    std::vector<float> charges;        ///< of the atoms of a PQR file [e]; else empty
     bool hasRadii = false;             ///< true if every atom has the file's own radius
     std::vector<std::string> warnings; ///< one line each: parts of the file that were ignored
 };

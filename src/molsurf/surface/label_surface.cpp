@@ -5,6 +5,7 @@
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/color/label.h"
 #include "molsurf/color/palette.h"
+#include "molsurf/color/value_colors.h"
 #include "molsurf/surface/extra_grids.h"
 
 namespace molsurf
@@ -74,6 +75,8 @@ Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, 
     const std::vector<Color> ballColor =
         atoms.colors.empty() ? ballColors(atoms, options.color, progress) : atoms.colors;
     mesh.colors = colorsOf(nearest, ballColor);
+    if (options.color == ColorBy::Value && atoms.labels && atoms.labels->values)
+        addValues(*atoms.labels->values, nearest, mesh);
     if (has("Cd"))
         result.fields.push_back(
             colorGrid(*result.surface, has("density"), atoms.balls, ballColor, reach, progress));

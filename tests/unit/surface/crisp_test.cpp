@@ -52,7 +52,7 @@ TEST(CrispBorders, TwoBallsMeetInACircle)
     const std::vector<Ball> balls = {{Vec3f(0.3f, 0.1f, 0.2f), 2.5f, 0},
                                      {Vec3f(2.3f, 1.1f, 0.7f), 1.9f, 1}};
     const Mesh mesh = surfaceOf(balls, SurfaceKind::VanDerWaals);
-    const Mesh crisp = withCrispBorders(mesh, balls, {red, blue}, 1.0, Progress());
+    const Mesh crisp = withCrispBorders(mesh, balls, {red, blue}, 1.0, "", Progress());
     const Vec3d a(balls[0].center), axis = (Vec3d(balls[1].center) - a).unit();
     const double d = (Vec3d(balls[1].center) - a).length();
     const double along = (d * d + 2.5 * 2.5 - 1.9 * 1.9) / (2.0 * d);
@@ -77,7 +77,7 @@ TEST(CrispBorders, ThreeBallsMeetInPoints)
     const std::vector<Ball> balls = {
         {Vec3f(0, 0, 0), 2.2f, 0}, {Vec3f(2.4f, 0, 0), 2.0f, 1}, {Vec3f(1.1f, 2.1f, 0), 1.8f, 2}};
     const Mesh mesh = surfaceOf(balls, SurfaceKind::SolventExcluded);
-    const Mesh crisp = withCrispBorders(mesh, balls, {red, green, blue}, 0.0, Progress());
+    const Mesh crisp = withCrispBorders(mesh, balls, {red, green, blue}, 0.0, "", Progress());
     std::size_t meetings = 0;
     for (const auto& [x, colors] : bordersOf(crisp)) {
         std::map<double, Color> powers;
@@ -101,10 +101,10 @@ TEST(CrispBorders, KeepWhatVerticesHave)
 {
     const std::vector<Ball> balls = {{Vec3f(0, 0, 0), 2.0f, 0}, {Vec3f(2.5f, 0, 0), 2.0f, 1}};
     const Mesh mesh = surfaceOf(balls, SurfaceKind::SolventExcluded);
-    const Mesh one = withCrispBorders(mesh, balls, {red, red}, 0.0, Progress());
+    const Mesh one = withCrispBorders(mesh, balls, {red, red}, 0.0, "", Progress());
     EXPECT_EQ(one.triangles, mesh.triangles);
     EXPECT_EQ(one.colors, std::vector<Color>(mesh.positions.size(), red));
-    const Mesh two = withCrispBorders(mesh, balls, {red, blue}, 0.0, Progress());
+    const Mesh two = withCrispBorders(mesh, balls, {red, blue}, 0.0, "", Progress());
     ASSERT_EQ(two.labels.size(), mesh.labels.size());
     for (std::size_t v = 0; v < two.positions.size(); ++v) {
         if (v < mesh.positions.size()) {

@@ -153,6 +153,7 @@ function paint({ level, geometry, source }, mode, arrays) {
   let colorOf;
   if (mode.kind === 'scale') {
     const table = ramp(mode.stops);
+    if (mode.missing) table[255] = light(mode.missing); // of vertices without a value
     colorOf = (i) => table[values[i]];
   } else if (mode.kind === 'names') {
     const table = mode.entries.map((entry) => light(entry.color));

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/selection/ball_values.h"
+
+#include "molsurf/error.h"
+#include "molsurf/structure/load_text.h"
+#include "molsurf/structure/text_fields.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3d;
+
+constexpr float missing = std::numeric_limits<float>::quiet_NaN();
+
+const Residue& residueOf(const Structure& structure, const Ball& ball)
+{
+    return structure.residues[std::size_t(structure.atoms[std::size_t(ball.atom)].residue)];
+}
+
+/// Sets the range to the values that 2 and 98 % of the balls do not exceed.
+void spread(BallValues& out)
+{
+    std::vector<float> sorted;
+    for (const float v : out.valueOf)
+        if (std::isfinite(v)) sorted.push_back(v);
+    if (sorted.empty()) return;
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t last = sorted.size() - 1;
+    out.low = double(sorted[last / 50]);
+    out.high = double(sorted[last - last / 50]);
+    if (out.high <= out.low) out.high = out.low + 1.0;
+}
+
+/// Makes the range reach as far below 0 as above it.
+void balance(BallValues& out)
+{
+    const double most = std::max({std::abs(out.low), std::abs(out.high), 1e-6});
+    out.low = -most;
+    out.high = most;
+}
+
+/// Whether B factors are those of a predicted model: the same within each residue, in [0, 100].
+bool arePredicted(const Structure& structure)
+{
+    std::map<std::int32_t, float> ofResidue;
+    std::size_t repeated = 0;
+    bool varied = false;
+    for (const Atom& atom : structure.atoms) {
+        if (!(atom.bFactor >= 0.0f && atom.bFactor <= 100.0f)) return false;
+        const auto [found, isNew] = ofResidue.emplace(atom.residue, atom.bFactor);
+        if (!isNew && found->second != atom.bFactor) return false;
+        repeated += !isNew;
+        varied = varied || atom.bFactor != structure.atoms[0].bFactor;
+    }
+    return varied && repeated >= ofResidue.size();
+}
+
+BallValues bFactors(const Structure& structure, std::vector<std::string>& warnings)
+{
+    BallValues out{"bfactor", "B factor", "Å²", BallValues::Map::Magnitude, 0.0, 1.0, {}, {}};
+    if (!arePredicted(structure)) return out;
+    warnings.push_back("B factors are the same within every residue and from 0 to 100: taken as "
+                       "the pLDDT of a predicted model");
+    return {"plddt", "pLDDT", "", BallValues::Map::Confidence, 0.0, 100.0, {}, {}};
+}
+
+float hydrophobicityOf(const std::string& residue)
+{
+    static const std::map<std::string, float> scale = {
+        {"ILE", 4.5f},  {"VAL", 4.2f},  {"LEU", 3.8f},  {"PHE", 2.8f},  {"CYS", 2.5f},
+        {"MET", 1.9f},  {"ALA", 1.8f},  {"GLY", -0.4f}, {"THR", -0.7f}, {"SER", -0.8f},
+        {"TRP", -0.9f}, {"TYR", -1.3f}, {"PRO", -1.6f}, {"HIS", -3.2f}, {"GLU", -3.5f},
+        {"GLN", -3.5f}, {"ASP", -3.5f}, {"ASN", -3.5f}, {"LYS", -3.9f}, {"ARG", -4.5f},
+        {"MSE", 1.9f}};
+    const auto found = scale.find(residue);
+    return found == scale.end() ? missing : found->second;
+}
+
+/// The place of every residue in its chain, ligands and waters left out.
+std::vector<float> placesInChains(const Structure& structure)
+{
+    std::map<std::int32_t, std::vector<std::size_t>> ofChain;
+    for (std::size_t r = 0; r < structure.residues.size(); ++r) {
+        const Residue& residue = structure.residues[r];
+        if (!residue.water && !residue.hetero) ofChain[residue.chain].push_back(r);
+    }
+    std::vector<float> out(structure.residues.size(), missing);
+    for (const auto& [chain, residues] : ofChain)
+        for (std::size_t i = 0; i < residues.size(); ++i)
+            out[residues[i]] = residues.size() > 1 ? float(i) / float(residues.size() - 1) : 0.0f;
+    return out;
+}
+
+/// Values by chain, number, insertion code and perhaps name of an atom.
+using Table = std::map<std::tuple<std::string, int, char, std::string>, float>;
+
+Table readTable(const std::string& path)
+{
+    const std::string text = loadText(path);
+    Table out;
+    for (LineReader lines(text); lines.next();) {
+        std::string line(lines.line());
+        for (char& c : line)
+            if (c == ',' || c == ';') c = ' ';
+        const Fields fields = splitFields(line);
+        if (fields.empty() || fields[0][0] == '#') continue;
+        const std::string last(fields.back());
+        char* end = nullptr;
+        const float value = std::strtof(last.c_str(), &end);
+        const bool number = end == last.c_str() + last.size() && std::isfinite(value);
+        if (!number && out.empty()) continue; // names of the columns
+        int residue = 0;
+        char insertion = ' ';
+        bool good = number && (fields.size() == 3 || fields.size() == 4);
+        if (good) {
+            const char* begin = fields[1].data();
+            const char* stop = begin + fields[1].size();
+            const auto [rest, problem] = std::from_chars(begin, stop, residue);
+            good = problem == std::errc() && stop - rest <= 1;
+            if (good && rest < stop) insertion = *rest;
+        }
+        if (!good)
+            throw Error(ErrorKind::Input,
+                        displayName(path) + ":" + std::to_string(lines.number()) +
+                            ": expected chain, residue number, perhaps atom, and value, got " +
+                            inQuotes(std::string(lines.line())));
+        out[{std::string(fields[0]), residue, insertion,
+             fields.size() == 4 ? std::string(fields[2]) : ""}] = value;
+    }
+    if (out.empty()) throw Error(ErrorKind::Input, displayName(path) + ": it has no values");
+    return out;
+}
+
+void fillFromTable(const Structure& structure, const std::vector<Ball>& balls, const Table& table,
+                   BallValues& out, std::vector<std::string>& warnings)
+{
+    Table unused = table;
+    for (const Ball& ball : balls) {
+        const Residue& residue = residueOf(structure, ball);
+        const std::string& chain = structure.chains[std::size_t(residue.chain)];
+        float value = missing;
+        for (const std::string& atom :
+             {std::string(), structure.atoms[std::size_t(ball.atom)].name}) {
+            const auto found = table.find({chain, residue.number, residue.insertionCode, atom});
+            if (found == table.end()) continue;
+            value = found->second;
+            unused.erase(found->first);
+        }
+        out.valueOf.push_back(value);
+    }
+    if (unused.empty()) return;
+    const auto& [chain, number, insertion, atom] = unused.begin()->first;
+    warnings.push_back(std::to_string(unused.size()) +
+                       " values of the table are for atoms that there are not, as of " + chain +
+                       " " + std::to_string(number) +
+                       (insertion == ' ' ? "" : std::string(1, insertion)) +
+                       (atom.empty() ? "" : " " + atom));
+}
+
+} // namespace
+
+const std::vector<std::string>& valueWords()
+{
+    static const std::vector<std::string> words = {"bfactor",        "occupancy", "charge",
+                                                   "hydrophobicity", "rainbow",   "radius"};
+    return words;
+}
+
+BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls,
+                      const std::string& by, const Vec3d& centre,
+                      std::vector<std::string>& warnings)
+{
+    using Map = BallValues::Map;
+    const auto filled = [&](BallValues out, const auto& value) {
+        for (const Ball& ball : balls) out.valueOf.push_back(value(ball));
+        return out;
+    };
+    const auto atomOf = [&](const Ball& ball) -> const Atom& {
+        return structure.atoms[std::size_t(ball.atom)];
+    };
+    BallValues out;
+    if (by == "bfactor") {
+        out = filled(bFactors(structure, warnings),
+                     [&](const Ball& ball) { return atomOf(ball).bFactor; });
+        if (out.map == Map::Magnitude) spread(out);
+    } else if (by == "occupancy") {
+        out = filled({by, "Occupancy", "", Map::Magnitude, 0.0, 1.0, {}, {}},
+                     [&](const Ball& ball) { return atomOf(ball).occupancy; });
+    } else if (by == "charge") {
+        if (structure.charges.empty())
+            throw Error(ErrorKind::Input, displayName(structure.source) +
+                                              ": it has no charges, which a PQR file has");
+        out = filled({by, "Charge", "e", Map::Charge, -1.0, 1.0, {}, {}},
+                     [&](const Ball& ball) { return structure.charges[std::size_t(ball.atom)]; });
+        spread(out);
+        balance(out);
+    } else if (by == "hydrophobicity") {
+        out = filled(
+            {by, "Hydrophobicity", "", Map::Signed, -4.5, 4.5, {}, {}},
+            [&](const Ball& ball) { return hydrophobicityOf(residueOf(structure, ball).name); });
+    } else if (by == "rainbow") {
+        const std::vector<float> places = placesInChains(structure);
+        out = filled({by, "N to C", "", Map::Rainbow, 0.0, 1.0, {}, {}},
+                     [&](const Ball& ball) { return places[std::size_t(atomOf(ball).residue)]; });
+    } else if (by == "radius") {
+        out =
+            filled({by, "Radius", "Å", Map::Magnitude, 0.0, 1.0, centre, {}},
+                   [&](const Ball& ball) { return float((Vec3d(ball.center) - centre).length()); });
+        spread(out);
+    } else if (by.rfind("table=", 0) == 0) {
+        out = {"value", "Value", "", Map::Magnitude, 0.0, 1.0, {}, {}};
+        fillFromTable(structure, balls, readTable(by.substr(6)), out, warnings);
+        spread(out);
+    } else {
+        throw Error(ErrorKind::Usage, "`valueBy`: expected " + joined(valueWords()) +
+                                          " or table=FILE, got " + inQuotes(by));
+    }
+    return out;
+}
+
+} // namespace molsurf

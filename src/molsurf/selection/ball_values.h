@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Values of balls, to colour a surface by.
+
+#include "molsurf/atoms.h"
+#include "molsurf/structure/structure.h"
+
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// The words that SelectOptions::valueBy may be, but for "table=FILE".
+const std::vector<std::string>& valueWords();
+
+/// Gives every ball a value.
+///
+/// - bfactor: of the file; if they are the same within every residue and in [0, 100], as predicted
+///   models have their pLDDT there, they are taken as that, and a warning says so.
+/// - occupancy: of the file.
+/// - charge: of a PQR file [e].
+/// - hydrophobicity: of the amino acid (Kyte and Doolittle, J. Mol. Biol. 157:105-132, 1982).
+/// - rainbow: the place of the residue in its chain, 0 at its first, 1 at its last.
+/// - radius: the distance from the centre [Å].
+/// - table=FILE: lines of chain, residue number, perhaps the atom's name, and the value, parted by
+///   commas or white space; what starts with # and a first line without a number are skipped.
+///
+/// @param[in]     centre    that radii are taken from [Å]
+/// @param[in,out] warnings  of residues in the table that the structure does not have
+/// @throws Error(ErrorKind::Usage) if `by` is none of these
+/// @throws Error(ErrorKind::Input) if the file has no charges, or the table cannot be read
+BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls,
+                      const std::string& by, const openvdb::Vec3d& centre,
+                      std::vector<std::string>& warnings);
+
+} // namespace molsurf

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Colours by the values of atoms."""
+
+import json
+import math
+import struct
+import unittest
+
+from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply, read_png
+
+GREY = (190, 190, 190)
+
+
+def atom(i, residue, x, b=0.0, name="CA", chain="A", occupancy=1.0, record="ATOM  "):
+    return (f"{record}{i:5}  {name:<3} {residue} {chain}{i:4}    {x:8.3f}{0:8.3f}{0:8.3f}"
+            f"{occupancy:6.2f}{b:6.2f}           C  \n")
+
+
+class Values(ToolTest):
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+
+    def vertices(self, name, attribute):
+        """(place, value, colour) of each vertex."""
+        names, vertices, _ = read_ply((self.folder / name).read_bytes())
+        value, red = names.index(attribute), names.index("red")
+        return [(v[:3], v[value], v[red:red + 3]) for v in vertices]
+
+    def at(self, vertices, x):
+        """The values and colours of the vertices nearest to the atom at x."""
+        near = [v for v in vertices if abs(v[0][0] - x) < 1.0]
+        self.assertTrue(near)
+        return {v[1] for v in near}, {v[2] for v in near}
+
+    def apart(self, residues, **more):
+        self.write("a.pdb", "".join(
+            atom(i + 1, residue, 10.0 * i, **{k: v[i] for k, v in more.items()})
+            for i, residue in enumerate(residues)))
+
+    def colored(self, word, *words):
+        self.check(0, "a.pdb", *FAST, "--color", word, *words, "-o", "a.ply", "--force")
+
+    def test_hydrophobicity(self):
+        self.apart(["ILE", "ARG", "GLY", "HEM"])
+        self.colored("hydrophobicity")
+        found = self.vertices("a.ply", "hydrophobicity")
+        self.assertEqual(self.at(found, 0.0), ({4.5}, {(178, 24, 43)}))
+        self.assertEqual(self.at(found, 10.0), ({-4.5}, {(33, 102, 172)}))
+        values, _ = self.at(found, 20.0)
+        self.assertAlmostEqual(values.pop(), -0.4, 5)
+        values, colors = self.at(found, 30.0)
+        self.assertTrue(all(math.isnan(v) for v in values))
+        self.assertEqual(colors, {GREY})
+
+    def test_b_factors_and_a_range(self):
+        self.apart(["ALA", "ALA", "ALA"], b=[5.0, 20.0, 65.0])
+        self.colored("bfactor", "--range", "0,40")
+        found = self.vertices("a.ply", "bfactor")
+        self.assertEqual(self.at(found, 20.0), ({65.0}, {(253, 231, 37)}))  # above the range
+        self.colored("occupancy")
+        self.assertEqual(self.at(self.vertices("a.ply", "occupancy"), 0.0)[0], {1.0})
+
+    def test_a_predicted_model(self):
+        steps = {95.0: (0, 83, 214), 80.0: (101, 203, 243), 60.0: (255, 219, 19),
+                 30.0: (255, 125, 69)}
+        text, i = "", 0
+        for n, b in enumerate(steps):
+            for k in range(4):
+                i += 1
+                text += (f"ATOM  {i:5}  C{k}  ALA A{n + 1:4}    {10.0 * n + k * 0.5:8.3f}"
+                         f"{0:8.3f}{0:8.3f}{1:6.2f}{b:6.2f}           C  \n")
+        self.write("a.pdb", text)
+        self.check(0, "a.pdb", *FAST, "--color", "bfactor", "-o", "a.ply", "-o", "a.png",
+                   says="pLDDT of a predicted model")
+        found = self.vertices("a.ply", "plddt")
+        for n, (b, color) in enumerate(steps.items()):
+            self.assertEqual(self.at(found, 10.0 * n), ({b}, {color}))
+
+    def test_rainbow_and_radius(self):
+        self.apart(["ALA"] * 5)
+        self.colored("rainbow")
+        found = self.vertices("a.ply", "rainbow")
+        self.assertEqual(self.at(found, 0.0), ({0.0}, {(48, 18, 59)}))
+        self.assertEqual(self.at(found, 20.0)[0], {0.5})
+        self.assertEqual(self.at(found, 40.0), ({1.0}, {(122, 4, 3)}))
+        self.colored("radius")
+        for place, value, _ in self.vertices("a.ply", "radius"):
+            self.assertAlmostEqual(value, math.dist(place, (20.0, 0.0, 0.0)), 3)
+
+    def test_charges(self):
+        self.write("a.pqr", "ATOM 1 N LYS 1 0.0 0.0 0.0 0.8 1.8\n"
+                            "ATOM 2 O GLU 2 10.0 0.0 0.0 -0.8 1.6\n")
+        self.check(0, "a.pqr", *FAST, "--color", "charge", "-o", "a.ply")
+        found = self.vertices("a.ply", "charge")
+        self.assertEqual(self.at(found, 0.0)[1], {(33, 102, 172)})   # blue is positive
+        self.assertEqual(self.at(found, 10.0)[1], {(178, 24, 43)})
+        self.check(1, CRAMBIN, "--color", "charge", "-o", "b.ply", says="no charges")
+
+    def test_a_table(self):
+        self.apart(["ALA", "GLY", "SER"])
+        self.write("t.csv", "chain,residue,value\n# conservation\nA,1,0.25\nA,3,CA,1.0\nB,7,2\n")
+        self.check(0, "a.pdb", *FAST, "--color", "table=t.csv", "--range", "0,1", "-o", "a.ply",
+                   "-o", "a.glb", "-o", "a.html", says="as of B 7")
+        found = self.vertices("a.ply", "value")
+        self.assertEqual(self.at(found, 0.0)[0], {0.25})
+        self.assertEqual(self.at(found, 20.0), ({1.0}, {(253, 231, 37)}))
+        self.assertEqual(self.at(found, 10.0)[1], {GREY})
+        data = (self.folder / "a.glb").read_bytes()  # glTF has no NaN
+        size, = struct.unpack("<I", data[12:16])
+        scene = json.loads(data[20:20 + size])
+        self.assertIn("_VALUE", scene["meshes"][0]["primitives"][0]["attributes"])
+        self.write("bad.csv", "A,1,0.25\nA,x,3\n")
+        self.check(1, "a.pdb", "--color", "table=bad.csv", "-o", "b.ply", says=["bad.csv:2", "A,x,3"])
+        self.check(1, "a.pdb", "--color", "table=none.csv", "-o", "b.ply", says="none.csv")
+
+    def test_the_legend_has_the_colours_of_the_scale(self):
+        self.check(0, DATA / "1ubq.pdb" if (DATA / "1ubq.pdb").exists() else CRAMBIN, *FAST,
+                   "--color", "hydrophobicity", "--size", "700", "-o", "a.png")
+        width, rows = read_png((self.folder / "a.png").read_bytes())
+        seen = {tuple(row[3 * x:3 * x + 3]) for row in rows for x in range(560, width)}
+        for color in ((178, 24, 43), (33, 102, 172), (247, 247, 247)):
+            self.assertLessEqual(min(max(abs(a - b) for a, b in zip(p, color)) for p in seen), 3)
+
+    def test_wrong_calls(self):
+        self.check(2, CRAMBIN, "--color", "nonsense", "-o", "a.ply", says=["bfactor", "nonsense"])
+        self.check(2, CRAMBIN, "--color", "bfactor", "--range", "3,1", "-o", "a.ply", says="--range")
+        self.check(0, CRAMBIN, *FAST, "--range", "1,3", "-o", "a.ply", says="--range is for")
+        self.check(2, DATA / "1a8o.cif.gz", "--assembly", "1", "--instances", "--color", "radius",
+                   "-o", "a.glb", says="--color radius")
+
+
+if __name__ == "__main__":
+    unittest.main()
