@@ -219,7 +219,7 @@ std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh
 {
     const ColorBy by = call.options.color;
     const bool ofBalls = by == ColorBy::Value && atoms.labels && atoms.labels->values &&
-                         !atoms.labels->values->centre;
+                         !atoms.labels->values->byPoint();
     const bool named = by == ColorBy::Chain || by == ColorBy::Group || by == ColorBy::Element ||
                        by == ColorBy::Residue || ofBalls;
     const bool shown = std::any_of(call.outputs.begin(), call.outputs.end(),

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,8 @@ enum class ResidueClass : std::uint8_t {
     Other
 };
 
+struct ScalarMap;
+
 /// A value of every ball, and how colours show it.
 struct BallValues {
     /// Colours: of a quantity from nothing up, of one with a sign, of a charge (red below 0), of
@@ -70,7 +73,12 @@ struct BallValues {
     Map map = Map::Magnitude;
     double low = 0.0, high = 1.0;         ///< values at the ends of the colours
     std::optional<openvdb::Vec3d> centre; ///< the value of a point is its distance from here [Å]
-    std::vector<float> valueOf;           ///< one a ball; not a number: it has none
+    std::shared_ptr<const ScalarMap> field{}; ///< the value of a point is taken from here,
+    double outward = 0.0;                     ///< so far outside of the surface [Å]
+    std::vector<float> valueOf{};             ///< one a ball; not a number: it has none
+
+    /// Whether points have values of their own, and not those of the nearest ball.
+    bool byPoint() const { return centre || field; }
 };
 
 /// Labels of the balls: vectors whose names end in "Of" have one entry for every ball.
@@ -130,7 +138,8 @@ struct SelectOptions {
     /// (N residues of a chain each); empty: it makes none.
     std::string groupBy;
     /// The values that ColorBy::Value shows: "bfactor", "occupancy", "charge", "hydrophobicity",
-    /// "rainbow", "radius" or "table=FILE", see ballValues(); empty: none.
+    /// "rainbow", "radius", "table=FILE", "potential=FILE" or "potential-out=FILE", see
+    /// ballValues(); empty: none.
     std::string valueBy;
     std::optional<std::array<double, 2>>
         valueRange;         ///< BallValues::low and high, if they are given

@@ -113,6 +113,44 @@ class Values(ToolTest):
         self.check(1, "a.pdb", "--color", "table=bad.csv", "-o", "b.ply", says=["bad.csv:2", "A,x,3"])
         self.check(1, "a.pdb", "--color", "table=none.csv", "-o", "b.ply", says="none.csv")
 
+    def dx(self, name, of, low=-6.0, points=25, step=1.5):
+        """A map of a function of x, y and z, as APBS writes it."""
+        lines = ["# a potential", f"object 1 class gridpositions counts {points} {points} {points}",
+                 f"origin {low:e} {low:e} {low:e}", f"delta {step:e} 0.0 0.0",
+                 f"delta 0.0 {step:e} 0.0", f"delta 0.0 0.0 {step:e}",
+                 f"object 2 class gridconnections counts {points} {points} {points}",
+                 f"object 3 class array type double rank 0 items {points ** 3} data follows"]
+        at = [low + step * i for i in range(points)]
+        values = [of(x, y, z) for x in at for y in at for z in at]
+        lines += [" ".join(f"{v:e}" for v in values[i:i + 3]) for i in range(0, len(values), 3)]
+        lines += ['attribute "dep" string "positions"', 'object "regular" class field']
+        self.write(name, "\n".join(lines) + "\n")
+
+    def test_a_potential(self):
+        self.apart(["ALA", "ALA"])
+        self.dx("phi.dx", lambda x, y, z: 0.5 * x - 0.25 * y + z)
+        self.colored("potential=phi.dx")
+        for (x, y, z), value, _ in self.vertices("a.ply", "potential"):
+            self.assertAlmostEqual(value, 0.5 * x - 0.25 * y + z, 3)
+        # The distance from the first atom, a probe radius out.
+        self.dx("r.dx", lambda x, y, z: x)
+        self.colored("potential-out=r.dx", "--probe", "2")
+        for (x, _, _), value, _ in self.vertices("a.ply", "potential"):
+            middle = 0.0 if x < 5 else 10.0
+            self.assertAlmostEqual(value, x + 2 * (x - middle) / 1.7, 0)
+        # Outside of the map there is no value.
+        self.dx("small.dx", lambda x, y, z: x, points=6)
+        self.colored("potential=small.dx", "--range=-2,2", "-o", "a.vdb", "--fields", "Cd")
+        found = self.vertices("a.ply", "potential")
+        self.assertEqual(self.at(found, 10.0)[1], {GREY})
+        self.assertNotIn(GREY, self.at(found, 0.0)[1])
+        self.write("bad.dx", "object 1 class gridpositions counts 2 2 1\n")
+        self.check(1, "a.pdb", "--color", "potential=bad.dx", "-o", "b.ply", says="bad.dx:1")
+        text = (self.folder / "small.dx").read_text()
+        self.write("short.dx", text[:len(text) // 2])
+        self.check(1, "a.pdb", "--color", "potential=short.dx", "-o", "b.ply", says="216")
+        self.check(1, "a.pdb", "--color", "potential=a.pdb", "-o", "b.ply", says="OpenDX")
+
     def test_the_legend_has_the_colours_of_the_scale(self):
         self.check(0, DATA / "1ubq.pdb" if (DATA / "1ubq.pdb").exists() else CRAMBIN, *FAST,
                    "--color", "hydrophobicity", "--size", "700", "-o", "a.png")

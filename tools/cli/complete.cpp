@@ -251,7 +251,9 @@ void completeInstances(Call& call)
     }
     if (call.atoms.assembly == "none")
         misuse("--instances: expected --assembly too [hint: --assembly 1]");
-    if (call.atoms.valueBy == "radius") misuse("--instances and --color radius together");
+    if (call.atoms.valueBy == "radius" || call.atoms.valueBy.rfind("potential", 0) == 0)
+        misuse("--instances and --color " +
+               call.atoms.valueBy.substr(0, call.atoms.valueBy.find('=')) + " together");
     for (const char* option :
          {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center"})
         if (call.has(option)) misuse("--instances and --" + std::string(option) + " together");
@@ -293,6 +295,8 @@ void completeSymmetry(Call& call)
             misuse("-o " + output.path +
                    ": --by-symmetry makes no grid of the whole [hint: --memory 8G in its place "
                    "makes it in bricks]");
+    if (call.atoms.valueBy.rfind("potential", 0) == 0)
+        misuse("--by-symmetry and --color potential together");
     for (const std::string& field : call.options.fields)
         if (!findCurvatureField(field)) misuse("--by-symmetry and --fields " + field + " together");
     if (call.weld && call.crisp) misuse("--weld and --crisp together");

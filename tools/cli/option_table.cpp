@@ -675,16 +675,18 @@ OptionGroup groupOptions()
         const Values words = {"copy", "entity", "class"};
         o.words.insert(o.words.end(), words.begin(), words.end());
         o.words.insert(o.words.end(), valueWords().begin(), valueWords().end());
-        o.words.push_back("table=FILE");
-        o.set = [words, all = o.words, others = o.set](Call& call, const Values& values) {
+        const Values files = {"table=", "potential=", "potential-out="};
+        for (const std::string& start : files) o.words.push_back(start + "FILE");
+        o.set = [words, files, all = o.words, others = o.set](Call& call, const Values& values) {
             const std::string word = lowered(values.back());
             const auto among = [&](const Values& some) {
                 return std::count(some.begin(), some.end(), word) > 0;
             };
-            const bool table = word.rfind("table=", 0) == 0;
             call.colorGroups = among(words) ? word : "";
             call.atoms.valueBy = among(valueWords()) ? word : "";
-            if (table) call.atoms.valueBy = "table=" + values.back().substr(6);
+            for (const std::string& start : files)
+                if (word.rfind(start, 0) == 0)
+                    call.atoms.valueBy = start + values.back().substr(start.size());
             call.options.color = call.atoms.valueBy.empty() ? ColorBy::Nothing : ColorBy::Value;
             if (!call.colorGroups.empty() || !call.atoms.valueBy.empty()) return;
             if (!among(all))
@@ -736,7 +738,8 @@ OptionGroup groupOptions()
          orMore(color("colours of the mesh and the grid Cd: chain, entity, class,\n"
                       "copy, group, element, residue, mean-curvature,\n"
                       "gaussian-curvature; by value: bfactor, occupancy,\n"
-                      "charge, hydrophobicity, rainbow, radius, table=FILE",
+                      "charge, hydrophobicity, rainbow, radius, table=FILE,\n"
+                      "potential=FILE.dx, potential-out=FILE.dx (a probe out)",
                       "none", surfaces)),
          range,
          with(flag("crisp", "mesh files: triangles are cut where colours meet", Build, OF(crisp)),

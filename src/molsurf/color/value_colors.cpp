@@ -2,6 +2,8 @@
 #include "molsurf/color/value_colors.h"
 
 #include "molsurf/color/palette.h"
+#include "molsurf/core/parallel.h"
+#include "molsurf/selection/scalar_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +25,11 @@ ColorScale confidenceScale()
                             : i >= 50 ? Color{255, 219, 19}
                                       : Color{255, 125, 69});
     return out;
+}
+
+Color colorOf(const ColorScale& scale, float value)
+{
+    return std::isfinite(value) ? scale.at(double(value)) : neutralColor;
 }
 
 } // namespace
@@ -70,9 +77,46 @@ std::vector<Color> valueColors(const BallValues& values)
     const ColorScale scale = scaleOf(values);
     std::vector<Color> out;
     out.reserve(values.valueOf.size());
-    for (const float v : values.valueOf)
-        out.push_back(std::isfinite(v) ? scale.at(double(v)) : neutralColor);
+    for (const float v : values.valueOf) out.push_back(colorOf(scale, v));
     return out;
+}
+
+float valueAt(const BallValues& values, const openvdb::Vec3d& x, const openvdb::Vec3d& normal)
+{
+    if (values.field) return values.field->at(x + values.outward * normal);
+    return float((x - *values.centre).length());
+}
+
+openvdb::GridBase::Ptr valueGrid(const openvdb::FloatGrid& surface, const BallValues& values,
+                                 const Progress& progress)
+{
+    const openvdb::Vec3f background = linearLight(neutralColor);
+    auto grid = openvdb::Vec3SGrid::create(background);
+    grid->setTree(
+        std::make_shared<openvdb::Vec3STree>(surface.tree(), background, openvdb::TopologyCopy()));
+    grid->setTransform(surface.transform().copy());
+    grid->setName("Cd");
+    const ColorScale scale = scaleOf(values);
+    std::vector<openvdb::Vec3STree::LeafNodeType*> leaves;
+    grid->tree().getNodes(leaves);
+    const double h = surface.voxelSize()[0];
+    parallelFor(leaves.size(), progress, [&](std::size_t n) {
+        const auto from = surface.getConstAccessor();
+        for (auto voxel = leaves[n]->beginValueOn(); voxel; ++voxel) {
+            const openvdb::Coord at = voxel.getCoord();
+            openvdb::Vec3d normal(0.0); // by differences of the distance
+            for (int a = 0; a < 3; ++a) {
+                openvdb::Coord step(0);
+                step[a] = 1;
+                normal[a] = double(from.getValue(at + step)) - double(from.getValue(at - step));
+            }
+            if (normal.lengthSqr() > 0.0) normal.normalize();
+            // From the voxel to the surface.
+            const openvdb::Vec3d x = at.asVec3d() * h - double(from.getValue(at)) * normal;
+            voxel.setValue(linearLight(colorOf(scale, valueAt(values, x, normal))));
+        }
+    });
+    return grid;
 }
 
 void addValues(const BallValues& values, const Labels& nearest, Mesh& mesh)
@@ -83,16 +127,16 @@ void addValues(const BallValues& values, const Labels& nearest, Mesh& mesh)
     for (std::size_t v = 0; v < nearest.size(); ++v) {
         const std::int32_t ball = nearest[v];
         float value = std::numeric_limits<float>::quiet_NaN();
-        if (values.centre)
-            value = float((openvdb::Vec3d(mesh.positions[v]) - *values.centre).length());
+        if (values.byPoint())
+            value =
+                valueAt(values, openvdb::Vec3d(mesh.positions[v]), openvdb::Vec3d(mesh.normals[v]));
         else if (ball >= 0)
             value = values.valueOf[std::size_t(ball)];
         out.values.push_back(value);
     }
-    if (!values.centre) return;
+    if (!values.byPoint()) return;
     const ColorScale scale = scaleOf(values);
-    for (std::size_t v = 0; v < nearest.size(); ++v)
-        mesh.colors[v] = scale.at(double(out.values[v]));
+    for (std::size_t v = 0; v < nearest.size(); ++v) mesh.colors[v] = colorOf(scale, out.values[v]);
 }
 
 } // namespace molsurf

@@ -2,6 +2,7 @@
 #include "molsurf/selection/ball_values.h"
 
 #include "molsurf/error.h"
+#include "molsurf/selection/scalar_map.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/text_fields.h"
 
@@ -69,11 +70,11 @@ bool arePredicted(const Structure& structure)
 
 BallValues bFactors(const Structure& structure, std::vector<std::string>& warnings)
 {
-    BallValues out{"bfactor", "B factor", "Å²", BallValues::Map::Magnitude, 0.0, 1.0, {}, {}};
+    BallValues out{"bfactor", "B factor", "Å²", BallValues::Map::Magnitude, 0.0, 1.0, {}};
     if (!arePredicted(structure)) return out;
     warnings.push_back("B factors are the same within every residue and from 0 to 100: taken as "
                        "the pLDDT of a predicted model");
-    return {"plddt", "pLDDT", "", BallValues::Map::Confidence, 0.0, 100.0, {}, {}};
+    return {"plddt", "pLDDT", "", BallValues::Map::Confidence, 0.0, 100.0, {}};
 }
 
 float hydrophobicityOf(const std::string& residue)
@@ -179,7 +180,7 @@ const std::vector<std::string>& valueWords()
 }
 
 BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls,
-                      const std::string& by, const Vec3d& centre,
+                      const std::string& by, const Vec3d& centre, double probe,
                       std::vector<std::string>& warnings)
 {
     using Map = BallValues::Map;
@@ -196,36 +197,45 @@ BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls
                      [&](const Ball& ball) { return atomOf(ball).bFactor; });
         if (out.map == Map::Magnitude) spread(out);
     } else if (by == "occupancy") {
-        out = filled({by, "Occupancy", "", Map::Magnitude, 0.0, 1.0, {}, {}},
+        out = filled({by, "Occupancy", "", Map::Magnitude, 0.0, 1.0, {}},
                      [&](const Ball& ball) { return atomOf(ball).occupancy; });
     } else if (by == "charge") {
         if (structure.charges.empty())
             throw Error(ErrorKind::Input, displayName(structure.source) +
                                               ": it has no charges, which a PQR file has");
-        out = filled({by, "Charge", "e", Map::Charge, -1.0, 1.0, {}, {}},
+        out = filled({by, "Charge", "e", Map::Charge, -1.0, 1.0, {}},
                      [&](const Ball& ball) { return structure.charges[std::size_t(ball.atom)]; });
         spread(out);
         balance(out);
     } else if (by == "hydrophobicity") {
-        out = filled(
-            {by, "Hydrophobicity", "", Map::Signed, -4.5, 4.5, {}, {}},
-            [&](const Ball& ball) { return hydrophobicityOf(residueOf(structure, ball).name); });
+        out = filled({by, "Hydrophobicity", "", Map::Signed, -4.5, 4.5, {}}, [&](const Ball& ball) {
+            return hydrophobicityOf(residueOf(structure, ball).name);
+        });
     } else if (by == "rainbow") {
         const std::vector<float> places = placesInChains(structure);
-        out = filled({by, "N to C", "", Map::Rainbow, 0.0, 1.0, {}, {}},
+        out = filled({by, "N to C", "", Map::Rainbow, 0.0, 1.0, {}},
                      [&](const Ball& ball) { return places[std::size_t(atomOf(ball).residue)]; });
     } else if (by == "radius") {
-        out =
-            filled({by, "Radius", "Å", Map::Magnitude, 0.0, 1.0, centre, {}},
-                   [&](const Ball& ball) { return float((Vec3d(ball.center) - centre).length()); });
+        out = filled({by, "Radius", "Å", Map::Magnitude, 0.0, 1.0, centre}, [&](const Ball& ball) {
+            return float((Vec3d(ball.center) - centre).length());
+        });
         spread(out);
     } else if (by.rfind("table=", 0) == 0) {
-        out = {"value", "Value", "", Map::Magnitude, 0.0, 1.0, {}, {}};
+        out = {"value", "Value", "", Map::Magnitude, 0.0, 1.0, {}};
         fillFromTable(structure, balls, readTable(by.substr(6)), out, warnings);
         spread(out);
+    } else if (by.rfind("potential=", 0) == 0 || by.rfind("potential-out=", 0) == 0) {
+        const std::size_t equals = by.find('=');
+        out = {"potential", "Potential", "kT/e", Map::Charge, -5.0, 5.0, {}};
+        const auto field = std::make_shared<ScalarMap>(readDx(by.substr(equals + 1)));
+        out.field = field;
+        out.outward = equals > std::string("potential").size() ? probe : 0.0;
+        for (const Ball& ball : balls) out.valueOf.push_back(field->at(Vec3d(ball.center)));
     } else {
         throw Error(ErrorKind::Usage, "`valueBy`: expected " + joined(valueWords()) +
-                                          " or table=FILE, got " + inQuotes(by));
+                                          ", table=FILE, potential=FILE or potential-out=FILE, "
+                                          "got " +
+                                          inQuotes(by));
     }
     return out;
 }

@@ -13,7 +13,7 @@
 namespace molsurf
 {
 
-/// The words that SelectOptions::valueBy may be, but for "table=FILE".
+/// The words that SelectOptions::valueBy may be, but for those with a file.
 const std::vector<std::string>& valueWords();
 
 /// Gives every ball a value.
@@ -27,13 +27,16 @@ const std::vector<std::string>& valueWords();
 /// - radius: the distance from the centre [Å].
 /// - table=FILE: lines of chain, residue number, perhaps the atom's name, and the value, parted by
 ///   commas or white space; what starts with # and a first line without a number are skipped.
+/// - potential=FILE: of a map in the format OpenDX, as APBS writes it [kT/e], on the surface;
+///   potential-out=FILE: a probe radius outside of it.
 ///
+/// @param[in]     probe     radius [Å]
 /// @param[in]     centre    that radii are taken from [Å]
 /// @param[in,out] warnings  of residues in the table that the structure does not have
 /// @throws Error(ErrorKind::Usage) if `by` is none of these
 /// @throws Error(ErrorKind::Input) if the file has no charges, or the table cannot be read
 BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls,
-                      const std::string& by, const openvdb::Vec3d& centre,
+                      const std::string& by, const openvdb::Vec3d& centre, double probe,
                       std::vector<std::string>& warnings);
 
 } // namespace molsurf

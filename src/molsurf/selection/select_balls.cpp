@@ -402,20 +402,22 @@ void applyResolutions(const Structure& structure, const SelectOptions& options, 
 }
 
 /// Adds the values that a surface is coloured by.
-void addValues(const Structure& structure, const SelectOptions& options, BallSet& out)
+void addValues(const Structure& structure, const SelectOptions& options, double probe, BallSet& out)
 {
     openvdb::Vec3d centre(0.0);
     for (const Ball& ball : out.balls)
         centre += openvdb::Vec3d(ball.center) / double(out.balls.size());
     if (out.unit) centre = out.unit->centre;
-    BallValues values = ballValues(structure, out.balls, options.valueBy, centre, out.warnings);
+    BallValues values =
+        ballValues(structure, out.balls, options.valueBy, centre, probe, out.warnings);
     if (options.valueRange) {
         values.low = (*options.valueRange)[0];
         values.high = (*options.valueRange)[1];
     }
     const std::size_t none = std::size_t(std::count_if(values.valueOf.begin(), values.valueOf.end(),
                                                        [](float v) { return !std::isfinite(v); }));
-    if (none == values.valueOf.size()) failInput(structure, values.title + ": no atom has one");
+    if (none == values.valueOf.size() && !values.byPoint())
+        failInput(structure, values.title + ": no atom has one");
     out.labels->values = std::move(values);
 }
 
@@ -577,7 +579,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
         out.warnings.insert(out.warnings.end(), out.labels->warnings.begin(),
                             out.labels->warnings.end());
     }
-    if (!options.valueBy.empty()) addValues(structure, options, out);
+    if (!options.valueBy.empty()) addValues(structure, options, probe, out);
     if (out.unit) countWhole(out);
     return out;
 }

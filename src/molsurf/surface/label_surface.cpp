@@ -77,9 +77,14 @@ Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, 
     mesh.colors = colorsOf(nearest, ballColor);
     if (options.color == ColorBy::Value && atoms.labels && atoms.labels->values)
         addValues(*atoms.labels->values, nearest, mesh);
-    if (has("Cd"))
-        result.fields.push_back(
-            colorGrid(*result.surface, has("density"), atoms.balls, ballColor, reach, progress));
+    if (has("Cd")) {
+        const bool byPoint = options.color == ColorBy::Value && atoms.labels &&
+                             atoms.labels->values && atoms.labels->values->byPoint();
+        result.fields.push_back(byPoint
+                                    ? valueGrid(*result.surface, *atoms.labels->values, progress)
+                                    : colorGrid(*result.surface, has("density"), atoms.balls,
+                                                ballColor, reach, progress));
+    }
     return nearest;
 }
 
