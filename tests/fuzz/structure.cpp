@@ -22,6 +22,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (choice & 1 && !structure.assemblies.empty())
             options.assembly = structure.assemblies.back().name;
         options.instances = options.assembly != "none" && choice & 2;
+        options.bySymmetry = options.assembly != "none" && !options.instances && choice & 32;
+        if (choice & 64) options.valueBy = "bfactor";
         if (choice & 4) options.groupBy = "entity";
         if (choice & 8) options.coarse = {{"", CoarseRule::Level::Residue, 1}};
         const BallSet balls = selectBalls(structure, options, 1.4, Progress());

@@ -9,8 +9,10 @@
 #include "molsurf/io/batch_summary.h"
 #include "molsurf/io/frame_table.h"
 #include "molsurf/io/write_usda.h"
+#include "molsurf/selection/ball_values.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/selection/radii.h"
+#include "molsurf/selection/scalar_map.h"
 #include "molsurf/structure/structure_list.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
@@ -35,6 +37,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         case 'l':
             readStructureList(path);
             break;
+        case 'd':
+            readDx(path).at({0.5, 0.5, 0.5});
+            break;
+        case 'v': {
+            Structure structure;
+            structure.chains = structure.asyms = {"A"};
+            structure.residues = {{"GLY", 0, 0, 1, ' ', false, false}};
+            structure.atoms = {{openvdb::Vec3d(0.0), "CA", 0, 6, '\0', 1, 0, -1}};
+            std::vector<std::string> warnings;
+            ballValues(structure, {{openvdb::Vec3f(0.0f), 1.7f, 0}}, "table=" + path,
+                       openvdb::Vec3d(0.0), 1.4, warnings);
+            break;
+        }
         case 'u':
             isOwnUsda(path);
             break;

@@ -231,6 +231,10 @@ CutMesh cutToOwner(const Mesh& mesh, const PowerOwners& owners, const Spline& sp
     };
     std::vector<BorderEdge> borders;
     std::vector<Triangle>& triangles = out.mesh.triangles;
+    const auto touched = std::size_t(
+        std::count_if(mesh.triangles.begin(), mesh.triangles.end(),
+                      [&](const Triangle& t) { return own[t[0]] || own[t[1]] || own[t[2]]; }));
+    triangles.reserve(touched + touched / 16); // what comes for the border fits, too
     for (const Triangle& t : mesh.triangles) {
         const int count = own[t[0]] + own[t[1]] + own[t[2]];
         if (count == 0) continue;
@@ -301,6 +305,9 @@ CutMesh cutToOwner(const Mesh& mesh, const PowerOwners& owners, const Spline& sp
         }
     }
 
+    const std::size_t room = out.sources.size() + 4 * added.size();
+    out.mesh.positions.reserve(room);
+    out.mesh.normals.reserve(room);
     for (const std::uint32_t v : out.sources) {
         out.mesh.positions.push_back(mesh.positions[v]);
         out.mesh.normals.push_back(mesh.normals[v]);
@@ -308,6 +315,7 @@ CutMesh cutToOwner(const Mesh& mesh, const PowerOwners& owners, const Spline& sp
     for (const Attribute<float>& a : mesh.scalars) {
         Attribute<float>& part = out.mesh.scalars.emplace_back();
         part.name = a.name;
+        part.values.reserve(room);
         for (const std::uint32_t v : out.sources) part.values.push_back(a.values[v]);
     }
     for (const BorderVertex& v : added) {
