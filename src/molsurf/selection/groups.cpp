@@ -306,6 +306,8 @@ BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls
         labelByRules(structure, balls, copyBegin, copyNumbers, rules, labels);
     }
     std::map<std::string, std::int32_t> number; // of groups by name
+    // Of chains by copy: the images of a unit's copies have their numbers.
+    std::map<std::pair<int, std::int32_t>, std::int32_t> chainOf;
     const std::size_t copies = copyBegin.size() - 1;
     labels.chainOf.resize(balls.size());
     labels.elementOf.resize(balls.size());
@@ -314,18 +316,15 @@ BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls
     for (std::size_t c = 0; c < copies; ++c) {
         const int copy = copyNumbers[c];
         const std::string suffix = copy == 1 ? "" : "-" + std::to_string(copy);
-        std::vector<std::int32_t> chain(structure.chains.size(), -1); // in this copy
         std::int32_t lastResidue = -1, lastGroup = -1;
         for (std::size_t i = copyBegin[c]; i < copyBegin[c + 1]; ++i) {
             const Atom& atom = structure.atoms[std::size_t(balls[i].atom)];
             const Residue& residue = structure.residues[std::size_t(atom.residue)];
             const std::string chainName = structure.chains[std::size_t(residue.chain)] + suffix;
-            std::int32_t& index = chain[std::size_t(residue.chain)];
-            if (index < 0) {
-                index = std::int32_t(labels.chains.size());
-                labels.chains.push_back(chainName);
-            }
-            labels.chainOf[i] = index;
+            const auto [index, isNew] =
+                chainOf.emplace(std::pair(copy, residue.chain), std::int32_t(labels.chains.size()));
+            if (isNew) labels.chains.push_back(chainName);
+            labels.chainOf[i] = index->second;
             labels.elementOf[i] = atom.element;
             labels.residueClassOf[i] = classOf(residue.name);
             if (!by.empty()) {

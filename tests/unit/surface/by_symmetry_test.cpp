@@ -258,7 +258,9 @@ TEST(SymmetricUnit, GroupsAddUp)
     s.assemblies = {assemblyOf(dihedral(3))};
     SelectOptions select = assembly(true, options);
     select.groups = {{"b", "B", {}}};
-    const MolecularSurface a = makeSurface(selectBalls(s, select), options);
+    const BallSet unit = selectBalls(s, select);
+    EXPECT_EQ(unit.labels->chains.size(), 2u); // images have their names
+    const MolecularSurface a = makeSurface(unit, options);
     select.bySymmetry = false;
     const MolecularSurface b = makeSurface(selectBalls(s, select), options);
     ASSERT_EQ(a.report.groups.size(), b.report.groups.size());
