@@ -68,6 +68,12 @@ private:
     }
 };
 
+/// The first voxel of the leaf at a place. (Negative numbers are not shifted.)
+Coord originOf(const Coord& place)
+{
+    return {leafDim * place.x(), leafDim * place.y(), leafDim * place.z()};
+}
+
 /// Leaves that may have a part of the surface, with the number of balls whose centres are in each.
 struct Occupancy {
     std::vector<Coord> leaves; ///< places among leaves, ascending
@@ -268,7 +274,7 @@ public:
     PlannedBrick estimate(const CoordBBox& box) const
     {
         PlannedBrick brick;
-        brick.box = CoordBBox(box.min() << 3, (box.max() << 3).offsetBy(leafDim - 1));
+        brick.box = CoordBBox(originOf(box.min()), originOf(box.max()).offsetBy(leafDim - 1));
         Region region;
         region.owned = brick.box;
         const Scope scope = brickScope(options_, region, influence_.extent());
