@@ -65,6 +65,13 @@ void checkNames(const Call& call, const std::vector<Task>& tasks)
     }
 }
 
+[[noreturn]] void failTwice(const Call& call, const std::string& one, const std::string& other,
+                            const std::string& outputs)
+{
+    throw Error(ErrorKind::Input,
+                call.input + ": " + one + " and " + other + " would both be written to " + outputs);
+}
+
 std::vector<Task> tasksOf(const Call& call)
 {
     std::vector<Task> tasks;
@@ -72,9 +79,7 @@ std::vector<Task> tasksOf(const Call& call)
     for (const std::string& input : readStructureList(call.input)) {
         const std::string stem = stemOf(input);
         const auto [other, fresh] = taken.emplace(stem, input);
-        if (stem.empty() || !fresh)
-            throw Error(ErrorKind::Input, call.input + ": " + input + " and " + other->second +
-                                              " would both be written to " + stem + ".*");
+        if (stem.empty() || !fresh) failTwice(call, input, other->second, stem + ".*");
         Task task{input, {}};
         for (const Output& kind : call.outputs)
             task.outputs.push_back(

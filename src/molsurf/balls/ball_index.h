@@ -66,16 +66,23 @@ public:
             if (reach < 0.0) continue;
             const openvdb::Coord from = level.cellOf(low - openvdb::Vec3d(reach));
             const openvdb::Coord to = level.cellOf(high + openvdb::Vec3d(reach));
+            const auto visit = [&](const Column& c) {
+                const int first = std::max(from.z() - c.z, 0);
+                const int last = std::min(to.z() - c.z, c.cells - 1);
+                if (first > last) return;
+                f(begins_[std::size_t(c.cell + first)], begins_[std::size_t(c.cell + last + 1)]);
+            };
+            if (isWide(from, to, level)) {
+                for (const Column& c : level.columns) {
+                    const int x = partOf(c.key, 2), y = partOf(c.key, 1);
+                    if (x >= from.x() && x <= to.x() && y >= from.y() && y <= to.y()) visit(c);
+                }
+                continue;
+            }
             for (int x = from.x(); x <= to.x(); ++x) {
                 for (int y = from.y(); y <= to.y(); ++y) {
-                    for (int block = from.z() >> blockBits; block <= to.z() >> blockBits; ++block) {
-                        const Column& c = level.columns[level.position(columnKey(x, y, block))];
-                        const int first = std::max(from.z() - c.z, 0);
-                        const int last = std::min(to.z() - c.z, c.cells - 1);
-                        if (first > last) continue;
-                        f(begins_[std::size_t(c.cell + first)],
-                          begins_[std::size_t(c.cell + last + 1)]);
-                    }
+                    for (int block = from.z() >> blockBits; block <= to.z() >> blockBits; ++block)
+                        visit(level.columns[level.position(columnKey(x, y, block))]);
                 }
             }
         }
@@ -129,12 +136,28 @@ private:
         }
     };
 
-    static constexpr int blockBits = 5;
+    static constexpr int blockBits = 5, keyBits = 21;
     static std::uint64_t columnKey(int x, int y, int block)
     {
-        constexpr std::uint64_t mask = (1 << 21) - 1;
-        return (std::uint64_t(x) & mask) << 42 | (std::uint64_t(y) & mask) << 21 |
+        constexpr std::uint64_t mask = (1 << keyBits) - 1;
+        return (std::uint64_t(x) & mask) << 2 * keyBits | (std::uint64_t(y) & mask) << keyBits |
                (std::uint64_t(block) & mask);
+    }
+    /// x for 2, y for 1 of a column's key.
+    static int partOf(std::uint64_t key, int which)
+    {
+        return int(std::uint32_t(key >> which * keyBits) << (32 - keyBits)) >> (32 - keyBits);
+    }
+
+    /// Whether a box has more columns than there are: one about a ball that is very large among
+    /// balls of another class.
+    static bool isWide(const openvdb::Coord& from, const openvdb::Coord& to, const Level& level)
+    {
+        constexpr double many = 4096.0;
+        const double columns = (double(to.x()) - from.x() + 1.0) *
+                               (double(to.y()) - from.y() + 1.0) *
+                               ((to.z() >> blockBits) - (from.z() >> blockBits) + 1.0);
+        return columns > std::max(many, double(level.columns.size()));
     }
 
     void addLevel(const std::vector<Ball>& balls, const std::vector<std::int32_t>& members,

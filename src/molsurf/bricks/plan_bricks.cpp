@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace molsurf
 {
@@ -49,16 +50,41 @@ constexpr double bytesToMerge =
 constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
 constexpr int smallest = 4;             // leaves along the shortest edge of a brick that is cut
 
+/// One of so many places, chosen by their numbers alone.
+struct Sample {
+    unsigned every = 1;
+
+    bool has(const Coord& place) const { return every == 1 || mixed(place) % every == 0; }
+
+private:
+    static std::uint32_t mixed(const Coord& place)
+    {
+        std::uint64_t bits = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            bits = (bits ^ std::uint32_t(place[axis])) * 0x9e3779b97f4a7c15;
+            bits ^= bits >> 29;
+        }
+        return std::uint32_t((bits * 0xbf58476d1ce4e5b9) >> 32);
+    }
+};
+
+/// The first voxel of the leaf at a place. (Negative numbers are not shifted.)
+Coord originOf(const Coord& place)
+{
+    return {leafDim * place.x(), leafDim * place.y(), leafDim * place.z()};
+}
+
 /// Leaves that may have a part of the surface, with the number of balls whose centres are in each.
 struct Occupancy {
     std::vector<Coord> leaves; ///< places among leaves, ascending
     std::vector<std::uint32_t> atoms;
     CoordBBox box; ///< of the places
+    Sample sample; ///< that the leaves are
 };
 
 /// Adds the leaves between two spheres about a ball's centre: column by column, since most of those
 /// in their box lie inside.
-void addShell(const Vec3d& centre, double inner, double outer, double edge,
+void addShell(const Vec3d& centre, double inner, double outer, double edge, const Sample& sample,
               std::vector<Coord>& places)
 {
     const double halfLeaf = 0.5 * edge, diagonal = halfLeaf * std::sqrt(3.0);
@@ -79,7 +105,7 @@ void addShell(const Vec3d& centre, double inner, double outer, double edge,
                     z = std::max(z, placeAt(hole - halfLeaf) - 1);
                     continue;
                 }
-                places.emplace_back(x, y, z);
+                if (sample.has(Coord(x, y, z))) places.emplace_back(x, y, z);
             }
         }
     }
@@ -119,8 +145,11 @@ double grainOf(const std::vector<Ball>& balls, double voxel, double reach)
 
 /// The places that lie within some steps of others along each axis; far from each other they may
 /// come more than once.
-/// @param[in] own  places, ascending
-std::vector<Coord> placesNear(const std::vector<Coord>& own, int steps, const Progress& progress)
+/// @param[in]  own     places, ascending
+/// @param[in]  most    places that are listed; where more lie far from each other, it is a sample
+/// @param[out] sample  which they are
+std::vector<Coord> placesNear(const std::vector<Coord>& own, int steps, double most, Sample& sample,
+                              const Progress& progress)
 {
     std::vector<Coord> near, blocks;
     for (const Coord& place : own) blocks.push_back(place & ~(leafDim - 1));
@@ -130,9 +159,12 @@ std::vector<Coord> placesNear(const std::vector<Coord>& own, int steps, const Pr
     constexpr double few = 3e6, perBlock = 300.0;
     const double listed = double(own.size()) * std::pow(2 * steps + 1, 3);
     if (listed < std::max(few, perBlock * double(blocks.size()))) {
+        sample.every = unsigned(std::ceil(std::max(listed / most, 1.0)));
+        constexpr double margin = 1.1; // of a random number
+        near.reserve(std::size_t(std::min(listed, margin * listed / sample.every)));
         for (const Coord& place : own) {
             for (auto ijk = CoordBBox(place, place).expandBy(steps).begin(); ijk; ++ijk)
-                near.push_back(*ijk);
+                if (sample.has(*ijk)) near.push_back(*ijk);
         }
         return near;
     }
@@ -151,7 +183,8 @@ std::vector<Coord> placesNear(const std::vector<Coord>& own, int steps, const Pr
 }
 
 /// @param[in] reach  how far the surface may lie from the balls [Å]
-Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach,
+/// @param[in] most   leaves that are listed, see placesNear()
+Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach, double most,
                       const Progress& progress)
 {
     const double edge = leafDim * voxel;
@@ -174,23 +207,24 @@ Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach
     }
     const int steps = int(std::ceil((largestSmall + reach) / edge));
     Occupancy out;
-    out.leaves = placesNear(own, steps, progress);
+    out.leaves = placesNear(own, steps, most, out.sample, progress);
     const auto sortLeaves = [&] {
         tbb::parallel_sort(out.leaves.begin(), out.leaves.end());
         out.leaves.erase(std::unique(out.leaves.begin(), out.leaves.end()), out.leaves.end());
     };
-    std::size_t most = 2 * out.leaves.size() + 1000000; // before equal ones are sorted out
+    std::size_t full = 2 * out.leaves.size() + 1000000; // before equal ones are sorted out
     for (const Ball& ball : balls) {
         if (!isLarge(ball, edge)) continue;
         addShell(Vec3d(ball.center), ball.radius - 2.0 * voxel, ball.radius + reach + 2.0 * voxel,
-                 edge, out.leaves);
-        if (out.leaves.size() < most) continue;
+                 edge, out.sample, out.leaves);
+        if (out.leaves.size() < full) continue;
         sortLeaves();
-        most = 2 * out.leaves.size() + 1000000;
+        full = 2 * out.leaves.size() + 1000000;
     }
     sortLeaves();
     for (std::size_t n = 0, m = 0; n < out.leaves.size(); ++n) {
         out.box.expand(out.leaves[n]);
+        while (m < own.size() && own[m] < out.leaves[n]) ++m; // not in the sample
         const bool found = m < own.size() && own[m] == out.leaves[n];
         out.atoms.push_back(found ? counts[m++] : 0);
     }
@@ -222,10 +256,12 @@ class Planner
 public:
     /// @param[in] grain  edge of the voxels whose leaves are counted [Å]; above that of the options
     ///                   for estimates of the whole
+    /// @param[in] most   leaves that are listed: infinite but for estimates of the whole
     Planner(const BallSet& atoms, const SurfaceOptions& options, const Influence& influence,
-            double grain, const Progress& progress)
+            double grain, double most, const Progress& progress)
         : options_(options), influence_(influence), grain_(grain), atoms_(atoms.balls.size()),
-          occupancy_(occupancyOf(atoms.balls, grain, influence.ofSurface(), progress))
+          occupancy_(occupancyOf(atoms.balls, grain, influence.ofSurface(), most, progress)),
+          weight_(occupancy_.sample.every)
     {
     }
 
@@ -238,7 +274,7 @@ public:
     PlannedBrick estimate(const CoordBBox& box) const
     {
         PlannedBrick brick;
-        brick.box = CoordBBox(box.min() << 3, (box.max() << 3).offsetBy(leafDim - 1));
+        brick.box = CoordBBox(originOf(box.min()), originOf(box.max()).offsetBy(leafDim - 1));
         Region region;
         region.owned = brick.box;
         const Scope scope = brickScope(options_, region, influence_.extent());
@@ -248,17 +284,17 @@ public:
         splined.expand(scope.splineHalo);
         flowed.expand(widest);
         near.expand(widest + reach);
-        const double count = std::pow(grain_ / options_.voxel, 2); // a surface has so many more
+        const double count = weight_ * std::pow(grain_ / options_.voxel, 2); // of finer leaves
         double own = 0, inSpline = 0, inFlow = 0;
         std::size_t balls = 0;
         for (std::size_t n = 0; n < occupancy_.leaves.size(); ++n) {
             const Coord& place = occupancy_.leaves[n];
             if (!near.isInside(place)) continue;
-            balls += occupancy_.atoms[n];
+            balls += weight_ * occupancy_.atoms[n];
             inFlow += count * flowed.isInside(place);
             inSpline += count * splined.isInside(place);
             if (!box.isInside(place)) continue;
-            brick.atoms += occupancy_.atoms[n];
+            brick.atoms += weight_ * occupancy_.atoms[n];
             own += count;
         }
         // Grids with wider bands may have leaves in a box that holds no other.
@@ -286,7 +322,8 @@ public:
     double coarseLeaves() const
     {
         constexpr double share = 0.3; // a fourth for a surface, and its band is wider
-        return share * std::pow(grain_ / options_.voxel, 2) * double(occupancy_.leaves.size());
+        return share * std::pow(grain_ / options_.voxel, 2) * weight_ *
+               double(occupancy_.leaves.size());
     }
 
     /// Peak memory of the flow of the whole on voxels twice as large [byte].
@@ -391,6 +428,7 @@ private:
     double grain_;
     std::size_t atoms_;
     Occupancy occupancy_;
+    unsigned weight_; // leaves for which one of the sample stands
 };
 
 double secondsOf(const std::vector<PlannedBrick>& bricks)
@@ -409,7 +447,7 @@ int stepsOf(const SurfaceOptions& options)
 
 /// Cuts by the limits; without any the whole is one brick.
 BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const Influence& influence,
-                   const BrickLimits& limits, double grain, const Progress& progress)
+                   const BrickLimits& limits, double grain, double most, const Progress& progress)
 {
     checkBalls(atoms.balls, options, Pieces::Bricks,
                limits.memory > 0 ? limits.memory : availableMemory());
@@ -419,7 +457,7 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const In
     plan.maxTolerance = influence.extent().maxTolerance;
     plan.atoms = atoms.balls.size();
     plan.steps = stepsOf(options);
-    Planner planner(atoms, options, influence, grain, progress);
+    Planner planner(atoms, options, influence, grain, most, progress);
     const CoordBBox& box = planner.box();
     if (limits.memory > 0) {
         plan.bricks = planner.cutEvenly(limits.memory, box);
@@ -465,14 +503,17 @@ BrickPlan planBricks(const BallSet& atoms, const SurfaceOptions& options, const 
                      const Progress& progress)
 {
     checkBrickOptions(options);
-    return makePlan(atoms, options, Influence(atoms, options), limits, options.voxel, progress);
+    constexpr double all = std::numeric_limits<double>::infinity();
+    return makePlan(atoms, options, Influence(atoms, options), limits, options.voxel, all,
+                    progress);
 }
 
 BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const Progress& progress)
 {
     const Influence influence(atoms, options);
     const double grain = grainOf(atoms.balls, options.voxel, influence.ofSurface());
-    return makePlan(atoms, options, influence, {1, 0}, grain, progress);
+    constexpr double most = 1.5e6; // leaves, in 18 MB
+    return makePlan(atoms, options, influence, {1, 0}, grain, most, progress);
 }
 
 void checkCost(const PlannedBrick& cost, const RunLimits& limits)

@@ -14,7 +14,7 @@ namespace molsurf
 {
 
 /// The plan of a run in one piece: one brick, whatever the options. Its box counts for nothing:
-/// where leaves are many, larger ones are counted.
+/// where leaves are many, larger ones are counted, and where these are many, a sample of them.
 BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const Progress& progress);
 
 /// What a run may take.

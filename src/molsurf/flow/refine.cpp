@@ -29,7 +29,7 @@ SparseField refined(const SparseField& phi, const openvdb::CoordBBox& box, const
         if (!phi.table.active(n).any()) continue;
         for (int k = 0; k < 8; ++k) {
             const Coord origin =
-                (phi.table.origin(n) << 1)
+                (phi.table.origin(n) + phi.table.origin(n))
                     .offsetBy(leafDim * (k >> 2), leafDim * (k >> 1 & 1), leafDim * (k & 1));
             if (box.isInside(origin)) origins.push_back(origin);
         }

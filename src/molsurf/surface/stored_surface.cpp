@@ -36,7 +36,7 @@ typename GridT::Ptr find(const openvdb::GridPtrVec& grids, const std::string& na
 {
     for (const auto& grid : grids)
         if (grid->getName() == name)
-            if (const auto found = openvdb::gridPtrCast<GridT>(grid)) return found;
+            if (auto found = openvdb::gridPtrCast<GridT>(grid)) return found;
     return nullptr;
 }
 

@@ -45,6 +45,24 @@ TEST(BallIndex, FindsAllThatAreNearOnceEach)
     }
 }
 
+// A box with more cells than a ball list can have: a ball of 0.02 mm beside atoms.
+TEST(BallIndex, TakesNoTimeWhereABoxIsWide)
+{
+    std::vector<Ball> balls = test::randomBalls(800, 40.0, Vec3d(-3e5, 2e5, 9e5), 4);
+    balls.push_back({openvdb::Vec3f(8e5f, -9e5f, 0.0f), 1.5f, 800}); // as if it were near: 21 bits
+    const BallIndex index(balls, {0.0, 0.0, 1.0});
+    for (const double gap : {2e4, 177777.0, 1e6}) {
+        const Vec3d place = Vec3d(balls[0].center) + Vec3d(0.9 * gap, 0.0, -0.3 * gap);
+        std::set<std::int32_t> found;
+        index.forEachNear(place, place, gap, [&](const Ball&, std::int32_t i) {
+            EXPECT_TRUE(found.insert(i).second) << "twice: " << i;
+        });
+        EXPECT_EQ(found.size(), 800u);
+        EXPECT_EQ(found.count(800), 0u);
+        EXPECT_EQ(index.countNear(place, place, gap), found.size());
+    }
+}
+
 TEST(BallIndex, LeavesOutWhatIsFar)
 {
     const std::vector<Ball> balls = test::randomBalls(800, 40.0, Vec3d(0.0), 4);

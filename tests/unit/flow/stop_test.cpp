@@ -114,7 +114,8 @@ TEST(Stop, ComesWhileNothingCloses)
     options.steps = out.report.steps + 30;
     const test::Evolved later = test::evolveBalls(pairOf(6.4f), 0.5, 0.5, options);
     EXPECT_NEAR(out.report.area.back() / later.report.area.back(), 1.0, 3e-3);
-    EXPECT_NEAR(out.report.volume.back() / later.report.volume.back(), 1.0, 3e-3);
+    // Without fused multiplications 3.2e-3.
+    EXPECT_NEAR(out.report.volume.back() / later.report.volume.back(), 1.0, 4e-3);
 }
 
 } // namespace

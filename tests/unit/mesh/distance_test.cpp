@@ -41,10 +41,11 @@ std::vector<Vec3d> pointsAbout(const Vec3d& centre, double reach, int count)
 }
 
 /// Whether a point is near the medial axis: there the distance has a kink, and the error of the
-/// triangles may choose the other one of two closest points.
+/// triangles may choose the other one of two closest points, or the foot may not move along the
+/// surface.
 bool nearKink(const test::Shape& shape, const Vec3d& x)
 {
-    constexpr double step = 0.1;
+    constexpr double step = 0.3;
     Vec3d gradient;
     for (int i = 0; i < 3; ++i) {
         Vec3d e(0.0);
