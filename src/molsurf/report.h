@@ -126,6 +126,7 @@ struct GroupReport {
 struct InterfaceReport {
     std::string first, second; ///< names of the groups
     double area = 0.0;         ///< (A_first + A_second - A_both) / 2, each surfaced alone [Å^2]
+    std::size_t count = 1;     ///< how many such there are in a whole made by symmetry
 };
 
 /// The atoms that have one resolution.

@@ -108,7 +108,7 @@ class BySymmetry(ToolTest):
         self.check(2, "shell.pdb", *ASSEMBLY, "--by-symmetry", "-o", "a.vdb", says="--memory")
         for words in (["--instances"], ["--copies", "1"], ["--memory", "1G"], ["--center"],
                       ["--fill-cavities"], ["--dry-run"],
-                      ["--fields", "sas"], ["--interfaces", "--group-by", "chain"]):
+                      ["--fields", "sas"]):
             self.check(2, "shell.pdb", *ASSEMBLY, "--by-symmetry", *words, "-o", "a.json",
                        says="--by-symmetry")
         self.assertEqual(self.names(), ["shell.pdb"])

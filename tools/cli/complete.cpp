@@ -286,9 +286,8 @@ void completeSymmetry(Call& call)
     }
     if (call.atoms.assembly == "none")
         misuse("--by-symmetry: expected --assembly too [hint: --assembly 1]");
-    for (const char* option :
-         {"instances", "copies", "split", "surface-of", "interfaces", "frames", "trajectory",
-          "memory", "dry-run", "center", "fill-cavities", "match-volume"})
+    for (const char* option : {"instances", "copies", "split", "surface-of", "frames", "trajectory",
+                               "memory", "dry-run", "center", "fill-cavities", "match-volume"})
         if (call.has(option)) misuse("--by-symmetry and --" + std::string(option) + " together");
     for (const Output& output : call.outputs)
         if (output.format == Format::Vdb)

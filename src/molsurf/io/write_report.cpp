@@ -91,7 +91,8 @@ Json interfacesJson(const std::vector<InterfaceReport>& interfaces)
 {
     Json out = Json::array();
     for (const InterfaceReport& i : interfaces) {
-        out.push_back(Json{{"groups", {i.first, i.second}}, {"buried_area", i.area}});
+        out.push_back(
+            Json{{"groups", {i.first, i.second}}, {"buried_area", i.area}, {"count", i.count}});
     }
     return out;
 }

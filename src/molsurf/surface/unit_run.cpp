@@ -40,7 +40,6 @@ void checkUnitOptions(const SurfaceOptions& options)
     };
     if (options.split) refuse("`split`");
     if (!options.surfaceOf.empty()) refuse("`surfaceOf`");
-    if (options.interfaces) refuse("`interfaces`");
     if (options.matchVolume) refuse("`matchVolume`");
     if (options.fillCavities) refuse("`fillCavities`");
     for (const std::string& field : options.fields)

@@ -277,6 +277,34 @@ TEST(SymmetricUnit, GroupsAddUp)
     EXPECT_NEAR(area, a.report.surface.area, 1e-6 * area);
 }
 
+/// Every interface of the whole is one of the unit's, as often as they say.
+TEST(SymmetricUnit, InterfacesCountTheWhole)
+{
+    for (const SurfaceKind kind : {SurfaceKind::SolventAccessible, SurfaceKind::SolventExcluded}) {
+        SurfaceOptions options;
+        options.kind = kind;
+        options.interfaces = true;
+        Structure s = blob({9.0, 1.0, 1.0}, 6.0, 120, 3);
+        s.assemblies = {assemblyOf(dihedral(3))};
+        SelectOptions select = assembly(true, options);
+        select.groupBy = "copy";
+        const Report a = makeSurface(selectBalls(s, select), options).report;
+        select.bySymmetry = false;
+        const Report b = makeSurface(selectBalls(s, select), options).report;
+        double found = 0.0, expected = 0.0;
+        std::size_t count = 0;
+        for (const InterfaceReport& i : a.interfaces) {
+            found += double(i.count) * i.area;
+            count += i.count;
+        }
+        for (const InterfaceReport& i : b.interfaces) expected += i.area;
+        EXPECT_EQ(count, b.interfaces.size());
+        EXPECT_GT(expected, 100.0);
+        const bool exact = kind == SurfaceKind::SolventAccessible;
+        EXPECT_NEAR(found, expected, (exact ? 1e-4 : 1e-2) * expected);
+    }
+}
+
 TEST(SymmetricUnit, RefusesWhatNeedsTheWhole)
 {
     Structure s = blob({9.0, 1.0, 0.0}, 5.0, 60, 3);
