@@ -131,6 +131,18 @@ void checkPlace(const FloatGrid& grid)
         refuse(gridName(grid) + ": expected voxels within 2^26 of the origin");
 }
 
+/// Refuses values of which squares and products are no numbers.
+template<typename Iterator>
+void checkValues(const FloatGrid& grid, Iterator it)
+{
+    const double most = 1e6 * grid.voxelSize()[0];
+    for (; it; ++it) {
+        if (std::abs(double(*it)) <= most) continue;
+        refuse(gridName(grid) + (std::isfinite(*it) ? ": a value is larger than a million voxels"
+                                                    : ": a value is not a number"));
+    }
+}
+
 FloatGrid::Ptr findSpline(const openvdb::GridPtrVec& grids)
 {
     for (const auto& grid : grids) {
@@ -164,8 +176,7 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
     stored->tree().voxelizeActiveTiles();
     if (stored->tree().leafCount() == 0) refuse(gridName(*stored) + ": expected voxels, got none");
     checkPlace(*stored);
-    for (auto it = stored->cbeginValueOn(); it; ++it)
-        if (!std::isfinite(*it)) refuse(gridName(*stored) + ": a value is not a number");
+    checkValues(*stored, stored->cbeginValueOn());
 
     Surface& surface = operand.surface;
     surface.pose = pose;
@@ -173,6 +184,7 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
     if (coefficients) {
         const Pose other = poseOf(*coefficients);
         checkPlace(*coefficients);
+        checkValues(*coefficients, coefficients->cbeginValueAll());
         if ((other.shift - pose.shift).length() > 1e-3 * operand.voxel ||
             !other.turn.eq(pose.turn, 1e-5))
             refuse("grids 'surface' and 'spline': expected one origin and direction, got two");

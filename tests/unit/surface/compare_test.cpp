@@ -152,6 +152,20 @@ TEST(OperandOfGrids, BadGrids)
 // A run and what it leaves in a file are the same surface: exactly with the spline, nearly from the
 // level set, which was made a distance again.
 /// A tile of a few bytes would become 2^36 voxels.
+// Found by fuzzing: the distances to such a surface were no numbers.
+TEST(OperandOfGrids, ValuesHaveALimit)
+{
+    for (const float value : {1e7f, -3e38f}) {
+        const auto grid = sphereGrid(3.0, centre, 0.5, "surface");
+        grid->beginValueOn().setValue(value);
+        EXPECT_SAYS({grid}, "a million voxels");
+        const auto good = sphereGrid(3.0, centre, 0.5, "surface");
+        const auto spline = sphereGrid(3.0, centre, 0.5, "spline");
+        spline->tree().beginLeaf()->setValueOff(7, value);
+        EXPECT_SAYS(openvdb::GridPtrVec({good, spline}), "a million voxels");
+    }
+}
+
 TEST(OperandOfGrids, TilesAreNoBand)
 {
     const auto grid = sphereGrid(3.0, centre, 0.5, "surface");
