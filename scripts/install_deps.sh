@@ -17,7 +17,7 @@ packages=(
 )
 test=(libgtest-dev libcgal-dev python3 python3-openvdb python3-numpy libopenvdb-tools)
 check=(clang-format libbenchmark-dev)
-optional=(blender chromium groff snakemake strace) # 1.4 GB
+optional=(blender chromium freesasa groff snakemake strace) # 1.4 GB
 # Node.js may be there from elsewhere, whose packages do not go together with Debian's.
 command -v node > /dev/null || optional+=(nodejs)
 command -v npm > /dev/null || optional+=(npm)

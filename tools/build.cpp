@@ -50,7 +50,7 @@ void writeAll(const Call& call, const BallSet& atoms, MolecularSurface& result,
 void completeReport(const Call& call, const BallSet& balls, const Report& read, Report& report)
 {
     beginReport(call, report);
-    report.voxel = call.options.voxel;
+    report.voxel = call.options.grid ? call.options.voxel : 0.0;
     for (const Instance& instance : balls.instances) {
         InstanceReport& copy = report.instances.emplace_back();
         copy.part = instance.prototype;
@@ -83,8 +83,8 @@ std::string summary(const Report& report)
                   surface.volume);
     std::string line = text;
     line += counted(std::size_t(surface.components), "component", "components") + ", ";
-    line += counted(surface.cavities.size(), "cavity", "cavities") + ", ";
-    line += counted(surface.triangles, "triangle", "triangles");
+    line += counted(surface.cavities.size(), "cavity", "cavities");
+    if (surface.triangles > 0) line += ", " + counted(surface.triangles, "triangle", "triangles");
     std::snprintf(text, sizeof text, ", %.2f s", report.seconds.back().second);
     return line + text;
 }
@@ -110,7 +110,8 @@ bool showsMesh(const std::vector<Output>& outputs)
 {
     return std::any_of(outputs.begin(), outputs.end(), [](const Output& output) {
         const Format f = output.format;
-        return f != Format::Vdb && f != Format::Json && f != Format::Usda && f != Format::Csv;
+        return f != Format::Vdb && f != Format::Json && f != Format::Usda && f != Format::Csv &&
+               f != Format::AreaTable && f != Format::Pdb && f != Format::Mmcif;
     });
 }
 
@@ -158,7 +159,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
                  const std::function<void(MolecularSurface&)>& extend, const Companions& companions)
 {
     stopIfAsked();
-    checkCost(balls, call.options, limitsOf(call), terminal);
+    if (call.options.grid) checkCost(balls, call.options, limitsOf(call), terminal);
     call.options.meshLabels = showsMesh(call.outputs);
     if (balls.instances.size() > 0 && balls.copies > 1) call.options.split = true;
     MolecularSurface result = makeSurface(balls, call.options, &terminal, warm);
@@ -166,6 +167,8 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     if (!call.quiet)
         for (const std::string& warning : result.report.warnings) say("warning: " + warning);
     completeReport(call, balls, read, result.report);
+    for (const std::string& table : call.areas)
+        result.report.tables.push_back(areaTable(table, call, balls, result));
     if (extend) extend(result);
     const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
     if (result.surface) result.surface->setCreator(creator);
@@ -203,7 +206,7 @@ Report buildSurface(const Call& call, Clock::time_point start, const Companions&
 
 int build(const Call& call, Clock::time_point start)
 {
-    if (call.memory > 0 || call.dryRun) return buildInBricks(call, start);
+    if (call.options.grid && (call.memory > 0 || call.dryRun)) return buildInBricks(call, start);
     return endOf(buildSurface(call, start));
 }
 

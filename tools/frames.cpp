@@ -10,6 +10,7 @@
 #include "molsurf/io/frame_table.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/temporary_file.h"
+#include "molsurf/io/write_table.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/frame_source.h"
 #include "molsurf/surface/velocity.h"
@@ -40,7 +41,7 @@ Call callOf(const Call& call, std::size_t file, int frame)
                whole.extension().string();
     };
     for (Output output : call.outputs) {
-        if (output.format == Format::Csv) continue;
+        if (output.format == Format::Csv || output.format == Format::AreaTable) continue;
         if (output.format == Format::Usda)
             output.of = numbered(output.of); // one file for all frames
         else
@@ -139,9 +140,15 @@ public:
             checkWritable(tableName_, true);
         }
         if (!tableName_.empty() && !call_.force) table_ = readFrameTable(tableName_);
+        for (const Output& output : call_.outputs) {
+            if (output.format != Format::AreaTable) continue;
+            checkOutput(call_, output);
+            areas_.push_back({output, std::make_unique<OutputFile>(output.path, call_.force)});
+        }
         for (std::size_t i = 0; i < source_.size(); ++i) {
             calls_.push_back(callOf(call_, i + 1, source_.number(i)));
-            done_.push_back(!call_.force && isDone(calls_[i], options_, table_, tableName_, i + 1));
+            done_.push_back(!call_.force && areas_.empty() &&
+                            isDone(calls_[i], options_, table_, tableName_, i + 1));
             if (done_[i]) continue;
             for (const Output& output : calls_[i].outputs) checkOutput(call_, output);
         }
@@ -180,8 +187,11 @@ public:
     }
 
     /// @return the exit status
-    int finish(Clock::time_point start) const
+    int finish(Clock::time_point start)
     {
+        OutputFiles tables;
+        for (auto& [output, file] : areas_) tables.push_back(std::move(file));
+        if (!tables.empty()) commitUndisturbed(tables);
         if (!call_.quiet) {
             if (!changes_.empty())
                 say("the topology is another than that before in frames " + changes_);
@@ -201,6 +211,8 @@ private:
         const Clock::time_point start = Clock::now();
         Companions table;
         if (!tableName_.empty()) table.temporaries.push_back(temporaryName(tableName_));
+        for (const auto& [output, file] : areas_)
+            table.temporaries.push_back(temporaryName(output.path));
         prepareOutputs(calls_[i], table.temporaries);
         terminal_.setPrefix("frame " + std::to_string(i + 1) + "/" + std::to_string(size()) + ": ");
         std::vector<openvdb::Vec3f> displacement;
@@ -212,6 +224,9 @@ private:
         read.seconds = {{"read", secondsSince(start)}};
         const auto extend = [&](MolecularSurface& result) {
             if (moves_) addVelocity(call_, balls, displacement, terminal_, result);
+            for (auto& [output, file] : areas_)
+                appendCsv(areaTable(output.of, call_, balls, result), source_.number(i), i == 0,
+                          *file);
         };
         FrameRow row;
         table.add = [&](const Report& report, OutputFiles& files) {
@@ -235,6 +250,11 @@ private:
     bool moves_;
     std::string tableName_, options_;
     FrameTable table_;
+    struct AreaFile {
+        Output output;
+        std::unique_ptr<OutputFile> file;
+    };
+    std::vector<AreaFile> areas_; // of all frames
     std::vector<Call> calls_;
     std::vector<bool> done_;
     WarmStart warm_;

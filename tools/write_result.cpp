@@ -12,6 +12,8 @@
 #include "molsurf/io/write_glb.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_report.h"
+#include "molsurf/io/write_structure.h"
+#include "molsurf/io/write_table.h"
 #include "molsurf/io/write_usda.h"
 #include "molsurf/io/write_usda_instances.h"
 #include "molsurf/io/write_vdb.h"
@@ -195,7 +197,24 @@ void writePicture(const Call& call, const BallSet& atoms, const Mesh& mesh, doub
              file);
 }
 
+/// The values of the atoms in the place of their B factors.
+std::vector<double> columnB(const Output& output, const BallSet& atoms,
+                            const MolecularSurface& result)
+{
+    return output.of == "residues" ? residueAreasOfBalls(atoms, result.ballAreas)
+                                   : result.ballAreas;
+}
+
 } // namespace
+
+Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
+                const MolecularSurface& result)
+{
+    if (name == "atoms") return atomTable(atoms, result);
+    if (name == "residues") return residueTable(atoms, result);
+    if (name == "contacts") return contactTable(atoms, call.contacts, result);
+    return interfaceTable(atoms, result.report);
+}
 
 std::string optionsDigest(const Call& call)
 {
@@ -301,6 +320,15 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
         writeReport(result.report, file);
         break;
     case Format::Csv: // of all frames: frames.cpp
+        break;
+    case Format::AreaTable:
+        writeCsv(areaTable(output.of, call, atoms, result), file);
+        break;
+    case Format::Pdb:
+        writePdb(atoms, columnB(output, atoms, result), file);
+        break;
+    case Format::Mmcif:
+        writeMmcif(atoms, columnB(output, atoms, result), file);
         break;
     }
 }

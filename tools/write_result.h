@@ -21,6 +21,11 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report);
 /// What a surface depends on but its atoms: 16 hexadecimal digits that change with any option.
 std::string optionsDigest(const Call& call);
 
+/// A table of areas.
+/// @param[in] name  one of areaTables()
+Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
+                const MolecularSurface& result);
+
 /// What files show of a surface besides its mesh.
 struct ShownMeshes {
     std::optional<Mesh> crisp{}; ///< the mesh, with the borders between its colours cut

@@ -98,6 +98,31 @@ struct BallLabels {
     std::vector<std::array<std::uint8_t, 3>> chainColors{};
 };
 
+/// The names of balls. Without copies of an assembly a residue is one of the file.
+struct BallNames {
+    /// A residue, as people name it.
+    struct Residue {
+        std::string chain;        ///< the author's name; in an assembly's second copy "A-2"
+        std::string labelChain;   ///< label_asym_id of mmCIF, elsewhere the same as `chain`
+        std::string name;         ///< "ALA"
+        int number = 0;           ///< the author's sequence number
+        char insertionCode = ' '; ///< ' ' if it has none
+        bool hetero = false;      ///< a ligand, an ion or a water
+    };
+
+    /// An atom, as people name it.
+    struct Atom {
+        std::string name;         ///< "CA"
+        char altloc = '\0';       ///< '\0' if it has no alternate location
+        std::uint8_t element = 0; ///< atomic number; 0: unknown
+        float occupancy = 1.0f;   ///< in [0, 1]
+    };
+
+    std::vector<Residue> residues;       ///< in the order of their first balls
+    std::vector<std::int32_t> residueOf; ///< index into `residues`, one a ball
+    std::vector<Atom> atoms;             ///< one a ball
+};
+
 /// A rule by which the Gaussians of some or all atoms are blurred to a resolution d: they fall off
 /// at the rate pi^2 / d^2, as those of the command molmap of ChimeraX, whose standard deviation is
 /// d / (pi sqrt(2)).
@@ -126,9 +151,10 @@ struct SelectOptions {
     bool hydrogens = true; ///< whether hydrogen and deuterium of the file are used
     bool hetero = true;    ///< whether ligands and ions are used
     bool waters = false;   ///< whether waters are used
-    /// The radii of the atoms: "bondi", "alvarez", "gemmi", for beads of a coarse-grained file
-    /// "martini2" or "martini3", or the path of a file with a rule on each line: "C 1.70",
-    /// "ALA CB 1.90", or with "*" for any element or residue.
+    /// The radii of the atoms: "bondi", "alvarez", "gemmi", of heavy atoms with their hydrogens
+    /// "protor" or "naccess", for beads of a coarse-grained file "martini2" or "martini3", or the
+    /// path of a file with a rule on each line: "C 1.70", "ALA CB 1.90", or with "*" for any
+    /// element or residue.
     std::string radii = "bondi";
     std::vector<CoarseRule> coarse;          ///< beads; of two rules for an atom the later one wins
     std::vector<ResolutionRule> resolutions; ///< resolutions; the later rule wins
@@ -151,6 +177,7 @@ struct SelectOptions {
     double surroundings = 20.0; ///< how far around the unit the balls lie with `bySymmetry` [Å];
                                 ///< see surroundingsOf()
     bool labels = false;        ///< whether the balls are labelled even if there are no groups
+    bool names = false;         ///< whether BallSet::names is made
     /// The bytes that the file's text may have, unpacked; 0: 4 GiB, and no more than 200 times its
     /// packed size.
     std::size_t maxInput = 0;
@@ -211,6 +238,7 @@ struct BallSet {
     std::size_t beads = 0;              ///< balls that coarse rules made
     std::size_t beadAtoms = 0;          ///< atoms that these balls stand for
     std::optional<BallLabels> labels;   ///< present if they were asked for or if there are groups
+    std::optional<BallNames> names;     ///< with SelectOptions::names
     std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue (sRGB), one a ball; empty
                                                      ///< if the caller chose none
     int model = 0;                                   ///< number of the model that was used

@@ -91,6 +91,12 @@ struct SurfaceOptions {
     bool halfFloats = false; ///< whether the grids' values are saved as 16-bit floats
     bool meshLabels = true;  ///< whether the mesh has the atom, chain and group of its vertices
     bool curvatureTotals = false; ///< whether the report has the integrals of curvature
+    bool ballAreas = false;       ///< whether MolecularSurface::ballAreas is made
+    bool contacts = false;        ///< whether MolecularSurface::contacts is made
+    /// Whether there is a grid and a mesh of it. Without them the result has what is known in
+    /// closed form, of the kinds SolventAccessible and VanDerWaals alone, with none of split,
+    /// surfaceOf, fields, fillCavities, minWall and curvatureTotals.
+    bool grid = true;
 };
 
 /// The range of SurfaceOptions::voxel [Å], and the edge above which voxels are too coarse for a

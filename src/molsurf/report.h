@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace molsurf
@@ -124,9 +125,34 @@ struct GroupReport {
 
 /// The area that two groups of atoms bury between them.
 struct InterfaceReport {
+    /// A ball whose surface another group buries.
+    struct Buried {
+        std::size_t ball = 0;  ///< its index in the caller's BallSet
+        bool ofFirst = true;   ///< whether it belongs to the first of the groups
+        double alone = 0.0;    ///< its area on the surface of its group alone [Å^2]
+        double together = 0.0; ///< its area on the surface of both [Å^2]
+    };
+
     std::string first, second; ///< names of the groups
     double area = 0.0;         ///< (A_first + A_second - A_both) / 2, each surfaced alone [Å^2]
     std::size_t count = 1;     ///< how many such there are in a whole made by symmetry
+    /// With SurfaceOptions::ballAreas the balls whose area changes; half of what they lose adds up
+    /// to `area`.
+    std::vector<Buried> buried{};
+};
+
+/// Rows of named values.
+struct Table {
+    /// A column of a table.
+    struct Column {
+        std::string name;
+        /// One value a row; a number that is none is not known.
+        std::variant<std::vector<std::string>, std::vector<std::int64_t>, std::vector<double>>
+            values;
+    };
+
+    std::string name; ///< "atoms", "residues", "contacts" or "interfaces"
+    std::vector<Column> columns;
 };
 
 /// The atoms that have one resolution.
@@ -196,6 +222,7 @@ struct Report {
     std::size_t peakMemoryBytes = 0;                     ///< of the process
     int threads = 0;                                     ///< number of threads that the run used
     std::vector<std::string> warnings;                   ///< one line each
+    std::vector<Table> tables; ///< areas by atom, by residue and so on, if its caller adds them
 
     /// Adds to the time of a stage, which may run more than once.
     /// @param[in] more  wall time [s]

@@ -12,6 +12,8 @@
 
 #include <openvdb/openvdb.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -27,6 +29,13 @@ struct SharedVertex {
     std::uint32_t other;
 };
 
+/// Two balls that touch.
+struct ContactArea {
+    std::array<std::size_t, 2> balls; ///< their indices, ascending
+    double area;                      ///< [Å^2], > 0
+    double distance;                  ///< of their centres [Å]
+};
+
 /// The surface of a molecule, as a level set and as a mesh.
 struct MolecularSurface {
     /// Signed distance from the molecular surface [Å], negative inside, on voxels of edge
@@ -36,6 +45,13 @@ struct MolecularSurface {
     std::vector<openvdb::GridBase::Ptr> fields; ///< the grids that SurfaceOptions::fields names
     Mesh mesh;                                  ///< closed, with its vertices on the surface
     std::vector<SharedVertex> shared; ///< of a symmetric unit, whose mesh is open: its border
+    /// With SurfaceOptions::ballAreas the part of the surface that belongs to each ball, in the
+    /// order of the caller's; they add up to the area of the whole [Å^2]. Solvent-accessible and
+    /// van der Waals surfaces have them as exposedAreas() gives them. A point of another surface
+    /// belongs to the ball whose own surface is nearest. Of a symmetric unit its own balls alone.
+    std::vector<double> ballAreas;
+    /// With SurfaceOptions::contacts what contactAreas() gives with the probe of the surface.
+    std::vector<ContactArea> contacts;
     Report report; ///< measures of the surface; its caller fills in command, input and the like
 };
 
@@ -81,5 +97,30 @@ MolecularSurface makeSurface(const BallSet& balls, const SurfaceOptions& options
 /// Makes the surface of balls without labels, resolutions or colours; otherwise as above.
 MolecularSurface makeSurface(const std::vector<Ball>& balls, const SurfaceOptions& options = {},
                              Progress* progress = nullptr);
+
+/// The area of every ball's sphere that no other ball covers, of balls of radius r_i + probe: with
+/// the radius of a probe the solvent-accessible area, with 0 the van der Waals area [Å^2]. They add
+/// up to the area of the union, cavities included. Of equal balls the first has the area.
+///
+/// @param[in] balls  any number; every coordinate within 1e6 Å, radii > 0, both finite
+/// @param[in] probe  added to every radius [Å]
+/// @return one area a ball, exact but for rounding and moves of 1e-9 Å
+/// @throws Error(ErrorKind::Input) that names the first ball at fault, by its index
+/// @throws Error(ErrorKind::Check) if the result contradicts itself
+/// @throws Cancelled if the progress object says so
+std::vector<double> exposedAreas(const std::vector<Ball>& balls, double probe,
+                                 const Progress& progress = Progress());
+
+/// The contacts between balls of radius r_i + probe. A contact is the facet that the cells of two
+/// balls share in the power diagram, as far as it lies in the balls: for two balls alone the disk
+/// in which their spheres meet.
+///
+/// @param[in] balls  as above
+/// @param[in] probe  added to every radius [Å]
+/// @return in ascending order of the balls, exact but for rounding
+/// @throws Error(ErrorKind::Input) that names the first ball at fault, by its index
+/// @throws Cancelled if the progress object says so
+std::vector<ContactArea> contactAreas(const std::vector<Ball>& balls, double probe,
+                                      const Progress& progress = Progress());
 
 } // namespace molsurf

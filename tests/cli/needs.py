@@ -60,6 +60,7 @@ def program(*names):
 NEEDS = {
     "blender": (program("blender"), "scripts/install_deps.sh blender"),
     "chromium": (lambda: CHROMIUM, "scripts/install_deps.sh chromium"),
+    "freesasa": (program("freesasa"), "scripts/install_deps.sh freesasa"),
     "gltf-validator": (
         lambda: NODE and runs(NODE, "-e", "require('gltf-validator')", env=NODE_ENVIRONMENT),
         "npm install --prefix build-tools gltf-validator"),

@@ -8,6 +8,7 @@
 #include "molsurf/io/scene.h"
 #include "molsurf/options.h"
 #include "molsurf/picture/draw_mesh.h"
+#include "molsurf/surface/area_tables.h"
 
 #include <cstddef>
 #include <map>
@@ -30,13 +31,29 @@ enum Verb : unsigned {
 };
 
 /// Kinds of output files.
-enum class Format { Vdb, Ply, Obj, Stl, Off, Glb, Json, Png, Html, Usda, Csv, ThreeMf };
+enum class Format {
+    Vdb,
+    Ply,
+    Obj,
+    Stl,
+    Off,
+    Glb,
+    Json,
+    Png,
+    Html,
+    Usda,
+    Csv, ///< the table of frames
+    ThreeMf,
+    AreaTable, ///< .csv
+    Pdb,       ///< atoms with their areas
+    Mmcif      ///< the same
+};
 
 /// One file to write.
 struct Output {
     std::string path; ///< "-" is standard output
     Format format;
-    std::string of;    ///< Usda: the .vdb beside it
+    std::string of; ///< Usda: the .vdb beside it; AreaTable, Pdb, Mmcif: "atoms", "residues", ...
     double turn = 0.0; ///< Png: of a turntable, beside that of the picture [degree]
 };
 
@@ -70,7 +87,9 @@ struct Call {
     Scene scene;             ///< of the .vdb and the node of the .glb
     std::string colorGroups; ///< what has colours that are no ColorBy: copy, entity or class
     bool crisp = false;      ///< mesh files have the borders between colours cut
-    bool weld = false;       ///< units of a whole share their vertices
+    std::vector<std::string> areas; ///< tables of areas in the report: "atoms", "residues", ...
+    ContactLevel contacts = ContactLevel::Residue; ///< of tables of contacts
+    bool weld = false;                             ///< units of a whole share their vertices
     bool center = false;     ///< the middle of the surface comes to the origin
     double printScale = 0.0; ///< of .stl, .obj and .3mf [mm/Å]; 0: they are in Å
     double wall = 0.0;       ///< least thickness of a print [mm]; 0: none

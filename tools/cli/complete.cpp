@@ -10,6 +10,7 @@
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/frame_source.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <charconv>
@@ -28,12 +29,26 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* fileNames = "a name that ends in .vdb, .ply, .obj, .stl, .off, .glb, .3mf, "
-                                  ".html, .json, .png or .usda";
+                                  ".html, .json, .png, .usda, .atoms.csv, .residues.csv, "
+                                  ".contacts.csv, .interfaces.csv, .pdb or .cif";
 
+/// The end of a file's name that says what it is: "ply", "atoms.csv".
 std::string endOf(const std::string& path)
 {
-    const std::string end = lowered(fs::path(path).extension().string());
-    return end.empty() ? end : end.substr(1);
+    const fs::path name = lowered(fs::path(path).filename().string());
+    const std::string end = name.extension().string();
+    if (end.empty()) return end;
+    const std::string both = name.stem().extension().string() + end;
+    return formatWords.count(both.substr(1)) ? both.substr(1) : end.substr(1);
+}
+
+/// Output::of.
+/// @param[in] word  the end of the file's name
+std::string tableOf(const std::string& word, Format format)
+{
+    if (format != Format::AreaTable && format != Format::Pdb && format != Format::Mmcif) return "";
+    const std::size_t dot = word.find('.');
+    return dot == std::string::npos ? "atoms" : word.substr(0, dot);
 }
 
 /// The files of --output.
@@ -53,11 +68,12 @@ std::vector<Output> outputsOf(const Call& call, std::initializer_list<Format> so
         const std::string real =
             path == "-" ? path : fs::weakly_canonical(fs::absolute(path), ignored).string();
         if (!seen.insert(real).second) misuse("-o " + path + " is given twice");
-        const auto found = formatWords.find(path == "-" ? call.format : endOf(path));
+        const std::string word = path == "-" ? call.format : endOf(path);
+        const auto found = formatWords.find(word);
         if (found == formatWords.end()) misuse("-o " + path + ": expected " + fileNames);
         if (std::count(some.begin(), some.end(), found->second) == 0)
             misuse("-o " + path + ": " + expected);
-        outputs.push_back({path, found->second, "", 0.0});
+        outputs.push_back({path, found->second, tableOf(word, found->second), 0.0});
     }
     return outputs;
 }
@@ -68,7 +84,7 @@ std::vector<Output> surfaceOutputs(const Call& call)
     return outputsOf(call,
                      {Format::Vdb, Format::Ply, Format::Obj, Format::Stl, Format::Off, Format::Glb,
                       Format::Json, Format::Png, Format::Html, Format::Csv, Format::ThreeMf,
-                      Format::Usda},
+                      Format::Usda, Format::AreaTable, Format::Pdb, Format::Mmcif},
                      fileNames);
 }
 
@@ -209,6 +225,48 @@ void completeFrames(Call& call)
         if (output.path == "-") misuse("--frames: expected files to write, got -");
 }
 
+/// Whether all that is asked for is known in closed form.
+bool asksForNumbers(const Call& call)
+{
+    return hasClosedForm(call.options) && !call.atoms.bySymmetry && !call.outputs.empty() &&
+           std::all_of(call.outputs.begin(), call.outputs.end(), [&](const Output& o) {
+               return o.format == Format::AreaTable || o.format == Format::Pdb ||
+                      o.format == Format::Mmcif || o.format == Format::Csv ||
+                      (o.format == Format::Json && !call.areas.empty());
+           });
+}
+
+// To be called before completeGroups().
+void completeAreas(Call& call)
+{
+    std::set<std::string> tables(call.areas.begin(), call.areas.end());
+    for (const Output& output : call.outputs)
+        if (!output.of.empty() && output.format != Format::Usda) tables.insert(output.of);
+    if (!call.areas.empty() && !writes(call, {Format::Json}))
+        call.warnings.push_back("--areas is for .json [hint: -o FILE.residues.csv]");
+    if (tables.count("contacts") == 0) warnIfGiven(call, {"contacts"}, ".contacts.csv");
+    call.options.grid = !asksForNumbers(call);
+    if (tables.empty()) return;
+    SurfaceOptions& options = call.options;
+    for (const char* option : {"coarse", "split", "surface-of", "instances"})
+        if (call.has(option)) misuse("areas of atoms and --" + std::string(option) + " together");
+    if (options.grid)
+        for (const char* option : {"memory", "dry-run"})
+            if (call.has(option))
+                misuse("areas of atoms and --" + std::string(option) + " together");
+    call.atoms.names = true;
+    options.contacts = tables.count("contacts") > 0;
+    options.ballAreas = tables.size() > std::size_t(options.contacts);
+    if (call.atoms.bySymmetry && options.ballAreas && !hasClosedForm(options))
+        misuse("areas of atoms and --by-symmetry together: expected a closed form [hint: --surface "
+               "sas or vdw]");
+    if (tables.count("interfaces") == 0) return;
+    options.interfaces = true;
+    if (call.atoms.bySymmetry) misuse("areas of interfaces and --by-symmetry together");
+    if (call.groupsFile.empty() && call.atoms.groupBy.empty() && call.colorGroups.empty())
+        call.atoms.groupBy = "chain";
+}
+
 void completeGroups(Call& call)
 {
     SurfaceOptions& options = call.options;
@@ -320,6 +378,7 @@ void completeResolutions(Call& call)
 void completeSurface(Call& call)
 {
     completeResolutions(call);
+    completeAreas(call);
     completeGroups(call);
     SurfaceOptions& options = call.options;
     if (call.has("steps") && call.has("max-steps")) misuse("--steps and --max-steps together");
@@ -366,9 +425,9 @@ void completeBatch(Call& call)
         if (found == formatWords.end() || found->second == Format::Csv ||
             found->second == Format::Usda || !seen.insert(word).second)
             misuse("--formats: expected some of vdb, ply, obj, stl, off, glb, 3mf, html, json, "
-                   "png, got '" +
+                   "png, atoms.csv, residues.csv, contacts.csv, interfaces.csv, pdb, cif, got '" +
                    call.formats + "'");
-        call.outputs.push_back({"." + word, found->second, "", 0.0});
+        call.outputs.push_back({"." + word, found->second, tableOf(word, found->second), 0.0});
     }
     std::vector<std::string>& fields = call.options.fields;
     fields.erase(std::remove(fields.begin(), fields.end(), "v"), fields.end());
@@ -399,6 +458,9 @@ void completeConvert(Call& call)
               " [hint: vdb_molsurf convert surface.vdb -o surface.ply]");
     call.outputs = surfaceOutputs(call);
     if (writes(call, {Format::Csv})) misuse("-o .csv is for --frames");
+    if (writes(call, {Format::AreaTable, Format::Pdb, Format::Mmcif}))
+        misuse("convert: a stored surface has no atoms [hint: vdb_molsurf INPUT -o "
+               "FILE.residues.csv]");
     if (writes(call, {Format::Usda})) misuse("-o .usda is for --instances");
     if (writes(call, {Format::Vdb}) && call.options.color == ColorBy::Nothing)
         misuse("-o .vdb: expected --color too, without which it would be a copy");

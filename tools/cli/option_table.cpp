@@ -12,15 +12,38 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 namespace molsurf::tool
 {
 
-const std::map<std::string, Format> formatWords = {
-    {"vdb", Format::Vdb},   {"ply", Format::Ply}, {"obj", Format::Obj},     {"stl", Format::Stl},
-    {"off", Format::Off},   {"glb", Format::Glb}, {"json", Format::Json},   {"png", Format::Png},
-    {"html", Format::Html}, {"csv", Format::Csv}, {"3mf", Format::ThreeMf}, {"usda", Format::Usda}};
+const std::map<std::string, Format> formatWords = {{"vdb", Format::Vdb},
+                                                   {"ply", Format::Ply},
+                                                   {"obj", Format::Obj},
+                                                   {"stl", Format::Stl},
+                                                   {"off", Format::Off},
+                                                   {"glb", Format::Glb},
+                                                   {"json", Format::Json},
+                                                   {"png", Format::Png},
+                                                   {"html", Format::Html},
+                                                   {"csv", Format::Csv},
+                                                   {"3mf", Format::ThreeMf},
+                                                   {"usda", Format::Usda},
+                                                   {"atoms.csv", Format::AreaTable},
+                                                   {"residues.csv", Format::AreaTable},
+                                                   {"contacts.csv", Format::AreaTable},
+                                                   {"interfaces.csv", Format::AreaTable},
+                                                   {"pdb", Format::Pdb},
+                                                   {"residues.pdb", Format::Pdb},
+                                                   {"cif", Format::Mmcif},
+                                                   {"residues.cif", Format::Mmcif}};
+
+const std::vector<std::string>& areaTables()
+{
+    static const std::vector<std::string> all = {"atoms", "residues", "contacts", "interfaces"};
+    return all;
+}
 
 const std::vector<std::string>& knownFields()
 {
@@ -238,6 +261,8 @@ constexpr auto surfaceKinds = {SurfaceKind::Variational, SurfaceKind::SolventExc
                                SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals,
                                SurfaceKind::Gaussian};
 
+constexpr auto contactLevels = {ContactLevel::Atom, ContactLevel::Residue, ContactLevel::Chain};
+
 constexpr auto colorings = {ColorBy::Nothing,          ColorBy::Chain,   ColorBy::Group,
                             ColorBy::Element,          ColorBy::Residue, ColorBy::MeanCurvature,
                             ColorBy::GaussianCurvature};
@@ -387,6 +412,9 @@ constexpr unsigned wholes = Build | Batch;                          // of whole 
 constexpr unsigned files = Build | Compare | Convert | BricksMerge; // with -o
 constexpr unsigned runs = 0xff & ~Info;
 const char* const meshFormats = "vdb, ply, obj, stl, off, glb, 3mf, html, json or png";
+const char* const buildFormats =
+    "vdb, ply, obj, stl, off, glb, 3mf, html,\njson, png, atoms.csv, residues.csv, contacts.csv, "
+    "interfaces.csv,\npdb, cif, residues.pdb or residues.cif";
 
 OptionGroup outputOptions()
 {
@@ -397,8 +425,12 @@ OptionGroup outputOptions()
     };
     const auto format = [](unsigned verbs, const std::string& words) {
         Option o{"format", 0, "WORD", "what -o - writes: " + words, "", verbs};
+        std::string list = "," + words + ","; // without spaces and the last "or"
+        for (const char* gap : {"\n", " or ", " "})
+            for (std::size_t at; (at = list.find(gap)) != std::string::npos;)
+                list.replace(at, std::strlen(gap), std::strlen(gap) == 4 ? "," : "");
         for (const auto& [name, ignored] : formatWords)
-            if (words.find(name) != std::string::npos) o.words.push_back(name);
+            if (list.find("," + name + ",") != std::string::npos) o.words.push_back(name);
         o.set = [=, known = o.words](Call& call, const Values& values) {
             call.format = lowered(values.back());
             if (!std::count(known.begin(), known.end(), call.format))
@@ -429,8 +461,10 @@ OptionGroup outputOptions()
             {output(Build, "file to write; repeats; the extension says what:\n"
                            ".vdb level set and fields; .ply .obj .stl .off .glb\n"
                            ".3mf mesh; .html page that shows it; .json report;\n"
-                           ".png picture; .usda copies, with --instances; - is\n"
-                           "standard output"),
+                           ".png picture; .usda copies, with --instances; areas as\n"
+                           "tables .atoms.csv .residues.csv .contacts.csv\n"
+                           ".interfaces.csv, and atoms .pdb .cif with them as B\n"
+                           "factors; - is standard output"),
              output(Convert, "file to write; repeats; the extension says what:\n"
                              ".ply .obj .stl .off .glb .3mf mesh; .html page;\n"
                              ".json report; .png picture; with --color .vdb, the\n"
@@ -442,7 +476,7 @@ OptionGroup outputOptions()
              output(BricksPlan, "the manifest, a name that ends in .json"),
              output(BricksMerge, "file to write; repeats; the extension says what:\n"
                                  ".vdb level set and fields, .ply mesh, .json report"),
-             folder, formats, format(Build | Convert, meshFormats),
+             folder, formats, format(Build, buildFormats), format(Convert, meshFormats),
              format(Compare | BricksMerge, "vdb, ply or json"),
              force(files | BricksPlan, "replace existing files"),
              force(Batch, "do all again, and replace existing files"),
@@ -750,6 +784,26 @@ OptionGroup groupOptions()
                "", Convert)}};
 }
 
+OptionGroup areaOptions()
+{
+    Option areas{
+        "areas",     0,
+        "LIST",      "tables for the report, by commas: atoms, residues,\ncontacts, interfaces",
+        "",          wholes,
+        areaTables()};
+    areas.set = [](Call& call, const Values& values) {
+        call.areas = splitWords(lowered(values.back()));
+        for (const std::string& table : call.areas)
+            if (std::count(areaTables().begin(), areaTables().end(), table) == 0)
+                wrong("areas", "some of " + joinWords(areaTables(), ", "), values.back(),
+                      didYouMean(table, areaTables()));
+    };
+    return {"Areas",
+            {areas, word("contacts", "LEVEL",
+                         "contact areas between atoms, residues or chains: atom,\nresidue, chain",
+                         wholes, OF(contacts), contactLevels)}};
+}
+
 OptionGroup sceneOptions()
 {
     Option host{"for",
@@ -909,8 +963,9 @@ bool Call::drawsLegend() const
 const std::vector<OptionGroup>& optionTable()
 {
     static const std::vector<OptionGroup> all = {
-        outputOptions(), atomOptions(),  frameOptions(),   surfaceOptions(), resolutionOptions(),
-        groupOptions(),  sceneOptions(), pictureOptions(), flowOptions(),    runOptions()};
+        outputOptions(),     atomOptions(),  frameOptions(), surfaceOptions(),
+        resolutionOptions(), groupOptions(), areaOptions(),  sceneOptions(),
+        pictureOptions(),    flowOptions(),  runOptions()};
     return all;
 }
 

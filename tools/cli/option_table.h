@@ -54,6 +54,9 @@ const std::vector<std::string>& knownFields();
 /// The formats that a word or the end of a file's name can mean.
 extern const std::map<std::string, Format> formatWords;
 
+/// The tables of areas: "atoms", "residues", "contacts", "interfaces".
+const std::vector<std::string>& areaTables();
+
 /// A number with the fewest digits that give it back.
 std::string shortest(double number);
 

@@ -338,4 +338,15 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
     return out;
 }
 
+std::vector<double> areasOfBalls(const BallBoundary& boundary, const BoundaryMeasure& measure,
+                                 std::size_t count)
+{
+    std::vector<double> areas(count, 0.0);
+    for (std::size_t p = 0; p < boundary.patches.size(); ++p) {
+        const PlacedBall& ball = boundary.balls[std::size_t(boundary.patches[p].ball)];
+        areas[std::size_t(ball.index)] += measure.patchAreas[p];
+    }
+    return areas;
+}
+
 } // namespace molsurf

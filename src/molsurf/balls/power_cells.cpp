@@ -137,20 +137,35 @@ double facetArea(double radius, const Neighbour& neighbour, const std::vector<Ne
     return std::max(area, 0.0);
 }
 
+/// Calls a function with each neighbour that a ball shares a facet with, and the facet's area.
+template<typename Visit>
+void forEachFacet(const std::vector<Ball>& balls, const BallIndex& index, std::int32_t i,
+                  const Visit& visit)
+{
+    const Ball& ball = balls[std::size_t(i)];
+    std::vector<Neighbour> neighbours;
+    if (!findNeighbours(ball, i, index, neighbours)) return;
+    std::vector<Vec2d> polygon, scratch;
+    for (const Neighbour& other : neighbours) {
+        if (other.repeats) continue;
+        const double area = facetArea(double(ball.radius), other, neighbours, polygon, scratch);
+        if (area > 0.0) visit(other, area);
+    }
+}
+
 } // namespace
 
 PowerCells powerCells(const std::vector<Ball>& balls, const Progress& progress)
 {
     PowerCells out;
     out.volumes.resize(balls.size());
-    out.areas.resize(balls.size());
     out.euler.resize(balls.size());
     if (balls.empty()) return out;
     const BallBoundary boundary = ballBoundary(balls, 0.0, progress);
     const BoundaryMeasure measure = measureBoundary(boundary, progress);
+    out.areas = areasOfBalls(boundary, measure, balls.size());
     for (std::size_t p = 0; p < boundary.patches.size(); ++p) {
         const PlacedBall& ball = boundary.balls[std::size_t(boundary.patches[p].ball)];
-        out.areas[std::size_t(ball.index)] += measure.patchAreas[p];
         out.euler[std::size_t(ball.index)] += measure.patchEuler[p];
     }
     const BallIndex index(balls, {1.0, 0.0, 1.0});
@@ -162,23 +177,35 @@ PowerCells powerCells(const std::vector<Ball>& balls, const Progress& progress)
     std::vector<Part> parts(balls.size());
     parallelFor(balls.size(), progress, [&](std::size_t n) {
         const auto i = std::int32_t(n);
-        const double radius = double(balls[n].radius);
-        std::vector<Neighbour> neighbours;
-        if (!findNeighbours(balls[n], i, index, neighbours)) return;
-        parts[n].flux = radius * out.areas[n];
-        std::vector<Vec2d> polygon, scratch;
-        for (const Neighbour& other : neighbours) {
-            if (other.repeats) continue;
-            const double area = facetArea(radius, other, neighbours, polygon, scratch);
-            if (area <= 0.0) continue;
-            parts[n].flux += other.height * area;
-            if (other.i > i) parts[n].facets.push_back({{i, other.i}, area, other.distance});
-        }
+        Part& part = parts[n];
+        part.flux = double(balls[n].radius) * out.areas[n];
+        forEachFacet(balls, index, i, [&](const Neighbour& other, double area) {
+            part.flux += other.height * area;
+            if (other.i > i) part.facets.push_back({{i, other.i}, area, other.distance});
+        });
     });
     for (std::size_t n = 0; n < balls.size(); ++n) {
         out.volumes[n] = std::max(parts[n].flux / 3.0, 0.0);
         out.facets.insert(out.facets.end(), parts[n].facets.begin(), parts[n].facets.end());
     }
+    return out;
+}
+
+std::vector<PowerFacet> powerFacets(const std::vector<Ball>& balls, const Progress& progress)
+{
+    const BallIndex index(balls, {1.0, 0.0, 1.0});
+    std::vector<std::vector<PowerFacet>> parts(balls.size());
+    parallelFor(balls.size(), progress, [&](std::size_t n) {
+        const auto i = std::int32_t(n);
+        forEachFacet(balls, index, i, [&](const Neighbour& other, double area) {
+            if (other.i > i) parts[n].push_back({{i, other.i}, area, other.distance});
+        });
+        std::sort(parts[n].begin(), parts[n].end(),
+                  [](const PowerFacet& a, const PowerFacet& b) { return a.balls[1] < b.balls[1]; });
+    });
+    std::vector<PowerFacet> out;
+    for (const std::vector<PowerFacet>& part : parts)
+        out.insert(out.end(), part.begin(), part.end());
     return out;
 }
 

@@ -35,4 +35,7 @@ struct PowerCells {
 /// part and the facets.
 PowerCells powerCells(const std::vector<Ball>& balls, const Progress& progress);
 
+/// The facets alone, in ascending order of their balls.
+std::vector<PowerFacet> powerFacets(const std::vector<Ball>& balls, const Progress& progress);
+
 } // namespace molsurf

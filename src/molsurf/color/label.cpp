@@ -90,13 +90,12 @@ openvdb::GridBase::Ptr colorGrid(const openvdb::FloatGrid& surface, bool inside,
     return grid;
 }
 
-std::vector<double> groupAreas(const std::vector<Ball>& balls, const BallLabels& labels,
-                               const Labels& nearest, const Mesh& mesh)
+std::vector<double> memberAreas(const std::vector<Ball>& balls, const Labels& memberOf,
+                                std::size_t members, const Labels& nearest, const Mesh& mesh)
 {
-    const std::size_t other = labels.groups.size();
+    const std::size_t other = members;
     const auto groupOf = [&](std::uint32_t vertex) {
-        const std::int32_t g =
-            nearest[vertex] < 0 ? -1 : labels.groupOf[std::size_t(nearest[vertex])];
+        const std::int32_t g = nearest[vertex] < 0 ? -1 : memberOf[std::size_t(nearest[vertex])];
         return g < 0 ? other : std::size_t(g);
     };
     const auto distance = [&](std::uint32_t from, std::uint32_t owner) {

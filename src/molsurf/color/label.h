@@ -52,9 +52,11 @@ openvdb::GridBase::Ptr colorGrid(const openvdb::FloatGrid& surface, bool inside,
 
 /// The area of every group, and at last of no group, on a mesh [Å^2]. A triangle of two groups is
 /// cut where it is equally far from the balls of both.
-/// @param[in] nearest  ball of each vertex
-std::vector<double> groupAreas(const std::vector<Ball>& balls, const BallLabels& labels,
-                               const Labels& nearest, const Mesh& mesh);
+/// @param[in] memberOf  group of each ball, or -1
+/// @param[in] members   how many groups there are
+/// @param[in] nearest   ball of each vertex
+std::vector<double> memberAreas(const std::vector<Ball>& balls, const Labels& memberOf,
+                                std::size_t members, const Labels& nearest, const Mesh& mesh);
 
 /// One point in every cell of a lattice, if inside the surface. Cells are an Å wide, smaller if the
 /// volume is small, and larger if it is very large; the places in them vary, so that borders along

@@ -2,11 +2,11 @@
 #include "molsurf/io/batch_summary.h"
 
 #include "molsurf/error.h"
+#include "molsurf/io/write_table.h"
 
 #include <nlohmann/json.hpp>
 
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -23,17 +23,6 @@ void put(const std::string& text, OutputFile& file)
 {
     file.write(text.data(), text.size());
     file.finish();
-}
-
-// A name of the user's as a cell. Spreadsheets would take some for formulas.
-std::string cell(const std::string& name)
-{
-    const bool formula = !name.empty() && std::strchr("=+-@\t\r", name[0]);
-    const std::string text = formula ? "'" + name : name;
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string out = "\"";
-    for (const char letter : text) out += letter == '"' ? "\"\"" : std::string(1, letter);
-    return out + "\"";
 }
 
 template<typename T>
@@ -72,9 +61,9 @@ void writeSummaryCsv(const BatchSummary& summary, OutputFile& file)
     std::string text = "input,status,atoms,area,volume,euler_characteristic,components,cavities,"
                        "seconds,message\n";
     for (const BatchEntry& e : summary.entries) {
-        text += cell(e.input) + "," + e.status;
+        text += csvCell(e.input) + "," + e.status;
         if (e.status == "failed") {
-            text += ",,,,,,,," + cell(e.message) + "\n";
+            text += ",,,,,,,," + csvCell(e.message) + "\n";
             continue;
         }
         text += "," + digits(e.atoms) + "," + digits(e.area) + "," + digits(e.volume) + "," +

@@ -133,6 +133,38 @@ Json symmetryJson(const SymmetryReport& s)
             {"deviation", s.deviation},    {"gap", s.gap},     {"open_vertices", s.openVertices}};
 }
 
+Json tableJson(const Table& table)
+{
+    Json out = Json::array();
+    for (const Table::Column& column : table.columns) {
+        std::visit(
+            [&](const auto& values) {
+                for (std::size_t row = 0; row < values.size(); ++row) {
+                    if (row == out.size()) out.push_back(Json::object());
+                    out[row][column.name] = values[row];
+                }
+            },
+            column.values);
+    }
+    return out;
+}
+
+Json tablesJson(const std::vector<Table>& tables)
+{
+    Json out = Json::object();
+    for (const Table& table : tables) out[table.name] = tableJson(table);
+    return out;
+}
+
+/// Forgets what is known of a mesh alone.
+void dropMesh(Json& surface)
+{
+    for (const char* name :
+         {"closed", "manifold", "degenerate_triangles", "max_residual", "gradient_share",
+          "kink_share", "mean_curvature", "gaussian_curvature"})
+        surface[name] = nullptr;
+}
+
 Json coarseJson(const CoarseReport& coarse)
 {
     return {{"beads", coarse.beads}, {"atoms", coarse.atoms}};
@@ -145,7 +177,7 @@ std::string reportText(const Report& report)
     Json seconds = Json::object();
     for (const auto& [stage, time] : report.seconds) seconds[stage] = time;
 
-    const Json json = {
+    Json json = {
         {"program", report.program},
         {"version", report.version},
         {"command", report.command},
@@ -168,6 +200,9 @@ std::string reportText(const Report& report)
         {"symmetry", report.symmetry ? symmetryJson(*report.symmetry) : Json()},
         {"warnings", report.warnings},
     };
+    if (report.voxel == 0.0) json["voxel"] = nullptr;
+    if (report.surface.triangles == 0) dropMesh(json["surface"]);
+    if (!report.tables.empty()) json["areas"] = tablesJson(report.tables);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -2,6 +2,7 @@
 #include "molsurf/selection/ball_values.h"
 
 #include "molsurf/error.h"
+#include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/scalar_map.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/text_fields.h"
@@ -83,9 +84,8 @@ float hydrophobicityOf(const std::string& residue)
         {"ILE", 4.5f},  {"VAL", 4.2f},  {"LEU", 3.8f},  {"PHE", 2.8f},  {"CYS", 2.5f},
         {"MET", 1.9f},  {"ALA", 1.8f},  {"GLY", -0.4f}, {"THR", -0.7f}, {"SER", -0.8f},
         {"TRP", -0.9f}, {"TYR", -1.3f}, {"PRO", -1.6f}, {"HIS", -3.2f}, {"GLU", -3.5f},
-        {"GLN", -3.5f}, {"ASP", -3.5f}, {"ASN", -3.5f}, {"LYS", -3.9f}, {"ARG", -4.5f},
-        {"MSE", 1.9f}};
-    const auto found = scale.find(residue);
+        {"GLN", -3.5f}, {"ASP", -3.5f}, {"ASN", -3.5f}, {"LYS", -3.9f}, {"ARG", -4.5f}};
+    const auto found = scale.find(parentResidue(residue));
     return found == scale.end() ? missing : found->second;
 }
 

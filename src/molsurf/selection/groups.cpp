@@ -2,6 +2,7 @@
 #include "molsurf/selection/groups.h"
 
 #include "molsurf/error.h"
+#include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/match_atoms.h"
 
 #include <nlohmann/json.hpp>
@@ -103,17 +104,17 @@ ResidueClass classOf(const std::string& name)
         const auto add = [&](ResidueClass c, std::initializer_list<const char*> names) {
             for (const char* n : names) out[n] = c;
         };
-        add(ResidueClass::Hydrophobic, {"ALA", "VAL", "LEU", "ILE", "MET", "MSE"});
+        add(ResidueClass::Hydrophobic, {"ALA", "VAL", "LEU", "ILE", "MET"});
         add(ResidueClass::Aromatic, {"PHE", "TYR", "TRP"});
         add(ResidueClass::Polar, {"SER", "THR", "ASN", "GLN"});
-        add(ResidueClass::Positive, {"LYS", "ARG", "HIS", "HID", "HIE", "HIP"});
+        add(ResidueClass::Positive, {"LYS", "ARG", "HIS"});
         add(ResidueClass::Negative, {"ASP", "GLU"});
-        add(ResidueClass::Special, {"GLY", "PRO", "CYS", "CYX", "SEC"});
+        add(ResidueClass::Special, {"GLY", "PRO", "CYS", "SEC"});
         add(ResidueClass::Nucleic,
             {"A", "C", "G", "U", "T", "I", "N", "DA", "DC", "DG", "DT", "DU"});
         return out;
     }();
-    const auto found = classes.find(name);
+    const auto found = classes.find(parentResidue(name));
     return found == classes.end() ? ResidueClass::Other : found->second;
 }
 

@@ -2,6 +2,7 @@
 #include "molsurf/selection/radii.h"
 
 #include "molsurf/error.h"
+#include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/text_fields.h"
@@ -105,6 +106,98 @@ RadiiSet martiniSet(const Martini& martini)
     return set;
 }
 
+/// The types of the heavy atoms of residues, which stand for their hydrogens, too: carbon with
+/// three neighbours (c; d with a hydrogen) or four (q), nitrogen (n; l with four neighbours),
+/// oxygen with one (o) or two (h), sulfur (s), selenium (e), phosphorus (p). Atom and type in turn.
+struct AtomTypes {
+    const char* residue;
+    string_view types;
+};
+
+constexpr string_view proteinBackbone = "N n CA q C c O o OXT h OT1 o OT2 h";
+constexpr AtomTypes aminoAcids[] = {
+    {"ALA", "CB q"},
+    {"ARG", "CB q CG q CD q NE n CZ c NH1 n NH2 n"},
+    {"ASN", "CB q CG c OD1 o ND2 n"},
+    {"ASP", "CB q CG c OD1 o OD2 h"},
+    {"CYS", "CB q SG s"},
+    {"GLN", "CB q CG q CD c OE1 o NE2 n"},
+    {"GLU", "CB q CG q CD c OE1 o OE2 h"},
+    {"GLY", ""},
+    {"HIS", "CB q CG c ND1 n CD2 d CE1 d NE2 n"},
+    {"ILE", "CB q CG1 q CG2 q CD1 q CD q"},
+    {"LEU", "CB q CG q CD1 q CD2 q"},
+    {"LYS", "CB q CG q CD q CE q NZ l"},
+    {"MET", "CB q CG q SD s CE q"},
+    {"PHE", "CB q CG c CD1 d CD2 d CE1 d CE2 d CZ d"},
+    {"PRO", "CB q CG q CD q"},
+    {"SER", "CB q OG h"},
+    {"THR", "CB q OG1 h CG2 q"},
+    {"TRP", "CB q CG c CD1 d CD2 c NE1 n CE2 c CE3 d CZ2 d CZ3 d CH2 d"},
+    {"TYR", "CB q CG c CD1 d CD2 d CE1 d CE2 d CZ c OH h"},
+    {"VAL", "CB q CG1 q CG2 q"},
+    {"MSE", "CB q CG q SE e CE q"},
+    {"SEC", "CB q SE e"},
+};
+
+constexpr string_view nucleicBackbone =
+    "P p OP1 o OP2 h OP3 h O1P o O2P h O3P h O5' h C5' q C4' q O4' h C3' q O3' h C2' q C1' q O2' h";
+constexpr AtomTypes nucleotides[] = {
+    {"A", "N9 n C8 d N7 n C5 c C6 c N6 n N1 n C2 d N3 n C4 c"},
+    {"G", "N9 n C8 d N7 n C5 c C6 c O6 o N1 n C2 c N2 n N3 n C4 c"},
+    {"C", "N1 n C2 c O2 o N3 n C4 c N4 n C5 d C6 d"},
+    {"U", "N1 n C2 c O2 o N3 n C4 c O4 o C5 d C6 d"},
+    {"T", "N1 n C2 c O2 o N3 n C4 c O4 o C5 c C7 q C6 d C5M q"},
+    {"I", "N9 n C8 d N7 n C5 c C6 c O6 o N1 n C2 d N3 n C4 c"},
+};
+
+/// Radii by type [Å], of proteins and of nucleic acids.
+struct UnitedAtoms {
+    const char* name;
+    string_view protein, nucleic;
+};
+
+// J. Tsai, R. Taylor, C. Chothia, M. Gerstein, The packing density in proteins: standard radii and
+// volumes, J. Mol. Biol. 290 (1999) 253, doi 10.1006/jmbi.1999.2829; nucleotides, selenium and
+// phosphorus by the same types as FreeSASA has them (S. Mitternacht, F1000Research 5 (2016) 189).
+constexpr UnitedAtoms protor{
+    "protor", "c 1.61 d 1.76 q 1.88 n 1.64 l 1.64 o 1.42 h 1.46 s 1.77 e 1.90 p 1.80",
+    "c 1.61 d 1.76 q 1.88 n 1.64 l 1.64 o 1.42 h 1.46 s 1.77 e 1.90 p 1.80"};
+
+// S. J. Hubbard, J. M. Thornton, NACCESS, University College London (1993); its proteins are those
+// of C. Chothia, The nature of the accessible and buried surfaces in proteins, J. Mol. Biol. 105
+// (1976) 1, doi 10.1016/0022-2836(76)90191-1.
+constexpr UnitedAtoms naccess{
+    "naccess", "c 1.76 d 1.76 q 1.87 n 1.65 l 1.50 o 1.40 h 1.40 s 1.85 e 1.80 p 1.90",
+    "c 1.80 d 1.80 q 1.80 n 1.60 l 1.60 o 1.40 h 1.40 s 1.85 e 1.80 p 1.90"};
+
+RadiiSet unitedSet(const UnitedAtoms& united)
+{
+    RadiiSet set;
+    set.name = united.name;
+    const auto add = [&](const std::string& residue, string_view types, string_view radii) {
+        const Fields atoms = splitFields(types), known = splitFields(radii);
+        for (std::size_t i = 0; i + 1 < atoms.size(); i += 2) {
+            double radius = 0;
+            for (std::size_t k = 0; k + 1 < known.size(); k += 2)
+                if (known[k] == atoms[i + 1]) parseNumber(known[k + 1], radius);
+            set.atoms[{residue, std::string(atoms[i])}] = float(radius);
+        }
+    };
+    for (const AtomTypes& residue : aminoAcids) {
+        add(residue.residue, proteinBackbone, united.protein);
+        add(residue.residue, residue.types, united.protein);
+    }
+    for (const AtomTypes& residue : nucleotides) {
+        for (const char* sugar : {"", "D"}) {
+            add(sugar + std::string(residue.residue), nucleicBackbone, united.nucleic);
+            add(sugar + std::string(residue.residue), residue.types, united.nucleic);
+        }
+    }
+    set.elements[1] = -1.0f; // hydrogens belong to their heavy atoms
+    return set;
+}
+
 /// Sets the radii of a table where there are none yet.
 void fill(ElementRadii& radii, const Table& table)
 {
@@ -202,6 +295,15 @@ std::string describe(const RadiiSet& set, const char* source)
     return text + "\n";
 }
 
+std::string describe(const UnitedAtoms& united, const char* source)
+{
+    return std::string(united.name) + ": " + source +
+           "\n  c, d, q: carbon with three neighbours, with one hydrogen, with four; n, l:"
+           "\n  nitrogen, with four neighbours; o, h: oxygen with one, with two; s, e, p [Å]"
+           "\n  protein " +
+           std::string(united.protein) + "\n  nucleic acid " + std::string(united.nucleic) + "\n";
+}
+
 std::string describe(const Martini& martini, const char* source)
 {
     char text[80];
@@ -219,7 +321,7 @@ float RadiiSet::find(const std::string& residue, const std::string& atom,
 {
     constexpr float none = -1.0f;
     if (!atoms.empty()) {
-        for (const std::string& name : {residue, std::string("*")}) {
+        for (const std::string& name : {residue, parentResidue(residue), std::string("*")}) {
             const auto found = atoms.find({name, atom});
             if (found != atoms.end()) return found->second;
         }
@@ -236,11 +338,13 @@ RadiiSet readRadii(const std::string& name)
     if (name == "gemmi") return gemmiSet();
     if (name == martini2.name) return martiniSet(martini2);
     if (name == martini3.name) return martiniSet(martini3);
+    if (name == protor.name) return unitedSet(protor);
+    if (name == naccess.name) return unitedSet(naccess);
     std::error_code status;
     if (!std::filesystem::exists(name, status)) {
         throw Error(ErrorKind::Input,
-                    "radii: expected bondi, alvarez, gemmi, martini, martini2, martini3 or a "
-                    "file that exists, got " +
+                    "radii: expected bondi, alvarez, gemmi, protor, naccess, martini, martini2, "
+                    "martini3 or a file that exists, got " +
                         inQuotes(name));
     }
     return readFile(name);
@@ -255,6 +359,11 @@ std::string describeRadii()
            "\n" + describe(alvarezSet(), "S. Alvarez, Dalton Trans. 42 (2013) 8617 [Å]") + "\n" +
            describe(gemmiSet(), "the table of gemmi: Bondi and Mantina, the others from cctbx;\n"
                                 "  metals are much smaller than in the other sets [Å]") +
+           "\n" +
+           describe(protor, "heavy atoms with their hydrogens, which are dropped; J. Tsai et al.,\n"
+                            "  J. Mol. Biol. 290 (1999) 253") +
+           "\n" +
+           describe(naccess, "the same of NACCESS (1993): C. Chothia, J. Mol. Biol. 105 (1976) 1") +
            "\n" +
            describe(martini2,
                     "beads by name and residue, r = 2^(1/6) sigma / 2; Monticelli et al.,\n"

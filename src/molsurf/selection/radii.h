@@ -34,15 +34,16 @@ struct RadiiSet {
 
 /// A built-in set, or the content of a file.
 ///
-/// Sets: "bondi", "alvarez", "gemmi", and for beads "martini2" and "martini3"; see describeRadii().
-/// A file has one rule a line, in Å:
+/// Sets: "bondi", "alvarez", "gemmi"; of heavy atoms with their hydrogens "protor" and "naccess";
+/// for beads "martini2" and "martini3"; see describeRadii(). A file has one rule a line, in Å:
 ///
 ///     C        1.70      # an element
 ///     *        1.80      # any atom that no other rule covers
 ///     ALA  CB  1.90      # an atom of a residue
 ///     *    CA  1.88      # an atom of any residue
 ///
-/// An atom of a named residue comes first, then `* ATOM`, then the element, then `*`. A later line
+/// An atom of a named residue comes first, then that of the residue it is a form of (HIS for HID),
+/// then `* ATOM`, then the element, then `*`. A later line
 /// replaces an equal earlier one. 0 leaves the atom out.
 ///
 /// @throws Error(ErrorKind::Input) if `name` is neither a set nor a file that can be read, or, with

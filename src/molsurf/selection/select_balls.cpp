@@ -2,6 +2,7 @@
 #include "molsurf/selection/select_balls.h"
 
 #include "molsurf/error.h"
+#include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/ball_values.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/choose_locations.h"
@@ -580,6 +581,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
                             out.labels->warnings.end());
     }
     if (!options.valueBy.empty()) addValues(structure, options, probe, out);
+    if (options.names) out.names = ballNames(structure, out.balls, out.copyBegin, out.copyNumbers);
     if (out.unit) countWhole(out);
     return out;
 }

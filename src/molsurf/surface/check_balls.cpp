@@ -27,10 +27,8 @@ std::size_t availableMemory()
     return bytes;
 }
 
-void checkBalls(const std::vector<Ball>& balls, const SurfaceOptions& options, Pieces pieces,
-                std::size_t memory)
+void checkFinite(const std::vector<Ball>& balls)
 {
-    if (balls.empty()) throw Error(ErrorKind::Input, "no atoms");
     constexpr float farthest = 1e6f; // [Å]
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const Ball& b = balls[i];
@@ -43,6 +41,14 @@ void checkBalls(const std::vector<Ball>& balls, const SurfaceOptions& options, P
                         (placed ? ": expected a radius above 0 Å, got " + std::to_string(b.radius)
                                 : ": expected coordinates within 1e6 Å"));
     }
+}
+
+void checkBalls(const std::vector<Ball>& balls, const SurfaceOptions& options, Pieces pieces,
+                std::size_t memory)
+{
+    if (balls.empty()) throw Error(ErrorKind::Input, "no atoms");
+    checkFinite(balls);
+    if (!options.grid) return;
 
     // The band of the surface has 6 voxels across. A run took 59 bytes for each at the least, on a
     // ball of 200 Å; the merge of bricks takes 7.

@@ -21,8 +21,12 @@ std::size_t availableMemory();
 /// merge needs.
 enum class Pieces { One, Bricks };
 
-/// Checks that there are balls, that they are finite, and that the largest one fits: the surface of
-/// the whole is at least as large as its own.
+/// Checks that balls have places and radii that can be computed with.
+/// @throws Error(ErrorKind::Input) that names the first ball at fault, by its index
+void checkFinite(const std::vector<Ball>& balls);
+
+/// Checks that there are balls, that they are finite, and that the largest one fits in a grid: the
+/// surface of the whole is at least as large as its own.
 ///
 /// @param[in] memory  that there is [byte]
 /// @throws Error(ErrorKind::Input) that names the first ball at fault, by its index, or says what

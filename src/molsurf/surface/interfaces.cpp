@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/interfaces.h"
 
-#include "molsurf/balls/boundary_check.h"
 #include "molsurf/balls/contacts.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/surface/influence.h"
 #include "molsurf/surface/parts.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -19,23 +21,48 @@ namespace molsurf
 namespace
 {
 
-double areaOf(const BallSet& atoms, const SurfaceOptions& options, const Progress& progress)
+/// A surface of some balls, by the balls that its parts belong to.
+struct Areas {
+    double total = 0.0;
+    std::vector<double> ofBalls; ///< in closed form, or if the options ask for them; else empty
+};
+
+Areas areasOf(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
-    if (options.kind == SurfaceKind::SolventAccessible ||
-        options.kind == SurfaceKind::VanDerWaals) {
-        const double probe = options.kind == SurfaceKind::SolventAccessible ? options.probe : 0.0;
-        double area = 0.0;
-        const BallBoundary boundary = ballBoundary(atoms.balls, probe, progress);
-        const BoundaryMeasure measure = measureBoundary(boundary, progress);
-        checkBoundary(boundary, measure, progress);
-        for (const double patch : measure.patchAreas) area += patch;
-        return area;
+    if (isClosedForm(options)) {
+        std::vector<double> areas = exposedAreas(atoms.balls, grownBy(options), progress);
+        return {std::accumulate(areas.begin(), areas.end(), 0.0), std::move(areas)};
     }
     QuietProgress quiet(progress);
-    return makeSurface(atoms, options, &quiet).report.surface.area;
+    MolecularSurface made = makeSurface(atoms, options, &quiet);
+    return {made.report.surface.area, std::move(made.ballAreas)};
+}
+
+/// What two groups bury of each other's balls.
+/// @param[in] groups    indices of their balls, ascending
+/// @param[in] alone     areas of each group alone
+/// @param[in] together  of both, the balls in ascending order
+/// @param[in] least     change of a ball that counts [Å^2]
+std::vector<InterfaceReport::Buried>
+buriedBalls(const std::array<const std::vector<std::size_t>*, 2>& groups,
+            const std::array<const Areas*, 2>& alone, const Areas& together, double least)
+{
+    std::vector<InterfaceReport::Buried> out;
+    std::array<std::size_t, 2> next = {0, 0};
+    for (const double area : together.ofBalls) {
+        const auto atEnd = [&](std::size_t g) { return next[g] == groups[g]->size(); };
+        const std::size_t g =
+            atEnd(0) || (!atEnd(1) && (*groups[1])[next[1]] < (*groups[0])[next[0]]) ? 1 : 0;
+        const double before = alone[g]->ofBalls[next[g]];
+        if (std::abs(before - area) > least)
+            out.push_back({(*groups[g])[next[g]], g == 0, before, area});
+        ++next[g];
+    }
+    return out;
 }
 
 constexpr double noticeable = 0.005; // [Å^2]
+constexpr double rounding = 1e-10;   // of an area in closed form [Å^2]
 
 SurfaceOptions plainOptions(const SurfaceOptions& options)
 {
@@ -44,7 +71,8 @@ SurfaceOptions plainOptions(const SurfaceOptions& options)
     plain.surfaceOf.clear();
     plain.fields.clear();
     plain.color = ColorBy::Nothing;
-    plain.curvatureTotals = false;
+    plain.curvatureTotals = plain.contacts = false;
+    plain.grid = true;
     return plain;
 }
 
@@ -84,7 +112,7 @@ void measureUnitInterfaces(const BallSet& atoms, const SurfaceOptions& options, 
     std::map<std::size_t, double> alone;
     const auto aloneOf = [&](std::size_t member) {
         const auto [found, isNew] = alone.emplace(member, 0.0);
-        if (isNew) found->second = areaOf(subset(balls, members[member]), plain, progress);
+        if (isNew) found->second = areasOf(subset(balls, members[member]), plain, progress).total;
         return found->second;
     };
     for (std::size_t a = 0; a < groups; ++a) {
@@ -95,14 +123,14 @@ void measureUnitInterfaces(const BallSet& atoms, const SurfaceOptions& options, 
             const std::size_t back = unit.inverse[m];
             if (b < a || (b == a && back < m) || member == a) continue;
             const double both =
-                areaOf(subset(balls, merged(members[a], members[member])), plain, progress);
+                areasOf(subset(balls, merged(members[a], members[member])), plain, progress).total;
             const double area = (aloneOf(a) + aloneOf(member) - both) / 2.0;
             if (std::abs(area) < noticeable) continue;
             const bool mirrored = b == a && back == m;
             std::string name = atoms.labels->groups[b].name;
             if (m != 0) name += " of unit " + atoms.instances[m].name;
             report.interfaces.push_back(
-                {atoms.labels->groups[a].name, name, area, mirrored ? order / 2 : order});
+                {atoms.labels->groups[a].name, name, area, mirrored ? order / 2 : order, {}});
         }
     }
 }
@@ -125,22 +153,28 @@ void measureInterfaces(const BallSet& atoms, const SurfaceOptions& options, Prog
         progress.update("interfaces", double(done) / double(runs));
         done += count;
     };
-    std::vector<double> alone(labels.groups.size(), 0.0);
+    std::vector<Areas> alone(labels.groups.size());
     for (std::size_t g = 0; g < alone.size(); ++g) {
         tick(1);
         if (balls[g].empty()) continue;
-        alone[g] = areaOf(subset(atoms, balls[g]), plain, progress);
-        report.groups[g].aloneArea = alone[g];
+        alone[g] = areasOf(subset(atoms, balls[g]), plain, progress);
+        report.groups[g].aloneArea = alone[g].total;
     }
     for (std::size_t a = 0; a < near.size(); ++a) {
         for (const std::int32_t other : near[a]) {
             const auto b = std::size_t(other);
             if (b <= a) continue;
             tick(2);
-            const double both = areaOf(subset(atoms, merged(balls[a], balls[b])), plain, progress);
-            const double area = (alone[a] + alone[b] - both) / 2.0;
+            const Areas both = areasOf(subset(atoms, merged(balls[a], balls[b])), plain, progress);
+            const double area = (alone[a].total + alone[b].total - both.total) / 2.0;
             if (std::abs(area) < noticeable) continue;
-            report.interfaces.push_back({labels.groups[a].name, labels.groups[b].name, area, 1});
+            InterfaceReport& found = report.interfaces.emplace_back();
+            found.first = labels.groups[a].name;
+            found.second = labels.groups[b].name;
+            found.area = area;
+            if (options.ballAreas)
+                found.buried = buriedBalls({&balls[a], &balls[b]}, {&alone[a], &alone[b]}, both,
+                                           isClosedForm(options) ? rounding : noticeable);
         }
     }
 }

@@ -8,6 +8,9 @@
 #include "molsurf/color/value_colors.h"
 #include "molsurf/surface/extra_grids.h"
 
+#include <numeric>
+#include <utility>
+
 namespace molsurf
 {
 
@@ -16,19 +19,38 @@ using openvdb::Vec3f;
 namespace
 {
 
+/// Values that add up to a whole.
+std::vector<double> scaled(std::vector<double> parts, double whole)
+{
+    double sum = 0.0;
+    for (const double p : parts) sum += p;
+    for (double& p : parts) p *= sum > 0.0 ? whole / sum : 0.0;
+    return parts;
+}
+
+/// The sum of each group's balls, and at last of those without one.
+std::vector<double> groupSums(const BallLabels& labels, const std::vector<double>& values)
+{
+    std::vector<double> out(labels.groups.size() + 1, 0.0);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::int32_t g = labels.groupOf[i];
+        out[g < 0 ? labels.groups.size() : std::size_t(g)] += values[i];
+    }
+    return out;
+}
+
 void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Labels& nearest,
                   double reach, Progress& progress, MolecularSurface& result)
 {
     const BallLabels& labels = *atoms.labels;
     const std::size_t other = labels.groups.size();
-    const auto scaled = [](std::vector<double> parts, double whole) {
-        double sum = 0.0;
-        for (const double p : parts) sum += p;
-        for (double& p : parts) p *= sum > 0.0 ? whole / sum : 0.0;
-        return parts;
-    };
-    const std::vector<double> area =
-        scaled(groupAreas(atoms.balls, labels, nearest, result.mesh), result.report.surface.area);
+    std::vector<double> area;
+    if (result.ballAreas.empty()) {
+        area = scaled(memberAreas(atoms.balls, labels.groupOf, other, nearest, result.mesh),
+                      result.report.surface.area);
+    } else {
+        area = groupSums(labels, result.ballAreas);
+    }
     std::vector<double> points(other + 1, 0.0);
     const std::vector<Vec3f> inside = pointsInside(*result.surface, result.report.surface.volume);
     for (const std::int32_t ball : nearestBalls(atoms.balls, inside, reach, progress)) {
@@ -65,9 +87,17 @@ Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, 
     colorByCurvature(options.color, mesh);
     const bool colored = options.color != ColorBy::Nothing && mesh.colors.empty();
     Labels nearest;
-    if (options.meshLabels || grouped || colored)
+    const bool areas = options.ballAreas && result.ballAreas.empty();
+    if (options.meshLabels || grouped || colored || areas)
         nearest = nearestBalls(atoms.balls, mesh.positions, reach, progress);
     if (options.meshLabels) labelVertices(atoms, nearest, mesh);
+    if (areas) {
+        Labels self(atoms.balls.size());
+        std::iota(self.begin(), self.end(), 0);
+        result.ballAreas = memberAreas(atoms.balls, self, self.size(), nearest, mesh);
+        result.ballAreas.pop_back(); // of no ball
+        result.ballAreas = scaled(std::move(result.ballAreas), result.report.surface.area);
+    }
     const LabelNames names{has("atom_id"), has("chain_id"), has("group_id")};
     for (auto& grid : labelGrids(atoms, *result.surface, names, reach, progress))
         result.fields.push_back(std::move(grid));
@@ -104,7 +134,8 @@ void labelPart(const BallSet& atoms, const SurfaceOptions& options, double reach
     const Labels nearest = label(atoms, options, reach, progress, result);
     if (!atoms.labels || atoms.labels->groups.empty()) return;
     const std::vector<Group>& groups = atoms.labels->groups;
-    const std::vector<double> areas = groupAreas(atoms.balls, *atoms.labels, nearest, result.mesh);
+    const std::vector<double> areas =
+        memberAreas(atoms.balls, atoms.labels->groupOf, groups.size(), nearest, result.mesh);
     for (std::size_t g = 0; g < groups.size(); ++g)
         result.report.groups.push_back({groups[g].name, groups[g].balls, areas[g], 0.0, ""});
     result.report.groups.push_back({"other", 0, areas.back(), 0.0, ""});

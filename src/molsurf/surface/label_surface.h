@@ -15,8 +15,9 @@ namespace molsurf
 ///
 /// Adds to the mesh the labels atom_id, with labelled balls chain_id and group_id, and the colours
 /// that the options ask for; to the fields the grids atom_id, chain_id, group_id and Cd that they
-/// ask for; to the report the groups with their areas (of the triangles, scaled to the area of
-/// the smooth surface) and volumes (shares of 1e5 to 1e6 points inside).
+/// ask for; to the report the groups with their areas (in closed form where there is one, else of
+/// the triangles, scaled to the area of the smooth surface) and volumes (shares of 1e5 to 1e6
+/// points inside).
 ///
 /// @param[in] reach  farthest that a point of the surface may lie from the balls [Å]
 void labelSurface(const BallSet& atoms, const SurfaceOptions& options, double reach,

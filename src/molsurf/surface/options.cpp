@@ -3,6 +3,7 @@
 
 #include "molsurf/error.h"
 #include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +79,10 @@ void checkOptions(const SurfaceOptions& options)
             throw Error(ErrorKind::Usage, "`fields`: there is no field '" + field + "'");
         }
     }
+    if (!options.grid && !hasClosedForm(options))
+        throw Error(ErrorKind::Usage,
+                    "`grid`: there is no closed form for what is asked for [hint: `kind` sas or "
+                    "vdw]");
     check(options.splineLevel >= 0 && options.splineLevel <= 2, "`splineLevel`", "0, 1 or 2",
           options.splineLevel);
 }

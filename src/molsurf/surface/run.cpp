@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface.h"
 
-#include "molsurf/balls/ball_index.h"
+#include "molsurf/balls/boundary_check.h"
+#include "molsurf/balls/placed_ball.h"
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/subset.h"
@@ -10,8 +11,12 @@
 #include "molsurf/surface/interfaces.h"
 #include "molsurf/surface/match_volume.h"
 #include "molsurf/surface/parts.h"
+#include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/surface_run.h"
 #include "molsurf/surface/unit_run.h"
+
+#include <limits>
+#include <utility>
 
 namespace molsurf
 {
@@ -43,6 +48,68 @@ MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, P
     run.freeFields();
     run.labels();
     return run.finish();
+}
+
+/// What is known of the surface of all balls in closed form.
+MolecularSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& options,
+                                Progress& progress)
+{
+    MolecularSurface result;
+    Stopwatch watch(result.report);
+    progress.update("areas", 0.0);
+    const BallBoundary boundary = ballBoundary(atoms.balls, grownBy(options), progress);
+    const BoundaryMeasure measure = measureBoundary(boundary, progress);
+    checkBoundary(boundary, measure, progress);
+    result.report.surface.kind = nameOf(options.kind);
+    describePieces(measure.pieces, false, result.report.surface);
+    result.ballAreas = areasOfBalls(boundary, measure, atoms.balls.size());
+    if (atoms.labels && !atoms.labels->groups.empty()) {
+        const BallLabels& labels = *atoms.labels;
+        std::vector<GroupReport>& groups = result.report.groups;
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        for (const Group& group : labels.groups)
+            groups.push_back({group.name, 0, 0.0, unknown, ""});
+        groups.push_back({"other", 0, 0.0, unknown, ""});
+        for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
+            GroupReport& group =
+                labels.groupOf[i] < 0 ? groups.back() : groups[std::size_t(labels.groupOf[i])];
+            ++group.atoms;
+            group.area += result.ballAreas[i];
+        }
+        if (groups.back().atoms == 0) groups.pop_back();
+    }
+    watch.stop("areas");
+    return result;
+}
+
+/// The surface of all balls, which are computed in spatial order.
+MolecularSurface runInOrder(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
+                            WarmStart* warm)
+{
+    MolecularSurface result = runWhole(inSpatialOrder(atoms), options, progress, warm);
+    if (!options.ballAreas) result.ballAreas.clear(); // known for groups
+    if (result.ballAreas.empty()) return result;
+    const std::vector<std::int32_t> order = spatialOrder(atoms.balls);
+    std::vector<double> areas(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        areas[std::size_t(order[i])] = result.ballAreas[i];
+    result.ballAreas = std::move(areas);
+    return result;
+}
+
+/// The surface of a whole that follows from a unit.
+MolecularSurface runUnitInOrder(const BallSet& atoms, SurfaceOptions options, Progress& progress)
+{
+    const bool areas = options.ballAreas;
+    if (areas && !isClosedForm(options))
+        throw Error(ErrorKind::Usage, "areas of atoms by symmetry: expected a surface in closed "
+                                      "form [hint: `kind` sas or vdw]");
+    options.ballAreas = false;
+    MolecularSurface result = runUnit(inSpatialOrder(atoms), options, progress);
+    if (!areas) return result;
+    result.ballAreas = exposedAreas(atoms.balls, grownBy(options), progress);
+    result.ballAreas.resize(atoms.unit->balls);
+    return result;
 }
 
 } // namespace
@@ -79,10 +146,15 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
     SurfaceOptions wanted = options;
     if (helps) wanted.fields.push_back(shown);
     MolecularSurface result;
+    if (!whole && options.ballAreas)
+        throw Error(ErrorKind::Usage,
+                    "areas of atoms: expected one surface, and no `split` or `surfaceOf`");
     if (atoms.unit) {
-        result = runUnit(inSpatialOrder(atoms), wanted, progress);
+        result = runUnitInOrder(atoms, wanted, progress);
+    } else if (!options.grid) {
+        result = runWithoutGrid(atoms, wanted, progress);
     } else if (whole) {
-        result = runWhole(inSpatialOrder(atoms), wanted, progress, warm);
+        result = runInOrder(atoms, wanted, progress, warm);
     } else {
         result = runParts(atoms, wanted, progress);
     }
@@ -96,6 +168,7 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
             {group.rule.select, group.rule.resolution, group.balls, group.level});
     }
     if (options.interfaces) measureInterfaces(atoms, options, progress, report);
+    if (options.contacts) result.contacts = contactAreas(atoms.balls, probeOf(options), progress);
     if (options.halfFloats) {
         if (result.surface) result.surface->setSaveFloatAsHalf(true);
         for (const auto& field : result.fields) field->setSaveFloatAsHalf(true);

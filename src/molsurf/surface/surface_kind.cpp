@@ -30,6 +30,12 @@ bool isClosedForm(const SurfaceOptions& options)
     return isUnion(options.kind) && offsetOf(options) == 0.0 && options.minWall == 0.0;
 }
 
+bool hasClosedForm(const SurfaceOptions& options)
+{
+    return isClosedForm(options) && !options.split && options.surfaceOf.empty() &&
+           !options.fillCavities && options.fields.empty() && !options.curvatureTotals;
+}
+
 double splineWidthOf(const SurfaceOptions& options)
 {
     return splineWidthVox * options.voxel * (1 << options.splineLevel);

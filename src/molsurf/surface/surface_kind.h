@@ -30,6 +30,10 @@ double grownBy(const SurfaceOptions& options);
 /// Tells whether area, volume and pieces of a surface are known in closed form.
 bool isClosedForm(const SurfaceOptions& options);
 
+/// Tells whether SurfaceOptions::grid may be false: area, volume and pieces of the surface, and the
+/// areas of its balls, are known in closed form, and nothing is asked for that needs voxels.
+bool hasClosedForm(const SurfaceOptions& options);
+
 /// Gives the half width of the band of S that the spline is fitted on [Å].
 double splineWidthOf(const SurfaceOptions& options);
 

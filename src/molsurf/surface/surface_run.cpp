@@ -151,6 +151,9 @@ DistanceBand SurfaceRun::distanceToBalls()
     if (scope_.region.whole() && isClosedForm(options_)) {
         exact_ = measureBoundary(set.boundary, progress_);
         checkBoundary(set.boundary, *exact_, progress_);
+        const bool grouped = atoms_.labels && !atoms_.labels->groups.empty();
+        if ((options_.ballAreas || grouped) && !options_.fillCavities)
+            result_.ballAreas = areasOfBalls(set.boundary, *exact_, atoms_.balls.size());
         tolerance_ = meshTolerance(set.boundary, *exact_, options_.voxel);
     }
     return distanceToUnion(std::move(set), options_.voxel, widthsOf(options_), progress_,
@@ -332,19 +335,14 @@ void SurfaceRun::describeCurvature()
     surface.integrals = integrateSurface(mesh, spline_, tolerance * chi, progress_);
 }
 
-void SurfaceRun::takeClosedForm()
+void describePieces(const std::vector<BoundaryPiece>& pieces, bool fillCavities, SurfaceReport& s)
 {
-    if (!exact_) return;
-    // A mesh bridges what is narrower than a voxel: creases and small cavities.
-    SurfaceReport& s = result_.report.surface;
-    const std::size_t shown = s.cavities.size();
-    const double meshArea = s.area, meshVolume = s.volume;
     s.area = s.volume = s.outerArea = s.outerVolume = 0.0;
     s.components = s.eulerCharacteristic = 0;
     s.cavities.clear();
-    for (const BoundaryPiece& piece : exact_->pieces) {
+    for (const BoundaryPiece& piece : pieces) {
         const bool cavity = !piece.outer;
-        if (cavity && options_.fillCavities) continue;
+        if (cavity && fillCavities) continue;
         s.area += piece.area;
         s.volume += piece.volume;
         s.eulerCharacteristic += piece.eulerCharacteristic;
@@ -358,6 +356,16 @@ void SurfaceRun::takeClosedForm()
     }
     std::stable_sort(s.cavities.begin(), s.cavities.end(),
                      [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
+}
+
+void SurfaceRun::takeClosedForm()
+{
+    if (!exact_) return;
+    // A mesh bridges what is narrower than a voxel: creases and small cavities.
+    SurfaceReport& s = result_.report.surface;
+    const std::size_t shown = s.cavities.size();
+    const double meshArea = s.area, meshVolume = s.volume;
+    describePieces(exact_->pieces, options_.fillCavities, s);
     if (!options_.fillCavities && shown != s.cavities.size()) {
         result_.report.warnings.push_back(
             "mesh: " + std::to_string(shown) + " inner walls for " +

@@ -43,6 +43,10 @@ struct Scope {
 SparseField restOnCoarserVoxels(const BallSet& atoms, const SurfaceOptions& options,
                                 Progress& progress, Report& report);
 
+/// Puts the measures of pieces in a report.
+/// @param[in] fillCavities  whether cavities do not count
+void describePieces(const std::vector<BoundaryPiece>& pieces, bool fillCavities, SurfaceReport& s);
+
 /// Measures the wall time of stages; a stage may come more than once.
 class Stopwatch
 {

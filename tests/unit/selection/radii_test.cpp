@@ -63,6 +63,24 @@ TEST(Radii, OfMartiniBeads)
     EXPECT_TRUE(near(three.find("ANY", "XYZ", 0), 2.638));
 }
 
+TEST(Radii, UnitedAtoms)
+{
+    const RadiiSet protor = readRadii("protor"), naccess = readRadii("naccess");
+    const auto both = [&](const char* residue, const char* atom, std::uint8_t element) {
+        return std::pair(protor.find(residue, atom, element), naccess.find(residue, atom, element));
+    };
+    EXPECT_EQ(both("ALA", "CA", carbon), std::pair(1.88f, 1.87f));
+    EXPECT_EQ(both("TRP", "CE2", carbon), std::pair(1.61f, 1.76f));
+    EXPECT_EQ(both("TRP", "CE3", carbon), std::pair(1.76f, 1.76f));
+    EXPECT_EQ(both("LYS", "NZ", nitrogen), std::pair(1.64f, 1.50f));
+    EXPECT_EQ(both("HIE", "NE2", nitrogen), std::pair(1.64f, 1.65f)); // a form of HIS
+    EXPECT_EQ(both("DG", "C2", carbon), std::pair(1.61f, 1.80f));
+    EXPECT_EQ(both("A", "C2", carbon), std::pair(1.76f, 1.80f));
+    EXPECT_EQ(both("ALA", "HA", hydrogen), std::pair(0.0f, 0.0f)); // left out
+    EXPECT_LT(protor.find("CA", "CA", 20), 0.0f);                  // calcium is no carbon
+    EXPECT_LT(naccess.find("HEM", "CHA", carbon), 0.0f);
+}
+
 TEST(Radii, RulesOfAFileByPrecedence)
 {
     const TempFile file("my.radii", "# rules\n"
@@ -99,7 +117,8 @@ TEST(Radii, NamesFileAndLineOfAnError)
     EXPECT_HAS(message("C nan"), "radius: expected");
     EXPECT_HAS(message("C wide"), "radius: expected");
     EXPECT_HAS(errorOf(ErrorKind::Input, [] { readRadii("bondy"); }),
-               "expected bondi, alvarez, gemmi, martini, martini2, martini3 or a file that exists, "
+               "expected bondi, alvarez, gemmi, protor, naccess, martini, martini2, martini3 or a "
+               "file that exists, "
                "got \"bondy\"");
 }
 

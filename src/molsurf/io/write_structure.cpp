@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/io/write_structure.h"
+
+#include "molsurf/error.h"
+
+#define GEMMI_WRITE_IMPLEMENTATION
+#include <gemmi/to_cif.hpp>
+#include <gemmi/to_mmcif.hpp>
+#include <gemmi/to_pdb.hpp>
+
+#include <cmath>
+#include <ios>
+#include <map>
+#include <string>
+
+namespace molsurf
+{
+
+namespace
+{
+
+/// A coordinate of a file, which has three decimals, from the float that was made of it.
+double decimal(float x)
+{
+    return std::round(1000.0 * double(x)) / 1000.0;
+}
+
+gemmi::Structure structureOf(const BallSet& atoms, const std::vector<double>& values)
+{
+    gemmi::Structure out;
+    gemmi::Model& model = out.models.emplace_back("1");
+    const BallNames& names = *atoms.names;
+    std::map<std::string, std::size_t> chains;
+    std::map<std::string, std::string> entities;
+    std::int32_t last = -1;
+    gemmi::Residue* residue = nullptr;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (names.residueOf[i] != last) {
+            last = names.residueOf[i];
+            const BallNames::Residue& name = names.residues[std::size_t(last)];
+            const auto [place, isNew] = chains.emplace(name.chain, model.chains.size());
+            if (isNew) model.chains.emplace_back(name.chain);
+            gemmi::Residue& added = model.chains[place->second].residues.emplace_back();
+            added.name = name.name;
+            added.seqid = gemmi::SeqId(name.number, name.insertionCode);
+            added.subchain = name.labelChain;
+            added.het_flag = name.hetero ? 'H' : 'A';
+            added.entity_type =
+                name.hetero ? gemmi::EntityType::NonPolymer : gemmi::EntityType::Polymer;
+            residue = &added;
+        }
+        const BallNames::Atom& name = names.atoms[i];
+        gemmi::Atom& atom = residue->atoms.emplace_back();
+        atom.name = name.name;
+        atom.altloc = name.altloc;
+        atom.element = gemmi::Element(static_cast<gemmi::El>(name.element));
+        const openvdb::Vec3f& p = atoms.balls[i].center;
+        atom.pos = gemmi::Position(decimal(p.x()), decimal(p.y()), decimal(p.z()));
+        atom.occ = name.occupancy;
+        atom.b_iso = float(values[i]);
+    }
+    return out;
+}
+
+void checkPdb(const BallSet& atoms, std::size_t count)
+{
+    const auto fail = [](const std::string& what) {
+        throw Error(ErrorKind::Output, "a .pdb has no room for " + what + " [hint: -o FILE.cif]");
+    };
+    const BallNames& names = *atoms.names;
+    for (std::size_t i = 0; i < count; ++i) {
+        const BallNames::Residue& residue = names.residues[std::size_t(names.residueOf[i])];
+        if (residue.chain.size() > 2) fail("the chain name " + residue.chain);
+        if (residue.name.size() > 3) fail("the residue name " + residue.name);
+        if (names.atoms[i].name.size() > 4) fail("the atom name " + names.atoms[i].name);
+        for (int axis = 0; axis < 3; ++axis) {
+            const float x = atoms.balls[i].center[axis];
+            if (x <= -999.9995f || x >= 9999.9995f)
+                fail("the coordinate " + std::to_string(double(x)) + " Å");
+        }
+    }
+}
+
+/// @param[in] write  writes to a stream
+template<typename Write>
+void writeTo(OutputFile& file, const Write& write)
+{
+    errno = 0;
+    try {
+        write(file.stream());
+    } catch (const std::ios_base::failure&) {
+        file.fail("cannot write");
+    }
+}
+
+} // namespace
+
+void writePdb(const BallSet& atoms, const std::vector<double>& values, OutputFile& file)
+{
+    checkPdb(atoms, values.size());
+    gemmi::PdbWriteOptions options;
+    options.cryst1_record = false;
+    const gemmi::Structure structure = structureOf(atoms, values);
+    writeTo(file, [&](std::ostream& out) { gemmi::write_pdb(structure, out, options); });
+}
+
+void writeMmcif(const BallSet& atoms, const std::vector<double>& values, OutputFile& file)
+{
+    gemmi::MmcifOutputGroups groups(false);
+    groups.atoms = groups.group_pdb = true;
+    gemmi::cif::Block block("surface");
+    gemmi::update_mmcif_block(structureOf(atoms, values), block, groups);
+    writeTo(file, [&](std::ostream& out) {
+        gemmi::cif::write_cif_block_to_stream(out, block, gemmi::cif::Style::Pdbx);
+    });
+}
+
+} // namespace molsurf

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Writes atoms as PDB or mmCIF, with a value of each in the place of its B factor.
+
+#include "molsurf/atoms.h"
+#include "molsurf/io/output_file.h"
+
+#include <vector>
+
+namespace molsurf
+{
+
+/// Writes atoms as a PDB file, in their order, copies of an assembly as chains of their own.
+///
+/// @param[in] atoms   with names
+/// @param[in] values  one an atom; the file has two decimals, and 999.99 at most
+/// @throws Error(ErrorKind::Output) if the format has no room for a name or a coordinate, or if the
+///         file cannot be written
+void writePdb(const BallSet& atoms, const std::vector<double>& values, OutputFile& file);
+
+/// Writes atoms as an mmCIF file. Values have the digits of a float.
+/// @throws Error(ErrorKind::Output) if the file cannot be written
+void writeMmcif(const BallSet& atoms, const std::vector<double>& values, OutputFile& file);
+
+} // namespace molsurf

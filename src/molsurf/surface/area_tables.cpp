@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/area_tables.h"
+
+#include "molsurf/selection/ball_names.h"
+#include "molsurf/structure/element.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace molsurf
+{
+
+namespace
+{
+
+using Texts = std::vector<std::string>;
+using Counts = std::vector<std::int64_t>;
+using Numbers = std::vector<double>;
+
+std::string lettered(char letter)
+{
+    return letter == '\0' || letter == ' ' ? "" : std::string(1, letter);
+}
+
+/// The columns that name residues, filled row by row.
+class ResidueColumns
+{
+public:
+    void add(const BallNames::Residue& r)
+    {
+        chain_.push_back(r.chain);
+        name_.push_back(r.name);
+        number_.push_back(r.number);
+        code_.push_back(lettered(r.insertionCode));
+        label_.push_back(r.labelChain);
+    }
+
+    /// @param[in] suffix  of the columns' names
+    void moveTo(Table& table, const std::string& suffix = "")
+    {
+        table.columns.push_back({"chain" + suffix, std::move(chain_)});
+        table.columns.push_back({"residue" + suffix, std::move(name_)});
+        table.columns.push_back({"number" + suffix, std::move(number_)});
+        table.columns.push_back({"insertion_code" + suffix, std::move(code_)});
+        table.columns.push_back({"label_chain" + suffix, std::move(label_)});
+    }
+
+private:
+    Texts chain_, name_, code_, label_;
+    Counts number_;
+};
+
+/// The sum of each residue's balls.
+Numbers sumsOf(const BallNames& names, const Numbers& values)
+{
+    Numbers out(names.residues.size(), 0.0);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        out[std::size_t(names.residueOf[i])] += values[i];
+    return out;
+}
+
+} // namespace
+
+Table atomTable(const BallSet& atoms, const MolecularSurface& result)
+{
+    const BallNames& names = *atoms.names;
+    ResidueColumns residues;
+    Texts name, altloc, element;
+    Counts id;
+    Numbers radius;
+    for (std::size_t i = 0; i < result.ballAreas.size(); ++i) {
+        const BallNames::Atom& atom = names.atoms[i];
+        residues.add(names.residues[std::size_t(names.residueOf[i])]);
+        name.push_back(atom.name);
+        altloc.push_back(lettered(atom.altloc));
+        element.push_back(elementSymbol(atom.element));
+        id.push_back(atoms.balls[i].atom);
+        radius.push_back(std::round(1e6 * double(atoms.balls[i].radius)) / 1e6); // of a float
+    }
+    Table table{"atoms", {}};
+    residues.moveTo(table);
+    table.columns.push_back({"atom", std::move(name)});
+    table.columns.push_back({"altloc", std::move(altloc)});
+    table.columns.push_back({"element", std::move(element)});
+    table.columns.push_back({"atom_id", std::move(id)});
+    table.columns.push_back({"radius_A", std::move(radius)});
+    table.columns.push_back({"area", result.ballAreas});
+    return table;
+}
+
+Table residueTable(const BallSet& atoms, const MolecularSurface& result)
+{
+    const BallNames& names = *atoms.names;
+    const Numbers areas = sumsOf(names, result.ballAreas);
+    Counts balls(areas.size(), 0);
+    for (std::size_t i = 0; i < result.ballAreas.size(); ++i)
+        ++balls[std::size_t(names.residueOf[i])];
+    ResidueColumns residues;
+    Counts count;
+    Numbers area, relative;
+    for (std::size_t r = 0; r < areas.size(); ++r) {
+        if (balls[r] == 0) continue; // an image of the unit's residue
+        residues.add(names.residues[r]);
+        count.push_back(balls[r]);
+        area.push_back(areas[r]);
+        relative.push_back(areas[r] / largestAccessibleArea(names.residues[r].name)
+                                          .value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+    Table table{"residues", {}};
+    residues.moveTo(table);
+    table.columns.push_back({"atoms", std::move(count)});
+    table.columns.push_back({"area", std::move(area)});
+    if (result.report.surface.kind == nameOf(SurfaceKind::SolventAccessible))
+        table.columns.push_back({"relative_accessibility", std::move(relative)});
+    return table;
+}
+
+const char* nameOf(ContactLevel level)
+{
+    return level == ContactLevel::Atom    ? "atom"
+           : level == ContactLevel::Chain ? "chain"
+                                          : "residue";
+}
+
+Table contactTable(const BallSet& atoms, ContactLevel level, const MolecularSurface& result)
+{
+    const BallNames& names = *atoms.names;
+    const std::size_t own = atoms.unit ? atoms.unit->balls : atoms.balls.size();
+    std::map<std::string, std::int32_t> chains;
+    Texts chainNames;
+    std::vector<std::int32_t> chainOf; // of residues
+    for (const BallNames::Residue& r : names.residues) {
+        const auto [place, isNew] = chains.emplace(r.chain, std::int32_t(chainNames.size()));
+        if (isNew) chainNames.push_back(r.chain);
+        chainOf.push_back(place->second);
+    }
+    const auto memberOf = [&](std::size_t ball) {
+        const std::int32_t residue = names.residueOf[ball];
+        if (level == ContactLevel::Atom) return std::int32_t(ball);
+        return level == ContactLevel::Residue ? residue : chainOf[std::size_t(residue)];
+    };
+    struct Sum {
+        double area = 0.0, distance = 0.0;
+    };
+    std::map<std::pair<std::int32_t, std::int32_t>, Sum> sums;
+    for (const ContactArea& contact : result.contacts) {
+        if (contact.balls[0] >= own) continue; // both are images
+        const std::int32_t a = memberOf(contact.balls[0]), b = memberOf(contact.balls[1]);
+        if (a == b) continue;
+        Sum& sum = sums[{std::min(a, b), std::max(a, b)}];
+        sum.area += contact.area;
+        sum.distance = contact.distance;
+    }
+    Table table{"contacts", {}};
+    for (const int side : {0, 1}) {
+        const std::string suffix = side == 0 ? "_1" : "_2";
+        ResidueColumns residues;
+        Texts name, altloc;
+        for (const auto& [pair, sum] : sums) {
+            const auto member = std::size_t(side == 0 ? pair.first : pair.second);
+            if (level == ContactLevel::Chain) {
+                name.push_back(chainNames[member]);
+                continue;
+            }
+            const bool atom = level == ContactLevel::Atom;
+            residues.add(names.residues[atom ? std::size_t(names.residueOf[member]) : member]);
+            if (!atom) continue;
+            name.push_back(names.atoms[member].name);
+            altloc.push_back(lettered(names.atoms[member].altloc));
+        }
+        if (level == ContactLevel::Chain) {
+            table.columns.push_back({"chain" + suffix, std::move(name)});
+            continue;
+        }
+        residues.moveTo(table, suffix);
+        if (level == ContactLevel::Residue) continue;
+        table.columns.push_back({"atom" + suffix, std::move(name)});
+        table.columns.push_back({"altloc" + suffix, std::move(altloc)});
+    }
+    Numbers area, distance;
+    for (const auto& [pair, sum] : sums) {
+        area.push_back(sum.area);
+        distance.push_back(sum.distance);
+    }
+    if (level == ContactLevel::Atom) table.columns.push_back({"distance_A", std::move(distance)});
+    table.columns.push_back({"area", std::move(area)});
+    return table;
+}
+
+Table interfaceTable(const BallSet& atoms, const Report& report)
+{
+    const BallNames& names = *atoms.names;
+    ResidueColumns residues;
+    Texts first, second, group;
+    Numbers alone, together, buried, area;
+    for (const InterfaceReport& interface : report.interfaces) {
+        std::map<std::pair<bool, std::int32_t>, std::pair<double, double>> sums;
+        for (const InterfaceReport::Buried& b : interface.buried) {
+            auto& sum = sums[{!b.ofFirst, names.residueOf[b.ball]}];
+            sum.first += b.alone;
+            sum.second += b.together;
+        }
+        for (const auto& [key, sum] : sums) {
+            first.push_back(interface.first);
+            second.push_back(interface.second);
+            group.push_back(key.first ? interface.second : interface.first);
+            residues.add(names.residues[std::size_t(key.second)]);
+            alone.push_back(sum.first);
+            together.push_back(sum.second);
+            buried.push_back(sum.first - sum.second);
+            area.push_back(0.5 * (sum.first - sum.second));
+        }
+    }
+    Table table{"interfaces", {}};
+    table.columns.push_back({"group_1", std::move(first)});
+    table.columns.push_back({"group_2", std::move(second)});
+    table.columns.push_back({"group", std::move(group)});
+    residues.moveTo(table);
+    table.columns.push_back({"area_alone", std::move(alone)});
+    table.columns.push_back({"area_together", std::move(together)});
+    table.columns.push_back({"buried_area", std::move(buried)});
+    table.columns.push_back({"area", std::move(area)});
+    return table;
+}
+
+std::vector<double> residueAreasOfBalls(const BallSet& atoms, const std::vector<double>& ballAreas)
+{
+    const Numbers sums = sumsOf(*atoms.names, ballAreas);
+    Numbers out;
+    for (std::size_t i = 0; i < ballAreas.size(); ++i)
+        out.push_back(sums[std::size_t(atoms.names->residueOf[i])]);
+    return out;
+}
+
+} // namespace molsurf

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface.h"
+
+#include "molsurf/balls/boundary_check.h"
+#include "molsurf/balls/power_cells.h"
+#include "molsurf/surface/check_balls.h"
+
+namespace molsurf
+{
+
+std::vector<double> exposedAreas(const std::vector<Ball>& balls, double probe,
+                                 const Progress& progress)
+{
+    if (balls.empty()) return {};
+    checkFinite(balls);
+    const BallBoundary boundary = ballBoundary(balls, probe, progress);
+    const BoundaryMeasure measure = measureBoundary(boundary, progress);
+    checkBoundary(boundary, measure, progress);
+    return areasOfBalls(boundary, measure, balls.size());
+}
+
+std::vector<ContactArea> contactAreas(const std::vector<Ball>& balls, double probe,
+                                      const Progress& progress)
+{
+    checkFinite(balls);
+    std::vector<Ball> grown = balls;
+    for (Ball& ball : grown) ball.radius += float(probe);
+    std::vector<ContactArea> out;
+    for (const PowerFacet& facet : powerFacets(grown, progress))
+        out.push_back({{std::size_t(facet.balls[0]), std::size_t(facet.balls[1])},
+                       facet.area,
+                       facet.distance});
+    return out;
+}
+
+} // namespace molsurf

@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Areas by atom and by residue, contacts, interfaces: as tables, in the report, as B factors."""
+
+import csv
+import gzip
+import json
+import math
+import shutil
+import subprocess
+import unittest
+
+from needs import needs
+from tool import CRAMBIN, DATA, FAST, ToolTest
+
+ASPARTATE = DATA / "4at1.ent.gz"
+SAS = ["--surface", "sas"]
+RESIDUE = ("chain", "residue", "number", "insertion_code", "label_chain")
+
+
+def atom(i, x, y=0.0, z=0.0, residue="ALA", number=1, chain="A", name="CB", element="C"):
+    return (f"ATOM  {i:5}  {name:<3} {residue} {chain}{number:4}    {x:8.3f}{y:8.3f}{z:8.3f}"
+            f"  1.00  0.00          {element:>2}\n")
+
+
+class Areas(ToolTest):
+    def table(self, name):
+        with open(self.folder / name, newline="") as file:
+            return list(csv.DictReader(file))
+
+    def report(self, name):
+        return json.loads((self.folder / name).read_text())
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+
+    def total(self, rows, column="area"):
+        return sum(float(row[column]) for row in rows)
+
+    def test_tables_add_up_to_the_surface(self):
+        for kind in "sas", "vdw", "ses", "variational", "gaussian":
+            self.check(0, CRAMBIN, *FAST, "--surface", kind, "-o", "a.atoms.csv", "-o", "a.residues.csv",
+                       "-o", "a.json", "--areas", "atoms,residues", "--force")
+            atoms, residues, report = self.table("a.atoms.csv"), self.table("a.residues.csv"), self.report("a.json")
+            area = report["surface"]["area"]
+            self.assertEqual((len(atoms), len(residues)), (327, 46))
+            self.assertAlmostEqual(self.total(atoms) / area, 1.0, 9)
+            self.assertAlmostEqual(self.total(residues) / area, 1.0, 9)
+            sums = {}
+            for row in atoms:
+                key = tuple(row[c] for c in RESIDUE)
+                sums[key] = sums.get(key, 0.0) + float(row["area"])
+            for row in residues:
+                self.assertAlmostEqual(sums[tuple(row[c] for c in RESIDUE)], float(row["area"]), 9)
+            self.assertEqual("relative_accessibility" in residues[0], kind == "sas")
+            # The report has the same rows.
+            for name, rows in ("atoms", atoms), ("residues", residues):
+                told = report["areas"][name]
+                self.assertEqual([float(r["area"]) for r in rows], [r["area"] for r in told])
+                self.assertEqual(list(rows[0]), list(told[0]))
+            # Closed forms need no grid.
+            closed = kind in ("sas", "vdw")
+            self.assertEqual(report["voxel"] is None, closed)
+            self.assertEqual(report["surface"]["manifold"] is None, closed)
+
+    def test_names_and_relative_accessibility(self):
+        # A lone alanine and an unknown residue; an insertion code; an alternate location.
+        self.write("a.pdb", "ATOM      1  CA AALA B  52A     1.000   2.000   3.000  0.60  9.00           C  \n"
+                   + atom(2, 30.0, residue="XYZ", number=-3, chain="C", name="Q1"))
+        self.check(0, "a.pdb", *SAS, "-o", "a.residues.csv", "-o", "a.atoms.csv")
+        first, second = self.table("a.residues.csv")
+        self.assertEqual([first[c] for c in RESIDUE], ["B", "ALA", "52", "A", "B"])
+        self.assertEqual([second[c] for c in RESIDUE], ["C", "XYZ", "-3", "", "C"])
+        area = 4 * math.pi * (1.7 + 1.4) ** 2
+        self.assertAlmostEqual(float(first["area"]), area, 4)
+        self.assertAlmostEqual(float(first["relative_accessibility"]), area / 129.0, 6)
+        self.assertEqual(second["relative_accessibility"], "")
+        atoms = self.table("a.atoms.csv")
+        self.assertEqual([atoms[0][c] for c in ("atom", "altloc", "element", "atom_id", "radius_A")],
+                         ["CA", "A", "C", "0", "1.7"])
+
+    def test_label_chains_and_copies(self):
+        self.check(0, DATA / "1a8o.cif.gz", "--assembly", "1", *SAS, "-o", "a.residues.csv", "-o", "a.cif",
+                   "-o", "b.cif", "--waters")
+        rows = self.table("a.residues.csv")
+        self.assertEqual({r["chain"] for r in rows}, {"A", "A-2"})
+        self.assertEqual({r["label_chain"] for r in rows}, {"A", "A-2", "B", "B-2"})
+        half = len(rows) // 2
+        for one, two in zip(rows[:half], rows[half:]):
+            self.assertEqual((one["residue"], one["number"]), (two["residue"], two["number"]))
+            self.assertAlmostEqual(float(one["area"]), float(two["area"]), 2)
+        # What is written can be read again, and is the same molecule.
+        self.check(0, "a.cif", "--waters", *SAS, "-o", "again.residues.csv", "--no-hetero")
+        again = self.table("again.residues.csv")
+        self.assertAlmostEqual(self.total(again), self.total(rows), 0)
+        self.check(1, DATA / "1a8o.cif.gz", "--assembly", "1", *SAS, "-o", "a.pdb",
+                   says=["no room for the chain name A-2", "[hint: -o FILE.cif]"])
+        self.assertNotIn("a.pdb", self.names())
+
+    def test_values_as_b_factors(self):
+        self.check(0, CRAMBIN, *SAS, "-o", "a.pdb", "-o", "a.residues.pdb", "-o", "a.atoms.csv",
+                   "-o", "a.residues.csv", "-o", "a.residues.cif")
+        atoms = self.table("a.atoms.csv")
+        records = [line for line in (self.folder / "a.pdb").read_text().splitlines() if line[:4] == "ATOM"]
+        original = [line for line in CRAMBIN.read_text().splitlines() if line[:4] == "ATOM"]
+        self.assertEqual(len(records), len(atoms))
+        for record, source, row in zip(records, original, atoms):
+            self.assertEqual(record[:60], source[:60])
+            self.assertAlmostEqual(float(record[60:66]), float(row["area"]), delta=0.0051)
+        areas = {r["number"]: float(r["area"]) for r in self.table("a.residues.csv")}
+        for line in (self.folder / "a.residues.pdb").read_text().splitlines():
+            if line[:4] == "ATOM":
+                self.assertAlmostEqual(float(line[60:66]), areas[line[22:26].strip()], delta=0.0051)
+        cif = [line.split() for line in (self.folder / "a.residues.cif").read_text().splitlines()
+               if line.startswith("ATOM")]
+        for words in cif:
+            self.assertAlmostEqual(float(words[14]), areas[words[16]], delta=1e-3)
+
+    def test_contacts(self):
+        r, d = 1.7 + 1.4, 4.0
+        self.write("a.pdb", atom(1, 0.0) + atom(2, d, number=2) + atom(3, 40.0, number=3, chain="B")
+                   + atom(4, 40.0 + d, number=4, chain="A"))
+        disk = math.pi * (r * r - d * d / 4)
+        for level, rows in ("atom", 2), ("residue", 2), ("chain", 1):
+            self.check(0, "a.pdb", *SAS, "-o", "a.contacts.csv", "--contacts", level, "--force")
+            found = self.table("a.contacts.csv")
+            self.assertEqual(len(found), rows)
+            for row in found:
+                self.assertAlmostEqual(float(row["area"]), disk, 4)
+        self.assertEqual(list(found[0]), ["chain_1", "chain_2", "area"])
+        self.check(0, CRAMBIN, *SAS, "-o", "c.contacts.csv", "-o", "c.json", "--areas", "contacts")
+        residues = self.table("c.contacts.csv")
+        self.check(0, CRAMBIN, *SAS, "-o", "c.contacts.csv", "--contacts", "atom", "--force")
+        between = [r for r in self.table("c.contacts.csv") if r["number_1"] != r["number_2"]]
+        self.assertAlmostEqual(self.total(between), self.total(residues), 6)
+        self.assertEqual(len(self.report("c.json")["areas"]["contacts"]), len(residues))
+        sulfurs = {frozenset((r["number_1"], r["number_2"])) for r in between
+                   if r["atom_1"] == r["atom_2"] == "SG" and float(r["distance_A"]) < 2.2}
+        self.assertEqual(sulfurs, {frozenset(p) for p in (("3", "40"), ("4", "32"), ("16", "26"))})
+
+    def test_interfaces(self):
+        def area(*words):
+            self.check(0, ASPARTATE, *SAS, *words, "-o", "x.json", "--areas", "residues", "--force")
+            return self.report("x.json")["surface"]["area"]
+
+        self.check(0, ASPARTATE, *SAS, "-o", "a.interfaces.csv", "-o", "a.json", "--areas", "interfaces")
+        rows = [r for r in self.table("a.interfaces.csv") if (r["group_1"], r["group_2"]) == ("A", "B")]
+        interface = (area("--select", "A") + area("--select", "B") - area("--select", "A,B")) / 2
+        self.assertGreater(interface, 500.0)
+        self.assertAlmostEqual(self.total(rows), interface, 8)
+        self.assertAlmostEqual(self.total(rows, "buried_area") / 2, interface, 8)
+        for row in rows:
+            self.assertEqual(row["group"], row["chain"])
+            self.assertAlmostEqual(float(row["area_alone"]) - float(row["area_together"]),
+                                   float(row["buried_area"]), 9)
+        self.assertLess(len(rows), 150)
+        told = {tuple(i["groups"]): i["buried_area"] for i in self.report("a.json")["interfaces"]}
+        self.assertAlmostEqual(told["A", "B"], interface, 8)
+
+    def test_frames(self):
+        self.check(0, DATA / "1d3z.pdb.gz", *SAS, "--frames", "1-3", "-o", "a.residues.csv", "-o", "a.csv",
+                   "-o", "a.pdb")
+        rows, frames = self.table("a.residues.csv"), self.table("a.csv")
+        self.assertEqual([r["frame"] for r in rows], [n for n in "123" for _ in range(76)])
+        for frame in frames:
+            own = [r for r in rows if r["frame"] == frame["frame"]]
+            self.assertAlmostEqual(self.total(own), float(frame["area"]), 8)
+        self.assertEqual(self.names(), ["a.0001.pdb", "a.0002.pdb", "a.0003.pdb", "a.csv", "a.residues.csv"])
+        self.check(1, DATA / "1d3z.pdb.gz", *SAS, "--frames", "1-2", "-o", "a.residues.csv", says="--force")
+
+    def test_of_a_whole_by_symmetry(self):
+        source = gzip.decompress((DATA / "1a8o.pdb.gz").read_bytes()).decode()
+        self.write("a.pdb", source)
+        self.check(0, "a.pdb", "--assembly", "1", *SAS, *FAST, "-o", "a.atoms.csv", "-o", "a.json")
+        self.check(0, "a.pdb", "--assembly", "1", "--by-symmetry", *SAS, *FAST, "-o", "b.atoms.csv", "-o", "b.json")
+        whole, unit = self.table("a.atoms.csv"), self.table("b.atoms.csv")
+        self.assertEqual(2 * len(unit), len(whole))
+        for one, two in zip(whole, unit):
+            self.assertEqual(one["atom"], two["atom"])
+            self.assertAlmostEqual(float(one["area"]), float(two["area"]), 4)
+        self.assertAlmostEqual(2 * self.total(unit), self.report("b.json")["surface"]["area"], 3)
+        self.check(2, "a.pdb", "--assembly", "1", "--by-symmetry", *FAST, "-o", "c.atoms.csv", says="closed form")
+
+    def test_batch(self):
+        shutil.copy(CRAMBIN, self.folder)
+        self.write("list", "1crn.pdb\n")
+        self.check(0, "batch", "list", "-O", "out", *SAS, "--formats", "residues.csv,pdb")
+        self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
+                         ["1crn.pdb", "1crn.residues.csv", "summary.csv", "summary.json"])
+
+    def test_names_of_formulas_are_harmless(self):
+        self.write("a.pqr", "ATOM 1 =CMD ALA A 1 0.0 0.0 0.0 0.1 1.5\n")
+        self.check(0, "a.pqr", *SAS, "-o", "a.atoms.csv")
+        self.assertEqual(self.table("a.atoms.csv")[0]["atom"], "'=CMD")
+
+    def test_wrong_calls(self):
+        for words, says in (
+                (["--areas", "atom"], ["expected some of atoms, residues, contacts, interfaces", "did you mean atoms"]),
+                (["--contacts", "model"], "expected atom or residue or chain"),
+                (["-o", "a.atoms.csv", "--coarse", "residue"], "--coarse together"),
+                (["-o", "a.atoms.csv", "--split", "group", "--group-by", "chain"], "--split together"),
+                (["-o", "a.atoms.csv", "--memory", "1G"], "--memory together"),
+                (["-o", "a.atoms.csv", "--instances", "--assembly", "1"], "--instances together"),
+                (["-o", "a.table.csv"], "-o .csv is for --frames")):
+            self.check(2, CRAMBIN, *words, *([] if "-o" in words else ["-o", "a.json"]), says=says)
+        self.check(0, CRAMBIN, *FAST, "-o", "a.vdb")
+        self.check(2, "convert", "a.vdb", "-o", "a.atoms.csv", says="a stored surface has no atoms")
+        self.check(0, CRAMBIN, *FAST, "-o", "a.stl", "--areas", "atoms", says="--areas is for .json")
+
+    @needs("freesasa")
+    def test_against_freesasa(self):
+        """Lee and Richards' slices, a thousand an atom, with the same radii."""
+        self.check(0, ASPARTATE, *SAS, "-o", "a.atoms.csv", "-o", "a.pdb")
+        rows = self.table("a.atoms.csv")
+        records = [line for line in (self.folder / "a.pdb").read_text().splitlines()
+                   if line[:6] in ("ATOM  ", "HETATM")]
+        self.write("radii.pdb", "".join(f"ATOM  {line[6:54]}{float(row['radius_A']):6.2f}{line[60:]}\n"
+                                        for line, row in zip(records, rows)))
+        done = subprocess.run(
+            ["freesasa", "--lee-richards", "--resolution=1000", "--radius-from-occupancy", "--hetatm", "--hydrogen",
+             "--format=json", "--depth=atom", "radii.pdb"], cwd=self.folder, capture_output=True, check=True)
+        chains = json.loads(done.stdout)["results"][0]["structure"][0]["chains"]
+        theirs = [((c["label"], r["name"].strip(), r["number"].strip(), a["name"].strip()), a["area"])
+                  for c in chains for r in c["residues"] for a in r["atoms"]]
+        ours = {(r["chain"], r["residue"], r["number"] + r["insertion_code"], r["atom"]): float(r["area"])
+                for r in rows}
+        self.assertEqual(len(theirs), len(ours))
+        for key, area in theirs:
+            self.assertAlmostEqual(area, ours[key], delta=0.02)
+
+
+if __name__ == "__main__":
+    unittest.main()
