@@ -240,7 +240,7 @@ std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh
     const bool ofBalls = by == ColorBy::Value && atoms.labels && atoms.labels->values &&
                          !atoms.labels->values->byPoint();
     const bool named = by == ColorBy::Chain || by == ColorBy::Group || by == ColorBy::Element ||
-                       by == ColorBy::Residue || ofBalls;
+                       by == ColorBy::Residue || by == ColorBy::Nucleotide || ofBalls;
     const bool shown = std::any_of(call.outputs.begin(), call.outputs.end(),
                                    [&](const Output& o) { return isCrisp(call, o.format); });
     if (!named || !shown || !mesh.parts.empty()) return std::nullopt;

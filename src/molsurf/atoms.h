@@ -48,7 +48,8 @@ struct Group {
     std::optional<std::array<std::uint8_t, 3>> color; ///< red, green, blue (sRGB), if it has one
 };
 
-/// Kinds of residues. Those of one kind have one colour with ColorBy::Residue.
+/// Kinds of residues. Those of one kind have one colour with ColorBy::Residue, which takes all
+/// nucleotides for one kind.
 enum class ResidueClass : std::uint8_t {
     Hydrophobic,
     Aromatic,
@@ -56,7 +57,11 @@ enum class ResidueClass : std::uint8_t {
     Positive,
     Negative,
     Special, ///< glycine, proline, cysteine
-    Nucleic,
+    Nucleic, ///< a nucleotide with another base than the following
+    Adenine,
+    Cytosine,
+    Guanine,
+    Thymine, ///< or uracil
     Other
 };
 
@@ -168,7 +173,9 @@ struct SelectOptions {
     /// ballValues(); empty: none.
     std::string valueBy;
     std::optional<std::array<double, 2>>
-        valueRange;         ///< BallValues::low and high, if they are given
+        valueRange; ///< BallValues::low and high, if they are given
+    std::optional<std::array<std::uint8_t, 3>>
+        plainColor;         ///< red, green, blue (sRGB) that all balls get, if it is given
     bool instances = false; ///< whether the balls are those of each prototype of the assembly once,
                             ///< in the coordinates of the file
     /// Whether the balls are those of a unit, of which the rotations of the assembly make the

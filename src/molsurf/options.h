@@ -28,7 +28,9 @@ enum class ColorBy {
     Chain,
     Group,
     Element,
-    Residue,
+    Residue,    ///< ResidueClass, nucleotides as one
+    Nucleotide, ///< the base; what is no nucleotide is grey
+    Plain,      ///< SelectOptions::plainColor
     MeanCurvature,
     GaussianCurvature,
     Value ///< BallLabels::values
@@ -111,7 +113,7 @@ double probeOf(const SurfaceOptions& options);
 const char* nameOf(SurfaceKind kind);
 
 /// Returns the word of the command line for a property: none, chain, group, element, residue,
-/// mean-curvature, gaussian-curvature.
+/// nucleotide, plain, mean-curvature, gaussian-curvature, value.
 const char* nameOf(ColorBy color);
 
 /// Returns the word of the command line for a regulariser: gradient, area.

@@ -50,6 +50,9 @@ struct MolecularSurface {
     /// van der Waals surfaces have them as exposedAreas() gives them. A point of another surface
     /// belongs to the ball whose own surface is nearest. Of a symmetric unit its own balls alone.
     std::vector<double> ballAreas;
+    /// With these and BallLabels::values the mean of the value on each ball's part of the surface;
+    /// not a number where it has none.
+    std::vector<double> ballValues;
     /// With SurfaceOptions::contacts what contactAreas() gives with the probe of the surface.
     std::vector<ContactArea> contacts;
     Report report; ///< measures of the surface; its caller fills in command, input and the like

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MPL-2.0
 """Areas by atom and by residue, contacts, interfaces: as tables, in the report, as B factors."""
 
-import csv
 import gzip
 import json
 import math
@@ -23,10 +22,6 @@ def atom(i, x, y=0.0, z=0.0, residue="ALA", number=1, chain="A", name="CB", elem
 
 
 class Areas(ToolTest):
-    def table(self, name):
-        with open(self.folder / name, newline="") as file:
-            return list(csv.DictReader(file))
-
     def report(self, name):
         return json.loads((self.folder / name).read_text())
 

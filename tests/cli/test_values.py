@@ -52,6 +52,50 @@ class Values(ToolTest):
         self.assertTrue(all(math.isnan(v) for v in values))
         self.assertEqual(colors, {GREY})
 
+    def test_nucleotides(self):
+        self.apart([" DA", "  C", "  G", "  U", "ALA", " DI"], name=["N1 "] * 6)
+        self.colored("nucleotide", "-o", "a.html")
+        names, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+        red = names.index("red")
+        found = {round(v[0] / 10.0): v[red:red + 3] for v in vertices}
+        self.assertEqual(found, {0: (213, 94, 0), 1: (240, 228, 66), 2: (0, 158, 115), 3: (0, 114, 178),
+                                 4: GREY, 5: GREY})
+        self.assertIn("Nucleotide", (self.folder / "a.html").read_text())
+        # By kind all five are nucleic acids.
+        self.colored("residue-type")
+        names, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+        found = {round(v[0] / 10.0): v[red:red + 3] for v in vertices}
+        self.assertEqual({found[i] for i in (0, 1, 2, 3, 5)}, {(86, 180, 233)})
+        self.assertEqual(found[4], (153, 153, 153))
+
+    def test_plain(self):
+        self.check(0, CRAMBIN, *FAST, "--color", "plain=#ff8000", "-o", "a.ply", "-o", "a.png")
+        names, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+        red = names.index("red")
+        self.assertEqual({v[red:red + 3] for v in vertices}, {(255, 128, 0)})
+        self.check(2, CRAMBIN, "--color", "plain=#ff80", "-o", "a.glb", says="got '#ff80'")
+
+    def test_means_of_residues(self):
+        self.check(0, CRAMBIN, *FAST, "--color", "hydrophobicity", "-o", "a.residues.csv", "-o", "a.ply")
+        self.check(0, CRAMBIN, "--surface", "sas", "--color", "bfactor", "-o", "b.residues.csv", "-o", "b.atoms.csv")
+        scale = {"THR": -0.7, "CYS": 2.5, "ARG": -4.5, "ILE": 4.5}
+        rows = self.table("a.residues.csv")
+        for row in rows:
+            if row["residue"] in scale and float(row["area"]) > 1.0:
+                self.assertAlmostEqual(float(row["mean_hydrophobicity"]), scale[row["residue"]], 5)
+        # The mean by area of the atoms' B factors.
+        b = [float(line[60:66]) for line in CRAMBIN.read_text().splitlines() if line.startswith("ATOM")]
+        sums = {}
+        for row in self.table("b.atoms.csv"):
+            area, all_areas = sums.get(row["number"], (0.0, 0.0))
+            sums[row["number"]] = (area + float(row["area"]) * b[int(row["atom_id"])],
+                                   all_areas + float(row["area"]))
+        for row in self.table("b.residues.csv"):
+            weighted, area = sums[row["number"]]
+            self.assertEqual(row["mean_bfactor"] == "", area == 0.0)
+            if area > 0.0:
+                self.assertAlmostEqual(float(row["mean_bfactor"]), weighted / area, 4)
+
     def test_b_factors_and_a_range(self):
         self.apart(["ALA", "ALA", "ALA"], b=[5.0, 20.0, 65.0])
         self.colored("bfactor", "--range", "0,40")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """What all command-line tests share: running vdb_molsurf in a folder of its own."""
 
+import csv
 import os
 import pathlib
 import struct
@@ -44,6 +45,11 @@ class ToolTest(unittest.TestCase):
         for word in [says] if isinstance(says, str) else says:
             self.assertIn(str(word), error)
         return done
+
+    def table(self, name):
+        """The rows of a .csv file by the names of its columns."""
+        with open(self.folder / name, newline="") as file:
+            return list(csv.DictReader(file))
 
     def names(self):
         return sorted(path.name for path in self.folder.iterdir())

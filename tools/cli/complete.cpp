@@ -186,7 +186,8 @@ void warnOfLosses(Call& call)
         call.warnings.push_back("--crisp is not for surfaces of their own");
     if (call.outputs.empty()) return;
     const bool vdb = writes(call, {Format::Vdb}), mesh = writes(call, {Format::Ply, Format::Glb});
-    if (call.has("color") && call.options.color != ColorBy::Nothing && !vdb &&
+    const bool means = call.options.ballAreas && !call.atoms.valueBy.empty(); // in tables
+    if (call.has("color") && call.options.color != ColorBy::Nothing && !vdb && !means &&
         !writes(call, {Format::Ply, Format::Obj, Format::Off, Format::Glb, Format::ThreeMf,
                        Format::Png, Format::Html, Format::Usda}))
         call.warnings.push_back("--color: none of the files can hold colours [hint: -o .ply, .glb, "
@@ -228,7 +229,10 @@ void completeFrames(Call& call)
 /// Whether all that is asked for is known in closed form.
 bool asksForNumbers(const Call& call)
 {
-    return hasClosedForm(call.options) && !call.atoms.bySymmetry && !call.outputs.empty() &&
+    const std::string& value = call.atoms.valueBy;
+    const bool byPoint = value == "radius" || value.rfind("potential", 0) == 0;
+    return hasClosedForm(call.options) && !call.atoms.bySymmetry && !byPoint &&
+           !call.outputs.empty() &&
            std::all_of(call.outputs.begin(), call.outputs.end(), [&](const Output& o) {
                return o.format == Format::AreaTable || o.format == Format::Pdb ||
                       o.format == Format::Mmcif || o.format == Format::Csv ||

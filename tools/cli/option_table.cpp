@@ -263,9 +263,9 @@ constexpr auto surfaceKinds = {SurfaceKind::Variational, SurfaceKind::SolventExc
 
 constexpr auto contactLevels = {ContactLevel::Atom, ContactLevel::Residue, ContactLevel::Chain};
 
-constexpr auto colorings = {ColorBy::Nothing,          ColorBy::Chain,   ColorBy::Group,
-                            ColorBy::Element,          ColorBy::Residue, ColorBy::MeanCurvature,
-                            ColorBy::GaussianCurvature};
+constexpr auto colorings = {
+    ColorBy::Nothing, ColorBy::Chain,      ColorBy::Group,         ColorBy::Element,
+    ColorBy::Residue, ColorBy::Nucleotide, ColorBy::MeanCurvature, ColorBy::GaussianCurvature};
 
 /// GROUP=KIND, the group ending at the last =.
 std::pair<std::string, SurfaceKind> parseSurfaceOf(const std::string& text)
@@ -711,8 +711,11 @@ OptionGroup groupOptions()
         o.words.insert(o.words.end(), valueWords().begin(), valueWords().end());
         const Values files = {"table=", "potential=", "potential-out="};
         for (const std::string& start : files) o.words.push_back(start + "FILE");
+        o.words.push_back("residue-type");
+        o.words.push_back("plain=#RRGGBB");
         o.set = [words, files, all = o.words, others = o.set](Call& call, const Values& values) {
-            const std::string word = lowered(values.back());
+            const std::string typed = lowered(values.back());
+            const std::string word = typed == "residue-type" ? "residue" : typed;
             const auto among = [&](const Values& some) {
                 return std::count(some.begin(), some.end(), word) > 0;
             };
@@ -722,10 +725,16 @@ OptionGroup groupOptions()
                 if (word.rfind(start, 0) == 0)
                     call.atoms.valueBy = start + values.back().substr(start.size());
             call.options.color = call.atoms.valueBy.empty() ? ColorBy::Nothing : ColorBy::Value;
+            call.atoms.plainColor.reset();
+            if (word.rfind("plain=", 0) == 0) {
+                call.atoms.plainColor = colorOf("color", "", word.substr(6));
+                call.options.color = ColorBy::Plain;
+                return;
+            }
             if (!call.colorGroups.empty() || !call.atoms.valueBy.empty()) return;
             if (!among(all))
                 wrong("color", joinWords(all, ", "), values.back(), didYouMean(word, all));
-            others(call, values);
+            others(call, {word});
         };
         o.stored = [others = o.stored](const Call& call) {
             if (!call.colorGroups.empty()) return stored(call.colorGroups);
@@ -770,7 +779,8 @@ OptionGroup groupOptions()
                    OF(options.interfaces)),
               [](Option& o) { o.stored = nullptr; }),
          orMore(color("colours of the mesh and the grid Cd: chain, entity, class,\n"
-                      "copy, group, element, residue, mean-curvature,\n"
+                      "copy, group, element, residue (or residue-type),\n"
+                      "nucleotide, plain=#RRGGBB, mean-curvature,\n"
                       "gaussian-curvature; by value: bfactor, occupancy,\n"
                       "charge, hydrophobicity, rainbow, radius, table=FILE,\n"
                       "potential=FILE.dx, potential-out=FILE.dx (a probe out)",
@@ -779,7 +789,7 @@ OptionGroup groupOptions()
          with(flag("crisp", "mesh files: triangles are cut where colours meet", Build, OF(crisp)),
               [](Option& o) { o.stored = nullptr; }),
          color("chain, group (of grids chain_id, group_id), element,\n"
-               "residue (of Cd so coloured), mean-curvature,\n"
+               "residue, nucleotide (of Cd so coloured), mean-curvature,\n"
                "gaussian-curvature; those of Cd unless given",
                "", Convert)}};
 }

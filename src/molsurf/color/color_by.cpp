@@ -15,6 +15,10 @@ const char* nameOf(ColorBy color)
         return "element";
     case ColorBy::Residue:
         return "residue";
+    case ColorBy::Nucleotide:
+        return "nucleotide";
+    case ColorBy::Plain:
+        return "plain";
     case ColorBy::MeanCurvature:
         return "mean-curvature";
     case ColorBy::GaussianCurvature:

@@ -31,7 +31,27 @@ const char* nameOf(ResidueClass residue)
     case ResidueClass::Special:
         return "Gly, Pro, Cys";
     case ResidueClass::Nucleic:
+    case ResidueClass::Adenine:
+    case ResidueClass::Cytosine:
+    case ResidueClass::Guanine:
+    case ResidueClass::Thymine:
         return "nucleic acid";
+    default:
+        return "other";
+    }
+}
+
+const char* nameOfBase(ResidueClass residue)
+{
+    switch (residue) {
+    case ResidueClass::Adenine:
+        return "A";
+    case ResidueClass::Cytosine:
+        return "C";
+    case ResidueClass::Guanine:
+        return "G";
+    case ResidueClass::Thymine:
+        return "T, U";
     default:
         return "other";
     }
@@ -76,14 +96,15 @@ void foldClasses(const BallSet& atoms, Legend& legend)
     for (LegendEntry& entry : legend.entries) entry.name.erase(0, word.size());
 }
 
-/// Entries of what occurs among the balls, by a value of each.
+/// Entries of what occurs among the balls, by the name for a value of each.
 template<typename Value, typename Name>
 void addKinds(const std::vector<Value>& values, const std::vector<Color>& colors, const Name& name,
               Legend& legend)
 {
-    std::set<Value> seen;
+    std::set<std::string> seen;
     for (std::size_t i = 0; i < values.size(); ++i)
-        if (seen.insert(values[i]).second) legend.entries.push_back({name(values[i]), colors[i]});
+        if (seen.insert(name(values[i])).second)
+            legend.entries.push_back({name(values[i]), colors[i]});
 }
 
 } // namespace
@@ -91,7 +112,7 @@ void addKinds(const std::vector<Value>& values, const std::vector<Color>& colors
 std::optional<Legend> legendOf(ColorBy by, const BallSet& atoms, const Mesh& mesh,
                                const Progress& progress)
 {
-    if (by == ColorBy::Nothing) return {};
+    if (by == ColorBy::Nothing || by == ColorBy::Plain) return {};
     std::optional<Legend> found;
     Legend legend;
     if (curvatureNameOf(by)) {
@@ -121,10 +142,14 @@ std::optional<Legend> legendOf(ColorBy by, const BallSet& atoms, const Mesh& mes
             legend.title = "Element";
             addKinds(labels.elementOf, ballColors(atoms, by, progress), elementSymbol, legend);
         } else {
-            legend.title = "Residue";
+            const bool bases = by == ColorBy::Nucleotide;
+            legend.title = bases ? "Nucleotide" : "Residue";
             addKinds(
                 labels.residueClassOf, ballColors(atoms, by, progress),
-                [](ResidueClass c) { return std::string(nameOf(c)); }, legend);
+                [&](ResidueClass c) { return bases ? nameOfBase(c) : nameOf(c); }, legend);
+            if (bases)
+                std::sort(legend.entries.begin(), legend.entries.end(),
+                          [](const auto& a, const auto& b) { return a.name < b.name; });
         }
         if (!legend.entries.empty()) addOther(mesh, legend);
         if (!legend.entries.empty() || legend.scale) found = legend;

@@ -100,9 +100,30 @@ Color classColor(ResidueClass residue)
     case ResidueClass::Special:
         return {240, 228, 66};
     case ResidueClass::Nucleic:
+    case ResidueClass::Adenine:
+    case ResidueClass::Cytosine:
+    case ResidueClass::Guanine:
+    case ResidueClass::Thymine:
         return {86, 180, 233};
     default:
         return {230, 159, 0};
+    }
+}
+
+/// Of Okabe and Ito's colours, like those of the classes.
+Color baseColor(ResidueClass residue)
+{
+    switch (residue) {
+    case ResidueClass::Adenine:
+        return {213, 94, 0};
+    case ResidueClass::Cytosine:
+        return {240, 228, 66};
+    case ResidueClass::Guanine:
+        return {0, 158, 115};
+    case ResidueClass::Thymine:
+        return {0, 114, 178};
+    default:
+        return neutralColor;
     }
 }
 
@@ -182,6 +203,9 @@ std::vector<Color> ballColors(const BallSet& atoms, ColorBy by, const Progress& 
         return out;
     case ColorBy::Residue:
         for (std::size_t i = 0; i < out.size(); ++i) out[i] = classColor(labels.residueClassOf[i]);
+        return out;
+    case ColorBy::Nucleotide:
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = baseColor(labels.residueClassOf[i]);
         return out;
     default:
         return out;

@@ -110,8 +110,11 @@ ResidueClass classOf(const std::string& name)
         add(ResidueClass::Positive, {"LYS", "ARG", "HIS"});
         add(ResidueClass::Negative, {"ASP", "GLU"});
         add(ResidueClass::Special, {"GLY", "PRO", "CYS", "SEC"});
-        add(ResidueClass::Nucleic,
-            {"A", "C", "G", "U", "T", "I", "N", "DA", "DC", "DG", "DT", "DU"});
+        add(ResidueClass::Adenine, {"A", "DA"});
+        add(ResidueClass::Cytosine, {"C", "DC"});
+        add(ResidueClass::Guanine, {"G", "DG"});
+        add(ResidueClass::Thymine, {"T", "DT", "U", "DU"});
+        add(ResidueClass::Nucleic, {"I", "DI", "N", "DN"});
         return out;
     }();
     const auto found = classes.find(parentResidue(name));

@@ -581,6 +581,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
                             out.labels->warnings.end());
     }
     if (!options.valueBy.empty()) addValues(structure, options, probe, out);
+    if (options.plainColor) out.colors.assign(out.balls.size(), *options.plainColor);
     if (options.names) out.names = ballNames(structure, out.balls, out.copyBegin, out.copyNumbers);
     if (out.unit) countWhole(out);
     return out;

@@ -62,6 +62,24 @@ Numbers sumsOf(const BallNames& names, const Numbers& values)
     return out;
 }
 
+/// The mean of a value over each residue's part of the surface.
+/// @param[in] balls  numbers of each residue's; those with none are left out
+Numbers meansOfResidues(const BallNames& names, const Counts& balls, const MolecularSurface& result)
+{
+    Numbers sums(balls.size(), 0.0), areas(balls.size(), 0.0), out;
+    for (std::size_t i = 0; i < result.ballValues.size(); ++i) {
+        const auto residue = std::size_t(names.residueOf[i]);
+        if (!std::isfinite(result.ballValues[i])) continue;
+        sums[residue] += result.ballAreas[i] * result.ballValues[i];
+        areas[residue] += result.ballAreas[i];
+    }
+    for (std::size_t r = 0; r < balls.size(); ++r)
+        if (balls[r] > 0)
+            out.push_back(areas[r] > 0.0 ? sums[r] / areas[r]
+                                         : std::numeric_limits<double>::quiet_NaN());
+    return out;
+}
+
 } // namespace
 
 Table atomTable(const BallSet& atoms, const MolecularSurface& result)
@@ -115,6 +133,9 @@ Table residueTable(const BallSet& atoms, const MolecularSurface& result)
     table.columns.push_back({"area", std::move(area)});
     if (result.report.surface.kind == nameOf(SurfaceKind::SolventAccessible))
         table.columns.push_back({"relative_accessibility", std::move(relative)});
+    if (!result.ballValues.empty())
+        table.columns.push_back(
+            {"mean_" + atoms.labels->values->name, meansOfResidues(names, balls, result)});
     return table;
 }
 

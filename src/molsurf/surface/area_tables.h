@@ -18,7 +18,8 @@ Table atomTable(const BallSet& atoms, const MolecularSurface& result);
 
 /// A row for every residue: chain, residue, number, insertion_code, label_chain, atoms (how many
 /// balls), area, and for solvent-accessible surfaces relative_accessibility, the area's share of
-/// largestAccessibleArea(), not a number where there is none.
+/// largestAccessibleArea(), not a number where there is none. With ballValues mean_NAME: the mean
+/// of the value on the residue's part of the surface.
 Table residueTable(const BallSet& atoms, const MolecularSurface& result);
 
 /// What the rows of contactTable() are between.

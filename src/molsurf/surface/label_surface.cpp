@@ -8,6 +8,8 @@
 #include "molsurf/color/value_colors.h"
 #include "molsurf/surface/extra_grids.h"
 
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -37,6 +39,26 @@ std::vector<double> groupSums(const BallLabels& labels, const std::vector<double
         out[g < 0 ? labels.groups.size() : std::size_t(g)] += values[i];
     }
     return out;
+}
+
+/// The mean of a scalar over the vertices of each ball, by their shares of the area.
+std::vector<double> meansOf(const std::vector<float>& values, const Labels& nearest,
+                            const Mesh& mesh, std::size_t balls)
+{
+    std::vector<double> sums(balls, 0.0), areas(balls, 0.0);
+    for (const auto& t : mesh.triangles) {
+        const auto corner = [&](int k) { return mesh.positions[t[k]]; };
+        const double area = double((corner(1) - corner(0)).cross(corner(2) - corner(0)).length());
+        for (int k = 0; k < 3; ++k) {
+            const std::int32_t ball = nearest[t[k]];
+            if (ball < 0 || !std::isfinite(values[t[k]])) continue;
+            sums[std::size_t(ball)] += area * double(values[t[k]]);
+            areas[std::size_t(ball)] += area;
+        }
+    }
+    for (std::size_t i = 0; i < balls; ++i)
+        sums[i] = areas[i] > 0.0 ? sums[i] / areas[i] : std::numeric_limits<double>::quiet_NaN();
+    return sums;
 }
 
 void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Labels& nearest,
@@ -105,8 +127,12 @@ Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, 
     const std::vector<Color> ballColor =
         atoms.colors.empty() ? ballColors(atoms, options.color, progress) : atoms.colors;
     mesh.colors = colorsOf(nearest, ballColor);
-    if (options.color == ColorBy::Value && atoms.labels && atoms.labels->values)
+    if (options.color == ColorBy::Value && atoms.labels && atoms.labels->values) {
         addValues(*atoms.labels->values, nearest, mesh);
+        if (options.ballAreas)
+            result.ballValues =
+                meansOf(mesh.scalars.back().values, nearest, mesh, atoms.balls.size());
+    }
     if (has("Cd")) {
         const bool byPoint = options.color == ColorBy::Value && atoms.labels &&
                              atoms.labels->values && atoms.labels->values->byPoint();

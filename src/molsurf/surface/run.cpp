@@ -63,6 +63,9 @@ MolecularSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& opti
     result.report.surface.kind = nameOf(options.kind);
     describePieces(measure.pieces, false, result.report.surface);
     result.ballAreas = areasOfBalls(boundary, measure, atoms.balls.size());
+    if (atoms.labels && atoms.labels->values)
+        result.ballValues.assign(atoms.labels->values->valueOf.begin(),
+                                 atoms.labels->values->valueOf.end());
     if (atoms.labels && !atoms.labels->groups.empty()) {
         const BallLabels& labels = *atoms.labels;
         std::vector<GroupReport>& groups = result.report.groups;
@@ -90,10 +93,11 @@ MolecularSurface runInOrder(const BallSet& atoms, const SurfaceOptions& options,
     if (!options.ballAreas) result.ballAreas.clear(); // known for groups
     if (result.ballAreas.empty()) return result;
     const std::vector<std::int32_t> order = spatialOrder(atoms.balls);
-    std::vector<double> areas(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-        areas[std::size_t(order[i])] = result.ballAreas[i];
-    result.ballAreas = std::move(areas);
+    for (std::vector<double>* values : {&result.ballAreas, &result.ballValues}) {
+        std::vector<double> back(values->size());
+        for (std::size_t i = 0; i < values->size(); ++i) back[std::size_t(order[i])] = (*values)[i];
+        *values = std::move(back);
+    }
     return result;
 }
 

@@ -229,9 +229,9 @@ void colorByCurvature(const Source& from, ColorBy by, FloatGrid& levelSet, const
 /// The colours of the file, if these are colours that the program knows.
 ColorBy storedColors(const Source& from)
 {
-    constexpr ColorBy all[] = {ColorBy::Chain,         ColorBy::Group,
-                               ColorBy::Element,       ColorBy::Residue,
-                               ColorBy::MeanCurvature, ColorBy::GaussianCurvature};
+    constexpr ColorBy all[] = {
+        ColorBy::Chain,      ColorBy::Group, ColorBy::Element,       ColorBy::Residue,
+        ColorBy::Nucleotide, ColorBy::Plain, ColorBy::MeanCurvature, ColorBy::GaussianCurvature};
     if (!find<Vec3SGrid>(from.grids, "Cd")) return ColorBy::Nothing;
     for (const ColorBy one : all)
         if (textOf(from.metadata, "option.color") == nameOf(one)) return one;
