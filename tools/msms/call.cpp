@@ -4,8 +4,8 @@
 #include "molsurf/error.h"
 #include "molsurf/structure/text_fields.h"
 
-#include <array>
-#include <cmath>
+#include <algorithm>
+#include <cstdio>
 #include <functional>
 #include <set>
 
@@ -54,6 +54,15 @@ std::function<void(MsmsCall&, Value)> pointless(const char* option, const char* 
     };
 }
 
+const char* const synopsis = "vdb_molsurf_msms -if filename [options]";
+const char* const about =
+    "Computes the solvent-excluded surface of spheres. It takes the options of MSMS 2.6 and "
+    "writes\n"
+    "its files, so it can stand in for it under the name msms. Options may be cut short: -probe,\n"
+    "-all. Defaults are in brackets.\n";
+const char* const statuses =
+    "Exit status: 0 done, 1 failed, 2 wrong usage, 3 a result failed its own "
+    "checks, 130 interrupted.";
 const char* const noServer = "expected a file by -if, this program is no server";
 
 /// The options of MSMS, in its order.
@@ -136,6 +145,10 @@ MsmsCall parseMsms(int argc, const char* const* argv)
             call.help = true;
             return call;
         }
+        if (word == "--man") {
+            call.manual = true;
+            return call;
+        }
         if (word == "--version") {
             call.version = true;
             return call;
@@ -169,23 +182,33 @@ MsmsCall parseMsms(int argc, const char* const* argv)
 
 std::string msmsHelp()
 {
-    std::string text =
-        "Usage: vdb_molsurf_msms -if filename [options]\n\n"
-        "Computes the solvent-excluded surface of spheres. It takes the options of MSMS 2.6 and\n"
-        "writes its files, so it can stand in for it under the name msms. Options may be cut\n"
-        "short: -probe, -all. [default]\n\n";
+    std::string text = std::string("Usage: ") + synopsis + "\n\n" + about + "\n";
     for (const Option& option : options()) {
         std::string left = std::string("  -") + option.name;
         if (option.value[0] != '\0') left += std::string(" ") + option.value;
-        if (left.size() < 26)
-            left.resize(26, ' ');
-        else
-            left += "\n" + std::string(26, ' ');
+        constexpr std::size_t column = 26;
+        if (left.size() >= column) left += "\n" + std::string(column, ' ');
+        left.resize(std::max(left.size(), column), ' ');
         text += left + option.help + "\n";
     }
-    return text +
-           "\nExit status: 0 done, 1 failed, 2 wrong usage, 3 a result failed its own checks, "
-           "130 interrupted.\n";
+    return text + "\n" + statuses + "\n";
+}
+
+std::string msmsManual()
+{
+    const auto escaped = [](const std::string& plain) {
+        std::string out;
+        for (const char c : plain) out += c == '-' ? std::string("\\-") : std::string(1, c);
+        return out;
+    };
+    std::string text = std::string(".TH VDB_MOLSURF_MSMS 1 \"\" \"vdb_molsurf ") + MOLSURF_VERSION +
+                       "\"\n.SH NAME\n" + escaped("vdb_molsurf_msms - stands in for MSMS 2.6") +
+                       "\n.SH SYNOPSIS\n" + escaped(synopsis) + "\n.SH DESCRIPTION\n" +
+                       escaped(about) + ".SH OPTIONS\n";
+    for (const Option& option : options())
+        text += ".TP\n\\fB" + escaped(std::string("-") + option.name) + "\\fR \\fI" + option.value +
+                "\\fR\n" + escaped(option.help) + "\n";
+    return text + ".SH EXIT STATUS\n" + escaped(statuses) + "\n";
 }
 
 } // namespace molsurf::msms

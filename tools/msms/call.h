@@ -22,7 +22,7 @@ struct MsmsCall {
     bool all = false;         ///< whether all components are computed, and not the outer one
     bool hydrogens = true;    ///< whether spheres of radius 1.2 Å are used
     bool totals = true;       ///< whether areas are printed
-    bool help = false, version = false;
+    bool help = false, manual = false, version = false;
     std::vector<std::string> warnings; ///< one line each
 };
 
@@ -33,7 +33,8 @@ constexpr double largestDensity = 400.0;
 /// @throws Error(ErrorKind::Usage)
 MsmsCall parseMsms(int argc, const char* const* argv);
 
-/// What -h prints.
+/// What -h prints, and the manual page, which --man prints.
 std::string msmsHelp();
+std::string msmsManual();
 
 } // namespace molsurf::msms

@@ -153,7 +153,7 @@ std::string resultText(const MsmsCall& call, const MsmsSurface& surface)
                           c.areas.excluded());
         total += c.volume;
     }
-    return text + formatted("    Total ses_volume: %9.3f\n", total) + "MSMS terminated normally\n";
+    return text + formatted("    Total ses_volume: %9.3f\n", total);
 }
 
 } // namespace molsurf::msms

@@ -21,6 +21,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <set>
@@ -53,10 +54,14 @@ std::vector<std::string> outputsOf(const MsmsCall& call, std::size_t components)
 }
 
 /// Finds out whether the files can be written, and has them cleaned up after a signal.
-void prepare(const std::vector<std::string>& paths)
+void prepare(const MsmsCall& call, const std::vector<std::string>& paths)
 {
     std::vector<std::string> temporaries;
     for (const std::string& path : paths) {
+        std::error_code absent;
+        if (std::filesystem::equivalent(path, call.input, absent))
+            throw Error(ErrorKind::Output, path + ": it is the file of spheres itself [hint: "
+                                                  "another name after -of or -af]");
         checkWritable(path, true);
         temporaries.push_back(temporaryName(path));
     }
@@ -80,7 +85,7 @@ void perform(const MsmsCall& call)
     std::set<std::string> folders;
     for (const std::string& path : outputsOf(call, 1)) folders.insert(folderOf(path));
     for (const std::string& folder : folders) recover(folder);
-    prepare(outputsOf(call, 1));
+    prepare(call, outputsOf(call, 1));
 
     tool::Terminal terminal(false);
     const Structure structure = readSpheres(call);
@@ -97,7 +102,7 @@ void perform(const MsmsCall& call)
     if (surface.components.empty())
         throw Error(ErrorKind::Numeric, call.input + ": the spheres have no outer surface");
     const std::vector<std::string> paths = outputsOf(call, surface.components.size());
-    prepare(paths);
+    prepare(call, paths);
     std::vector<std::unique_ptr<OutputFile>> files;
     std::vector<OutputFile*> pointers;
     for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -114,9 +119,10 @@ void perform(const MsmsCall& call)
         file.finish();
         if (tool::stopRequested()) throw Cancelled();
     }
+    printed(resultText(call, surface));
     tool::ignoreSignals();
     commit(pointers);
-    printed(resultText(call, surface));
+    printed("MSMS terminated normally\n");
 }
 
 int statusOf(ErrorKind kind)
@@ -138,6 +144,8 @@ int main(int argc, char** argv)
         const MsmsCall call = parseMsms(argc, argv);
         if (call.help)
             printed(msmsHelp());
+        else if (call.manual)
+            printed(msmsManual());
         else if (call.version)
             printed(std::string("vdb_molsurf_msms ") + MOLSURF_VERSION + "\n");
         else

@@ -14,6 +14,7 @@
 #include "molsurf/surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -30,16 +31,17 @@ namespace
 constexpr std::uint32_t none = ~std::uint32_t(0);
 
 /// The edge of voxels that give more vertices than are wanted [Å].
-double voxelFor(const std::vector<Ball>& balls, double density)
+double voxelFor(const std::vector<Ball>& balls, double probe, double density)
 {
     // The mesher makes 3/2 vertices a square voxel, on the average of all directions.
     const double byDensity = 0.9 * std::sqrt(1.5 / density);
-    constexpr double coarsest = 0.6; // that shows crevices between atoms
+    // A probe of 2.5 voxels shows the crevices between atoms.
+    const double byProbe = std::clamp(0.4 * probe, 0.2, 0.6);
     const double largest =
         double(std::max_element(balls.begin(), balls.end(), [](auto& a, auto& b) {
                    return a.radius < b.radius;
                })->radius);
-    return std::max(minVoxel, std::min({byDensity, coarsest, 0.4 * largest}));
+    return std::max(minVoxel, std::min({byDensity, byProbe, 0.4 * largest}));
 }
 
 /// The analytical surface.
@@ -69,32 +71,57 @@ struct Exact {
         return {kind, std::uint32_t(number)};
     }
 
-    /// Moves a vertex onto the surface, and returns what it then is nearest to.
+    /// Moves a vertex onto the surface, and returns what it then is nearest to. Without a probe
+    /// it is not moved.
     BoundaryPoint place(Vec3f& position, Vec3f& normal) const
     {
         constexpr int most = 4;        // moves; more than one only where faces intersect
         constexpr double close = 1e-9; // [Å]
         Vec3d x(position);
         BoundaryPoint point = nearest(x);
+        if (probe == 0.0) return point; // the surface has sharp creases, and the mesh rounds them
         for (int n = 0; n < most; ++n) {
             const Vec3d inward = x - point.position;
             const double length = inward.length();
-            if (probe == 0.0) {
-                x = point.position;
-                break;
-            }
             if (length == 0.0 || std::abs(length - probe) < close) break;
             x = point.position + probe / length * inward;
             point = nearest(x);
         }
         position = Vec3f(x);
         Vec3d outward = point.position - x;
-        if (probe == 0.0 && point.part == BoundaryPart::Patch)
-            outward = x - boundary.patches[point.index].centre;
         if (outward.normalize()) normal = Vec3f(outward);
         return point;
     }
 };
+
+/// Moves all vertices onto the surface, but those whose triangles would turn: where faces meet in a
+/// crease that the voxels do not resolve.
+std::vector<BoundaryPoint> placeVertices(const Exact& exact, Mesh& mesh, const Progress& progress)
+{
+    const std::vector<Vec3f> before = mesh.positions;
+    std::vector<BoundaryPoint> points(mesh.positions.size());
+    parallelFor(points.size(), progress, [&](std::size_t v) {
+        points[v] = exact.place(mesh.positions[v], mesh.normals[v]);
+    });
+    const auto normalOf = [](const std::vector<Vec3f>& x, const std::array<std::uint32_t, 3>& t) {
+        const Vec3d first(x[t[0]]);
+        return (Vec3d(x[t[1]]) - first).cross(Vec3d(x[t[2]]) - first);
+    };
+    // A vertex that goes back may turn triangles of its neighbours.
+    for (bool again = true; again;) {
+        std::vector<std::uint32_t> back;
+        for (const auto& t : mesh.triangles) {
+            const Vec3d old = normalOf(before, t), now = normalOf(mesh.positions, t);
+            constexpr double steepest = 0.3; // cosine of the largest turn
+            if (old.dot(now) > steepest * old.length() * now.length()) continue;
+            for (const std::uint32_t v : t)
+                if (mesh.positions[v] != before[v]) back.push_back(v);
+        }
+        again = !back.empty();
+        for (const std::uint32_t v : back) mesh.positions[v] = before[v];
+    }
+    return points;
+}
 
 /// The piece of the solvent-accessible surface that each corner lies on, or -1.
 std::vector<std::int32_t> cornerPieces(const Exact& exact)
@@ -247,15 +274,12 @@ MsmsSurface msmsSurface(const std::vector<Ball>& balls, double probe, double den
     SurfaceOptions options;
     options.kind = SurfaceKind::SolventExcluded;
     options.probe = probe;
-    options.voxel = voxelFor(balls, density);
+    options.voxel = voxelFor(balls, probe, density);
     options.meshLabels = false;
     Mesh mesh = std::move(makeSurface(balls, options, &progress).mesh);
 
     const Exact exact(balls, probe, progress);
-    std::vector<BoundaryPoint> points(mesh.positions.size());
-    parallelFor(points.size(), progress, [&](std::size_t v) {
-        points[v] = exact.place(mesh.positions[v], mesh.normals[v]);
-    });
+    const std::vector<BoundaryPoint> points = placeVertices(exact, mesh, progress);
     const Shares shares = sharesOf(mesh, points, exact, progress);
     const std::vector<std::int32_t> nearest =
         nearestBalls(balls, mesh.positions, probe + 1.0, progress);

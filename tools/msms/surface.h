@@ -55,9 +55,9 @@ struct MsmsSurface {
 ///
 /// A mesh on voxels fine enough gives the topology. Its vertices are put on the surface exactly,
 /// by the nearest point of the boundary of the union of balls of radius r_i + probe, which also
-/// tells their faces. Areas and volumes are those of this mesh with curved triangles; a triangle
-/// belongs in thirds to the balls of its corners. Then vertices are taken away until the density is
-/// the one that is wanted.
+/// tells their faces (but where faces meet in a crease that the voxels do not resolve). Areas and
+/// volumes are those of this mesh with curved triangles; a triangle belongs in thirds to the balls
+/// of its corners. Then vertices are taken away until the density is the one that is wanted.
 ///
 /// @param[in] probe    [Å], >= 0
 /// @param[in] density  vertices an Å^2, in (0, largestDensity]
