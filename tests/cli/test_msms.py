@@ -198,6 +198,9 @@ class ClosedForm(Msms):
                 self.assertAlmostEqual(off_ring, probe, delta=1.5e-3)
                 to_ring = (along - x[0], (ring / around - 1) * x[1], (ring / around - 1) * x[2])
                 self.assertLess(math.dist(to_ring, [probe * k for k in n]), 4e-3)
+        for corners, kind in zip(a.triangles, a.triangle_kinds):
+            kinds = {a.kinds[v] for v in corners}
+            self.assertIn(kind, kinds)
         return sums, contact, toric
 
     def test_two_balls(self):
