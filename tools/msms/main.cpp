@@ -23,6 +23,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <malloc.h>
 #include <memory>
 #include <set>
 
@@ -140,6 +141,9 @@ int main(int argc, char** argv)
 {
     tool::holdStandardStreams();
     std::ios_base::sync_with_stdio(false);
+    // As vdb_molsurf: fields of many megabytes come and go.
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
     try {
         const MsmsCall call = parseMsms(argc, argv);
         if (call.help)

@@ -32,7 +32,8 @@ class Thinner
 public:
     explicit Thinner(const Mesh& mesh)
         : mesh_(mesh), triangles_(mesh.triangles), alive_(mesh.positions.size(), 1),
-          left_(mesh.positions.size()), at_(mesh.positions.size())
+          refused_(mesh.positions.size(), 0), left_(mesh.positions.size()),
+          at_(mesh.positions.size())
     {
         for (std::uint32_t t = 0; t < triangles_.size(); ++t)
             for (const std::uint32_t v : triangles_[t]) at_[v].push_back(t);
@@ -55,13 +56,16 @@ public:
             neighbours(a, ofA_);
             if (!std::binary_search(ofA_.begin(), ofA_.end(), b)) continue;
             neighbours(b, ofB_);
-            if (!keepsTopology()) continue;
-            const double byA = worstWithout(a, b), byB = worstWithout(b, a);
-            if (std::max(byA, byB) <= 0.0) continue;
-            if (byA >= byB)
-                remove(a, b);
-            else
-                remove(b, a);
+            const double byA = keepsTopology() ? worstWithout(a, b) : 0.0;
+            const double byB = keepsTopology() ? worstWithout(b, a) : 0.0;
+            if (std::max(byA, byB) > 0.0) {
+                if (byA >= byB)
+                    remove(a, b, ofB_);
+                else
+                    remove(b, a, ofA_);
+            } else {
+                refused_[a] = refused_[b] = 1;
+            }
         }
     }
 
@@ -141,7 +145,8 @@ private:
         return (position(t[1]) - first).cross(position(t[2]) - first);
     }
 
-    void remove(std::uint32_t from, std::uint32_t to)
+    /// @param[in] before  the neighbours of `to`
+    void remove(std::uint32_t from, std::uint32_t to, const std::vector<std::uint32_t>& before)
     {
         for (const std::uint32_t t : at_[from]) {
             Triangle& corners = triangles_[t];
@@ -159,17 +164,21 @@ private:
         at_[from] = {};
         alive_[from] = 0;
         --left_;
-        neighbours(to, ofA_);
-        for (const std::uint32_t w : ofA_) push(to, w);
+        // New edges, and those that may have been refused in other surroundings.
+        neighbours(to, after_);
+        for (const std::uint32_t w : after_) {
+            if (refused_[to] || refused_[w] || !std::binary_search(before.begin(), before.end(), w))
+                push(to, w);
+        }
     }
 
     const Mesh& mesh_;
-    std::vector<Triangle> triangles_; // three equal corners: it is gone
-    std::vector<char> alive_;
+    std::vector<Triangle> triangles_;   // three equal corners: it is gone
+    std::vector<char> alive_, refused_; // refused: an edge there was left
     std::size_t left_;
     std::vector<std::vector<std::uint32_t>> at_; // the triangles at each vertex
     std::priority_queue<Edge> queue_;
-    std::vector<std::uint32_t> ofA_, ofB_;
+    std::vector<std::uint32_t> ofA_, ofB_, after_;
 };
 
 } // namespace
