@@ -2,15 +2,13 @@
 #include "cli/parse.h"
 #include "cli/verb_table.h"
 #include "outputs.h"
+#include "program.h"
 #include "stop.h"
 #include "terminal.h"
 #include "verbs.h"
 
 #include "molsurf/error.h"
 #include "molsurf/progress.h"
-
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -50,16 +48,11 @@ int statusOf(ErrorKind kind)
     return kind == ErrorKind::Usage ? 2 : kind == ErrorKind::Check ? failedCheckStatus : 1;
 }
 
-/// Keeps a file that is opened from becoming standard output, if that is closed. What uses a closed
-/// stream fails as before.
-void holdStandardStreams()
-{
-    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        if (fcntl(stream, F_GETFD) < 0)
-            open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-}
-
 } // namespace
+
+const char* const tool::programName = "vdb_molsurf";
+const char* const tool::noMemoryText =
+    "error: not enough memory [hint: a larger --voxel, or fewer atoms by --select]";
 
 int main(int argc, char** argv)
 {

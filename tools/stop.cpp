@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "stop.h"
 
+#include "program.h"
+
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -40,7 +43,8 @@ static_assert(std::atomic<bool>::is_always_lock_free, "used in signal handlers")
         static_cast<void>(printed); // there is nobody left to tell
     };
     if (isatty(STDERR_FILENO)) print("\r\033[K");
-    print("vdb_molsurf: ");
+    print(programName);
+    print(": ");
     print(text);
     print("\n");
     _exit(status);
@@ -98,6 +102,13 @@ void handleEarly()
 __attribute__((section(".preinit_array"), used)) void (*const early)() = handleEarly;
 
 } // namespace
+
+void holdStandardStreams()
+{
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) < 0)
+            open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
 
 std::string unforeseenText(const std::exception& e)
 {

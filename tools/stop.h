@@ -17,10 +17,6 @@ namespace molsurf::tool
 /// Exit status of an interrupted run.
 constexpr int interruptedStatus = 130;
 
-/// What to say when memory runs out.
-constexpr const char* noMemoryText =
-    "error: not enough memory [hint: a larger --voxel, or fewer atoms by --select]";
-
 /// What to say of an exception that no code foresees. A thread that the system does not grant means
 /// that memory, or a limit of it, has run out.
 std::string unforeseenText(const std::exception& e);

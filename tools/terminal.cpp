@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "terminal.h"
 
+#include "program.h"
 #include "stop.h"
 
 #include <unistd.h>
@@ -78,7 +79,7 @@ std::string printable(const std::string& text)
 
 void say(const std::string& text)
 {
-    const std::string line = "vdb_molsurf: " + printable(withOptionNames(text));
+    const std::string line = std::string(programName) + ": " + printable(withOptionNames(text));
     std::fprintf(stderr, "%s\n", line.c_str());
 }
 

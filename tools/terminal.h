@@ -20,7 +20,7 @@ std::string withOptionNames(const std::string& message);
 /// of a line is a space.
 std::string printable(const std::string& text);
 
-/// Prints "vdb_molsurf: ..." as one line on standard error, whatever the text holds.
+/// Prints "vdb_molsurf: ..." (programName) as one line on standard error, whatever the text holds.
 void say(const std::string& text);
 
 /// A progress bar on standard error, if that is a terminal: stage, per cent, time left in the

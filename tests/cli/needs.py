@@ -58,6 +58,8 @@ def program(*names):
 
 # Name: (whether it is here, what to do if not).
 NEEDS = {
+    "biopython": (lambda: all(map(importlib.util.find_spec, ("numpy", "Bio"))),
+                  "scripts/install_deps.sh python3-biopython"),
     "blender": (program("blender"), "scripts/install_deps.sh blender"),
     "chromium": (lambda: CHROMIUM, "scripts/install_deps.sh chromium"),
     "freesasa": (program("freesasa"), "scripts/install_deps.sh freesasa"),

@@ -26,12 +26,12 @@ class BadInput(ToolTest):
         self.refuse("folder.pdb", says="folder.pdb")
 
     def test_empty_file(self):
-        for name in ("empty.pdb", "empty.cif", "empty.pqr", "empty.xyzr"):
+        for name in ("empty.pdb", "empty.cif", "empty.pqr", "empty.xyzr", "empty.xyzrn"):
             self.write(name, "")
             self.refuse(name, says=name)
 
     def test_text_that_is_no_structure(self):
-        for name in ("letter.pdb", "letter.cif", "letter.pqr", "letter.xyzr"):
+        for name in ("letter.pdb", "letter.cif", "letter.pqr", "letter.xyzr", "letter.xyzrn"):
             self.write(name, "Dear all,\nthis is a letter.\n" * 20)
             self.refuse(name, says=name)
 

@@ -18,7 +18,7 @@ README = ROOT / "README.md"
 DOCS = ROOT / "docs"
 PAGES = [README, *sorted(DOCS.rglob("*.md"))]
 # These have commands to run. Others may, too: every page with a block of shell is run.
-GUIDES = ("README", "accuracy", "artists", "compare", "complexes", "formats", "performance", "pipelines",
+GUIDES = ("README", "accuracy", "artists", "compare", "complexes", "formats", "msms", "performance", "pipelines",
           "settings", "structural_biology", "trajectories")
 
 
@@ -41,7 +41,8 @@ class Readme(ToolTest):
         super().setUp()
         (self.folder / "tests").symlink_to(ROOT / "tests")
         (self.folder / "bin").mkdir()
-        (self.folder / "bin" / "vdb_molsurf").symlink_to(pathlib.Path(TOOL).resolve())
+        for name in ("vdb_molsurf", "vdb_molsurf_msms"):
+            (self.folder / "bin" / name).symlink_to(pathlib.Path(TOOL).resolve().parent / name)
 
     def test_numbers_of_the_biologists_guide(self):
         """Its table of areas and volumes, and what it says of cavities and of the interface."""
@@ -101,7 +102,7 @@ class Readme(ToolTest):
         path = f"{self.folder / 'bin'}:{os.environ['PATH']}"
         for block in commands:
             with self.subTest(block):
-                self.assertIn("vdb_molsurf ", block)
+                self.assertRegex(block, r"\bvdb_molsurf(_msms)? ")
                 done = subprocess.run(["bash", "-e", "-o", "pipefail", "-c", block],
                                       cwd=self.folder, env={**os.environ, "PATH": path},
                                       capture_output=True, text=True, timeout=300)

@@ -15,3 +15,4 @@ run(${CMAKE_COMMAND} -S ${SOURCE} -B ${consumer} -G ${GENERATOR} -DCMAKE_PREFIX_
 run(${CMAKE_COMMAND} --build ${consumer})
 run(${consumer}/consumer ${WORK}/two_atoms.ply)
 run(${prefix}/bin/vdb_molsurf --version)
+run(${prefix}/bin/vdb_molsurf_msms --version)

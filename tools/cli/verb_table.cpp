@@ -27,7 +27,8 @@ const std::vector<VerbInfo>& verbTable()
 {
     static const std::vector<VerbInfo> all = {
         {Build, "build", "INPUT -o FILE [-o FILE ...] [options]",
-         "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .pqr .xyzr,\n"
+         "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .pqr .xyzr "
+         ".xyzrn,\n"
          "each also .gz, or - for standard input): a level set as OpenVDB grid, meshes, pictures,\n"
          "a report. With --frames one for every frame.",
          "", checkedStatus, completeBuild,

@@ -206,7 +206,8 @@ std::vector<Face> findFaces(const BallBoundary& boundary, const Patch& patch, co
 /// Tells outer pieces from cavities, and leaves the smallest of these out. The outer one encloses
 /// all cavities of its component, so its volume is larger than theirs; the sign of a volume alone
 /// would be that of rounding where the piece is tiny.
-void findOuter(std::vector<BoundaryPiece>& pieces)
+/// @return the new number of each piece; -1: it is left out
+std::vector<std::int32_t> findOuter(std::vector<BoundaryPiece>& pieces)
 {
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> largest;
@@ -223,11 +224,15 @@ void findOuter(std::vector<BoundaryPiece>& pieces)
         piece.outer =
             piece.component < 0 ? piece.volume > 0.0 : largest[std::size_t(piece.component)] == n;
     }
-    pieces.erase(std::remove_if(pieces.begin(), pieces.end(),
-                                [](const BoundaryPiece& piece) {
-                                    return !piece.outer && piece.area < leastCavity;
-                                }),
-                 pieces.end());
+    std::vector<std::int32_t> numbers;
+    std::size_t kept = 0;
+    for (const BoundaryPiece& piece : pieces) {
+        const bool keep = piece.outer || !(piece.area < leastCavity);
+        numbers.push_back(keep ? std::int32_t(kept) : -1);
+        if (keep) pieces[kept++] = piece;
+    }
+    pieces.resize(kept);
+    return numbers;
 }
 
 /// The sides of arcs that bound each patch, one patch after the other.
@@ -297,6 +302,7 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
     std::vector<Vec3d> origin; // of each piece, so that volumes do not cancel far from 0
     std::vector<double> euler;
     std::vector<Vec3d> normal; // integrated
+    out.arcPieces.assign(boundary.arcs.size(), -1);
     for (std::size_t p = 0; p < patches; ++p) {
         const Patch& patch = boundary.patches[p];
         out.patchAreas.push_back(0.0);
@@ -313,6 +319,8 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
             }
             const Face& face = faces[p][f];
             const std::size_t n = number[root];
+            out.faces.push_back({std::uint32_t(p), std::int32_t(n), face.area});
+            for (const std::uint32_t arc : face.arcs) out.arcPieces[arc] = std::int32_t(n);
             out.pieces[n].area += face.area;
             out.pieces[n].volume +=
                 (patch.radius * face.area + (patch.centre - origin[n]).dot(face.normal)) / 3.0;
@@ -334,7 +342,9 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
         if (!(normal[n].length() <= open * piece.area + rounding))
             disagree("a piece is not closed");
     }
-    findOuter(out.pieces);
+    const std::vector<std::int32_t> renumbered = findOuter(out.pieces);
+    for (BoundaryFace& face : out.faces) face.piece = renumbered[std::size_t(face.piece)];
+    for (std::int32_t& piece : out.arcPieces) piece = renumbered[std::size_t(piece)];
     return out;
 }
 

@@ -7,6 +7,7 @@
 #include "molsurf/balls/ball_boundary.h"
 #include "molsurf/progress.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace molsurf
@@ -21,6 +22,13 @@ struct BoundaryPiece {
     std::int32_t component = -1; ///< Patch::component
 };
 
+/// A connected part of a patch.
+struct BoundaryFace {
+    std::uint32_t patch;
+    std::int32_t piece; ///< index; -1: of a cavity that is left out
+    double area;        ///< [Å^2]
+};
+
 /// Cavities with less area are left out [Å^2]: they are no larger than what moves of 1e-9 Å and
 /// rounding can make where balls just touch.
 constexpr double leastCavity = 1e-8;
@@ -32,6 +40,8 @@ struct BoundaryMeasure {
     /// What each patch adds to the Euler characteristic: its faces, less half of the arcs about
     /// them and with a third of the corners. They add up to those of all pieces.
     std::vector<double> patchEuler;
+    std::vector<BoundaryFace> faces;     ///< of all patches, in their order
+    std::vector<std::int32_t> arcPieces; ///< of each arc the piece that it lies on, or -1
 };
 
 /// Measures the boundary of a union of balls, without a grid.

@@ -36,7 +36,8 @@ namespace molsurf
 /// Beads of a coarse-grained file (Structure::beads) have the radii of martini2 or martini3 unless
 /// options.radii names others; "martini" is the set of their force field.
 ///
-/// Radii of .pqr and .xyzr come from the file; options.radii must then be "bondi", its default.
+/// Radii of .pqr, .xyzr and .xyzrn come from the file; options.radii must then be "bondi", its
+/// default.
 ///
 /// @param[in] probe  that the surface is made with: radii of beads depend on it, see sizeBeads()
 /// [Å]

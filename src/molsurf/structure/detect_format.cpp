@@ -39,12 +39,12 @@ void refuseBinary(const std::string& path, const std::string& text)
     const string_view head = string_view(text).substr(0, 4096);
     if (head.find('\0') == string_view::npos && head.substr(0, 1) != "\x83") return;
     if (head.substr(0, 4) == " BDV") {
-        fail(path, "is an OpenVDB file, expected a structure (PDB, mmCIF, PQR or xyzr)");
+        fail(path, "is an OpenVDB file, expected a structure (PDB, mmCIF, PQR, xyzr or xyzrn)");
     }
     if (head.find("encoder") != string_view::npos || head.find("dataBlocks") != string_view::npos) {
         fail(path, "is BinaryCIF, which is not supported [use the .cif.gz of the same entry]");
     }
-    fail(path, "is a binary file, expected a structure (PDB, mmCIF, PQR or xyzr)");
+    fail(path, "is a binary file, expected a structure (PDB, mmCIF, PQR, xyzr or xyzrn)");
 }
 
 bool startsWithNoCase(string_view text, string_view lowerPrefix)
@@ -116,11 +116,21 @@ bool looksLikeBall(string_view line)
                        [&](string_view f) { return parseNumber(f, number); });
 }
 
+/// True for "x y z r number name", as MSMS's pdb_to_xyzrn writes, and for "x y z r name".
+bool looksLikeNamedBall(string_view line)
+{
+    const Fields fields = splitFields(line);
+    double number = 0;
+    const auto isNumber = [&](string_view f) { return parseNumber(f, number); };
+    return (fields.size() == 5 || fields.size() == 6) && !isNumber(fields.back()) &&
+           std::all_of(fields.begin(), fields.end() - 1, isNumber);
+}
+
 } // namespace
 
 const char* formatName(StructureFormat format)
 {
-    static constexpr std::array<const char*, 4> names{"PDB", "mmCIF", "PQR", "xyzr"};
+    static constexpr std::array<const char*, 5> names{"PDB", "mmCIF", "PQR", "xyzr", "xyzrn"};
     return names[std::size_t(format)];
 }
 
@@ -144,6 +154,7 @@ StructureFormat detectFormat(const std::string& path, const std::string& text)
         const bool pqr = extension == ".pqr" || looksLikePqr(text);
         return pqr ? StructureFormat::Pqr : StructureFormat::Pdb;
     }
+    if (extension == ".xyzrn" || looksLikeNamedBall(first)) return StructureFormat::Xyzrn;
     if (looksLikeBall(first)) return StructureFormat::Xyzr;
     if (extension == ".pdb" || extension == ".ent") return StructureFormat::Pdb;
     if (extension == ".cif" || extension == ".mmcif") return StructureFormat::Mmcif;
@@ -151,7 +162,7 @@ StructureFormat detectFormat(const std::string& path, const std::string& text)
     if (extension == ".xyzr") return StructureFormat::Xyzr;
     const std::string what =
         extension == ".vdb" ? "is not a .vdb file of OpenVDB, and no structure" : "is no structure";
-    fail(path, what + ": expected PDB, mmCIF, PQR or xyzr, got " + inQuotes(first));
+    fail(path, what + ": expected PDB, mmCIF, PQR, xyzr or xyzrn, got " + inQuotes(first));
 }
 
 } // namespace molsurf

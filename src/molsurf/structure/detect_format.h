@@ -10,9 +10,9 @@ namespace molsurf
 {
 
 /// The formats of readStructure().
-enum class StructureFormat { Pdb, Mmcif, Pqr, Xyzr };
+enum class StructureFormat { Pdb, Mmcif, Pqr, Xyzr, Xyzrn };
 
-/// "PDB", "mmCIF", "PQR" or "xyzr".
+/// "PDB", "mmCIF", "PQR", "xyzr" or "xyzrn".
 const char* formatName(StructureFormat format);
 
 /// Finds the format of a text from its first lines; the extension of `path` (a ".gz" left out)

@@ -58,14 +58,14 @@ Fields splitGlued(const Fields& fields, std::size_t begin)
     return parts;
 }
 
-/// The last `n` fields as numbers.
+/// The `n` fields from one on as numbers, of which the last is a radius.
 template<std::size_t n>
-std::array<double, n> lastNumbers(const Fields& fields, const std::array<const char*, n>& names,
-                                  const Place& place)
+std::array<double, n> numbersFrom(const Fields& fields, std::size_t first,
+                                  const std::array<const char*, n>& names, const Place& place)
 {
     std::array<double, n> numbers{};
     for (std::size_t i = 0; i < n; ++i) {
-        const string_view field = fields[fields.size() - n + i];
+        const string_view field = fields[first + i];
         if (!parseNumber(field, numbers[i])) {
             fail(place, std::string(names[i]) + ": expected a number, got " + inQuotes(field) +
                             " in the line " + inQuotes(place.lines.line()));
@@ -74,9 +74,17 @@ std::array<double, n> lastNumbers(const Fields& fields, const std::array<const c
     constexpr double largest = 1e6; // [Å]
     const double radius = numbers[n - 1];
     if (!(radius >= 0 && radius <= largest)) {
-        fail(place, "radius: expected 0 to 1e6 Å, got " + std::string(fields.back()));
+        fail(place, "radius: expected 0 to 1e6 Å, got " + std::string(fields[first + n - 1]));
     }
     return numbers;
+}
+
+/// The last `n` fields as numbers.
+template<std::size_t n>
+std::array<double, n> lastNumbers(const Fields& fields, const std::array<const char*, n>& names,
+                                  const Place& place)
+{
+    return numbersFrom(fields, fields.size() - n, names, place);
 }
 
 /// The names and numbers that a file gives for an atom.
@@ -170,6 +178,30 @@ Identity pqrIdentity(const Fields& fields, std::size_t size, bool hetero)
     return id;
 }
 
+/// What a name in an xyzrn file says of the atom; see readStructure().
+Identity identityIn(string_view name)
+{
+    std::vector<string_view> parts;
+    for (std::size_t end = 0; end != string_view::npos; name.remove_prefix(end + 1)) {
+        end = name.find('_');
+        parts.push_back(name.substr(0, end));
+        if (end == string_view::npos) break;
+    }
+    Identity id;
+    const std::size_t count = parts.size();
+    if ((count == 3 || count == 4) && parseResidueNumber(parts[2], id)) {
+        id.atom = parts[0];
+        id.residue = parts[1];
+        if (count == 4) id.chain = parts[3];
+    } else if (count == 6 && parseInteger(parts[1], id.number)) {
+        id.chain = parts[0];
+        if (parts[2].size() == 1 && parts[2] != "x") id.insertionCode = parts[2][0];
+        id.residue = parts[3];
+        id.atom = parts[4];
+    }
+    return id;
+}
+
 } // namespace
 
 Structure readPqr(const std::string& text, const std::string& path)
@@ -230,6 +262,27 @@ Structure readXyzr(const std::string& text, const std::string& path)
             id = Identity();
         }
         builder.add(id, {x, y, z}, radius);
+    }
+    builder.finish();
+    return out;
+}
+
+Structure readXyzrn(const std::string& text, const std::string& path)
+{
+    Structure out;
+    Builder builder(out);
+    constexpr std::array<const char*, 4> names{"x", "y", "z", "radius"};
+    Fields fields;
+    for (LineReader lines(text); lines.next();) {
+        splitFields(lines.line(), fields);
+        if (fields.empty() || fields[0][0] == '#') continue;
+        const Place place{path, lines};
+        if (fields.size() < names.size())
+            fail(place, "expected x y z radius number name, got " + inQuotes(lines.line()));
+        const auto [x, y, z, radius] = numbersFrom(fields, 0, names, place);
+        const string_view name = fields.size() > names.size() ? fields.back() : string_view();
+        builder.add(identityIn(name), {x, y, z}, radius);
+        out.labels.emplace_back(name);
     }
     builder.finish();
     return out;

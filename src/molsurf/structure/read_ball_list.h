@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Files whose atoms carry their own radii: PQR and xyzr.
+/// Files whose atoms carry their own radii: PQR, xyzr and xyzrn.
 
 #include "molsurf/structure/structure.h"
 
@@ -20,5 +20,9 @@ Structure readPqr(const std::string& text, const std::string& path);
 /// Reads an xyzr text; see readStructure() for its columns.
 /// @throws Error(ErrorKind::Input) as readPqr()
 Structure readXyzr(const std::string& text, const std::string& path);
+
+/// Reads an xyzrn text; see readStructure() for its columns. Lines without a name are allowed.
+/// @throws Error(ErrorKind::Input) as readPqr()
+Structure readXyzrn(const std::string& text, const std::string& path);
 
 } // namespace molsurf

@@ -42,9 +42,27 @@ Structure parse(StructureFormat format, std::string text, const std::string& pat
     case StructureFormat::Pqr:
         return readPqr(text, path);
     case StructureFormat::Xyzr:
+        return readXyzr(text, path);
+    case StructureFormat::Xyzrn:
         break;
     }
-    return readXyzr(text, path);
+    return readXyzrn(text, path);
+}
+
+Structure parseAndCheck(StructureFormat format, std::string text, const std::string& path)
+{
+    Structure structure = parse(format, std::move(text), path);
+    structure.source = path == "-" ? path : std::filesystem::path(path).filename().string();
+    structure.format = formatName(format);
+    if (structure.atoms.empty()) {
+        const bool records = format == StructureFormat::Pdb || format == StructureFormat::Pqr;
+        throw Error(ErrorKind::Input,
+                    displayName(path) + ": no atoms: read as " + structure.format + ", expected " +
+                        (records ? "ATOM or HETATM records" : "coordinates") + ", got none");
+    }
+    checkCoordinates(structure, path);
+    if (!structure.hasRadii) markBeads(structure);
+    return structure;
 }
 
 } // namespace
@@ -65,18 +83,12 @@ Structure readStructure(const std::string& path, std::size_t maxBytes)
 {
     std::string text = loadText(path, maxBytes);
     const StructureFormat format = detectFormat(path, text);
-    Structure structure = parse(format, std::move(text), path);
-    structure.source = path == "-" ? path : std::filesystem::path(path).filename().string();
-    structure.format = formatName(format);
-    if (structure.atoms.empty()) {
-        const bool records = format == StructureFormat::Pdb || format == StructureFormat::Pqr;
-        throw Error(ErrorKind::Input,
-                    displayName(path) + ": no atoms: read as " + structure.format + ", expected " +
-                        (records ? "ATOM or HETATM records" : "coordinates") + ", got none");
-    }
-    checkCoordinates(structure, path);
-    if (!structure.hasRadii) markBeads(structure);
-    return structure;
+    return parseAndCheck(format, std::move(text), path);
+}
+
+Structure readStructureAs(StructureFormat format, const std::string& path, std::size_t maxBytes)
+{
+    return parseAndCheck(format, loadText(path, maxBytes), path);
 }
 
 } // namespace molsurf

@@ -2,8 +2,9 @@
 #pragma once
 
 /// @file
-/// Reads .pdb .ent .cif .mmcif .pqr .xyzr, each also .gz, and standard input.
+/// Reads .pdb .ent .cif .mmcif .pqr .xyzr .xyzrn, each also .gz, and standard input.
 
+#include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/structure.h"
 
 #include <cstddef>
@@ -26,12 +27,19 @@ namespace molsurf
 ///   a minus sign. END and TER do not end the file, so files may be concatenated.
 /// - xyzr: the last four columns are x y z r. Three columns before them are chain, residue number
 ///   and atom name; any other number of leading columns is ignored. '#' starts a comment line.
+/// - xyzrn: the first four columns are x y z r, the last one of five or six is the name. A name of
+///   the form N_ALA_1 or N_ALA_1_A (atom, residue, number, chain) or A_1_x_ALA_N_Blue (chain,
+///   number, insertion code or x, residue, atom, anything) gives these; other names are kept only.
 ///
 /// @param[in] maxBytes  that the text may have; see loadText()
 /// @throws Error(ErrorKind::Input) if the file does not exist, is a folder, is empty, too large or
 ///         cut short, is not a structure, has no model or no atom, or has a coordinate that is not
 ///         finite or lies beyond 1e6 Å
 Structure readStructure(const std::string& path, std::size_t maxBytes = 0);
+
+/// Reads a structure whose format is known, whatever its content looks like; otherwise as above.
+Structure readStructureAs(StructureFormat format, const std::string& path,
+                          std::size_t maxBytes = 0);
 
 /// "atom 17 (CA of ALA 5)", for messages; the number counts from 1.
 std::string describeAtom(const Structure& structure, std::size_t index);

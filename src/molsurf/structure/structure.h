@@ -36,7 +36,7 @@ struct Atom {
     char altloc;             ///< '\0' if the atom has no alternate location
     float occupancy;         ///< in [0, 1]
     float bFactor;           ///< [Å^2]
-    float radius;            ///< from .pqr and .xyzr [Å]; < 0 if the file gives none
+    float radius;            ///< from .pqr, .xyzr and .xyzrn [Å]; < 0 if the file gives none
 };
 
 /// A rigid motion  x -> rotation x + translation  [Å].
@@ -77,7 +77,7 @@ enum class BeadKind : std::uint8_t {
 /// A file's content.
 struct Structure {
     std::string source; ///< file name without folder, or "-" for standard input
-    std::string format; ///< "PDB", "mmCIF", "PQR", "xyzr"
+    std::string format; ///< "PDB", "mmCIF", "PQR", "xyzr", "xyzrn"
     std::vector<Model> models;
     std::vector<Atom> atoms;
     std::vector<Residue> residues;
@@ -86,6 +86,8 @@ struct Structure {
     std::vector<Assembly> assemblies;
     BeadKind beads = BeadKind::None;
     std::vector<float> charges;        ///< of the atoms of a PQR file [e]; else empty
+    std::vector<std::string> labels;   ///< of the atoms of an xyzrn file: the last column as it
+                                       ///< stands there; else empty
     bool hasRadii = false;             ///< true if every atom has the file's own radius
     std::vector<std::string> warnings; ///< one line each: parts of the file that were ignored
 };

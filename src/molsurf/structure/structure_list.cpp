@@ -20,7 +20,7 @@ bool isStructure(const std::filesystem::path& path)
 {
     const std::filesystem::path name = path.extension() == ".gz" ? path.stem() : path.filename();
     const std::string extension = name.extension().string();
-    const char* const known[] = {".pdb", ".ent", ".cif", ".mmcif", ".pqr", ".xyzr"};
+    const char* const known[] = {".pdb", ".ent", ".cif", ".mmcif", ".pqr", ".xyzr", ".xyzrn"};
     return std::any_of(std::begin(known), std::end(known),
                        [&](const char* word) { return extension == word; });
 }

@@ -19,6 +19,9 @@ TEST(DetectFormat, ContentDecidesBeforeTheName)
     EXPECT_EQ(detectFormat("1abc_full.vdb", "HEADER    X\n" + pdbAtom), StructureFormat::Pdb);
     EXPECT_EQ(detectFormat("a.txt", "1.0 2.0 3.0 1.7\n"), StructureFormat::Xyzr);
     EXPECT_EQ(detectFormat("-", "A 1 N 22.4 56.2 12.4 1.7\n"), StructureFormat::Xyzr);
+    EXPECT_EQ(detectFormat("a.xyzr", "1.0 2.0 3.0 1.7 1 N_ALA_1\n"), StructureFormat::Xyzrn);
+    EXPECT_EQ(detectFormat("-", "1.0 2.0 3.0 1.7 N_ALA_1\n"), StructureFormat::Xyzrn);
+    EXPECT_EQ(detectFormat("a.xyzrn.gz", "1.0 2.0 3.0 1.7 1 17\n"), StructureFormat::Xyzrn);
 }
 
 TEST(DetectFormat, TellsPqrFromPdb)

@@ -109,5 +109,49 @@ TEST(ReadXyzr, NamesTheLineThatIsWrong)
     EXPECT_HAS(inputError("a.xyzr", "# nothing\n"), "no atoms");
 }
 
+TEST(ReadXyzrn, TakesTheNameAsItStands)
+{
+    const Structure s = readText("a.xyzrn", "# x y z r 1 name\n1 2 3 1.7 1 N_ALA_1\n"
+                                            "4 5 6 1.5 1 CA_ALA_2A_B\n"
+                                            "4 5 7 1.4 1 C_7_x_HOH_O_Red\n"
+                                            "4 5 8 1.3 1 D_8_Q_GLY_CA_Green\n"
+                                            "4 5 9 1.2 my_bead\n0 0 0 1\n");
+    EXPECT_EQ(s.format, "xyzrn");
+    EXPECT_TRUE(s.hasRadii);
+    ASSERT_EQ(s.atoms.size(), 6u);
+    EXPECT_EQ(s.labels, (std::vector<std::string>{"N_ALA_1", "CA_ALA_2A_B", "C_7_x_HOH_O_Red",
+                                                  "D_8_Q_GLY_CA_Green", "my_bead", ""}));
+    EXPECT_EQ(s.atoms[1].position, openvdb::Vec3d(4, 5, 6));
+    EXPECT_EQ(s.atoms[1].radius, 1.5f);
+    EXPECT_EQ(s.atoms[1].name, "CA");
+    EXPECT_EQ(s.atoms[1].element, 6);
+    const auto residue = [&](std::size_t atom) {
+        return s.residues[std::size_t(s.atoms[atom].residue)];
+    };
+    const auto chain = [&](std::size_t atom) { return s.chains[std::size_t(residue(atom).chain)]; };
+    EXPECT_EQ(residue(0).name, "ALA");
+    EXPECT_EQ(residue(0).number, 1);
+    EXPECT_EQ(chain(0), "");
+    EXPECT_EQ(residue(1).number, 2);
+    EXPECT_EQ(residue(1).insertionCode, 'A');
+    EXPECT_EQ(chain(1), "B");
+    EXPECT_TRUE(residue(2).water);
+    EXPECT_EQ(residue(2).insertionCode, ' ');
+    EXPECT_EQ(chain(2), "C");
+    EXPECT_EQ(residue(3).name, "GLY");
+    EXPECT_EQ(residue(3).insertionCode, 'Q');
+    EXPECT_EQ(s.atoms[4].name, "");
+    EXPECT_EQ(residue(5).name, "");
+}
+
+TEST(ReadXyzrn, NamesTheLineThatIsWrong)
+{
+    EXPECT_HAS(inputError("a.xyzrn", "1 2 3 1.7 1 A\n1 2 3\n"), "line 2: expected x y z radius");
+    EXPECT_HAS(inputError("a.xyzrn", "1 2 3 1.7 1 A\n1 2 3 N 1 A\n"),
+               "line 2: radius: expected a number");
+    EXPECT_HAS(inputError("a.xyzrn", "1 2 3 -1 1 A\n"), "radius: expected 0 to 1e6 Å, got -1");
+    EXPECT_HAS(inputError("a.xyzrn", "# nothing\n"), "no atoms");
+}
+
 } // namespace
 } // namespace molsurf::test

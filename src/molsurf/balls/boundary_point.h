@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The point of the boundary of a union of balls that is nearest to a given point, exactly.
+
+#include "molsurf/balls/ball_boundary.h"
+#include "molsurf/balls/box_tree.h"
+
+#include <openvdb/Types.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace molsurf
+{
+
+/// What a point of the boundary lies on. The points at a probe radius inside of a patch, an arc and
+/// a corner are those of a contact, a toric re-entrant and a spherical re-entrant face (Connolly,
+/// J. Appl. Cryst. 16:548-558, 1983).
+enum class BoundaryPart : std::uint8_t { Patch, Arc, Corner };
+
+/// A point of the boundary.
+struct BoundaryPoint {
+    BoundaryPart part;
+    std::uint32_t index;     ///< of the patch, arc or corner
+    openvdb::Vec3d position; ///< [Å]
+    double distance;         ///< from the given point, >= 0 [Å]
+};
+
+/// Finds nearest points in double precision, but for the borders of patches, which are as exact as
+/// floats (BallBoundary::caps). Immutable once made; safe to use from all threads.
+class BoundaryPoints
+{
+public:
+    /// @param[in] boundary  with at least one patch; has to outlive this object
+    explicit BoundaryPoints(const BallBoundary& boundary);
+
+    /// The point nearest to x; of equally near ones corners come before arcs and these before
+    /// patches, and the lower index first.
+    /// @param[in] x      [Å]
+    /// @param[in] guess  how far away it may be: the search widens from there [Å], > 0
+    BoundaryPoint nearest(const openvdb::Vec3d& x, double guess) const;
+
+private:
+    bool covers(const Patch& patch, const openvdb::Vec3d& direction) const;
+    void search(const openvdb::Vec3d& x, BoundaryPoint& best) const;
+
+    const BallBoundary& boundary_;
+    BoxTree patches_, arcs_, corners_;
+    std::vector<double> cosines_; // of half the angle of each arc; below -1: a whole circle
+};
+
+} // namespace molsurf

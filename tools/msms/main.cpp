@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MPL-2.0
+
+/// @file
+/// vdb_molsurf_msms, which stands in for MSMS 2.6.
+
+#include "msms/call.h"
+#include "msms/files.h"
+#include "msms/surface.h"
+#include "program.h"
+#include "stop.h"
+#include "terminal.h"
+
+#include "molsurf/error.h"
+#include "molsurf/io/commit.h"
+#include "molsurf/io/temporary_file.h"
+#include "molsurf/selection/select_balls.h"
+#include "molsurf/structure/read_structure.h"
+
+#include <openvdb/openvdb.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <malloc.h>
+#include <memory>
+#include <set>
+
+using namespace molsurf;
+using namespace molsurf::msms;
+using tool::say;
+
+namespace
+{
+
+void printed(const std::string& text)
+{
+    errno = 0;
+    if (std::cout << text << std::flush) return;
+    throw Error(ErrorKind::Output, std::string("cannot write standard output: ") +
+                                       std::strerror(errno != 0 ? errno : EIO));
+}
+
+/// The files of a surface of so many components.
+std::vector<std::string> outputsOf(const MsmsCall& call, std::size_t components)
+{
+    std::vector<std::string> paths;
+    for (std::size_t n = 0; n < components && !call.surface.empty(); ++n) {
+        paths.push_back(componentName(call.surface, n, ".vert"));
+        paths.push_back(componentName(call.surface, n, ".face"));
+    }
+    if (!call.areas.empty()) paths.push_back(call.areas + ".area");
+    return paths;
+}
+
+/// Finds out whether the files can be written, and has them cleaned up after a signal.
+void prepare(const MsmsCall& call, const std::vector<std::string>& paths)
+{
+    std::vector<std::string> temporaries;
+    for (const std::string& path : paths) {
+        std::error_code absent;
+        if (std::filesystem::equivalent(path, call.input, absent))
+            throw Error(ErrorKind::Output, path + ": it is the file of spheres itself [hint: "
+                                                  "another name after -of or -af]");
+        checkWritable(path, true);
+        temporaries.push_back(temporaryName(path));
+    }
+    tool::handleSignals(temporaries);
+}
+
+Structure readSpheres(const MsmsCall& call)
+{
+    Structure structure = readStructureAs(StructureFormat::Xyzrn, call.input);
+    if (call.hydrogens) return structure;
+    // A sphere without a radius is not used, and the others keep their numbers.
+    constexpr float hydrogen = 1.2f, rounding = 1e-4f; // [Å]
+    for (Atom& atom : structure.atoms)
+        if (std::abs(atom.radius - hydrogen) < rounding) atom.radius = 0.0f;
+    return structure;
+}
+
+void perform(const MsmsCall& call)
+{
+    openvdb::initialize();
+    std::set<std::string> folders;
+    for (const std::string& path : outputsOf(call, 1)) folders.insert(folderOf(path));
+    for (const std::string& folder : folders) recover(folder);
+    prepare(call, outputsOf(call, 1));
+
+    tool::Terminal terminal(false);
+    const Structure structure = readSpheres(call);
+    SelectOptions all;
+    all.waters = true;
+    const BallSet selected = selectBalls(structure, all, call.probe, terminal);
+    const Spheres spheres{structure, selected.balls};
+    for (const auto* list : {&call.warnings, &structure.warnings, &selected.warnings})
+        for (const std::string& warning : *list) say("warning: " + warning);
+    printed(titleText(call, spheres));
+
+    const MsmsSurface surface =
+        msmsSurface(selected.balls, call.probe, call.density, call.all, terminal);
+    if (surface.components.empty())
+        throw Error(ErrorKind::Numeric, call.input + ": the spheres have no outer surface");
+    const std::vector<std::string> paths = outputsOf(call, surface.components.size());
+    prepare(call, paths);
+    std::vector<std::unique_ptr<OutputFile>> files;
+    std::vector<OutputFile*> pointers;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        files.push_back(std::make_unique<OutputFile>(paths[i], true));
+        OutputFile& file = *files.back();
+        pointers.push_back(&file);
+        const std::size_t n = i / 2;
+        if (call.surface.empty() || n >= surface.components.size())
+            writeAreas(spheres, surface, file);
+        else if (i % 2 == 0)
+            writeVertices(call, spheres, surface.components[n], file);
+        else
+            writeFaces(call, spheres, surface.components[n], file);
+        file.finish();
+        if (tool::stopRequested()) throw Cancelled();
+    }
+    printed(resultText(call, surface));
+    tool::ignoreSignals();
+    commit(pointers);
+    printed("MSMS terminated normally\n");
+}
+
+int statusOf(ErrorKind kind)
+{
+    return kind == ErrorKind::Usage ? 2 : kind == ErrorKind::Check ? 3 : 1;
+}
+
+} // namespace
+
+const char* const tool::programName = "vdb_molsurf_msms";
+const char* const tool::noMemoryText =
+    "error: not enough memory [hint: a smaller -density, or fewer spheres]";
+
+int main(int argc, char** argv)
+{
+    tool::holdStandardStreams();
+    std::ios_base::sync_with_stdio(false);
+    // As vdb_molsurf: fields of many megabytes come and go.
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    try {
+        const MsmsCall call = parseMsms(argc, argv);
+        if (call.help)
+            printed(msmsHelp());
+        else if (call.manual)
+            printed(msmsManual());
+        else if (call.version)
+            printed(std::string("vdb_molsurf_msms ") + MOLSURF_VERSION + "\n");
+        else
+            perform(call);
+        return 0;
+    } catch (const Error& e) {
+        say(std::string("error: ") + e.what());
+        return statusOf(e.kind());
+    } catch (const Cancelled&) {
+        say("interrupted");
+        return tool::interruptedStatus;
+    } catch (const std::bad_alloc&) {
+        say(tool::noMemoryText);
+    } catch (const std::exception& e) {
+        say(tool::unforeseenText(e));
+    }
+    return 1;
+}

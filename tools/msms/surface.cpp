@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "msms/surface.h"
+
+#include "molsurf/balls/ball_boundary.h"
+#include "molsurf/balls/boundary_measure.h"
+#include "molsurf/balls/boundary_point.h"
+#include "molsurf/balls/nearest_ball.h"
+#include "molsurf/core/disjoint_sets.h"
+#include "molsurf/core/parallel.h"
+#include "molsurf/mesh/measure.h"
+#include "molsurf/mesh/thin.h"
+#include "molsurf/mesh/topology.h"
+#include "molsurf/options.h"
+#include "molsurf/surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace molsurf::msms
+{
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+namespace
+{
+
+constexpr std::uint32_t none = ~std::uint32_t(0);
+
+/// The edge of voxels that give more vertices than are wanted [Å].
+double voxelFor(const std::vector<Ball>& balls, double probe, double density)
+{
+    // The mesher makes 3/2 vertices a square voxel, on the average of all directions.
+    const double byDensity = 0.9 * std::sqrt(1.5 / density);
+    // A probe of 2.5 voxels shows the crevices between atoms.
+    const double byProbe = std::clamp(0.4 * probe, 0.2, 0.6);
+    const double largest =
+        double(std::max_element(balls.begin(), balls.end(), [](auto& a, auto& b) {
+                   return a.radius < b.radius;
+               })->radius);
+    return std::max(minVoxel, std::min({byDensity, byProbe, 0.4 * largest}));
+}
+
+/// The analytical surface.
+struct Exact {
+    const BallBoundary boundary; ///< of the solvent-accessible surface
+    const BoundaryMeasure measure;
+    const BoundaryPoints points;
+    const double probe;
+
+    Exact(const std::vector<Ball>& balls, double probeRadius, const Progress& progress)
+        : boundary(ballBoundary(balls, probeRadius, progress)),
+          measure(measureBoundary(boundary, progress)), points(boundary), probe(probeRadius)
+    {
+    }
+
+    BoundaryPoint nearest(const Vec3d& x) const { return points.nearest(x, probe + 0.25); }
+
+    Face faceOf(const BoundaryPoint& point) const
+    {
+        std::size_t number = point.index + 1;
+        if (point.part != BoundaryPart::Patch) number += boundary.patches.size();
+        if (point.part == BoundaryPart::Corner) number += boundary.arcs.size();
+        // Without a probe there are no re-entrant faces.
+        const FaceKind kind = point.part == BoundaryPart::Patch || probe == 0.0 ? FaceKind::Contact
+                              : point.part == BoundaryPart::Arc                 ? FaceKind::Toric
+                                                                : FaceKind::Spherical;
+        return {kind, std::uint32_t(number)};
+    }
+
+    /// Moves a vertex onto the surface, and returns what it then is nearest to. Without a probe
+    /// it is not moved.
+    BoundaryPoint place(Vec3f& position, Vec3f& normal) const
+    {
+        constexpr int most = 4;        // moves; more than one only where faces intersect
+        constexpr double close = 1e-9; // [Å]
+        Vec3d x(position);
+        BoundaryPoint point = nearest(x);
+        if (probe == 0.0) return point; // the surface has sharp creases, and the mesh rounds them
+        for (int n = 0; n < most; ++n) {
+            const Vec3d inward = x - point.position;
+            const double length = inward.length();
+            if (length == 0.0 || std::abs(length - probe) < close) break;
+            x = point.position + probe / length * inward;
+            point = nearest(x);
+        }
+        position = Vec3f(x);
+        Vec3d outward = point.position - x;
+        if (outward.normalize()) normal = Vec3f(outward);
+        return point;
+    }
+};
+
+/// Moves all vertices onto the surface, but those whose triangles would turn: where faces meet in a
+/// crease that the voxels do not resolve.
+std::vector<BoundaryPoint> placeVertices(const Exact& exact, Mesh& mesh, const Progress& progress)
+{
+    const std::vector<Vec3f> before = mesh.positions;
+    std::vector<BoundaryPoint> points(mesh.positions.size());
+    parallelFor(points.size(), progress, [&](std::size_t v) {
+        points[v] = exact.place(mesh.positions[v], mesh.normals[v]);
+    });
+    const auto normalOf = [](const std::vector<Vec3f>& x, const std::array<std::uint32_t, 3>& t) {
+        const Vec3d first(x[t[0]]);
+        return (Vec3d(x[t[1]]) - first).cross(Vec3d(x[t[2]]) - first);
+    };
+    // A vertex that goes back may turn triangles of its neighbours.
+    for (bool again = true; again;) {
+        std::vector<std::uint32_t> back;
+        for (const auto& t : mesh.triangles) {
+            const Vec3d old = normalOf(before, t), now = normalOf(mesh.positions, t);
+            constexpr double steepest = 0.3; // cosine of the largest turn
+            if (old.dot(now) > steepest * old.length() * now.length()) continue;
+            for (const std::uint32_t v : t)
+                if (mesh.positions[v] != before[v]) back.push_back(v);
+        }
+        again = !back.empty();
+        for (const std::uint32_t v : back) mesh.positions[v] = before[v];
+    }
+    return points;
+}
+
+/// The piece of the solvent-accessible surface that each corner lies on, or -1.
+std::vector<std::int32_t> cornerPieces(const Exact& exact)
+{
+    const BallBoundary& boundary = exact.boundary;
+    std::map<CornerName, std::int32_t> pieceOf;
+    for (std::size_t a = 0; a < boundary.arcs.size(); ++a) {
+        for (int end = 0; end < 2 && boundary.arcs[a].ends[end] >= 0; ++end)
+            pieceOf[cornerAt(boundary.arcs[a], end)] = exact.measure.arcPieces[a];
+    }
+    std::vector<std::int32_t> out;
+    for (const Corner& corner : boundary.corners) {
+        const auto centre = [&](int k) {
+            return boundary.balls[std::size_t(corner.balls[k])].centre();
+        };
+        const Vec3d normal = (centre(1) - centre(0)).cross(centre(2) - centre(0));
+        const CornerName name{{corner.balls[0], corner.balls[1], corner.balls[2]},
+                              normal.dot(corner.position - centre(0)) > 0.0};
+        const auto found = pieceOf.find(name);
+        out.push_back(found == pieceOf.end() ? -1 : found->second);
+    }
+    return out;
+}
+
+/// How the vertices of the mesh and the pieces of the solvent-accessible surface are shared out
+/// among components. Two pieces whose probes overlap have one component: they wash one void.
+struct Shares {
+    std::size_t count = 0;
+    std::vector<std::uint32_t> ofVertex, ofPiece; ///< none: in no component
+};
+
+Shares sharesOf(const Mesh& mesh, const std::vector<BoundaryPoint>& points, const Exact& exact,
+                const Progress& progress)
+{
+    // A patch tells a piece if all of its faces lie on that one.
+    const BoundaryMeasure& measure = exact.measure;
+    constexpr std::int32_t unknown = -1, several = -2;
+    std::vector<std::int32_t> ofPatch(exact.boundary.patches.size(), unknown);
+    for (const BoundaryFace& face : measure.faces) {
+        std::int32_t& piece = ofPatch[face.patch];
+        piece = piece == unknown || piece == face.piece ? face.piece : several;
+    }
+    std::size_t meshPieces = 0;
+    const std::vector<std::uint32_t> meshPiece = connectedPieces(mesh, meshPieces, progress);
+    const std::vector<std::int32_t> ofCorner = cornerPieces(exact);
+    const std::size_t size = meshPieces + measure.pieces.size();
+    DisjointSets sets(size);
+    std::vector<char> known(size, 0);
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        const std::uint32_t i = points[v].index;
+        const std::int32_t piece = points[v].part == BoundaryPart::Patch ? ofPatch[i]
+                                   : points[v].part == BoundaryPart::Arc ? measure.arcPieces[i]
+                                                                         : ofCorner[i];
+        if (piece < 0) continue;
+        const auto other = std::uint32_t(meshPieces) + std::uint32_t(piece);
+        sets.join(meshPiece[v], other);
+        known[meshPiece[v]] = known[other] = 1;
+    }
+    // Numbers of what is known alone.
+    Shares out;
+    std::vector<std::uint32_t> numbers(size, none);
+    const auto shareOf = [&](std::uint32_t i) {
+        if (!known[i]) return none;
+        std::uint32_t& number = numbers[sets.find(i)];
+        if (number == none) number = std::uint32_t(out.count++);
+        return number;
+    };
+    for (std::size_t v = 0; v < points.size(); ++v) out.ofVertex.push_back(shareOf(meshPiece[v]));
+    for (std::size_t p = 0; p < measure.pieces.size(); ++p)
+        out.ofPiece.push_back(shareOf(std::uint32_t(meshPieces + p)));
+    return out;
+}
+
+/// The area of a ball.
+struct BallArea {
+    std::int32_t ball;
+    double area; ///< [Å^2]
+};
+
+/// Areas and volume of a mesh with curved triangles, by kind of face and, what is returned, by
+/// ball.
+std::vector<BallArea> measureComponent(const Exact& exact, const std::vector<BoundaryPoint>& points,
+                                       Component& component, const Progress& progress)
+{
+    Mesh& mesh = component.mesh;
+    // Vertices of one ball and one kind of face have a number in common.
+    std::vector<std::uint64_t> keys(points.size());
+    for (std::size_t v = 0; v < points.size(); ++v)
+        keys[v] =
+            std::uint64_t(component.balls[v]) << 2 | std::uint64_t(exact.faceOf(points[v]).kind);
+    std::vector<std::uint64_t> distinct = keys;
+    std::sort(distinct.begin(), distinct.end());
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    std::vector<std::uint32_t> numbers(keys.size());
+    parallelFor(keys.size(), progress, [&](std::size_t v) {
+        numbers[v] = std::uint32_t(std::lower_bound(distinct.begin(), distinct.end(), keys[v]) -
+                                   distinct.begin());
+    });
+    // measurePieces() counts a triangle where its first corner lies; each corner is first once.
+    const Vec3d origin(mesh.positions[0]);
+    std::vector<BallArea> out;
+    for (int turn = 0; turn < 3; ++turn) {
+        std::size_t flat = 0;
+        const std::vector<PieceMeasure> sums =
+            measurePieces(mesh, numbers, distinct.size(), origin, flat, progress);
+        for (std::size_t n = 0; n < sums.size(); ++n) {
+            const double area = sums[n].area / 3.0;
+            out.push_back({std::int32_t(distinct[n] >> 2), area});
+            const auto kind = FaceKind(distinct[n] & 3);
+            (kind == FaceKind::Contact ? component.areas.contact
+             : kind == FaceKind::Toric ? component.areas.toric
+                                       : component.areas.spherical) += area;
+            component.volume += sums[n].volume / 3.0;
+        }
+        for (auto& t : mesh.triangles) t = {t[1], t[2], t[0]};
+    }
+    return out;
+}
+
+/// Keeps some of the vertices of a component, and tells the faces of what is left.
+void thinComponent(const Exact& exact, const std::vector<BoundaryPoint>& points, double density,
+                   Component& component, const Progress& progress)
+{
+    const auto wanted = std::size_t(std::lround(density * component.areas.excluded()));
+    ThinnedMesh thin = thinned(component.mesh, wanted, progress);
+    Mesh mesh;
+    std::vector<std::int32_t> balls;
+    for (const std::uint32_t v : thin.vertices) {
+        mesh.positions.push_back(component.mesh.positions[v]);
+        mesh.normals.push_back(component.mesh.normals[v]);
+        component.vertexFaces.push_back(exact.faceOf(points[v]));
+        balls.push_back(component.balls[v]);
+    }
+    mesh.triangles = std::move(thin.triangles);
+    component.triangleFaces.resize(mesh.triangles.size());
+    parallelFor(mesh.triangles.size(), progress, [&](std::size_t t) {
+        Vec3d centre(0.0);
+        for (const std::uint32_t v : mesh.triangles[t]) centre += Vec3d(mesh.positions[v]) / 3.0;
+        component.triangleFaces[t] = exact.faceOf(exact.nearest(centre));
+    });
+    component.mesh = std::move(mesh);
+    component.balls = std::move(balls);
+}
+
+} // namespace
+
+MsmsSurface msmsSurface(const std::vector<Ball>& balls, double probe, double density, bool all,
+                        Progress& progress)
+{
+    SurfaceOptions options;
+    options.kind = SurfaceKind::SolventExcluded;
+    options.probe = probe;
+    options.voxel = voxelFor(balls, probe, density);
+    options.meshLabels = false;
+    Mesh mesh = std::move(makeSurface(balls, options, &progress).mesh);
+
+    const Exact exact(balls, probe, progress);
+    const std::vector<BoundaryPoint> points = placeVertices(exact, mesh, progress);
+    const Shares shares = sharesOf(mesh, points, exact, progress);
+    const std::vector<std::int32_t> nearest =
+        nearestBalls(balls, mesh.positions, probe + 1.0, progress);
+
+    // The vertices and triangles of each component.
+    std::vector<Component> components(shares.count);
+    std::vector<std::vector<BoundaryPoint>> pointsOf(components.size());
+    std::vector<std::uint32_t> number(points.size(), none);
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        const std::uint32_t share = shares.ofVertex[v];
+        if (share == none) continue;
+        Component& component = components[share];
+        number[v] = std::uint32_t(component.mesh.positions.size());
+        component.mesh.positions.push_back(mesh.positions[v]);
+        component.mesh.normals.push_back(mesh.normals[v]);
+        component.balls.push_back(nearest[v]);
+        pointsOf[share].push_back(points[v]);
+    }
+    for (const auto& t : mesh.triangles) {
+        if (number[t[0]] == none) continue;
+        components[shares.ofVertex[t[0]]].mesh.triangles.push_back(
+            {number[t[0]], number[t[1]], number[t[2]]});
+    }
+    mesh = Mesh();
+
+    std::vector<char> outer(components.size(), 0);
+    for (std::size_t p = 0; p < exact.measure.pieces.size(); ++p)
+        if (shares.ofPiece[p] != none && exact.measure.pieces[p].outer)
+            outer[shares.ofPiece[p]] = 1;
+    std::vector<std::vector<BallArea>> areasOf(components.size());
+    std::vector<std::size_t> order;
+    for (std::size_t n = 0; n < components.size(); ++n) {
+        Component& component = components[n];
+        areasOf[n] = measureComponent(exact, pointsOf[n], component, progress);
+        order.push_back(n);
+    }
+    const auto larger = [&](std::size_t a, std::size_t b) {
+        return components[a].areas.excluded() > components[b].areas.excluded();
+    };
+    std::stable_sort(order.begin(), order.end(), larger);
+    const auto first =
+        std::find_if(order.begin(), order.end(), [&](std::size_t n) { return outer[n] != 0; });
+    if (first == order.end()) return {};
+    std::rotate(order.begin(), first, first + 1);
+    if (!all) order.resize(1);
+
+    std::vector<std::uint32_t> place(components.size(), none);
+    MsmsSurface out;
+    out.excludedOf.resize(balls.size());
+    out.accessibleOf.resize(balls.size());
+    for (const std::size_t n : order) {
+        place[n] = std::uint32_t(out.components.size());
+        for (const BallArea& share : areasOf[n])
+            out.excludedOf[std::size_t(share.ball)] += share.area;
+        thinComponent(exact, pointsOf[n], density, components[n], progress);
+        out.components.push_back(std::move(components[n]));
+    }
+    for (const BoundaryFace& face : exact.measure.faces) {
+        const std::uint32_t share = face.piece < 0 ? none : shares.ofPiece[std::size_t(face.piece)];
+        if (share == none || place[share] == none) continue;
+        const std::int32_t ball = exact.boundary.patches[face.patch].ball;
+        const std::int32_t index = exact.boundary.balls[std::size_t(ball)].index;
+        out.accessibleOf[std::size_t(index)] += face.area;
+        out.components[place[share]].areas.accessible += face.area;
+    }
+    return out;
+}
+
+} // namespace molsurf::msms
