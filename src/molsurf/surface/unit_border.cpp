@@ -529,7 +529,8 @@ private:
             std::vector<std::pair<std::int32_t, std::size_t>> same = {
                 {last.unit, lines_[last.line].to}};
             for (std::size_t i = 0; i < same.size(); ++i) {
-                const auto [unit, c] = same[i];
+                const std::int32_t unit = same[i].first;
+                const std::size_t c = same[i].second;
                 const auto add = [&](std::size_t line, std::size_t corner) {
                     const std::pair<std::int32_t, std::size_t> next(
                         product(unit, lines_[line].owner), corner);
