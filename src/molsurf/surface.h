@@ -32,7 +32,7 @@ struct SharedVertex {
 /// Two balls that touch.
 struct ContactArea {
     std::array<std::size_t, 2> balls; ///< their indices, ascending
-    double area;                      ///< [Å^2], > 0
+    double area;                      ///< [Å^2], at least 1e-6
     double distance;                  ///< of their centres [Å]
 };
 

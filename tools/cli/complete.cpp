@@ -206,7 +206,8 @@ void completeFrames(Call& call)
     std::vector<std::string>& fields = call.options.fields;
     if (call.frames.empty() && !call.trajectory.empty()) call.frames = "all";
     if (call.frames.empty()) {
-        if (writes(call, {Format::Csv})) misuse("-o .csv is for --frames");
+        if (writes(call, {Format::Csv}))
+            misuse("-o .csv is for --frames [hint: -o FILE.residues.csv for areas]");
         warnIfGiven(call, {"start"}, "--frames");
         if (call.has("fields")) {
             const auto words = splitWords(call.given.at("fields").back());

@@ -8,6 +8,14 @@
 namespace molsurf
 {
 
+namespace
+{
+
+/// Smaller facets come of rounding, where cells of more than four balls meet [Å^2].
+constexpr double leastContact = 1e-6;
+
+} // namespace
+
 std::vector<double> exposedAreas(const std::vector<Ball>& balls, double probe,
                                  const Progress& progress)
 {
@@ -26,10 +34,12 @@ std::vector<ContactArea> contactAreas(const std::vector<Ball>& balls, double pro
     std::vector<Ball> grown = balls;
     for (Ball& ball : grown) ball.radius += float(probe);
     std::vector<ContactArea> out;
-    for (const PowerFacet& facet : powerFacets(grown, progress))
+    for (const PowerFacet& facet : powerFacets(grown, progress)) {
+        if (facet.area < leastContact) continue;
         out.push_back({{std::size_t(facet.balls[0]), std::size_t(facet.balls[1])},
                        facet.area,
                        facet.distance});
+    }
     return out;
 }
 

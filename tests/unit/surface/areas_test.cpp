@@ -139,6 +139,23 @@ TEST(ContactAreas, ThreeBallsOfAnEquilateralTriangle)
     for (const ContactArea& contact : found) EXPECT_NEAR(contact.area, area, 1e-4);
 }
 
+// Where the cells of many balls meet in an edge or a corner, rounding makes no contacts there.
+TEST(ContactAreas, OfACubicLattice)
+{
+    std::vector<Ball> atoms;
+    for (int i = 0; i < 27; ++i)
+        atoms.push_back(ball(3.0 * (i % 3), 3.0 * (i / 3 % 3), 3.0 * (i / 9), 1.7));
+    const auto found = contactAreas(atoms, 1.4);
+    ASSERT_EQ(found.size(), 54u);
+    for (const ContactArea& contact : found) EXPECT_NEAR(contact.distance, 3.0, 1e-5);
+    const auto inside = [&](std::size_t i) { return i % 3 == 1 && i / 3 % 3 == 1; };
+    for (const ContactArea& contact : found) {
+        if (inside(contact.balls[0]) && contact.balls[1] == contact.balls[0] + 9) {
+            EXPECT_NEAR(contact.area, 9.0, 1e-4);
+        }
+    }
+}
+
 // A facet by points: those of its disk whose power distance to no third ball is less.
 TEST(ContactAreas, OfRandomBallsByPoints)
 {
