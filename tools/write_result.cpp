@@ -197,6 +197,12 @@ void writePicture(const Call& call, const BallSet& atoms, const Mesh& mesh, doub
              file);
 }
 
+/// The point that is 0 in meshes.
+openvdb::Vec3d originOf(const Call& call)
+{
+    return call.center ? call.scene.center : openvdb::Vec3d(0.0);
+}
+
 /// The values of the atoms in the place of their B factors.
 std::vector<double> columnB(const Output& output, const BallSet& atoms,
                             const MolecularSurface& result)
@@ -325,10 +331,10 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
         writeCsv(areaTable(output.of, call, atoms, result), file);
         break;
     case Format::Pdb:
-        writePdb(atoms, columnB(output, atoms, result), file);
+        writePdb(atoms, columnB(output, atoms, result), originOf(call), file);
         break;
     case Format::Mmcif:
-        writeMmcif(atoms, columnB(output, atoms, result), file);
+        writeMmcif(atoms, columnB(output, atoms, result), originOf(call), file);
         break;
     }
 }

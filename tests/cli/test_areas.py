@@ -110,6 +110,15 @@ class Areas(ToolTest):
         for words in cif:
             self.assertAlmostEqual(float(words[14]), areas[words[16]], delta=1e-3)
 
+    def test_centered_atoms_are_where_the_mesh_is(self):
+        self.check(0, CRAMBIN, *FAST, "--center", "-o", "a.pdb", "-o", "a.ply", "-o", "a.json")
+        center = self.report("a.json")["center"]
+        for record, source in zip((self.folder / "a.pdb").read_text().splitlines(),
+                                  (line for line in CRAMBIN.read_text().splitlines() if line[:4] == "ATOM")):
+            for axis in range(3):
+                column = slice(30 + 8 * axis, 38 + 8 * axis)
+                self.assertAlmostEqual(float(record[column]), float(source[column]) - center[axis], delta=0.00051)
+
     def test_contacts(self):
         r, d = 1.7 + 1.4, 4.0
         self.write("a.pdb", atom(1, 0.0) + atom(2, d, number=2) + atom(3, 40.0, number=3, chain="B")

@@ -232,7 +232,7 @@ bool asksForNumbers(const Call& call)
 {
     const std::string& value = call.atoms.valueBy;
     const bool byPoint = value == "radius" || value.rfind("potential", 0) == 0;
-    return hasClosedForm(call.options) && !call.atoms.bySymmetry && !byPoint &&
+    return hasClosedForm(call.options) && !call.atoms.bySymmetry && !byPoint && !call.center &&
            !call.outputs.empty() &&
            std::all_of(call.outputs.begin(), call.outputs.end(), [&](const Output& o) {
                return o.format == Format::AreaTable || o.format == Format::Pdb ||

@@ -808,10 +808,12 @@ OptionGroup areaOptions()
                 wrong("areas", "some of " + joinWords(areaTables(), ", "), values.back(),
                       didYouMean(table, areaTables()));
     };
-    return {"Areas",
-            {areas, word("contacts", "LEVEL",
-                         "contact areas between atoms, residues or chains: atom,\nresidue, chain",
-                         wholes, OF(contacts), contactLevels)}};
+    return {
+        "Areas",
+        {areas, with(word("contacts", "LEVEL",
+                          "contact areas between atoms, residues or chains: atom,\nresidue, chain",
+                          wholes, OF(contacts), contactLevels),
+                     [](Option& o) { o.stored = nullptr; })}};
 }
 
 OptionGroup sceneOptions()

@@ -19,13 +19,14 @@ namespace molsurf
 namespace
 {
 
-/// A coordinate of a file, which has three decimals, from the float that was made of it.
-double decimal(float x)
+/// A coordinate with the three decimals that files have.
+double decimal(double x)
 {
-    return std::round(1000.0 * double(x)) / 1000.0;
+    return std::round(1000.0 * x) / 1000.0;
 }
 
-gemmi::Structure structureOf(const BallSet& atoms, const std::vector<double>& values)
+gemmi::Structure structureOf(const BallSet& atoms, const std::vector<double>& values,
+                             const openvdb::Vec3d& origin)
 {
     gemmi::Structure out;
     gemmi::Model& model = out.models.emplace_back("1");
@@ -54,7 +55,7 @@ gemmi::Structure structureOf(const BallSet& atoms, const std::vector<double>& va
         atom.name = name.name;
         atom.altloc = name.altloc;
         atom.element = gemmi::Element(static_cast<gemmi::El>(name.element));
-        const openvdb::Vec3f& p = atoms.balls[i].center;
+        const openvdb::Vec3d p = openvdb::Vec3d(atoms.balls[i].center) - origin;
         atom.pos = gemmi::Position(decimal(p.x()), decimal(p.y()), decimal(p.z()));
         atom.occ = name.occupancy;
         atom.b_iso = float(values[i]);
@@ -62,7 +63,7 @@ gemmi::Structure structureOf(const BallSet& atoms, const std::vector<double>& va
     return out;
 }
 
-void checkPdb(const BallSet& atoms, std::size_t count)
+void checkPdb(const BallSet& atoms, std::size_t count, const openvdb::Vec3d& origin)
 {
     const auto fail = [](const std::string& what) {
         throw Error(ErrorKind::Output, "a .pdb has no room for " + what + " [hint: -o FILE.cif]");
@@ -74,9 +75,9 @@ void checkPdb(const BallSet& atoms, std::size_t count)
         if (residue.name.size() > 3) fail("the residue name " + residue.name);
         if (names.atoms[i].name.size() > 4) fail("the atom name " + names.atoms[i].name);
         for (int axis = 0; axis < 3; ++axis) {
-            const float x = atoms.balls[i].center[axis];
-            if (x <= -999.9995f || x >= 9999.9995f)
-                fail("the coordinate " + std::to_string(double(x)) + " Å");
+            const double x = double(atoms.balls[i].center[axis]) - origin[axis];
+            if (x <= -999.9995 || x >= 9999.9995)
+                fail("the coordinate " + std::to_string(x) + " Å");
         }
     }
 }
@@ -95,21 +96,23 @@ void writeTo(OutputFile& file, const Write& write)
 
 } // namespace
 
-void writePdb(const BallSet& atoms, const std::vector<double>& values, OutputFile& file)
+void writePdb(const BallSet& atoms, const std::vector<double>& values, const openvdb::Vec3d& origin,
+              OutputFile& file)
 {
-    checkPdb(atoms, values.size());
+    checkPdb(atoms, values.size(), origin);
     gemmi::PdbWriteOptions options;
     options.cryst1_record = false;
-    const gemmi::Structure structure = structureOf(atoms, values);
+    const gemmi::Structure structure = structureOf(atoms, values, origin);
     writeTo(file, [&](std::ostream& out) { gemmi::write_pdb(structure, out, options); });
 }
 
-void writeMmcif(const BallSet& atoms, const std::vector<double>& values, OutputFile& file)
+void writeMmcif(const BallSet& atoms, const std::vector<double>& values,
+                const openvdb::Vec3d& origin, OutputFile& file)
 {
     gemmi::MmcifOutputGroups groups(false);
     groups.atoms = groups.group_pdb = true;
     gemmi::cif::Block block("surface");
-    gemmi::update_mmcif_block(structureOf(atoms, values), block, groups);
+    gemmi::update_mmcif_block(structureOf(atoms, values, origin), block, groups);
     writeTo(file, [&](std::ostream& out) {
         gemmi::cif::write_cif_block_to_stream(out, block, gemmi::cif::Style::Pdbx);
     });

@@ -16,12 +16,15 @@ namespace molsurf
 ///
 /// @param[in] atoms   with names
 /// @param[in] values  one an atom; the file has two decimals, and 999.99 at most
+/// @param[in] origin  the point that is 0 in the file [Å]
 /// @throws Error(ErrorKind::Output) if the format has no room for a name or a coordinate, or if the
 ///         file cannot be written
-void writePdb(const BallSet& atoms, const std::vector<double>& values, OutputFile& file);
+void writePdb(const BallSet& atoms, const std::vector<double>& values, const openvdb::Vec3d& origin,
+              OutputFile& file);
 
 /// Writes atoms as an mmCIF file. Values have the digits of a float.
 /// @throws Error(ErrorKind::Output) if the file cannot be written
-void writeMmcif(const BallSet& atoms, const std::vector<double>& values, OutputFile& file);
+void writeMmcif(const BallSet& atoms, const std::vector<double>& values,
+                const openvdb::Vec3d& origin, OutputFile& file);
 
 } // namespace molsurf
