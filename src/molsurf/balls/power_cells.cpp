@@ -138,16 +138,17 @@ double facetArea(double radius, const Neighbour& neighbour, const std::vector<Ne
 }
 
 /// Calls a function with each neighbour that a ball shares a facet with, and the facet's area.
+/// @param[in] first  index from which on neighbours count
 template<typename Visit>
 void forEachFacet(const std::vector<Ball>& balls, const BallIndex& index, std::int32_t i,
-                  const Visit& visit)
+                  std::int32_t first, const Visit& visit)
 {
     const Ball& ball = balls[std::size_t(i)];
     std::vector<Neighbour> neighbours;
     if (!findNeighbours(ball, i, index, neighbours)) return;
     std::vector<Vec2d> polygon, scratch;
     for (const Neighbour& other : neighbours) {
-        if (other.repeats) continue;
+        if (other.repeats || other.i < first) continue;
         const double area = facetArea(double(ball.radius), other, neighbours, polygon, scratch);
         if (area > 0.0) visit(other, area);
     }
@@ -179,7 +180,7 @@ PowerCells powerCells(const std::vector<Ball>& balls, const Progress& progress)
         const auto i = std::int32_t(n);
         Part& part = parts[n];
         part.flux = double(balls[n].radius) * out.areas[n];
-        forEachFacet(balls, index, i, [&](const Neighbour& other, double area) {
+        forEachFacet(balls, index, i, 0, [&](const Neighbour& other, double area) {
             part.flux += other.height * area;
             if (other.i > i) part.facets.push_back({{i, other.i}, area, other.distance});
         });
@@ -197,8 +198,8 @@ std::vector<PowerFacet> powerFacets(const std::vector<Ball>& balls, const Progre
     std::vector<std::vector<PowerFacet>> parts(balls.size());
     parallelFor(balls.size(), progress, [&](std::size_t n) {
         const auto i = std::int32_t(n);
-        forEachFacet(balls, index, i, [&](const Neighbour& other, double area) {
-            if (other.i > i) parts[n].push_back({{i, other.i}, area, other.distance});
+        forEachFacet(balls, index, i, i + 1, [&](const Neighbour& other, double area) {
+            parts[n].push_back({{i, other.i}, area, other.distance});
         });
         std::sort(parts[n].begin(), parts[n].end(),
                   [](const PowerFacet& a, const PowerFacet& b) { return a.balls[1] < b.balls[1]; });
