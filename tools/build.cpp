@@ -163,6 +163,10 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     call.options.meshLabels = showsMesh(call.outputs);
     if (balls.instances.size() > 0 && balls.copies > 1) call.options.split = true;
     MolecularSurface result = makeSurface(balls, call.options, &terminal, warm);
+    if (call.options.contacts && call.contacts != ContactLevel::Atom &&
+        balls.names->residues.size() == 1)
+        result.report.warnings.push_back("contacts: all atoms are of one residue [hint: --contacts "
+                                         "atom]");
     terminal.erase();
     if (!call.quiet)
         for (const std::string& warning : result.report.warnings) say("warning: " + warning);

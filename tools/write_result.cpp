@@ -217,7 +217,7 @@ Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
                 const MolecularSurface& result)
 {
     if (name == "atoms") return atomTable(atoms, result);
-    if (name == "residues") return residueTable(atoms, result);
+    if (name == "residues") return residueTable(atoms, call.options.probe, result);
     if (name == "contacts") return contactTable(atoms, call.contacts, result);
     return interfaceTable(atoms, result.report);
 }

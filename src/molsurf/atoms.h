@@ -112,7 +112,7 @@ struct BallNames {
         std::string name;         ///< "ALA"
         int number = 0;           ///< the author's sequence number
         char insertionCode = ' '; ///< ' ' if it has none
-        bool hetero = false;      ///< a ligand, an ion or a water
+        bool hetatm = false;      ///< whether its record in the file is HETATM
     };
 
     /// An atom, as people name it.

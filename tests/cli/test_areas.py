@@ -196,6 +196,43 @@ class Areas(ToolTest):
         self.check(0, "a.pqr", *SAS, "-o", "a.atoms.csv")
         self.assertEqual(self.table("a.atoms.csv")[0]["atom"], "'=CMD")
 
+    def test_what_a_pdb_has_no_room_for(self):
+        def refused(text, says, name="a.pdb", options=()):
+            self.write("in.pqr", text)
+            self.check(1, "in.pqr", *SAS, *options, "-o", name, says=[name, says])
+            self.assertNotIn(name, self.names())
+
+        line = "ATOM 1 CA ALA A 1 0.0 0.0 0.0 0.1 1.5\n"
+        self.write("in.pqr", line)
+        self.check(0, "in.pqr", *SAS, "-o", "b.pdb", "-o", "b.residues.pdb")
+        refused(line.replace(" A ", " AB "), "chain name AB")
+        refused(line.replace(" 1 0.0", " 12345 0.0"), "residue number 12345")
+        refused(line.replace("0.0 0.0 0.0", "0.0 -1000.0 0.0"), "coordinate -1000.000000")
+        refused(line.replace("1.5\n", "8.0\n"), "area 1110")
+        refused("".join(f"ATOM {i} C{i} ALA A 1 {4 * i}.0 0.0 0.0 0.1 2.0\n" for i in range(12)), "area",
+                "a.residues.pdb")
+        self.check(0, "in.pqr", *SAS, "-o", "b.residues.cif")
+        self.write("in.xyzr", "0 0 0 1.5\n")
+        for name in "a.pdb", "a.cif":
+            self.check(1, "in.xyzr", *SAS, "-o", name, says="the atoms of the input have no names")
+        self.check(0, "in.xyzr", *SAS, "-o", "a.contacts.csv", says="[hint: --contacts atom]")
+
+    def test_records_and_elements_stay(self):
+        # A modified residue within a chain, deuterium, and a ligand.
+        self.write("a.pdb", atom(1, 0.0, residue="ALA") + atom(2, 3.0, residue="MSE", number=2).replace("ATOM  ", "HETATM")
+                   + atom(3, 6.0, name="D1", element="D", number=3)
+                   + atom(4, 9.0, residue="LIG", number=4).replace("ATOM  ", "HETATM"))
+        self.check(0, "a.pdb", *SAS, "-o", "b.pdb")
+        records = [line for line in (self.folder / "b.pdb").read_text().splitlines()
+                   if line[:6] in ("ATOM  ", "HETATM")]
+        self.assertEqual([r[:6] for r in records], ["ATOM  ", "HETATM", "ATOM  ", "HETATM"])
+        self.assertEqual([r[76:78] for r in records], [" C", " C", " D", " C"])
+        self.assertEqual(records[2][12:16], " D1 ")
+
+    def test_another_probe_has_no_maxima(self):
+        self.check(0, CRAMBIN, *SAS, "--probe", "3", "-o", "a.residues.csv")
+        self.assertNotIn("relative_accessibility", self.table("a.residues.csv")[0])
+
     def test_wrong_calls(self):
         for words, says in (
                 (["--areas", "atom"], ["expected some of atoms, residues, contacts, interfaces", "did you mean atoms"]),
@@ -204,6 +241,8 @@ class Areas(ToolTest):
                 (["-o", "a.atoms.csv", "--split", "group", "--group-by", "chain"], "--split together"),
                 (["-o", "a.atoms.csv", "--memory", "1G"], "--memory together"),
                 (["-o", "a.atoms.csv", "--instances", "--assembly", "1"], "--instances together"),
+                (["-o", "a.contacts.csv", "--by-symmetry", "--assembly", "1", *SAS], "--by-symmetry together"),
+                (["-o", "a.pdb", "--dry-run", *SAS], ["(-o a.pdb) and --dry-run together", "[hint: "]),
                 (["-o", "a.table.csv"], "-o .csv is for --frames")):
             self.check(2, CRAMBIN, *words, *([] if "-o" in words else ["-o", "a.json"]), says=says)
         self.check(0, CRAMBIN, *FAST, "-o", "a.vdb")

@@ -411,7 +411,8 @@ class Options(Msms):
                 (["-if", "two.xyzrn", "-one_cavity", 1, 2], ["-one_cavity", "-all_components"]),
                 (["-socketName", "x"], "-socketName"), (["-sinetd"], "-sinetd")):
             self.refuse(2, *words, says=says)
-        for option, bad in (("-density", "x"), ("-density", "0"), ("-density", "nan"), ("-density", "401"),
+        for option, bad in (("-density", "x"), ("-density", "0"), ("-density", "0.05"), ("-density", "nan"),
+                            ("-density", "401"), ("-probe_radius", "0.01"),
                             ("-hdensity", "-1"), ("-probe", "-0.1"), ("-probe", "1e3"), ("-probe", "1.5A")):
             self.refuse(2, "-if", "two.xyzrn", "-of", "a", option, bad, says=["expected a number", f'"{bad}"'])
 

@@ -68,6 +68,42 @@ class Values(ToolTest):
         self.assertEqual({found[i] for i in (0, 1, 2, 3, 5)}, {(86, 180, 233)})
         self.assertEqual(found[4], (153, 153, 153))
 
+    def test_values_that_the_input_lacks(self):
+        self.write("a.pqr", "ATOM 1 CA ALA A 1 0.0 0.0 0.0 0.1 1.5\n")
+        for word, what in ("bfactor", "B factors"), ("occupancy", "occupancies"):
+            self.check(1, "a.pqr", "--color", word, "-o", "a.ply", says=f"it has no {what}")
+        self.check(2, "a.pqr", "--color", "table=", "-o", "a.ply", says="expected table=FILE")
+
+    def test_a_range_takes_b_factors_for_what_they_are(self):
+        text = "".join(atom(2 * i + k + 1, "ALA", 10.0 * i + 2.0 * k, 30.0 + i, name=name).replace(
+            f"A{2 * i + k + 1:4}", f"A{i + 1:4}") for i in range(3) for k, name in enumerate(("CA", "CB")))
+        self.write("a.pdb", text)
+        self.colored("bfactor")
+        self.assertIn("plddt", read_ply((self.folder / "a.ply").read_bytes())[0])
+        self.colored("bfactor", "--range", "0,40")
+        self.assertIn("bfactor", read_ply((self.folder / "a.ply").read_bytes())[0])
+
+    def test_tables_that_do_not_fit(self):
+        self.apart(["ALA", "GLY"])
+        for text, says in (("A 1 1\nA 1 2\n", 't.txt:2: expected one value for each, got a second one for "A 1"'),
+                           ("A 1 nan\n", "t.txt:1: expected"),
+                           ("A 1 1e400\n", "t.txt:1: expected"),
+                           ("B 7 1\n", 't.txt: none of its atoms is there: it has those of chain "B", 7')):
+            self.write("t.txt", text)
+            self.check(1, "a.pdb", "--color", "table=t.txt", "-o", "b.ply", says=says)
+
+    def test_maps_that_do_not_fit(self):
+        head = ("object 1 class gridpositions counts 2 2 2\norigin {0} {0} {0}\ndelta 40 0 0\ndelta 0 40 0\n"
+                "delta 0 0 40\nobject 3 class array type double rank 0 items 8 data follows\n")
+        self.apart(["ALA"])
+        for values, says in (("1 2 3\n4 5 6\n7 8\n9\n", "expected no more than 8 values"),
+                             ("1 2 3\n4 5 nan\n7 8\n", "expected numbers")):
+            self.write("m.dx", head.format(-20) + values)
+            self.check(1, "a.pdb", "--color", "potential=m.dx", "-o", "b.ply", says=says)
+        self.write("m.dx", head.format(900) + "1 2 3\n4 5 6\n7 8\n")
+        self.check(0, "a.pdb", *FAST, "--color", "potential=m.dx", "-o", "b.ply",
+                   says="Potential: no point of the surface has one")
+
     def test_plain(self):
         self.check(0, CRAMBIN, *FAST, "--color", "plain=#ff8000", "-o", "a.ply", "-o", "a.png")
         names, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())

@@ -241,6 +241,14 @@ bool asksForNumbers(const Call& call)
            });
 }
 
+/// The first file with areas by atom.
+std::string areaFile(const Call& call)
+{
+    for (const Output& output : call.outputs)
+        if (!output.of.empty() && output.format != Format::Usda) return output.path;
+    return "";
+}
+
 // To be called before completeGroups().
 void completeAreas(Call& call)
 {
@@ -253,21 +261,29 @@ void completeAreas(Call& call)
     call.options.grid = !asksForNumbers(call);
     if (tables.empty()) return;
     SurfaceOptions& options = call.options;
-    for (const char* option : {"coarse", "split", "surface-of", "instances"})
-        if (call.has(option)) misuse("areas of atoms and --" + std::string(option) + " together");
-    if (options.grid)
-        for (const char* option : {"memory", "dry-run"})
-            if (call.has(option))
-                misuse("areas of atoms and --" + std::string(option) + " together");
+    const auto refuse = [&](const char* option, const std::string& hint) {
+        if (call.has(option))
+            misuse("areas by atom (" +
+                   std::string(call.areas.empty() ? "-o " + areaFile(call) : "--areas") +
+                   ") and --" + option + " together [hint: " + hint + "]");
+    };
+    refuse("coarse", "a run without --coarse");
+    refuse("split", "--interfaces has the areas of groups alone");
+    refuse("surface-of", "a run without --surface-of");
+    refuse("instances", "--by-symmetry has those of a unit in the whole");
+    if (options.grid) refuse("memory", "--surface sas needs no grid");
+    refuse("dry-run", "--dry-run -o FILE.vdb");
     call.atoms.names = true;
     options.contacts = tables.count("contacts") > 0;
     options.ballAreas = tables.size() > std::size_t(options.contacts);
     if (call.atoms.bySymmetry && options.ballAreas && !hasClosedForm(options))
         misuse("areas of atoms and --by-symmetry together: expected a closed form [hint: --surface "
                "sas or vdw]");
+    if (call.atoms.bySymmetry && (options.contacts || tables.count("interfaces") > 0))
+        misuse("contacts or interfaces of residues and --by-symmetry together [hint: without "
+               "--by-symmetry]");
     if (tables.count("interfaces") == 0) return;
     options.interfaces = true;
-    if (call.atoms.bySymmetry) misuse("areas of interfaces and --by-symmetry together");
     if (call.groupsFile.empty() && call.atoms.groupBy.empty() && call.colorGroups.empty())
         call.atoms.groupBy = "chain";
 }

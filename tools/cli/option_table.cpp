@@ -722,7 +722,9 @@ OptionGroup groupOptions()
             call.colorGroups = among(words) ? word : "";
             call.atoms.valueBy = among(valueWords()) ? word : "";
             for (const std::string& start : files)
-                if (word.rfind(start, 0) == 0)
+                if (word == start)
+                    wrong("color", start + "FILE", values.back());
+                else if (word.rfind(start, 0) == 0)
                     call.atoms.valueBy = start + values.back().substr(start.size());
             call.options.color = call.atoms.valueBy.empty() ? ColorBy::Nothing : ColorBy::Value;
             call.atoms.plainColor.reset();

@@ -69,11 +69,16 @@ const char* const noServer = "expected a file by -if, this program is no server"
 const std::vector<Option>& options()
 {
     static const std::vector<Option> all = {
-        {"probe_radius", "float", "radius of the probe, 0 to 100 [1.5]",
-         [](MsmsCall& c, Value v) { c.probe = number("probe_radius", v, 0.0, true, 100.0); }},
-        {"density", "float", "vertices an Å^2, up to 400 [1.0]",
+        {"probe_radius", "float", "radius of the probe, 0 or 0.2 to 100 [1.5]",
          [](MsmsCall& c, Value v) {
-             c.density = number("density", v, 0.0, false, largestDensity);
+             c.probe = number("probe_radius", v, 0.0, true, 100.0);
+             if (c.probe > 0.0 && c.probe < leastProbe)
+                 fail("probe_radius",
+                      "expected a number of at least 0.2, or 0, got " + inQuotes(v));
+         }},
+        {"density", "float", "vertices an Å^2, 0.1 to 400 [1.0]",
+         [](MsmsCall& c, Value v) {
+             c.density = number("density", v, leastDensity, true, largestDensity);
          }},
         {"hdensity", "float", "has no effect: all of a surface has -density [3.0]",
          [](MsmsCall& c, Value v) { c.highDensity = number("hdensity", v, 0.0, false, 1e6); }},

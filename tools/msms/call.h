@@ -29,6 +29,12 @@ struct MsmsCall {
 /// The largest density that the finest voxels reach [1/Å^2].
 constexpr double largestDensity = 400.0;
 
+/// The least one: its triangles are as large as atoms [1/Å^2].
+constexpr double leastDensity = 0.1;
+
+/// The least radius of a probe but 0: smaller re-entrant faces are lost in the voxels [Å].
+constexpr double leastProbe = 0.2;
+
 /// Parses the command line. An option may be cut short as long as it can be no other one.
 /// @throws Error(ErrorKind::Usage)
 MsmsCall parseMsms(int argc, const char* const* argv);

@@ -156,7 +156,12 @@ int main(int argc, char** argv)
             perform(call);
         return 0;
     } catch (const Error& e) {
-        say(std::string("error: ") + e.what());
+        std::string text = e.what();
+        const std::size_t hint = text.find(" [hint:");
+        // Those of the library name its own options.
+        if (hint != std::string::npos && text.find('`', hint) != std::string::npos)
+            text.erase(hint);
+        say("error: " + text);
         return statusOf(e.kind());
     } catch (const Cancelled&) {
         say("interrupted");

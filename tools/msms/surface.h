@@ -60,7 +60,7 @@ struct MsmsSurface {
 /// of its corners. Then vertices are taken away until the density is the one that is wanted.
 ///
 /// @param[in] probe    [Å], >= 0
-/// @param[in] density  vertices an Å^2, in (0, largestDensity]
+/// @param[in] density  vertices an Å^2, in [leastDensity, largestDensity]
 /// @param[in] all      whether all components are wanted, and not the first alone
 /// @throws Error as makeSurface()
 MsmsSurface msmsSurface(const std::vector<Ball>& balls, double probe, double density, bool all,

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <ios>
 #include <map>
+#include <set>
 #include <string>
 
 namespace molsurf
@@ -45,16 +46,18 @@ gemmi::Structure structureOf(const BallSet& atoms, const std::vector<double>& va
             added.name = name.name;
             added.seqid = gemmi::SeqId(name.number, name.insertionCode);
             added.subchain = name.labelChain;
-            added.het_flag = name.hetero ? 'H' : 'A';
+            added.het_flag = name.hetatm ? 'H' : 'A';
             added.entity_type =
-                name.hetero ? gemmi::EntityType::NonPolymer : gemmi::EntityType::Polymer;
+                name.hetatm ? gemmi::EntityType::NonPolymer : gemmi::EntityType::Polymer;
             residue = &added;
         }
         const BallNames::Atom& name = names.atoms[i];
         gemmi::Atom& atom = residue->atoms.emplace_back();
         atom.name = name.name;
         atom.altloc = name.altloc;
-        atom.element = gemmi::Element(static_cast<gemmi::El>(name.element));
+        const bool deuterium = name.element == 1 && name.name.rfind('D', 0) == 0;
+        atom.element = deuterium ? gemmi::Element(gemmi::El::D)
+                                 : gemmi::Element(static_cast<gemmi::El>(name.element));
         const openvdb::Vec3d p = openvdb::Vec3d(atoms.balls[i].center) - origin;
         atom.pos = gemmi::Position(decimal(p.x()), decimal(p.y()), decimal(p.z()));
         atom.occ = name.occupancy;
@@ -63,23 +66,47 @@ gemmi::Structure structureOf(const BallSet& atoms, const std::vector<double>& va
     return out;
 }
 
-void checkPdb(const BallSet& atoms, std::size_t count, const openvdb::Vec3d& origin)
+[[noreturn]] void noRoom(const OutputFile& file, const std::string& what)
 {
-    const auto fail = [](const std::string& what) {
-        throw Error(ErrorKind::Output, "a .pdb has no room for " + what + " [hint: -o FILE.cif]");
-    };
+    throw Error(ErrorKind::Output,
+                file.path() + ": a .pdb has no room for " + what + " [hint: -o FILE.cif]");
+}
+
+/// Refuses what the columns of the format do not hold. (Chains of two letters and numbers in base
+/// 36 are in use, but many programs read neither.)
+void checkPdb(const BallSet& atoms, const std::vector<double>& values, const openvdb::Vec3d& origin,
+              const OutputFile& file)
+{
+    constexpr std::size_t mostRecords = 99999;
     const BallNames& names = *atoms.names;
-    for (std::size_t i = 0; i < count; ++i) {
+    std::set<std::string> chains;
+    for (std::size_t i = 0; i < values.size(); ++i) {
         const BallNames::Residue& residue = names.residues[std::size_t(names.residueOf[i])];
-        if (residue.chain.size() > 2) fail("the chain name " + residue.chain);
-        if (residue.name.size() > 3) fail("the residue name " + residue.name);
-        if (names.atoms[i].name.size() > 4) fail("the atom name " + names.atoms[i].name);
+        chains.insert(residue.chain);
+        if (residue.chain.size() > 1) noRoom(file, "the chain name " + residue.chain);
+        if (residue.name.size() > 3) noRoom(file, "the residue name " + residue.name);
+        if (residue.number > 9999 || residue.number < -999)
+            noRoom(file, "the residue number " + std::to_string(residue.number));
+        if (names.atoms[i].name.size() > 4) noRoom(file, "the atom name " + names.atoms[i].name);
         for (int axis = 0; axis < 3; ++axis) {
             const double x = double(atoms.balls[i].center[axis]) - origin[axis];
             if (x <= -999.9995 || x >= 9999.9995)
-                fail("the coordinate " + std::to_string(x) + " Å");
+                noRoom(file, "the coordinate " + std::to_string(x) + " Å");
         }
+        if (values[i] >= 999.995)
+            noRoom(file, "the area " + std::to_string(values[i]) + " Å^2 as a B factor");
     }
+    if (values.size() + chains.size() > mostRecords)
+        noRoom(file, std::to_string(values.size()) + " atoms");
+}
+
+/// Refuses atoms that have no names, as those of .xyzr.
+void checkNames(const BallSet& atoms, const OutputFile& file)
+{
+    for (const BallNames::Residue& residue : atoms.names->residues)
+        if (residue.name.empty())
+            throw Error(ErrorKind::Output, file.path() + ": the atoms of the input have no names "
+                                                         "[hint: -o FILE.atoms.csv]");
 }
 
 /// @param[in] write  writes to a stream
@@ -99,7 +126,8 @@ void writeTo(OutputFile& file, const Write& write)
 void writePdb(const BallSet& atoms, const std::vector<double>& values, const openvdb::Vec3d& origin,
               OutputFile& file)
 {
-    checkPdb(atoms, values.size(), origin);
+    checkNames(atoms, file);
+    checkPdb(atoms, values, origin, file);
     gemmi::PdbWriteOptions options;
     options.cryst1_record = false;
     const gemmi::Structure structure = structureOf(atoms, values, origin);
@@ -109,6 +137,7 @@ void writePdb(const BallSet& atoms, const std::vector<double>& values, const ope
 void writeMmcif(const BallSet& atoms, const std::vector<double>& values,
                 const openvdb::Vec3d& origin, OutputFile& file)
 {
+    checkNames(atoms, file);
     gemmi::MmcifOutputGroups groups(false);
     groups.atoms = groups.group_pdb = true;
     gemmi::cif::Block block("surface");

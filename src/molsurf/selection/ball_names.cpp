@@ -24,7 +24,7 @@ BallNames ballNames(const Structure& structure, const std::vector<Ball>& balls,
                 const Residue& r = structure.residues[std::size_t(atom.residue)];
                 out.residues.push_back({structure.chains[std::size_t(r.chain)] + suffix,
                                         structure.asyms[std::size_t(r.asym)] + suffix, r.name,
-                                        r.number, r.insertionCode, r.hetero || r.water});
+                                        r.number, r.insertionCode, r.hetatm});
             }
             out.residueOf.push_back(place->second);
             out.atoms.push_back({atom.name, atom.altloc, atom.element, atom.occupancy});

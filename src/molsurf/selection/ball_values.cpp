@@ -69,12 +69,14 @@ bool arePredicted(const Structure& structure)
     return varied && repeated >= ofResidue.size();
 }
 
-BallValues bFactors(const Structure& structure, std::vector<std::string>& warnings)
+/// @param[in] asGiven  whether they are taken for B factors in any case
+BallValues bFactors(const Structure& structure, bool asGiven, std::vector<std::string>& warnings)
 {
     BallValues out{"bfactor", "B factor", "Å²", BallValues::Map::Magnitude, 0.0, 1.0, {}};
-    if (!arePredicted(structure)) return out;
+    if (asGiven || !arePredicted(structure)) return out;
     warnings.push_back("B factors are the same within every residue and from 0 to 100: taken as "
-                       "the pLDDT of a predicted model");
+                       "the pLDDT of a predicted model [hint: with `valueRange` they are B "
+                       "factors]");
     return {"plddt", "pLDDT", "", BallValues::Map::Confidence, 0.0, 100.0, {}};
 }
 
@@ -120,8 +122,9 @@ Table readTable(const std::string& path)
         const std::string last(fields.back());
         char* end = nullptr;
         const float value = std::strtof(last.c_str(), &end);
-        const bool number = end == last.c_str() + last.size() && std::isfinite(value);
-        if (!number && out.empty()) continue; // names of the columns
+        const bool text = end != last.c_str() + last.size();
+        if (text && out.empty()) continue; // names of the columns
+        const bool number = !text && std::isfinite(value);
         int residue = 0;
         char insertion = ' ';
         bool good = number && (fields.size() == 3 || fields.size() == 4);
@@ -135,18 +138,28 @@ Table readTable(const std::string& path)
         if (!good)
             throw Error(ErrorKind::Input,
                         displayName(path) + ":" + std::to_string(lines.number()) +
-                            ": expected chain, residue number, perhaps atom, and value, got " +
+                            ": expected chain, residue number, perhaps atom, and a finite value, "
+                            "got " +
                             inQuotes(std::string(lines.line())));
-        out[{std::string(fields[0]), residue, insertion,
-             fields.size() == 4 ? std::string(fields[2]) : ""}] = value;
+        const bool isNew =
+            out.emplace(std::tuple(std::string(fields[0]), residue, insertion,
+                                   fields.size() == 4 ? std::string(fields[2]) : std::string()),
+                        value)
+                .second;
+        if (!isNew)
+            throw Error(ErrorKind::Input,
+                        displayName(path) + ":" + std::to_string(lines.number()) +
+                            ": expected one value for each, got a second one for " +
+                            inQuotes(std::string(fields[0]) + " " + std::string(fields[1])));
     }
     if (out.empty()) throw Error(ErrorKind::Input, displayName(path) + ": it has no values");
     return out;
 }
 
-void fillFromTable(const Structure& structure, const std::vector<Ball>& balls, const Table& table,
-                   BallValues& out, std::vector<std::string>& warnings)
+void fillFromTable(const Structure& structure, const std::vector<Ball>& balls,
+                   const std::string& path, BallValues& out, std::vector<std::string>& warnings)
 {
+    const Table table = readTable(path);
     Table unused = table;
     for (const Ball& ball : balls) {
         const Residue& residue = residueOf(structure, ball);
@@ -162,6 +175,16 @@ void fillFromTable(const Structure& structure, const std::vector<Ball>& balls, c
         out.valueOf.push_back(value);
     }
     if (unused.empty()) return;
+    if (unused.size() == table.size()) {
+        const auto& [chain, number, insertion, atom] = table.begin()->first;
+        const Residue& first = residueOf(structure, balls.front());
+        throw Error(ErrorKind::Input, path +
+                                          ": none of its atoms is there: it has those of chain " +
+                                          inQuotes(chain) + ", " + std::to_string(number) +
+                                          ", for example, expected such as " +
+                                          inQuotes(structure.chains[std::size_t(first.chain)]) +
+                                          ", " + std::to_string(first.number));
+    }
     const auto& [chain, number, insertion, atom] = unused.begin()->first;
     warnings.push_back(std::to_string(unused.size()) +
                        " values of the table are for atoms that there are not, as of " + chain +
@@ -180,7 +203,7 @@ const std::vector<std::string>& valueWords()
 }
 
 BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls,
-                      const std::string& by, const Vec3d& centre, double probe,
+                      const std::string& by, bool ranged, const Vec3d& centre, double probe,
                       std::vector<std::string>& warnings)
 {
     using Map = BallValues::Map;
@@ -192,8 +215,12 @@ BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls
         return structure.atoms[std::size_t(ball.atom)];
     };
     BallValues out;
+    if ((by == "bfactor" || by == "occupancy") && structure.hasRadii)
+        throw Error(ErrorKind::Input, displayName(structure.source) + ": it has no " +
+                                          (by == "bfactor" ? "B factors" : "occupancies") +
+                                          ", which a PDB or mmCIF file has");
     if (by == "bfactor") {
-        out = filled(bFactors(structure, warnings),
+        out = filled(bFactors(structure, ranged, warnings),
                      [&](const Ball& ball) { return atomOf(ball).bFactor; });
         if (out.map == Map::Magnitude) spread(out);
     } else if (by == "occupancy") {
@@ -222,7 +249,7 @@ BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls
         spread(out);
     } else if (by.rfind("table=", 0) == 0) {
         out = {"value", "Value", "", Map::Magnitude, 0.0, 1.0, {}};
-        fillFromTable(structure, balls, readTable(by.substr(6)), out, warnings);
+        fillFromTable(structure, balls, by.substr(6), out, warnings);
         spread(out);
     } else if (by.rfind("potential=", 0) == 0 || by.rfind("potential-out=", 0) == 0) {
         const std::size_t equals = by.find('=');

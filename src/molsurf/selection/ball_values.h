@@ -30,13 +30,15 @@ const std::vector<std::string>& valueWords();
 /// - potential=FILE: of a map in the format OpenDX, as APBS writes it [kT/e], on the surface;
 ///   potential-out=FILE: a probe radius outside of it.
 ///
+/// @param[in]     ranged    whether the ends of the colours are given: B factors are then no pLDDT
 /// @param[in]     probe     radius [Å]
 /// @param[in]     centre    that radii are taken from [Å]
 /// @param[in,out] warnings  of residues in the table that the structure does not have
 /// @throws Error(ErrorKind::Usage) if `by` is none of these
-/// @throws Error(ErrorKind::Input) if the file has no charges, or the table cannot be read
+/// @throws Error(ErrorKind::Input) if the file has no such values, or the table cannot be read or
+///         fits no atom
 BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls,
-                      const std::string& by, const openvdb::Vec3d& centre, double probe,
-                      std::vector<std::string>& warnings);
+                      const std::string& by, bool ranged, const openvdb::Vec3d& centre,
+                      double probe, std::vector<std::string>& warnings);
 
 } // namespace molsurf

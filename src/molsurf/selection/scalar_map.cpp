@@ -77,10 +77,16 @@ ScalarMap readDx(const std::string& path)
         const Fields fields = splitFields(lines.line());
         if (fields.empty() || fields[0][0] == '#') continue;
         if (data) {
-            if (out.values.size() == items) break; // attributes of the field
+            if (out.values.size() == items) { // attributes of the field
+                double value = 0.0;
+                if (parse(fields[0], value))
+                    fail("no more than " + std::to_string(items) + " values");
+                break;
+            }
             for (const std::string_view field : fields) {
                 double value = 0.0;
-                if (!parse(field, value) || out.values.size() == items) fail("numbers");
+                if (!parse(field, value) || !std::isfinite(value) || out.values.size() == items)
+                    fail("numbers");
                 out.values.push_back(float(value));
             }
         } else if (fields[0] == "object" && fields.size() == 8 && fields[3] == "gridpositions") {

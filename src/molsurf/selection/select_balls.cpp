@@ -409,8 +409,8 @@ void addValues(const Structure& structure, const SelectOptions& options, double 
     for (const Ball& ball : out.balls)
         centre += openvdb::Vec3d(ball.center) / double(out.balls.size());
     if (out.unit) centre = out.unit->centre;
-    BallValues values =
-        ballValues(structure, out.balls, options.valueBy, centre, probe, out.warnings);
+    BallValues values = ballValues(structure, out.balls, options.valueBy,
+                                   options.valueRange.has_value(), centre, probe, out.warnings);
     if (options.valueRange) {
         values.low = (*options.valueRange)[0];
         values.high = (*options.valueRange)[1];

@@ -141,8 +141,8 @@ private:
         const std::int32_t chain = chains_.index(id.chain, out_.chains);
         const bool water = isWaterName(id.residue);
         residue_ = static_cast<std::int32_t>(out_.residues.size());
-        out_.residues.push_back(
-            {id.residue, chain, chain, id.number, id.insertionCode, water, id.hetero && !water});
+        out_.residues.push_back({id.residue, chain, chain, id.number, id.insertionCode, water,
+                                 id.hetero && !water, id.hetero});
         newResidue_ = false;
     }
 

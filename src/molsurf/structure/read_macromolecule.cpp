@@ -113,6 +113,7 @@ private:
         residue.number = from.seqid.num ? *from.seqid.num : 0;
         residue.insertionCode = from.seqid.icode;
         residue.water = isWaterName(from.name) || from.entity_type == gemmi::EntityType::Water;
+        residue.hetatm = from.het_flag == 'H';
         residue.hetero = !residue.water && !isInPolymer(chain, index, entitiesKnown_);
         const auto residueIndex = static_cast<std::int32_t>(out_.residues.size());
         out_.residues.push_back(std::move(residue));

@@ -25,6 +25,7 @@ struct Residue {
     char insertionCode;  ///< ' ' if none
     bool water;          ///< by its name: HOH, WAT, DOD, TIP3, SOL, ...
     bool hetero;         ///< ligand or ion: not water, and not part of a polymer chain
+    bool hetatm = false; ///< whether its record in the file is HETATM
 };
 
 /// One atom.

@@ -109,7 +109,7 @@ Table atomTable(const BallSet& atoms, const MolecularSurface& result)
     return table;
 }
 
-Table residueTable(const BallSet& atoms, const MolecularSurface& result)
+Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& result)
 {
     const BallNames& names = *atoms.names;
     const Numbers areas = sumsOf(names, result.ballAreas);
@@ -131,7 +131,8 @@ Table residueTable(const BallSet& atoms, const MolecularSurface& result)
     residues.moveTo(table);
     table.columns.push_back({"atoms", std::move(count)});
     table.columns.push_back({"area", std::move(area)});
-    if (result.report.surface.kind == nameOf(SurfaceKind::SolventAccessible))
+    constexpr double ofMaxima = 1.4; // probe [Å]
+    if (result.report.surface.kind == nameOf(SurfaceKind::SolventAccessible) && probe == ofMaxima)
         table.columns.push_back({"relative_accessibility", std::move(relative)});
     if (!result.ballValues.empty())
         table.columns.push_back(

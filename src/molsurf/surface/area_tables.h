@@ -20,7 +20,8 @@ Table atomTable(const BallSet& atoms, const MolecularSurface& result);
 /// balls), area, and for solvent-accessible surfaces relative_accessibility, the area's share of
 /// largestAccessibleArea(), not a number where there is none. With ballValues mean_NAME: the mean
 /// of the value on the residue's part of the surface.
-Table residueTable(const BallSet& atoms, const MolecularSurface& result);
+/// @param[in] probe  radius [Å]; accessibilities are relative at 1.4 alone
+Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& result);
 
 /// What the rows of contactTable() are between.
 enum class ContactLevel { Atom, Residue, Chain };

@@ -8,6 +8,7 @@
 #include "molsurf/color/value_colors.h"
 #include "molsurf/surface/extra_grids.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -129,6 +130,10 @@ Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, 
     mesh.colors = colorsOf(nearest, ballColor);
     if (options.color == ColorBy::Value && atoms.labels && atoms.labels->values) {
         addValues(*atoms.labels->values, nearest, mesh);
+        const std::vector<float>& values = mesh.scalars.back().values;
+        if (std::none_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }))
+            result.report.warnings.push_back(atoms.labels->values->title +
+                                             ": no point of the surface has one, all is grey");
         if (options.ballAreas)
             result.ballValues =
                 meansOf(mesh.scalars.back().values, nearest, mesh, atoms.balls.size());
