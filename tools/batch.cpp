@@ -99,9 +99,9 @@ bool allExist(const std::vector<Output>& outputs)
 }
 
 // What is known of each task.
-using Table = std::vector<std::optional<BatchEntry>>;
+using Entries = std::vector<std::optional<BatchEntry>>;
 
-void addSummary(const Call& call, const std::string& options, const Table& table,
+void addSummary(const Call& call, const std::string& options, const Entries& table,
                 OutputFiles& files)
 {
     BatchSummary summary{options, {}};
@@ -113,7 +113,7 @@ void addSummary(const Call& call, const std::string& options, const Table& table
     writeSummaryCsv(summary, *files.back());
 }
 
-void save(const Call& call, const std::string& options, const Table& table)
+void save(const Call& call, const std::string& options, const Entries& table)
 {
     OutputFiles files;
     addSummary(call, options, table, files);
@@ -139,7 +139,7 @@ BatchEntry doneEntry(const Task& task, const Report& report)
 // Does one task. Its files and its line of the summary appear together, so that a run that is
 // killed can go on. A failure has a line only.
 void perform(const Call& call, const std::string& options, const Task& task,
-             std::optional<BatchEntry>& entry, const Table& table)
+             std::optional<BatchEntry>& entry, const Entries& table)
 {
     Call one = call;
     one.input = task.input;
@@ -170,7 +170,7 @@ void perform(const Call& call, const std::string& options, const Task& task,
 }
 
 // Fills in what an earlier call has done.
-void takeOver(const BatchSummary& before, const std::vector<Task>& tasks, Table& table)
+void takeOver(const BatchSummary& before, const std::vector<Task>& tasks, Entries& table)
 {
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         if (!allExist(tasks[i].outputs)) continue;
@@ -225,7 +225,7 @@ int batch(const Call& call)
     if (!call.quiet)
         for (const std::string& warning : call.warnings) say("warning: " + warning);
 
-    Table table(tasks.size());
+    Entries table(tasks.size());
     if (before && !call.force) takeOver(*before, tasks, table);
     const auto kept = std::size_t(
         std::count_if(table.begin(), table.end(), [](const auto& entry) { return bool(entry); }));

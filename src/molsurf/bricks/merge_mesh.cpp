@@ -84,7 +84,7 @@ std::array<Statistics, 2> curvatureStatistics(const std::vector<BrickFile>& bric
     return out;
 }
 
-[[noreturn]] void refuse(const BrickFile& brick, const char* what)
+[[noreturn]] void refuseMesh(const BrickFile& brick, const char* what)
 {
     throw Error(ErrorKind::Input, brick.path() + " names " + what + " [hint: run the brick again]");
 }
@@ -100,7 +100,7 @@ MergedMesh::MergedMesh(const std::vector<BrickFile>& bricks) : bricks_(bricks)
         border_.push_back(brick.read<BorderVertex>(brick.header().border));
         for (const BorderVertex& v : border_.back())
             if (v.piece >= brick.header().pieces.count)
-                refuse(brick, "a piece that it does not have");
+                refuseMesh(brick, "a piece that it does not have");
     }
     std::unordered_map<VertexKey, std::uint64_t, KeyHash> owned;
     for (std::size_t b = 0; b < bricks.size(); ++b) {
@@ -125,7 +125,8 @@ std::uint64_t MergedMesh::indexOf(std::size_t brick, std::uint32_t vertex) const
 {
     if (vertex < bricks_[brick].header().vertices.count) return firsts_[brick] + vertex;
     const auto found = foreign_[brick].find(vertex);
-    if (found == foreign_[brick].end()) refuse(bricks_[brick], "a vertex that it does not have");
+    if (found == foreign_[brick].end())
+        refuseMesh(bricks_[brick], "a vertex that it does not have");
     return found->second;
 }
 

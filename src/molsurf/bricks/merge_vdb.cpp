@@ -111,21 +111,21 @@ T valueFrom(const std::vector<double>& numbers)
         return T(float(numbers.at(0)), float(numbers.at(1)), float(numbers.at(2)));
 }
 
-[[noreturn]] void refuse(const BrickFile& brick, const char* what)
+[[noreturn]] void refuseGrid(const BrickFile& brick, const char* what)
 {
     throw Error(ErrorKind::Input, brick.path() + " has " + what + " [hint: run the brick again]");
 }
 
 void checkLeaf(const StoredLeaf& leaf, const Coord& origin, const BrickFile& brick)
 {
-    if ((origin & 7) != Coord(0)) refuse(brick, "a leaf between leaves");
+    if ((origin & 7) != Coord(0)) refuseGrid(brick, "a leaf between leaves");
     constexpr int far = 1 << 26; // [voxel], beyond any ball; what lies between leaves is filled
     if (!openvdb::CoordBBox(Coord(-far), Coord(far)).isInside(origin))
-        refuse(brick, "a leaf far away");
-    if (leaf.negative >> signBits != 0) refuse(brick, "a leaf of unknown signs");
+        refuseGrid(brick, "a leaf far away");
+    if (leaf.negative >> signBits != 0) refuseGrid(brick, "a leaf of unknown signs");
     const std::uint64_t end = brick.header().areas.offset;
     if (leaf.offset > end || leaf.size > end - leaf.offset)
-        refuse(brick, "a leaf whose values lie outside of it");
+        refuseGrid(brick, "a leaf whose values lie outside of it");
 }
 
 template<typename GridT>
@@ -149,7 +149,7 @@ Skeleton skeletonOf(const std::vector<BrickFile>& bricks, std::size_t g, double 
             const Coord origin(stored.origin[0], stored.origin[1], stored.origin[2]);
             checkLeaf(stored, origin, bricks[b]);
             if (grid->constTree().probeConstLeaf(origin))
-                refuse(bricks[b], "a leaf that another brick has");
+                refuseGrid(bricks[b], "a leaf that another brick has");
             auto* leaf = new Leaf(openvdb::PartialCreate(), origin, background);
             typename Leaf::NodeMaskType mask;
             for (int x = 0; x < 8; ++x)

@@ -129,6 +129,16 @@ MOLSURF_INLINE Floats clamped(Floats x, Floats low, Floats high)
 {
     return smaller(larger(x, low), high);
 }
+MOLSURF_INLINE Floats size(Floats x)
+{
+    return larger(x, -x);
+}
+
+/// Bit l in lane l.
+MOLSURF_INLINE Ints laneBits()
+{
+    return splat(1) << laneNumbers();
+}
 
 /// The bits of all lanes together.
 MOLSURF_INLINE std::uint32_t bitsOf(Ints v)

@@ -102,7 +102,7 @@ EvolutionReport evolveAsPaper(NarrowBand& band, const PsiSource& source,
     const bool fixed = options.steps >= 0;
     const int maxSteps = fixed                   ? options.steps
                          : options.maxSteps >= 0 ? options.maxSteps
-                                                 : paperSteps;
+                                                 : defaultPaperSteps;
     EvolutionReport report;
     LeafField next(band.phi.table.size());
     for (;;) {
@@ -169,7 +169,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
     const bool fixed = options.steps >= 0;
     const int maxSteps = fixed                   ? options.steps
                          : options.maxSteps >= 0 ? options.maxSteps
-                                                 : newtonSteps;
+                                                 : defaultSteps;
     const bool mayGiveUp = options.maxSteps < 0; // who asks for steps gets them
     const bool eager = hasFronts(options);
     const int reinitializations = eager ? 2 : 1; // long steps spoil the distance

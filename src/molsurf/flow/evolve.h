@@ -16,7 +16,7 @@ namespace molsurf
 {
 
 /// Largest numbers of steps, if the options do not say any: of the Newton flow, and of the paper's.
-constexpr int newtonSteps = 50, paperSteps = 200;
+constexpr int defaultSteps = 50, defaultPaperSteps = 200;
 
 /// The longest displacement that 99.9 % of the interface may still have at rest: so many times the
 /// tolerance, but no less than the grid's own noise [voxel].

@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -23,13 +22,6 @@ void put(const std::string& text, OutputFile& file)
 {
     file.write(text.data(), text.size());
     file.finish();
-}
-
-template<typename T>
-std::string digits(T value)
-{
-    char text[32];
-    return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
 } // namespace

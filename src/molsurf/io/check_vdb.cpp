@@ -22,7 +22,7 @@ namespace
 using openvdb::Coord;
 namespace io = openvdb::io;
 
-[[noreturn]] void refuse(const std::string& what)
+[[noreturn]] void refuseBytes(const std::string& what)
 {
     throw std::runtime_error(what);
 }
@@ -63,16 +63,18 @@ public:
 
     void file()
     {
-        if (take<std::int64_t>() != openvdb::OPENVDB_MAGIC) refuse("it has another magic number");
+        if (take<std::int64_t>() != openvdb::OPENVDB_MAGIC)
+            refuseBytes("it has another magic number");
         const auto version = take<std::uint32_t>();
         if (version < openvdb::OPENVDB_FILE_VERSION_NODE_MASK_COMPRESSION)
-            refuse("it is of version " + std::to_string(version) + " of the format, before 222");
+            refuseBytes("it is of version " + std::to_string(version) +
+                        " of the format, before 222");
         skip(2 * sizeof(std::uint32_t) + sizeof(char)); // version of the library, offsets
         const auto uuid = take<std::array<char, 36>>();
         if (!std::all_of(uuid.begin(), uuid.end(), [](char c) {
                 return c == '-' || std::isxdigit(static_cast<unsigned char>(c));
             }))
-            refuse(
+            refuseBytes(
                 "its identifier is none"); // OpenVDB passes over blanks, and would be out of step
         metadata();
         const auto grids = take<std::int32_t>();
@@ -82,7 +84,7 @@ public:
 private:
     void need(std::uint64_t bytes) const
     {
-        if (bytes > left_) refuse("cut short, or a length in it is wrong");
+        if (bytes > left_) refuseBytes("cut short, or a length in it is wrong");
     }
 
     void read(void* to, std::uint64_t bytes)
@@ -129,7 +131,7 @@ private:
             const auto size = take<std::uint32_t>();
             if (type != "string" && openvdb::Metadata::isRegisteredType(type)) {
                 if (openvdb::Metadata::createMetadata(type)->size() != size)
-                    refuse("metadata of type " + type + " have another length than that");
+                    refuseBytes("metadata of type " + type + " have another length than that");
             }
             skip(size);
         }
@@ -144,7 +146,7 @@ private:
         }
         const auto map = std::find_if(std::begin(maps), std::end(maps),
                                       [&](const Map& m) { return m.name == name; });
-        if (map == std::end(maps)) refuse("it has an unknown transform");
+        if (map == std::end(maps)) refuseBytes("it has an unknown transform");
         skip(map->size);
     }
 
@@ -159,7 +161,7 @@ private:
         const auto type = std::find_if(std::begin(types), std::end(types), [&](const Type& t) {
             return name == std::string(before) + std::string(t.name) + std::string(after);
         });
-        if (type == std::end(types)) refuse("it has a grid of type " + name);
+        if (type == std::end(types)) refuseBytes("it has a grid of type " + name);
         type_ = *type;
         const bool instance = !text().empty();
         skip(3 * sizeof(std::int64_t)); // places in the file, which are not used
@@ -179,7 +181,7 @@ private:
             const auto xyz = take<std::array<std::int32_t, 3>>();
             const Coord at(xyz[0], xyz[1], xyz[2]);
             if ((at & (rootSpan - 1)) != Coord(0) || !origins.insert(at).second)
-                refuse("it has two nodes in one place");
+                refuseBytes("it has two nodes in one place");
         };
         for (std::uint32_t i = 0; i < tiles; ++i) {
             origin();
@@ -255,14 +257,14 @@ private:
     {
         const auto size = take<std::int64_t>(); // as they are if it is below 0
         if (size <= 0) {
-            if (size != -std::int64_t(bytes)) refuse("it has values of another length");
+            if (size != -std::int64_t(bytes)) refuseBytes("it has values of another length");
             return skip(bytes);
         }
         if (!(compression_ & io::COMPRESS_BLOSC)) return skip(std::uint64_t(size));
         // Four bytes of versions, then the lengths of values, of a block and of all.
         const auto head = take<std::array<std::uint32_t, 4>>();
         if (head[1] != bytes || head[3] > std::uint64_t(size) || size < std::int64_t(sizeof head))
-            refuse("it has values of another length");
+            refuseBytes("it has values of another length");
         skip(std::uint64_t(size) - sizeof head);
     }
 

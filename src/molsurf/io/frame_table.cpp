@@ -2,6 +2,7 @@
 #include "molsurf/io/frame_table.h"
 
 #include "molsurf/error.h"
+#include "molsurf/io/write_table.h"
 
 #include <charconv>
 #include <filesystem>
@@ -16,13 +17,6 @@ namespace
 
 constexpr const char* title = "file,frame,start,converged,steps,atoms,area,volume,"
                               "euler_characteristic,components,cavities,seconds,options";
-
-template<typename T>
-std::string digits(T value)
-{
-    char text[32];
-    return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
 
 // Parses one line; false if it is none of a table.
 bool parse(const std::string& line, FrameTable& table)

@@ -20,7 +20,7 @@ namespace molsurf
 namespace
 {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why)
+[[noreturn]] void cannotRead(const std::string& path, const std::string& why)
 {
     throw Error(ErrorKind::Input, "cannot read " + path + ": " + why);
 }
@@ -49,10 +49,10 @@ bool isVdbFile(const std::string& path)
 VdbFile readVdb(const std::string& path)
 {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) refuse(path, "it is a folder");
+    if (std::filesystem::is_directory(path, ignored)) cannotRead(path, "it is a folder");
     errno = 0;
     std::ifstream stream(path, std::ios_base::binary);
-    if (!stream) refuse(path, std::strerror(errno));
+    if (!stream) cannotRead(path, std::strerror(errno));
     try {
         // Not io::File: beyond the end of a file that is cut short it goes on with whatever its
         // variables held before. A stream that throws there stops it.
@@ -66,13 +66,13 @@ VdbFile readVdb(const std::string& path)
         content.metadata = *reader.getMetadata();
         return content;
     } catch (const openvdb::Exception& e) {
-        refuse(path, std::string("not a .vdb file, or damaged (") + e.what() + ")");
+        cannotRead(path, std::string("not a .vdb file, or damaged (") + e.what() + ")");
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::ios_base::failure&) {
-        refuse(path, "not a .vdb file, or damaged or cut short");
+        cannotRead(path, "not a .vdb file, or damaged or cut short");
     } catch (const std::exception& e) {
-        refuse(path, std::string("not a .vdb file, or damaged (") + e.what() + ")");
+        cannotRead(path, std::string("not a .vdb file, or damaged (") + e.what() + ")");
     }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_table.h"
 
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -11,13 +10,6 @@ namespace molsurf
 
 namespace
 {
-
-template<typename T>
-std::string digits(T value)
-{
-    char text[32];
-    return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
 
 std::string cellOf(const std::string& text)
 {

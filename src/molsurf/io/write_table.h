@@ -7,6 +7,7 @@
 #include "molsurf/io/output_file.h"
 #include "molsurf/report.h"
 
+#include <charconv>
 #include <string>
 
 namespace molsurf
@@ -15,6 +16,14 @@ namespace molsurf
 /// A text as a cell: in quotation marks if it needs them, and behind an apostrophe if a spreadsheet
 /// would take it for a formula.
 std::string csvCell(const std::string& text);
+
+/// The shortest text that gives a number back.
+template<typename T>
+std::string digits(T value)
+{
+    char text[32];
+    return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
 
 /// Writes the names of the columns and then the rows. Numbers have as few digits as give them back;
 /// the cell of what is not a number is empty.

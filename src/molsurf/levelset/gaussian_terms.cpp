@@ -17,22 +17,12 @@ constexpr int octants = 8;
 /// A sum below this may have lost terms to underflow.
 constexpr float smallestSum = 1e-30f;
 
-MOLSURF_INLINE Floats size(Floats x)
-{
-    return larger(x, -x);
-}
-
 MOLSURF_INLINE Floats square(Floats x)
 {
     return x * x;
 }
 
 /// One bit a lane.
-MOLSURF_INLINE Ints laneBits()
-{
-    return splat(1) << laneNumbers();
-}
-
 } // namespace
 
 void GaussianLists::resize(std::size_t balls)

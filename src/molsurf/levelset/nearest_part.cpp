@@ -24,16 +24,6 @@ constexpr float nowhere = 1e15f; // a distance
 constexpr float farAway = 1e8f;  // a place that pads lists
 
 /// One bit a lane.
-MOLSURF_INLINE Ints laneBits()
-{
-    return splat(1) << laneNumbers();
-}
-
-MOLSURF_INLINE Floats size(Floats x)
-{
-    return larger(x, -x);
-}
-
 MOLSURF_INLINE float least(Floats x)
 {
     float out = x[0];

@@ -28,7 +28,7 @@ constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
 const Residue& residueOf(const Structure& structure, const Ball& ball)
 {
-    return structure.residues[std::size_t(structure.atoms[std::size_t(ball.atom)].residue)];
+    return residueOf(structure, structure.atoms[std::size_t(ball.atom)]);
 }
 
 /// Sets the range to the values that 2 and 98 % of the balls do not exceed.

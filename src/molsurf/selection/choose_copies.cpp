@@ -2,6 +2,7 @@
 #include "molsurf/selection/choose_copies.h"
 
 #include "molsurf/error.h"
+#include "molsurf/structure/symmetry.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
@@ -47,16 +48,6 @@ std::pair<int, int> parseRange(string_view item, const std::string& text)
     }
     if (first < 1 || last < first) misuse(text);
     return {first, last};
-}
-
-Vec3d moved(const Operator& op, const Vec3d& x)
-{
-    Vec3d out = op.translation;
-    for (int i = 0; i < 3; ++i) {
-        const auto& row = op.rotation[std::size_t(i)];
-        out[i] += row[0] * x[0] + row[1] * x[1] + row[2] * x[2];
-    }
-    return out;
 }
 
 bool areEqual(const Operator& a, const Operator& b)

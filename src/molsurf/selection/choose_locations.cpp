@@ -18,11 +18,6 @@ const Atom& atomAt(const Structure& structure, std::int32_t index)
     return structure.atoms[std::size_t(index)];
 }
 
-const Residue& residueOf(const Structure& structure, const Atom& atom)
-{
-    return structure.residues[std::size_t(atom.residue)];
-}
-
 /// True for the alternatives of one residue, which may have different names.
 bool isSameSite(const Residue& a, const Residue& b)
 {

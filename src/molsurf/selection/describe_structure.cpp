@@ -5,6 +5,7 @@
 #include "molsurf/error.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/structure/read_structure.h"
+#include "molsurf/structure/symmetry.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <cmath>
@@ -16,11 +17,6 @@ namespace molsurf
 
 namespace
 {
-
-const Residue& residueOf(const Structure& structure, const Atom& atom)
-{
-    return structure.residues[std::size_t(atom.residue)];
-}
 
 /// Atoms of the first model that a part of an assembly copies, and the centre of those that are no
 /// water.
@@ -58,14 +54,6 @@ std::string vectorText(const openvdb::Vec3d& v, int decimals)
         all += (i ? ", " : "(") + std::string(number);
     }
     return all + ")";
-}
-
-openvdb::Vec3d moved(const Operator& op, const openvdb::Vec3d& x)
-{
-    openvdb::Vec3d out = op.translation;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) out[i] += op.rotation[std::size_t(i)][std::size_t(j)] * x[j];
-    return out;
 }
 
 /// "1-60", "1, 7, 23": ascending numbers, counted from 1.

@@ -43,11 +43,6 @@ using Indices = std::vector<std::int32_t>;
     throw Error(ErrorKind::Input, displayName(structure.source) + ": " + what);
 }
 
-const Residue& residueOf(const Structure& structure, const Atom& atom)
-{
-    return structure.residues[std::size_t(atom.residue)];
-}
-
 /// The model that the option and the selection name.
 const Model& chooseModel(const Structure& structure, const SelectOptions& options,
                          const std::vector<int>& selected)

@@ -20,11 +20,6 @@ namespace
 
 using openvdb::Vec3d;
 
-Vec3d moved(const Operator& op, const Vec3d& x)
-{
-    return matrixOf(op) * x + op.translation;
-}
-
 openvdb::BBoxd boxOf(const Ball* begin, const Ball* end)
 {
     openvdb::BBoxd box;

@@ -14,7 +14,7 @@ namespace
 
 using std::string_view;
 
-[[noreturn]] void fail(const std::string& expression, const std::string& what)
+[[noreturn]] void failToParse(const std::string& expression, const std::string& what)
 {
     throw Error(ErrorKind::Input, "operator expression " + inQuotes(expression) + ": " + what);
 }
@@ -26,20 +26,21 @@ std::vector<std::string> parseList(string_view list, const std::string& expressi
     while (true) {
         const std::size_t comma = list.find(',');
         const string_view item = trimmed(list.substr(0, comma));
-        if (item.empty()) fail(expression, "expected an operator's name, got nothing");
+        if (item.empty()) failToParse(expression, "expected an operator's name, got nothing");
         const std::size_t dash = item.find('-', 1);
         int first = 0, last = 0;
         if (dash != string_view::npos && parseInteger(trimmed(item.substr(0, dash)), first) &&
             parseInteger(trimmed(item.substr(dash + 1)), last)) {
             if (last < first || std::int64_t(last) - first >= std::int64_t(maxOperators)) {
-                fail(expression, "expected a range that ascends, got " + inQuotes(item));
+                failToParse(expression, "expected a range that ascends, got " + inQuotes(item));
             }
             for (int i = first; i <= last; ++i) names.push_back(std::to_string(i));
         } else {
             names.emplace_back(item);
         }
         if (names.size() > maxOperators)
-            fail(expression, "lists more than " + std::to_string(maxOperators) + " operators");
+            failToParse(expression,
+                        "lists more than " + std::to_string(maxOperators) + " operators");
         if (comma == string_view::npos) return names;
         list.remove_prefix(comma + 1);
     }
@@ -168,7 +169,7 @@ std::vector<std::vector<std::string>> parseOperatorExpression(const std::string&
     while (!rest.empty()) {
         const std::size_t close = rest.find(')');
         if (rest.front() != '(' || close == string_view::npos) {
-            fail(expression, "expected factors in parentheses, got " + inQuotes(rest));
+            failToParse(expression, "expected factors in parentheses, got " + inQuotes(rest));
         }
         factors.push_back(parseList(rest.substr(1, close - 1), expression));
         rest = trimmed(rest.substr(close + 1));
@@ -184,7 +185,7 @@ std::vector<Operator> expandOperators(const std::string& expression,
     for (const auto& factor : factors) {
         count *= factor.size();
         if (count > maxOperators)
-            fail(expression, "has more than " + std::to_string(maxOperators) + " products");
+            failToParse(expression, "has more than " + std::to_string(maxOperators) + " products");
     }
     std::vector<Operator> products;
     for (const auto& factor : factors) {
@@ -193,7 +194,7 @@ std::vector<Operator> expandOperators(const std::string& expression,
             for (const std::string& name : factor) {
                 const auto found = operators.find(name);
                 if (found == operators.end()) {
-                    fail(expression, "operator " + inQuotes(name) + " is not listed");
+                    failToParse(expression, "operator " + inQuotes(name) + " is not listed");
                 }
                 next.push_back(products.empty() ? found->second
                                                 : multiplied(products[i], found->second));

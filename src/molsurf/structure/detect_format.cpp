@@ -17,11 +17,6 @@ namespace
 
 using std::string_view;
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
-{
-    throw Error(ErrorKind::Input, displayName(path) + ": " + what);
-}
-
 std::string lowerExtension(const std::string& path)
 {
     std::filesystem::path name(path);
@@ -39,12 +34,12 @@ void refuseBinary(const std::string& path, const std::string& text)
     const string_view head = string_view(text).substr(0, 4096);
     if (head.find('\0') == string_view::npos && head.substr(0, 1) != "\x83") return;
     if (head.substr(0, 4) == " BDV") {
-        fail(path, "is an OpenVDB file, expected a structure (PDB, mmCIF, PQR, xyzr or xyzrn)");
+        failAt(path, "is an OpenVDB file, expected a structure (PDB, mmCIF, PQR, xyzr or xyzrn)");
     }
     if (head.find("encoder") != string_view::npos || head.find("dataBlocks") != string_view::npos) {
-        fail(path, "is BinaryCIF, which is not supported [use the .cif.gz of the same entry]");
+        failAt(path, "is BinaryCIF, which is not supported [use the .cif.gz of the same entry]");
     }
-    fail(path, "is a binary file, expected a structure (PDB, mmCIF, PQR, xyzr or xyzrn)");
+    failAt(path, "is a binary file, expected a structure (PDB, mmCIF, PQR, xyzr or xyzrn)");
 }
 
 bool startsWithNoCase(string_view text, string_view lowerPrefix)
@@ -148,7 +143,8 @@ StructureFormat detectFormat(const std::string& path, const std::string& text)
         startsWithNoCase(word, "loop_") || word.substr(0, 1) == "_") {
         return StructureFormat::Mmcif;
     }
-    if (word.substr(0, 1) == "{") fail(path, "is JSON, which is not supported [use .cif or .pdb]");
+    if (word.substr(0, 1) == "{")
+        failAt(path, "is JSON, which is not supported [use .cif or .pdb]");
     if (isPdbRecord(first) || hasAtomRecord(text)) {
         if (extension == ".pdb" || extension == ".ent") return StructureFormat::Pdb;
         const bool pqr = extension == ".pqr" || looksLikePqr(text);
@@ -162,7 +158,7 @@ StructureFormat detectFormat(const std::string& path, const std::string& text)
     if (extension == ".xyzr") return StructureFormat::Xyzr;
     const std::string what =
         extension == ".vdb" ? "is not a .vdb file of OpenVDB, and no structure" : "is no structure";
-    fail(path, what + ": expected PDB, mmCIF, PQR, xyzr or xyzrn, got " + inQuotes(first));
+    failAt(path, what + ": expected PDB, mmCIF, PQR, xyzr or xyzrn, got " + inQuotes(first));
 }
 
 } // namespace molsurf

@@ -19,11 +19,6 @@ namespace molsurf
 namespace
 {
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
-{
-    throw Error(ErrorKind::Input, displayName(path) + ": " + what);
-}
-
 /// What a text may have. Files of atoms shrink to a tenth, hardly ever to a fiftieth.
 struct Limit {
     explicit Limit(std::size_t maxBytes) : bytes(maxBytes ? maxBytes : std::size_t{4} << 30)
@@ -38,7 +33,7 @@ struct Limit {
 
 [[noreturn]] void failTooLarge(const std::string& path, const std::string& what)
 {
-    fail(path, what + " [hint: `maxInput` 10G takes up to 10 GiB]");
+    failAt(path, what + " [hint: `maxInput` 10G takes up to 10 GiB]");
 }
 
 void checkSize(std::size_t bytes, const Limit& limit, const std::string& path)
@@ -64,7 +59,7 @@ std::string readAll(std::FILE* file, const std::string& path, std::size_t expect
         bytes.resize(size + got);
         checkSize(bytes.size(), limit, path);
     } while (got == chunk);
-    if (std::ferror(file)) fail(path, std::string("cannot be read: ") + std::strerror(errno));
+    if (std::ferror(file)) failAt(path, std::string("cannot be read: ") + std::strerror(errno));
     return bytes;
 }
 
@@ -73,11 +68,11 @@ std::string readBytes(const std::string& path, const Limit& limit)
     if (path == "-") return readAll(stdin, path, 0, limit);
     std::error_code status;
     if (std::filesystem::is_directory(path, status)) {
-        fail(path, "is a folder, expected a structure file");
+        failAt(path, "is a folder, expected a structure file");
     }
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                                &std::fclose);
-    if (!file) fail(path, std::string("cannot be opened: ") + std::strerror(errno));
+    if (!file) failAt(path, std::string("cannot be opened: ") + std::strerror(errno));
     const std::uintmax_t size = std::filesystem::file_size(path, status);
     return readAll(file.get(), path, status ? 0 : std::size_t(size), limit);
 }
@@ -94,7 +89,7 @@ std::size_t unpackMember(std::string& bytes, std::size_t begin, const std::strin
     constexpr std::size_t maxFeed = std::size_t{1} << 30; // zlib counts with 32 bits
     z_stream stream{};
     constexpr int gzipOnly = 16 + MAX_WBITS;
-    if (inflateInit2(&stream, gzipOnly) != Z_OK) fail(path, "no memory to unpack it");
+    if (inflateInit2(&stream, gzipOnly) != Z_OK) failAt(path, "no memory to unpack it");
     const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, &inflateEnd);
     std::size_t next = begin;
     char buffer[1 << 16];
@@ -113,13 +108,13 @@ std::size_t unpackMember(std::string& bytes, std::size_t begin, const std::strin
             failTooLarge(path, "its gzip data unpack to more than " + std::to_string(limit.ratio) +
                                    " times their size, which no file of atoms does");
         if (state == Z_BUF_ERROR || (state == Z_OK && next == bytes.size() && stream.avail_out)) {
-            fail(path, "is cut short: its gzip data end after " + std::to_string(bytes.size()) +
-                           " bytes without the closing checksum [copy or download it again]");
+            failAt(path, "is cut short: its gzip data end after " + std::to_string(bytes.size()) +
+                             " bytes without the closing checksum [copy or download it again]");
         }
         if (state != Z_OK && state != Z_STREAM_END) {
-            fail(path, std::string("has damaged gzip data: ") +
-                           (stream.msg ? stream.msg : "unknown error") +
-                           " [copy or download it again]");
+            failAt(path, std::string("has damaged gzip data: ") +
+                             (stream.msg ? stream.msg : "unknown error") +
+                             " [copy or download it again]");
         }
     }
     return next;
@@ -142,7 +137,7 @@ std::string loadText(const std::string& path, std::size_t maxBytes)
     std::string text = readBytes(path, limit);
     if (isGzip(text, 0)) text = unpack(std::move(text), path, limit);
     if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
-    if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail(path, "is empty");
+    if (text.find_first_not_of(" \t\r\n") == std::string::npos) failAt(path, "is empty");
     return text;
 }
 

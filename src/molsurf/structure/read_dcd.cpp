@@ -9,9 +9,9 @@ namespace molsurf
 namespace
 {
 
-constexpr std::size_t headerSize = 84;      // "CORD" and 20 words
-constexpr std::uint32_t largest = 1u << 30; // of a record [byte]
-constexpr std::uint64_t marks = 8;          // two markers of a record [byte]
+constexpr std::size_t dcdHeaderSize = 84;         // "CORD" and 20 words
+constexpr std::uint32_t largestRecord = 1u << 30; // of a record [byte]
+constexpr std::uint64_t marks = 8;                // two markers of a record [byte]
 
 std::uint32_t turned(std::uint32_t w)
 {
@@ -32,7 +32,7 @@ std::vector<char> DcdFile::record()
     char mark[4];
     if (!file_.read(mark, 4)) fail("cut short");
     const std::uint32_t size = word(mark);
-    if (size > largest)
+    if (size > largestRecord)
         fail("expected a record of DCD, got one of " + std::to_string(size) + " bytes");
     if (size > size_ - std::uint64_t(file_.tellg())) fail("cut short");
     std::vector<char> content(size);
@@ -51,8 +51,8 @@ void DcdFile::readHeader()
     char first[8] = {};
     file_.read(first, 8);
     const bool known = file_ && std::memcmp(first + 4, "CORD", 4) == 0;
-    swapped_ = known && word(first) != headerSize;
-    if (!known || word(first) != headerSize)
+    swapped_ = known && word(first) != dcdHeaderSize;
+    if (!known || word(first) != dcdHeaderSize)
         fail("expected a trajectory in the DCD format, with record markers of 4 bytes, or in XTC");
     file_.seekg(0);
     const std::vector<char> header = record();
@@ -66,7 +66,7 @@ void DcdFile::readHeader()
     if (count.size() != 4)
         fail("expected the number of atoms in 4 bytes, got " + std::to_string(count.size()));
     atoms_ = word(count.data());
-    if (atoms_ == 0 || atoms_ > largest / 4 || fixed >= atoms_)
+    if (atoms_ == 0 || atoms_ > largestRecord / 4 || fixed >= atoms_)
         fail("expected atoms that move, got " + std::to_string(atoms_) + " of which " +
              std::to_string(fixed) + " are fixed");
     if (fixed > 0) {

@@ -25,11 +25,6 @@ namespace molsurf
 namespace
 {
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
-{
-    throw Error(ErrorKind::Input, displayName(path) + ": " + what);
-}
-
 /// gemmi's message in one line, without the path that it may start with.
 std::string oneLine(const std::exception& error, const std::string& path)
 {
@@ -165,7 +160,7 @@ Block& blockWithAtoms(gemmi::cif::Document& document, const std::string& path, S
         if (block.has_tag("_chem_comp_atom.atom_id")) hint = " [it describes a chemical component]";
         if (block.has_tag("_atom_site_label")) hint = " [it is a small-molecule CIF]";
     }
-    fail(path, "no atoms: expected _atom_site.Cartn_x and others of mmCIF, got none" + hint);
+    failAt(path, "no atoms: expected _atom_site.Cartn_x and others of mmCIF, got none" + hint);
 }
 
 /// Adds the columns without which gemmi's reader finds no atoms, if they can be made up.
@@ -185,9 +180,9 @@ void completeAtomSite(Block& block, const std::string& path)
     }
     const bool copySequence = !has("auth_seq_id") && has("label_seq_id");
     for (const char* tag : {"id", "type_symbol", "label_asym_id", "Cartn_y", "Cartn_z"}) {
-        if (!has(tag)) fail(path, std::string("_atom_site has no column ") + tag);
+        if (!has(tag)) failAt(path, std::string("_atom_site has no column ") + tag);
     }
-    if (!copySequence && !has("auth_seq_id")) fail(path, "_atom_site has no column auth_seq_id");
+    if (!copySequence && !has("auth_seq_id")) failAt(path, "_atom_site has no column auth_seq_id");
     if (!item || (missing.empty() && !copySequence)) return;
     gemmi::cif::Loop& loop = item->loop;
     const int sequence = loop.find_tag("_atom_site.label_seq_id");
@@ -319,7 +314,7 @@ Structure readPdb(std::string text, const std::string& path)
         parsed = gemmi::read_pdb_from_memory(text.data(), text.size(), path);
         gemmi::add_entity_types(parsed, false);
     } catch (const std::exception& error) {
-        fail(path, oneLine(error, path));
+        failAt(path, oneLine(error, path));
     }
     std::string().swap(text);
     Structure out;
@@ -354,7 +349,7 @@ Structure readMmcif(std::string text, const std::string& path)
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
-        fail(path, oneLine(error, path));
+        failAt(path, oneLine(error, path));
     }
     out.atoms.reserve(countAtoms(parsed));
     Converter converter(out, false, entitiesKnown);

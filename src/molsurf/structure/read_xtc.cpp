@@ -15,10 +15,10 @@ namespace
 // atoms follow as they are; of more, 8 words (precision, the least and the greatest coordinates, an
 // index of a span), the length of the packed coordinates and these, filled up to whole words.
 constexpr std::uint32_t mark = 1995, wideMark = 2023; // the latter with a length of two words
-constexpr std::uint64_t headerSize = 56, packHeaderSize = 32;
+constexpr std::uint64_t xtcHeaderSize = 56, packHeaderSize = 32;
 constexpr std::size_t plainAtoms = 9;
-constexpr std::size_t largest = 1u << 28; // number of atoms
-constexpr double angstrom = 10.0;         // in a nanometre
+constexpr std::size_t mostAtoms = 1u << 28; // number of atoms
+constexpr double angstrom = 10.0;           // in a nanometre
 
 using Integers = std::array<std::int64_t, 3>;
 
@@ -200,19 +200,19 @@ std::uint64_t XtcFile::startFrame(std::size_t frame)
     file_.clear();
     file_.seekg(std::streamoff(begin));
     const std::uint32_t first = word(), count = word();
-    file_.seekg(std::streamoff(begin + headerSize - 4));
+    file_.seekg(std::streamoff(begin + xtcHeaderSize - 4));
     const std::uint32_t again = word();
     if (!file_) return 0;
     expect(first == mark || first == wideMark,
            "the mark 1995 of XTC, got " + std::to_string(first));
-    expect(count > 0 && count <= largest && count == again, "a number of atoms, twice, got " +
-                                                                std::to_string(count) + " and " +
-                                                                std::to_string(again));
+    expect(count > 0 && count <= mostAtoms && count == again, "a number of atoms, twice, got " +
+                                                                  std::to_string(count) + " and " +
+                                                                  std::to_string(again));
     if (atoms_ == 0) atoms_ = count;
     expect(count == atoms_,
            "the " + std::to_string(atoms_) + " atoms of the first, got " + std::to_string(count));
     wide_ = first == wideMark;
-    if (count <= plainAtoms) return begin + headerSize + 12 * std::uint64_t(count);
+    if (count <= plainAtoms) return begin + xtcHeaderSize + 12 * std::uint64_t(count);
     file_.seekg(packHeaderSize, std::ios::cur);
     std::uint64_t length = wide_ ? std::uint64_t(word()) << 32 : 0;
     length |= word();
@@ -227,7 +227,7 @@ std::uint64_t XtcFile::startFrame(std::size_t frame)
 std::vector<openvdb::Vec3f> XtcFile::load(std::size_t frame)
 {
     const std::uint64_t end = startFrame(frame);
-    file_.seekg(std::streamoff(begins_[frame] + headerSize));
+    file_.seekg(std::streamoff(begins_[frame] + xtcHeaderSize));
     std::vector<openvdb::Vec3f> out(atoms_);
     if (atoms_ <= plainAtoms) {
         for (openvdb::Vec3f& x : out)

@@ -93,4 +93,10 @@ struct Structure {
     std::vector<std::string> warnings; ///< one line each: parts of the file that were ignored
 };
 
+/// The residue that an atom belongs to.
+inline const Residue& residueOf(const Structure& structure, const Atom& atom)
+{
+    return structure.residues[std::size_t(atom.residue)];
+}
+
 } // namespace molsurf

@@ -56,6 +56,12 @@ std::string rotationProblem(const Operator& op);
 /// The rotation of an operator as a matrix.
 openvdb::Mat3d matrixOf(const Operator& op);
 
+/// The place to which an operator moves a point [Å].
+inline openvdb::Vec3d moved(const Operator& op, const openvdb::Vec3d& x)
+{
+    return matrixOf(op) * x + op.translation;
+}
+
 /// The rotation that is nearest to a matrix, which must be near one.
 openvdb::Mat3d nearestRotation(openvdb::Mat3d m);
 

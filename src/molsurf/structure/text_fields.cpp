@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/text_fields.h"
 
+#include "molsurf/error.h"
+
 #include <cctype>
 #include <charconv>
 #include <cstring>
@@ -110,6 +112,11 @@ std::string joined(const std::vector<std::string>& names, std::size_t longest)
 std::string displayName(const std::string& path)
 {
     return path == "-" ? "standard input" : path;
+}
+
+void failAt(const std::string& path, const std::string& what)
+{
+    throw Error(ErrorKind::Input, displayName(path) + ": " + what);
 }
 
 } // namespace molsurf

@@ -60,4 +60,7 @@ std::string joined(const std::vector<std::string>& names, std::size_t longest = 
 /// The path for a message; "standard input" for "-".
 std::string displayName(const std::string& path);
 
+/// @throws Error(ErrorKind::Input) that says what is wrong with a file
+[[noreturn]] void failAt(const std::string& path, const std::string& what);
+
 } // namespace molsurf

@@ -16,14 +16,14 @@ namespace
 
 using openvdb::Vec3d;
 
-const Ball atom{openvdb::Vec3f(0.137f, -0.291f, 0.443f), 1.7f, 0};
+const Ball loneAtom{openvdb::Vec3f(0.137f, -0.291f, 0.443f), 1.7f, 0};
 
 double radiusOf(const test::Evolved& out)
 {
     double sum = 0.0;
     const auto directions = test::directions(200);
     for (const Vec3d& n : directions)
-        sum += test::zeroOnRay(out.spline, Vec3d(atom.center), n, 2.0, 4.5);
+        sum += test::zeroOnRay(out.spline, Vec3d(loneAtom.center), n, 2.0, 4.5);
     return sum / double(directions.size());
 }
 
@@ -36,7 +36,7 @@ TEST(PaperFlow, ComesNearTheMinimumAndNeverMeetsItsRule)
     options.maxSteps = 600;
     const double exact = test::minimalRadius(3.1, {});
     for (const double voxel : {0.5, 0.25}) {
-        const test::Evolved out = test::evolveBalls({atom}, 0.5, voxel, options);
+        const test::Evolved out = test::evolveBalls({loneAtom}, 0.5, voxel, options);
         EXPECT_FALSE(out.report.converged);
         EXPECT_EQ(out.report.steps, 600);
         EXPECT_GT(out.report.maxSpeed.back(), 100.0 * paperSpeed);
@@ -52,7 +52,7 @@ TEST(PaperFlow, MovesByAVoxelAtMost)
     EvolveOptions options;
     options.flow = Flow::Paper;
     options.steps = 3;
-    const test::Evolved out = test::evolveBalls({atom}, 0.5, 0.5, options);
+    const test::Evolved out = test::evolveBalls({loneAtom}, 0.5, 0.5, options);
     ASSERT_EQ(out.report.steps, 3);
     for (const double moved : out.report.meanDisplacement) {
         EXPECT_GT(moved, 0.0);

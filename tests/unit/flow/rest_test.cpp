@@ -29,9 +29,9 @@ const Molecule molecules[] = {{"OneAtom", {{0.0, 3.1}}},
                               {"TwoEqualAtoms", {{-2.0, 3.1}, {2.0, 3.1}}},
                               {"TwoUnequalAtoms", {{-1.75, 3.1}, {1.75, 2.6}}}};
 
-using Case = std::tuple<int, Regularizer, double>; // molecule, regulariser, lambda
+using RestCase = std::tuple<int, Regularizer, double>; // molecule, regulariser, lambda
 
-class Rest : public testing::TestWithParam<Case>
+class Rest : public testing::TestWithParam<RestCase>
 {
 };
 

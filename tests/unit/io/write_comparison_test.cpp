@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_comparison.h"
 
+#include "unit/io/json_keys.h"
+
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace molsurf
 {
 namespace
 {
 
-using Json = nlohmann::ordered_json;
-using Names = std::vector<std::string>;
-
-ComparisonReport sample()
+ComparisonReport sampleComparison()
 {
     ComparisonReport report;
     report.version = "1.2.3";
@@ -41,16 +39,9 @@ ComparisonReport sample()
     return report;
 }
 
-Names keys(const Json& json)
-{
-    Names names;
-    for (const auto& item : json.items()) names.push_back(item.key());
-    return names;
-}
-
 TEST(WriteComparison, KeysAndValues)
 {
-    const Json json = Json::parse(comparisonText(sample()));
+    const Json json = Json::parse(comparisonText(sampleComparison()));
     EXPECT_EQ(keys(json), (Names{"program", "version", "command", "a", "b", "a_to_b", "b_to_a",
                                  "hausdorff", "area_ratio", "volume_ratio", "color", "seconds",
                                  "peak_memory_bytes", "threads", "warnings"}));
@@ -68,7 +59,7 @@ TEST(WriteComparison, KeysAndValues)
 
 TEST(WriteComparison, WhatIsNotDefinedIsNull)
 {
-    const Json json = Json::parse(comparisonText(sample()));
+    const Json json = Json::parse(comparisonText(sampleComparison()));
     EXPECT_TRUE(json["b"]["volume"].is_null());
     EXPECT_TRUE(json["b"]["voxel"].is_null());
     EXPECT_TRUE(json["a"]["atoms"].is_null());
@@ -79,7 +70,7 @@ TEST(WriteComparison, WhatIsNotDefinedIsNull)
 
 TEST(ComparisonTable, HasTheNumbers)
 {
-    const std::string table = comparisonTable(sample());
+    const std::string table = comparisonTable(sampleComparison());
     for (const char* word : {"0.50000", "0.37500", "-0.12500", "Hausdorff", "2.00000", "200.00"})
         EXPECT_NE(table.find(word), std::string::npos) << word << "\n" << table;
     EXPECT_NE(table.find(" -\n"), std::string::npos) << table; // no volume of B

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_report.h"
 
+#include "unit/io/json_keys.h"
+
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <limits>
 
@@ -11,10 +12,7 @@ namespace molsurf
 namespace
 {
 
-using Json = nlohmann::ordered_json;
-using Names = std::vector<std::string>;
-
-Report sample()
+Report sampleReport()
 {
     Report report;
     report.version = "1.2.3";
@@ -34,16 +32,9 @@ Report sample()
     return report;
 }
 
-Names keys(const Json& json)
-{
-    Names names;
-    for (const auto& item : json.items()) names.push_back(item.key());
-    return names;
-}
-
 TEST(WriteReport, HasTheKeysOfTheContractInItsOrder)
 {
-    const Json json = Json::parse(reportText(sample()));
+    const Json json = Json::parse(reportText(sampleReport()));
     EXPECT_EQ(
         keys(json),
         (Names{"program",   "version",           "command", "input",      "atoms",      "voxel",
@@ -64,7 +55,7 @@ TEST(WriteReport, HasTheKeysOfTheContractInItsOrder)
 
 TEST(WriteReport, HasTheValues)
 {
-    const Json json = Json::parse(reportText(sample()));
+    const Json json = Json::parse(reportText(sampleReport()));
     EXPECT_EQ(json["atoms"], 327);
     EXPECT_EQ(json["surface"]["area"], 2500.25);
     EXPECT_EQ(json["surface"]["cavities"], 2);
@@ -76,14 +67,14 @@ TEST(WriteReport, HasTheValues)
 
 TEST(WriteReport, WithoutEvolutionItIsNull)
 {
-    Report report = sample();
+    Report report = sampleReport();
     report.evolution.reset();
     EXPECT_TRUE(Json::parse(reportText(report))["evolution"].is_null());
 }
 
 TEST(WriteReport, StaysJsonWhateverTheNumbersAndNamesAre)
 {
-    Report report = sample();
+    Report report = sampleReport();
     report.surface.area = std::numeric_limits<double>::quiet_NaN();
     report.input = "a\"\n\xff.pdb";
     const Json json = Json::parse(reportText(report));

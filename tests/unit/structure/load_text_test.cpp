@@ -11,7 +11,7 @@ namespace molsurf::test
 namespace
 {
 
-std::string inputError(const std::string& path)
+std::string loadError(const std::string& path)
 {
     return errorOf(ErrorKind::Input, [&] { loadText(path); });
 }
@@ -40,7 +40,7 @@ TEST(LoadText, RefusesEveryTruncationOfAGzip)
     for (const std::size_t size : {std::size_t{2}, std::size_t{12}, packed.size() / 2,
                                    packed.size() - 9, packed.size() - 8, packed.size() - 1}) {
         const TempFile cut("cut.pdb.gz", packed.substr(0, size));
-        const std::string message = inputError(cut.path());
+        const std::string message = loadError(cut.path());
         EXPECT_HAS(message, "is cut short");
         EXPECT_HAS(message, cut.path());
     }
@@ -51,14 +51,14 @@ TEST(LoadText, RefusesDamagedGzip)
     std::string packed = contentOf(dataFile("1a8o.pdb.gz"));
     packed[packed.size() - 6] = static_cast<char>(packed[packed.size() - 6] ^ 1); // checksum
     const TempFile damaged("damaged.pdb.gz", packed);
-    EXPECT_HAS(inputError(damaged.path()), "damaged gzip data");
+    EXPECT_HAS(loadError(damaged.path()), "damaged gzip data");
 }
 
 TEST(LoadText, ReadsStandardInput)
 {
     ASSERT_NE(std::freopen(dataFile("1a8o.pdb.gz").c_str(), "rb", stdin), nullptr);
     EXPECT_EQ(loadText("-"), loadText(dataFile("1a8o.pdb.gz")));
-    EXPECT_HAS(inputError("-"), "standard input: is empty"); // it is at its end
+    EXPECT_HAS(loadError("-"), "standard input: is empty"); // it is at its end
 }
 
 TEST(LoadText, RemovesByteOrderMark)
@@ -69,12 +69,12 @@ TEST(LoadText, RemovesByteOrderMark)
 
 TEST(LoadText, RefusesMissingFileFolderAndEmptyFile)
 {
-    EXPECT_HAS(inputError("/nonexistent/1abc.pdb"), "/nonexistent/1abc.pdb: cannot be opened");
-    EXPECT_HAS(inputError(std::filesystem::temp_directory_path().string()), "is a folder");
+    EXPECT_HAS(loadError("/nonexistent/1abc.pdb"), "/nonexistent/1abc.pdb: cannot be opened");
+    EXPECT_HAS(loadError(std::filesystem::temp_directory_path().string()), "is a folder");
     const TempFile empty("empty.pdb", "");
-    EXPECT_HAS(inputError(empty.path()), "is empty");
+    EXPECT_HAS(loadError(empty.path()), "is empty");
     const TempFile blank("blank.pdb", " \n\n");
-    EXPECT_HAS(inputError(blank.path()), "is empty");
+    EXPECT_HAS(loadError(blank.path()), "is empty");
 }
 
 TEST(LoadText, RefusesUnreadableFile)
@@ -84,7 +84,7 @@ TEST(LoadText, RefusesUnreadableFile)
     const uid_t user = ::geteuid();
     if (user == 0 && ::seteuid(65534) != 0)
         GTEST_SKIP() << "root, who may read everything, stays root";
-    EXPECT_HAS(inputError(file.path()), "cannot be opened");
+    EXPECT_HAS(loadError(file.path()), "cannot be opened");
     ASSERT_EQ(::seteuid(user), 0);
 }
 

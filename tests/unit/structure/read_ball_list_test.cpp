@@ -7,19 +7,19 @@ namespace molsurf::test
 namespace
 {
 
-Structure readText(const std::string& name, const std::string& text)
+Structure readList(const std::string& name, const std::string& text)
 {
     return readStructure(TempFile(name, text).path());
 }
 
-std::string inputError(const std::string& name, const std::string& text)
+std::string listError(const std::string& name, const std::string& text)
 {
-    return errorOf(ErrorKind::Input, [&] { readText(name, text); });
+    return errorOf(ErrorKind::Input, [&] { readList(name, text); });
 }
 
 TEST(ReadPqr, ReadsWithAndWithoutChain)
 {
-    const Structure s = readText("a.pqr", "REMARK   1\n"
+    const Structure s = readList("a.pqr", "REMARK   1\n"
                                           "ATOM 1 N   NTER   4  -36.5 -12.0 -13.6  0.185 1.824\n"
                                           "ATOM 2 HT1 NTER   4  -36.4 -11.4 -14.4  0.190 0.000\n"
                                           "TER\nEND\n"
@@ -48,7 +48,7 @@ TEST(ReadPqr, ReadsWithAndWithoutChain)
 TEST(ReadPqr, SplitsNumbersGluedByAMinusSign)
 {
     const Structure s =
-        readText("a.pqr", "ATOM    1  CL- CL-    -4-136.576-112.088-113.641-0.185 1.8\n"
+        readList("a.pqr", "ATOM    1  CL- CL-    -4-136.576-112.088-113.641-0.185 1.8\n"
                           "HETATM12345 N NTE A1234 1.0 2.0 3.0 -1e-2 1.5\n");
     ASSERT_EQ(s.atoms.size(), 2u);
     EXPECT_EQ(s.atoms[0].position, openvdb::Vec3d(-136.576, -112.088, -113.641));
@@ -61,7 +61,7 @@ TEST(ReadPqr, SplitsNumbersGluedByAMinusSign)
 TEST(ReadPqr, ReadsModels)
 {
     const std::string atom = "ATOM 1 N ALA 4 1 2 3 0.1 1.8\n";
-    const Structure s = readText("a.pqr", "MODEL 2\n" + atom + "ENDMDL\nMODEL 3\n" + atom + atom);
+    const Structure s = readList("a.pqr", "MODEL 2\n" + atom + "ENDMDL\nMODEL 3\n" + atom + atom);
     ASSERT_EQ(s.models.size(), 2u);
     EXPECT_EQ(s.models[0].number, 2);
     EXPECT_EQ(s.models[1].end - s.models[1].begin, 2u);
@@ -69,19 +69,19 @@ TEST(ReadPqr, ReadsModels)
 
 TEST(ReadPqr, NamesTheLineThatIsWrong)
 {
-    EXPECT_HAS(inputError("a.pqr", "REMARK\nATOM 1 N ALA 4 1 2 3 0.1\n"),
+    EXPECT_HAS(listError("a.pqr", "REMARK\nATOM 1 N ALA 4 1 2 3 0.1\n"),
                "a.pqr: line 2: expected 10 or 11 columns");
-    EXPECT_HAS(inputError("a.pqr", "ATOM 1 N ALA 4 1 2 3 0.1 N\n"),
+    EXPECT_HAS(listError("a.pqr", "ATOM 1 N ALA 4 1 2 3 0.1 N\n"),
                "radius: expected a number, got \"N\"");
-    EXPECT_HAS(inputError("a.pqr", "ATOM 1 N ALA 4 1 2 3 0.1 -1.8\n"),
+    EXPECT_HAS(listError("a.pqr", "ATOM 1 N ALA 4 1 2 3 0.1 -1.8\n"),
                "radius: expected 0 to 1e6 Å, got -1.8");
-    EXPECT_HAS(inputError("a.pqr", "ATOM 1 N ALA 4 1 2 nan 0.1 1.8\n"), "z: expected -1e6 to 1e6");
-    EXPECT_HAS(inputError("a.pqr", "REMARK\n"), "no atoms");
+    EXPECT_HAS(listError("a.pqr", "ATOM 1 N ALA 4 1 2 nan 0.1 1.8\n"), "z: expected -1e6 to 1e6");
+    EXPECT_HAS(listError("a.pqr", "REMARK\n"), "no atoms");
 }
 
 TEST(ReadXyzr, TakesTheLastFourColumns)
 {
-    const Structure plain = readText("a.xyzr", "# x y z r\n\n1 2 3 1.7\r\n4.5\t5 6e0 +1.5\n");
+    const Structure plain = readList("a.xyzr", "# x y z r\n\n1 2 3 1.7\r\n4.5\t5 6e0 +1.5\n");
     EXPECT_EQ(plain.format, "xyzr");
     EXPECT_TRUE(plain.hasRadii);
     ASSERT_EQ(plain.atoms.size(), 2u);
@@ -89,29 +89,29 @@ TEST(ReadXyzr, TakesTheLastFourColumns)
     EXPECT_EQ(plain.atoms[1].radius, 1.5f);
     EXPECT_EQ(plain.residues.size(), 1u);
 
-    const Structure named = readText("a.xyzr", "A 1 N 22.4 56.2 12.4 1.7\nB 2 CA 1 2 3 1.9\n");
+    const Structure named = readList("a.xyzr", "A 1 N 22.4 56.2 12.4 1.7\nB 2 CA 1 2 3 1.9\n");
     ASSERT_EQ(named.atoms.size(), 2u);
     EXPECT_EQ(named.chains, (std::vector<std::string>{"A", "B"}));
     EXPECT_EQ(named.residues[1].number, 2);
     EXPECT_EQ(named.atoms[1].name, "CA");
     EXPECT_EQ(named.atoms[1].element, 6);
 
-    const Structure other = readText("a.xyzr", "bead 22.4 56.2 12.4 1.7\n");
+    const Structure other = readList("a.xyzr", "bead 22.4 56.2 12.4 1.7\n");
     EXPECT_EQ(other.atoms[0].position, openvdb::Vec3d(22.4, 56.2, 12.4));
 }
 
 TEST(ReadXyzr, NamesTheLineThatIsWrong)
 {
-    EXPECT_HAS(inputError("a.xyzr", "1 2 3 1.7\n1 2 3\n"), "line 2: expected x y z radius");
-    EXPECT_HAS(inputError("a.xyzr", "1 2 3 1.7\n1 2 x 1.7\n"), "line 2: z: expected a number");
-    EXPECT_HAS(inputError("a.xyzr", "1 2 3 nan\n"), "radius: expected 0 to 1e6");
-    EXPECT_HAS(inputError("a.xyzr", "1 2 inf 1.7\n"), "atom 1: z: expected -1e6 to 1e6");
-    EXPECT_HAS(inputError("a.xyzr", "# nothing\n"), "no atoms");
+    EXPECT_HAS(listError("a.xyzr", "1 2 3 1.7\n1 2 3\n"), "line 2: expected x y z radius");
+    EXPECT_HAS(listError("a.xyzr", "1 2 3 1.7\n1 2 x 1.7\n"), "line 2: z: expected a number");
+    EXPECT_HAS(listError("a.xyzr", "1 2 3 nan\n"), "radius: expected 0 to 1e6");
+    EXPECT_HAS(listError("a.xyzr", "1 2 inf 1.7\n"), "atom 1: z: expected -1e6 to 1e6");
+    EXPECT_HAS(listError("a.xyzr", "# nothing\n"), "no atoms");
 }
 
 TEST(ReadXyzrn, TakesTheNameAsItStands)
 {
-    const Structure s = readText("a.xyzrn", "# x y z r 1 name\n1 2 3 1.7 1 N_ALA_1\n"
+    const Structure s = readList("a.xyzrn", "# x y z r 1 name\n1 2 3 1.7 1 N_ALA_1\n"
                                             "4 5 6 1.5 1 CA_ALA_2A_B\n"
                                             "4 5 7 1.4 1 C_7_x_HOH_O_Red\n"
                                             "4 5 8 1.3 1 D_8_Q_GLY_CA_Green\n"
@@ -146,11 +146,11 @@ TEST(ReadXyzrn, TakesTheNameAsItStands)
 
 TEST(ReadXyzrn, NamesTheLineThatIsWrong)
 {
-    EXPECT_HAS(inputError("a.xyzrn", "1 2 3 1.7 1 A\n1 2 3\n"), "line 2: expected x y z radius");
-    EXPECT_HAS(inputError("a.xyzrn", "1 2 3 1.7 1 A\n1 2 3 N 1 A\n"),
+    EXPECT_HAS(listError("a.xyzrn", "1 2 3 1.7 1 A\n1 2 3\n"), "line 2: expected x y z radius");
+    EXPECT_HAS(listError("a.xyzrn", "1 2 3 1.7 1 A\n1 2 3 N 1 A\n"),
                "line 2: radius: expected a number");
-    EXPECT_HAS(inputError("a.xyzrn", "1 2 3 -1 1 A\n"), "radius: expected 0 to 1e6 Å, got -1");
-    EXPECT_HAS(inputError("a.xyzrn", "# nothing\n"), "no atoms");
+    EXPECT_HAS(listError("a.xyzrn", "1 2 3 -1 1 A\n"), "radius: expected 0 to 1e6 Å, got -1");
+    EXPECT_HAS(listError("a.xyzrn", "# nothing\n"), "no atoms");
 }
 
 } // namespace

@@ -9,14 +9,14 @@ namespace molsurf::test
 namespace
 {
 
-Structure readText(const std::string& text)
+Structure readMmcif(const std::string& text)
 {
     return readStructure(TempFile("a.cif", text).path());
 }
 
-std::string inputError(const std::string& text)
+std::string mmcifError(const std::string& text)
 {
-    return errorOf(ErrorKind::Input, [&] { readText(text); });
+    return errorOf(ErrorKind::Input, [&] { readMmcif(text); });
 }
 
 /// An atom_site loop with the given columns.
@@ -68,9 +68,9 @@ TEST(ReadMmcif, KeepsBothNamesOfAChain)
 TEST(ReadMmcif, ReadsQuotedNamesAndComments)
 {
     const Structure s =
-        readText(atomSite(full, "ATOM 1 O OP1 . DT C 1 7.7 19.9 88.4 0 20.4 107 B 1\n# a comment\n"
-                                "ATOM 2 H H2\" . DT C 1 8.1 19.1 84.1 0 29.0 107 B 1\n"
-                                "ATOM 3 O \"O3'\" . DT C 1 7.1 18.1 86.1 0 21.0 107 B 1\n"));
+        readMmcif(atomSite(full, "ATOM 1 O OP1 . DT C 1 7.7 19.9 88.4 0 20.4 107 B 1\n# a comment\n"
+                                 "ATOM 2 H H2\" . DT C 1 8.1 19.1 84.1 0 29.0 107 B 1\n"
+                                 "ATOM 3 O \"O3'\" . DT C 1 7.1 18.1 86.1 0 21.0 107 B 1\n"));
     ASSERT_EQ(s.atoms.size(), 3u);
     EXPECT_EQ(s.atoms[1].name, "H2\"");
     EXPECT_EQ(s.atoms[2].name, "O3'");
@@ -82,9 +82,9 @@ TEST(ReadMmcif, ReadsQuotedNamesAndComments)
 TEST(ReadMmcif, MakesUpColumnsThatMayBeMissing)
 {
     const Structure s =
-        readText(atomSite("id type_symbol label_atom_id label_comp_id label_asym_id "
-                          "label_seq_id Cartn_x Cartn_y Cartn_z",
-                          "1 C CA GLY A 5 1 2 3\n2 N N GLY A 6 1 2 4\n"));
+        readMmcif(atomSite("id type_symbol label_atom_id label_comp_id label_asym_id "
+                           "label_seq_id Cartn_x Cartn_y Cartn_z",
+                           "1 C CA GLY A 5 1 2 3\n2 N N GLY A 6 1 2 4\n"));
     ASSERT_EQ(s.atoms.size(), 2u);
     EXPECT_EQ(s.residues[1].number, 6);
     EXPECT_EQ(s.atoms[0].altloc, '\0');
@@ -93,8 +93,8 @@ TEST(ReadMmcif, MakesUpColumnsThatMayBeMissing)
 
 TEST(ReadMmcif, ReadsModelsByNumber)
 {
-    const Structure s = readText(atomSite(full, "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 3\n"
-                                                "ATOM 2 C CA . GLY A 1 1 2 3 1 0 1 A 8\n"));
+    const Structure s = readMmcif(atomSite(full, "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 3\n"
+                                                 "ATOM 2 C CA . GLY A 1 1 2 3 1 0 1 A 8\n"));
     ASSERT_EQ(s.models.size(), 2u);
     EXPECT_EQ(s.models[0].number, 3);
     EXPECT_EQ(s.models[1].number, 8);
@@ -102,10 +102,10 @@ TEST(ReadMmcif, ReadsModelsByNumber)
 
 TEST(ReadMmcif, GuessesLigandsWithoutEntities)
 {
-    const Structure s = readText(atomSite(full, "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n"
-                                                "ATOM 2 C CA . ALA A 2 5 2 3 1 0 2 A 1\n"
-                                                "HETATM 3 ZN ZN . ZN A . 9 9 9 1 0 101 A 1\n"
-                                                "HETATM 4 O O . HOH A . 0 9 9 1 0 201 A 1\n"));
+    const Structure s = readMmcif(atomSite(full, "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n"
+                                                 "ATOM 2 C CA . ALA A 2 5 2 3 1 0 2 A 1\n"
+                                                 "HETATM 3 ZN ZN . ZN A . 9 9 9 1 0 101 A 1\n"
+                                                 "HETATM 4 O O . HOH A . 0 9 9 1 0 201 A 1\n"));
     ASSERT_EQ(s.residues.size(), 4u);
     EXPECT_FALSE(s.residues[1].hetero);
     EXPECT_TRUE(s.residues[2].hetero);
@@ -114,26 +114,26 @@ TEST(ReadMmcif, GuessesLigandsWithoutEntities)
 
 TEST(ReadMmcif, RefusesWhatHasNoAtoms)
 {
-    EXPECT_HAS(inputError("data_X\n_cell.length_a 10\n"), "no atoms: expected _atom_site.Cartn_x");
-    EXPECT_HAS(inputError("data_X\nloop_\n_chem_comp_atom.atom_id\nC1\n"), "chemical component");
-    EXPECT_HAS(inputError("data_X\nloop_\n_atom_site_label\nC1\n"), "small-molecule CIF");
-    EXPECT_HAS(inputError(atomSite("id Cartn_x Cartn_y", "1 2 3\n")), "no column type_symbol");
+    EXPECT_HAS(mmcifError("data_X\n_cell.length_a 10\n"), "no atoms: expected _atom_site.Cartn_x");
+    EXPECT_HAS(mmcifError("data_X\nloop_\n_chem_comp_atom.atom_id\nC1\n"), "chemical component");
+    EXPECT_HAS(mmcifError("data_X\nloop_\n_atom_site_label\nC1\n"), "small-molecule CIF");
+    EXPECT_HAS(mmcifError(atomSite("id Cartn_x Cartn_y", "1 2 3\n")), "no column type_symbol");
 }
 
 TEST(ReadMmcif, RefusesWhatIsCutShortOrBroken)
 {
     const std::string rows = "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\nATOM 2 C CA . GLY A 2 1\n";
-    const std::string message = inputError(atomSite(full, rows));
+    const std::string message = mmcifError(atomSite(full, rows));
     EXPECT_HAS(message, "Wrong number of values in the loop");
     EXPECT_HAS(message, "a.cif: "); // the path, once
     EXPECT_EQ(message.find("a.cif"), message.rfind("a.cif"));
-    EXPECT_HAS(inputError("loop_\n_atom_site.id\n1\n"), "expected block header");
+    EXPECT_HAS(mmcifError("loop_\n_atom_site.id\n1\n"), "expected block header");
 }
 
 TEST(ReadMmcif, RefusesCoordinatesThatAreNoNumbers)
 {
     const std::string message =
-        inputError(atomSite(full, "ATOM 1 C CA . GLY A 1 1 ? 3 1 0 1 A 1\n"));
+        mmcifError(atomSite(full, "ATOM 1 C CA . GLY A 1 1 ? 3 1 0 1 A 1\n"));
     EXPECT_HAS(message, "atom 1 (CA of GLY 1): y: expected");
 }
 
@@ -141,7 +141,7 @@ TEST(ReadMmcif, ReadsTheFirstBlockWithAtoms)
 {
     const std::string block = atomSite(full, "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n");
     const Structure s =
-        readText("data_head\n_cell.length_a 1\n" + block + "data_Y" + block.substr(6));
+        readMmcif("data_head\n_cell.length_a 1\n" + block + "data_Y" + block.substr(6));
     EXPECT_EQ(s.atoms.size(), 1u);
     ASSERT_EQ(s.warnings.size(), 1u);
     EXPECT_HAS(s.warnings[0], "1 further data block");
@@ -149,10 +149,10 @@ TEST(ReadMmcif, ReadsTheFirstBlockWithAtoms)
 
 TEST(ReadMmcif, AnAssemblyThatCannotBeBuiltIsNoErrorYet)
 {
-    const Structure s = readText(atomSite(full, "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n") +
-                                 "_pdbx_struct_assembly_gen.assembly_id 1\n"
-                                 "_pdbx_struct_assembly_gen.oper_expression (1-60)\n"
-                                 "_pdbx_struct_assembly_gen.asym_id_list A\n");
+    const Structure s = readMmcif(atomSite(full, "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n") +
+                                  "_pdbx_struct_assembly_gen.assembly_id 1\n"
+                                  "_pdbx_struct_assembly_gen.oper_expression (1-60)\n"
+                                  "_pdbx_struct_assembly_gen.asym_id_list A\n");
     ASSERT_EQ(s.assemblies.size(), 1u);
     EXPECT_HAS(s.assemblies[0].problem, "operator \"1\" is not listed");
 }
@@ -167,9 +167,9 @@ TEST(ReadMmcif, ReadsNonCrystallographicSymmetry)
     }
     const std::string atoms = atomSite(full, "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n");
     const std::string given = "1 given 1 0 0 0 1 0 0 0 1 0 0 0\n";
-    EXPECT_TRUE(readText(atoms + columns + given).assemblies.empty());
+    EXPECT_TRUE(readMmcif(atoms + columns + given).assemblies.empty());
     const Structure s =
-        readText(atoms + columns + given + "2 generate 0 -1 0 1 0 0 0 0 1 100 -20.5 3\n");
+        readMmcif(atoms + columns + given + "2 generate 0 -1 0 1 0 0 0 0 1 100 -20.5 3\n");
     ASSERT_EQ(s.assemblies.size(), 1u);
     EXPECT_EQ(s.assemblies[0].name, "ncs");
     const auto& operators = s.assemblies[0].parts.at(0).operators;

@@ -9,14 +9,14 @@ namespace molsurf::test
 namespace
 {
 
-Structure readText(const std::string& text, const std::string& name = "a.pdb")
+Structure readPdb(const std::string& text, const std::string& name = "a.pdb")
 {
     return readStructure(TempFile(name, text).path());
 }
 
-std::string inputError(const std::string& text, const std::string& name = "a.pdb")
+std::string pdbError(const std::string& text, const std::string& name = "a.pdb")
 {
-    return errorOf(ErrorKind::Input, [&] { readText(text, name); });
+    return errorOf(ErrorKind::Input, [&] { readPdb(text, name); });
 }
 
 std::size_t countResidues(const Structure& s, bool Residue::*flag)
@@ -92,8 +92,8 @@ const std::string atom =
 
 TEST(ReadPdb, KeepsModelNumbersOfTheFile)
 {
-    const Structure s = readText("MODEL        7\n" + atom + "ENDMDL\nMODEL    12345\n" + atom +
-                                 "ENDMDL\nMODEL\nENDMDL\n" + atom + "ENDMDL\n" + atom);
+    const Structure s = readPdb("MODEL        7\n" + atom + "ENDMDL\nMODEL    12345\n" + atom +
+                                "ENDMDL\nMODEL\nENDMDL\n" + atom + "ENDMDL\n" + atom);
     ASSERT_EQ(s.models.size(), 4u);
     EXPECT_EQ(s.models[0].number, 7);
     EXPECT_EQ(s.models[1].number, 12345);
@@ -103,9 +103,9 @@ TEST(ReadPdb, KeepsModelNumbersOfTheFile)
 
 TEST(ReadPdb, RefusesModelsWithoutAtoms)
 {
-    EXPECT_HAS(inputError("MODEL        1\nENDMDL\n"), "no atoms: read as PDB");
-    EXPECT_HAS(inputError("Dear Sir,\n"), "no atoms");
-    EXPECT_HAS(inputError("HEADER    HEADER ONLY\n"), "no atoms");
+    EXPECT_HAS(pdbError("MODEL        1\nENDMDL\n"), "no atoms: read as PDB");
+    EXPECT_HAS(pdbError("Dear Sir,\n"), "no atoms");
+    EXPECT_HAS(pdbError("HEADER    HEADER ONLY\n"), "no atoms");
 }
 
 TEST(ReadPdb, RefusesBadCoordinatesAndSaysWhere)
@@ -113,24 +113,24 @@ TEST(ReadPdb, RefusesBadCoordinatesAndSaysWhere)
     auto withX = [](const std::string& x) {
         return "REMARK\n" + atom.substr(0, 30) + x + atom.substr(38);
     };
-    EXPECT_HAS(inputError(withX("     nan")), "atom 1 (CA of GLY 1): x: expected -1e6 to 1e6");
-    EXPECT_HAS(inputError(withX("     inf")), "expected -1e6 to 1e6");
-    EXPECT_HAS(inputError(withX(" 1000001")), "got 1000001");
-    EXPECT_EQ(readText(withX(" 1000000")).atoms[0].position[0], 1e6);
-    EXPECT_HAS(inputError(withX("********")),
+    EXPECT_HAS(pdbError(withX("     nan")), "atom 1 (CA of GLY 1): x: expected -1e6 to 1e6");
+    EXPECT_HAS(pdbError(withX("     inf")), "expected -1e6 to 1e6");
+    EXPECT_HAS(pdbError(withX(" 1000001")), "got 1000001");
+    EXPECT_EQ(readPdb(withX(" 1000000")).atoms[0].position[0], 1e6);
+    EXPECT_HAS(pdbError(withX("********")),
                "line 2: x: expected a number in columns 31-38, got \"********\"");
-    EXPECT_HAS(inputError(withX("        ")), "got \"\"");
-    EXPECT_HAS(inputError(atom.substr(0, 40)), "line 1: y: expected a number in columns 39-46");
+    EXPECT_HAS(pdbError(withX("        ")), "got \"\"");
+    EXPECT_HAS(pdbError(atom.substr(0, 40)), "line 1: y: expected a number in columns 39-46");
 }
 
 TEST(ReadPdb, ReadsShortLinesAndGuessesElements)
 {
     const Structure s =
-        readText("ATOM      1  O       X   1       0.417   8.303  11.737  0.00  0.00\n"
-                 "ATOM      2  H       X   1       1.320   8.480  12.003\n"
-                 "ATOM      3 HG11 VAL X   2       1.320   8.480  12.003  1.00  0.00\n"
-                 "ATOM      4 CA   VAL X   2       1.320   8.480  12.003  1.00  0.00\n"
-                 "HETATM    5 CA    CA X   3       1.320   8.480  12.003  1.00  0.00");
+        readPdb("ATOM      1  O       X   1       0.417   8.303  11.737  0.00  0.00\n"
+                "ATOM      2  H       X   1       1.320   8.480  12.003\n"
+                "ATOM      3 HG11 VAL X   2       1.320   8.480  12.003  1.00  0.00\n"
+                "ATOM      4 CA   VAL X   2       1.320   8.480  12.003  1.00  0.00\n"
+                "HETATM    5 CA    CA X   3       1.320   8.480  12.003  1.00  0.00");
     ASSERT_EQ(s.atoms.size(), 5u);
     const std::vector<int> elements{8, 1, 1, 6, 20};
     for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(s.atoms[i].element, elements[i]) << i;
@@ -139,16 +139,16 @@ TEST(ReadPdb, ReadsShortLinesAndGuessesElements)
 TEST(ReadPdb, ReadsOddChargeColumns)
 {
     const std::string head = atom.substr(0, 72);
-    const Structure s = readText(head + "4AT1  83\n" + head + "4AT1   8\n" + head + "4AT11234\n" +
-                                 head + "1ABCA 12\n" + head + "     C1+\n" + head + "     C+1\n" +
-                                 head + "SEGA C1 \n" + head + "           A\n");
+    const Structure s = readPdb(head + "4AT1  83\n" + head + "4AT1   8\n" + head + "4AT11234\n" +
+                                head + "1ABCA 12\n" + head + "     C1+\n" + head + "     C+1\n" +
+                                head + "SEGA C1 \n" + head + "           A\n");
     ASSERT_EQ(s.atoms.size(), 8u);
     for (const Atom& a : s.atoms) EXPECT_EQ(a.element, 6);
 }
 
 TEST(ReadPdb, ReadsHybrid36Numbers)
 {
-    const Structure s = readText(
+    const Structure s = readPdb(
         "HETATM99999  O   HOH WZZZZ       1.000   2.000   3.000  1.00  0.00           O  \n"
         "HETATMA0000  O   HOH WA000       4.000   2.000   3.000  1.00  0.00           O  \n"
         "HETATMA0001  O   HOH WA001       7.000   2.000   3.000  1.00  0.00           O  \n");
@@ -159,10 +159,10 @@ TEST(ReadPdb, ReadsHybrid36Numbers)
 
 TEST(ReadPdb, KeepsInsertionCodes)
 {
-    const Structure s = readText(
-        "ATOM      1 A    XXX X   1a      1.000   2.000   3.000  1.00  0.00           A\n"
-        "ATOM      2 B    XXX X   2c      1.000   2.000   3.000  1.00  0.00           B\n"
-        "ATOM      4 D    XXX X   4       1.000   2.000   3.000  1.00  0.00           D\n");
+    const Structure s =
+        readPdb("ATOM      1 A    XXX X   1a      1.000   2.000   3.000  1.00  0.00           A\n"
+                "ATOM      2 B    XXX X   2c      1.000   2.000   3.000  1.00  0.00           B\n"
+                "ATOM      4 D    XXX X   4       1.000   2.000   3.000  1.00  0.00           D\n");
     ASSERT_EQ(s.residues.size(), 3u);
     EXPECT_EQ(s.residues[0].insertionCode, 'a');
     EXPECT_EQ(s.residues[1].number, 2);
@@ -172,7 +172,7 @@ TEST(ReadPdb, KeepsInsertionCodes)
 
 TEST(ReadPdb, TellsCapsAndIonsFromTheChain)
 {
-    const Structure s = readText(
+    const Structure s = readPdb(
         "HETATM    1  C   ACE A   0       0.000   0.000   0.000  1.00  0.00           C  \n"
         "ATOM      2  N   GLY A   1       1.330   0.000   0.000  1.00  0.00           N  \n"
         "ATOM      3  CA  GLY A   1       2.000   1.300   0.000  1.00  0.00           C  \n"
@@ -190,14 +190,14 @@ TEST(ReadPdb, AStrayTerMakesNoLigands)
 {
     const std::string second = "ATOM      2  CA  ALA A   2       9.000   2.000   3.000  1.00  0.00"
                                "           C  \n";
-    const Structure s = readText(atom + "TER\n" + second);
+    const Structure s = readPdb(atom + "TER\n" + second);
     EXPECT_EQ(countResidues(s, &Residue::hetero), 0u);
 }
 
 TEST(ReadPdb, WarnsOfAtomsAfterEnd)
 {
-    EXPECT_TRUE(readText(atom + "END\n\n").warnings.empty());
-    const Structure s = readText(atom + "END\n" + atom);
+    EXPECT_TRUE(readPdb(atom + "END\n\n").warnings.empty());
+    const Structure s = readPdb(atom + "END\n" + atom);
     EXPECT_EQ(s.atoms.size(), 1u);
     ASSERT_EQ(s.warnings.size(), 1u);
     EXPECT_HAS(s.warnings[0], "after END in line 3");
@@ -223,8 +223,8 @@ TEST(ReadPdb, ReadsNonCrystallographicSymmetry)
                                 "MTRIX3   2  0.000000  0.000000  1.000000        3.00000\n";
     const std::string atom =
         "ATOM      1  CA  ALA A   1       1.000   2.000   3.000  1.00  0.00           C  \n";
-    EXPECT_TRUE(readText(given + atom).assemblies.empty());
-    const Structure s = readText(given + missing + atom);
+    EXPECT_TRUE(readPdb(given + atom).assemblies.empty());
+    const Structure s = readPdb(given + missing + atom);
     ASSERT_EQ(s.assemblies.size(), 1u);
     EXPECT_EQ(s.assemblies[0].name, "ncs");
     ASSERT_EQ(s.assemblies[0].parts.size(), 1u);
@@ -236,7 +236,7 @@ TEST(ReadPdb, ReadsNonCrystallographicSymmetry)
     EXPECT_EQ(operators[1].rotation[0], (std::array<double, 3>{0, -1, 0}));
     EXPECT_EQ(operators[1].rotation[1], (std::array<double, 3>{1, 0, 0}));
     EXPECT_EQ(operators[1].translation, openvdb::Vec3d(100, -20.5, 3));
-    const Structure bad = readText("MTRIX1   2  0.000000 what\n" + atom);
+    const Structure bad = readPdb("MTRIX1   2  0.000000 what\n" + atom);
     EXPECT_TRUE(bad.assemblies.empty());
     ASSERT_EQ(bad.warnings.size(), 1u);
     EXPECT_HAS(bad.warnings[0], "MTRIX");
@@ -245,7 +245,7 @@ TEST(ReadPdb, ReadsNonCrystallographicSymmetry)
 TEST(ReadPdb, ANameThatEndsInVdbMeansNothing)
 {
     const std::string text = contentOf(dataFile("1crn.pdb"));
-    const Structure s = readText(text, "1crn_full.vdb");
+    const Structure s = readPdb(text, "1crn_full.vdb");
     EXPECT_EQ(s.format, "PDB");
     EXPECT_EQ(s.atoms.size(), 327u);
 }
