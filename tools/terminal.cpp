@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <regex>
+#include <string_view>
 
 namespace molsurf::tool
 {
@@ -37,19 +37,27 @@ std::string duration(double seconds)
 
 std::string withOptionNames(const std::string& message)
 {
-    static const std::regex option("`([a-z][A-Za-z]*)`");
+    const auto isSmall = [](char c) { return c >= 'a' && c <= 'z'; };
+    const auto isCapital = [](char c) { return c >= 'A' && c <= 'Z'; };
     std::string out;
-    auto rest = message.begin();
-    for (std::sregex_iterator it(message.begin(), message.end(), option), end; it != end; ++it) {
-        out.append(rest, message.begin() + it->position()).append("--");
-        for (const char letter : it->str(1)) {
-            const bool capital = letter >= 'A' && letter <= 'Z';
-            if (capital) out += '-';
-            out += capital ? char(letter - 'A' + 'a') : letter;
+    for (std::size_t i = 0; i < message.size(); ++i) {
+        const std::size_t end = message[i] == '`' ? message.find('`', i + 1) : std::string::npos;
+        const std::string_view name =
+            end == std::string::npos ? "" : std::string_view(message).substr(i + 1, end - i - 1);
+        if (name.empty() || !isSmall(name[0]) ||
+            !std::all_of(name.begin(), name.end(),
+                         [&](char c) { return isSmall(c) || isCapital(c); })) {
+            out += message[i];
+            continue;
         }
-        rest = message.begin() + it->position() + it->length();
+        out += "--";
+        for (const char letter : name) {
+            if (isCapital(letter)) out += '-';
+            out += isCapital(letter) ? char(letter - 'A' + 'a') : letter;
+        }
+        i = end;
     }
-    return out.append(rest, message.end());
+    return out;
 }
 
 std::string printable(const std::string& text)

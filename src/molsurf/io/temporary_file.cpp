@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <random>
-#include <regex>
+#include <string_view>
 
 namespace molsurf
 {
@@ -48,9 +48,22 @@ const std::string& ownMaker()
 
 std::string makerOf(const std::string& name)
 {
-    static const std::regex pattern("\\.[^/]+\\.([0-9]+-[0-9a-f]{8})\\.part");
-    std::smatch found;
-    return std::regex_match(name, found, pattern) ? found.str(1) : "";
+    // .NAME.PROCESS-RANDOM.part
+    constexpr std::string_view ending = ".part", digits = "0123456789",
+                               hexadecimal = "0123456789abcdef";
+    constexpr std::size_t randomLength = 8;
+    if (name.size() <= ending.size() || name[0] != '.' || name.find('/') != std::string::npos ||
+        name.compare(name.size() - ending.size(), ending.size(), ending) != 0)
+        return "";
+    const std::string stem = name.substr(0, name.size() - ending.size());
+    const std::size_t dot = stem.rfind('.'), dash = stem.rfind('-');
+    if (dot < 2 || dash == std::string::npos || dash < dot + 2) return "";
+    const std::string_view process = std::string_view(stem).substr(dot + 1, dash - dot - 1);
+    const std::string_view random = std::string_view(stem).substr(dash + 1);
+    const bool fits = random.size() == randomLength &&
+                      process.find_first_not_of(digits) == process.npos &&
+                      random.find_first_not_of(hexadecimal) == random.npos;
+    return fits ? stem.substr(dot + 1) : "";
 }
 
 std::string followed(const std::string& path)
