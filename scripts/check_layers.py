@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MPL-2.0
 """Holds the #include lines against the table of docs/architecture.md.
 
@@ -83,7 +83,12 @@ def main():
     for path in sorted(sources):
         if stage_of(path) not in FOLDERS + ["face"]:
             sys.exit(f"{path.relative_to(ROOT)}: a stage that the table does not know")
-        for number, line in enumerate(path.read_text().splitlines(), 1):
+        lines = path.read_text().splitlines()
+        own = path.with_suffix(".h")
+        if path.suffix == ".cpp" and own.exists() and own.name not in next(filter(INCLUDE.match, lines), ""):
+            faults += 1
+            print(f"{path.relative_to(ROOT)}: its header is not its first include, which shows that it compiles alone")
+        for number, line in enumerate(lines, 1):
             match = INCLUDE.match(line)
             if not match:
                 if stage_of(path) != "tools" and OPTION.search(line):

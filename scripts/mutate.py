@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MPL-2.0
 """Breaks the code on purpose, one place after the other, and tells which tests notice.
 
@@ -126,7 +126,7 @@ def main():
 
     folder = args.folder.resolve()
     copy_tree(folder)
-    done = subprocess.run(["cmake", "--preset", "release"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    done = subprocess.run(["cmake", "--preset", "release", "-DCMAKE_UNITY_BUILD=OFF"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           text=True, check=False)
     if done.returncode:
         sys.exit(done.stdout)
