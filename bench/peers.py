@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MPL-2.0
 """Runs the same surfaces through vdb_molsurf and through other programs, in turn, and compares them.
 

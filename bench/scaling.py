@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MPL-2.0
 """Time and memory against the number of atoms, from a few residues to the capsid of PBCV-1.
 

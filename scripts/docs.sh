@@ -1,6 +1,6 @@
 #!/bin/bash
 # Builds the documentation as a site in build-docs/site, which can be read without a network and without
-# a server: open build-docs/site/index.html. (The search box alone needs one: python3 -m http.server -d
+# a server: open build-docs/site/index.html. (The search box alone needs one: /usr/bin/python3 -m http.server -d
 # build-docs/site.) Installs mkdocs and its theme from Debian 12 if they are not there.
 # Ends with an error if a link between pages or to a picture leads to nothing, if a page is not in the
 # menu, or if a page would load something from the network.

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MPL-2.0
 """Lists what a run of the tests left out, and what to install for it:
     not_tested.py FILE

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MPL-2.0
 """Opens a surface of vdb_molsurf in Blender: volume, mesh, colours, material, lights and camera.
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MPL-2.0
 """Places the copies of an assembly in Blender: objects that share one mesh or one volume.
 

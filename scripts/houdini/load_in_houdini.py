@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MPL-2.0
 """Loads a surface of vdb_molsurf in Houdini, from hython or a Python shell.
 

@@ -27,7 +27,7 @@ configure() {
   user=$(id -un)
   memory=$(awk '/^MemTotal/ { print int($2 / 1024 * 0.9) }' /proc/meminfo)
   # Free ports, since a Slurm may be here already.
-  read -r -a ports < <(python3 -c 'import socket
+  read -r -a ports < <(/usr/bin/python3 -c 'import socket
 s = [socket.socket() for _ in range(2)]
 for one in s: one.bind(("127.0.0.1", 0))
 print(*(one.getsockname()[1] for one in s))')

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MPL-2.0
 """Checks what the shared library shows: the functions that the headers of the face declare, and nothing else.
 

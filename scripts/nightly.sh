@@ -1,0 +1,56 @@
+#!/bin/bash
+# Runs what takes too long for .ci/run, one after the other, and prints one table at the end:
+#     scripts/nightly.sh [--fuzz SECONDS] [--structures FOLDER] [NAME...]
+# Without a NAME it runs all:
+#     headers     those that no source file includes first, each compiled by itself
+#     mutations   scripts/mutate.py: the code broken on purpose, which tests have to notice
+#     fuzzing     scripts/fuzz.sh: each target for 60 seconds, or SECONDS
+#     asan, tsan  scripts/sanitizers.sh: the unit tests under the sanitizers of addresses and of threads
+#     figures     scripts/check_docs.py --figures: the numbers of the pages, some of structures that are in FOLDER
+#     site        scripts/docs.sh: the pages as a site
+# All of it takes two hours on 2 cores, in some 6 GB. What a step prints is in build-nightly/NAME.log. The exit
+# status is 1 if one fails; the others still run.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+headers() {
+  cmake --preset release -DCMAKE_VERIFY_INTERFACE_HEADER_SETS=ON &&
+    cmake --build --preset release --target all_verify_interface_header_sets
+}
+mutations() { scripts/mutate.py; }
+fuzzing() { scripts/fuzz.sh "$seconds"; }
+asan() { scripts/sanitizers.sh asan; }
+tsan() { scripts/sanitizers.sh tsan; }
+figures() {
+  cmake --preset release && cmake --build --preset release --target vdb_molsurf &&
+    scripts/check_docs.py --figures "${structures[@]}"
+}
+site() { scripts/docs.sh; }
+
+seconds=60 structures=() steps=()
+while [[ $# -gt 0 ]]; do
+  case $1 in
+    --fuzz) seconds=${2:?--fuzz needs seconds} && shift ;;
+    --structures) structures=(--structures "${2:?--structures needs a folder}") && shift ;;
+    headers | mutations | fuzzing | asan | tsan | figures | site) steps+=("$1") ;;
+    *) echo "nightly.sh: expected a step or an option, got $1 [hint: see the first lines of this script]" >&2; exit 2 ;;
+  esac
+  shift
+done
+[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan figures site)
+
+scripts/install_deps.sh --test --check clang dpkg-dev
+mkdir -p build-nightly
+status=0 table=()
+for step in "${steps[@]}"; do
+  echo "== $step"
+  began=$SECONDS verdict=passed
+  "$step" < /dev/null > "build-nightly/$step.log" 2>&1 || { verdict=FAILED status=1; }
+  last=$(grep -E '^(.*tests passed.*|.* faults.*|.* killed.*|Made in .*|.*ninja: no work.*)$' "build-nightly/$step.log" | tail -n 1 || true)
+  table+=("$(printf '%-10s %-7s %3d:%02d  %s' "$step" "$verdict" $(((SECONDS - began) / 60)) $(((SECONDS - began) % 60)) \
+    "${last:-$(tail -n 1 "build-nightly/$step.log")}")")
+  echo "${table[-1]}"
+done
+printf '\n%-10s %-7s minutes  what it says\n' step verdict
+printf '%s\n' "${table[@]}"
+exit $status
