@@ -48,5 +48,5 @@ for preset in "$@"; do
   esac
   cmake --preset "$configured"
   cmake --build --preset "$preset"
-  ctest --preset "$preset" --label-exclude 'cli|package' "${without[@]}"
+  ctest --preset "$preset" --parallel "$(nproc)" --label-exclude 'cli|package' "${without[@]}"
 done
