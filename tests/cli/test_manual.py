@@ -20,9 +20,9 @@ class Manual(ToolTest):
 
     def complete(self, *words):
         """What bash offers for the last word."""
-        script = (f"source {BUILT / 'vdb_molsurf.bash'}; COMP_WORDS=(\"$@\"); "
+        script = ("source \"$0\"; COMP_WORDS=(\"$@\"); "
                   "COMP_CWORD=$(($# - 1)); _vdb_molsurf; printf '%s\\n' \"${COMPREPLY[@]}\"")
-        done = subprocess.run(["bash", "-c", script, "bash", "vdb_molsurf", *words],
+        done = subprocess.run(["bash", "-c", script, BUILT / "vdb_molsurf.bash", "vdb_molsurf", *words],
                               cwd=self.folder, capture_output=True, text=True, timeout=60)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return done.stdout.split()
