@@ -112,7 +112,7 @@ MOLSURF_KERNEL void settleMeans(float* __restrict sum, float* __restrict weight,
 MOLSURF_KERNEL void carry(const float* __restrict levels, const float* __restrict weights,
                           const float* __restrict psi, const float* __restrict slope,
                           const float* __restrict distance, float lambda, float limit,
-                          float* __restrict out)
+                          float beside, float* __restrict out)
 {
     constexpr int rim = 3;
     for (int row = 0; row < 64; ++row) {
@@ -127,7 +127,12 @@ MOLSURF_KERNEL void carry(const float* __restrict levels, const float* __restric
             const float value = clamped((level - psi[i]) / slope[i], -limit, limit);
             const float agrees = value * distance[i] > 0.0f ? 1.0f : known;
             const float carried = agrees > 0.0f ? value : distance[i];
-            out[i] = carried + leaving(level - bottom) * (distance[i] - carried);
+            const float mixed = carried + leaving(level - bottom) * (distance[i] - carried);
+            // Voxels do not change sides but beside the interface: in a gap that a front spans psi
+            // falls to both sides.
+            const float sided =
+                mixed * distance[i] > 0.0f || std::abs(distance[i]) < beside ? 1.0f : 0.0f;
+            out[i] = sided > 0.0f ? mixed : distance[i];
         }
     }
 }
@@ -163,7 +168,7 @@ SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, d
             settleMeans(sum, weight, rim, sums, weights, rim == 3 ? 0.0f : 1.0f);
         }
         carry(sum, weight, source.psi.leaf(n), source.slope.leaf(n), phi.leaf(n), lambda, limit,
-              out.leaf(n));
+              0.5f * voxelSize, out.leaf(n));
     });
     return out;
 }
