@@ -6,7 +6,7 @@
 
 These have to exist: links and the headings they lead to; paths and file names in backticks, or written from a
 folder of the root; numbered sections such as "docs/math.md, section 7", and ADRs; in backticks names such as
-`Type::member` and `someFunction` of the code, and the options of the program. Defaults beside options have to be
+`Type::member`, `someFunction` and `function()` of the code, and the options of the program. Defaults beside options have to be
 those of the help, and docs/options.md and docs/cli-help.txt have to be what the program prints; --renew writes these two.
 Prints one line for each fault, and exits with 1 if there is one.
 """
@@ -148,7 +148,7 @@ def span_faults(span, page, tree, program):
     for kind, member in re.findall(r"\b([A-Za-z]\w*)::(\w+)", span):
         if kind not in FOREIGN and member not in tree.bodies.get(kind, ()):
             yield f"the code has no {kind}::{member}"
-    name = re.fullmatch(r"([a-z]+[A-Z]\w*|[A-Z][a-z]+[A-Z]\w*)(?:\(\))?", span)
+    name = re.fullmatch(r"([a-z]+[A-Z]\w*|[A-Z][a-z]+[A-Z]\w*|\w+(?=\(\)))(?:\(\))?", span)
     if name and name[1] not in tree.words | FOREIGN_NAMES:
         yield f"the code has no {name[1]}"
     if re.match(r"vdb_molsurf\s|--[a-z]", span):
