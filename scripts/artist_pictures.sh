@@ -1,9 +1,10 @@
 #!/bin/bash
-# Makes the pictures of docs/artists.md: artist_pictures.sh [FOLDER]. Needs blender, chromium and python3-pil.
+# The pictures of docs/artists.md. Needs blender, chromium and python3-pil.
+# usage: artist_pictures.sh VDB_MOLSURF [OUTPUT_FOLDER]
 set -euo pipefail
+tool=$(realpath "$1")
+out=$(realpath "${2:-$(dirname "$0")/../docs/pictures}")
 cd "$(dirname "$0")/.."
-out=$(realpath "${1:-docs/pictures}")
-tool=$PWD/build-release/tools/vdb_molsurf
 script=$PWD/scripts/blender/open_in_blender.py
 data=$PWD/tests/data
 work=$(mktemp -d)
@@ -22,12 +23,11 @@ done
 
 "$tool" "$data/4at1.ent.gz" --color chain --size 700 --force -q -o "$out/4at1_chains.png"
 
-"$tool" "$data/1a8o.cif.gz" --assembly 1 --color mean-curvature -q -o view.html
+"$tool" "$data/1a8o.cif.gz" --assembly 1 --voxel 0.25 --color mean-curvature -q -o view.html
 chromium --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
   --window-size=900,640 --hide-scrollbars --user-data-dir="$work/profile" \
   --virtual-time-budget=8000 --screenshot=view.png "file://$work/view.html" 2> browser.log
-# The page is lower than the window by what would be the bars of the browser.
 /usr/bin/python3 -c "
 import sys
 from PIL import Image
-Image.open('view.png').convert('RGB').crop((0, 0, 900, 553)).save(sys.argv[1], optimize=True)" "$out/view_html.png"
+Image.open('view.png').convert('RGB').save(sys.argv[1], optimize=True)" "$out/view_html.png"
