@@ -7,9 +7,9 @@
 The structure is turned about its centre at random and shifted by less than an Å, ten times, always in the same way
 for one seed, and the program runs on each. One row for a position tells area, volume, Euler number, cavities,
 components and exit status; the last rows tell means and ranges of area and volume, and how many positions agree on
-each count. FILE gets the first ones as a list for each name. STRUCTURE is a .pdb, .ent, .cif, .pqr or .xyzr file, or one of them with .gz. Operators of assemblies
-(REMARK 350) are turned with the atoms in the PDB format only. Its coordinates have three decimals, so they are
-rounded by up to 0.0005 Å. Needs numpy.
+each count. FILE gets all areas as a list, all volumes and so on. STRUCTURE is a .pdb, .ent, .cif, .pqr or .xyzr file,
+or one of them with .gz. Operators of assemblies (REMARK 350) are turned with the atoms in the PDB format only. Its
+coordinates have three decimals, so they are rounded by up to 0.0005 Å. Needs numpy.
 """
 
 import argparse
@@ -112,7 +112,7 @@ def main():
     parser.add_argument("structure", type=pathlib.Path)
     parser.add_argument("--count", type=int, default=10, help="positions [10]")
     parser.add_argument("--seed", type=int, default=1, help="of the rotations and shifts [1]")
-    parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="area, volume, euler_characteristic ...: lists")
+    parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="a list for each of the five")
     args, words = parser.parse_known_args()
     structure, suffix = read(args.structure)
     if "--assembly" in words and not getattr(structure, "operators", None):

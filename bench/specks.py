@@ -7,8 +7,8 @@
 The surface is built at 0.5, 0.25 and 0.125 Å. For the first two it prints the share of vertices whose mean curvature
 is off that of the nearest vertex at 0.125 Å by more than 0.1/Å and by more than 0.5/Å; for all of them the share of
 the area where |H| exceeds 2/Å, the range of H, area, volume, and the integral of the vertices' Gaussian curvature over
-2 pi times the Euler characteristic, which is 1 for a perfect one. FILE gets the first and third of them in per cent, as lists
-with the coarsest surface first. Needs numpy.
+2 pi times the Euler characteristic, which is 1 for a perfect one. FILE gets the shares that are off by 0.1/Å and that
+exceed 2/Å, in per cent, as lists with the coarsest surface first. Needs numpy.
 """
 
 import argparse

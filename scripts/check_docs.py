@@ -213,7 +213,7 @@ def check_figures(words):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=ROOT / "build-release/tools/vdb_molsurf")
-    parser.add_argument("--renew", action="store_true", help="write docs/options.md and docs/cli-help.txt, or the numbers")
+    parser.add_argument("--renew", action="store_true", help="write docs/options.md and docs/cli-help.txt")
     parser.add_argument("--figures", action="store_true", help="hold the numbers of the pages against new runs")
     parser.add_argument("--structures", metavar="FOLDER", help="of structures that are not part of the project")
     parser.add_argument("pages", nargs="*", metavar="PAGE", type=pathlib.Path, help="with --figures; all without")

@@ -13,7 +13,12 @@ left out. docs is a copy: a run may rewrite a part of its page, which then has t
 
 `crambin:volume` is a member of crambin.json or, if it is not there, of its "surface". Points lead further, into lists by
 the number or the name of an item: `crambin:groups.A.area`; `crambin:groups.*.area` is the list of all. The rest of an
-expression is Python, with mean() and the functions of the module math. After `above` or `below` the number is a bound: the expression rounded up or down.
+expression is Python, with the functions of its module math, mean(), spread() and off(). After `above` or `below` the
+number is a bound: the expression rounded up or down. What would be long or is needed often gets a name, on its own line:
+
+    <!-- names:
+    areas = crambin:groups.*.area
+    -->
 
 A number that is rewritten keeps its form: its decimals, the commas of its thousands, a plus, an exponent.
 """
@@ -29,6 +34,7 @@ import subprocess
 import tempfile
 
 RUN = re.compile(r"^<!-- run:(.*?)-->", re.M | re.S)
+NAMES = re.compile(r"^<!-- names:(.*?)-->", re.M | re.S)
 NUMBER = r"[-+−]?\d+(?:,\d{3})*(?:\.\d+)?(?:e-?\d+)?"
 FIGURE = re.compile(rf"({NUMBER})<!-- (above |below |)(\S.*?) -->", re.S)
 REFERENCE = re.compile(r"\b([\w.]+):([a-z]\w*(?:\.(?:\w+|\*))*)")
@@ -52,11 +58,24 @@ def member(found, words):
     return member(found[word], rest)
 
 
-def evaluate(expression, folder):
+def spread(values):
+    """From the least to the largest."""
+    return max(values) - min(values)
+
+
+def off(values, true):
+    """The largest error of values, in per cent."""
+    return 100 * max(abs(value / true - 1) for value in values)
+
+
+FUNCTIONS = {**vars(math), "mean": statistics.fmean, "spread": spread, "off": off}
+
+
+def evaluate(expression, folder, names):
     def value(reference):
         report, words = json.loads((folder / f"{reference[1]}.json").read_text()), reference[2].split(".")
         return f"({member(report if words[0] in report else report['surface'], words)!r})"
-    return eval(REFERENCE.sub(value, expression), {**vars(math), "mean": statistics.fmean})
+    return eval(REFERENCE.sub(value, expression), {**FUNCTIONS, **names})
 
 
 def written(value, said, bound=""):
@@ -83,7 +102,7 @@ class Figures:
     def check(self, page, renew=False):
         """Adds the page's faults and what was left out; renew corrects the page."""
         before = page.read_text()
-        if not RUN.search(before):
+        if not RUN.search(before) and not FIGURE.search(before):
             return
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
@@ -91,7 +110,8 @@ class Figures:
             complete = all([self.run(found, page, folder) for found in RUN.finditer(before)])
             copy = folder / page.relative_to(self.root)
             made = copy.read_text() if copy.exists() else before
-            after = FIGURE.sub(lambda found: self.figure(found, page, folder, complete), made)
+            names = self.names(made, page, folder)
+            after = FIGURE.sub(lambda found: self.figure(found, page, folder, names, complete), made)
         self.compare(page, before, made)
         if renew and after != before:
             page.write_text(after)
@@ -114,22 +134,38 @@ class Figures:
             self.left_out.append(f"{self.place(page, found)}: left out for want of {', '.join(sorted(set(lacking)))}")
             return False
         self.runs += 1
-        done = subprocess.run(["bash", "-e", "-o", "pipefail", "-c", found[1]], cwd=folder, capture_output=True, text=True,
-                              env={**os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}",
-                                   "VDB_MOLSURF": str(self.program), "PYTHONDONTWRITEBYTECODE": "1"})
+        surroundings = {**os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}",
+                        "VDB_MOLSURF": str(self.program), "PYTHONDONTWRITEBYTECODE": "1"}
+        done = subprocess.run(["bash", "-e", "-o", "pipefail", "-c", found[1]], cwd=folder, env=surroundings,
+                              capture_output=True, text=True)
         if done.returncode:
             last = (done.stderr.strip() or done.stdout.strip() or "no word").splitlines()[-1]
             self.faults.append(f"{self.place(page, found)}: the run fails with status {done.returncode}: {last}")
         return done.returncode == 0
 
-    def figure(self, found, page, folder, complete):
+    def names(self, text, page, folder):
+        """The values of the names of a page, as far as its reports are there."""
+        values = {}
+        for found in NAMES.finditer(text):
+            for line in found[1].strip().splitlines():
+                name, expression = line.split(" = ", 1)
+                try:
+                    values[name.strip()] = evaluate(expression, folder, values)
+                except (FileNotFoundError, NameError):
+                    pass  # a figure that needs it says so
+                except Exception as error:
+                    self.faults.append(f"{self.place(page, found)}: {line}: {type(error).__name__} {error}")
+        return values
+
+    def figure(self, found, page, folder, names, complete):
         """The figure as it has to be."""
         said, bound, expression = found[1], found[2].strip(), " ".join(found[3].split())
         try:
-            text = written(evaluate(expression, folder), said, bound)
-        except FileNotFoundError as error:
+            text = written(evaluate(expression, folder, names), said, bound)
+        except (FileNotFoundError, NameError) as error:
             if complete:
-                self.faults.append(f"{self.place(page, found)}: no run makes {pathlib.Path(error.filename).name}")
+                what = pathlib.Path(error.filename).name if isinstance(error, OSError) else error.name
+                self.faults.append(f"{self.place(page, found)}: no run makes {what}")
             self.unseen += 1
             return found[0]
         except Exception as error:

@@ -26,6 +26,6 @@ scripts/artist_pictures.sh "$program"
 
 scripts/paper_structures.sh paper
 renew=(scripts/check_docs.py --program "$program" --renew)
-"${renew[@]}" --figures ${structures:+--structures "$structures"} || true # 1 says that numbers were corrected
+"${renew[@]}" --figures ${structures:+--structures "$structures"} || echo "Numbers were corrected, see above."
 "${renew[@]}"
 git status --short README.md docs

@@ -84,6 +84,13 @@ class Pages(ToolTest):
                 faults, _ = self.check_page(PAGE.replace(old, new, 1))
                 self.assertTrue(faults and faults[0].startswith(fault), faults)
 
+    def test_names(self):
+        """A name stands for what would be long; one that is lacking is found."""
+        text = PAGE.replace("The area is 50.27<!-- ball:area", "<!-- names:\narea = ball:area\nfour = area/area*4\n-->\n\n"
+                            "The area is 50.27<!-- off([2, 2.02], 2)*0 + four*area/4")
+        self.assertEqual(self.check_page(text), ([], text))
+        self.assertEqual(self.check_page(text.replace("four =", "five ="))[0], ["docs/ball.md:12: no run makes four"])
+
     def test_corrected(self):
         for old, new, _ in CHANGED[:4]:
             self.assertEqual(self.check_page(PAGE.replace(old, new), renew=True)[1], PAGE)
