@@ -5,7 +5,7 @@
 # FOLDER has structures that are not part of the project, 1hzh.pdb.gz, 1k4r.pdb.gz and 1m4x.cif.gz for pictures and those
 # that `scripts/check_docs.py --figures` names; what needs them stays as it is without. Two files stay in any case, since
 # they tell of times, which a machine that does nothing else has to measure: docs/performance.md and its picture
-# scaling.png, which bench/scaling.py draws. Look at the pictures afterwards; a run takes some ten minutes.
+# scaling.png, which bench/scaling.py draws. Look at the pictures afterwards; it takes twenty minutes on 2 busy cores.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
