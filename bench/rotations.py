@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: MPL-2.0
 """Measures how far an answer depends on where the molecule lies on the grid.
 
-    bench/rotations.py PROGRAM STRUCTURE [--count N] [--seed N] [options of the program ...]
+    bench/rotations.py PROGRAM STRUCTURE [--count N] [--seed N] [--json FILE] [options of the program ...]
 
 The structure is turned about its centre at random and shifted by less than an Å, ten times, always in the same way
 for one seed, and the program runs on each. One row for a position tells area, volume, Euler number, cavities,
 components and exit status; the last rows tell means and ranges of area and volume, and how many positions agree on
-each count. STRUCTURE is a .pdb, .ent, .cif, .pqr or .xyzr file, or one of them with .gz. Operators of assemblies
-(REMARK 350) are turned with the atoms in the PDB format only. Its coordinates have three decimals, so they are
-rounded by up to 0.0005 Å. Needs numpy.
+each count. FILE gets all areas as a list, all volumes and so on. STRUCTURE is a .pdb, .ent, .cif, .pqr or .xyzr file,
+or one of them with .gz. Operators of assemblies (REMARK 350) are turned with the atoms in the PDB format only. Its
+coordinates have three decimals, so they are rounded by up to 0.0005 Å. Needs numpy.
 """
 
 import argparse
@@ -112,12 +112,14 @@ def main():
     parser.add_argument("structure", type=pathlib.Path)
     parser.add_argument("--count", type=int, default=10, help="positions [10]")
     parser.add_argument("--seed", type=int, default=1, help="of the rotations and shifts [1]")
+    parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="a list for each of the five")
     args, words = parser.parse_known_args()
     structure, suffix = read(args.structure)
     if "--assembly" in words and not getattr(structure, "operators", None):
         sys.exit(f"{args.structure}: operators of assemblies are turned in .pdb files only")
     centre = structure.positions.mean(0)
     generator = numpy.random.default_rng(args.seed)
+    names = ("area", "volume", "euler_characteristic", "cavities", "components")
     rows = []
     print("position       area        volume  Euler  cavities  components  status")
     for k in range(args.count):
@@ -130,9 +132,11 @@ def main():
             if not report.exists():
                 sys.exit(f"{args.program}: position {k + 1}: status {done.returncode}: {done.stderr.strip()}")
             s = json.loads(report.read_text())["surface"]
-        rows.append((s["area"], s["volume"], s["euler_characteristic"], s["cavities"], s["components"]))
+        rows.append([s[name] for name in names])
         print("%8d%13.3f%14.3f%7d%10d%12d%8d" % (k + 1, *rows[-1], done.returncode), flush=True)
-    areas, volumes, eulers, cavities, components = zip(*rows)
+    areas, volumes, eulers, cavities, components = columns = list(zip(*rows))
+    if args.json:
+        args.json.write_text(json.dumps(dict(zip(names, columns))))
     print(f"mean:  area {numpy.mean(areas):.3f} Å^2, volume {numpy.mean(volumes):.3f} Å^3")
     print(f"range: area {spread(areas):.4f} %, volume {spread(volumes):.4f} %")
     print(f"most:  Euler number {agreement(eulers)}, cavities {agreement(cavities)}, components {agreement(components)}")

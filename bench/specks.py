@@ -2,14 +2,16 @@
 # SPDX-License-Identifier: MPL-2.0
 """Measures how true the curvature of a surface is, by the same surface on finer voxels.
 
-    bench/specks.py PROGRAM STRUCTURE [options of the program ...]
+    bench/specks.py PROGRAM STRUCTURE [--json FILE] [options of the program ...]
 
 The surface is built at 0.5, 0.25 and 0.125 Å. For the first two it prints the share of vertices whose mean curvature
 is off that of the nearest vertex at 0.125 Å by more than 0.1/Å and by more than 0.5/Å; for all of them the share of
 the area where |H| exceeds 2/Å, the range of H, area, volume, and the integral of the vertices' Gaussian curvature over
-2 pi times the Euler characteristic, which is 1 for a perfect one. Needs numpy.
+2 pi times the Euler characteristic, which is 1 for a perfect one. FILE gets the shares that are off by 0.1/Å and that
+exceed 2/Å, in per cent, as lists with the coarsest surface first. Needs numpy.
 """
 
+import argparse
 import json
 import pathlib
 import subprocess
@@ -70,25 +72,33 @@ def nearest(points, of):
 
 
 def main():
-    program, structure, *words = sys.argv[1:]
-    rows = {}
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program")
+    parser.add_argument("structure")
+    parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="off and sharp: lists")
+    args, words = parser.parse_known_args()
+    rows, shares = {}, {"off": [], "sharp": []}
     with tempfile.TemporaryDirectory() as folder:
         for voxel in (0.125, 0.25, 0.5):
             ply, report = pathlib.Path(folder) / "a.ply", pathlib.Path(folder) / "a.json"
-            done = subprocess.run([program, structure, "--voxel", str(voxel), "-o", ply, "-o", report, "--force", "-q",
+            done = subprocess.run([args.program, args.structure, "--voxel", str(voxel), "-o", ply, "-o", report, "--force", "-q",
                                    *words], check=False)
             if done.returncode not in (0, 3):
-                sys.exit(f"{program}: status {done.returncode}")
+                sys.exit(f"{args.program}: status {done.returncode}")
             rows[voxel] = (*read(ply), json.loads(report.read_text())["surface"])
     fine = rows[0.125]
     print("voxel  off 0.1  off 0.5  |H| > 2  H from  to      area       volume     Euler  integral of K")
     for voxel, (x, H, K, area, surface) in sorted(rows.items(), reverse=True):
         off = abs(H - fine[1][nearest(x, fine[0])])
         euler = surface["euler_characteristic"]
-        print(f"{voxel:5}  {100 * (off > 0.1).mean():6.2f} %{100 * (off > 0.5).mean():8.2f} %"
-              f"{100 * area[abs(H) > 2].sum() / area.sum():8.3f} %{H.min():7.2f} {H.max():7.2f}"
+        shares["off"].append(100 * (off > 0.1).mean())
+        shares["sharp"].append(100 * area[abs(H) > 2].sum() / area.sum())
+        print(f"{voxel:5}  {shares['off'][-1]:6.2f} %{100 * (off > 0.5).mean():8.2f} %"
+              f"{shares['sharp'][-1]:8.3f} %{H.min():7.2f} {H.max():7.2f}"
               f"{surface['area']:11.1f}{surface['volume']:12.1f}{euler:7}"
               f"{(K * area).sum() / (2 * numpy.pi * euler):10.4f}")
+    if args.json:
+        args.json.write_text(json.dumps(shares))
 
 
 if __name__ == "__main__":

@@ -3,12 +3,16 @@
 """Holds what README.md, CONTRIBUTING.md, docs/ and the comments of src/ and tools/ say against the tree.
 
     scripts/check_docs.py [--program vdb_molsurf] [--renew]
+    scripts/check_docs.py --figures [--structures FOLDER] [--program vdb_molsurf] [--renew] [PAGE...]
 
 These have to exist: links and the headings they lead to; paths and file names in backticks, or written from a
 folder of the root; numbered sections such as "docs/math.md, section 7", and ADRs; in backticks names such as
-`Type::member` and `someFunction` of the code, and the options of the program. Defaults beside options have to be
+`Type::member`, `someFunction` and `function()` of the code, and the options of the program. Defaults beside options have to be
 those of the help, and docs/options.md and docs/cli-help.txt have to be what the program prints; --renew writes these two.
 Prints one line for each fault, and exits with 1 if there is one.
+
+With --figures the numbers of all pages, or of some, have to be those of new runs instead (scripts/figures.py tells how a
+page says so); --renew then corrects them. Some runs take structures of FOLDER, and are left out without it.
 """
 
 import argparse
@@ -17,6 +21,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SOURCES = ("src", "tools", "tests", "bench")
@@ -148,7 +153,7 @@ def span_faults(span, page, tree, program):
     for kind, member in re.findall(r"\b([A-Za-z]\w*)::(\w+)", span):
         if kind not in FOREIGN and member not in tree.bodies.get(kind, ()):
             yield f"the code has no {kind}::{member}"
-    name = re.fullmatch(r"([a-z]+[A-Z]\w*|[A-Z][a-z]+[A-Z]\w*)(?:\(\))?", span)
+    name = re.fullmatch(r"([a-z]+[A-Z]\w*|[A-Z][a-z]+[A-Z]\w*|\w+(?=\(\)))(?:\(\))?", span)
     if name and name[1] not in tree.words | FOREIGN_NAMES:
         yield f"the code has no {name[1]}"
     if re.match(r"vdb_molsurf\s|--[a-z]", span):
@@ -194,13 +199,29 @@ def check(root, program):
     return lines
 
 
+def check_figures(words):
+    import figures
+    start, held = time.monotonic(), figures.Figures(ROOT, words.program, words.structures)
+    for page in [page.resolve() for page in words.pages] or figures.pages(ROOT):
+        held.check(page, words.renew)
+    print(*held.left_out, *held.faults, sep="\n", end="\n" if held.left_out or held.faults else "")
+    print(f"figures: {held.numbers} numbers of {held.runs} runs in {time.monotonic() - start:.0f} s, "
+          f"{len(held.left_out)} runs left out and {held.unseen} numbers with them, {len(held.faults)} faults")
+    return 1 if held.faults else 0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=ROOT / "build-release/tools/vdb_molsurf")
     parser.add_argument("--renew", action="store_true", help="write docs/options.md and docs/cli-help.txt")
+    parser.add_argument("--figures", action="store_true", help="hold the numbers of the pages against new runs")
+    parser.add_argument("--structures", metavar="FOLDER", help="of structures that are not part of the project")
+    parser.add_argument("pages", nargs="*", metavar="PAGE", type=pathlib.Path, help="with --figures; all without")
     words = parser.parse_args()
     if not pathlib.Path(words.program).is_file():
         sys.exit(f"{words.program}: there is no program; build it, or give --program")
+    if words.figures:
+        return check_figures(words)
     program = Program.ask(words.program)
     lines = []
     for name, text in (("docs/options.md", program.page), ("docs/cli-help.txt", program.main)):

@@ -1,11 +1,13 @@
 #!/bin/bash
-# The pictures of docs/complexes.md.
-# usage: complex_pictures.sh VDB_MOLSURF FOLDER_WITH_1HZH_AND_1K4R [OUTPUT_FOLDER]
+# The pictures of docs/complexes.md, and the capsid of README.md.
+# usage: complex_pictures.sh VDB_MOLSURF FOLDER_WITH_1HZH_1K4R_AND_1M4X [OUTPUT_FOLDER]
 set -euo pipefail
 tool=$(realpath "$1")
 structures=$(realpath "$2")
 out=$(realpath "${3:-$(dirname "$0")/../docs/pictures}")
-cd "$(mktemp -d)"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
 
 cat > antibody <<'END'
 legs /1/L,M|/1/H,K/1-230 #d55e00
@@ -39,3 +41,6 @@ unit() # FOLD COLOUR AXIS
 }
 unit 3 '#d55e00' 0,-0.3568,0.9342
 unit 5 '#0072b2' 0.5257,0,0.8507
+
+"$tool" "$structures/1m4x.cif.gz" --assembly 1 --instances --color copy --size 340 --legend off --force -q \
+  -o "$out/pbcv1.png"

@@ -23,6 +23,7 @@ asan() { scripts/sanitizers.sh asan; }
 tsan() { scripts/sanitizers.sh tsan; }
 figures() {
   cmake --preset release && cmake --build --preset release --target vdb_molsurf &&
+    scripts/install_deps.sh gemmi pdb2pqr apbs-data && scripts/paper_structures.sh paper &&
     scripts/check_docs.py --figures "${structures[@]}"
 }
 site() { scripts/docs.sh; }

@@ -179,6 +179,7 @@ def regularizers(tool, words, weight):
             row[field] = report["surface"][field]
         if rows:
             row["distance"] = distance(tool, other, first)
+            row |= {f"{key}_change": row[key] / rows[0][key] - 1 for key in ("area", "volume")}
         rows.append(row)
     return {"lambda": weight, "rows": rows}
 

@@ -39,6 +39,7 @@ FAULTS = [
     ("docs/adr/0001.md", "`Options::radius`", "the code has no Options::radius"),
     ("docs/adr/0001.md", "`Choice::voxel`", "the code has no Choice::voxel"),
     ("docs/adr/0001.md", "`scatterLeaf`", "the code has no scatterLeaf"),
+    ("docs/adr/0001.md", "`scatter()`", "the code has no scatter"),
     ("docs/adr/0001.md", "`kernel/options.h`", "there is no kernel/options.h"),
     ("docs/adr/0001.md", "`kernel/options`", "there is no kernel/options"),
     ("docs/adr/0001.md", "`choice.h`", "there is no file choice.h"),

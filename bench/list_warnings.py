@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """Lists what the program warns of on real structures.
 
-    bench/warnings.py PROGRAM DIR [--largest MB] [options of the program ...]
+    bench/list_warnings.py PROGRAM DIR [--largest MB] [options of the program ...]
 
 Every structure in a folder and its subfolders (.pdb .ent .cif .mmcif .pqr .xyzr, each also .gz) is built at 1 and
 0.5 Å. One line for a run tells the exit status and the seconds, and its warnings and errors follow. The last lines
