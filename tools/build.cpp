@@ -79,14 +79,19 @@ std::string summary(const Report& report)
 {
     char text[128];
     const SurfaceReport& surface = report.surface;
-    std::snprintf(text, sizeof text, "area %.1f Å^2, volume %.1f Å^3, ", surface.area,
-                  surface.volume);
+    std::snprintf(text, sizeof text, "%s: area %.1f Å^2, volume %.1f Å^3, ", surface.kind.c_str(),
+                  surface.area, surface.volume);
     std::string line = text;
-    line += counted(std::size_t(surface.components), "component", "components") + ", ";
-    line += counted(surface.cavities.size(), "cavity", "cavities");
-    if (surface.triangles > 0) line += ", " + counted(surface.triangles, "triangle", "triangles");
-    std::snprintf(text, sizeof text, ", %.2f s", report.seconds.back().second);
-    return line + text;
+    if (surface.piecesKnown) {
+        line += counted(std::size_t(surface.components), "component", "components") + ", ";
+        line += counted(surface.cavities.size(), "cavity", "cavities") + ", ";
+    }
+    if (surface.triangles > 0) line += counted(surface.triangles, "triangle", "triangles") + ", ";
+    std::snprintf(text, sizeof text, "%.2f s", report.seconds.back().second);
+    line += text;
+    if (!report.areasOf.empty() && report.areasOf != surface.kind)
+        line += "; areas of atoms and groups: " + report.areasOf + " [hint: --surface]";
+    return line;
 }
 
 void sayTimes(const Report& report)

@@ -216,10 +216,15 @@ std::vector<double> columnB(const Output& output, const BallSet& atoms,
 Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
                 const MolecularSurface& result)
 {
-    if (name == "atoms") return atomTable(atoms, result);
-    if (name == "residues") return residueTable(atoms, call.options.probe, result);
-    if (name == "contacts") return contactTable(atoms, call.contacts, result);
-    return interfaceTable(atoms, result.report);
+    Table table;
+    if (name == "atoms") table = atomTable(atoms, result);
+    if (name == "residues") table = residueTable(atoms, call.options.probe, result);
+    if (name == "contacts") table = contactTable(atoms, call.contacts, result);
+    if (name == "interfaces") table = interfaceTable(atoms, result.report);
+    SurfaceOptions shown = call.options;
+    shown.kind = shown.areasOf.value_or(shown.kind);
+    addOrigin(atoms, result.report.areasOf, probeOf(shown), table);
+    return table;
 }
 
 std::string optionsDigest(const Call& call)
@@ -254,7 +259,7 @@ std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh
     const bool spheres = kind == SurfaceKind::VanDerWaals || kind == SurfaceKind::SolventAccessible;
     std::vector<Ball> balls = atoms.balls;
     for (Ball& ball : balls)
-        if (isUnion(kind)) ball.radius += float(grownBy(call.options));
+        if (isUnion(kind)) ball.radius += grownBy(call.options);
     return withCrispBorders(
         mesh, balls, atoms.colors.empty() ? ballColors(atoms, by, progress) : atoms.colors,
         spheres ? call.options.voxel : 0.0, ofBalls ? atoms.labels->values->name : "", progress);

@@ -139,6 +139,14 @@ struct ResolutionRule {
 /// The range of ResolutionRule::resolution [Å].
 constexpr double minResolution = 1.0, maxResolution = 50.0;
 
+/// The ligands and ions that count as molecule. docs/structural_biology.md, Which atoms count.
+enum class Hetero {
+    None,  ///< polymers alone
+    Bound, ///< what touches a polymer, but for buffers, lipids, detergents, and ions of alkali
+           ///< metals and halogens; all if the selected atoms have no polymer
+    All ///< whatever is in the file
+};
+
 /// Options that say which atoms are used and how large they are.
 struct SelectOptions {
     /// The atoms to use: gemmi selections joined by '|', as "A" or "A/10-20|B"; empty: all.
@@ -154,8 +162,10 @@ struct SelectOptions {
     /// those of the highest occupancy.
     std::string altloc;
     bool hydrogens = true; ///< whether hydrogen and deuterium of the file are used
-    bool hetero = true;    ///< whether ligands and ions are used
-    bool waters = false;   ///< whether waters are used
+    /// The ligands and ions that are used.
+    Hetero hetero = Hetero::Bound;
+    bool ions = false;   ///< whether free ions are used, too
+    bool waters = false; ///< whether waters are used
     /// The radii of the atoms: "bondi", "alvarez", "gemmi", of heavy atoms with their hydrogens
     /// "protor" or "naccess", for beads of a coarse-grained file "martini2" or "martini3", or the
     /// path of a file with a rule on each line: "C 1.70", "ALA CB 1.90", or with "*" for any
@@ -192,9 +202,9 @@ struct SelectOptions {
 
 /// A number of atoms that are left out for one reason.
 struct Excluded {
-    std::string reason; ///< "not selected", "water", "ligand or ion", "hydrogen", "dummy",
-                        ///< "alternate location", "zero radius", "duplicate",
-                        ///< "not in the assembly"
+    std::string reason; ///< "not selected", "water", "ligand or ion", "free ion (CL, NA)", "buffer
+                        ///< or lipid (GOL)", "ligand apart (NAG)", "hydrogen", "dummy", "alternate
+                        ///< location", "zero radius", "duplicate", "not in the assembly"
     std::size_t count;
 };
 
@@ -248,8 +258,10 @@ struct BallSet {
     std::optional<BallNames> names;     ///< with SelectOptions::names
     std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue (sRGB), one a ball; empty
                                                      ///< if the caller chose none
-    int model = 0;                                   ///< number of the model that was used
-    std::vector<std::string> warnings;               ///< one line each, as of unknown elements
+    std::string radii; ///< the name of the set, or of the file, that the radii are from; empty: the
+                       ///< structure's own
+    int model = 0;     ///< number of the model that was used
+    std::vector<std::string> warnings; ///< one line each, as of unknown elements
 };
 
 /// Checks the options.

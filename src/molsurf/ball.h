@@ -13,8 +13,8 @@ namespace molsurf
 
 /// A ball that stands for an atom, or for a bead of several atoms.
 struct Ball {
-    openvdb::Vec3f center; ///< position of the centre [Å]
-    float radius;          ///< van der Waals radius [Å], > 0
+    openvdb::Vec3d center; ///< position of the centre [Å]
+    double radius;         ///< van der Waals radius [Å], > 0
     std::int32_t atom;     ///< index of the atom in the structure it came from
 };
 

@@ -6,6 +6,7 @@
 
 #include "molsurf/error.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -95,6 +96,8 @@ struct SurfaceOptions {
     bool curvatureTotals = false; ///< whether the report has the integrals of curvature
     bool ballAreas = false;       ///< whether MolecularSurface::ballAreas is made
     bool contacts = false;        ///< whether MolecularSurface::contacts is made
+    /// The kind of surface that ballAreas, contacts and interfaces are of; none: that of `kind`.
+    std::optional<SurfaceKind> areasOf;
     /// Whether there is a grid and a mesh of it. Without them the result has what is known in
     /// closed form, of the kinds SolventAccessible and VanDerWaals alone, with none of split,
     /// surfaceOf, fields, fillCavities, minWall and curvatureTotals.

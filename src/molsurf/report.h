@@ -64,7 +64,11 @@ struct SurfaceReport {
     double area = 0.0;                ///< area of all walls [Å^2]
     double volume = 0.0;              ///< enclosed volume without cavities [Å^3]
     int eulerCharacteristic = 0;      ///< of all walls
-    int components = 0;               ///< number of closed pieces that are not walls of cavities
+    int meshEulerCharacteristic = 0;  ///< of the mesh; where the surface is known in closed form,
+                                      ///< the mesh may bridge what is narrower than a voxel
+    bool piecesKnown = true; ///< whether components, cavities, outerArea and outerVolume are; not
+                             ///< those of a whole in closed form that follows from a unit
+    int components = 0;      ///< number of closed pieces that are not walls of cavities
     std::vector<Cavity> cavities;
     double outerArea = 0.0;    ///< area without the walls of cavities [Å^2]
     double outerVolume = 0.0;  ///< enclosed volume with the cavities [Å^3]
@@ -222,6 +226,8 @@ struct Report {
     std::size_t peakMemoryBytes = 0;                     ///< of the process
     int threads = 0;                                     ///< number of threads that the run used
     std::vector<std::string> warnings;                   ///< one line each
+    std::string areasOf; ///< kind of surface that interfaces and tables are of; empty if there are
+                         ///< none
     std::vector<Table> tables; ///< areas by atom, by residue and so on, if its caller adds them
 
     /// Adds to the time of a stage, which may run more than once.

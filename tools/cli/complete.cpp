@@ -227,6 +227,15 @@ void completeFrames(Call& call)
         if (output.path == "-") misuse("--frames: expected files to write, got -");
 }
 
+/// Whether files have areas of atoms and nothing else.
+bool holdOnlyAreas(const std::vector<Output>& outputs)
+{
+    return std::all_of(outputs.begin(), outputs.end(), [](const Output& o) {
+        return o.format == Format::AreaTable || o.format == Format::Pdb ||
+               o.format == Format::Mmcif;
+    });
+}
+
 /// Whether all that is asked for is known in closed form.
 bool asksForNumbers(const Call& call)
 {
@@ -258,6 +267,12 @@ void completeAreas(Call& call)
     if (!call.areas.empty() && !writes(call, {Format::Json}))
         call.warnings.push_back("--areas is for .json [hint: -o FILE.residues.csv]");
     if (tables.count("contacts") == 0) warnIfGiven(call, {"contacts"}, ".contacts.csv");
+    if (!call.has("surface") && (!tables.empty() || call.options.interfaces)) {
+        // The field's words mean this surface.
+        call.options.areasOf = SurfaceKind::SolventAccessible;
+        if (!call.outputs.empty() && holdOnlyAreas(call.outputs))
+            call.options.kind = SurfaceKind::SolventAccessible;
+    }
     call.options.grid = !asksForNumbers(call);
     if (tables.empty()) return;
     SurfaceOptions& options = call.options;
@@ -276,9 +291,6 @@ void completeAreas(Call& call)
     call.atoms.names = true;
     options.contacts = tables.count("contacts") > 0;
     options.ballAreas = tables.size() > std::size_t(options.contacts);
-    if (call.atoms.bySymmetry && options.ballAreas && !hasClosedForm(options))
-        misuse("areas of atoms and --by-symmetry together: expected a closed form [hint: --surface "
-               "sas or vdw]");
     if (call.atoms.bySymmetry && (options.contacts || tables.count("interfaces") > 0))
         misuse("contacts or interfaces of residues and --by-symmetry together [hint: without "
                "--by-symmetry]");
@@ -403,6 +415,8 @@ void completeSurface(Call& call)
     completeGroups(call);
     SurfaceOptions& options = call.options;
     if (call.has("steps") && call.has("max-steps")) misuse("--steps and --max-steps together");
+    if (call.has("hetero") && call.has("no-hetero")) misuse("--hetero and --no-hetero together");
+    if (call.has("ions") && call.has("no-hetero")) misuse("--ions and --no-hetero together");
     checkOptions(call.atoms);
     checkOptions(options);
 

@@ -196,8 +196,8 @@ Option count(const char* name, const char* value, std::string text, std::string 
 }
 
 /// @param[in] on  what the switch sets
-template<typename Of>
-Option flag(const char* name, std::string text, unsigned verbs, const Of& of, bool on = true)
+template<typename Of, typename T = bool>
+Option flag(const char* name, std::string text, unsigned verbs, const Of& of, T on = T(true))
 {
     Option o{name, 0, nullptr, std::move(text), "", verbs};
     o.set = [=](Call& call, const Values&) { of(call) = on; };
@@ -532,7 +532,14 @@ OptionGroup atomOptions()
          text("altloc", "A", "alternate location to take, or all", "highest occupancy", structures,
               of(&SelectOptions::altloc)),
          flag("no-hydrogens", "drop hydrogens", structures, of(&SelectOptions::hydrogens), false),
-         flag("no-hetero", "drop ligands and ions", structures, of(&SelectOptions::hetero), false),
+         flag("ions", "keep free ions of the solution", structures, of(&SelectOptions::ions)),
+         flag("hetero",
+              "keep all ligands, ions, buffers and lipids; otherwise\n"
+              "those that touch a polymer and are no free ions, buffers,\n"
+              "lipids or detergents",
+              structures, of(&SelectOptions::hetero), Hetero::All),
+         flag("no-hetero", "drop all ligands and ions", structures, of(&SelectOptions::hetero),
+              Hetero::None),
          flag("waters", "keep waters", structures, of(&SelectOptions::waters)),
          text("radii", "SET", "van der Waals radii: a name of --list-radii, or a file", "",
               structures, of(&SelectOptions::radii)),

@@ -111,7 +111,7 @@ void writeAreas(const Spheres& spheres, const MsmsSurface& surface, OutputFile& 
 
 std::string titleText(const MsmsCall& call, const Spheres& spheres)
 {
-    float least = spheres.balls[0].radius, most = least;
+    double least = spheres.balls[0].radius, most = least;
     for (const Ball& ball : spheres.balls) {
         least = std::min(least, ball.radius);
         most = std::max(most, ball.radius);
@@ -119,7 +119,7 @@ std::string titleText(const MsmsCall& call, const Spheres& spheres)
     return std::string("MSMS 2.6.1 interface of vdb_molsurf_msms ") + MOLSURF_VERSION +
            "\nINPUT  " + call.input +
            formatted(" %zu spheres 0 collision only, radii %6.3f to %6.3f\n", spheres.balls.size(),
-                     double(least), double(most)) +
+                     least, most) +
            formatted("PARAM  Probe_radius %6.3f density %6.3f hdensity %6.3f\n", call.probe,
                      call.density, call.highDensity);
 }

@@ -18,9 +18,9 @@ namespace molsurf
 {
 
 /// The largest radius [Å]; 0 if there are no balls.
-inline float largestRadius(const std::vector<Ball>& balls)
+inline double largestRadius(const std::vector<Ball>& balls)
 {
-    float largest = 0.0f;
+    double largest = 0.0;
     for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
     return largest;
 }

@@ -17,7 +17,7 @@ using Vector = std::vector<double>;
 
 constexpr double accuracy = 1e-4;   // of every volume
 constexpr double leastVolume = 0.1; // less is nothing [Å^3]
-constexpr float leastRadius = 0.1f; // [Å]
+constexpr double leastRadius = 0.1; // [Å]
 
 double ballRadius(double volume)
 {
@@ -109,7 +109,7 @@ private:
     {
         double mean = 0.0, largest = 0.0;
         for (const double w : wanted_) mean += w / double(wanted_.size());
-        for (const Ball& bead : beads_) largest = std::max(largest, double(bead.radius));
+        for (const Ball& bead : beads_) largest = std::max(largest, bead.radius);
         const double radius = std::max(ballRadius(mean), largest);
         std::fill(squares_.begin(), squares_.end(), radius * radius);
         measure();
@@ -118,7 +118,7 @@ private:
     void measure()
     {
         for (std::size_t n = 0; n < free_.size(); ++n) {
-            beads_[free_[n]].radius = float(std::sqrt(squares_[n]));
+            beads_[free_[n]].radius = std::sqrt(squares_[n]);
         }
         cells_ = powerCells(beads_, progress_);
         found_.resize(free_.size());
@@ -196,13 +196,13 @@ void sizeBeads(const std::vector<Ball>& balls, const std::vector<std::vector<std
                double probe, std::vector<Ball>& beads, const Progress& progress)
 {
     std::vector<Ball> grown = balls, sized = beads;
-    for (Ball& ball : grown) ball.radius += float(probe);
+    for (Ball& ball : grown) ball.radius += probe;
     const PowerCells cells = powerCells(grown, progress);
     std::vector<std::size_t> free;
     Vector wanted;
     for (std::size_t b = 0; b < beads.size(); ++b) {
-        sized[b].radius += float(probe);
-        if (beads[b].radius > 0.0f) continue;
+        sized[b].radius += probe;
+        if (beads[b].radius > 0.0) continue;
         sized[b].radius += leastRadius;
         double volume = 0.0;
         for (const std::size_t i : members[b]) volume += cells.volumes[i];
@@ -212,8 +212,8 @@ void sizeBeads(const std::vector<Ball>& balls, const std::vector<std::vector<std
     }
     if (!free.empty()) Sizing(sized, std::move(free), std::move(wanted), progress).solve();
     for (std::size_t b = 0; b < beads.size(); ++b) {
-        if (beads[b].radius > 0.0f) continue;
-        beads[b].radius = std::max(sized[b].radius - float(probe), leastRadius);
+        if (beads[b].radius > 0.0) continue;
+        beads[b].radius = std::max(sized[b].radius - probe, leastRadius);
     }
 }
 

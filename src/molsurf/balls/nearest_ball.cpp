@@ -99,10 +99,10 @@ std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
             for (double within = std::min(close, reach); missing;
                  within = std::min(2.0 * within, reach)) {
                 candidates.clear();
-                index.forEachNear(Vec3d(low), Vec3d(high), within,
-                                  [&](const Ball& ball, std::int32_t i) {
-                                      candidates.push_back({ball.center, ball.radius, i});
-                                  });
+                index.forEachNear(
+                    Vec3d(low), Vec3d(high), within, [&](const Ball& ball, std::int32_t i) {
+                        candidates.push_back({Vec3f(ball.center), float(ball.radius), i});
+                    });
                 missing = !settle(points, begin, stop, candidates, float(within), out);
                 if (within == reach) break;
             }

@@ -22,7 +22,7 @@ Place placeOf(const Ball& ball)
     constexpr double most = 1.04e6; // differences of two places do not overflow [Å]
     Place place;
     for (int a = 0; a < 3; ++a) {
-        const double x = std::clamp(double(ball.center[a]), -most, most);
+        const double x = std::clamp(ball.center[a], -most, most);
         place[std::size_t(a)] = std::llround(x / placeUnit);
     }
     return place;
@@ -55,11 +55,11 @@ std::uint64_t mixed(std::uint64_t x)
 }
 
 /// Moves a place by what looks like chance.
-Place moved(Place place, float radius, std::uint64_t salt)
+Place moved(Place place, double radius, std::uint64_t salt)
 {
     constexpr std::int64_t most = std::int64_t(mostMoved / placeUnit);
     static_assert((most & (most - 1)) == 0);
-    std::uint32_t bits;
+    std::uint64_t bits;
     std::memcpy(&bits, &radius, sizeof bits);
     std::uint64_t hash = mixed(salt ^ mixed(bits));
     for (const std::int64_t x : place) hash = mixed(hash ^ std::uint64_t(x));
@@ -72,7 +72,7 @@ Place moved(Place place, float radius, std::uint64_t salt)
 
 struct Sorted {
     Place place;
-    float radius;
+    double radius;
     std::int32_t index;
 };
 

@@ -188,7 +188,7 @@ Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach
                       const Progress& progress)
 {
     const double edge = leafDim * voxel;
-    float largestSmall = 0.0f;
+    double largestSmall = 0.0;
     for (const Ball& ball : balls) {
         if (!isLarge(ball, edge)) largestSmall = std::max(largestSmall, ball.radius);
     }

@@ -181,6 +181,7 @@ Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope&
     run.levelSet();
     closeSides(*result.surface);
     run.mesh();
+    run.dropSpecks();
     run.curvatures();
     result.surface = openvdb::gridPtrCast<openvdb::FloatGrid>(owned(result.surface, box));
     run.grids();

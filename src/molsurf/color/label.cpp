@@ -101,7 +101,7 @@ std::vector<double> memberAreas(const std::vector<Ball>& balls, const Labels& me
     const auto distance = [&](std::uint32_t from, std::uint32_t owner) {
         if (nearest[owner] < 0) return std::numeric_limits<double>::max();
         const Ball& ball = balls[std::size_t(nearest[owner])];
-        return double((mesh.positions[from] - ball.center).length()) - double(ball.radius);
+        return (openvdb::Vec3d(mesh.positions[from]) - ball.center).length() - ball.radius;
     };
     std::vector<double> areas(other + 1, 0.0);
     for (const auto& t : mesh.triangles) {
@@ -150,11 +150,14 @@ openvdb::Vec3d placeIn(const Coord& cell)
 std::vector<Vec3f> pointsInside(const openvdb::FloatGrid& surface, double volume)
 {
     constexpr double enough = 1e5, plenty = 1e6; // points
+    constexpr double most = 4e6;                 // cells that are looked at
     const double h = surface.voxelSize()[0];
     const double width =
         std::max(std::min(1.0, std::cbrt(volume / enough)), std::cbrt(volume / plenty)) / h;
-    const int stride = std::max(1, int(std::floor(width + 1e-9)));     // voxels a cell, or
-    const int parts = std::max(1, int(std::ceil(1.0 / width - 1e-9))); // cells a voxel
+    const int stride = std::max(1, int(std::floor(width + 1e-9))); // voxels a cell, or
+    // cells a voxel, fewer where nearly all voxels beside the surface are outside.
+    const double finest = std::cbrt(most / double(surface.activeVoxelCount() + 1));
+    const int parts = std::max(1, int(std::min(std::ceil(1.0 / width - 1e-9), finest)));
     openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::BoxSampler> phi(surface);
     std::vector<Vec3f> points;
     const auto addOne = [&](const Coord& voxel) {

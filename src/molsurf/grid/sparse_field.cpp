@@ -56,7 +56,11 @@ openvdb::FloatGrid::Ptr toLevelSet(const SparseField& field, double halfWidth,
     for (Leaf* leaf : leaves) {
         if (leaf) grid->tree().addLeaf(leaf);
     }
-    openvdb::tools::signedFloodFill(grid->tree());
+    // Inside leaves the signs are known; the filling would guess them along rows.
+    constexpr bool threaded = true;
+    constexpr std::size_t grainSize = 1;
+    constexpr openvdb::Index aboveLeaves = 1;
+    openvdb::tools::signedFloodFill(grid->tree(), threaded, grainSize, aboveLeaves);
     return grid;
 }
 

@@ -29,6 +29,7 @@ Json surfaceJson(const SurfaceReport& surface)
     for (const Cavity& cavity : surface.cavities)
         cavities.push_back(Json{{"area", cavity.area}, {"volume", cavity.volume}});
     const auto& integrals = surface.integrals;
+    const auto known = [&](const Json& value) { return surface.piecesKnown ? value : Json(); };
     const auto total = [&](double SurfaceIntegrals::*value) {
         return integrals ? Json((*integrals).*value) : Json();
     };
@@ -36,11 +37,12 @@ Json surfaceJson(const SurfaceReport& surface)
             {"area", surface.area},
             {"volume", surface.volume},
             {"euler_characteristic", surface.eulerCharacteristic},
-            {"components", surface.components},
-            {"cavities", surface.cavities.size()},
-            {"outer_area", surface.outerArea},
-            {"outer_volume", surface.outerVolume},
-            {"cavity_list", std::move(cavities)},
+            {"mesh_euler_characteristic", surface.meshEulerCharacteristic},
+            {"components", known(surface.components)},
+            {"cavities", known(surface.cavities.size())},
+            {"outer_area", known(surface.outerArea)},
+            {"outer_volume", known(surface.outerVolume)},
+            {"cavity_list", known(std::move(cavities))},
             {"vertices", surface.vertices},
             {"triangles", surface.triangles},
             {"closed", surface.closed},
@@ -160,8 +162,8 @@ Json tablesJson(const std::vector<Table>& tables)
 void dropMesh(Json& surface)
 {
     for (const char* name :
-         {"closed", "manifold", "degenerate_triangles", "max_residual", "gradient_share",
-          "kink_share", "mean_curvature", "gaussian_curvature"})
+         {"mesh_euler_characteristic", "closed", "manifold", "degenerate_triangles", "max_residual",
+          "gradient_share", "kink_share", "mean_curvature", "gaussian_curvature"})
         surface[name] = nullptr;
 }
 
@@ -178,6 +180,7 @@ std::string reportText(const Report& report)
     for (const auto& [stage, time] : report.seconds) seconds[stage] = time;
 
     Json json = {
+        {"schema", reportSchema},
         {"program", report.program},
         {"version", report.version},
         {"command", report.command},
@@ -194,6 +197,7 @@ std::string reportText(const Report& report)
         {"peak_memory_bytes", report.peakMemoryBytes},
         {"threads", report.threads},
         {"groups", groupsJson(report.groups)},
+        {"areas_of", report.areasOf.empty() ? Json() : Json(report.areasOf)},
         {"interfaces", interfacesJson(report.interfaces)},
         {"parts", partsJson(report.parts)},
         {"instances", instancesJson(report.instances)},

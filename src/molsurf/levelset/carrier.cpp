@@ -109,30 +109,31 @@ MOLSURF_KERNEL void settleMeans(float* __restrict sum, float* __restrict weight,
 
 /// The carrier in a leaf: the way from psi to its level, over the slope of psi.
 /// @param[in] levels, weights  of the leaf's block; the levels count where the weight is not 0
+/// @param[in] beside           distance from the interface at which a voxel may change sides
 MOLSURF_KERNEL void carry(const float* __restrict levels, const float* __restrict weights,
                           const float* __restrict psi, const float* __restrict slope,
-                          const float* __restrict distance, float lambda, float limit,
-                          float beside, float* __restrict out)
+                          const float* __restrict distance, float lambda, float limit, float beside,
+                          float* __restrict out)
 {
     constexpr int rim = 3;
+    constexpr float leastShare = 0.2f; // of the distance
     for (int row = 0; row < 64; ++row) {
         const int first = (row / 8 + rim) * Block::strideX + (row % 8 + rim) * Block::strideY + rim;
         for (int z = 0; z < 8; ++z) {
             const int i = 8 * row + z;
             // Far from the interface, where the level is not known, the bottom of the valley
-            // serves, unless it is on the other side: in a cavity that was filled.
+            // serves.
             const float known = weights[first + z] > 0.0f ? 1.0f : 0.0f;
             const float bottom = -fastLog(1.0f + lambda * slope[i] * slope[i]);
             const float level = known > 0.0f ? levels[first + z] : bottom;
             const float value = clamped((level - psi[i]) / slope[i], -limit, limit);
-            const float agrees = value * distance[i] > 0.0f ? 1.0f : known;
-            const float carried = agrees > 0.0f ? value : distance[i];
-            const float mixed = carried + leaving(level - bottom) * (distance[i] - carried);
-            // Voxels do not change sides but beside the interface: in a gap that a front spans psi
-            // falls to both sides.
-            const float sided =
-                mixed * distance[i] > 0.0f || std::abs(distance[i]) < beside ? 1.0f : 0.0f;
-            out[i] = sided > 0.0f ? mixed : distance[i];
+            const float mixed = value + leaving(level - bottom) * (distance[i] - value);
+            // Away from the interface voxels do not change sides, nor come near it: beside a front
+            // that spans a gap, and in a cavity that was filled, psi knows nothing of it.
+            const float side = distance[i] < 0.0f ? -1.0f : 1.0f;
+            const float depth = side * distance[i] - beside;
+            const float bounded = larger(side * mixed, leastShare * depth);
+            out[i] = depth > 0.0f ? side * bounded : mixed;
         }
     }
 }
@@ -168,7 +169,7 @@ SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, d
             settleMeans(sum, weight, rim, sums, weights, rim == 3 ? 0.0f : 1.0f);
         }
         carry(sum, weight, source.psi.leaf(n), source.slope.leaf(n), phi.leaf(n), lambda, limit,
-              0.5f * voxelSize, out.leaf(n));
+              1.0f * voxelSize, out.leaf(n));
     });
     return out;
 }

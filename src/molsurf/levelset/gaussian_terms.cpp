@@ -27,18 +27,13 @@ MOLSURF_INLINE Floats square(Floats x)
 
 void GaussianLists::resize(std::size_t balls)
 {
-    for (auto* list : {&x, &y, &z, &decay, &level, &rim, &felt2})
-        list->resize(balls + floatLanes, 0.0f);
+    for (auto* list : {&x, &y, &z}) list->resize(balls + floatLanes, 0.0);
+    for (auto* list : {&decay, &level, &rim, &felt2}) list->resize(balls + floatLanes, 0.0f);
 }
 
 GaussianLeaf::GaussianLeaf(const openvdb::Coord& origin, double voxelSize, double reach_)
-    : inverse(float(1.0 / voxelSize)), reach(float(reach_))
+    : low(origin.asVec3d() * voxelSize), inverse(1.0 / voxelSize), reach(float(reach_))
 {
-    const openvdb::Vec3d low = origin.asVec3d() * voxelSize;
-    for (int a = 0; a < 3; ++a) {
-        high[a] = float(low[a]);
-        rest[a] = float(low[a] - double(high[a]));
-    }
 }
 
 namespace
@@ -48,17 +43,16 @@ namespace
 MOLSURF_KERNEL void appendTerms(const GaussianLists& balls, std::int32_t begin, std::int32_t end,
                                 const GaussianLeaf& leaf, GaussianTerms& terms)
 {
-    const std::vector<float>* centres[3] = {&balls.x, &balls.y, &balls.z};
+    const std::vector<double>* centres[3] = {&balls.x, &balls.y, &balls.z};
     std::size_t count = terms.count;
     for (std::int32_t i = begin; i < end; i += floatLanes) {
         alignas(32) float from[3][floatLanes]; // the leaf's first voxel
         Floats apart2 = {};
         for (int a = 0; a < 3; ++a) {
-            // The first difference is exact for balls that are near.
-            const Floats c =
-                ((load(centres[a]->data() + i) - leaf.high[a]) - leaf.rest[a]) * leaf.inverse;
-            apart2 += square(larger(size(c - 3.5f) - 3.5f, Floats{}));
-            store(from[a], c);
+            const double* centre = centres[a]->data() + i;
+            for (int l = 0; l < floatLanes; ++l)
+                from[a][l] = float((centre[l] - leaf.low[a]) * leaf.inverse);
+            apart2 += square(larger(size(load(from[a]) - 3.5f) - 3.5f, Floats{}));
         }
         const Floats felt =
             larger(square(load(balls.rim.data() + i) + leaf.reach), load(balls.felt2.data() + i));

@@ -22,11 +22,11 @@ constexpr float negligible = 12.0f;
 
 /// The Gaussians of balls, a list for each number, padded so that eight can be read at any place.
 struct GaussianLists {
-    std::vector<float> x, y, z; ///< centres [Å]: no bit of them is lost
-    std::vector<float> decay;   ///< C h^2
-    std::vector<float> level;   ///< exponent at the centre
-    std::vector<float> rim;     ///< a term counts this far from the centre and the reach farther,
-    std::vector<float> felt2;   ///< or where the square of the distance is below this
+    std::vector<double> x, y, z; ///< centres [Å]
+    std::vector<float> decay;    ///< C h^2
+    std::vector<float> level;    ///< exponent at the centre
+    std::vector<float> rim;      ///< a term counts this far from the centre and the reach farther,
+    std::vector<float> felt2;    ///< or where the square of the distance is below this
 
     void resize(std::size_t balls);
 };
@@ -36,8 +36,8 @@ struct GaussianLeaf {
     /// @param[in] reach  how far outside the rims of balls their terms count
     GaussianLeaf(const openvdb::Coord& origin, double voxelSize, double reach);
 
-    float high[3], rest[3]; ///< the place of its first voxel in two parts [Å]
-    float inverse;          ///< 1/h [1/Å]
+    openvdb::Vec3d low; ///< the place of its first voxel [Å]
+    double inverse;     ///< 1/h [1/Å]
     float reach;
 };
 

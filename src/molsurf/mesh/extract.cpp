@@ -23,7 +23,7 @@ using openvdb::Vec3f;
 namespace
 {
 
-constexpr std::size_t chunk = 1024; // vertices that share a sampler
+constexpr std::size_t perSampler = 1024; // vertices that share a sampler
 
 } // namespace
 
@@ -46,9 +46,9 @@ void addCurvature(const Spline& spline, const std::vector<std::string>& names, M
     if (fields.empty()) return;
     for (std::size_t i = before; i < mesh.scalars.size(); ++i)
         columns.push_back(mesh.scalars[i].values.data());
-    parallelFor((vertices + chunk - 1) / chunk, progress, [&](std::size_t c) {
+    parallelFor((vertices + perSampler - 1) / perSampler, progress, [&](std::size_t c) {
         SplineSampler sampler(spline);
-        for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v) {
+        for (std::size_t v = c * perSampler; v < std::min(vertices, (c + 1) * perSampler); ++v) {
             const Curvature k = curvature(sampler.at(Vec3d(mesh.positions[v])));
             auto column = columns.begin();
             for (const CurvatureField* field : fields) {
@@ -86,11 +86,11 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
     SurfaceVertices vertices{mesh, stats.slopes};
     const double voxel = surface.voxelSize()[0];
 
-    const std::size_t chunks = (count + chunk - 1) / chunk;
+    const std::size_t chunks = (count + perSampler - 1) / perSampler;
     std::vector<float> largest(chunks, 0.0f);
     const auto project = [&](std::size_t c) {
-        const std::size_t first = c * chunk, end = std::min(count, first + chunk);
-        float residuals[chunk];
+        const std::size_t first = c * perSampler, end = std::min(count, first + perSampler);
+        float residuals[perSampler];
         moveToSurface(spline, voxel, starts + first, end - first, first, vertices, residuals);
         largest[c] = *std::max_element(residuals, residuals + (end - first));
         if (!stats.keepCells) return;

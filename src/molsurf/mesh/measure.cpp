@@ -17,8 +17,6 @@ using openvdb::Vec3d;
 namespace
 {
 
-using Sums = PieceMeasure;
-
 /// Six points of a triangle with weights, exact for polynomials of degree 4 (Dunavant, High degree
 /// efficient symmetrical Gaussian quadrature rules for the triangle, Int. J. Numer. Methods Eng.
 /// 21:1129-1148, 1985). Each row: two equal barycentric coordinates, weight.
@@ -125,7 +123,7 @@ std::vector<PieceMeasure> measurePieces(const Mesh& mesh, const std::vector<std:
 {
     constexpr std::size_t chunk = 2048;
     const std::size_t chunks = (mesh.triangles.size() + chunk - 1) / chunk;
-    std::vector<std::map<std::uint32_t, Sums>> partial(chunks);
+    std::vector<std::map<std::uint32_t, PieceMeasure>> partial(chunks);
     std::vector<std::size_t> flats(chunks, 0);
     parallelFor(chunks, progress, [&](std::size_t c) {
         const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * chunk);
@@ -151,7 +149,7 @@ std::vector<PieceMeasure> measurePieces(const Mesh& mesh, const std::vector<std:
             }
         }
     });
-    std::vector<Sums> sums(count);
+    std::vector<PieceMeasure> sums(count);
     for (std::size_t c = 0; c < chunks; ++c) {
         for (const auto& [piece, s] : partial[c]) sums[piece] += s;
         flat += flats[c];
@@ -176,7 +174,19 @@ void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report)
                      [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
 }
 
-SurfaceReport measure(const Mesh& mesh, const Progress& progress)
+MeshPieces piecesOf(const Mesh& mesh, const Progress& progress)
+{
+    MeshPieces pieces;
+    if (mesh.triangles.empty()) return pieces;
+    std::size_t count = 0;
+    pieces.of = connectedPieces(mesh, count, progress);
+    // Volumes are taken about a vertex, so that they do not cancel far from the origin.
+    pieces.measures = measurePieces(mesh, pieces.of, count, Vec3d(mesh.positions[0]), pieces.flat,
+                                    progress);
+    return pieces;
+}
+
+SurfaceReport measure(const Mesh& mesh, const MeshPieces& pieces, const Progress& progress)
 {
     SurfaceReport report;
     report.vertices = mesh.positions.size();
@@ -184,19 +194,19 @@ SurfaceReport measure(const Mesh& mesh, const Progress& progress)
     if (mesh.triangles.empty()) return report;
 
     const Topology topology = checkTopology(mesh, progress);
-    std::size_t count = 0;
-    const std::vector<std::uint32_t> pieces = connectedPieces(mesh, count, progress);
     report.closed = topology.closed;
     report.manifold = topology.manifold && topology.oriented;
-    report.eulerCharacteristic =
+    report.degenerateTriangles = pieces.flat;
+    report.eulerCharacteristic = report.meshEulerCharacteristic =
         int(std::int64_t(mesh.positions.size()) - std::int64_t(mesh.triangles.size() * 3 / 2) +
             std::int64_t(mesh.triangles.size()));
-
-    // Volumes are taken about a vertex, so that they do not cancel far from the origin.
-    const std::vector<Sums> sums = measurePieces(mesh, pieces, count, Vec3d(mesh.positions[0]),
-                                                 report.degenerateTriangles, progress);
-    countPieces(sums, report);
+    countPieces(pieces.measures, report);
     return report;
+}
+
+SurfaceReport measure(const Mesh& mesh, const Progress& progress)
+{
+    return measure(mesh, piecesOf(mesh, progress), progress);
 }
 
 } // namespace molsurf

@@ -8,6 +8,9 @@
 #include "molsurf/progress.h"
 #include "molsurf/report.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace molsurf
 {
 
@@ -32,6 +35,17 @@ std::vector<PieceMeasure> measurePieces(const Mesh& mesh, const std::vector<std:
                                         std::size_t count, const openvdb::Vec3d& origin,
                                         std::size_t& flat, const Progress& progress);
 
+/// The connected pieces of a mesh, which need not be closed.
+struct MeshPieces {
+    std::vector<std::uint32_t> of;      ///< the piece of each vertex
+    std::vector<PieceMeasure> measures; ///< of each piece
+    std::size_t flat = 0;               ///< triangles without area
+};
+
+/// Finds and measures the pieces.
+/// @param[in] mesh  with normals
+MeshPieces piecesOf(const Mesh& mesh, const Progress& progress);
+
 /// Adds closed pieces to areas and volumes: components, and cavities, whose volume is negative.
 void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report);
 
@@ -49,5 +63,8 @@ void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report)
 /// @param[in] mesh  with normals
 /// @return everything but maxResidual, gradientShare, kinkShare
 SurfaceReport measure(const Mesh& mesh, const Progress& progress);
+
+/// The same with pieces that are known already.
+SurfaceReport measure(const Mesh& mesh, const MeshPieces& pieces, const Progress& progress);
 
 } // namespace molsurf

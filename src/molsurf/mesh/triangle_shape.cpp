@@ -169,22 +169,22 @@ struct Surroundings {
 
 /// When a vertex is moved in a round: blocks of space take turns by the parity of their places.
 /// Edges are shorter than blocks, so no triangle has corners in two blocks of a turn.
-struct Place {
+struct PlaceInBlock {
     int turn; // 0 to 7
     Coord block;
     std::uint32_t vertex;
 
-    bool operator<(const Place& other) const
+    bool operator<(const PlaceInBlock& other) const
     {
         return std::tie(turn, block, vertex) < std::tie(other.turn, other.block, other.vertex);
     }
 };
 
-std::vector<Place> placesOf(const Mesh& mesh, const std::vector<std::uint32_t>& some, double voxel,
-                            const Progress& progress)
+std::vector<PlaceInBlock> placesOf(const Mesh& mesh, const std::vector<std::uint32_t>& some,
+                                   double voxel, const Progress& progress)
 {
     constexpr double blockVox = 8.0;
-    std::vector<Place> places(some.size());
+    std::vector<PlaceInBlock> places(some.size());
     parallelFor(some.size(), progress, [&](std::size_t n) {
         const Coord block = Coord::floor(Vec3d(mesh.positions[some[n]]) / (blockVox * voxel));
         const int turn = (block.x() & 1) << 2 | (block.y() & 1) << 1 | (block.z() & 1);
@@ -243,7 +243,7 @@ void relax(SurfaceVertices& vertices, const Spline& spline, double voxel, Vertex
         if (!around || !std::all_of(listed.begin(), listed.end(), known))
             around.emplace(mesh, bad, progress);
         VertexSet still(mesh.positions.size());
-        const std::vector<Place> places = placesOf(mesh, listed, voxel, progress);
+        const std::vector<PlaceInBlock> places = placesOf(mesh, listed, voxel, progress);
         std::vector<std::size_t> begins; // of blocks, and the end
         for (std::size_t n = 0; n < places.size(); ++n)
             if (n == 0 || places[n].block != places[n - 1].block) begins.push_back(n);

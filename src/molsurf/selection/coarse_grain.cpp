@@ -226,7 +226,7 @@ Ball beadOf(const Structure& structure, const std::vector<Ball>& balls, const Me
         *std::min_element(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
             return (position(a) - centre).lengthSqr() < (position(b) - centre).lengthSqr();
         });
-    return {openvdb::Vec3f(centre), 0.0f, balls[nearest].atom};
+    return {centre, 0.0, balls[nearest].atom};
 }
 
 } // namespace

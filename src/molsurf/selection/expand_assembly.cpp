@@ -53,19 +53,12 @@ std::vector<Ball> ballsOfPart(const Structure& structure, const AssemblyPart& pa
     return chosen;
 }
 
-/// The centre of a ball, in double precision if it is an atom.
-openvdb::Vec3d centreOf(const Structure& structure, const Ball& ball)
-{
-    const openvdb::Vec3d& atom = structure.atoms[std::size_t(ball.atom)].position;
-    return openvdb::Vec3f(atom) == ball.center ? atom : openvdb::Vec3d(ball.center);
-}
-
 /// The centre of the balls that an assembly uses first: those of its first part that has any.
-openvdb::Vec3d centroidOf(const Structure& structure, const std::vector<std::vector<Ball>>& parts)
+openvdb::Vec3d centroidOf(const std::vector<std::vector<Ball>>& parts)
 {
     openvdb::Vec3d sum(0.0);
     for (const std::vector<Ball>& part : parts) {
-        for (const Ball& ball : part) sum += centreOf(structure, ball);
+        for (const Ball& ball : part) sum += ball.center;
         if (!part.empty()) return sum / double(part.size());
     }
     return sum;
@@ -84,16 +77,15 @@ std::vector<std::vector<Ball>> ballsOfParts(const Structure& structure, const As
 
 } // namespace
 
-void appendCopy(const Structure& structure, const Operator& op, const std::vector<Ball>& balls,
-                std::vector<Ball>& out)
+void appendCopy(const Operator& op, const std::vector<Ball>& balls, std::vector<Ball>& out)
 {
     const auto& r = op.rotation;
     for (const Ball& ball : balls) {
-        const openvdb::Vec3d p = centreOf(structure, ball);
+        const openvdb::Vec3d& p = ball.center;
         const openvdb::Vec3d center(r[0][0] * p[0] + r[0][1] * p[1] + r[0][2] * p[2],
                                     r[1][0] * p[0] + r[1][1] * p[1] + r[1][2] * p[2],
                                     r[2][0] * p[0] + r[2][1] * p[1] + r[2][2] * p[2]);
-        out.push_back({openvdb::Vec3f(center + op.translation), ball.radius, ball.atom});
+        out.push_back({center + op.translation, ball.radius, ball.atom});
     }
 }
 
@@ -105,7 +97,7 @@ std::vector<int> findCopies(const Structure& structure, const std::string& name,
     const auto parts = ballsOfParts(structure, assembly, balls, used);
     std::vector<int> numbers;
     for (const std::size_t i :
-         chooseCopies(structure, assembly, parseCopies(copies), centroidOf(structure, parts))) {
+         chooseCopies(structure, assembly, parseCopies(copies), centroidOf(parts))) {
         numbers.push_back(static_cast<int>(i) + 1);
     }
     return numbers;
@@ -122,7 +114,7 @@ AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
     const std::vector<Operator> operators = operatorsOf(assembly);
     const std::vector<std::size_t> partOf = partsOfCopies(assembly);
     for (const std::size_t i :
-         chooseCopies(structure, assembly, parseCopies(copies), centroidOf(structure, out.parts))) {
+         chooseCopies(structure, assembly, parseCopies(copies), centroidOf(out.parts))) {
         if (out.parts[partOf[i]].empty()) continue;
         const std::string problem = rotationProblem(operators[i]);
         if (!problem.empty()) fail(structure, name, problem);
@@ -142,7 +134,7 @@ ExpandedBalls expandAssembly(const Structure& structure, const std::string& name
     for (const auto& copy : assembly.copies) {
         out.copyBegin.push_back(out.balls.size());
         out.copyNumbers.push_back(copy.number);
-        appendCopy(structure, copy.op, assembly.parts[copy.part], out.balls);
+        appendCopy(copy.op, assembly.parts[copy.part], out.balls);
     }
     out.copyBegin.push_back(out.balls.size());
     out.unused = assembly.unused;

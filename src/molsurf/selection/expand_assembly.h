@@ -53,8 +53,7 @@ std::vector<int> findCopies(const Structure& structure, const std::string& name,
 
 /// Appends the balls of a part of an assembly as an operator moves them, in double precision from
 /// the atoms' positions.
-void appendCopy(const Structure& structure, const Operator& op, const std::vector<Ball>& balls,
-                std::vector<Ball>& out);
+void appendCopy(const Operator& op, const std::vector<Ball>& balls, std::vector<Ball>& out);
 
 /// Applies the operators of an assembly to the balls whose chains it lists.
 ///

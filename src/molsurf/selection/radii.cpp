@@ -81,10 +81,9 @@ constexpr Martini martini3{"martini3",
 
 /// The radius at which two equal beads touch where their Lennard-Jones potential is least:
 /// r = 2^(1/6) sigma / 2 [Å].
-float beadRadius(const Martini& martini, char size)
+double beadRadius(const Martini& martini, char size)
 {
-    return static_cast<float>(0.5 * std::pow(2.0, 1.0 / 6.0) *
-                              martini.sigma[martiniSizes.find(size)]);
+    return 0.5 * std::pow(2.0, 1.0 / 6.0) * martini.sigma[martiniSizes.find(size)];
 }
 
 RadiiSet martiniSet(const Martini& martini)
@@ -181,7 +180,7 @@ RadiiSet unitedSet(const UnitedAtoms& united)
             double radius = 0;
             for (std::size_t k = 0; k + 1 < known.size(); k += 2)
                 if (known[k] == atoms[i + 1]) parseNumber(known[k + 1], radius);
-            set.atoms[{residue, std::string(atoms[i])}] = float(radius);
+            set.atoms[{residue, std::string(atoms[i])}] = radius;
         }
     };
     for (const AtomTypes& residue : aminoAcids) {
@@ -194,7 +193,7 @@ RadiiSet unitedSet(const UnitedAtoms& united)
             add(sugar + std::string(residue.residue), residue.types, united.nucleic);
         }
     }
-    set.elements[1] = -1.0f; // hydrogens belong to their heavy atoms
+    set.elements[1] = -1.0; // hydrogens belong to their heavy atoms
     return set;
 }
 
@@ -205,8 +204,8 @@ void fill(ElementRadii& radii, const Table& table)
     for (std::size_t i = 0; i + 1 < fields.size(); i += 2) {
         double radius = 0;
         parseNumber(fields[i + 1], radius);
-        float& entry = radii[elementNumber(std::string(fields[i]))];
-        if (entry == 0) entry = static_cast<float>(radius);
+        double& entry = radii[elementNumber(std::string(fields[i]))];
+        if (entry == 0) entry = radius;
     }
 }
 
@@ -249,13 +248,12 @@ void addRule(RadiiSet& set, const Fields& fields, const std::string& place)
     if (!parseNumber(fields.back(), radius) || !(radius >= 0 && radius <= largest)) {
         fail("radius: expected 0 to 100 Å, got " + inQuotes(fields.back()));
     }
-    const auto value = static_cast<float>(radius);
     if (fields.size() == 3) {
-        set.atoms[{std::string(fields[0]), std::string(fields[1])}] = value;
+        set.atoms[{std::string(fields[0]), std::string(fields[1])}] = radius;
         return;
     }
     // A radius of 0 is a rule too; find() tells it from "none" by the sign.
-    const float stored = value > 0 ? value : -1.0f;
+    const double stored = radius > 0 ? radius : -1.0;
     const std::uint8_t element = elementNumber(std::string(fields[0]));
     if (fields[0] == "*") {
         set.otherwise = stored;
@@ -316,17 +314,17 @@ std::string describe(const Martini& martini, const char* source)
 
 } // namespace
 
-float RadiiSet::find(const std::string& residue, const std::string& atom,
-                     std::uint8_t element) const
+double RadiiSet::find(const std::string& residue, const std::string& atom,
+                      std::uint8_t element) const
 {
-    constexpr float none = -1.0f;
+    constexpr double none = -1.0;
     if (!atoms.empty()) {
         for (const std::string& name : {residue, parentResidue(residue), std::string("*")}) {
             const auto found = atoms.find({name, atom});
             if (found != atoms.end()) return found->second;
         }
     }
-    const float radius = element != 0 && elements[element] != 0 ? elements[element] : otherwise;
+    const double radius = element != 0 && elements[element] != 0 ? elements[element] : otherwise;
     if (radius == 0) return none;
     return radius < 0 ? 0 : radius;
 }

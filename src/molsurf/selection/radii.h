@@ -16,20 +16,20 @@ namespace molsurf
 {
 
 /// Radii by element [Å], by atomic number; 0 where the set has none.
-using ElementRadii = std::array<float, maxElement + 1>;
+using ElementRadii = std::array<double, maxElement + 1>;
 
 /// Radius of an atom whose element no set knows [Å]: that of carbon.
-constexpr float unknownRadius = 1.7f;
+constexpr double unknownRadius = 1.7;
 
 /// A set of rules that give atoms their radii.
 struct RadiiSet {
     std::string name; ///< of the set, or the path of the file
     ElementRadii elements{};
-    std::map<std::pair<std::string, std::string>, float> atoms; ///< by residue ("*": any) and atom
-    float otherwise = 0; ///< for every other atom; 0: none is given
+    std::map<std::pair<std::string, std::string>, double> atoms; ///< by residue ("*": any) and atom
+    double otherwise = 0; ///< for every other atom; 0: none is given
 
     /// Radius [Å], or a negative number if the set has none for this atom.
-    float find(const std::string& residue, const std::string& atom, std::uint8_t element) const;
+    double find(const std::string& residue, const std::string& atom, std::uint8_t element) const;
 };
 
 /// A built-in set, or the content of a file.

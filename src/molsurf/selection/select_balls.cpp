@@ -11,6 +11,7 @@
 #include "molsurf/selection/groups.h"
 #include "molsurf/selection/instance_assembly.h"
 #include "molsurf/selection/match_atoms.h"
+#include "molsurf/selection/molecule.h"
 #include "molsurf/selection/radii.h"
 #include "molsurf/selection/symmetric_unit.h"
 #include "molsurf/structure/read_structure.h"
@@ -24,6 +25,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -80,7 +82,7 @@ public:
 
     /// Takes out the atoms for which `isDropped(index)` is true.
     template<typename Predicate>
-    void drop(const char* reason, Predicate isDropped)
+    void drop(const std::string& reason, Predicate isDropped)
     {
         const auto end = std::remove_if(atoms_.begin(), atoms_.end(), isDropped);
         note(reason, std::size_t(atoms_.end() - end));
@@ -92,7 +94,7 @@ public:
         note("alternate location", keepHighestOccupancy(structure, atoms_));
     }
 
-    void note(const char* reason, std::size_t count)
+    void note(const std::string& reason, std::size_t count)
     {
         if (count > 0) out_.drops.push_back({reason, count});
     }
@@ -150,10 +152,10 @@ std::string radiiName(const Structure& structure, const std::string& asked)
 }
 
 /// "the file has Martini beads, not atoms: radii martini2 for 80 beads of 2.64 Å, 12 of 2.41 Å"
-std::string describeBeads(BeadKind beads, const std::string& set, const std::vector<float>& radii)
+std::string describeBeads(BeadKind beads, const std::string& set, const std::vector<double>& radii)
 {
-    std::map<float, std::size_t, std::greater<float>> counts;
-    for (const float r : radii) ++counts[r];
+    std::map<double, std::size_t, std::greater<double>> counts;
+    for (const double r : radii) ++counts[r];
     std::string text = "the file has atoms, not beads";
     if (beads == BeadKind::Unnamed) text = "the file has beads, not atoms (one or a few a residue)";
     if (beads == BeadKind::Martini2) text = "the file has beads of Martini 2, not atoms";
@@ -162,17 +164,17 @@ std::string describeBeads(BeadKind beads, const std::string& set, const std::vec
     for (const auto& [radius, count] : counts) {
         char part[64];
         std::snprintf(part, sizeof part, "%s %zu of %.2f Å", text.back() == ':' ? "" : ",", count,
-                      double(radius));
+                      radius);
         text += part;
     }
     return text;
 }
 
 /// The radius of every chosen atom [Å].
-std::vector<float> findRadii(const Structure& structure, const SelectOptions& options,
-                             const Indices& atoms, std::vector<std::string>& warnings)
+std::vector<double> findRadii(const Structure& structure, const SelectOptions& options,
+                              const Indices& atoms, BallSet& out)
 {
-    std::vector<float> radii;
+    std::vector<double> radii;
     radii.reserve(atoms.size());
     if (structure.hasRadii) {
         for (const std::int32_t i : atoms) {
@@ -182,11 +184,13 @@ std::vector<float> findRadii(const Structure& structure, const SelectOptions& op
     }
     const RadiiSet set = readRadii(radiiName(structure, options.radii)),
                    fallback = readRadii("bondi");
+    out.radii = std::filesystem::path(set.name).filename().string();
+    std::vector<std::string>& warnings = out.warnings;
     std::map<std::string, std::size_t> uncovered, unknown;
     for (const std::int32_t i : atoms) {
         const Atom& atom = structure.atoms[std::size_t(i)];
         const std::string& residue = residueOf(structure, atom).name;
-        float radius = set.find(residue, atom.name, atom.element);
+        double radius = set.find(residue, atom.name, atom.element);
         if (radius < 0) {
             radius = fallback.find(residue, atom.name, atom.element);
             auto& counts = radius < 0 ? unknown : uncovered;
@@ -213,14 +217,14 @@ std::vector<float> findRadii(const Structure& structure, const SelectOptions& op
 std::vector<Ball> makeBalls(const Structure& structure, const SelectOptions& options,
                             Filter& filter, BallSet& out)
 {
-    const std::vector<float> radii = findRadii(structure, options, filter.atoms(), out.warnings);
+    const std::vector<double> radii = findRadii(structure, options, filter.atoms(), out);
     std::vector<Ball> balls;
     balls.reserve(radii.size());
     for (std::size_t i = 0; i < radii.size(); ++i) {
         const std::int32_t atom = filter.atoms()[i];
         if (radii[i] <= 0) continue;
         const auto& position = structure.atoms[std::size_t(atom)].position;
-        balls.push_back({openvdb::Vec3f(position), radii[i], atom});
+        balls.push_back({position, radii[i], atom});
     }
     filter.note("zero radius", radii.size() - balls.size());
     return balls;
@@ -230,9 +234,9 @@ std::vector<Ball> makeBalls(const Structure& structure, const SelectOptions& opt
 std::uint64_t hashOf(const Ball& ball)
 {
     std::uint64_t hash = 0;
-    for (const float value : {ball.center.x(), ball.center.y(), ball.center.z(), ball.radius}) {
-        const float positive = value + 0.0f; // -0 is 0
-        std::uint32_t bits;
+    for (const double value : {ball.center.x(), ball.center.y(), ball.center.z(), ball.radius}) {
+        const double positive = value + 0.0; // -0 is 0
+        std::uint64_t bits;
         std::memcpy(&bits, &positive, sizeof bits);
         hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
         hash ^= hash >> 29;
@@ -312,11 +316,12 @@ void checkExtent(const Structure& structure, const std::vector<Ball>& balls)
     }
 }
 
-/// Balls have single precision: far from the origin they are moved by what that leaves out.
+/// Vertices of meshes have single precision: far from the origin they are moved by what that leaves
+/// out.
 void warnOfRounding(const std::vector<Ball>& balls, std::vector<std::string>& warnings)
 {
-    constexpr float far = 1e4f, digit = 0x1p-23f; // [Å], and the last bit of 1
-    float farthest = 0.0f;
+    constexpr double far = 1e4, digit = 0x1p-23; // [Å], and the last bit of 1 in a float
+    double farthest = 0.0;
     for (const Ball& ball : balls) {
         for (int axis = 0; axis < 3; ++axis)
             farthest = std::max(farthest, std::abs(ball.center[axis]));
@@ -325,9 +330,9 @@ void warnOfRounding(const std::vector<Ball>& balls, std::vector<std::string>& wa
     char text[160];
     std::snprintf(
         text, sizeof text,
-        "atoms lie up to %.3g Å from the origin, where places are rounded to %.1g Å [hint: "
+        "atoms lie up to %.3g Å from the origin, where vertices are rounded to %.1g Å [hint: "
         "move the molecule to the origin]",
-        double(farthest), double(farthest * digit));
+        farthest, farthest * digit);
     warnings.push_back(text);
 }
 
@@ -339,8 +344,51 @@ std::string describeDrops(const std::vector<Excluded>& drops)
     return joined(parts);
 }
 
+/// "free ion (CL, NA)": of the atoms that have a role.
+std::string describeRole(const Structure& structure, const std::string& what,
+                         const std::vector<Role>& roles, Role role, const Indices& atoms)
+{
+    constexpr std::size_t most = 6;
+    std::set<std::string> names;
+    for (const std::int32_t i : atoms) {
+        const Atom& atom = structure.atoms[std::size_t(i)];
+        if (roles[std::size_t(atom.residue)] == role) names.insert(residueOf(structure, atom).name);
+    }
+    std::vector<std::string> some(names.begin(), names.end());
+    if (some.size() > most) {
+        some.resize(most);
+        some.push_back("...");
+    }
+    return what + " (" + joined(some) + ")";
+}
+
+/// Leaves out ligands and ions that do not count.
+void dropHetero(const Structure& structure, const SelectOptions& options, const Model& model,
+                Filter& filter)
+{
+    const auto residueAt = [&](std::int32_t i) -> const Residue& {
+        return residueOf(structure, structure.atoms[std::size_t(i)]);
+    };
+    if (options.hetero == Hetero::None)
+        return filter.drop("ligand or ion", [&](std::int32_t i) { return residueAt(i).hetero; });
+    const bool polymer =
+        std::any_of(filter.atoms().begin(), filter.atoms().end(),
+                    [&](std::int32_t i) { return !residueAt(i).hetero && !residueAt(i).water; });
+    if (options.hetero == Hetero::All || !polymer) return;
+    const std::vector<Role> roles = rolesIn(structure, model);
+    const auto drop = [&](Role role, const char* what) {
+        const std::string reason = describeRole(structure, what, roles, role, filter.atoms());
+        filter.drop(reason, [&](std::int32_t i) {
+            return roles[std::size_t(structure.atoms[std::size_t(i)].residue)] == role;
+        });
+    };
+    if (!options.ions) drop(Role::FreeIon, "free ion");
+    drop(Role::Additive, "buffer or lipid");
+    drop(Role::Apart, "ligand apart");
+}
+
 void applyFilters(const Structure& structure, const SelectOptions& options, const AtomMatch& match,
-                  Filter& filter, BallSet& out)
+                  const Model& model, Filter& filter, BallSet& out)
 {
     auto atomAt = [&](std::int32_t i) -> const Atom& { return structure.atoms[std::size_t(i)]; };
     auto residueAt = [&](std::int32_t i) -> const Residue& {
@@ -353,9 +401,7 @@ void applyFilters(const Structure& structure, const SelectOptions& options, cons
         return atomAt(i).name == "DUM" || residueAt(i).name == "DUM";
     });
     if (!options.waters) filter.drop("water", [&](std::int32_t i) { return residueAt(i).water; });
-    if (!options.hetero) {
-        filter.drop("ligand or ion", [&](std::int32_t i) { return residueAt(i).hetero; });
-    }
+    dropHetero(structure, options, model, filter);
     if (!options.hydrogens) {
         filter.drop("hydrogen", [&](std::int32_t i) { return atomAt(i).element == 1; });
     }
@@ -493,7 +539,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     out.warnings = structure.warnings;
     out.warnings.insert(out.warnings.end(), match.warnings.begin(), match.warnings.end());
     Filter filter(model, out);
-    applyFilters(structure, options, match, filter, out);
+    applyFilters(structure, options, match, model, filter, out);
     std::vector<Ball> balls = makeBalls(structure, options, filter, out);
     std::vector<std::int32_t> beadAtoms; // by the representative atom: how many a bead stands for
     if (!options.coarse.empty()) {

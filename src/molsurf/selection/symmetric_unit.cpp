@@ -110,7 +110,7 @@ UnitBalls unitBalls(const Structure& structure, const std::string& name,
 
     for (const auto& [orbit, i] : unit) {
         const AssemblyCopy& copy = copyAt(i);
-        appendCopy(structure, copy.op, assembly.parts[copy.part], out.balls);
+        appendCopy(copy.op, assembly.parts[copy.part], out.balls);
         out.copyBegin.push_back(out.balls.size());
         out.copyNumbers.push_back(copy.number);
         for (std::size_t k = 0; k < group.motions.size(); ++k)
@@ -161,7 +161,7 @@ std::vector<std::int32_t> surround(const RotationGroup& group, double reach, Bal
             near.assign(images.size(), 0);
             tbb::parallel_for(std::size_t(0), images.size(), [&](std::size_t i) {
                 const Vec3d x = rotation * Vec3d(images[i].center) + shift;
-                images[i].center = openvdb::Vec3f(x);
+                images[i].center = x;
                 double least = std::numeric_limits<double>::max();
                 index.forEachNear(x, x, reach, [&](const Ball& ball, std::int32_t) {
                     least = std::min(least, (x - Vec3d(ball.center)).lengthSqr());

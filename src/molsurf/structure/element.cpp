@@ -4,6 +4,7 @@
 #include <gemmi/elem.hpp>
 
 #include <cctype>
+#include <cmath>
 
 namespace molsurf
 {
@@ -39,9 +40,10 @@ std::uint8_t guessElement(const std::string& atomName, const std::string& residu
     return elementNumber(letters.substr(0, 1));
 }
 
-float gemmiRadius(std::uint8_t number)
+double gemmiRadius(std::uint8_t number)
 {
-    return gemmi::vdw_radius(static_cast<gemmi::El>(number));
+    constexpr double digits = 100.0; // that the table has
+    return std::round(digits * double(gemmi::vdw_radius(static_cast<gemmi::El>(number)))) / digits;
 }
 
 } // namespace molsurf

@@ -27,6 +27,6 @@ std::uint8_t guessElement(const std::string& atomName, const std::string& residu
 
 /// Van der Waals radius in gemmi's table [Å].
 /// @param[in] number  atomic number, in [1, maxElement]
-float gemmiRadius(std::uint8_t number);
+double gemmiRadius(std::uint8_t number);
 
 } // namespace molsurf

@@ -118,7 +118,7 @@ public:
         if (out_.models.empty()) startModel(1);
         if (newResidue_ || !isSameResidue(id)) addResidue(id);
         out_.atoms.push_back({position, id.atom, residue_, guessElement(id.atom, id.residue), '\0',
-                              1.0f, 0.0f, static_cast<float>(radius)});
+                              1.0f, 0.0f, radius});
     }
 
     void finish()

@@ -116,7 +116,7 @@ private:
         for (const gemmi::Atom& atom : from.atoms) {
             out_.atoms.push_back({openvdb::Vec3d(atom.pos.x, atom.pos.y, atom.pos.z), atom.name,
                                   residueIndex, elementOf(atom, standard), atom.altloc, atom.occ,
-                                  atom.b_iso, -1.0f});
+                                  atom.b_iso, -1.0});
         }
     }
 

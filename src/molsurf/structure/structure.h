@@ -37,7 +37,7 @@ struct Atom {
     char altloc;             ///< '\0' if the atom has no alternate location
     float occupancy;         ///< in [0, 1]
     float bFactor;           ///< [Å^2]
-    float radius;            ///< from .pqr, .xyzr and .xyzrn [Å]; < 0 if the file gives none
+    double radius;           ///< from .pqr, .xyzr and .xyzrn [Å]; < 0 if the file gives none
 };
 
 /// A rigid motion  x -> rotation x + translation  [Å].

@@ -96,7 +96,7 @@ Table atomTable(const BallSet& atoms, const MolecularSurface& result)
         altloc.push_back(lettered(atom.altloc));
         element.push_back(elementSymbol(atom.element));
         id.push_back(atoms.balls[i].atom);
-        radius.push_back(std::round(1e6 * double(atoms.balls[i].radius)) / 1e6); // of a float
+        radius.push_back(atoms.balls[i].radius);
     }
     Table table{"atoms", {}};
     residues.moveTo(table);
@@ -132,7 +132,7 @@ Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& r
     table.columns.push_back({"atoms", std::move(count)});
     table.columns.push_back({"area", std::move(area)});
     constexpr double ofMaxima = 1.4; // probe [Å]
-    if (result.report.surface.kind == nameOf(SurfaceKind::SolventAccessible) && probe == ofMaxima)
+    if (result.report.areasOf == nameOf(SurfaceKind::SolventAccessible) && probe == ofMaxima)
         table.columns.push_back({"relative_accessibility", std::move(relative)});
     if (!result.ballValues.empty())
         table.columns.push_back(
@@ -246,6 +246,15 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
     table.columns.push_back({"buried_area", std::move(buried)});
     table.columns.push_back({"area", std::move(area)});
     return table;
+}
+
+void addOrigin(const BallSet& atoms, const std::string& kind, double probe, Table& table)
+{
+    const std::size_t rows =
+        std::visit([](const auto& v) { return v.size(); }, table.columns[0].values);
+    table.columns.push_back({"surface", Texts(rows, kind)});
+    table.columns.push_back({"probe_A", Numbers(rows, probe)});
+    table.columns.push_back({"radii", Texts(rows, atoms.radii.empty() ? "input" : atoms.radii)});
 }
 
 std::vector<double> residueAreasOfBalls(const BallSet& atoms, const std::vector<double>& ballAreas)

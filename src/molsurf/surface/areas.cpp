@@ -32,7 +32,7 @@ std::vector<ContactArea> contactAreas(const std::vector<Ball>& balls, double pro
 {
     checkFinite(balls);
     std::vector<Ball> grown = balls;
-    for (Ball& ball : grown) ball.radius += float(probe);
+    for (Ball& ball : grown) ball.radius += probe;
     std::vector<ContactArea> out;
     for (const PowerFacet& facet : powerFacets(grown, progress)) {
         if (facet.area < leastContact) continue;

@@ -29,13 +29,13 @@ std::size_t availableMemory()
 
 void checkFinite(const std::vector<Ball>& balls)
 {
-    constexpr float farthest = 1e6f; // [Å]
+    constexpr double farthest = 1e6; // [Å]
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const Ball& b = balls[i];
         const bool placed = std::abs(b.center.x()) <= farthest &&
                             std::abs(b.center.y()) <= farthest &&
                             std::abs(b.center.z()) <= farthest;
-        if (placed && b.radius > 0.0f && std::isfinite(b.radius)) continue;
+        if (placed && b.radius > 0.0 && std::isfinite(b.radius)) continue;
         throw Error(ErrorKind::Input,
                     "ball " + std::to_string(i) +
                         (placed ? ": expected a radius above 0 Å, got " + std::to_string(b.radius)

@@ -168,7 +168,7 @@ std::vector<openvdb::Vec3f> FrameSource::displacement(std::size_t i)
     const std::vector<Ball>& after = balls(to).balls;
     std::vector<openvdb::Vec3f> out;
     for (std::size_t b = 0; b < before.size(); ++b)
-        out.push_back(after[b].center - before[b].center);
+        out.emplace_back(after[b].center - before[b].center);
     return out;
 }
 

@@ -125,7 +125,7 @@ void measureUnitInterfaces(const BallSet& atoms, const SurfaceOptions& options, 
             const double both =
                 areasOf(subset(balls, merged(members[a], members[member])), plain, progress).total;
             const double area = (aloneOf(a) + aloneOf(member) - both) / 2.0;
-            if (std::abs(area) < noticeable) continue;
+            if (area < noticeable) continue;
             const bool mirrored = b == a && back == m;
             std::string name = atoms.labels->groups[b].name;
             if (m != 0) name += " of unit " + atoms.instances[m].name;
@@ -167,7 +167,7 @@ void measureInterfaces(const BallSet& atoms, const SurfaceOptions& options, Prog
             tick(2);
             const Areas both = areasOf(subset(atoms, merged(balls[a], balls[b])), plain, progress);
             const double area = (alone[a].total + alone[b].total - both.total) / 2.0;
-            if (std::abs(area) < noticeable) continue;
+            if (area < noticeable) continue; // what buries nothing is no interface
             InterfaceReport& found = report.interfaces.emplace_back();
             found.first = labels.groups[a].name;
             found.second = labels.groups[b].name;

@@ -81,7 +81,8 @@ void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Lab
         const std::int32_t g = ball < 0 ? -1 : labels.groupOf[std::size_t(ball)];
         points[g < 0 ? other : std::size_t(g)] += 1.0;
     }
-    const std::vector<double> volume = scaled(points, result.report.surface.volume);
+    const bool none = std::all_of(points.begin(), points.end(), [](double n) { return n == 0.0; });
+    const std::vector<double> volume = scaled(none ? area : points, result.report.surface.volume);
 
     std::vector<Color> colors;
     if (options.color == ColorBy::Group) colors = groupColors(atoms, progress);

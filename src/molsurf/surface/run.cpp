@@ -101,19 +101,39 @@ MolecularSurface runInOrder(const BallSet& atoms, const SurfaceOptions& options,
     return result;
 }
 
-/// The surface of a whole that follows from a unit.
-MolecularSurface runUnitInOrder(const BallSet& atoms, SurfaceOptions options, Progress& progress)
+/// Areas of atoms on a surface that is made for them alone.
+std::vector<double> areasApart(const BallSet& atoms, const SurfaceOptions& options,
+                               Progress& progress)
 {
-    const bool areas = options.ballAreas;
-    if (areas && !isClosedForm(options))
-        throw Error(ErrorKind::Usage, "areas of atoms by symmetry: expected a surface in closed "
-                                      "form [hint: `kind` sas or vdw]");
-    options.ballAreas = false;
-    MolecularSurface result = runUnit(inSpatialOrder(atoms), options, progress);
-    if (!areas) return result;
-    result.ballAreas = exposedAreas(atoms.balls, grownBy(options), progress);
-    result.ballAreas.resize(atoms.unit->balls);
-    return result;
+    if (!isClosedForm(options)) {
+        if (atoms.unit)
+            throw Error(ErrorKind::Usage, "areas of atoms by symmetry: expected a surface in "
+                                          "closed form [hint: `kind` sas or vdw]");
+        QuietProgress quiet(progress);
+        return makeSurface(atoms, options, &quiet).ballAreas;
+    }
+    std::vector<double> areas = exposedAreas(atoms.balls, grownBy(options), progress);
+    if (atoms.unit) areas.resize(atoms.unit->balls);
+    return areas;
+}
+
+/// Adds what is known of balls and groups: areas, contacts, interfaces.
+void addAreas(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
+              MolecularSurface& result)
+{
+    if (!options.ballAreas && !options.contacts && !options.interfaces) return;
+    SurfaceOptions shown = options;
+    shown.kind = options.areasOf.value_or(options.kind);
+    shown.areasOf.reset();
+    result.report.areasOf = nameOf(shown.kind);
+    if (options.ballAreas && (shown.kind != options.kind || atoms.unit)) {
+        SurfaceOptions alone = shown;
+        alone.fields.clear();
+        alone.contacts = alone.interfaces = alone.curvatureTotals = false;
+        result.ballAreas = areasApart(atoms, alone, progress);
+    }
+    if (options.interfaces) measureInterfaces(atoms, shown, progress, result.report);
+    if (options.contacts) result.contacts = contactAreas(atoms.balls, probeOf(shown), progress);
 }
 
 } // namespace
@@ -149,12 +169,15 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
     const bool helps = shown && !hasField(options.fields, shown);
     SurfaceOptions wanted = options;
     if (helps) wanted.fields.push_back(shown);
+    const bool valued = atoms.labels && atoms.labels->values; // means of values need areas
+    if (options.areasOf.value_or(options.kind) != options.kind && !valued) wanted.ballAreas = false;
     MolecularSurface result;
     if (!whole && options.ballAreas)
         throw Error(ErrorKind::Usage,
                     "areas of atoms: expected one surface, and no `split` or `surfaceOf`");
     if (atoms.unit) {
-        result = runUnitInOrder(atoms, wanted, progress);
+        wanted.ballAreas = false;
+        result = runUnit(inSpatialOrder(atoms), wanted, progress);
     } else if (!options.grid) {
         result = runWithoutGrid(atoms, wanted, progress);
     } else if (whole) {
@@ -171,8 +194,7 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
         report.resolutions.push_back(
             {group.rule.select, group.rule.resolution, group.balls, group.level});
     }
-    if (options.interfaces) measureInterfaces(atoms, options, progress, report);
-    if (options.contacts) result.contacts = contactAreas(atoms.balls, probeOf(options), progress);
+    addAreas(atoms, options, progress, result);
     if (options.halfFloats) {
         if (result.surface) result.surface->setSaveFloatAsHalf(true);
         for (const auto& field : result.fields) field->setSaveFloatAsHalf(true);

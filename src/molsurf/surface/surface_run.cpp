@@ -13,10 +13,12 @@
 #include "molsurf/levelset/union_distance.h"
 #include "molsurf/mesh/integrate.h"
 #include "molsurf/mesh/measure.h"
+#include "molsurf/mesh/specks.h"
 #include "molsurf/mesh/statistics.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/spline/fit.h"
 #include "molsurf/surface/carrier_of.h"
+#include "molsurf/surface/check_mesh.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/fill_cavities.h"
 #include "molsurf/surface/label_surface.h"
@@ -247,11 +249,15 @@ void SurfaceRun::mesh()
     stats_ = ExtractStats();
     stats_.keepCells = !scope_.region.whole();
     result_.mesh = extractMesh(*result_.surface, spline_, progress_, stats_);
-    if (scope_.region.whole() && result_.mesh.triangles.empty()) {
-        throw Error(ErrorKind::Numeric,
-                    "mesh: nothing of the molecule is left at this resolution [hint: a smaller "
-                    "`voxel`, `lambda` or `epsilon`]");
-    }
+    checkLeft();
+}
+
+void SurfaceRun::checkLeft() const
+{
+    if (!scope_.region.whole() || !result_.mesh.triangles.empty()) return;
+    throw Error(ErrorKind::Numeric,
+                "mesh: nothing of the molecule is left at this resolution [hint: a smaller "
+                "`voxel`, `lambda` or `epsilon`]");
 }
 
 bool SurfaceRun::fillCavities()
@@ -273,6 +279,7 @@ void SurfaceRun::resume(Mesh mesh, Spline spline, openvdb::FloatGrid::Ptr surfac
     result_.mesh = std::move(mesh);
     result_.surface = std::move(surface);
     spline_ = std::move(spline);
+    stored_ = true;
 }
 
 void SurfaceRun::curvatures()
@@ -305,20 +312,33 @@ GradientCounts SurfaceRun::countGradients(const std::vector<float>& slopes)
     return parallelSum<GradientCounts>((vertices + chunk - 1) / chunk, progress_, count);
 }
 
+MeshPieces SurfaceRun::dropSpecks()
+{
+    MeshPieces pieces = piecesOf(result_.mesh, progress_);
+    const std::vector<std::uint32_t> kept =
+        molsurf::dropSpecks(pieces, *result_.surface, result_.mesh);
+    keepVertices(kept, stats_.slopes);
+    keepVertices(kept, stats_.cells);
+    keepVertices(kept, stats_.residuals);
+    checkLeft();
+    return pieces;
+}
+
 void SurfaceRun::measure()
 {
     progress_.update("mesh", 0.7);
     SurfaceReport& surface = result_.report.surface;
-    surface = molsurf::measure(result_.mesh, progress_);
-    if (!surface.manifold && !splitNonManifold(result_.mesh).empty()) {
+    const MeshPieces pieces = stored_ ? piecesOf(result_.mesh, progress_) : dropSpecks();
+    surface = molsurf::measure(result_.mesh, pieces, progress_);
+    if (!surface.manifold && !splitNonManifold(result_.mesh).empty())
         surface = molsurf::measure(result_.mesh, progress_);
-    }
     surface.kind = nameOf(options_.kind);
     surface.maxResidual = stats_.maxResidual;
     const std::size_t vertices = stats_.slopes.size();
     const GradientCounts counts = countGradients(stats_.slopes);
     surface.kinkShare = vertices ? double(counts.kink) / vertices : 0.0;
     surface.gradientShare = double(counts.unit) / double(vertices - counts.kink); // or 0/0
+    checkMesh(result_.mesh, surface, options_.voxel, progress_);
 }
 
 void SurfaceRun::describeCurvature()
@@ -363,15 +383,8 @@ void SurfaceRun::takeClosedForm()
     if (!exact_) return;
     // A mesh bridges what is narrower than a voxel: creases and small cavities.
     SurfaceReport& s = result_.report.surface;
-    const std::size_t shown = s.cavities.size();
     const double meshArea = s.area, meshVolume = s.volume;
     describePieces(exact_->pieces, options_.fillCavities, s);
-    if (!options_.fillCavities && shown != s.cavities.size()) {
-        result_.report.warnings.push_back(
-            "mesh: " + std::to_string(shown) + " inner walls for " +
-            std::to_string(s.cavities.size()) +
-            " cavities, for want of voxels [hint: a smaller `voxel`]");
-    }
     checkMesh(s.area, s.volume, meshArea, meshVolume, tolerance_);
 }
 

@@ -10,6 +10,7 @@
 #include "molsurf/flow/evolve.h"
 #include "molsurf/grid/region.h"
 #include "molsurf/mesh/extract.h"
+#include "molsurf/mesh/measure.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/influence.h"
 #include "molsurf/surface/surface_kind.h"
@@ -121,7 +122,13 @@ public:
     /// Adds the curvatures that the options ask for to the mesh. Optional.
     void curvatures();
 
+    /// Takes the pieces out of mesh and level set that the voxels cannot hold. Part of measure().
+    /// @return the pieces that are left
+    /// @throws Error(ErrorKind::Numeric) if a whole molecule has none
+    MeshPieces dropSpecks();
+
     /// Measures the mesh, and how well it fits S; splits vertices at which it is not a manifold.
+    /// @throws Error(ErrorKind::Check) if the mesh does not keep what checkMesh() says
     void measure();
 
     /// Adds statistics and integrals of the curvatures to the measures. Optional.
@@ -160,6 +167,7 @@ private:
     friend SparseField restOnCoarserVoxels(const BallSet&, const SurfaceOptions&, Progress&,
                                            Report&);
     void refineCoarseRest();
+    void checkLeft() const;
     bool keepsLevelSet() const;
     DistanceBand distanceToBalls();
     openvdb::FloatGrid::Ptr sasGrid();
@@ -177,6 +185,7 @@ private:
     DistanceBand S_;
     Spline spline_;
     ExtractStats stats_;
+    bool stored_ = false;                  ///< mesh and level set come from elsewhere
     std::optional<BoundaryMeasure> exact_; ///< of surfaces in closed form
     MeshTolerance tolerance_{};            ///< of the mesh from these
 };

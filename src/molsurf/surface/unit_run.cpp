@@ -74,12 +74,12 @@ std::vector<Ball> owningBalls(const BallSet& atoms, double grown)
     middle /= double(count);
     std::vector<Ball> out = atoms.balls;
     for (std::size_t i = 0; i < out.size(); ++i) {
-        out[i].radius += float(grown);
+        out[i].radius += grown;
         if (imagesAt(atoms, index, i).empty()) continue;
         const Instance& m = atoms.instances[std::size_t(atoms.unit->motionOf[i])];
         const MeshInstance motion{0, {}, m.rotation, m.translation, {}};
         const Vec3d away = motion.placed(middle) - Vec3d(out[i].center);
-        if (away.lengthSqr() > 0.0) out[i].center += openvdb::Vec3f(onAxis * away.unit());
+        if (away.lengthSqr() > 0.0) out[i].center += onAxis * away.unit();
     }
     return out;
 }
@@ -134,7 +134,7 @@ UnionShare shareOf(const BallSet& atoms, double grown, const Progress& progress)
 {
     const std::vector<std::vector<std::size_t>> axes = highAxes(*atoms.unit);
     std::vector<Ball> balls = atoms.balls;
-    for (Ball& ball : balls) ball.radius += float(grown);
+    for (Ball& ball : balls) ball.radius += grown;
     const PowerCells cells = powerCells(balls, progress);
     const BallIndex index(atoms.balls, {0.0, 0.0, 2.0});
     UnionShare sum;
@@ -210,6 +210,7 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     Stopwatch watch(run.result().report);
     Mesh& mesh = run.result().mesh;
     ExtractStats& stats = run.stats();
+    run.dropSpecks();
     const Topology topology = checkTopology(mesh, progress);
     if (!topology.manifold)
         for (const std::uint32_t v : splitNonManifold(mesh))
@@ -238,21 +239,13 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
         measurePieces(mesh, pieceOf, count, unit.centre, surface.degenerateTriangles, progress);
     for (std::size_t i = 0; i < count; ++i) pieces[i].volume = fitted[i].volume;
     std::vector<PieceMeasure> whole = wholePieces(unit, fit, pieceOf, pieces);
-    if (isClosedForm(options)) {
-        // Where spheres meet in sharp creases a mesh has specks that the surface does not have.
-        const double least = 0.1 * options.voxel * options.voxel * options.voxel;
-        whole.erase(std::remove_if(
-                        whole.begin(), whole.end(),
-                        [&](const PieceMeasure& piece) { return std::abs(piece.volume) < least; }),
-                    whole.end());
-    }
     countPieces(whole, surface);
     BorderClasses classes(unit, fit.shared, mesh.positions.size());
     const std::size_t units = unit.inverse.size();
     surface.triangles = units * mesh.triangles.size();
     surface.vertices = units * (mesh.positions.size() - classes.border().size()) + classes.count();
     const std::size_t edges = (3 * surface.triangles + units * fit.open) / 2;
-    surface.eulerCharacteristic =
+    surface.eulerCharacteristic = surface.meshEulerCharacteristic =
         int(std::int64_t(surface.vertices + surface.triangles) - std::int64_t(edges));
     surface.closed = topology.closed && fit.open == 0;
     surface.manifold = topology.oriented;
@@ -270,21 +263,24 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
         const double euler = order * share.euler;
         if (std::abs(euler - std::round(euler)) < 0.01)
             surface.eulerCharacteristic = int(std::lround(euler));
-        surface.area = surface.outerArea = order * share.area;
-        surface.volume = surface.outerVolume = order * share.volume;
-        for (const Cavity& cavity : surface.cavities) {
-            surface.outerArea -= cavity.area;
-            surface.outerVolume += cavity.volume;
-        }
+        surface.area = order * share.area;
+        surface.volume = order * share.volume;
+        // Those of the mesh are not the surface's.
+        surface.piecesKnown = false;
+        surface.components = 0;
+        surface.cavities.clear();
+        surface.outerArea = surface.outerVolume = 0.0;
     }
+    if (!surface.closed || !surface.manifold)
+        throw Error(ErrorKind::Check,
+                    "mesh: " + std::to_string(fit.open) +
+                        " edges of the unit's border fit none "
+                        "of its neighbours': the whole would not be closed [hint: without "
+                        "`bySymmetry`, with `memory` 8G where the whole is too large]");
     watch.stop("unit");
     run.freeFields();
     run.labels();
     MolecularSurface result = run.finish();
-    if (fit.open > 0)
-        result.report.warnings.push_back(
-            "mesh: " + std::to_string(fit.open) + " edges of the unit's border fit none of its " +
-            "neighbours': the whole is not closed there [hint: a smaller `voxel`]");
     result.surface.reset();
     result.shared = fit.shared;
     result.report.symmetry =

@@ -37,13 +37,13 @@ TEST(WriteReport, HasTheKeysOfTheContractInItsOrder)
     const Json json = Json::parse(reportText(sampleReport()));
     EXPECT_EQ(
         keys(json),
-        (Names{"program",   "version",           "command", "input",      "atoms",      "voxel",
+        (Names{"schema", "program",   "version",           "command", "input",      "atoms",      "voxel",
                "center",    "surface",           "coarse",  "resolution", "evolution",  "grid",
-               "seconds",   "peak_memory_bytes", "threads", "groups",     "interfaces", "parts",
+               "seconds",   "peak_memory_bytes", "threads", "groups", "areas_of",    "interfaces", "parts",
                "instances", "symmetry",          "warnings"}));
     Names surface = keys(json["surface"]);
-    surface.resize(13); // later keys are additions
-    EXPECT_EQ(surface, (Names{"kind", "area", "volume", "euler_characteristic", "components",
+    surface.resize(14); // later keys are additions
+    EXPECT_EQ(surface, (Names{"kind", "area", "volume", "euler_characteristic", "mesh_euler_characteristic", "components",
                               "cavities", "outer_area", "outer_volume", "cavity_list", "vertices",
                               "triangles", "closed", "manifold"}));
     Names evolution = keys(json["evolution"]);

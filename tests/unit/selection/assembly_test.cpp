@@ -60,13 +60,12 @@ TEST(Assembly, CopiesAreRigidMotions)
     for (std::size_t i = 0; i < 556; ++i) {
         const Ball &first = balls[i], &second = balls[556 + i];
         EXPECT_EQ(first.atom, second.atom);
-        EXPECT_EQ(first.center,
-                  openvdb::Vec3f(s.atoms[static_cast<std::size_t>(first.atom)].position));
-        constexpr float rounding = 1e-4f; // 100 Å in single precision
+        EXPECT_EQ(first.center, s.atoms[static_cast<std::size_t>(first.atom)].position);
+        constexpr double rounding = 1e-12; // 100 Å in double precision
         EXPECT_NEAR((first.center - balls[0].center).length(),
                     (second.center - balls[556].center).length(), rounding);
     }
-    const openvdb::Vec3f& x = balls[0].center; // operator 2 of the entry: (a - y, a - x, c - z)
+    const openvdb::Vec3d& x = balls[0].center; // operator 2 of the entry: (a - y, a - x, c - z)
     EXPECT_NEAR(balls[556].center[0], 41.98f - x[1], 1e-3);
     EXPECT_NEAR(balls[556].center[1], 41.98f - x[0], 1e-3);
     EXPECT_NEAR(balls[556].center[2], 44.46f - x[2], 1e-3);
@@ -86,7 +85,7 @@ TEST(Assembly, CopyByCopyAndOnlyItsChains)
     const std::vector<float> x{11, 11, 21, 21, 31};
     const std::vector<std::int32_t> atoms{0, 1, 0, 1, 0};
     for (std::size_t i = 0; i < 5; ++i) {
-        EXPECT_EQ(selection.balls[i].center, openvdb::Vec3f(x[i], 2, float(3 + atoms[i]))) << i;
+        EXPECT_EQ(selection.balls[i].center, openvdb::Vec3d(x[i], 2, 3 + atoms[i])) << i;
         EXPECT_EQ(selection.balls[i].atom, atoms[i]) << i;
     }
     ASSERT_EQ(selection.drops.size(), 1u);
@@ -101,7 +100,7 @@ TEST(Assembly, CopiesInOnePlaceCountOnce)
     const BallSet selection = selectBalls(s, assembly("1"));
     EXPECT_EQ(selection.balls.size(), 9u);
     EXPECT_EQ(selection.copyBegin, (std::vector<std::size_t>{0, 3, 6, 6, 9}));
-    EXPECT_EQ(selection.balls[6].center, openvdb::Vec3f(31, 2, 3));
+    EXPECT_EQ(selection.balls[6].center, openvdb::Vec3d(31, 2, 3));
     EXPECT_EQ(selection.warnings.size(), 1u);
     // Atoms that the file has in one place, and the assembly moves apart, all stay.
     for (Atom& atom : s.atoms) atom.position = openvdb::Vec3d(1, 2, 3);
@@ -125,7 +124,7 @@ TEST(Assembly, InstancesAreThePrototypesOnce)
     const std::vector<std::int32_t> atoms{0, 1, 0, 1, 2, 1};
     for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_EQ(selection.balls[i].atom, atoms[i]);
-        EXPECT_EQ(selection.balls[i].center, openvdb::Vec3f(1, 2, float(3 + atoms[i])));
+        EXPECT_EQ(selection.balls[i].center, openvdb::Vec3d(1, 2, 3 + atoms[i]));
     }
     ASSERT_EQ(selection.instances.size(), 3u);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -146,7 +145,7 @@ TEST(Assembly, TurnsThenShifts)
     op.translation = openvdb::Vec3d(10, 20, 30);
     Structure s = threeChains();
     s.assemblies = {{"1", {{{"A"}, {op}}}, ""}};
-    EXPECT_EQ(selectBalls(s, assembly("1")).balls.at(0).center, openvdb::Vec3f(8, 23, 29));
+    EXPECT_EQ(selectBalls(s, assembly("1")).balls.at(0).center, openvdb::Vec3d(8, 23, 29));
 }
 
 TEST(Assembly, WithoutChainsMeansAll)

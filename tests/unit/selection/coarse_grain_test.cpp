@@ -119,7 +119,7 @@ TEST(CoarseGrain, LaterRulesWinAndAtomsStay)
     for (const Ball& ball : beads.balls) {
         const int number = s.residues[std::size_t(atomOf(s, ball).residue)].number;
         if (number < 5 || number > 20) continue;
-        EXPECT_EQ(ball.center, openvdb::Vec3f(atomOf(s, ball).position));
+        EXPECT_EQ(ball.center, atomOf(s, ball).position);
         ++atoms;
     }
     EXPECT_EQ(atoms, beads.balls.size() - beads.beads);

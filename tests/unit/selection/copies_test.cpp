@@ -73,7 +73,7 @@ TEST(Copies, AreThoseOfTheFirstOperatorWhereverItIs)
     ASSERT_EQ(five.copies, 5u);
     // In the frame of copy 1 it is the ring of the copy that the identity makes.
     std::vector<Ball> balls = five.balls;
-    for (Ball& ball : balls) ball.center = openvdb::Vec3f(applied(home, Vec3d(ball.center)));
+    for (Ball& ball : balls) ball.center = applied(home, ball.center);
     expectRing(balls, 5, {0, 1, golden});
 }
 
@@ -137,7 +137,7 @@ TEST(Copies, OfAPartWithItsOwnOperatorsComeAlong)
     s.assemblies[0].parts.push_back({{"B"}, others});
     const BallSet ring = selectBalls(s, copies("fold:4"));
     EXPECT_EQ(ring.copyNumbers, (std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8}));
-    EXPECT_EQ(selectBalls(s, copies("8")).balls.at(0).center, openvdb::Vec3f(8, 51, 71));
+    EXPECT_EQ(selectBalls(s, copies("8")).balls.at(0).center, openvdb::Vec3d(8, 51, 71));
 }
 
 TEST(Copies, BadWords)

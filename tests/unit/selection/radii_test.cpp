@@ -19,13 +19,13 @@ TEST(Radii, BuiltInSets)
 {
     const RadiiSet bondi = readRadii("bondi"), alvarez = readRadii("alvarez"),
                    gemmi = readRadii("gemmi");
-    EXPECT_EQ(bondi.find("ALA", "CA", carbon), 1.70f);
-    EXPECT_EQ(bondi.find("ALA", "H", hydrogen), 1.20f);
-    EXPECT_EQ(bondi.find("ZN", "ZN", zinc), 1.39f);
-    EXPECT_EQ(bondi.find("CA", "CA", 20), 2.31f);    // Mantina
-    EXPECT_EQ(bondi.find("HEM", "FE", iron), 2.44f); // Alvarez
-    EXPECT_EQ(alvarez.find("ALA", "CA", carbon), 1.77f);
-    EXPECT_EQ(gemmi.find("HEM", "FE", iron), 1.26f);
+    EXPECT_EQ(bondi.find("ALA", "CA", carbon), 1.70);
+    EXPECT_EQ(bondi.find("ALA", "H", hydrogen), 1.20);
+    EXPECT_EQ(bondi.find("ZN", "ZN", zinc), 1.39);
+    EXPECT_EQ(bondi.find("CA", "CA", 20), 2.31);    // Mantina
+    EXPECT_EQ(bondi.find("HEM", "FE", iron), 2.44); // Alvarez
+    EXPECT_EQ(alvarez.find("ALA", "CA", carbon), 1.77);
+    EXPECT_EQ(gemmi.find("HEM", "FE", iron), 1.26);
     EXPECT_LT(bondi.find("PM", "PM", promethium), 0);
     EXPECT_LT(bondi.find("XXX", "X", 0), 0);
 }
@@ -69,16 +69,16 @@ TEST(Radii, UnitedAtoms)
     const auto both = [&](const char* residue, const char* atom, std::uint8_t element) {
         return std::pair(protor.find(residue, atom, element), naccess.find(residue, atom, element));
     };
-    EXPECT_EQ(both("ALA", "CA", carbon), std::pair(1.88f, 1.87f));
-    EXPECT_EQ(both("TRP", "CE2", carbon), std::pair(1.61f, 1.76f));
-    EXPECT_EQ(both("TRP", "CE3", carbon), std::pair(1.76f, 1.76f));
-    EXPECT_EQ(both("LYS", "NZ", nitrogen), std::pair(1.64f, 1.50f));
-    EXPECT_EQ(both("HIE", "NE2", nitrogen), std::pair(1.64f, 1.65f)); // a form of HIS
-    EXPECT_EQ(both("DG", "C2", carbon), std::pair(1.61f, 1.80f));
-    EXPECT_EQ(both("A", "C2", carbon), std::pair(1.76f, 1.80f));
-    EXPECT_EQ(both("ALA", "HA", hydrogen), std::pair(0.0f, 0.0f)); // left out
-    EXPECT_LT(protor.find("CA", "CA", 20), 0.0f);                  // calcium is no carbon
-    EXPECT_LT(naccess.find("HEM", "CHA", carbon), 0.0f);
+    EXPECT_EQ(both("ALA", "CA", carbon), std::pair(1.88, 1.87));
+    EXPECT_EQ(both("TRP", "CE2", carbon), std::pair(1.61, 1.76));
+    EXPECT_EQ(both("TRP", "CE3", carbon), std::pair(1.76, 1.76));
+    EXPECT_EQ(both("LYS", "NZ", nitrogen), std::pair(1.64, 1.50));
+    EXPECT_EQ(both("HIE", "NE2", nitrogen), std::pair(1.64, 1.65)); // a form of HIS
+    EXPECT_EQ(both("DG", "C2", carbon), std::pair(1.61, 1.80));
+    EXPECT_EQ(both("A", "C2", carbon), std::pair(1.76, 1.80));
+    EXPECT_EQ(both("ALA", "HA", hydrogen), std::pair(0.0, 0.0)); // left out
+    EXPECT_LT(protor.find("CA", "CA", 20), 0.0);                 // calcium is no carbon
+    EXPECT_LT(naccess.find("HEM", "CHA", carbon), 0.0);
 }
 
 TEST(Radii, RulesOfAFileByPrecedence)
@@ -93,13 +93,13 @@ TEST(Radii, RulesOfAFileByPrecedence)
                                     "N        1.5\n"
                                     "*        1.8\n");
     const RadiiSet set = readRadii(file.path());
-    EXPECT_EQ(set.find("ALA", "CB", carbon), 1.70f);
-    EXPECT_EQ(set.find("ALA", "CA", carbon), 1.88f);
-    EXPECT_EQ(set.find("GLY", "CA", carbon), 1.91f);
-    EXPECT_EQ(set.find("GLY", "N", nitrogen), 1.5f);
+    EXPECT_EQ(set.find("ALA", "CB", carbon), 1.70);
+    EXPECT_EQ(set.find("ALA", "CA", carbon), 1.88);
+    EXPECT_EQ(set.find("GLY", "CA", carbon), 1.91);
+    EXPECT_EQ(set.find("GLY", "N", nitrogen), 1.5);
     EXPECT_EQ(set.find("ZN", "ZN", zinc), 0);
-    EXPECT_EQ(set.find("HEM", "FE", iron), 1.8f);
-    EXPECT_EQ(set.find("XXX", "Q", 0), 1.8f);
+    EXPECT_EQ(set.find("HEM", "FE", iron), 1.8);
+    EXPECT_EQ(set.find("XXX", "Q", 0), 1.8);
 }
 
 TEST(Radii, NamesFileAndLineOfAnError)
@@ -127,13 +127,20 @@ const std::string atoms =
     "HETATM    2 PM    PM A   2       5.000   2.000   3.000  1.00  0.00          PM\n"
     "HETATM    3 Q1   UNL A   3       9.000   2.000   3.000  1.00  0.00           X\n";
 
+SelectOptions everything()
+{
+    SelectOptions options;
+    options.hetero = Hetero::All;
+    return options;
+}
+
 TEST(Radii, UnknownElementsTakeThatOfCarbonWithOneWarning)
 {
     const TempFile file("a.pdb", atoms);
-    const BallSet selection = selectBalls(readStructure(file.path()), {});
+    const BallSet selection = selectBalls(readStructure(file.path()), everything());
     ASSERT_EQ(selection.balls.size(), 3u);
-    EXPECT_EQ(selection.balls[1].radius, 1.7f);
-    EXPECT_EQ(selection.balls[2].radius, 1.7f);
+    EXPECT_EQ(selection.balls[1].radius, 1.7);
+    EXPECT_EQ(selection.balls[2].radius, 1.7);
     ASSERT_EQ(selection.warnings.size(), 1u);
     EXPECT_HAS(selection.warnings[0], "Pm (1 atom), unknown element of atom \"Q1\" (1 atom)");
 }
@@ -141,12 +148,12 @@ TEST(Radii, UnknownElementsTakeThatOfCarbonWithOneWarning)
 TEST(Radii, WhatAFileLacksComesFromBondi)
 {
     const TempFile file("a.pdb", atoms), radii("my.radii", "PM 2.0\n* Q1 3.0\n");
-    SelectOptions options;
+    SelectOptions options = everything();
     options.radii = radii.path();
     const BallSet selection = selectBalls(readStructure(file.path()), options);
-    EXPECT_EQ(selection.balls[0].radius, 1.7f);
-    EXPECT_EQ(selection.balls[1].radius, 2.0f);
-    EXPECT_EQ(selection.balls[2].radius, 3.0f);
+    EXPECT_EQ(selection.balls[0].radius, 1.7);
+    EXPECT_EQ(selection.balls[1].radius, 2.0);
+    EXPECT_EQ(selection.balls[2].radius, 3.0);
     ASSERT_EQ(selection.warnings.size(), 1u);
     EXPECT_HAS(selection.warnings[0], "lacks C (1 atom): bondi was used");
 }
@@ -154,7 +161,7 @@ TEST(Radii, WhatAFileLacksComesFromBondi)
 TEST(Radii, AZeroInAFileLeavesTheAtomOut)
 {
     const TempFile file("a.pdb", atoms), radii("my.radii", "* 1.9\nC 0\n");
-    SelectOptions options;
+    SelectOptions options = everything();
     options.radii = radii.path();
     const BallSet selection = selectBalls(readStructure(file.path()), options);
     EXPECT_EQ(selection.balls.size(), 2u);
@@ -166,14 +173,14 @@ TEST(Radii, AZeroInAFileLeavesTheAtomOut)
 TEST(Radii, AreThosePublished)
 {
     const RadiiSet bondi = readRadii("bondi");
-    const std::pair<int, float> published[] = {
-        {1, 1.20f},  {2, 1.40f},  {3, 1.82f},  {4, 1.53f},  {5, 1.92f},  {6, 1.70f},  {7, 1.55f},
-        {8, 1.52f},  {9, 1.47f},  {10, 1.54f}, {11, 2.27f}, {12, 1.73f}, {13, 1.84f}, {14, 2.10f},
-        {15, 1.80f}, {16, 1.80f}, {17, 1.75f}, {18, 1.88f}, {19, 2.75f}, {20, 2.31f}, {28, 1.63f},
-        {29, 1.40f}, {30, 1.39f}, {31, 1.87f}, {32, 2.11f}, {33, 1.85f}, {34, 1.90f}, {35, 1.85f},
-        {36, 2.02f}, {37, 3.03f}, {38, 2.49f}, {46, 1.63f}, {47, 1.72f}, {48, 1.58f}, {49, 1.93f},
-        {50, 2.17f}, {51, 2.06f}, {52, 2.06f}, {53, 1.98f}, {54, 2.16f}, {55, 3.43f}, {56, 2.68f},
-        {78, 1.75f}, {79, 1.66f}, {80, 1.55f}, {81, 1.96f}, {82, 2.02f}, {83, 2.07f}, {92, 1.86f}};
+    const std::pair<int, double> published[] = {
+        {1, 1.20},  {2, 1.40},  {3, 1.82},  {4, 1.53},  {5, 1.92},  {6, 1.70},  {7, 1.55},
+        {8, 1.52},  {9, 1.47},  {10, 1.54}, {11, 2.27}, {12, 1.73}, {13, 1.84}, {14, 2.10},
+        {15, 1.80}, {16, 1.80}, {17, 1.75}, {18, 1.88}, {19, 2.75}, {20, 2.31}, {28, 1.63},
+        {29, 1.40}, {30, 1.39}, {31, 1.87}, {32, 2.11}, {33, 1.85}, {34, 1.90}, {35, 1.85},
+        {36, 2.02}, {37, 3.03}, {38, 2.49}, {46, 1.63}, {47, 1.72}, {48, 1.58}, {49, 1.93},
+        {50, 2.17}, {51, 2.06}, {52, 2.06}, {53, 1.98}, {54, 2.16}, {55, 3.43}, {56, 2.68},
+        {78, 1.75}, {79, 1.66}, {80, 1.55}, {81, 1.96}, {82, 2.02}, {83, 2.07}, {92, 1.86}};
     for (const auto& [element, radius] : published)
         EXPECT_EQ(bondi.find("XXX", "X", std::uint8_t(element)), radius) << element;
 }

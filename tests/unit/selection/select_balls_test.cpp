@@ -35,10 +35,10 @@ TEST(SelectBalls, GivesEveryAtomItsBall)
     EXPECT_EQ(selection.copyBegin, (std::vector<std::size_t>{0, 327}));
     for (std::size_t i = 0; i < 327; ++i) {
         EXPECT_EQ(selection.balls[i].atom, static_cast<std::int32_t>(i));
-        EXPECT_EQ(selection.balls[i].center, openvdb::Vec3f(s.atoms[i].position));
+        EXPECT_EQ(selection.balls[i].center, s.atoms[i].position);
     }
-    EXPECT_EQ(selection.balls[0].radius, 1.55f);
-    EXPECT_EQ(selection.balls[1].radius, 1.70f);
+    EXPECT_EQ(selection.balls[0].radius, 1.55);
+    EXPECT_EQ(selection.balls[1].radius, 1.70);
 }
 
 TEST(SelectBalls, DropsWatersUnlessAsked)
@@ -70,7 +70,7 @@ TEST(SelectBalls, DropsExactDuplicatesAndWarns)
 TEST(SelectBalls, DropsLigandsAndHydrogensOnRequest)
 {
     SelectOptions options;
-    options.hetero = false;
+    options.hetero = Hetero::None;
     const Structure old = readStructure(dataFile("4at1.ent.gz"));
     EXPECT_EQ(dropsOf(selectBalls(old, options)), (Drops{{"ligand or ion", 64}}));
     EXPECT_EQ(selectBalls(readStructure(dataFile("1a8o.pdb.gz")), options).balls.size(), 556u);

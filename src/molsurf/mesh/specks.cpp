@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/mesh/specks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+using openvdb::Vec3d;
+
+namespace
+{
+
+/// The voxels of one sign that hang together with a voxel, face by face.
+/// @return empty if they do not stay in a box, as those beside the piece do
+std::vector<Coord> enclosedVoxels(const openvdb::FloatGrid::ConstAccessor& surface,
+                                  const Coord& start, bool inside, const openvdb::CoordBBox& box)
+{
+    std::set<Coord> seen = {start};
+    std::vector<Coord> found = {start};
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (!box.isInside(found[i])) return {};
+        for (int k = 0; k < 6; ++k) {
+            Coord next = found[i];
+            next[k / 2] += k % 2 ? 1 : -1;
+            if ((surface.getValue(next) < 0.0f) == inside && seen.insert(next).second)
+                found.push_back(next);
+        }
+    }
+    return found;
+}
+
+/// Changes the signs of the voxels that a piece encloses.
+/// @param[in] cavity  whether the piece is the wall of a cavity
+void fill(const Mesh& mesh, const std::vector<std::uint32_t>& vertices, bool cavity,
+          openvdb::FloatGrid& surface)
+{
+    const double voxel = surface.voxelSize()[0];
+    openvdb::CoordBBox box;
+    for (const std::uint32_t v : vertices)
+        box.expand(Coord::floor(Vec3d(mesh.positions[v]) / voxel));
+    box.min() -= Coord(1);
+    box.max() += Coord(2);
+    openvdb::FloatGrid::Accessor access = surface.getAccessor();
+    for (const std::uint32_t v : vertices) {
+        const Vec3d x = Vec3d(mesh.positions[v]) / voxel;
+        constexpr double beside = 1.5; // of vertices, which slide along the surface [voxel]
+        const openvdb::CoordBBox about(Coord::ceil(x - Vec3d(beside)),
+                                       Coord::floor(x + Vec3d(beside)));
+        for (auto corner = about.begin(); corner; ++corner) {
+            if ((access.getValue(*corner) < 0.0f) == cavity) continue;
+            for (const Coord& ijk :
+                 enclosedVoxels(surface.getConstAccessor(), *corner, !cavity, box))
+                access.setValueOnly(ijk, -access.getValue(ijk));
+        }
+    }
+}
+
+} // namespace
+
+std::vector<std::uint32_t> dropSpecks(MeshPieces& pieces, openvdb::FloatGrid& surface, Mesh& mesh)
+{
+    constexpr double rounding = 1e-3; // of the integral of the normal over a closed piece
+    const double least = leastPiece * std::pow(surface.voxelSize()[0], 3);
+    const std::size_t count = pieces.measures.size();
+    std::vector<char> small(count, 0);
+    for (std::size_t p = 0; p < count; ++p) small[p] = std::abs(pieces.measures[p].volume) < least;
+    if (std::find(small.begin(), small.end(), 1) == small.end()) return {};
+
+    // A piece that is cut open has no volume.
+    std::vector<Vec3d> normals(count, Vec3d(0.0));
+    for (const auto& t : mesh.triangles) {
+        if (!small[pieces.of[t[0]]]) continue;
+        const Vec3d a(mesh.positions[t[0]]);
+        normals[pieces.of[t[0]]] +=
+            0.5 * (Vec3d(mesh.positions[t[1]]) - a).cross(Vec3d(mesh.positions[t[2]]) - a);
+    }
+    for (std::size_t p = 0; p < count; ++p)
+        small[p] = small[p] && normals[p].length() <= rounding * pieces.measures[p].area;
+    if (std::find(small.begin(), small.end(), 1) == small.end()) return {};
+
+    std::vector<std::vector<std::uint32_t>> specks(count);
+    std::vector<std::uint32_t> kept, numbers(mesh.positions.size());
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        numbers[v] = std::uint32_t(kept.size());
+        if (small[pieces.of[v]])
+            specks[pieces.of[v]].push_back(v);
+        else
+            kept.push_back(v);
+    }
+    for (std::size_t p = 0; p < count; ++p)
+        if (small[p]) fill(mesh, specks[p], pieces.measures[p].volume < 0.0, surface);
+
+    const auto gone = [&](const auto& t) { return small[pieces.of[t[0]]] != 0; };
+    mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), gone),
+                         mesh.triangles.end());
+    for (auto& t : mesh.triangles)
+        for (std::uint32_t& v : t) v = numbers[v];
+    keepVertices(kept, mesh.positions);
+    keepVertices(kept, mesh.normals);
+    for (auto& a : mesh.scalars) keepVertices(kept, a.values);
+
+    std::vector<std::uint32_t> places(count);
+    std::vector<PieceMeasure> measures;
+    for (std::size_t p = 0; p < count; ++p) {
+        places[p] = std::uint32_t(measures.size());
+        if (!small[p]) measures.push_back(pieces.measures[p]);
+    }
+    keepVertices(kept, pieces.of);
+    for (std::uint32_t& p : pieces.of) p = places[p];
+    pieces.measures = std::move(measures);
+    return kept;
+}
+
+} // namespace molsurf

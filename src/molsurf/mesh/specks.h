@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Removes pieces of a mesh that the voxels cannot hold.
+
+#include "molsurf/mesh.h"
+#include "molsurf/mesh/measure.h"
+#include "molsurf/progress.h"
+
+#include <openvdb/openvdb.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace molsurf
+{
+
+/// The volume that a closed piece has at least [voxel]. A piece with less is no larger than the
+/// error of the level set: it comes and goes with the place of the grid.
+constexpr double leastPiece = 0.1;
+
+/// Removes the closed pieces that enclose less than `leastPiece` voxels from a mesh, and from the
+/// level set that it was made of, where the voxels that they enclose change their signs.
+/// @param[in,out] pieces   those of the mesh
+/// @param[in,out] surface  the level set
+/// @return the vertices that stay, as indices of before, ascending; empty if all do
+std::vector<std::uint32_t> dropSpecks(MeshPieces& pieces, openvdb::FloatGrid& surface, Mesh& mesh);
+
+/// Makes an array over vertices one of those that stay.
+/// @param[in] kept  of dropSpecks(): empty if all do
+template<typename T>
+void keepVertices(const std::vector<std::uint32_t>& kept, std::vector<T>& values)
+{
+    if (kept.empty() || values.empty()) return;
+    std::size_t count = 0;
+    for (const std::uint32_t v : kept)
+        if (v < values.size()) values[count++] = values[v];
+    values.resize(count);
+}
+
+} // namespace molsurf

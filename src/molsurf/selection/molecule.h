@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Tells the molecule in a file from what lies beside it: free ions, buffers, lipids of a box.
+
+#include "molsurf/structure/structure.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace molsurf
+{
+
+/// What a residue is to the molecule.
+enum class Role : std::uint8_t {
+    Molecule, ///< a part of it: a polymer, or a ligand or an ion that touches one
+    FreeIon,  ///< an ion of one atom that belongs to the solution
+    Additive, ///< buffer, cryoprotectant, lipid or detergent, by name
+    Apart     ///< a ligand that touches no polymer, nor a ligand that does
+};
+
+/// The role of each residue of a model. A ligand is a part of the molecule if one of its atoms lies
+/// within 4 Å of a polymer, or of such a ligand; so is an ion within 3 Å, but for those of Li, Na,
+/// K, Rb, Cs, F, Cl, Br and I. Water is not looked at.
+///
+/// Where there is no polymer, and in files of beads or with radii of their own, which somebody has
+/// prepared, all is the molecule.
+/// @return one a residue of the structure; those of other models are `Molecule`
+std::vector<Role> rolesIn(const Structure& structure, const Model& model);
+
+} // namespace molsurf

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/check_mesh.h"
+
+#include "molsurf/core/parallel.h"
+#include "molsurf/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+
+namespace
+{
+
+[[noreturn]] __attribute__((format(printf, 1, 2))) void fail(const char* form, ...)
+{
+    char text[240];
+    va_list values;
+    va_start(values, form);
+    std::vsnprintf(text, sizeof text, form, values);
+    va_end(values);
+    throw Error(ErrorKind::Check, text);
+}
+
+/// The edges that do not have two triangles which run through them in opposite directions.
+std::vector<std::array<std::uint32_t, 2>> badEdges(const Mesh& mesh)
+{
+    std::vector<std::array<std::uint32_t, 3>> edges; // the lower end, the higher one, upward
+    edges.reserve(3 * mesh.triangles.size());
+    for (const auto& t : mesh.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+            edges.push_back({std::min(a, b), std::max(a, b), a < b});
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    std::vector<std::array<std::uint32_t, 2>> out;
+    for (std::size_t i = 0, end; i < edges.size(); i = end) {
+        end = i + 1;
+        while (end < edges.size() && edges[end][0] == edges[i][0] && edges[end][1] == edges[i][1])
+            ++end;
+        if (end - i != 2 || edges[i][2] == edges[i + 1][2])
+            out.push_back({edges[i][0], edges[i][1]});
+    }
+    return out;
+}
+
+/// The volume inside the triangles [Å^3].
+double flatVolume(const Mesh& mesh, const Progress& progress)
+{
+    constexpr std::size_t chunk = 4096;
+    const Vec3d origin(mesh.positions[0]);
+    const std::size_t count = mesh.triangles.size();
+    return parallelSum<double>((count + chunk - 1) / chunk, progress, [&](std::size_t c) {
+        double sum = 0.0;
+        for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
+            const auto& t = mesh.triangles[i];
+            const Vec3d a = Vec3d(mesh.positions[t[0]]) - origin;
+            sum += a.dot((Vec3d(mesh.positions[t[1]]) - origin)
+                             .cross(Vec3d(mesh.positions[t[2]]) - origin)) /
+                   6.0;
+        }
+        return sum;
+    });
+}
+
+} // namespace
+
+void checkMesh(const Mesh& mesh, const SurfaceReport& report, double voxel,
+               const Progress& progress)
+{
+    if (mesh.triangles.empty()) return;
+    if (!report.closed || !report.manifold) {
+        const auto edges = badEdges(mesh);
+        if (edges.empty()) fail("mesh: it is no manifold at a vertex");
+        const openvdb::Vec3f& x = mesh.positions[edges[0][0]];
+        fail("mesh: expected two triangles at each edge, %zu edges have not, the first at (%.2f, "
+             "%.2f, %.2f) Å",
+             edges.size(), double(x[0]), double(x[1]), double(x[2]));
+    }
+    const int pieces = report.components + int(report.cavities.size());
+    const int chi = report.meshEulerCharacteristic;
+    if (chi % 2 != 0 || chi > 2 * pieces)
+        fail("mesh: its Euler number %d is that of no %d closed surfaces", chi, pieces);
+    if (report.maxResidual > largestResidual * voxel) // false for what is not known
+        fail("mesh: a vertex lies %.2g Å beside the surface, expected %.2g Å at most",
+             report.maxResidual, largestResidual * voxel);
+    constexpr double share = 0.1; // of a voxel, between chords and arcs
+    const double flat = flatVolume(mesh, progress);
+    if (std::abs(flat - report.volume) <= share * voxel * report.area) return;
+    throw Error(ErrorKind::Numeric, "mesh: the voxels are too large for the surface: triangles and "
+                                    "arcs between its vertices enclose volumes that differ [hint: "
+                                    "a smaller `voxel`]");
+}
+
+} // namespace molsurf

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What every mesh keeps before anybody gets it.
+
+#include "molsurf/mesh.h"
+#include "molsurf/progress.h"
+#include "molsurf/report.h"
+
+namespace molsurf
+{
+
+/// The largest |S| that a vertex may have [voxel].
+constexpr double largestResidual = 1e-3;
+
+/// Checks that a mesh is closed and a manifold, that its Euler number is one of closed surfaces,
+/// that its vertices lie on the surface, and that two formulas give its volume: that of the flat
+/// triangles, and that of the patches through their normals.
+/// @param[in] report  measures of the mesh, none of a closed form
+/// @param[in] voxel   edge of a voxel [Å]
+/// @throws Error(ErrorKind::Check) that names what is wrong, and a place
+/// @throws Error(ErrorKind::Numeric) if the two volumes differ, which large voxels bring about
+void checkMesh(const Mesh& mesh, const SurfaceReport& report, double voxel,
+               const Progress& progress);
+
+} // namespace molsurf

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MPL-2.0
+
+#include "molsurf/mesh/specks.h"
+
+#include "molsurf/mesh/topology.h"
+#include <openvdb/tools/LevelSetSphere.h>
+#include <openvdb/tools/VolumeToMesh.h>
+
+#include <cmath>
+
+namespace molsurf::test
+{
+namespace
+{
+
+using openvdb::Coord;
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+constexpr double voxel = 0.5;
+
+/// The mesh of a level set, with normals by its gradient.
+Mesh meshOf(const openvdb::FloatGrid& grid)
+{
+    openvdb::tools::VolumeToMesh mesher;
+    mesher(grid);
+    Mesh mesh;
+    for (std::size_t i = 0; i < mesher.pointListSize(); ++i)
+        mesh.positions.emplace_back(mesher.pointList()[i]);
+    for (std::size_t n = 0; n < mesher.polygonPoolListSize(); ++n) {
+        const auto& pool = mesher.polygonPoolList()[n];
+        for (std::size_t i = 0; i < pool.numQuads(); ++i) {
+            const auto& q = pool.quad(i);
+            mesh.triangles.push_back({q[3], q[2], q[1]});
+            mesh.triangles.push_back({q[3], q[1], q[0]});
+        }
+    }
+    mesh.normals.resize(mesh.positions.size(), Vec3f(0.0f));
+    for (const auto& t : mesh.triangles) {
+        const Vec3f a = mesh.positions[t[0]];
+        for (const std::uint32_t v : t)
+            mesh.normals[v] += (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a);
+    }
+    for (Vec3f& n : mesh.normals) n.normalize();
+    return mesh;
+}
+
+openvdb::FloatGrid::Ptr ball()
+{
+    return openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(4.0f, Vec3f(0.0f), voxel, 6.0f);
+}
+
+MeshPieces piecesOf(const Mesh& mesh)
+{
+    return molsurf::piecesOf(mesh, Progress());
+}
+
+TEST(Specks, NothingGoesWhereThereIsNone)
+{
+    const auto grid = ball();
+    Mesh mesh = meshOf(*grid);
+    MeshPieces pieces = piecesOf(mesh);
+    const std::size_t before = mesh.triangles.size();
+    EXPECT_TRUE(dropSpecks(pieces, *grid, mesh).empty());
+    EXPECT_EQ(mesh.triangles.size(), before);
+}
+
+// One voxel of the other sign, inside and outside of a ball, with values that leave a speck.
+TEST(Specks, GoFromMeshAndLevelSet)
+{
+    for (const int place : {4, 12}) {
+        const auto grid = ball();
+        const Coord at(place, 1, 0);
+        const float side = grid->getConstAccessor().getValue(at) < 0.0f ? 1.0f : -1.0f;
+        const std::size_t clean = meshOf(*grid).triangles.size();
+        grid->getAccessor().setValue(at, side * 0.01f);
+        Mesh mesh = meshOf(*grid);
+        MeshPieces pieces = piecesOf(mesh);
+        ASSERT_EQ(pieces.measures.size(), 2u) << place;
+        ASSERT_LT(std::abs(pieces.measures[1].volume), 0.1 * std::pow(voxel, 3));
+        const std::size_t vertices = mesh.positions.size();
+        const std::vector<std::uint32_t> kept = dropSpecks(pieces, *grid, mesh);
+        EXPECT_EQ(kept.size(), mesh.positions.size());
+        EXPECT_LT(mesh.positions.size(), vertices);
+        EXPECT_EQ(pieces.measures.size(), 1u);
+        EXPECT_EQ(pieces.of.size(), mesh.positions.size());
+        EXPECT_EQ(mesh.triangles.size(), clean) << place;
+        EXPECT_TRUE(checkTopology(mesh, Progress()).closed);
+        // The level set alone gives the same mesh.
+        EXPECT_LT(side * grid->getConstAccessor().getValue(at), 0.0f);
+        EXPECT_EQ(meshOf(*grid).triangles.size(), clean) << place;
+    }
+}
+
+TEST(Specks, ACavityOfSomeVoxelsStays)
+{
+    const auto grid = ball();
+    for (auto ijk = openvdb::CoordBBox(Coord(-1), Coord(1)).begin(); ijk; ++ijk)
+        grid->getAccessor().setValue(*ijk, 0.4f);
+    Mesh mesh = meshOf(*grid);
+    MeshPieces pieces = piecesOf(mesh);
+    ASSERT_EQ(pieces.measures.size(), 2u);
+    EXPECT_TRUE(dropSpecks(pieces, *grid, mesh).empty());
+}
+
+TEST(Specks, APieceThatIsCutOpenStays)
+{
+    const auto grid = ball();
+    Mesh mesh = meshOf(*grid);
+    mesh.triangles.resize(1); // a triangle alone has no volume about its corner
+    mesh.positions.resize(
+        std::size_t(std::max({mesh.triangles[0][0], mesh.triangles[0][1], mesh.triangles[0][2]})) +
+        1);
+    mesh.normals.resize(mesh.positions.size());
+    MeshPieces pieces = piecesOf(mesh);
+    dropSpecks(pieces, *grid, mesh);
+    EXPECT_EQ(mesh.triangles.size(), 1u);
+}
+
+} // namespace
+} // namespace molsurf::test
