@@ -99,7 +99,8 @@ class Program:
                 if answer not in ("", main) and (answer not in verbs.values() or len(verb) == 1):
                     verbs[" ".join(verb)] = answer
         program = cls(main, verbs)
-        program.page = subprocess.run([path, "--options-page"], capture_output=True, text=True).stdout
+        program.page, program.report = (subprocess.run([path, word], capture_output=True, text=True).stdout
+                                        for word in ("--options-page", "--report-page"))
         return program
 
 
@@ -224,7 +225,8 @@ def main():
         return check_figures(words)
     program = Program.ask(words.program)
     lines = []
-    for name, text in (("docs/options.md", program.page), ("docs/cli-help.txt", program.main)):
+    for name, text in (("docs/options.md", program.page), ("docs/report.md", program.report),
+                       ("docs/cli-help.txt", program.main)):
         if words.renew:
             (ROOT / name).write_text(text)
         elif not (ROOT / name).exists() or (ROOT / name).read_text() != text:

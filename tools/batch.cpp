@@ -83,7 +83,7 @@ std::vector<Task> tasksOf(const Call& call)
         Task task{input, {}};
         for (const Output& kind : call.outputs)
             task.outputs.push_back(
-                {(fs::path(call.folder) / stem).string() + kind.path, kind.format, ""});
+                {(fs::path(call.folder) / stem).string() + kind.path, kind.format, kind.of, 0.0});
         tasks.push_back(std::move(task));
     }
     checkNames(call, tasks);

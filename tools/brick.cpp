@@ -109,8 +109,9 @@ int brick(const Call& call)
     if (!call.quiet) {
         const PlannedBrick& planned = manifest.plan.bricks[call.brick - 1];
         char text[160];
-        std::snprintf(text, sizeof text, ": %.2f s, %.3f GB of memory (%.3f planned)",
-                      secondsSince(start), double(peakMemory()) / 1e9, double(planned.bytes) / 1e9);
+        std::snprintf(text, sizeof text, ": %.2f s, %.3f GiB of memory (%.3f planned)",
+                      secondsSince(start), double(peakMemory()) / double(1 << 30),
+                      double(planned.bytes) / double(1 << 30));
         say(path + text);
     }
     return 0;

@@ -89,7 +89,7 @@ void checkOutputs(const Call& call)
 std::string sizeText(std::size_t bytes)
 {
     char text[32];
-    std::snprintf(text, sizeof text, "%.3g GB", double(bytes) / 1e9);
+    std::snprintf(text, sizeof text, "%.3g GiB", double(bytes) / double(1 << 30));
     return text;
 }
 
@@ -145,8 +145,9 @@ int buildInBricks(const Call& call, Clock::time_point start)
         if (!call.verbose) continue;
         terminal.erase();
         char text[160];
-        std::snprintf(text, sizeof text, "brick %zu of %zu, %.2f s, %.3f GB at most", k,
-                      plan.bricks.size(), secondsSince(start), double(peakMemory()) / 1e9);
+        std::snprintf(text, sizeof text, "brick %zu of %zu, %.2f s, %.3f GiB at most", k,
+                      plan.bricks.size(), secondsSince(start),
+                      double(peakMemory()) / double(1 << 30));
         say(text);
     }
     atoms = BallSet();

@@ -81,7 +81,7 @@ std::string unrestText(const EvolutionReport& evolution, double voxel)
     const double tolerance = toleranceOf(evolution, voxel);
     const double unit = std::pow(10.0, std::floor(std::log10(tolerance)) - 1.0);
     std::snprintf(text, sizeof text,
-                  "not converged after %s: %.2g %% of the surface moved by more than %.2g Å in the "
+                  "not converged after %s: %.3g %% of the surface moved by more than %.2g Å in the "
                   "last one; the files are written [hint: --tolerance %g accepts that, a smaller "
                   "--voxel resolves it]",
                   steps.c_str(), 100.0 * evolution.unsettledShare, 0.1 * voxel,

@@ -25,10 +25,11 @@ std::vector<std::string> describePlan(const BrickPlan& plan)
         seconds += brick.seconds;
     }
     char text[200];
-    std::snprintf(text, sizeof text,
-                  "%zu atoms, %s, about %.3g voxels, %.3g GB of memory at most, %.3g s on one core",
-                  plan.atoms, counted(plan.bricks.size(), "brick", "bricks").c_str(),
-                  double(voxels), double(bytes) / 1e9, seconds);
+    std::snprintf(
+        text, sizeof text,
+        "%zu atoms, %s, about %.3g voxels, %.3g GiB of memory at most, %.3g s on one core",
+        plan.atoms, counted(plan.bricks.size(), "brick", "bricks").c_str(), double(voxels),
+        double(bytes) / double(1 << 30), seconds);
     return {text};
 }
 

@@ -144,7 +144,7 @@ enum class Hetero {
     None,  ///< polymers alone
     Bound, ///< what touches a polymer, but for buffers, lipids, detergents, and ions of alkali
            ///< metals and halogens; all if the selected atoms have no polymer
-    All ///< whatever is in the file
+    All    ///< whatever is in the file
 };
 
 /// Options that say which atoms are used and how large they are.
@@ -203,8 +203,9 @@ struct SelectOptions {
 /// A number of atoms that are left out for one reason.
 struct Excluded {
     std::string reason; ///< "not selected", "water", "ligand or ion", "free ion (CL, NA)", "buffer
-                        ///< or lipid (GOL)", "ligand apart (NAG)", "hydrogen", "dummy", "alternate
-                        ///< location", "zero radius", "duplicate", "not in the assembly"
+                        ///< or lipid (GOL)", "ligand apart (NAG)", "hydrogen", "hydrogen in radii
+                        ///< of heavy atoms", "dummy", "alternate location", "zero radius",
+                        ///< "duplicate", "not in the assembly"
     std::size_t count;
 };
 

@@ -86,6 +86,10 @@ struct SurfaceReport {
     /// closest point turns by over 20 degrees in a voxel, of which the curvature of the surface
     /// leaves 10 or more unexplained. A ball has none. docs/math.md, section 7.
     double kinkShare = 0.0;
+    /// Of the solvent-excluded surface: the length of the circles in which the grown balls meet
+    /// and that are smaller than the probe [Å]. It touches itself there, in cusps that voxels round
+    /// off.
+    std::optional<double> cuspLength;
     Statistics meanCurvature;     ///< mean curvature at the vertices [1/Å], positive where convex
     Statistics gaussianCurvature; ///< Gaussian curvature at the vertices [1/Å^2]
     std::optional<SurfaceIntegrals> integrals; ///< present with

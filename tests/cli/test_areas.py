@@ -130,7 +130,7 @@ class Areas(ToolTest):
             self.assertEqual(len(found), rows)
             for row in found:
                 self.assertAlmostEqual(float(row["area"]), disk, 4)
-        self.assertEqual(list(found[0]), ["chain_1", "chain_2", "area"])
+        self.assertEqual(list(found[0]), ["chain_1", "chain_2", "area", "surface", "probe_A", "radii"])
         self.check(0, CRAMBIN, *SAS, "-o", "c.contacts.csv", "-o", "c.json", "--areas", "contacts")
         residues = self.table("c.contacts.csv")
         self.check(0, CRAMBIN, *SAS, "-o", "c.contacts.csv", "--contacts", "atom", "--force")
@@ -182,7 +182,8 @@ class Areas(ToolTest):
             self.assertEqual(one["atom"], two["atom"])
             self.assertAlmostEqual(float(one["area"]), float(two["area"]), 4)
         self.assertAlmostEqual(2 * self.total(unit), self.report("b.json")["surface"]["area"], 3)
-        self.check(2, "a.pdb", "--assembly", "1", "--by-symmetry", *FAST, "-o", "c.atoms.csv", says="closed form")
+        self.check(2, "a.pdb", "--assembly", "1", "--by-symmetry", *FAST, "--surface", "ses",
+                   "-o", "c.atoms.csv", says="closed form")
 
     def test_batch(self):
         shutil.copy(CRAMBIN, self.folder)
@@ -190,6 +191,9 @@ class Areas(ToolTest):
         self.check(0, "batch", "list", "-O", "out", *SAS, "--formats", "residues.csv,pdb")
         self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
                          ["1crn.pdb", "1crn.residues.csv", "summary.csv", "summary.json"])
+        self.check(0, CRAMBIN, *SAS, "-o", "one.residues.csv", "-o", "one.pdb")
+        for one, other in ("one.residues.csv", "out/1crn.residues.csv"), ("one.pdb", "out/1crn.pdb"):
+            self.assertEqual((self.folder / one).read_bytes(), (self.folder / other).read_bytes())
 
     def test_names_of_formulas_are_harmless(self):
         self.write("a.pqr", "ATOM 1 =CMD ALA A 1 0.0 0.0 0.0 0.1 1.5\n")
@@ -239,10 +243,11 @@ class Areas(ToolTest):
                 (["--contacts", "model"], "expected atom or residue or chain"),
                 (["-o", "a.atoms.csv", "--coarse", "residue"], "--coarse together"),
                 (["-o", "a.atoms.csv", "--split", "group", "--group-by", "chain"], "--split together"),
-                (["-o", "a.atoms.csv", "--memory", "1G"], "--memory together"),
+                (["-o", "a.atoms.csv", "--memory", "1G", "--surface", "ses"], "--memory together"),
                 (["-o", "a.atoms.csv", "--instances", "--assembly", "1"], "--instances together"),
                 (["-o", "a.contacts.csv", "--by-symmetry", "--assembly", "1", *SAS], "--by-symmetry together"),
                 (["-o", "a.pdb", "--dry-run", *SAS], ["(-o a.pdb) and --dry-run together", "[hint: "]),
+                (["-o", "a.residues.json"], ["no residues as .json", "[hint: -o FILE.residues.csv"]),
                 (["-o", "a.table.csv"], "-o .csv is for --frames")):
             self.check(2, CRAMBIN, *words, *([] if "-o" in words else ["-o", "a.json"]), says=says)
         self.check(0, CRAMBIN, *FAST, "-o", "a.vdb")

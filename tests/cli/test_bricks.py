@@ -181,17 +181,17 @@ class Memory(ToolTest):
     def too_little_for(self, *words):
         """Bytes that the whole does not fit into, and bricks of it do."""
         said = self.check(0, *words, "--dry-run").stderr.decode()
-        return int(0.9e9 * float(said.split(" GB")[0].split()[-1]))
+        return int(0.9 * 2**30 * float(said.split(" GiB")[0].split()[-1]))
 
     def test_dry_run(self):
         text = self.dry(*FAST)
-        self.assertRegex(text, r"327 atoms, 1 brick, about \S+ voxels, \S+ GB of memory at most, "
+        self.assertRegex(text, r"327 atoms, 1 brick, about \S+ voxels, \S+ GiB of memory at most, "
                                r"\S+ s on one core")
         self.assertEqual(self.names(), [])
 
     def test_a_small_molecule_is_done_in_one_piece(self):
         done = self.check(0, CRAMBIN, *FAST, "--memory", "4G", "-o", "a.ply")
-        self.assertEqual(done.stderr.count(b"atoms"), 1)
+        self.assertEqual(done.stderr.count(b"used"), 1)
         self.check(0, CRAMBIN, *FAST, "-o", "b.ply")
         self.assertEqual(*((self.folder / name).read_bytes() for name in ("a.ply", "b.ply")))
 

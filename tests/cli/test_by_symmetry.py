@@ -42,7 +42,7 @@ class BySymmetry(ToolTest):
         self.shell()
         done = self.check(0, "shell.pdb", *ASSEMBLY, "--surface", "ses", "--by-symmetry", "-o",
                           "a.json", "-o", "a.glb", "-o", "a.png", "--color", "copy", "--size", "300",
-                          says=["used 120 balls (1 copy) in each of 60 units", "(I)"])
+                          says=["used 120 atoms (1 copy) in each of 60 units", "(I)"])
         self.check(0, "shell.pdb", *ASSEMBLY, "--surface", "ses", "-o", "b.json")
         unit, whole = self.report("a.json"), self.report("b.json")
         symmetry = unit["symmetry"]

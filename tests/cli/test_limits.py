@@ -55,7 +55,7 @@ class Limits(ToolTest):
         self.balls("grid.xyzr", grid)
         for kind in ("variational", "ses", "vdw"):
             self.refuse("grid.xyzr", "--surface", kind, "--voxel", "0.05", "-o", "a.vdb",
-                        says=["GB of memory, and there are", "--voxel"])
+                        says=["GiB of memory, and there are", "--voxel"])
         self.balls("huge.xyzr", [f"{i} 0 0 {20000 + i}\n" for i in range(1000)])
         self.refuse("huge.xyzr", "--voxel", "0.05", "-o", "a.vdb", says=["GB"])
         self.balls("giant.xyzr", ["0 0 0 1e6\n"])
@@ -72,7 +72,7 @@ class Limits(ToolTest):
                     lines.append(f"{x:.2f} {y:.2f} {z:.2f} 1.7\n")
             self.balls(name, lines)
             for voxel in (0.05, 0.5):
-                self.refuse(name, "--voxel", voxel, "-o", "a.vdb", says=["GB of memory"])
+                self.refuse(name, "--voxel", voxel, "-o", "a.vdb", says=["GiB of memory"])
 
     def test_more_hours_than_allowed(self):
         for words in ((), ("--memory", "60M")):
@@ -82,8 +82,8 @@ class Limits(ToolTest):
     def test_a_dry_run_answers_in_any_case(self):
         self.balls("giant.xyzr", ["0 0 0 1000\n"])
         for words in (("--probe", "100", "--voxel", "0.05"), ("--max-hours", "1e-6")):
-            self.check(0, CRAMBIN, "--dry-run", "-o", "a.vdb", *words, says="GB of memory")
-        self.check(0, "giant.xyzr", "--dry-run", "-o", "a.vdb", "--voxel", "1", says="GB of memory")
+            self.check(0, CRAMBIN, "--dry-run", "-o", "a.vdb", *words, says="GiB of memory")
+        self.check(0, "giant.xyzr", "--dry-run", "-o", "a.vdb", "--voxel", "1", says="GiB of memory")
 
     def test_many_copies_of_an_atom(self):
         lines = ["REMARK 350 BIOMOLECULE: 1\n", "REMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n"]
@@ -96,7 +96,7 @@ class Limits(ToolTest):
         lines.append("ATOM      1  CA  ALA A   1       0.000   0.000   0.000  1.00  0.00           C\n")
         self.balls("copies.pdb", lines)
         self.check(0, "copies.pdb", "--assembly", "1", "--voxel", "10", "-o", "a.json",
-                   says="100000 balls")
+                   says="100000 atoms")
 
 
 if __name__ == "__main__":

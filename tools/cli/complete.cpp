@@ -70,6 +70,15 @@ std::vector<Output> outputsOf(const Call& call, std::initializer_list<Format> so
         if (!seen.insert(real).second) misuse("-o " + path + " is given twice");
         const std::string word = path == "-" ? call.format : endOf(path);
         const auto found = formatWords.find(word);
+        const std::size_t dot = path.rfind('.', path.size() - word.size() - 2);
+        const std::string table =
+            dot == std::string::npos
+                ? ""
+                : lowered(path.substr(dot + 1, path.size() - word.size() - dot - 2));
+        if (path != "-" && word.find('.') == std::string::npos &&
+            std::count(areaTables().begin(), areaTables().end(), table) > 0)
+            misuse("-o " + path + ": there are no " + table + " as ." + word + " [hint: -o FILE." +
+                   table + ".csv, or -o FILE.json --areas " + table + "]");
         if (found == formatWords.end()) misuse("-o " + path + ": expected " + fileNames);
         if (std::count(some.begin(), some.end(), found->second) == 0)
             misuse("-o " + path + ": " + expected);
@@ -291,6 +300,11 @@ void completeAreas(Call& call)
     call.atoms.names = true;
     options.contacts = tables.count("contacts") > 0;
     options.ballAreas = tables.size() > std::size_t(options.contacts);
+    SurfaceOptions shown = options;
+    shown.kind = options.areasOf.value_or(options.kind);
+    if (call.atoms.bySymmetry && options.ballAreas && !isClosedForm(shown))
+        misuse("areas of atoms and --by-symmetry together: expected a closed form [hint: --surface "
+               "sas or vdw]");
     if (call.atoms.bySymmetry && (options.contacts || tables.count("interfaces") > 0))
         misuse("contacts or interfaces of residues and --by-symmetry together [hint: without "
                "--by-symmetry]");
@@ -430,7 +444,8 @@ void completeSurface(Call& call)
     if (options.voxel > coarseVoxel)
         call.warnings.push_back("--voxel " + shortest(options.voxel) +
                                 ": voxels this large cannot show the atoms");
-    if (builds(call, SurfaceKind::Variational) && options.epsilon < 0.5 * options.voxel)
+    if (call.has("epsilon") && builds(call, SurfaceKind::Variational) &&
+        options.epsilon < 0.5 * options.voxel)
         call.warnings.push_back("--epsilon " + shortest(options.epsilon) +
                                 ": a tolerance below half a voxel is not resolved");
 }

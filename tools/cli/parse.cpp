@@ -6,6 +6,7 @@
 #include "cli/verb_table.h"
 
 #include "molsurf/error.h"
+#include "molsurf/io/report_keys.h"
 #include "molsurf/selection/select_balls.h"
 
 #include <boost/program_options.hpp>
@@ -195,6 +196,7 @@ Parsed parse(int argc, const char* const* argv)
     if (words.size() == 1 && words[0] == "--man") return {{}, manPage()};
     if (words.size() == 1 && words[0] == "--bash-completion") return {{}, bashCompletion()};
     if (words.size() == 1 && words[0] == "--options-page") return {{}, optionsPage()};
+    if (words.size() == 1 && words[0] == "--report-page") return {{}, reportPage()};
     if (!words.empty() && lowered(words[0]) == "help") {
         words.erase(words.begin());
         return {{}, words.empty() ? overview() : helpText(takeVerb(words))};

@@ -410,9 +410,10 @@ public:
     {
         char text[160];
         std::snprintf(text, sizeof text,
-                      "`memory`: %s needs %.2f GB, and there are %.2f [hint: `memory` %.1fG, or a "
+                      "`memory`: %s needs %.2f GiB, and there are %.2f [hint: `memory` %.1fG, or a "
                       "larger `voxel`]",
-                      what, bytes / 1e9, double(memory) / 1e9, std::ceil(1.1e-8 * bytes) / 10.0);
+                      what, bytes / double(1 << 30), double(memory) / double(1 << 30),
+                      std::ceil(11.0 * bytes / double(1 << 30)) / 10.0);
         throw Error(ErrorKind::Input, text);
     }
 
@@ -520,9 +521,9 @@ void checkCost(const PlannedBrick& cost, const RunLimits& limits)
 {
     char text[200];
     if (cost.bytes > limits.memory) {
-        std::snprintf(text, sizeof text,
-                      "the surface takes about %.3g GB of memory, and there are %.3g",
-                      double(cost.bytes) / 1e9, double(limits.memory) / 1e9);
+        std::snprintf(
+            text, sizeof text, "the surface takes about %.3g GiB of memory, and there are %.3g",
+            double(cost.bytes) / double(1 << 30), double(limits.memory) / double(1 << 30));
         std::string hint = " [hint: a larger `voxel`";
         if (bytesToMerge * double(cost.voxels) < 0.5 * double(limits.memory)) {
             char size[64];

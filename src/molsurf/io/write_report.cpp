@@ -51,6 +51,7 @@ Json surfaceJson(const SurfaceReport& surface)
             {"max_residual", surface.maxResidual},
             {"gradient_share", surface.gradientShare},
             {"kink_share", surface.kinkShare},
+            {"cusp_length", surface.cuspLength ? Json(*surface.cuspLength) : Json()},
             {"mean_curvature", statisticsJson(surface.meanCurvature)},
             {"gaussian_curvature", statisticsJson(surface.gaussianCurvature)},
             {"total_mean_curvature", total(&SurfaceIntegrals::meanCurvature)},

@@ -70,6 +70,19 @@ std::string ranges(const std::vector<std::size_t>& indices)
     return joined(words);
 }
 
+/// The chains of a part, by the names that the list of all has.
+std::vector<std::string> authorsNames(const Structure& structure, const AssemblyPart& part)
+{
+    const std::set<std::string> listed(part.chains.begin(), part.chains.end());
+    std::set<std::int32_t> chains;
+    for (const Residue& residue : structure.residues)
+        if (listed.empty() || listed.count(structure.asyms[std::size_t(residue.asym)]) > 0)
+            chains.insert(residue.chain);
+    std::vector<std::string> names;
+    for (const std::int32_t chain : chains) names.push_back(structure.chains[std::size_t(chain)]);
+    return names;
+}
+
 std::string describe(const Structure& structure, const Assembly& assembly)
 {
     std::string out = "  assembly " + assembly.name + "\n";
@@ -80,8 +93,8 @@ std::string describe(const Structure& structure, const Assembly& assembly)
         const PartAtoms of = atomsOf(structure, part);
         atoms += of.count * part.operators.size();
         if (of.count > 0) centroids.push_back(of.centroid);
-        const std::string chains = part.chains.empty() ? "all" : joined(part.chains);
-        out += infoLine("copies", std::to_string(part.operators.size()) + " of chains " + chains);
+        out += infoLine("copies", std::to_string(part.operators.size()) + " of chains " +
+                                      joined(authorsNames(structure, part)));
     }
     out += infoLine("atoms", std::to_string(atoms));
     const std::vector<Operator> operators = operatorsOf(assembly);
@@ -126,12 +139,14 @@ std::string describeStructure(const std::string& path, std::size_t maxInput)
     if (structure.beads == BeadKind::Martini3) out += infoLine("beads", "Martini 3");
     if (structure.beads == BeadKind::Unnamed) out += infoLine("beads", "one or a few a residue");
     const Model& first = structure.models[0];
-    std::size_t water = 0, hetero = 0, hydrogen = 0;
+    std::size_t water = 0, hetero = 0, hydrogen = 0, dummy = 0;
     std::set<std::int32_t> used;
     for (std::size_t i = first.begin; i < first.end; ++i) {
         const Residue& residue = residueOf(structure, structure.atoms[i]);
         water += residue.water;
-        hetero += residue.hetero;
+        const bool isDummy = residue.name == "DUM" || structure.atoms[i].name == "DUM";
+        dummy += isDummy;
+        hetero += residue.hetero && !isDummy;
         hydrogen += structure.atoms[i].element == 1;
         used.insert(residue.chain);
     }
@@ -140,7 +155,8 @@ std::string describeStructure(const std::string& path, std::size_t maxInput)
     out += infoLine("chains", std::to_string(chains.size()) + " (" + joined(chains) + ")");
     out += infoLine("atoms", std::to_string(first.end - first.begin) + " (" +
                                  std::to_string(water) + " water, " + std::to_string(hetero) +
-                                 " ligand or ion, " + std::to_string(hydrogen) + " hydrogen)");
+                                 " ligand or ion, " + std::to_string(hydrogen) + " hydrogen" +
+                                 (dummy > 0 ? ", " + std::to_string(dummy) + " dummy)" : ")"));
     for (const std::string& warning : structure.warnings) out += infoLine("warning", warning);
     if (structure.assemblies.empty()) out += infoLine("assemblies", "none");
     for (const Assembly& assembly : structure.assemblies) out += describe(structure, assembly);

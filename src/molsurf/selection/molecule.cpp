@@ -84,7 +84,9 @@ std::vector<Role> rolesIn(const Structure& structure, const Model& model)
         const Atom& first = structure.atoms[group.atoms.front()];
         const bool ion = group.atoms.size() == 1 && isIonic(first.element);
         Role& role = roles[std::size_t(group.residue)];
-        role = ion ? Role::FreeIon : Role::Apart;
+        // Records ATOM are those of polymers, but simulations write everything so.
+        const bool hetatm = structure.residues[std::size_t(group.residue)].hetatm;
+        role = ion ? Role::FreeIon : hetatm ? Role::Apart : Role::Molecule;
         if (isAdditive(structure.residues[std::size_t(group.residue)].name)) role = Role::Additive;
         if (role == Role::Additive || (ion && staysFree(first.element))) continue;
         waiting.push_back(std::move(group));

@@ -24,7 +24,8 @@ enum class Role : std::uint8_t {
 /// within 4 Å of a polymer, or of such a ligand; so is an ion within 3 Å, but for those of Li, Na,
 /// K, Rb, Cs, F, Cl, Br and I. Water is not looked at.
 ///
-/// Where there is no polymer, and in files of beads or with radii of their own, which somebody has
+/// A residue of ATOM records that is neither an ion nor an additive is a part of it, too. Where
+/// there is no polymer, and in files of beads or with radii of their own, which somebody has
 /// prepared, all is the molecule.
 /// @return one a residue of the structure; those of other models are `Molecule`
 std::vector<Role> rolesIn(const Structure& structure, const Model& model);

@@ -220,13 +220,18 @@ std::vector<Ball> makeBalls(const Structure& structure, const SelectOptions& opt
     const std::vector<double> radii = findRadii(structure, options, filter.atoms(), out);
     std::vector<Ball> balls;
     balls.reserve(radii.size());
+    std::size_t hydrogens = 0; // that the radii of heavy atoms include
     for (std::size_t i = 0; i < radii.size(); ++i) {
         const std::int32_t atom = filter.atoms()[i];
-        if (radii[i] <= 0) continue;
+        if (radii[i] <= 0) {
+            hydrogens += !structure.hasRadii && structure.atoms[std::size_t(atom)].element == 1;
+            continue;
+        }
         const auto& position = structure.atoms[std::size_t(atom)].position;
         balls.push_back({position, radii[i], atom});
     }
-    filter.note("zero radius", radii.size() - balls.size());
+    filter.note("hydrogen in radii of heavy atoms", hydrogens);
+    filter.note("zero radius", radii.size() - balls.size() - hydrogens);
     return balls;
 }
 
@@ -251,12 +256,13 @@ std::vector<char> findDuplicates(const std::vector<Ball>& balls,
 {
     struct Entry {
         std::uint64_t hash;
-        std::size_t set, ball;
+        std::uint32_t set, ball;
         auto key() const { return std::make_tuple(hash, set, ball); }
     };
     std::vector<Entry> entries(balls.size());
     for (std::size_t s = 0; s + 1 < begin.size(); ++s) {
-        for (std::size_t i = begin[s]; i < begin[s + 1]; ++i) entries[i] = {hashOf(balls[i]), s, i};
+        for (std::size_t i = begin[s]; i < begin[s + 1]; ++i)
+            entries[i] = {hashOf(balls[i]), std::uint32_t(s), std::uint32_t(i)};
     }
     tbb::parallel_sort(entries.begin(), entries.end(),
                        [](const Entry& a, const Entry& b) { return a.key() < b.key(); });
@@ -643,8 +649,8 @@ std::string describeSelection(const Structure& structure, const BallSet& selecti
     std::string text = displayName(structure.source) + ": " + structure.format + ", " +
                        counted(structure.models.size(), "model") + ", " + counted(atoms, "atom");
     if (structure.models.size() > 1) text += " in model " + std::to_string(selection.model);
-    text += "; used " +
-            counted(selection.unit ? selection.unit->balls : selection.balls.size(), "ball");
+    text += "; used " + counted(selection.unit ? selection.unit->balls : selection.balls.size(),
+                                selection.beads > 0 ? "ball" : "atom");
     if (const auto& unit = selection.unit) {
         text += " (" + std::to_string(unit->copies) +
                 (unit->copies == 1 ? " copy) " : " copies) ") + "in each of " +

@@ -51,7 +51,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
                     const Progress& progress = Progress());
 
 /// One line that says what was read, used and dropped, by kind and count:
-/// "1a8o.cif.gz: mmCIF, 1 model, 644 atoms; used 1112 balls (2 copies); dropped 88 water".
+/// "1a8o.cif.gz: mmCIF, 1 model, 644 atoms; used 1112 atoms (2 copies); dropped 88 water".
 std::string describeSelection(const Structure& structure, const BallSet& selection);
 
 /// The built-in radii sets, one paragraph each: name, source, and the radii by element [Å].

@@ -27,6 +27,18 @@ std::size_t availableMemory()
     return bytes;
 }
 
+namespace
+{
+
+std::string placeText(const openvdb::Vec3d& x)
+{
+    char text[100];
+    std::snprintf(text, sizeof text, "(%g, %g, %g) Å", x[0], x[1], x[2]);
+    return text;
+}
+
+} // namespace
+
 void checkFinite(const std::vector<Ball>& balls)
 {
     constexpr double farthest = 1e6; // [Å]
@@ -38,8 +50,9 @@ void checkFinite(const std::vector<Ball>& balls)
         if (placed && b.radius > 0.0 && std::isfinite(b.radius)) continue;
         throw Error(ErrorKind::Input,
                     "ball " + std::to_string(i) +
-                        (placed ? ": expected a radius above 0 Å, got " + std::to_string(b.radius)
-                                : ": expected coordinates within 1e6 Å"));
+                        (placed
+                             ? ": expected a radius above 0 Å, got " + std::to_string(b.radius)
+                             : ": expected coordinates within 1e6 Å, got " + placeText(b.center)));
     }
 }
 
@@ -62,9 +75,9 @@ void checkBalls(const std::vector<Ball>& balls, const SurfaceOptions& options, P
     char text[240];
     std::snprintf(
         text, sizeof text,
-        "a ball of radius %.6g Å takes at least %.3g GB at a voxel of %g Å, and there are "
-        "%.3g GB",
-        radius, bytes / 1e9, options.voxel, double(memory) / 1e9);
+        "a ball of radius %.6g Å takes at least %.3g GiB at a voxel of %g Å, and there are "
+        "%.3g GiB",
+        radius, bytes / double(1 << 30), options.voxel, double(memory) / double(1 << 30));
     char hint[80] = "";
     if (voxel <= maxVoxel) std::snprintf(hint, sizeof hint, " [hint: `voxel` %.2g]", voxel + 0.05);
     throw Error(ErrorKind::Input, std::string(text) + hint);

@@ -108,7 +108,7 @@ std::vector<double> areasApart(const BallSet& atoms, const SurfaceOptions& optio
     if (!isClosedForm(options)) {
         if (atoms.unit)
             throw Error(ErrorKind::Usage, "areas of atoms by symmetry: expected a surface in "
-                                          "closed form [hint: `kind` sas or vdw]");
+                                          "closed form [hint: `surface` sas or vdw]");
         QuietProgress quiet(progress);
         return makeSurface(atoms, options, &quiet).ballAreas;
     }

@@ -150,6 +150,11 @@ bool SurfaceRun::keepsLevelSet() const
 DistanceBand SurfaceRun::distanceToBalls()
 {
     BallUnion set = unionOf(atoms_.balls, grownBy(options_), progress_);
+    if (const double probe = offsetOf(options_); probe > 0.0) {
+        cuspLength_ = 0.0;
+        for (const Arc& arc : set.boundary.arcs)
+            if (arc.radius < probe) *cuspLength_ += 2.0 * arc.half * arc.radius;
+    }
     if (scope_.region.whole() && isClosedForm(options_)) {
         exact_ = measureBoundary(set.boundary, progress_);
         checkBoundary(set.boundary, *exact_, progress_);
@@ -333,6 +338,7 @@ void SurfaceRun::measure()
     if (!surface.manifold && !splitNonManifold(result_.mesh).empty())
         surface = molsurf::measure(result_.mesh, progress_);
     surface.kind = nameOf(options_.kind);
+    surface.cuspLength = cuspLength_;
     surface.maxResidual = stats_.maxResidual;
     const std::size_t vertices = stats_.slopes.size();
     const GradientCounts counts = countGradients(stats_.slopes);

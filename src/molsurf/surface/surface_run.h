@@ -188,6 +188,7 @@ private:
     bool stored_ = false;                  ///< mesh and level set come from elsewhere
     std::optional<BoundaryMeasure> exact_; ///< of surfaces in closed form
     MeshTolerance tolerance_{};            ///< of the mesh from these
+    std::optional<double> cuspLength_;     ///< SurfaceReport::cuspLength
 };
 
 } // namespace molsurf

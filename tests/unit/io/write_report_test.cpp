@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_report.h"
 
+#include "molsurf/io/report_keys.h"
+
 #include "unit/io/json_keys.h"
+
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -37,20 +41,57 @@ TEST(WriteReport, HasTheKeysOfTheContractInItsOrder)
     const Json json = Json::parse(reportText(sampleReport()));
     EXPECT_EQ(
         keys(json),
-        (Names{"schema", "program",   "version",           "command", "input",      "atoms",      "voxel",
-               "center",    "surface",           "coarse",  "resolution", "evolution",  "grid",
-               "seconds",   "peak_memory_bytes", "threads", "groups", "areas_of",    "interfaces", "parts",
-               "instances", "symmetry",          "warnings"}));
+        (Names{"schema",     "program", "version",           "command",  "input",      "atoms",
+               "voxel",      "center",  "surface",           "coarse",   "resolution", "evolution",
+               "grid",       "seconds", "peak_memory_bytes", "threads",  "groups",     "areas_of",
+               "interfaces", "parts",   "instances",         "symmetry", "warnings"}));
     Names surface = keys(json["surface"]);
     surface.resize(14); // later keys are additions
-    EXPECT_EQ(surface, (Names{"kind", "area", "volume", "euler_characteristic", "mesh_euler_characteristic", "components",
-                              "cavities", "outer_area", "outer_volume", "cavity_list", "vertices",
-                              "triangles", "closed", "manifold"}));
+    EXPECT_EQ(surface,
+              (Names{"kind", "area", "volume", "euler_characteristic", "mesh_euler_characteristic",
+                     "components", "cavities", "outer_area", "outer_volume", "cavity_list",
+                     "vertices", "triangles", "closed", "manifold"}));
     Names evolution = keys(json["evolution"]);
     evolution.resize(5);
     EXPECT_EQ(evolution, (Names{"steps", "converged", "energy", "mean_displacement", "max_speed"}));
     EXPECT_EQ(keys(json["grid"]), (Names{"active_voxels", "bytes"}));
     EXPECT_EQ(keys(json["seconds"]), (Names{"read", "total"}));
+}
+
+/// The paths of all keys of a value, but for those of maps whose keys are names.
+void addPaths(const Json& json, const std::string& path, Names& out)
+{
+    const std::set<std::string> open = {"seconds", "areas", "surface.mean_curvature.percentiles",
+                                        "surface.gaussian_curvature", "parts[].surface"};
+    if (open.count(path) > 0) return;
+    if (json.is_array() && !json.empty() && json[0].is_object())
+        addPaths(json[0], path + "[]", out);
+    if (!json.is_object()) return;
+    for (const auto& [key, value] : json.items()) {
+        const std::string next = (path.empty() ? "" : path + ".") + key;
+        out.push_back(next);
+        addPaths(value, next, out);
+    }
+}
+
+// docs/report.md is made of the table.
+TEST(WriteReport, HasTheKeysOfTheTableAndNoOthers)
+{
+    Report report = sampleReport();
+    report.surface.triangles = 4;
+    report.surface.cuspLength = 1.0;
+    report.coarse = CoarseReport{1, 2};
+    report.resolutions.resize(1);
+    report.groups = {{"A", 1, 1.0, 1.0, "#ff0000", 2.0}};
+    report.interfaces.resize(1);
+    report.parts.resize(1);
+    report.instances.resize(1);
+    report.symmetry = SymmetryReport();
+    report.tables = {{"atoms", {}}};
+    Names written, listed;
+    addPaths(Json::parse(reportText(report)), "", written);
+    for (const ReportKey& key : reportKeys()) listed.push_back(key.path);
+    EXPECT_EQ(written, listed);
 }
 
 TEST(WriteReport, HasTheValues)

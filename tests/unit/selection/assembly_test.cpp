@@ -47,7 +47,7 @@ TEST(Assembly, OfTheDimer)
         EXPECT_EQ(dry.balls.size(), 1112u) << name;
         EXPECT_EQ(dry.copies, 2u);
         EXPECT_EQ(dry.copyBegin, (std::vector<std::size_t>{0, 556, 1112}));
-        EXPECT_HAS(describeSelection(s, dry), "used 1112 balls (2 copies); dropped 88 water");
+        EXPECT_HAS(describeSelection(s, dry), "used 1112 atoms (2 copies); dropped 88 water");
         options.waters = true;
         EXPECT_EQ(selectBalls(s, options).balls.size(), 1288u) << name;
     }

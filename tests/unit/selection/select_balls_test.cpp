@@ -49,7 +49,7 @@ TEST(SelectBalls, DropsWatersUnlessAsked)
     options.waters = true;
     EXPECT_EQ(selectBalls(s, options).balls.size(), 660u);
     EXPECT_EQ(describeSelection(s, selectBalls(s, {})),
-              "1ubq.pdb: PDB, 1 model, 660 atoms; used 602 balls; dropped 58 water");
+              "1ubq.pdb: PDB, 1 model, 660 atoms; used 602 atoms; dropped 58 water");
 }
 
 TEST(SelectBalls, DropsExactDuplicatesAndWarns)
@@ -90,7 +90,7 @@ TEST(SelectBalls, UsesOneModel)
     EXPECT_EQ(selection.model, 4);
     EXPECT_EQ(selection.balls[0].atom, 3 * 1231);
     EXPECT_EQ(describeSelection(s, selection),
-              "1d3z.pdb.gz: PDB, 10 models, 1231 atoms in model 4; used 1231 balls");
+              "1d3z.pdb.gz: PDB, 10 models, 1231 atoms in model 4; used 1231 atoms");
     options.model = 11;
     EXPECT_HAS(errorOf(ErrorKind::Input, [&] { selectBalls(s, options); }),
                "model 11: expected one of 1, 2, 3");
