@@ -4,6 +4,7 @@
 #include "cli/option_table.h"
 #include "input_files.h"
 #include "outputs.h"
+#include "sha256.h"
 #include "terminal.h"
 
 #include "molsurf/error.h"
@@ -202,6 +203,9 @@ std::string optionsLine(const Call& call)
             for (const std::string& value : call.given.at(name)) line += " " + value;
         }
     }
+    for (const OptionFile& file : filesOf(call.verb, call.given))
+        if (file.option->stored)
+            line += " (" + file.path + ": " + sha256OfFile(file.path).substr(0, 16) + ")";
     return line;
 }
 

@@ -58,7 +58,7 @@ int merge(const Call& call, Clock::time_point start)
     for (std::size_t k = 1; k <= manifest.plan.bricks.size(); ++k)
         paths.push_back(brickPath(call.input, k));
     build.inputs = paths;
-    build.inputs.insert(build.inputs.end(), {call.input, call.config});
+    build.inputs.push_back(call.input);
     prepareOutputs(build);
     openvdb::initialize();
     limitThreads(call);

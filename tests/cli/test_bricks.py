@@ -2,6 +2,7 @@
 """bricks plan, run and merge; --memory and --dry-run."""
 
 import collections
+import hashlib
 import json
 import shutil
 import signal
@@ -136,6 +137,45 @@ class Bricks(ToolTest):
             self.check(0, "bricks", "run", "moved/deep/plan.json", k)
         self.run_tool("bricks", "merge", moved / "deep" / "plan.json", "-o", "m.ply")
         self.assertIn("m.ply", self.names())
+
+    def test_the_files_of_options_are_part_of_a_plan(self):
+        """They are found from it, and with other ones it is another plan."""
+        table = self.folder / "t.csv"
+        values = "".join(f"A {n} {n}\n" for n in range(151, 220))
+        table.write_text(values)
+        (self.folder / "bondi").write_text("no radii")
+        (self.folder / "deep").mkdir()
+        words = ["bricks", "plan", self.input, "-o", "deep/plan.json", "--bricks", 2, "--color", "table=t.csv",
+                 "--radii", "bondi", *FAST, *STEPS]
+        self.check(0, *words)
+        plan = self.report("deep/plan.json")
+        self.assertEqual(plan["options"]["color"], ["table=../t.csv"])
+        self.assertEqual(plan["options"]["radii"], ["bondi"])
+        self.assertIn({"path": "../t.csv", "sha256": hashlib.sha256(values.encode()).hexdigest()}, plan["files"])
+        for k in (1, 2):
+            self.check(0, "bricks", "run", "plan.json", k, cwd=self.folder / "deep")
+        self.check(0, "bricks", "merge", "deep/plan.json", "-o", "m.vdb", "-o", "m.ply")
+        self.assertIn(hashlib.sha256(values.encode()).hexdigest(), self.check(0, "info", "m.vdb").stdout.decode())
+        table.write_text(values.replace("A 151 151", "A 151 15"))
+        self.check(1, "bricks", "merge", "deep/plan.json", "-o", "n.ply", says="t.csv has changed")
+        self.check(0, *words, "--force")
+        self.check(1, "bricks", "merge", "deep/plan.json", "-o", "n.ply", says="belongs to another plan")
+
+    def test_a_file_without_a_hash_is_refused(self):
+        (self.folder / "t.csv").write_text("A 151 1\n")
+        plan = self.plan(2, "--color", "table=t.csv")
+        plan["files"] = [file for file in plan["files"] if file["path"] != "t.csv"]
+        (self.folder / "plan.json").write_text(json.dumps(plan))
+        self.check(1, "bricks", "run", "plan.json", 1, says="no hash of t.csv")
+
+    def test_the_files_of_a_plan_are_never_replaced(self):
+        (self.folder / "t.ply").write_text("A 151 1\n")
+        plan = self.plan(2, "--color", "table=t.ply")
+        self.bricks(plan)
+        self.check(1, "bricks", "merge", "plan.json", "--force", "-o", "t.ply", says="which is read")
+        (self.folder / "p.json").write_text("A 151 1\n")
+        self.check(1, "bricks", "plan", "dimer.cif.gz", "--force", "-o", "p.json", "--bricks", 2, "--color",
+                   "table=p.json", says="which is read")
 
     def test_a_missing_input_is_named(self):
         self.plan()

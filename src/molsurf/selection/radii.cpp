@@ -7,9 +7,11 @@
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/text_fields.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 
 namespace molsurf
@@ -369,6 +371,13 @@ std::string describeRadii()
            "\n" + describe(martini3, "Souza et al., Nat. Methods 18 (2021) 382 [Å]") +
            "\nmartini: the one of these two whose beads the file has; taken for such files "
            "anyway\n";
+}
+
+bool isRadiiSet(const std::string& name)
+{
+    constexpr const char* sets[] = {"bondi",   "alvarez", "gemmi",    "protor",
+                                    "naccess", "martini", "martini2", "martini3"};
+    return std::find(std::begin(sets), std::end(sets), name) != std::end(sets);
 }
 
 } // namespace molsurf

@@ -50,4 +50,7 @@ struct RadiiSet {
 ///         file and line, if a line is not a rule
 RadiiSet readRadii(const std::string& name);
 
+/// Whether readRadii() takes a name for that of a set, whatever files there are.
+bool isRadiiSet(const std::string& name);
+
 } // namespace molsurf
