@@ -410,10 +410,10 @@ BrickFile::BrickFile(const std::string& path)
         throw Error(ErrorKind::Input,
                     path + " is not the file of a brick: " + why + " [hint: run the brick again]");
     };
-    if (file_ < 0) throw Error(ErrorKind::Input, "cannot read " + path + ": " + strerror(errno));
+    if (!file_) throw Error(ErrorKind::Input, "cannot read " + path + ": " + strerror(errno));
     std::array<char, 8> mark{};
     Head head;
-    const off_t end = lseek(file_, 0, SEEK_END);
+    const off_t end = lseek(file_.get(), 0, SEEK_END);
     const std::uint64_t size = end < 0 ? 0 : std::uint64_t(end);
     if (size < bodyAt) refuse("it is too short");
     try {
@@ -431,9 +431,6 @@ BrickFile::BrickFile(const std::string& path)
         refuse("its header cannot be read");
     } catch (const std::range_error& e) {
         refuse(e.what());
-    } catch (...) {
-        close(file_);
-        throw;
     }
 }
 
@@ -450,22 +447,11 @@ std::uint64_t BrickFile::checksumOf(std::uint64_t size) const
     return sum;
 }
 
-BrickFile::~BrickFile()
-{
-    if (file_ >= 0) close(file_);
-}
-
-BrickFile::BrickFile(BrickFile&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)),
-      header_(std::move(other.header_))
-{
-}
-
 void BrickFile::read(std::uint64_t offset, void* to, std::size_t bytes) const
 {
     char* at = static_cast<char*>(to);
     while (bytes > 0) {
-        const ssize_t got = pread(file_, at, bytes, off_t(offset));
+        const ssize_t got = pread(file_.get(), at, bytes, off_t(offset));
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0)
             throw Error(ErrorKind::Input, "cannot read " + path_ + ": " +

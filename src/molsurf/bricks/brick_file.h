@@ -6,6 +6,7 @@
 /// be copied, and a JSON header that tells where they are.
 
 #include "molsurf/bricks/brick.h"
+#include "molsurf/core/file_descriptor.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/io/ply_layout.h"
 
@@ -42,7 +43,7 @@ struct StoredGrid {
 
 /// The content of the header.
 struct BrickHeader {
-    std::string plan;       ///< of which plan it is: see manifestId()
+    std::string plan;       ///< of which plan it is: the name that writeBrick() was given
     std::size_t number = 0; ///< from 1
     std::vector<StoredGrid> grids;
     PlyLayout layout;
@@ -70,10 +71,6 @@ public:
     /// @throws Error(ErrorKind::Input) if it cannot be read, is damaged, or is not the file of a
     ///         brick
     explicit BrickFile(const std::string& path);
-    ~BrickFile();
-    BrickFile(BrickFile&& other) noexcept;
-    BrickFile(const BrickFile&) = delete;
-    BrickFile& operator=(const BrickFile&) = delete;
 
     const BrickHeader& header() const { return header_; }
 
@@ -94,7 +91,7 @@ private:
     std::uint64_t checksumOf(std::uint64_t size) const;
 
     std::string path_;
-    int file_ = -1;
+    FileDescriptor file_;
     BrickHeader header_;
 };
 

@@ -357,6 +357,20 @@ TEST_F(Bricks, ACutFileIsRefused)
     EXPECT_THROW(BrickFile(path("other.brick")), Error);
 }
 
+TEST_F(Bricks, FilesThatAreRefusedAreClosed)
+{
+    std::ofstream(path("short.brick")) << "MOLBRK05";
+    std::ofstream(path("other.brick")) << "something else, of some length";
+    const auto opened = [] {
+        const std::filesystem::directory_iterator all("/proc/self/fd");
+        return std::distance(begin(all), end(all));
+    };
+    const auto before = opened();
+    for (int i = 0; i < 100; ++i)
+        EXPECT_THROW(BrickFile(path(i % 2 ? "short.brick" : "other.brick")), Error);
+    EXPECT_EQ(opened(), before);
+}
+
 /// Two bricks of a molecule, and what is done to them.
 struct HostileBricks : Bricks {
     void SetUp() override
