@@ -244,6 +244,10 @@ int batch(const Call& call)
                 ": " + describe(*table[i]));
     }
     save(call, options, table);
+    if (call.quiet && failed > 0)
+        say("error: " + std::to_string(failed) + " of " +
+            counted(tasks.size(), "structure", "structures") + " failed; the table is " +
+            (folder / "summary.csv").string());
     if (!call.quiet) {
         std::string line = counted(tasks.size(), "structure", "structures");
         if (kept > 0) line += ", " + std::to_string(kept) + " done before";

@@ -83,11 +83,30 @@ class Faults(ToolTest):
         self.check(1, "bricks", "run", "plan", "1", says="expected a plan")
         self.check(1, "bricks", "merge", "plan", "-o", "a.json", says="expected a plan")
 
+    def expect_plain(self, text):
+        self.assertTrue(all(c == "\n" or c >= " " and not "\x7f" <= c < "\xa0" for c in text), repr(text))
+
+    def test_control_characters_in_files_are_not_obeyed(self):
+        """Of chains, assemblies and metadata; the title and file of info, and what refuses them."""
+        lines = [line[:21] + "\x1b" + line[22:] if line.startswith("ATOM") else line
+                 for line in CRAMBIN.read_text().splitlines()]
+        (self.folder / "a\x1b.pdb").write_text("\n".join(lines) + "\n")
+        said = self.check(0, "info", "a\x1b.pdb").stdout.decode()
+        self.assertIn("1 (\\x1b)", said)
+        self.expect_plain(said)
+        (self.folder / "t").write_text("B 1 0.5\n")
+        error = self.check(1, "a\x1b.pdb", "--color", "table=t", *FAST, "-o", "a.ply", says="none of its atoms").stderr.decode()
+        self.expect_plain(error)
+        self.check(0, CRAMBIN, *FAST, "-o", "a.vdb", "-o", "b\x1b[1m.json")
+        said = self.check(0, "info", "a.vdb").stdout.decode()
+        self.assertIn("\\x1b[1m", said)
+        self.expect_plain(said)
+
     def test_control_characters_in_names_are_not_obeyed(self):
         for name in ("a\x1b[31mb.pdb", "a\x07b.pdb", "a\u009b31mb.pdb"):
             shutil.copy(CRAMBIN, self.folder / name)
             error = self.check(0, name, *FAST, "--force", "-o", "a.json", says="a\\x").stderr.decode()
-            self.assertTrue(all(c == "\n" or c >= " " and not "\x7f" <= c < "\xa0" for c in error), error)
+            self.expect_plain(error)
             self.check(1, name + "x", *FAST, "-o", "b.json", says="a\\x")
 
 

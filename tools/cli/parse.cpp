@@ -47,16 +47,27 @@ po::options_description describe(Verb verb)
     return all;
 }
 
+/// The first words of the verbs.
+std::vector<std::string> verbs()
+{
+    std::vector<std::string> names;
+    for (const VerbInfo& info : verbTable()) {
+        const std::string name = info.name;
+        const std::string first = name.substr(0, name.find(' '));
+        if (std::count(names.begin(), names.end(), first) == 0) names.push_back(first);
+    }
+    return names;
+}
+
 /// The verb that the first words of a command line name; takes them away.
 Verb takeVerb(std::vector<std::string>& words)
 {
     if (words.empty()) return Build;
-    std::vector<std::string> names, second;
+    std::vector<std::string> second;
     for (const VerbInfo& info : verbTable()) {
         const std::string name = info.name;
         const std::size_t space = name.find(' ');
         const std::string first = name.substr(0, space);
-        if (std::count(names.begin(), names.end(), first) == 0) names.push_back(first);
         if (lowered(words[0]) != first) continue;
         if (space == std::string::npos) {
             words.erase(words.begin());
@@ -74,7 +85,7 @@ Verb takeVerb(std::vector<std::string>& words)
             (words.size() > 1 ? "" : " [hint: vdb_molsurf help]"));
     // A word that is nearly a verb, and no file.
     std::error_code ignored;
-    const std::string hint = didYouMean(words[0], names);
+    const std::string hint = didYouMean(words[0], verbs());
     if (!hint.empty() && words[0][0] != '-' && words[0].find_first_of("./") == std::string::npos &&
         !std::filesystem::exists(words[0], ignored))
         misuse("unknown verb '" + words[0] + "'" + hint);
@@ -197,7 +208,11 @@ Parsed parse(int argc, const char* const* argv)
     if (words.size() == 1 && words[0] == "--options-page") return {{}, optionsPage()};
     if (!words.empty() && lowered(words[0]) == "help") {
         words.erase(words.begin());
-        return {{}, words.empty() ? overview() : helpText(takeVerb(words))};
+        if (words.empty()) return {{}, overview()};
+        const Verb verb = takeVerb(words);
+        if (!words.empty())
+            misuse("help: expected a verb, got '" + words[0] + "'" + didYouMean(words[0], verbs()));
+        return {{}, helpText(verb)};
     }
     call.verb = takeVerb(words);
 
