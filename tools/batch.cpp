@@ -77,7 +77,7 @@ std::vector<Task> tasksOf(const Call& call)
 {
     std::vector<Task> tasks;
     std::map<std::string, std::string> taken; // by stem
-    for (const std::string& input : readStructureList(call.input)) {
+    for (const std::string& input : readStructureList(call.input, call.atoms.maxInput)) {
         const std::string stem = stemOf(input);
         const auto [other, fresh] = taken.emplace(stem, input);
         if (stem.empty() || !fresh) failTwice(call, input, other->second, stem + ".*");

@@ -235,7 +235,7 @@ class Config(ToolTest):
         self.check(1, CRAMBIN, "-o", "a.vdb", "--config", "c.txt", says=["c.txt", "No such file"])
 
     def test_folder(self):
-        self.check(1, CRAMBIN, "-o", "a.vdb", "--config", ".", says="directory")
+        self.check(1, CRAMBIN, "-o", "a.vdb", "--config", ".", says="folder")
 
 
 class Talk(ToolTest):

@@ -7,14 +7,13 @@
 
 #include "molsurf/error.h"
 #include "molsurf/selection/select_balls.h"
+#include "molsurf/structure/load_text.h"
 
 #include <boost/program_options.hpp>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 
 namespace molsurf::tool
 {
@@ -149,17 +148,11 @@ void add(Verb verb, const po::parsed_options& parsed, GivenOptions& given,
 
 void readConfig(const std::string& path, const po::options_description& all, Call& call)
 {
-    std::error_code ignored;
-    errno = std::filesystem::is_directory(path, ignored) ? EISDIR : 0;
-    std::ifstream file(path);
-    if (errno == EISDIR || !file)
-        throw Error(ErrorKind::Input, "cannot read " + path + ": " + std::strerror(errno));
+    const auto limit = call.given.find("max-input");
+    if (limit != call.given.end()) findOption(call.verb, "max-input")->set(call, limit->second);
+    std::istringstream text(loadBytes(path, call.atoms.maxInput));
     try {
-        errno = 0;
-        const auto options = po::parse_config_file(file, all);
-        if (file.bad())
-            throw Error(ErrorKind::Input,
-                        "it cannot be read: " + std::string(std::strerror(errno)));
+        const auto options = po::parse_config_file(text, all);
         add(call.verb, options, call.given, call.inputs);
     } catch (const po::error& e) {
         misuse("--config " + path + ": " + e.what());

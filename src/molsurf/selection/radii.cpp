@@ -266,9 +266,9 @@ void addRule(RadiiSet& set, const Fields& fields, const std::string& place)
     }
 }
 
-RadiiSet readFile(const std::string& path)
+RadiiSet readFile(const std::string& path, std::size_t maxBytes)
 {
-    const std::string text = loadText(path);
+    const std::string text = loadText(path, maxBytes);
     RadiiSet set;
     set.name = path;
     for (LineReader lines(text); lines.next();) {
@@ -331,7 +331,7 @@ double RadiiSet::find(const std::string& residue, const std::string& atom,
     return radius < 0 ? 0 : radius;
 }
 
-RadiiSet readRadii(const std::string& name)
+RadiiSet readRadii(const std::string& name, std::size_t maxBytes)
 {
     if (name == "bondi") return bondiSet();
     if (name == "alvarez") return alvarezSet();
@@ -347,7 +347,7 @@ RadiiSet readRadii(const std::string& name)
                     "martini3 or a file that exists, got " +
                         inQuotes(name));
     }
-    return readFile(name);
+    return readFile(name, maxBytes);
 }
 
 std::string describeRadii()
