@@ -4,6 +4,7 @@
 #include "cli/option_table.h"
 #include "input_files.h"
 #include "outputs.h"
+#include "sha256.h"
 #include "terminal.h"
 
 #include "molsurf/error.h"
@@ -76,7 +77,7 @@ std::vector<Task> tasksOf(const Call& call)
 {
     std::vector<Task> tasks;
     std::map<std::string, std::string> taken; // by stem
-    for (const std::string& input : readStructureList(call.input)) {
+    for (const std::string& input : readStructureList(call.input, call.atoms.maxInput)) {
         const std::string stem = stemOf(input);
         const auto [other, fresh] = taken.emplace(stem, input);
         if (stem.empty() || !fresh) failTwice(call, input, other->second, stem + ".*");
@@ -202,6 +203,9 @@ std::string optionsLine(const Call& call)
             for (const std::string& value : call.given.at(name)) line += " " + value;
         }
     }
+    for (const OptionFile& file : filesOf(call.verb, call.given))
+        if (file.option->stored)
+            line += " (" + file.path + ": " + sha256OfFile(file.path).substr(0, 16) + ")";
     return line;
 }
 
@@ -240,6 +244,10 @@ int batch(const Call& call)
                 ": " + describe(*table[i]));
     }
     save(call, options, table);
+    if (call.quiet && failed > 0)
+        say("error: " + std::to_string(failed) + " of " +
+            counted(tasks.size(), "structure", "structures") + " failed; the table is " +
+            (folder / "summary.csv").string());
     if (!call.quiet) {
         std::string line = counted(tasks.size(), "structure", "structures");
         if (kept > 0) line += ", " + std::to_string(kept) + " done before";

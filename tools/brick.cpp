@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "bricks.h"
 #include "cli/complete.h"
+#include "cli/option_table.h"
 #include "cli/parse.h"
 #include "sha256.h"
 #include "stop.h"
@@ -11,6 +12,7 @@
 #include "molsurf/bricks/plan_file.h"
 #include "molsurf/error.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -26,22 +28,30 @@ std::string brickPath(const std::string& planPath, std::size_t number)
 Call callOf(PlanManifest manifest, const std::string& path)
 {
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    const auto resolve = [&](std::string& file) {
-        for (const char* name : {"groups", "radii"}) {
-            const auto found = manifest.options.find(name);
-            if (found != manifest.options.end() && !found->second.empty() &&
-                found->second.back() == file)
-                found->second.back() = (folder / file).string();
+    const auto resolved = [&](const std::string& file) { return (folder / file).string(); };
+    for (PlanInput& file : manifest.files) file.path = resolved(file.path);
+    manifest.input = resolved(manifest.input);
+    std::vector<std::string> read = {manifest.input};
+    for (auto& [name, values] : manifest.options) {
+        const Option* option = findOption(BricksPlan, name);
+        if (!option || !option->file) continue;
+        for (std::string& value : values) {
+            const std::size_t begin = option->file(value);
+            if (begin == std::string::npos) continue;
+            read.push_back(resolved(value.substr(begin)));
+            value.replace(begin, std::string::npos, read.back());
         }
-        file = (folder / file).string();
-    };
-    for (PlanInput& file : manifest.files) resolve(file.path);
-    resolve(manifest.input);
+    }
+    for (const std::string& file : read)
+        if (std::none_of(manifest.files.begin(), manifest.files.end(),
+                         [&](const PlanInput& known) { return known.path == file; }))
+            throw Error(ErrorKind::Input, "the plan is damaged: it has no hash of " + file);
     if (manifest.version != MOLSURF_VERSION)
         throw Error(ErrorKind::Input, "the plan was made by version " + manifest.version +
                                           ", this is " MOLSURF_VERSION);
+    std::error_code ignored;
     for (const PlanInput& file : manifest.files) {
-        if (!std::filesystem::exists(file.path))
+        if (!std::filesystem::is_regular_file(file.path, ignored))
             throw Error(ErrorKind::Input, "cannot find " + file.path +
                                               ", which the plan was made of [hint: it has to lie "
                                               "where it lay, seen from the plan]");
@@ -94,7 +104,7 @@ int brick(const Call& call)
     build.outputs = {{path, Format::Vdb, "", 0.0}};
     build.force = true;
     build.quiet = call.quiet;
-    build.inputs = {call.input, call.config};
+    build.inputs = {call.input};
     prepareOutputs(build);
     openvdb::initialize();
     limitThreads(call);

@@ -34,9 +34,10 @@ Call callOf(PlanManifest manifest, const std::string& path);
 /// Joins bricks and writes the outputs of a call.
 /// @param[in]     paths   of all bricks, in their order
 /// @param[in]     id      of their plan
+/// @param[in]     meshed  whether they have to hold the mesh
 /// @param[in,out] report  completed
 void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std::string>& paths,
-                 const std::string& id, Terminal& terminal, Clock::time_point start,
+                 const std::string& id, bool meshed, Terminal& terminal, Clock::time_point start,
                  Report& report);
 
 /// What a surface may take by a call and on this machine.

@@ -153,7 +153,7 @@ int buildInBricks(const Call& call, Clock::time_point start)
     atoms = BallSet();
     releasePages();
     malloc_trim(0);
-    mergeBricks(call, plan, paths, "one process", terminal, start, report);
+    mergeBricks(call, plan, paths, "one process", meshed, terminal, start, report);
     if (!call.quiet) say(summary(report));
     return endOf(report);
 }

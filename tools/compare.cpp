@@ -68,7 +68,7 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
         terminal.update("surface", 0.0);
         read.operand = naming(path, [&] { return operandOf(file.grids, terminal); });
     } else if (isMeshName(path)) {
-        Mesh mesh = readMesh(path);
+        Mesh mesh = readMesh(path, call.atoms.maxInput);
         stopIfAsked();
         read.operand = operandOf(std::move(mesh), terminal);
     } else {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "input_files.h"
 
+#include "cli/option_table.h"
+
 #include "molsurf/error.h"
 
 #include <sys/stat.h>
@@ -12,9 +14,8 @@ namespace molsurf::tool
 InputFiles::InputFiles(const Call& call)
 {
     for (const std::string& path : call.inputs) add(path);
-    for (const std::string& path :
-         {call.input, call.trajectory, call.groupsFile, call.atoms.radii, call.config})
-        add(path);
+    add(call.input);
+    for (const OptionFile& file : filesOf(call.verb, call.given)) add(file.path);
 }
 
 void InputFiles::add(const std::string& path)

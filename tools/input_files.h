@@ -2,7 +2,8 @@
 #pragma once
 
 /// @file
-/// The files that a call reads, none of which it may replace.
+/// The files that a call reads, none of which it may replace: its inputs, and all that the table of
+/// options says that their values name.
 
 #include "cli/call.h"
 

@@ -15,10 +15,11 @@ namespace molsurf::tool
 {
 
 void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std::string>& paths,
-                 const std::string& id, Terminal& terminal, Clock::time_point start, Report& report)
+                 const std::string& id, bool meshed, Terminal& terminal, Clock::time_point start,
+                 Report& report)
 {
     terminal.update("merge", 0.0);
-    const MergedBricks merged(paths, id, plan.atoms, call.options);
+    const MergedBricks merged(paths, id, plan, call.options, meshed);
     const auto said = std::move(report.warnings);
     const auto seconds = std::move(report.seconds);
     report = merged.report();
@@ -58,14 +59,15 @@ int merge(const Call& call, Clock::time_point start)
     for (std::size_t k = 1; k <= manifest.plan.bricks.size(); ++k)
         paths.push_back(brickPath(call.input, k));
     build.inputs = paths;
-    build.inputs.insert(build.inputs.end(), {call.input, call.config});
+    build.inputs.push_back(call.input);
     prepareOutputs(build);
     openvdb::initialize();
     limitThreads(call);
     Terminal terminal(call.progress);
     Report report;
     report.warnings = build.warnings;
-    mergeBricks(build, manifest.plan, paths, sha256OfFile(call.input), terminal, start, report);
+    mergeBricks(build, manifest.plan, paths, sha256OfFile(call.input), true, terminal, start,
+                report);
     if (call.verbose) sayTimes(report);
     if (!call.quiet) {
         for (const std::string& warning : report.warnings) say("warning: " + warning);

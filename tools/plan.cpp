@@ -47,29 +47,21 @@ std::string fromPlan(const Call& call, const std::string& path)
         .string();
 }
 
-// Files beside the structure that the surface depends on.
-std::vector<std::string> filesRead(const Call& call)
-{
-    std::vector<std::string> files;
-    if (!call.groupsFile.empty()) files.push_back(call.groupsFile);
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(call.atoms.radii, ignored))
-        files.push_back(call.atoms.radii);
-    return files;
-}
-
-// The options that say what surface is wanted.
+// The options that say what surface is wanted; those that name files do so from the plan.
 GivenOptions planned(const Call& call)
 {
     GivenOptions options;
-    for (const OptionGroup& group : optionTable())
-        for (const Option& option : group.options)
-            if (option.stored && (option.verbs & BricksPlan) && call.has(option.name))
-                options[option.name] = call.given.at(option.name);
-    for (const std::string& file : filesRead(call))
-        for (const char* name : {"groups", "radii"})
-            if (options.count(name) && options[name].back() == file)
-                options[name].back() = fromPlan(call, file);
+    for (const auto& [name, values] : call.given) {
+        const Option* option = findOption(BricksPlan, name);
+        if (!option || !option->stored) continue;
+        for (const std::string& value : values) {
+            const std::size_t begin = option->file ? option->file(value) : std::string::npos;
+            options[name].push_back(begin == std::string::npos
+                                        ? value
+                                        : value.substr(0, begin) +
+                                              fromPlan(call, value.substr(begin)));
+        }
+    }
     return options;
 }
 
@@ -89,8 +81,9 @@ int plan(const Call& call)
     manifest.options = planned(call);
     manifest.voxel = call.options.voxel;
     manifest.files.push_back({manifest.input, sha256OfFile(call.input)});
-    for (const std::string& file : filesRead(call))
-        manifest.files.push_back({fromPlan(call, file), sha256OfFile(file)});
+    for (const OptionFile& file : filesOf(call.verb, call.given))
+        if (file.option->stored)
+            manifest.files.push_back({fromPlan(call, file.path), sha256OfFile(file.path)});
     manifest.plan =
         planBricks(atoms, call.options, {std::size_t(call.bricks), call.memory}, terminal);
     terminal.erase();

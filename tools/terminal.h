@@ -16,10 +16,6 @@ namespace molsurf::tool
 /// --max-steps.
 std::string withOptionNames(const std::string& message);
 
-/// A text whose control characters, which terminals obey, are written as \x1b and the like; an end
-/// of a line is a space.
-std::string printable(const std::string& text);
-
 /// Prints "vdb_molsurf: ..." (programName) as one line on standard error, whatever the text holds.
 void say(const std::string& text);
 

@@ -43,7 +43,7 @@ Report mergeBricks(const std::vector<std::string>& bricks, const BrickPlan& plan
     checkOptions(options);
     Progress nobody;
     Progress& progress = listener ? *listener : nobody;
-    const MergedBricks merged(bricks, libraryPlan, plan.atoms, options);
+    const MergedBricks merged(bricks, libraryPlan, plan, options, true);
     std::optional<OutputFile> grids, mesh;
     std::vector<OutputFile*> files;
     if (!vdb.empty()) {

@@ -38,6 +38,12 @@ def other_user():
     return {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
 
 
+def faulty(**what):
+    """The environment of a file system that lacks something: tests/support/faulty_system.cpp."""
+    return {**os.environ, "LD_PRELOAD": os.environ.get("FAULTY_SYSTEM", "none"),
+            **{f"FAULTY_{name.upper()}": str(value) for name, value in what.items()}}
+
+
 def can_mount():
     with tempfile.TemporaryDirectory() as folder:
         return runs("mount", "-t", "tmpfs", "tmpfs", folder) and runs("umount", folder)
@@ -69,6 +75,8 @@ NEEDS = {
     "groff": (program("groff", "preconv"), "scripts/install_deps.sh groff"),
     "openvdb": (lambda: all(map(importlib.util.find_spec, ("numpy", "pyopenvdb"))),
                 "scripts/install_deps.sh python3-openvdb python3-numpy"),
+    "preload": (lambda: runs(os.environ["VDB_MOLSURF"], "--version", env=faulty()),
+                "the tests as ctest runs them, without sanitizers, which want to be loaded first"),
     "readelf": (program("readelf"), "scripts/install_deps.sh binutils"),
     "snakemake": (program("snakemake"), "scripts/install_deps.sh snakemake"),
     "strace": (lambda: runs("strace", "-qq", "-o", "/dev/null", "-e", "inject=all:delay_exit=1:when=1", "true"),

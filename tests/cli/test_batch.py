@@ -89,6 +89,19 @@ class Batch(ToolTest):
         self.assertNotEqual(json.loads((self.folder / "out" / "1crn.json").read_text())["command"]
                             .find("--probe"), -1)
 
+    def test_quiet_tells_of_failures_alone(self):
+        (self.folder / "list").write_text("none.pdb\nother.pdb\n")
+        done = self.batch(1, "-q", "--formats", "json", says="2 of 2 structures failed; the table is out/summary.csv")
+        self.assertEqual(done.stderr.count(b"\n"), 1)
+        (self.folder / "list").write_text(f"{CRAMBIN}\n")
+        self.assertEqual(self.batch(0, "-q", "--formats", "json").stderr, b"")
+
+    def test_files_that_options_name_count_by_their_content(self):
+        (self.folder / "list").write_text(f"{CRAMBIN}\n")
+        for radius, status, says in ((1.7, 0, "0 failed"), (1.7, 0, "1 done before"), (1.8, 1, "other options")):
+            (self.folder / "r").write_text(f"* {radius}\n")
+            self.batch(status, "--radii", "r", "--formats", "json", says=says)
+
     def test_not_converged(self):
         (self.folder / "list").write_text(f"{CRAMBIN}\n")
         self.batch(3, "--max-steps", "1", "--formats", "json", says="1 not converged")

@@ -2,16 +2,22 @@
 """bricks plan, run and merge; --memory and --dry-run."""
 
 import collections
+import hashlib
 import json
+import os
 import shutil
 import signal
+import struct
 import subprocess
 import time
 import unittest
+import zlib
 
 from tool import CRAMBIN, DATA, FAST, TOOL, ToolTest, read_ply
 
 STEPS = ["--steps", "4"]
+HEAD = 32  # bytes of a brick before its sections
+LEAF = struct.Struct("<3iIQQ8Q")
 
 
 def edges(triangles):
@@ -137,6 +143,45 @@ class Bricks(ToolTest):
         self.run_tool("bricks", "merge", moved / "deep" / "plan.json", "-o", "m.ply")
         self.assertIn("m.ply", self.names())
 
+    def test_the_files_of_options_are_part_of_a_plan(self):
+        """They are found from it, and with other ones it is another plan."""
+        table = self.folder / "t.csv"
+        values = "".join(f"A {n} {n}\n" for n in range(151, 220))
+        table.write_text(values)
+        (self.folder / "bondi").write_text("no radii")
+        (self.folder / "deep").mkdir()
+        words = ["bricks", "plan", self.input, "-o", "deep/plan.json", "--bricks", 2, "--color", "table=t.csv",
+                 "--radii", "bondi", *FAST, *STEPS]
+        self.check(0, *words)
+        plan = self.report("deep/plan.json")
+        self.assertEqual(plan["options"]["color"], ["table=../t.csv"])
+        self.assertEqual(plan["options"]["radii"], ["bondi"])
+        self.assertIn({"path": "../t.csv", "sha256": hashlib.sha256(values.encode()).hexdigest()}, plan["files"])
+        for k in (1, 2):
+            self.check(0, "bricks", "run", "plan.json", k, cwd=self.folder / "deep")
+        self.check(0, "bricks", "merge", "deep/plan.json", "-o", "m.vdb", "-o", "m.ply")
+        self.assertIn(hashlib.sha256(values.encode()).hexdigest(), self.check(0, "info", "m.vdb").stdout.decode())
+        table.write_text(values.replace("A 151 151", "A 151 15"))
+        self.check(1, "bricks", "merge", "deep/plan.json", "-o", "n.ply", says="t.csv has changed")
+        self.check(0, *words, "--force")
+        self.check(1, "bricks", "merge", "deep/plan.json", "-o", "n.ply", says="belongs to another plan")
+
+    def test_a_file_without_a_hash_is_refused(self):
+        (self.folder / "t.csv").write_text("A 151 1\n")
+        plan = self.plan(2, "--color", "table=t.csv")
+        plan["files"] = [file for file in plan["files"] if file["path"] != "t.csv"]
+        (self.folder / "plan.json").write_text(json.dumps(plan))
+        self.check(1, "bricks", "run", "plan.json", 1, says="no hash of t.csv")
+
+    def test_the_files_of_a_plan_are_never_replaced(self):
+        (self.folder / "t.ply").write_text("A 151 1\n")
+        plan = self.plan(2, "--color", "table=t.ply")
+        self.bricks(plan)
+        self.check(1, "bricks", "merge", "plan.json", "--force", "-o", "t.ply", says="which is read")
+        (self.folder / "p.json").write_text("A 151 1\n")
+        self.check(1, "bricks", "plan", "dimer.cif.gz", "--force", "-o", "p.json", "--bricks", 2, "--color",
+                   "table=p.json", says="which is read")
+
     def test_a_missing_input_is_named(self):
         self.plan()
         self.input.unlink()
@@ -247,6 +292,149 @@ class Memory(ToolTest):
             time.sleep(0.02)
         process.send_signal(number)
         self.assertEqual(process.wait(timeout=60), status)
+
+
+class Hostile(ToolTest):
+    """Bricks and plans of somebody who makes the checksums right: they are refused soon, and take little memory."""
+
+    LITTLE, SOON = 100e6, 0.5  # bytes; seconds of all processors
+
+    def setUp(self):
+        super().setUp()
+        shutil.copy(CRAMBIN, self.folder / "a.pdb")
+        self.check(0, "bricks", "plan", "a.pdb", "-o", "plan.json", "--bricks", 2, "--voxel", 0.5, *STEPS)
+        for k in (1, 2):
+            self.check(0, "bricks", "run", "plan.json", k, "-q")
+        self.body, self.header = self.load(1)
+        self.assertEqual(self.refuse(), "", "a good one is written as it was")
+
+    def load(self, number):
+        data = (self.folder / f"plan.{number}.brick").read_bytes()
+        begin, size = struct.unpack_from("<QQ", data, 8)
+        return data[HEAD:begin], json.loads(data[begin:begin + size])
+
+    def store(self, number, body, header):
+        text = json.dumps(header).encode()
+        head = struct.pack("<QQQ", HEAD + len(body), len(text), zlib.crc32(body + text))
+        (self.folder / f"plan.{number}.brick").write_bytes(b"MOLBRK05" + head + body + text)
+
+    def refuse(self):
+        """Writes the first brick as it is now, and merges. Returns the error."""
+        self.store(1, self.body, self.header)
+        child = subprocess.Popen([TOOL, "bricks", "merge", "plan.json", "--force", "-q", "-o", "m.vdb", "-o", "m.ply",
+                                  "-o", "m.json"], cwd=self.folder, stderr=subprocess.PIPE)
+        error = child.stderr.read().decode()
+        child.stderr.close()
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(child.returncode, 1 if error else 0, error)
+        self.assertLessEqual(error.count("\n"), 1, error)
+        if not any(name in TOOL for name in ("build-fuzz", "build-asan", "build-tsan", "build-coverage")):
+            self.assertLess(usage.ru_maxrss * 1024, self.LITTLE)
+            self.assertLess(usage.ru_utime + usage.ru_stime, self.SOON)
+        return error
+
+    def insert(self, at, data):
+        """Puts bytes into the body; what the header has behind them moves."""
+        self.body = self.body[:at - HEAD] + data + self.body[at - HEAD:]
+
+        def moved(entry):
+            if isinstance(entry, dict):
+                return {key: moved(value) for key, value in entry.items()}
+            if isinstance(entry, list) and len(entry) == 2 and all(isinstance(x, int) for x in entry):
+                return [entry[0] + len(data) if entry[0] >= at else entry[0], entry[1]]
+            return [moved(value) for value in entry] if isinstance(entry, list) else entry
+
+        self.header = moved(self.header)
+
+    def leaves(self):
+        """(offset of the leaves' records, their number, a record, its values)."""
+        offset, count = self.header["grids"][0]["leaves"]
+        record = self.body[offset - HEAD:offset - HEAD + LEAF.size]
+        x, y, z, negative, at, size, *mask = LEAF.unpack(record)
+        return offset, count, (negative, mask), self.body[at - HEAD:at - HEAD + size]
+
+    def add_leaves(self, places):
+        """Adds copies of the first leaf, as far as a plan of the whole space takes them."""
+        offset, count, (negative, mask), values = self.leaves()
+        self.insert(offset, values * len(places))
+        records = b"".join(LEAF.pack(*place, negative, offset + i * len(values), len(values), *mask)
+                           for i, place in enumerate(places))
+        self.insert(offset + len(values) * len(places) + count * LEAF.size, records)
+        self.header["grids"][0]["leaves"] = [offset + len(values) * len(places), count + len(places)]
+
+    def widen(self):
+        """Makes the first box of the plan that of the whole space, and both bricks those of this plan."""
+        plan = json.loads((self.folder / "plan.json").read_text())
+        plan["bricks"][0].update(min=[-(1 << 26)] * 3, max=[(1 << 26) - 1] * 3)
+        (self.folder / "plan.json").write_text(json.dumps(plan))
+        body, header = self.load(2)
+        name = hashlib.sha256((self.folder / "plan.json").read_bytes()).hexdigest()
+        self.header["plan"] = header["plan"] = name
+        self.store(2, body, header)
+
+    def test_leaves_far_from_each_other(self):
+        self.add_leaves([(x << 13, y << 13, 0) for x in range(1, 31) for y in range(1, 31)])
+        self.assertIn("has a leaf far away", self.refuse())
+        self.widen()
+        self.assertIn("too far from each other", self.refuse())
+
+    def test_leaves_with_the_same_values(self):
+        """A file of 0.4 MB, whose leaves all have the same megabyte."""
+        offset, count, _, _ = self.leaves()
+        for i in range(count):
+            at = offset - HEAD + i * LEAF.size
+            x, y, z, negative, _, _, *mask = LEAF.unpack(self.body[at:at + LEAF.size])
+            record = LEAF.pack(x, y, z, negative, HEAD, offset - HEAD, *mask)
+            self.body = self.body[:at] + record + self.body[at + LEAF.size:]
+        self.assertIn("whose values lie elsewhere", self.refuse())
+
+    def test_grids_with_the_same_leaves(self):
+        grid = self.header["grids"][0]
+        self.header["grids"] += [dict(grid, name=f"g{i}") for i in range(2000)]
+        self.assertIn("leaves lie outside", self.refuse())
+
+    def test_values_that_are_none(self):
+        offset, *_ = self.leaves()
+        self.body = b"\x07" * (offset - HEAD) + self.body[offset - HEAD:]
+        self.assertIn("not those of their leaf", self.refuse())
+
+    def test_half_of_the_triangles(self):
+        offset, count = self.header["triangles"]
+        cut = 12 * (count // 2)
+        self.body = self.body[:offset - HEAD + 12 * count - cut] + self.body[offset - HEAD + 12 * count:]
+        self.header["triangles"][1] -= count // 2
+        for name in ("areas", "curvatures", "border", "open_edges", "pieces"):
+            self.header[name][0] -= cut
+        self.assertRegex(self.refuse(), "pieces|holes|open edges|no triangle")
+
+    def test_counts_that_are_none(self):
+        for name, value in (("degenerate_triangles", 1e300), ("kink_vertices", -1), ("brick", 1.5),
+                            ("triangles", [0, 1 << 60])):
+            before, self.header[name] = self.header[name], value
+            self.assertRegex(self.refuse(), "numbers are none|holds no mesh|lie elsewhere")
+            self.header[name] = before
+        self.header["displacements"]["bins"][3] = 1e300
+        self.assertIn("numbers are none", self.refuse())
+
+    def test_vertices_that_share_their_keys(self):
+        """Tables by key stay fast whatever the keys are."""
+        offset, count = self.header["border"]
+        record = self.body[offset - HEAD:offset - HEAD + 24]
+        many = 300000
+        self.insert(offset + 24 * count, record * many)
+        self.header["border"][1] += many
+        self.refuse()
+
+    def test_plans(self):
+        good = json.loads((self.folder / "plan.json").read_text())
+        brick = good["bricks"][0]
+        for change in ({"bricks": []}, {"bricks": [dict(brick, min=[1e300, 0, 0])]}, {"steps": 1e300},
+                       {"bricks": [dict(brick, max=[(1 << 31) - 1] * 3)]}, {"atoms": -1},
+                       {"files": good["files"] + [{"path": "/dev/zero", "sha256": ""}]},
+                       {"input": "/dev/zero"}, {"anchor": [1 << 40, 0, 0]}):
+            (self.folder / "plan.json").write_text(json.dumps({**good, **change}))
+            self.assertNotEqual(self.refuse(), "", change)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import time
 import unittest
 
 from kill import NAMING, killed_at, signalled_at, state
-from needs import needs
+from needs import faulty, needs
 from tool import CRAMBIN, DATA, FAST, TOOL, ToolTest
 
 MEGABYTE = 1 << 20
@@ -83,11 +83,30 @@ class Faults(ToolTest):
         self.check(1, "bricks", "run", "plan", "1", says="expected a plan")
         self.check(1, "bricks", "merge", "plan", "-o", "a.json", says="expected a plan")
 
+    def expect_plain(self, text):
+        self.assertTrue(all(c == "\n" or c >= " " and not "\x7f" <= c < "\xa0" for c in text), repr(text))
+
+    def test_control_characters_in_files_are_not_obeyed(self):
+        """Of chains, assemblies and metadata; the title and file of info, and what refuses them."""
+        lines = [line[:21] + "\x1b" + line[22:] if line.startswith("ATOM") else line
+                 for line in CRAMBIN.read_text().splitlines()]
+        (self.folder / "a\x1b.pdb").write_text("\n".join(lines) + "\n")
+        said = self.check(0, "info", "a\x1b.pdb").stdout.decode()
+        self.assertIn("1 (\\x1b)", said)
+        self.expect_plain(said)
+        (self.folder / "t").write_text("B 1 0.5\n")
+        error = self.check(1, "a\x1b.pdb", "--color", "table=t", *FAST, "-o", "a.ply", says="none of its atoms").stderr.decode()
+        self.expect_plain(error)
+        self.check(0, CRAMBIN, *FAST, "-o", "a.vdb", "-o", "b\x1b[1m.json")
+        said = self.check(0, "info", "a.vdb").stdout.decode()
+        self.assertIn("\\x1b[1m", said)
+        self.expect_plain(said)
+
     def test_control_characters_in_names_are_not_obeyed(self):
         for name in ("a\x1b[31mb.pdb", "a\x07b.pdb", "a\u009b31mb.pdb"):
             shutil.copy(CRAMBIN, self.folder / name)
             error = self.check(0, name, *FAST, "--force", "-o", "a.json", says="a\\x").stderr.decode()
-            self.assertTrue(all(c == "\n" or c >= " " and not "\x7f" <= c < "\xa0" for c in error), error)
+            self.expect_plain(error)
             self.check(1, name + "x", *FAST, "-o", "b.json", says="a\\x")
 
 
@@ -176,6 +195,86 @@ class Commit(ToolTest):
         self.assertEqual(done.returncode, 130, done.stderr)
         self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir()),
                          ["summary.csv", "summary.json", "x.json", "x.ply", "x.vdb"])
+
+    @needs("preload")
+    def test_kill_where_the_file_system_lacks_something(self):
+        for lacking in ("flock", "flock renameat2", "flock link", "link renameat2"):
+            results = []
+            for number in itertools.count(1):
+                self.begin()
+                status = self.run_tool(*self.WORDS, env=faulty(without=lacking, kill=number)).returncode
+                if status:
+                    self.assertEqual(status, -signal.SIGKILL)
+                    self.check(1, "none.pdb", "-o", "b.json", env=faulty(without=lacking))
+                results.append(self.result())
+                if status == 0:
+                    break
+            self.assertGreater(len(results), 3 * len(FILES), lacking)
+            self.assertEqual(set(results), {"old", "new"}, lacking)
+            self.assertEqual(results, sorted(results, reverse=True), "after the decision all are new")
+
+    @needs("preload")
+    def test_renamings_that_fail(self):
+        """One that fails is taken back at once; where all fail from then on, the next run does what is missing."""
+        for lacking in ("", "renameat2", "link", "flock renameat2 link"):
+            for more in ("", "-"):
+                results = []
+                for number in itertools.count(1):
+                    self.begin()
+                    done = self.run_tool(*self.WORDS, env=faulty(without=lacking, eio=f"{number}{more}"))
+                    if done.returncode:
+                        self.assertEqual((done.returncode, done.stderr.count(b"\n")), (1, 1), done.stderr)
+                        self.assertIn(b"Input/output error", done.stderr)
+                    if more:
+                        self.check(1, "none.pdb", "-o", "b.json")
+                    results.append(self.result())
+                    if done.returncode == 0:
+                        break
+                self.assertGreater(len(results), len(FILES), lacking)
+                if not more:
+                    self.assertEqual(results[:-1], ["old"] * (len(results) - 1), lacking)
+
+    @needs("preload")
+    def test_a_new_file_in_the_place_of_none_where_renames_cannot_refuse(self):
+        words = [word for word in self.WORDS if word != "--force"]
+        for name in FILES:
+            (self.folder / name).unlink()
+        self.check(0, *words, env=faulty(without="renameat2"))
+        self.assertEqual(self.names(), FILES)
+        self.check(1, *words, env=faulty(without="renameat2"), says="it exists already")
+
+    @needs("preload")
+    def test_files_of_a_process_at_work_stay(self):
+        """Also where there are no locks to tell that it is."""
+        process = subprocess.Popen([TOOL, CRAMBIN, "--voxel", "0.15", "-q", "--force", "-o", "a.json", "-o", "a.obj"],
+                                   cwd=self.folder, env=faulty(without="flock"))
+        while process.poll() is None and not any(name.endswith(".part") for name in self.names()):
+            time.sleep(0.005)
+        process.send_signal(signal.SIGSTOP)
+        before = self.names()
+        self.assertTrue(any(name.endswith(".part") for name in before), "it ended before it wrote")
+        self.check(1, "none.pdb", "-o", "b.json", env=faulty(without="flock"))
+        self.assertEqual(self.names(), before)
+        process.send_signal(signal.SIGCONT)
+        self.assertEqual(process.wait(60), 0)
+        self.assertEqual(self.names(), FILES)
+
+    @needs("preload")
+    def test_all_is_on_the_disk_before_the_first_name(self):
+        self.begin()
+        self.check(0, *self.WORDS, env=faulty(log=self.folder / "log"))
+        lines = [line.split() for line in (self.folder / "log").read_text().splitlines()]
+        (self.folder / "log").unlink()
+        first = next(i for i, (what, _) in enumerate(lines) if what == "rename")
+        files = [path.rsplit("/", 1)[1] for what, path in lines[:first] if what == "sync"
+                 and path.endswith(".part") and "commit" not in path]
+        self.assertEqual(sorted(name.split(".")[1] + "." + name.split(".")[2] for name in files), FILES,
+                         "each file once, before the first name changes")
+        record = next(i for i, (what, path) in enumerate(lines) if what == "sync" and "commit" in path)
+        folder = [i for i, (what, path) in enumerate(lines) if what == "sync" and path == str(self.folder.resolve())]
+        self.assertTrue(any(first - 2 <= i < record for i in folder), "the folder before the record")
+        self.assertTrue(folder[-1] > max(i for i, (what, _) in enumerate(lines) if what == "rename"),
+                        "the folder after the names")
 
     def test_interrupt_and_terminate(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):

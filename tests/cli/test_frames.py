@@ -187,6 +187,15 @@ class Frames(ToolTest):
         self.check(0, *words, "--frames", "1", "--force")
         self.check(0, "info", "a.0001.vdb")
 
+    def test_files_that_options_name_count_by_their_content(self):
+        table = self.folder / "t"
+        table.write_text("A 1 0.5\n")
+        words = (NMR, *FAST, "--frames", "1", "--color", "table=t", "-o", "a.vdb")
+        self.check(0, *words)
+        self.check(0, *words, says="1 done before")
+        table.write_text("A 1 0.6\n")
+        self.check(1, *words, says=["a.0001.vdb", "other options"])
+
     def test_only_meshes_are_not_replaced(self):
         self.check(0, NMR, *FAST, "-o", "a.ply", "--frames", "1")
         self.check(1, NMR, *FAST, "-o", "a.ply", "--frames", "1", says=["a.0001.ply", "--force"])

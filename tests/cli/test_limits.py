@@ -15,11 +15,15 @@ SOON = 1.0  # seconds of all processors
 
 class Limits(ToolTest):
     def refuse(self, *words, says):
+        """Returns how many bytes were read."""
         before = self.names()
         child = subprocess.Popen([TOOL, *map(str, words)], cwd=self.folder, stdin=subprocess.DEVNULL,
                                  stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
         error = child.stderr.read().decode()
         child.stderr.close()
+        os.waitid(os.P_PID, child.pid, os.WEXITED | os.WNOWAIT)
+        with open(f"/proc/{child.pid}/io", encoding="ascii") as accounts:
+            read = int(accounts.readline().split()[1])
         _, status, usage = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
         self.assertEqual(child.returncode, 1, error)
@@ -29,6 +33,7 @@ class Limits(ToolTest):
             self.assertLess(usage.ru_maxrss * 1024, LITTLE)
             self.assertLess(usage.ru_utime + usage.ru_stime, SOON)
         self.assertEqual(self.names(), before)
+        return read
 
     def balls(self, name, lines):
         (self.folder / name).write_text("".join(lines))
@@ -48,6 +53,22 @@ class Limits(ToolTest):
             self.check(0, name, "-o", "a.json", "--max-input", "1M", "--force", *FAST)
             os.remove(self.folder / "a.json")
         self.check(2, CRAMBIN, "-o", "a.json", "--max-input", "much", says="--max-input")
+
+    def test_files_without_an_end(self):
+        """Wherever a file is named: no more is read than the limit and a block, and little is held."""
+        size, block = 20 << 20, 4 << 20
+        for name in ("endless.ply", "endless.pdb"):
+            (self.folder / name).symlink_to("/dev/zero")
+        zero, output = "/dev/zero", ["-o", "a.ply"]
+        for words in (["endless.pdb", *output], ["info", zero], [CRAMBIN, "--radii", zero, *output],
+                      [CRAMBIN, "--groups", zero, *output], [CRAMBIN, "--color", f"table={zero}", *output],
+                      [CRAMBIN, "--color", f"potential={zero}", *output], [CRAMBIN, "--config", zero, *output],
+                      ["batch", zero, "-O", "out"], ["compare", zero, CRAMBIN], ["compare", "endless.ply", CRAMBIN]):
+            with self.subTest(words=words):
+                read = self.refuse(*words, "--max-input", size, says=[f"{size} bytes", "--max-input"])
+                self.assertLess(read, size + block)
+        with open(zero, "rb") as stream:
+            self.check(1, "-", *output, "--max-input", size, says=f"{size} bytes", stdin=stream)
 
     def test_more_memory_than_there_is(self):
         grid = [f"{6 * i} {6 * j} {6 * k} 1.7\n"

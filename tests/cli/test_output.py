@@ -8,7 +8,7 @@ import subprocess
 import unittest
 
 from needs import needs, other_user, small_address_space
-from tool import CRAMBIN, FAST, ToolTest, read_ply
+from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply
 
 ALL = ["-o", "a.vdb", "-o", "a.ply", "-o", "a.obj", "-o", "a.stl", "-o", "a.json", "-o", "a.png"]
 
@@ -59,6 +59,10 @@ class Files(ToolTest):
         (self.folder / "g.ply").write_text("all /1/A\n")
         (self.folder / "c.ply").write_text("voxel = 1\n")
         (self.folder / "r.ply").write_text("C 1.7\n")
+        (self.folder / "v.residues.csv").write_text("A 1 0.5\n")
+        (self.folder / "hard.residues.csv").hardlink_to(self.folder / "v.residues.csv")
+        (self.folder / "d.ply").write_text("no map, and nobody gets as far as that\n")
+        shutil.copy(DATA / "1d3z.xtc", self.folder / "x.csv")
         before = {name: (self.folder / name).read_bytes() for name in self.names()}
         words = [*FAST, "--force"]
         read = "which is read"
@@ -68,6 +72,13 @@ class Files(ToolTest):
             with self.subTest(name):
                 self.check(1, CRAMBIN, *(words if option != "--config" else ["--force"]), option, name, "-o", name,
                            says=[name, read])
+        (self.folder / "link.residues.csv").symlink_to("v.residues.csv")
+        for name in ("v.residues.csv", "hard.residues.csv", "link.residues.csv"):
+            self.check(1, CRAMBIN, *words, "--color", "TABLE=v.residues.csv", "-o", name, says=[name, read])
+        (self.folder / "link.residues.csv").unlink()
+        for value in ("potential=d.ply", "potential-out=./d.ply"):
+            self.check(1, CRAMBIN, *words, "--color", value, "-o", "d.ply", says=["d.ply", read])
+        self.check(1, DATA / "1d3z.pdb.gz", *words, "--trajectory", "x.csv", "-o", "x.csv", says=["x.csv", read])
         # Names of meshes are refused as inputs; the content of a .vdb decides.
         source.rename(self.folder / "a.vdb")
         (self.folder / "link.vdb").symlink_to("a.vdb")

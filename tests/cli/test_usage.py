@@ -178,6 +178,12 @@ class WrongCalls(ToolTest):
 
 
 class Information(ToolTest):
+    def test_help_of_what_is_no_verb(self):
+        self.check(2, "help", "foo", says="help: expected a verb, got 'foo'")
+        self.check(2, "help", "comper", says="did you mean compare?")
+        self.check(2, "help", "build", "more", says="got 'more'")
+        self.check(2, "help", "bricks", "plam", says="did you mean plan?")
+
     def test_help_is_the_one_in_docs(self):
         done = self.check(0, "--help")
         self.assertEqual(done.stdout.decode(), (ROOT / "docs" / "cli-help.txt").read_text())
@@ -229,7 +235,7 @@ class Config(ToolTest):
         self.check(1, CRAMBIN, "-o", "a.vdb", "--config", "c.txt", says=["c.txt", "No such file"])
 
     def test_folder(self):
-        self.check(1, CRAMBIN, "-o", "a.vdb", "--config", ".", says="directory")
+        self.check(1, CRAMBIN, "-o", "a.vdb", "--config", ".", says="folder")
 
 
 class Talk(ToolTest):

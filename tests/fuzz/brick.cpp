@@ -42,7 +42,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     openvdb::initialize();
     fuzz::expectErrorAtMost([&] {
         const std::string path = fuzz::inputFile(bytes.data(), bytes.size(), ".brick");
-        const MergedBricks merged({path}, BrickFile(path).header().plan, 1, SurfaceOptions());
+        BrickPlan plan;
+        plan.bricks.push_back({anySpace()});
+        plan.atoms = 1;
+        const MergedBricks merged({path}, BrickFile(path).header().plan, plan, SurfaceOptions(),
+                                  true);
         OutputFile file("-", false);
         merged.writeVdb(openvdb::MetaMap(), file, Progress());
         OutputFile mesh("-", false);

@@ -319,7 +319,8 @@ void completeGroups(Call& call)
     SurfaceOptions& options = call.options;
     if (!call.groupsFile.empty() && !call.atoms.groupBy.empty())
         misuse("--groups and --group-by together");
-    if (!call.groupsFile.empty()) call.atoms.groups = readGroups(call.groupsFile);
+    if (!call.groupsFile.empty())
+        call.atoms.groups = readGroups(call.groupsFile, call.atoms.maxInput);
     const bool copies = call.colorGroups == "copy";
     const bool asNodes = copies && (call.atoms.instances || call.atoms.bySymmetry);
     if (!call.colorGroups.empty() && !asNodes) {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "cli/option_table.h"
 
+#include "sha256.h"
+
 #include "molsurf/bricks.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/ball_values.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/selection/groups.h"
+#include "molsurf/selection/radii.h"
 #include "molsurf/surface/extra_grids.h"
 
 #include <algorithm>
@@ -125,6 +128,7 @@ const char* nameOf(LegendChoice choice)
 }
 
 using molsurf::nameOf;
+using namespace std::string_literals;
 
 namespace
 {
@@ -398,6 +402,12 @@ std::string inLines(const std::vector<std::string>& words)
     return all;
 }
 
+/// Option::file of a value that is a path.
+std::size_t wholeValue(const std::string&)
+{
+    return 0;
+}
+
 /// The option with more than its type says.
 Option with(Option option, const std::function<void(Option&)>& change)
 {
@@ -541,14 +551,23 @@ OptionGroup atomOptions()
          flag("no-hetero", "drop all ligands and ions", structures, of(&SelectOptions::hetero),
               Hetero::None),
          flag("waters", "keep waters", structures, of(&SelectOptions::waters)),
-         text("radii", "SET", "van der Waals radii: a name of --list-radii, or a file", "",
-              structures, of(&SelectOptions::radii)),
+         with(text("radii", "SET", "van der Waals radii: a name of --list-radii, or a file", "",
+                   structures, of(&SelectOptions::radii)),
+              [](Option& o) {
+                  o.file = [](const std::string& value) {
+                      return isRadiiSet(value) ? std::string::npos : 0;
+                  };
+              }),
          number("probe", "R", "probe radius [Å]", structures, OF(options.probe)), maxInput}};
 }
 
 OptionGroup frameOptions()
 {
     const auto quiet = [](Option& o) { o.stored = nullptr; };
+    const auto trajectory = [](Option& o) {
+        o.stored = nullptr;
+        o.file = wholeValue;
+    };
     return {
         "Frames",
         {with(text("frames", "A-B:S",
@@ -560,7 +579,7 @@ OptionGroup frameOptions()
               quiet),
          with(text("trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
                    "", Build, OF(trajectory)),
-              quiet),
+              trajectory),
          either("start",
                 "cold: each frame as a run of its own; warm: its flow\n"
                 "begins at the surface of the one before",
@@ -717,6 +736,11 @@ OptionGroup groupOptions()
         o.words.insert(o.words.end(), words.begin(), words.end());
         o.words.insert(o.words.end(), valueWords().begin(), valueWords().end());
         const Values files = {"table=", "potential=", "potential-out="};
+        o.file = [files](const std::string& value) {
+            for (const std::string& start : files)
+                if (lowered(value).rfind(start, 0) == 0) return start.size();
+            return std::string::npos;
+        };
         for (const std::string& start : files) o.words.push_back(start + "FILE");
         o.words.push_back("residue-type");
         o.words.push_back("plain=#RRGGBB");
@@ -776,6 +800,7 @@ OptionGroup groupOptions()
                           all.push_back(group.name + " " + group.select);
                       return stored(joinWords(all, ", "));
                   };
+                  o.file = wholeValue;
               }),
          with(text("group-by", "WORD",
                    "groups by chain, entity, class (a chain's copies),\ncopy or residues:N instead",
@@ -970,7 +995,10 @@ OptionGroup runOptions()
              flagOf("no-progress", 0, "no progress bar", runs, OF(progress), false),
              with(text("config", "FILE", "options as lines \"name = value\"; the command line wins",
                        "", structures | Convert, OF(config)),
-                  [](Option& o) { o.stored = nullptr; })}};
+                  [](Option& o) {
+                      o.stored = nullptr;
+                      o.file = wholeValue;
+                  })}};
 }
 
 } // namespace
@@ -998,12 +1026,31 @@ const Option* findOption(Verb verb, const std::string& name)
     return nullptr;
 }
 
+std::vector<OptionFile> filesOf(Verb verb, const GivenOptions& given)
+{
+    std::vector<OptionFile> files;
+    for (const auto& [name, values] : given) {
+        const Option* option = findOption(verb, name);
+        if (!option || !option->file) continue;
+        for (const std::string& value : values) {
+            const std::size_t begin = option->file(value);
+            if (begin != std::string::npos) files.push_back({option, value.substr(begin)});
+        }
+    }
+    return files;
+}
+
 void addOptions(const Call& call, openvdb::MetaMap& map)
 {
+    const auto add = [&](const std::string& name, const openvdb::Metadata& value) {
+        map.insertMeta("option." + name, value);
+    };
     for (const OptionGroup& group : optionTable())
         for (const Option& option : group.options)
-            if (option.stored && (option.verbs & Build))
-                map.insertMeta(std::string("option.") + option.name, *option.stored(call));
+            if (option.stored && (option.verbs & Build)) add(option.name, *option.stored(call));
+    for (const OptionFile& file : filesOf(call.verb, call.given))
+        if (file.option->stored && file.path != "-")
+            add(file.option->name + ".sha256"s, openvdb::StringMetadata(sha256OfFile(file.path)));
 }
 
 } // namespace molsurf::tool

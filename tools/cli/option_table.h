@@ -31,6 +31,9 @@ struct Option {
     std::function<void(Call&, const std::vector<std::string>& values)> set = nullptr;
     /// Its value as metadata of a file; null: it is not stored.
     std::function<openvdb::Metadata::Ptr(const Call&)> stored = nullptr;
+    /// Where in a value the path of a file begins that is read; npos: the value names none. Null:
+    /// no value does.
+    std::function<std::size_t(const std::string& value)> file = nullptr;
 };
 
 /// Options under a title.
@@ -45,7 +48,17 @@ const std::vector<OptionGroup>& optionTable();
 /// The option of a verb, or null.
 const Option* findOption(Verb verb, const std::string& name);
 
-/// Adds the options as metadata "option.NAME".
+/// A file that is read since an option names it.
+struct OptionFile {
+    const Option* option;
+    std::string path;
+};
+
+/// The files that the options of a call name.
+std::vector<OptionFile> filesOf(Verb verb, const GivenOptions& given);
+
+/// Adds the options as metadata "option.NAME", and the hashes of the files that they name as
+/// "option.NAME.sha256".
 void addOptions(const Call& call, openvdb::MetaMap& map);
 
 /// What --fields takes, `surface` first.

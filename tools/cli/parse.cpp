@@ -8,14 +8,13 @@
 #include "molsurf/error.h"
 #include "molsurf/io/report_keys.h"
 #include "molsurf/selection/select_balls.h"
+#include "molsurf/structure/load_text.h"
 
 #include <boost/program_options.hpp>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 
 namespace molsurf::tool
 {
@@ -48,16 +47,27 @@ po::options_description describe(Verb verb)
     return all;
 }
 
+/// The first words of the verbs.
+std::vector<std::string> verbs()
+{
+    std::vector<std::string> names;
+    for (const VerbInfo& info : verbTable()) {
+        const std::string name = info.name;
+        const std::string first = name.substr(0, name.find(' '));
+        if (std::count(names.begin(), names.end(), first) == 0) names.push_back(first);
+    }
+    return names;
+}
+
 /// The verb that the first words of a command line name; takes them away.
 Verb takeVerb(std::vector<std::string>& words)
 {
     if (words.empty()) return Build;
-    std::vector<std::string> names, second;
+    std::vector<std::string> second;
     for (const VerbInfo& info : verbTable()) {
         const std::string name = info.name;
         const std::size_t space = name.find(' ');
         const std::string first = name.substr(0, space);
-        if (std::count(names.begin(), names.end(), first) == 0) names.push_back(first);
         if (lowered(words[0]) != first) continue;
         if (space == std::string::npos) {
             words.erase(words.begin());
@@ -75,7 +85,7 @@ Verb takeVerb(std::vector<std::string>& words)
             (words.size() > 1 ? "" : " [hint: vdb_molsurf help]"));
     // A word that is nearly a verb, and no file.
     std::error_code ignored;
-    const std::string hint = didYouMean(words[0], names);
+    const std::string hint = didYouMean(words[0], verbs());
     if (!hint.empty() && words[0][0] != '-' && words[0].find_first_of("./") == std::string::npos &&
         !std::filesystem::exists(words[0], ignored))
         misuse("unknown verb '" + words[0] + "'" + hint);
@@ -139,17 +149,11 @@ void add(Verb verb, const po::parsed_options& parsed, GivenOptions& given,
 
 void readConfig(const std::string& path, const po::options_description& all, Call& call)
 {
-    std::error_code ignored;
-    errno = std::filesystem::is_directory(path, ignored) ? EISDIR : 0;
-    std::ifstream file(path);
-    if (errno == EISDIR || !file)
-        throw Error(ErrorKind::Input, "cannot read " + path + ": " + std::strerror(errno));
+    const auto limit = call.given.find("max-input");
+    if (limit != call.given.end()) findOption(call.verb, "max-input")->set(call, limit->second);
+    std::istringstream text(loadBytes(path, call.atoms.maxInput));
     try {
-        errno = 0;
-        const auto options = po::parse_config_file(file, all);
-        if (file.bad())
-            throw Error(ErrorKind::Input,
-                        "it cannot be read: " + std::string(std::strerror(errno)));
+        const auto options = po::parse_config_file(text, all);
         add(call.verb, options, call.given, call.inputs);
     } catch (const po::error& e) {
         misuse("--config " + path + ": " + e.what());
@@ -199,7 +203,11 @@ Parsed parse(int argc, const char* const* argv)
     if (words.size() == 1 && words[0] == "--report-page") return {{}, reportPage()};
     if (!words.empty() && lowered(words[0]) == "help") {
         words.erase(words.begin());
-        return {{}, words.empty() ? overview() : helpText(takeVerb(words))};
+        if (words.empty()) return {{}, overview()};
+        const Verb verb = takeVerb(words);
+        if (!words.empty())
+            misuse("help: expected a verb, got '" + words[0] + "'" + didYouMean(words[0], verbs()));
+        return {{}, helpText(verb)};
     }
     call.verb = takeVerb(words);
 

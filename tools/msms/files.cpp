@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "msms/files.h"
 
+#include "molsurf/core/printable.h"
 #include "molsurf/io/output_buffer.h"
 
 #include <algorithm>
@@ -117,7 +118,7 @@ std::string titleText(const MsmsCall& call, const Spheres& spheres)
         most = std::max(most, ball.radius);
     }
     return std::string("MSMS 2.6.1 interface of vdb_molsurf_msms ") + MOLSURF_VERSION +
-           "\nINPUT  " + call.input +
+           "\nINPUT  " + printable(call.input) +
            formatted(" %zu spheres 0 collision only, radii %6.3f to %6.3f\n", spheres.balls.size(),
                      least, most) +
            formatted("PARAM  Probe_radius %6.3f density %6.3f hdensity %6.3f\n", call.probe,

@@ -3,6 +3,7 @@
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
+#include "molsurf/io/json_number.h"
 #include "molsurf/io/write_vdb.h"
 
 #include <nlohmann/json.hpp>
@@ -14,8 +15,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -92,16 +96,6 @@ std::vector<double> numbersOf(const openvdb::Vec3s& value)
     return {value.x(), value.y(), value.z()};
 }
 
-template<typename T>
-bool isNegative(const T& value)
-{
-    return value < T(0);
-}
-bool isNegative(const openvdb::Vec3s&)
-{
-    return false;
-}
-
 template<typename GridT>
 StoredGrid addGrid(const GridT& grid, std::uint32_t compression, Writer& writer,
                    const Progress& progress)
@@ -119,14 +113,8 @@ StoredGrid addGrid(const GridT& grid, std::uint32_t compression, Writer& writer,
         parallelFor(count, progress, [&](std::size_t i) {
             const Leaf& leaf = *leaves[begin + i];
             values[i] = valuesOf(leaf, background, compression, half);
-            StoredLeaf& out = stored[begin + i];
-            out.origin = {leaf.origin().x(), leaf.origin().y(), leaf.origin().z()};
-            out.negative = std::uint32_t(isNegative(leaf.getFirstValue())) |
-                           std::uint32_t(isNegative(leaf.getLastValue())) << 1;
-            out.size = values[i].size();
-            for (int x = 0; x < 8; ++x)
-                out.mask[std::size_t(x)] =
-                    leaf.getValueMask().template getWord<openvdb::Index64>(x);
+            stored[begin + i] = storedLeaf(leaf);
+            stored[begin + i].size = values[i].size();
         });
         for (std::size_t i = 0; i < count; ++i) {
             stored[begin + i].offset = writer.at();
@@ -173,7 +161,7 @@ Json json(const Section& section)
 
 Section section(const Json& json)
 {
-    return {json.at(0), json.at(1)};
+    return {jsonNumber<std::uint64_t>(json.at(0)), jsonNumber<std::uint64_t>(json.at(1))};
 }
 
 Json json(const EvolutionReport& e)
@@ -196,24 +184,26 @@ Json json(const Displacements& d)
 Displacements displacements(const Json& json)
 {
     Displacements d;
-    d.count = json.at("count");
-    d.moved = json.at("moved");
-    d.square = json.at("square");
-    d.bins = json.at("bins");
+    const auto number = [](const Json& n) { return jsonNumber<std::uint64_t>(n); };
+    d.count = number(json.at("count"));
+    d.moved = number(json.at("moved"));
+    d.square = number(json.at("square"));
+    for (std::size_t i = 0; i < d.bins.size(); ++i) d.bins[i] = number(json.at("bins").at(i));
     return d;
 }
 
 EvolutionReport evolution(const Json& json)
 {
     EvolutionReport e;
-    e.steps = json.at("steps");
-    e.finalEnergy = json.at("final_energy");
-    e.energy = json.at("energy").get<std::vector<double>>();
-    e.area = json.at("area").get<std::vector<double>>();
-    e.volume = json.at("volume").get<std::vector<double>>();
-    e.meanDisplacement = json.at("mean_displacement").get<std::vector<double>>();
-    e.maxSpeed = json.at("max_speed").get<std::vector<double>>();
-    e.unresolvedGapVoxels = json.at("crevice_voxels");
+    const auto numbers = [&](const char* name) { return jsonNumbers<double>(json.at(name)); };
+    e.steps = jsonNumber<int>(json.at("steps"));
+    e.finalEnergy = jsonNumber<double>(json.at("final_energy"));
+    e.energy = numbers("energy");
+    e.area = numbers("area");
+    e.volume = numbers("volume");
+    e.meanDisplacement = numbers("mean_displacement");
+    e.maxSpeed = numbers("max_speed");
+    e.unresolvedGapVoxels = jsonNumber<std::size_t>(json.at("crevice_voxels"));
     return e;
 }
 
@@ -263,10 +253,11 @@ BrickHeader parseHeader(const std::string& text)
     const Json j = Json::parse(text);
     BrickHeader h;
     h.plan = j.at("plan");
-    h.number = j.at("brick");
+    const auto count = [](const Json& number) { return jsonNumber<std::size_t>(number); };
+    h.number = count(j.at("brick"));
     for (const Json& g : j.at("grids")) {
         h.grids.push_back({g.at("name"), g.at("type"), g.at("class"),
-                           g.at("background").get<std::vector<double>>(), g.at("half"),
+                           jsonNumbers<double>(g.at("background")), g.at("half"),
                            section(g.at("leaves"))});
     }
     h.layout.scalars = j.at("scalars").get<std::vector<std::string>>();
@@ -281,53 +272,75 @@ BrickHeader parseHeader(const std::string& text)
     h.pieces = section(j.at("pieces"));
     h.sums.mesh.closed = j.at("closed");
     h.sums.mesh.manifold = j.at("manifold");
-    h.sums.mesh.flat = j.at("degenerate_triangles");
-    h.sums.maxResidual = j.at("max_residual");
-    h.sums.kinkVertices = j.at("kink_vertices");
-    h.sums.unitVertices = j.at("unit_vertices");
+    h.sums.mesh.flat = count(j.at("degenerate_triangles"));
+    h.sums.maxResidual = jsonNumber<double>(j.at("max_residual"));
+    h.sums.kinkVertices = count(j.at("kink_vertices"));
+    h.sums.unitVertices = count(j.at("unit_vertices"));
     for (const Json& g : j.at("groups")) {
         GroupReport group;
         group.name = g.at("name");
-        group.atoms = g.at("atoms");
-        group.area = g.at("area");
+        group.atoms = count(g.at("atoms"));
+        group.area = jsonNumber<double>(g.at("area"));
         h.sums.groups.push_back(group);
     }
     if (!j.at("evolution").is_null()) h.sums.evolution = evolution(j.at("evolution"));
     h.sums.displacements = displacements(j.at("displacements"));
-    for (const Json& s : j.at("seconds")) h.sums.seconds.emplace_back(s.at(0), s.at(1));
+    for (const Json& s : j.at("seconds"))
+        h.sums.seconds.emplace_back(s.at(0), jsonNumber<double>(s.at(1)));
     return h;
 }
 
-/// Checks what a hostile header could break: that sections lie in the file, and counts agree.
+/// Checks what a hostile header could break: that counts agree, and that sections follow one after
+/// another as writeBrick() puts them, so that nothing lies outside and nothing counts twice.
 /// @param[in] end  where the header begins
 /// @throws std::range_error
-void checkHeader(const BrickHeader& h, std::uint64_t end)
+void checkHeader(BrickHeader& h, std::uint64_t end)
 {
     const auto check = [](bool good, const char* what) {
-        if (!good) throw std::range_error(std::string("its ") + what);
+        if (!good) throw std::range_error(what);
     };
-    const auto inside = [&](const Section& section, std::uint64_t size, const char* what) {
-        check(section.offset >= bodyAt && section.offset <= end &&
+    std::uint64_t at = bodyAt;
+    const auto skip = [&](const Section& section, std::uint64_t size, const char* what) {
+        check(section.offset >= at && section.offset <= end &&
                   (size == 0 || section.count <= (end - section.offset) / size),
               what);
+        at = section.offset + section.count * size;
     };
-    check(!h.grids.empty(), "list of grids is empty");
-    for (const StoredGrid& grid : h.grids) {
+    const auto follow = [&](const Section& section, std::uint64_t size, const char* what) {
+        check(section.offset == at, what);
+        skip(section, size, what);
+    };
+    const auto isName = [](const std::string& name) {
+        return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+            return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+        });
+    };
+    check(!h.grids.empty() && h.grids.front().name == "surface", "grids do not begin with surface");
+    std::set<std::string> names;
+    for (StoredGrid& grid : h.grids) {
         const bool vectors = grid.type == openvdb::Vec3SGrid::gridType();
+        check(isName(grid.name) && names.insert(grid.name).second, "grids have no names");
         check(vectors || grid.type == openvdb::FloatGrid::gridType() ||
                   grid.type == openvdb::Int32Grid::gridType(),
               "grids have unknown types");
-        check(grid.background.size() == (vectors ? 3u : 1u), "grids have no background");
-        inside(grid.leaves, sizeof(StoredLeaf), "leaves lie outside of it");
+        check(grid.background.size() == (vectors ? 3u : 1u) &&
+                  std::all_of(grid.background.begin(), grid.background.end(),
+                              [](double value) { return std::abs(value) < 1e9; }),
+              "grids have no background");
+        grid.values = at;
+        skip(grid.leaves, sizeof(StoredLeaf), "leaves lie outside of it");
     }
-    const bool meshed = h.triangles.offset > 0;
-    inside(h.vertices, meshed ? h.layout.vertexSize() : 0, "vertices lie outside of it");
-    if (meshed) inside(h.triangles, 12, "triangles lie outside of it");
-    inside(h.areas, sizeof(float), "areas lie outside of it");
-    inside(h.curvatures, 2 * sizeof(float), "curvatures lie outside of it");
-    inside(h.border, sizeof(BorderVertex), "border lies outside of it");
-    inside(h.openEdges, sizeof(OpenEdge), "edges lie outside of it");
-    inside(h.pieces, sizeof(PieceMeasure), "pieces lie outside of it");
+    for (const auto* names : {&h.layout.scalars, &h.layout.labels})
+        check(std::all_of(names->begin(), names->end(), isName),
+              "vertices have values without names");
+    follow(h.vertices, h.meshed() ? h.layout.vertexSize() : 0, "vertices lie elsewhere");
+    if (h.meshed()) follow(h.triangles, 12, "triangles lie elsewhere");
+    follow(h.areas, sizeof(float), "areas lie elsewhere");
+    follow(h.curvatures, 2 * sizeof(float), "curvatures lie elsewhere");
+    follow(h.border, sizeof(BorderVertex), "border lies elsewhere");
+    follow(h.openEdges, sizeof(OpenEdge), "edges lie elsewhere");
+    follow(h.pieces, sizeof(PieceMeasure), "pieces lie elsewhere");
+    check(at == end, "sections leave something over");
     check(h.areas.count == h.vertices.count && h.curvatures.count == h.vertices.count,
           "vertices are not as many as their areas and curvatures");
     check(h.sums.kinkVertices <= h.vertices.count &&
@@ -403,38 +416,62 @@ void writeBrick(const Brick& brick, const std::string& plan, std::size_t number,
     file.finish();
 }
 
-BrickFile::BrickFile(const std::string& path)
-    : path_(path), file_(open(path.c_str(), O_RDONLY | O_CLOEXEC))
+openvdb::CoordBBox anySpace()
 {
-    const auto refuse = [&](const std::string& why) {
-        throw Error(ErrorKind::Input,
-                    path + " is not the file of a brick: " + why + " [hint: run the brick again]");
+    constexpr int far = 1 << 26; // [voxel]
+    return {openvdb::Coord(-far), openvdb::Coord(far - 1)};
+}
+
+BrickFile::BrickFile(const std::string& path, const openvdb::CoordBBox& box)
+    : path_(path), box_(box), file_(open(path.c_str(), O_RDONLY | O_CLOEXEC))
+{
+    const auto noBrick = [&](const std::string& why) {
+        refuse("is not the file of a brick: " + why);
     };
-    if (file_ < 0) throw Error(ErrorKind::Input, "cannot read " + path + ": " + strerror(errno));
+    if (!file_) throw Error(ErrorKind::Input, "cannot read " + path + ": " + strerror(errno));
     std::array<char, 8> mark{};
     Head head;
-    const off_t end = lseek(file_, 0, SEEK_END);
+    const off_t end = lseek(file_.get(), 0, SEEK_END);
     const std::uint64_t size = end < 0 ? 0 : std::uint64_t(end);
-    if (size < bodyAt) refuse("it is too short");
+    if (size < bodyAt) noBrick("it is too short");
     try {
         read(0, mark.data(), mark.size());
-        if (mark != magic) refuse("it does not begin with MOLBRK05");
+        if (mark != magic) noBrick("it does not begin with MOLBRK05");
         read(mark.size(), &head, sizeof head);
         if (head.header < bodyAt || head.header > size || head.length != size - head.header)
-            refuse("it is cut short");
-        if (checksumOf(size) != head.checksum) refuse("it is damaged: its checksum is another");
+            noBrick("it is cut short");
+        if (checksumOf(size) != head.checksum) noBrick("it is damaged: its checksum is another");
         std::string text(head.length, ' ');
         read(head.header, text.data(), text.size());
         header_ = parseHeader(text);
         checkHeader(header_, head.header);
     } catch (const Json::exception&) {
-        refuse("its header cannot be read");
+        noBrick("its header cannot be read");
     } catch (const std::range_error& e) {
-        refuse(e.what());
-    } catch (...) {
-        close(file_);
-        throw;
+        noBrick(std::string("its ") + e.what());
     }
+}
+
+void BrickFile::refuse(const std::string& what) const
+{
+    throw Error(ErrorKind::Input, path_ + " " + what + " [hint: run the brick again]");
+}
+
+std::vector<StoredLeaf> BrickFile::leaves(std::size_t g) const
+{
+    const StoredGrid& grid = header_.grids[g];
+    std::vector<StoredLeaf> all = read<StoredLeaf>(grid.leaves);
+    std::uint64_t at = grid.values;
+    for (const StoredLeaf& leaf : all) {
+        const openvdb::Coord origin(leaf.origin[0], leaf.origin[1], leaf.origin[2]);
+        if ((origin & 7) != openvdb::Coord(0)) refuse("has a leaf between leaves");
+        if (!box_.isInside(origin)) refuse("has a leaf far away");
+        if (leaf.offset != at || leaf.size > grid.leaves.offset - at)
+            refuse("has a leaf whose values lie elsewhere");
+        at += leaf.size;
+    }
+    if (at != grid.leaves.offset) refuse("has values of no leaf");
+    return all;
 }
 
 std::uint64_t BrickFile::checksumOf(std::uint64_t size) const
@@ -450,22 +487,11 @@ std::uint64_t BrickFile::checksumOf(std::uint64_t size) const
     return sum;
 }
 
-BrickFile::~BrickFile()
-{
-    if (file_ >= 0) close(file_);
-}
-
-BrickFile::BrickFile(BrickFile&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)),
-      header_(std::move(other.header_))
-{
-}
-
 void BrickFile::read(std::uint64_t offset, void* to, std::size_t bytes) const
 {
     char* at = static_cast<char*>(to);
     while (bytes > 0) {
-        const ssize_t got = pread(file_, at, bytes, off_t(offset));
+        const ssize_t got = pread(file_.get(), at, bytes, off_t(offset));
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0)
             throw Error(ErrorKind::Input, "cannot read " + path_ + ": " +

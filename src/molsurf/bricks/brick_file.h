@@ -6,12 +6,14 @@
 /// be copied, and a JSON header that tells where they are.
 
 #include "molsurf/bricks/brick.h"
+#include "molsurf/core/file_descriptor.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/io/ply_layout.h"
 
 #include <array>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace molsurf
@@ -38,11 +40,12 @@ struct StoredGrid {
     std::vector<double> background;    ///< one number, or three
     bool half;                         ///< floats have 16 bits
     Section leaves;                    ///< of StoredLeaf
+    std::uint64_t values = 0;          ///< where those of the first leaf begin in the file
 };
 
 /// The content of the header.
 struct BrickHeader {
-    std::string plan;       ///< of which plan it is: see manifestId()
+    std::string plan;       ///< of which plan it is: the name that writeBrick() was given
     std::size_t number = 0; ///< from 1
     std::vector<StoredGrid> grids;
     PlyLayout layout;
@@ -55,7 +58,27 @@ struct BrickHeader {
     Section pieces;     ///< of PieceMeasure
     /// The part that does not lie in sections: mesh.mesh and grids stay empty.
     Brick sums;
+
+    /// Whether vertices and triangles are in the file.
+    bool meshed() const { return triangles.offset > 0; }
 };
+
+/// What is stored of a leaf, but for its values and their place.
+template<typename LeafT>
+StoredLeaf storedLeaf(const LeafT& leaf)
+{
+    StoredLeaf out{};
+    out.origin = {leaf.origin().x(), leaf.origin().y(), leaf.origin().z()};
+    if constexpr (std::is_arithmetic_v<typename LeafT::ValueType>)
+        out.negative =
+            std::uint32_t(leaf.getFirstValue() < 0) | std::uint32_t(leaf.getLastValue() < 0) << 1;
+    for (int x = 0; x < 8; ++x)
+        out.mask[std::size_t(x)] = leaf.getValueMask().template getWord<openvdb::Index64>(x);
+    return out;
+}
+
+/// The voxels that any ball can reach.
+openvdb::CoordBBox anySpace();
 
 /// Writes what a brick leaves. The file must be one that can be written out of order.
 /// @param[in] meshed  whether MergedMesh::writePly() is to be possible; else vertices and triangles
@@ -67,13 +90,10 @@ void writeBrick(const Brick& brick, const std::string& plan, std::size_t number,
 class BrickFile
 {
 public:
+    /// @param[in] box  the brick's, in which its leaves have to lie
     /// @throws Error(ErrorKind::Input) if it cannot be read, is damaged, or is not the file of a
     ///         brick
-    explicit BrickFile(const std::string& path);
-    ~BrickFile();
-    BrickFile(BrickFile&& other) noexcept;
-    BrickFile(const BrickFile&) = delete;
-    BrickFile& operator=(const BrickFile&) = delete;
+    explicit BrickFile(const std::string& path, const openvdb::CoordBBox& box = anySpace());
 
     const BrickHeader& header() const { return header_; }
 
@@ -87,6 +107,15 @@ public:
         return out;
     }
 
+    /// The leaves of grid g.
+    /// @throws Error(ErrorKind::Input) if one lies outside of the brick, or if their values are not
+    ///         what stands before them, one after the other
+    std::vector<StoredLeaf> leaves(std::size_t g) const;
+
+    /// Says that the file is no good.
+    /// @param[in] what  "has a leaf between leaves", for example
+    [[noreturn]] void refuse(const std::string& what) const;
+
     const std::string& path() const { return path_; }
 
 private:
@@ -94,7 +123,8 @@ private:
     std::uint64_t checksumOf(std::uint64_t size) const;
 
     std::string path_;
-    int file_ = -1;
+    openvdb::CoordBBox box_;
+    FileDescriptor file_;
     BrickHeader header_;
 };
 

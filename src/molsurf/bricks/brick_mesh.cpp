@@ -52,7 +52,8 @@ std::vector<VertexKey> keysOf(const std::vector<Coord>& cells, const CoordBBox& 
     return keys;
 }
 
-/// Edges of border vertices whose triangles are not paired.
+} // namespace
+
 std::vector<OpenEdge> openEdges(const Mesh& mesh, const std::vector<char>& isBorder,
                                 const Progress& progress)
 {
@@ -77,8 +78,6 @@ std::vector<OpenEdge> openEdges(const Mesh& mesh, const std::vector<char>& isBor
     }
     return open;
 }
-
-} // namespace
 
 BrickMesh cutBrick(Mesh mesh, std::vector<Coord> cells, const CoordBBox& box, const Vec3d& anchor,
                    std::vector<std::uint32_t>& sources, const Progress& progress)

@@ -59,4 +59,9 @@ BrickMesh cutBrick(Mesh mesh, std::vector<openvdb::Coord> cells, const openvdb::
                    const openvdb::Vec3d& anchor, std::vector<std::uint32_t>& sources,
                    const Progress& progress);
 
+/// The edges between border vertices whose triangles are not paired.
+/// @param[in] isBorder  of each vertex
+std::vector<OpenEdge> openEdges(const Mesh& mesh, const std::vector<char>& isBorder,
+                                const Progress& progress);
+
 } // namespace molsurf

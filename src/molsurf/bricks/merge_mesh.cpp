@@ -3,14 +3,17 @@
 
 #include "molsurf/error.h"
 #include "molsurf/mesh/statistics.h"
+#include "molsurf/mesh/topology.h"
 
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace molsurf
 {
@@ -18,15 +21,7 @@ namespace molsurf
 namespace
 {
 
-struct KeyHash {
-    std::size_t operator()(const VertexKey& key) const
-    {
-        std::uint64_t h = 0;
-        for (const std::int32_t word : key)
-            h = (h ^ std::uint32_t(word)) * 0x9e3779b97f4a7c15ull, h ^= h >> 29;
-        return std::size_t(h);
-    }
-};
+using Triangle = std::array<std::uint32_t, 3>;
 
 /// Calls f(first record, number) for runs of records of a section.
 template<typename F>
@@ -75,8 +70,11 @@ std::array<Statistics, 2> curvatureStatistics(const std::vector<BrickFile>& bric
                        for (int k = 0; k < 2; ++k) values[k].push_back(pair[k]);
                    }
                });
-        const std::vector<float> more = brick.read<float>(brick.header().areas);
-        areas.insert(areas.end(), more.begin(), more.end());
+        for (const float area : brick.read<float>(brick.header().areas)) {
+            const std::size_t v = areas.size();
+            const bool finite = std::isfinite(area + values[0][v]) && std::isfinite(values[1][v]);
+            areas.push_back(finite ? area : 0.0f); // without weight it does not count
+        }
     }
     std::array<Statistics, 2> out;
     tbb::parallel_invoke([&] { out[0] = statistics(values[0], areas); },
@@ -84,50 +82,97 @@ std::array<Statistics, 2> curvatureStatistics(const std::vector<BrickFile>& bric
     return out;
 }
 
-[[noreturn]] void refuseMesh(const BrickFile& brick, const char* what)
-{
-    throw Error(ErrorKind::Input, brick.path() + " names " + what + " [hint: run the brick again]");
-}
-
 } // namespace
 
-MergedMesh::MergedMesh(const std::vector<BrickFile>& bricks) : bricks_(bricks)
+MergedMesh::MergedMesh(const std::vector<BrickFile>& bricks)
+    : bricks_(bricks), foreign_(bricks.size())
 {
     firsts_.push_back(0);
+    std::vector<std::pair<VertexKey, std::uint64_t>> owned;
     for (const BrickFile& brick : bricks) {
-        firsts_.push_back(firsts_.back() + brick.header().vertices.count);
-        triangles_ += brick.header().triangles.count;
-        border_.push_back(brick.read<BorderVertex>(brick.header().border));
-        for (const BorderVertex& v : border_.back())
-            if (v.piece >= brick.header().pieces.count)
-                refuseMesh(brick, "a piece that it does not have");
+        const BrickHeader& header = brick.header();
+        border_.push_back(brick.read<BorderVertex>(header.border));
+        for (const BorderVertex& v : border_.back()) {
+            if (v.piece >= header.pieces.count) brick.refuse("names a piece that it does not have");
+            if (v.vertex < header.vertices.count)
+                owned.emplace_back(v.key, firsts_.back() + v.vertex);
+        }
+        firsts_.push_back(firsts_.back() + header.vertices.count);
+        triangles_ += header.triangles.count;
     }
-    std::unordered_map<VertexKey, std::uint64_t, KeyHash> owned;
+    std::sort(owned.begin(), owned.end());
     for (std::size_t b = 0; b < bricks.size(); ++b) {
-        for (const BorderVertex& v : border_[b])
-            if (v.vertex < bricks[b].header().vertices.count)
-                owned.emplace(v.key, firsts_[b] + v.vertex);
-    }
-    foreign_.resize(bricks.size());
-    for (std::size_t b = 0; b < bricks.size(); ++b) {
+        const std::uint64_t count = bricks[b].header().vertices.count;
+        std::size_t size = 0;
+        for (const BorderVertex& v : border_[b]) size += v.vertex >= count;
+        constexpr std::uint64_t none = ~std::uint64_t(0);
+        foreign_[b].assign(size, none);
         for (const BorderVertex& v : border_[b]) {
-            if (v.vertex < bricks[b].header().vertices.count) continue;
-            const auto found = owned.find(v.key);
-            if (found == owned.end())
+            if (v.vertex < count) continue;
+            const auto found =
+                std::lower_bound(owned.begin(), owned.end(), std::pair(v.key, std::uint64_t(0)));
+            if (found == owned.end() || found->first != v.key)
                 throw Error(ErrorKind::Input, "merge: brick " + std::to_string(b + 1) +
                                                   " does not fit its neighbours");
-            foreign_[b].emplace(v.vertex, found->second);
+            if (v.vertex - count >= size || foreign_[b][v.vertex - count] != none)
+                bricks[b].refuse("names a vertex that it does not have");
+            foreign_[b][v.vertex - count] = found->second;
         }
     }
+    for (std::size_t b = 0; b < bricks.size(); ++b)
+        if (bricks[b].header().meshed()) checkTriangles(b);
+}
+
+void MergedMesh::checkTriangles(std::size_t b) const
+{
+    const BrickFile& brick = bricks_[b];
+    const BrickHeader& header = brick.header();
+    Mesh mesh;
+    mesh.triangles = brick.read<Triangle>(header.triangles);
+    mesh.positions.resize(header.vertices.count + foreign_[b].size());
+    std::vector<char> used(mesh.positions.size()), border(mesh.positions.size());
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t v : t) {
+            if (v >= used.size()) brick.refuse("names a vertex that it does not have");
+            used[v] = 1;
+        }
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+            brick.refuse("has a triangle of two vertices");
+    }
+    std::size_t count = 0;
+    const std::vector<std::uint32_t> pieces = connectedPieces(mesh, count, Progress());
+    if (count != header.pieces.count) brick.refuse("has another number of pieces than it says");
+    for (const BorderVertex& v : border_[b]) {
+        if (v.vertex >= used.size()) brick.refuse("names a vertex that it does not have");
+        if (v.piece != pieces[v.vertex]) brick.refuse("has vertices of other pieces than it says");
+        border[v.vertex] = 1;
+    }
+    std::vector<char> inner(border.size());
+    for (std::size_t v = 0; v < inner.size(); ++v) {
+        inner[v] = !border[v];
+        const bool lent = border[v] && v < header.vertices.count; // to the triangles of others
+        if (!used[v] && !lent) brick.refuse("has a vertex of no triangle");
+    }
+    const Topology found = checkTopology(mesh, inner, Progress());
+    const bool manifold = found.closed && found.oriented && found.manifold;
+    if (!manifold && (header.sums.mesh.closed || header.sums.mesh.manifold))
+        brick.refuse("has a mesh with holes, and says that it is closed");
+    const std::vector<OpenEdge> listed = brick.read<OpenEdge>(header.openEdges);
+    const std::vector<OpenEdge> open = openEdges(mesh, border, Progress());
+    const auto same = [](const OpenEdge& x, const OpenEdge& y) {
+        return x.from == y.from && x.to == y.to && x.surplus == y.surplus;
+    };
+    if (!std::equal(listed.begin(), listed.end(), open.begin(), open.end(), same))
+        brick.refuse("has other open edges than it says");
 }
 
 std::uint64_t MergedMesh::indexOf(std::size_t brick, std::uint32_t vertex) const
 {
-    if (vertex < bricks_[brick].header().vertices.count) return firsts_[brick] + vertex;
-    const auto found = foreign_[brick].find(vertex);
-    if (found == foreign_[brick].end())
-        refuseMesh(bricks_[brick], "a vertex that it does not have");
-    return found->second;
+    const std::uint64_t count = bricks_[brick].header().vertices.count;
+    if (vertex < count) return firsts_[brick] + vertex;
+    if (vertex - count >= foreign_[brick].size())
+        bricks_[brick].refuse("names a vertex that it does not have");
+    return foreign_[brick][vertex - count];
 }
 
 void MergedMesh::writePly(OutputFile& file, const Progress& progress) const
@@ -136,6 +181,7 @@ void MergedMesh::writePly(OutputFile& file, const Progress& progress) const
         throw Error(ErrorKind::Output, "cannot write " + file.path() +
                                            ": .ply counts at most 2147483647 vertices [hint: a "
                                            "larger `voxel`]");
+    constexpr float farthest = 1e6f; // [Å], as readMesh() takes them
     const PlyLayout layout = commonLayout(bricks_);
     const std::string header = plyHeader(layout, vertices(), triangles());
     file.write(header.data(), header.size());
@@ -143,10 +189,15 @@ void MergedMesh::writePly(OutputFile& file, const Progress& progress) const
         inRuns(brick, brick.header().vertices, layout.vertexSize(),
                [&](const char* records, std::size_t count) {
                    if (progress.cancelled()) throw Cancelled();
+                   for (std::size_t i = 0; i < count; ++i) {
+                       std::array<float, 3> place;
+                       std::memcpy(&place, records + i * layout.vertexSize(), sizeof place);
+                       for (const float x : place)
+                           if (!(std::abs(x) < farthest)) brick.refuse("has a vertex far away");
+                   }
                    file.write(records, count * layout.vertexSize());
                });
     }
-    using Triangle = std::array<std::uint32_t, 3>;
     Buffer buffer(file);
     for (std::size_t b = 0; b < bricks_.size(); ++b) {
         inRuns(bricks_[b], bricks_[b].header().triangles, sizeof(Triangle),
@@ -181,8 +232,10 @@ SurfaceReport MergedMesh::report() const
     std::size_t kinks = 0, units = 0;
     for (const BrickFile& brick : bricks_) {
         firstPiece.push_back(sums.size());
-        for (const PieceMeasure& p : brick.read<PieceMeasure>(brick.header().pieces))
+        for (const PieceMeasure& p : brick.read<PieceMeasure>(brick.header().pieces)) {
+            if (!std::isfinite(p.area + p.volume)) brick.refuse("has pieces without a size");
             sums.push_back(p);
+        }
         const Brick& s = brick.header().sums;
         report.closed = report.closed && s.mesh.closed;
         report.manifold = report.manifold && s.mesh.manifold;
@@ -197,15 +250,15 @@ SurfaceReport MergedMesh::report() const
         while (parent[i] != i) i = parent[i] = parent[parent[i]];
         return i;
     };
-    std::unordered_map<std::uint64_t, std::size_t> pieceAt; // by vertex of the whole
-    for (std::size_t b = 0; b < bricks_.size(); ++b) {
-        for (const BorderVertex& v : border_[b]) {
-            const std::size_t piece = firstPiece[b] + v.piece;
-            const auto [other, fresh] = pieceAt.emplace(indexOf(b, v.vertex), piece);
-            if (fresh) continue;
-            const std::size_t r = root(piece), s = root(other->second);
-            parent[std::max(r, s)] = std::min(r, s);
-        }
+    std::vector<std::pair<std::uint64_t, std::size_t>> pieceAt; // by vertex of the whole
+    for (std::size_t b = 0; b < bricks_.size(); ++b)
+        for (const BorderVertex& v : border_[b])
+            pieceAt.emplace_back(indexOf(b, v.vertex), firstPiece[b] + v.piece);
+    std::sort(pieceAt.begin(), pieceAt.end());
+    for (std::size_t i = 1; i < pieceAt.size(); ++i) {
+        if (pieceAt[i].first != pieceAt[i - 1].first) continue;
+        const std::size_t r = root(pieceAt[i].second), s = root(pieceAt[i - 1].second);
+        parent[std::max(r, s)] = std::min(r, s);
     }
     std::vector<PieceMeasure> whole;
     std::vector<std::size_t> place(sums.size());
@@ -242,8 +295,15 @@ SurfaceReport MergedMesh::report() const
              ++i)
             surplus += edges[i].surplus;
         if (surplus != 0) report.closed = false;
+        if (i - begin != 2) report.manifold = false;
     }
     report.manifold = report.manifold && report.closed;
+    const int euler = report.eulerCharacteristic;
+    if (report.manifold &&
+        (triangles() % 2 != 0 || euler % 2 != 0 || euler > 2 * std::int64_t(whole.size())))
+        throw Error(ErrorKind::Input, "merge: the bricks contradict each other: V - E + F is " +
+                                          std::to_string(euler) + " for " +
+                                          std::to_string(whole.size()) + " pieces");
 
     report.kinkShare = double(kinks) / double(vertices());
     report.gradientShare = double(units) / double(vertices() - kinks);

@@ -10,7 +10,6 @@
 
 #include <cstdint>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace molsurf
@@ -22,7 +21,10 @@ class MergedMesh
 {
 public:
     /// @param[in] bricks  all of a plan, in their order; they must outlive it
-    /// @throws Error(ErrorKind::Input) if a vertex of a brick is missing in the one that owns it
+    /// @throws Error(ErrorKind::Input) if a vertex of a brick is missing in the one that owns it,
+    /// or
+    ///         if the triangles of a brick, where it has them, are not what it says of them: closed
+    ///         but for the open edges at its border, in so many pieces, at every vertex
     explicit MergedMesh(const std::vector<BrickFile>& bricks);
 
     std::size_t vertices() const { return firsts_.back(); }
@@ -34,15 +36,17 @@ public:
 
     /// Everything that SurfaceReport says of the whole. A mesh whose bricks do not fit along an
     /// edge counts as not closed.
+    /// @throws Error(ErrorKind::Input) if it is closed and its numbers contradict each other
     SurfaceReport report() const;
 
 private:
+    void checkTriangles(std::size_t brick) const;
     std::uint64_t indexOf(std::size_t brick, std::uint32_t vertex) const;
 
     const std::vector<BrickFile>& bricks_;
     std::vector<std::uint64_t> firsts_; // of each brick's vertices, and the end
     std::size_t triangles_ = 0;
-    std::vector<std::unordered_map<std::uint32_t, std::uint64_t>> foreign_; // by local index
+    std::vector<std::vector<std::uint64_t>> foreign_; // vertices behind the owned ones
     std::vector<std::vector<BorderVertex>> border_;
 };
 

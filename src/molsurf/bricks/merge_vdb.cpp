@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/merge_vdb.h"
 
+#include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
+#include "molsurf/io/check_vdb.h"
 #include "molsurf/io/write_vdb.h"
 
 #include <openvdb/io/Archive.h>
@@ -10,9 +12,13 @@
 #include <openvdb/io/io.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <ios>
 #include <map>
+#include <sstream>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -75,12 +81,15 @@ void floodRoot(TreeT& tree)
     std::map<Coord, Ends> nodes;
     for (auto it = tree.root().beginChildOn(); it; ++it)
         nodes.emplace(it.getCoord(), floodTiles(*it, inside, outside));
-    constexpr int dim = int(TreeT::RootNodeType::ChildNodeType::DIM);
+    constexpr int dim = int(TreeT::RootNodeType::ChildNodeType::DIM), most = 1 << 16;
+    int tiles = 0;
     for (auto a = nodes.begin(), b = a; a != nodes.end(); a = b) {
         if (++b == nodes.end()) break;
         const Coord step = b->first - a->first;
         if (step.x() != 0 || step.y() != 0 || step.z() == dim) continue;
         if (!a->second.last || !b->second.first) continue;
+        if ((tiles += step.z() / dim) > most)
+            throw Error(ErrorKind::Input, "merge: leaves that enclose more than any molecule");
         for (Coord c = a->first.offsetBy(0, 0, dim); c.z() != b->first.z(); c.z() += dim)
             tree.root().addTile(c, inside, false);
     }
@@ -111,25 +120,77 @@ T valueFrom(const std::vector<double>& numbers)
         return T(float(numbers.at(0)), float(numbers.at(1)), float(numbers.at(2)));
 }
 
-[[noreturn]] void refuseGrid(const BrickFile& brick, const char* what)
+/// Refuses leaves that are so far from each other that the nodes above them would take memory out
+/// of proportion: those of a surface come in heaps.
+/// @param[in] origins  of the leaves of all bricks
+template<typename Tree>
+void checkNodes(std::vector<std::array<std::int32_t, 3>> origins)
 {
-    throw Error(ErrorKind::Input, brick.path() + " has " + what + " [hint: run the brick again]");
+    using Upper = typename Tree::RootNodeType::ChildNodeType;
+    using Lower = typename Upper::ChildNodeType;
+    constexpr std::size_t lower = Lower::NUM_VALUES * sizeof(typename Lower::UnionType);
+    constexpr std::size_t upper = Upper::NUM_VALUES * sizeof(typename Upper::UnionType);
+    const std::size_t leaves = origins.size();
+    for (auto& origin : origins)
+        for (std::int32_t& x : origin) x &= ~std::int32_t(Upper::DIM - 1);
+    std::sort(origins.begin(), origins.end());
+    const auto nodes = std::size_t(std::unique(origins.begin(), origins.end()) - origins.begin());
+    if (nodes * upper > 8 * upper + 2 * lower * leaves)
+        throw Error(ErrorKind::Input,
+                    "merge: the leaves of the bricks are too far from each other");
 }
 
-void checkLeaf(const StoredLeaf& leaf, const Coord& origin, const BrickFile& brick)
+/// Whether bytes are the values of a leaf, as OpenVDB reads them, and those that the leaf tells.
+template<typename LeafT>
+bool holds(const StoredLeaf& stored, std::string bytes, const StoredGrid& grid,
+           const typename LeafT::ValueType& background, std::uint32_t compression)
 {
-    if ((origin & 7) != Coord(0)) refuseGrid(brick, "a leaf between leaves");
-    constexpr int far = 1 << 26; // [voxel], beyond any ball; what lies between leaves is filled
-    if (!openvdb::CoordBBox(Coord(-far), Coord(far)).isInside(origin))
-        refuseGrid(brick, "a leaf far away");
-    if (leaf.negative >> signBits != 0) refuseGrid(brick, "a leaf of unknown signs");
-    const std::uint64_t end = brick.header().areas.offset;
-    if (leaf.offset > end || leaf.size > end - leaf.offset)
-        refuseGrid(brick, "a leaf whose values lie outside of it");
+    try {
+        std::istringstream stream(std::move(bytes));
+        stream.exceptions(std::ios_base::badbit | std::ios_base::failbit | std::ios_base::eofbit);
+        checkVdbLeaf(stream, stored.size, openvdb::typeNameAsString<typename LeafT::ValueType>(),
+                     grid.half, compression);
+        stream.seekg(0);
+        openvdb::io::setCurrentVersion(stream);
+        openvdb::io::setDataCompression(stream, compression);
+        openvdb::io::setGridBackgroundValuePtr(stream, &background);
+        LeafT leaf(Coord(stored.origin[0], stored.origin[1], stored.origin[2]), background);
+        leaf.readBuffers(stream, grid.half);
+        const StoredLeaf found = storedLeaf(leaf);
+        return found.negative == stored.negative && found.mask == stored.mask;
+    } catch (const std::runtime_error&) { // of checkVdbLeaf()
+        return false;
+    } catch (const openvdb::Exception&) {
+        return false;
+    }
+}
+
+/// Reads the values of all leaves once, for what stands in the merged file to be readable.
+template<typename GridT>
+void checkValues(const BrickFile& brick, const std::vector<StoredLeaf>& leaves, std::size_t g,
+                 const typename GridT::ValueType& background, std::uint32_t compression,
+                 const Progress& progress)
+{
+    using Leaf = typename GridT::TreeType::LeafNodeType;
+    constexpr std::size_t run = 4096;
+    for (std::size_t begin = 0; begin < leaves.size(); begin += run) {
+        const std::size_t count = std::min(run, leaves.size() - begin);
+        std::atomic<bool> good{true};
+        parallelFor(count, progress, [&](std::size_t i) {
+            const StoredLeaf& leaf = leaves[begin + i];
+            std::string bytes(leaf.size, ' ');
+            brick.read(leaf.offset, bytes.data(), bytes.size());
+            if (!holds<Leaf>(leaf, std::move(bytes), brick.header().grids[g], background,
+                             compression))
+                good = false;
+        });
+        if (!good) brick.refuse("has values that are not those of their leaf");
+    }
 }
 
 template<typename GridT>
-Skeleton skeletonOf(const std::vector<BrickFile>& bricks, std::size_t g, double voxel)
+Skeleton skeletonOf(const std::vector<BrickFile>& bricks, std::size_t g, double voxel,
+                    std::uint32_t compression, const Progress& progress)
 {
     using Tree = typename GridT::TreeType;
     using Leaf = typename Tree::LeafNodeType;
@@ -142,14 +203,19 @@ Skeleton skeletonOf(const std::vector<BrickFile>& bricks, std::size_t g, double 
     grid->setName(first.name);
     if (first.half) grid->setSaveFloatAsHalf(true);
 
+    std::vector<std::array<std::int32_t, 3>> origins;
+    for (const BrickFile& brick : bricks) {
+        const std::vector<StoredLeaf> leaves = brick.leaves(g);
+        checkValues<GridT>(brick, leaves, g, background, compression, progress);
+        for (const StoredLeaf& leaf : leaves) origins.push_back(leaf.origin);
+    }
+    checkNodes<Tree>(std::move(origins));
     std::vector<Place> places;
     for (std::size_t b = 0; b < bricks.size(); ++b) {
-        const auto leaves = bricks[b].read<StoredLeaf>(bricks[b].header().grids[g].leaves);
-        for (const StoredLeaf& stored : leaves) {
+        for (const StoredLeaf& stored : bricks[b].leaves(g)) {
             const Coord origin(stored.origin[0], stored.origin[1], stored.origin[2]);
-            checkLeaf(stored, origin, bricks[b]);
             if (grid->constTree().probeConstLeaf(origin))
-                refuseGrid(bricks[b], "a leaf that another brick has");
+                bricks[b].refuse("has a leaf that another brick has");
             auto* leaf = new Leaf(openvdb::PartialCreate(), origin, background);
             typename Leaf::NodeMaskType mask;
             for (int x = 0; x < 8; ++x)
@@ -171,14 +237,15 @@ Skeleton skeletonOf(const std::vector<BrickFile>& bricks, std::size_t g, double 
     return out;
 }
 
-Skeleton skeletonOfAny(const std::vector<BrickFile>& bricks, std::size_t g, double voxel)
+Skeleton skeletonOfAny(const std::vector<BrickFile>& bricks, std::size_t g, double voxel,
+                       std::uint32_t compression, const Progress& progress)
 {
     const std::string& type = bricks.front().header().grids[g].type;
     if (type == openvdb::FloatGrid::gridType())
-        return skeletonOf<openvdb::FloatGrid>(bricks, g, voxel);
+        return skeletonOf<openvdb::FloatGrid>(bricks, g, voxel, compression, progress);
     if (type == openvdb::Int32Grid::gridType())
-        return skeletonOf<openvdb::Int32Grid>(bricks, g, voxel);
-    return skeletonOf<openvdb::Vec3SGrid>(bricks, g, voxel);
+        return skeletonOf<openvdb::Int32Grid>(bricks, g, voxel, compression, progress);
+    return skeletonOf<openvdb::Vec3SGrid>(bricks, g, voxel, compression, progress);
 }
 
 // Writes a file like io::Archive::write(), but for the values, which it copies.
@@ -254,10 +321,11 @@ void writeMergedVdb(const std::vector<BrickFile>& bricks, double voxel, const st
     });
     try {
         errno = 0;
-        const CopyingArchive archive(vdbCompression(floatsAlone));
+        const std::uint32_t compression = vdbCompression(floatsAlone);
+        const CopyingArchive archive(compression);
         archive.begin(file.stream(), file.seekable(), grids.size(), metadata);
         for (std::size_t g = 0; g < grids.size(); ++g) {
-            const Skeleton skeleton = skeletonOfAny(bricks, g, voxel);
+            const Skeleton skeleton = skeletonOfAny(bricks, g, voxel, compression, progress);
             skeleton.grid->setCreator(creator);
             archive.add(file.stream(), file.seekable(), skeleton, bricks, progress);
         }
@@ -274,7 +342,7 @@ MergedSize sizeOfMerged(const std::vector<BrickFile>& bricks)
     MergedSize size;
     for (const BrickFile& brick : bricks) {
         const Section& leaves = brick.header().grids.front().leaves;
-        for (const StoredLeaf& leaf : brick.read<StoredLeaf>(leaves)) {
+        for (const StoredLeaf& leaf : brick.leaves(0)) {
             for (const std::uint64_t word : leaf.mask)
                 size.activeVoxels += std::size_t(__builtin_popcountll(word));
         }

@@ -35,8 +35,13 @@ bool fits(const BrickHeader& a, const BrickHeader& b)
            (!a.sums.evolution || a.sums.evolution->steps == b.sums.evolution->steps);
 }
 
-std::vector<BrickFile> openBricks(const std::vector<std::string>& paths, const std::string& id)
+std::vector<BrickFile> openBricks(const std::vector<std::string>& paths, const std::string& id,
+                                  const BrickPlan& plan, bool meshed)
 {
+    if (paths.empty() || paths.size() != plan.bricks.size())
+        throw Error(ErrorKind::Input, "merge: " + std::to_string(paths.size()) +
+                                          " files for a plan of " +
+                                          std::to_string(plan.bricks.size()) + " bricks");
     std::string missing;
     std::size_t count = 0;
     std::error_code ignored;
@@ -50,13 +55,14 @@ std::vector<BrickFile> openBricks(const std::vector<std::string>& paths, const s
                                           (count > 10 ? ", ..." : ""));
     std::vector<BrickFile> bricks;
     for (std::size_t k = 0; k < paths.size(); ++k) {
-        bricks.emplace_back(paths[k]);
+        bricks.emplace_back(paths[k], plan.bricks[k].box);
         if (bricks.back().header().plan != id || bricks.back().header().number != k + 1)
             throw Error(ErrorKind::Input, paths[k] + " belongs to another plan");
         if (!fits(bricks.back().header(), bricks.front().header()))
             throw Error(ErrorKind::Input, paths[k] +
                                               ": its grids or groups are others than those of " +
                                               paths[0] + " [hint: run the bricks again]");
+        if (meshed && !bricks.back().header().meshed()) bricks.back().refuse("holds no mesh");
     }
     return bricks;
 }
@@ -73,6 +79,7 @@ void addGroups(const std::vector<BrickFile>& bricks, Report& report)
             for (GroupReport& group : report.groups) {
                 group.area = 0.0;
                 group.volume = std::numeric_limits<double>::quiet_NaN(); // not summed by bricks
+                if (group.atoms > rest) brick.refuse("has groups of more atoms than the plan");
                 rest -= group.atoms;
             }
         }
@@ -82,7 +89,8 @@ void addGroups(const std::vector<BrickFile>& bricks, Report& report)
         }
     }
     if (report.groups.empty()) return;
-    for (GroupReport& group : report.groups) group.area *= report.surface.area / sum;
+    if (sum > 0.0)
+        for (GroupReport& group : report.groups) group.area *= report.surface.area / sum;
     report.groups.back().atoms = rest;
     if (rest == 0 && report.groups.back().area == 0.0) report.groups.pop_back();
 }
@@ -126,9 +134,9 @@ std::optional<EvolutionReport> evolutionOf(const std::vector<BrickFile>& bricks,
 
 } // namespace
 
-MergedBricks::MergedBricks(const std::vector<std::string>& paths, const std::string& plan,
-                           std::size_t atoms, const SurfaceOptions& options)
-    : bricks_(openBricks(paths, plan)), mesh_(bricks_)
+MergedBricks::MergedBricks(const std::vector<std::string>& paths, const std::string& id,
+                           const BrickPlan& plan, const SurfaceOptions& options, bool meshed)
+    : bricks_(openBricks(paths, id, plan, meshed)), mesh_(bricks_)
 {
     report_.surface = mesh_.report();
     report_.surface.kind = nameOf(options.kind);
@@ -142,7 +150,7 @@ MergedBricks::MergedBricks(const std::vector<std::string>& paths, const std::str
     const MergedSize size = sizeOfMerged(bricks_);
     report_.activeVoxels = size.activeVoxels;
     report_.gridBytes = size.bytes;
-    report_.atoms = atoms;
+    report_.atoms = plan.atoms;
     report_.voxel = options.voxel;
     for (const BrickFile& brick : bricks_)
         for (const auto& [stage, seconds] : brick.header().sums.seconds)

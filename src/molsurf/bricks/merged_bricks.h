@@ -4,6 +4,7 @@
 /// @file
 /// All bricks of a plan as one surface.
 
+#include "molsurf/bricks.h"
 #include "molsurf/bricks/brick_file.h"
 #include "molsurf/bricks/merge_mesh.h"
 #include "molsurf/io/output_file.h"
@@ -24,12 +25,13 @@ class MergedBricks
 {
 public:
     /// @param[in] paths    of all bricks of a plan, in their order
-    /// @param[in] plan     the name that they were written with
-    /// @param[in] atoms    balls of the molecule
-    /// @throws Error(ErrorKind::Input) if a brick is missing or belongs to another plan
+    /// @param[in] id       the name that they were written with
+    /// @param[in] meshed   whether they have to hold vertices and triangles
+    /// @throws Error(ErrorKind::Input) if a brick is missing, belongs to another plan, or cannot be
+    ///         what a brick of this one is
     /// @throws Error(ErrorKind::Numeric) if there is no surface in them
-    MergedBricks(const std::vector<std::string>& paths, const std::string& plan, std::size_t atoms,
-                 const SurfaceOptions& options);
+    MergedBricks(const std::vector<std::string>& paths, const std::string& id,
+                 const BrickPlan& plan, const SurfaceOptions& options, bool meshed);
 
     /// The report of the surface: all but who made it, and of what.
     const Report& report() const { return report_; }

@@ -565,9 +565,9 @@ void checkPlan(const BrickPlan& plan, const SurfaceOptions& options)
         if (!good) throw Error(ErrorKind::Input, std::string("the plan is damaged: ") + what);
     };
     check(plan.steps == stepsOf(options), "its steps are not those of its options");
-    constexpr int far = 1 << 28; // [voxel], beyond any atom
-    const CoordBBox space(Coord(-far), Coord(far - 1));
+    const CoordBBox space = anySpace();
     check(space.isInside(plan.anchor), "its anchor is far away");
+    check(!plan.bricks.empty(), "it has no bricks");
     for (const PlannedBrick& brick : plan.bricks) {
         const Coord &min = brick.box.min(), &max = brick.box.max();
         check(!brick.box.empty() && space.isInside(min) && space.isInside(max) &&

@@ -2,11 +2,13 @@
 #include "molsurf/bricks/plan_file.h"
 
 #include "molsurf/error.h"
+#include "molsurf/io/json_number.h"
 #include "molsurf/structure/load_text.h"
 
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <stdexcept>
 
 namespace molsurf
 {
@@ -23,7 +25,8 @@ Json json(const openvdb::Coord& c)
 
 openvdb::Coord coord(const Json& json)
 {
-    return {json.at(0), json.at(1), json.at(2)};
+    const auto number = [&](int axis) { return jsonNumber<std::int32_t>(json.at(axis)); };
+    return {number(0), number(1), number(2)};
 }
 
 } // namespace
@@ -78,19 +81,23 @@ PlanManifest readManifest(const std::string& path)
         m.input = j.at("input");
         m.options = j.at("options").get<std::map<std::string, std::vector<std::string>>>();
         for (const Json& f : j.at("files")) m.files.push_back({f.at("path"), f.at("sha256")});
-        m.voxel = j.at("voxel");
-        m.plan.atoms = j.at("atoms");
-        m.plan.steps = j.at("steps");
+        const auto real = [](const Json& number) { return jsonNumber<double>(number); };
+        const auto count = [](const Json& number) { return jsonNumber<std::size_t>(number); };
+        m.voxel = real(j.at("voxel"));
+        m.plan.atoms = count(j.at("atoms"));
+        m.plan.steps = jsonNumber<int>(j.at("steps"));
         m.plan.anchor = coord(j.at("anchor"));
-        m.plan.maxRadius = j.at("largest_radius");
-        m.plan.maxGrownRadius = j.at("largest_extent");
-        m.plan.maxTolerance = j.at("largest_tolerance");
+        m.plan.maxRadius = real(j.at("largest_radius"));
+        m.plan.maxGrownRadius = real(j.at("largest_extent"));
+        m.plan.maxTolerance = real(j.at("largest_tolerance"));
         for (const Json& b : j.at("bricks")) {
             m.plan.bricks.push_back({openvdb::CoordBBox(coord(b.at("min")), coord(b.at("max"))),
-                                     b.at("atoms"), b.at("voxels"), b.at("bytes"),
-                                     b.at("seconds")});
+                                     count(b.at("atoms")), count(b.at("voxels")),
+                                     count(b.at("bytes")), real(b.at("seconds"))});
         }
         return m;
+    } catch (const std::range_error& e) {
+        throw Error(ErrorKind::Input, path + ": is no plan: its " + e.what());
     } catch (const Json::exception&) {
         throw Error(ErrorKind::Input,
                     path + ": is no plan [hint: vdb_molsurf bricks plan writes one]");

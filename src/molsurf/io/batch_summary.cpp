@@ -2,6 +2,7 @@
 #include "molsurf/io/batch_summary.h"
 
 #include "molsurf/error.h"
+#include "molsurf/io/json_number.h"
 #include "molsurf/io/write_table.h"
 
 #include <nlohmann/json.hpp>
@@ -81,20 +82,21 @@ std::optional<BatchSummary> readSummary(const std::string& path)
             if (entry.status == "failed") {
                 entry.message = e.at("message");
             } else {
-                entry.atoms = e.at("atoms");
-                entry.area = e.at("area");
-                entry.volume = e.at("volume");
-                entry.eulerCharacteristic = e.at("euler_characteristic");
-                entry.components = e.at("components");
-                entry.cavities = e.at("cavities");
-                entry.seconds = e.at("seconds");
+                entry.atoms = jsonNumber<std::size_t>(e.at("atoms"));
+                entry.area = jsonNumber<double>(e.at("area"));
+                entry.volume = jsonNumber<double>(e.at("volume"));
+                entry.eulerCharacteristic = jsonNumber<int>(e.at("euler_characteristic"));
+                entry.components = jsonNumber<int>(e.at("components"));
+                entry.cavities = jsonNumber<std::size_t>(e.at("cavities"));
+                entry.seconds = jsonNumber<double>(e.at("seconds"));
             }
             summary.entries.push_back(std::move(entry));
         }
         return summary;
     } catch (const Json::exception&) {
-        throw Error(ErrorKind::Input, path + ": is no summary of a batch");
+    } catch (const std::range_error&) {
     }
+    throw Error(ErrorKind::Input, path + ": is no summary of a batch");
 }
 
 } // namespace molsurf

@@ -81,6 +81,15 @@ public:
         for (std::int32_t g = 0; g < grids; ++g) grid();
     }
 
+    void leaf(const std::string& type, bool half, std::uint32_t compression)
+    {
+        setType(type);
+        half_ = half;
+        compression_ = compression;
+        leafValues();
+        if (left_ > 0) refuseBytes("there is more than its values");
+    }
+
 private:
     void need(std::uint64_t bytes) const
     {
@@ -137,6 +146,14 @@ private:
         }
     }
 
+    void setType(const std::string& name)
+    {
+        const auto type = std::find_if(std::begin(types), std::end(types),
+                                       [&](const Type& t) { return t.name == name; });
+        if (type == std::end(types)) refuseBytes("it has a grid of type " + name);
+        type_ = *type;
+    }
+
     void transform()
     {
         std::string name = text();
@@ -158,11 +175,10 @@ private:
         half_ = name.size() > halves.size() &&
                 name.compare(name.size() - halves.size(), halves.size(), halves) == 0;
         if (half_) name.resize(name.size() - halves.size());
-        const auto type = std::find_if(std::begin(types), std::end(types), [&](const Type& t) {
-            return name == std::string(before) + std::string(t.name) + std::string(after);
-        });
-        if (type == std::end(types)) refuseBytes("it has a grid of type " + name);
-        type_ = *type;
+        if (name.size() < before.size() + after.size() || name.rfind(before, 0) != 0 ||
+            name.compare(name.size() - after.size(), after.size(), after) != 0)
+            refuseBytes("it has a grid of type " + name);
+        setType(name.substr(before.size(), name.size() - before.size() - after.size()));
         const bool instance = !text().empty();
         skip(3 * sizeof(std::int64_t)); // places in the file, which are not used
         compression_ = take<std::uint32_t>();
@@ -281,6 +297,12 @@ private:
 void checkVdb(std::istream& stream, std::uint64_t size)
 {
     Checker(stream, size).file();
+}
+
+void checkVdbLeaf(std::istream& stream, std::uint64_t size, const std::string& type, bool half,
+                  std::uint32_t compression)
+{
+    Checker(stream, size).leaf(type, half, compression);
 }
 
 } // namespace molsurf

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <istream>
+#include <string>
 
 namespace molsurf
 {
@@ -19,5 +20,12 @@ namespace molsurf
 /// @param[in] size    of the file [byte]
 /// @throws std::runtime_error with what is wrong
 void checkVdb(std::istream& stream, std::uint64_t size);
+
+/// The same of the values of one leaf, tree::LeafNode::writeBuffers(), and nothing behind them.
+/// @param[in] type         of a value, as "float"
+/// @param[in] half         floats have 16 bits
+/// @param[in] compression  flags of io::setDataCompression()
+void checkVdbLeaf(std::istream& stream, std::uint64_t size, const std::string& type, bool half,
+                  std::uint32_t compression);
 
 } // namespace molsurf

@@ -10,9 +10,10 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <mutex>
+#include <sstream>
+#include <utility>
 
 namespace molsurf
 {
@@ -22,8 +23,9 @@ namespace fs = std::filesystem;
 namespace
 {
 
-// An entry of a record is a letter, a path as seen from the record's folder, and a zero.
-constexpr char newFile = '+', replacement = '=', seeFolder = '@';
+// An entry of a record is a letter, a name, and a zero. The name is that of a file in the record's
+// folder, or the path of another folder as seen from there: the first one, or one of the others.
+constexpr char newFile = '+', replacement = '=', firstFolder = '@', otherFolder = '&';
 
 constexpr const char *recordStart = ".vdb_molsurf.", *recordEnd = ".commit";
 
@@ -38,7 +40,7 @@ std::string makerOfRecord(const std::string& name)
     const std::size_t start = std::strlen(recordStart), end = std::strlen(recordEnd);
     if (name.size() <= start + end) return "";
     const std::string maker = name.substr(start, name.size() - start - end);
-    return name == recordName(maker) ? maker : "";
+    return name == recordName(maker) && isMaker(maker) ? maker : "";
 }
 
 fs::path canonicalFolder(const OutputFile& file)
@@ -59,13 +61,18 @@ public:
         file_.write(entries.data(), entries.size());
         file_.commit();
     }
-    ~Record() { unlink(path_.c_str()); }
+    ~Record()
+    {
+        if (!left_) unlink(path_.c_str());
+    }
+    void leave() { left_ = true; }
     Record(const Record&) = delete;
     Record& operator=(const Record&) = delete;
 
 private:
     std::string path_;
     OutputFile file_; // locked as long as it is open
+    bool left_ = false;
 };
 
 /// All records of a commit. The first that goes is the one that decides.
@@ -77,13 +84,11 @@ public:
         const fs::path& first = folders[0];
         for (const fs::path& folder : folders)
             if (folder != first)
-                add(folder, seeFolder + first.lexically_relative(folder).string() + '\0');
-        std::string entries;
-        for (const OutputFile* file : files) {
-            const fs::path target = canonicalFolder(*file) / fs::path(file->target()).filename();
-            entries += (file->replaces() ? replacement : newFile) +
-                       target.lexically_relative(first).string() + '\0';
-        }
+                add(folder,
+                    entry(firstFolder, first.lexically_relative(folder)) + filesIn(folder, files));
+        std::string entries = filesIn(first, files);
+        for (const fs::path& folder : folders)
+            if (folder != first) entries += entry(otherFolder, folder.lexically_relative(first));
         syncFolder(first.string());
         add(first, entries);
     }
@@ -93,8 +98,25 @@ public:
     }
     Records(const Records&) = delete;
     Records& operator=(const Records&) = delete;
+    void leave()
+    {
+        for (const auto& record : all_) record->leave();
+    }
 
 private:
+    static std::string entry(char kind, const fs::path& name)
+    {
+        return kind + name.string() + '\0';
+    }
+    static std::string filesIn(const fs::path& folder, const std::vector<OutputFile*>& files)
+    {
+        std::string entries;
+        for (const OutputFile* file : files)
+            if (canonicalFolder(*file) == folder)
+                entries += entry(file->replaces() ? replacement : newFile,
+                                 fs::path(file->target()).filename());
+        return entries;
+    }
     void add(const fs::path& folder, const std::string& entries)
     {
         all_.push_back(std::make_unique<Record>(folder, entries));
@@ -113,38 +135,78 @@ std::vector<fs::path> foldersOf(const std::vector<OutputFile*>& files)
     return folders;
 }
 
-/// Does what a record says, and removes it.
-void finish(const fs::path& folder, const std::string& maker)
+using Entries = std::vector<std::pair<char, std::string>>;
+
+/// The entries of a record; none if it is not this user's.
+Entries entriesOf(const fs::path& record)
 {
-    const fs::path path = folder / recordName(maker);
-    const int lock = lockAbandoned(path.string());
-    if (lock < 0) return;
-    bool decided = true; // not if another process is finishing the record in the other folder
-    std::ifstream record(path, std::ios_base::binary);
-    for (std::string entry; std::getline(record, entry, '\0');) {
-        if (entry.empty()) continue;
-        const fs::path place = folder / entry.substr(1);
-        if (entry[0] == seeFolder) {
-            recover(place.string());
-            decided = access((place / recordName(maker)).c_str(), F_OK) != 0;
-            continue;
-        }
-        const std::string temporary = temporaryName(place.string(), maker);
-        const bool replace = entry[0] == replacement;
-        if (moveFile(temporary, place.string(), replace)) {
-            syncFolder(place.parent_path().string());
-            continue;
-        }
+    constexpr std::size_t most = 1 << 20; // bytes; no command line names more
+    std::string text(most, '\0');
+    const FileDescriptor file = openOwn(record.string());
+    const ssize_t size = file ? pread(file.get(), text.data(), most, 0) : 0;
+    std::istringstream words(text.substr(0, std::size_t(std::max<ssize_t>(size, 0))));
+    Entries entries;
+    for (std::string word; std::getline(words, word, '\0');)
+        if (!word.empty()) entries.emplace_back(word[0], word.substr(1));
+    return entries;
+}
+
+/// Puts the files that a record names in their places in its folder.
+void placeFiles(const fs::path& folder, const std::string& maker, const Entries& entries)
+{
+    for (const auto& [kind, name] : entries) {
+        const bool replace = kind == replacement;
+        const bool isName = name.find('/') == name.npos && name.find_first_not_of('.') != name.npos;
+        if ((!replace && kind != newFile) || !isName) continue;
+        const std::string place = (folder / name).string();
+        if (moveFile(temporaryName(place, maker), place, replace)) continue;
         // It is there already, or somebody else has made another one.
         if (errno == ENOENT || errno == EEXIST) continue;
-        const int reason = errno;
-        close(lock);
-        throw Error(ErrorKind::Output,
-                    "cannot rename " + temporary +
-                        ", which a killed run has left complete: " + std::strerror(reason));
+        throw Error(ErrorKind::Output, "cannot write " + place + ", which a killed run has left " +
+                                           "complete: " + std::strerror(errno) + " [hint: remove " +
+                                           (folder / recordName(maker)).string() + "]");
     }
-    if (decided) unlink(path.c_str());
-    close(lock);
+    syncFolder(folder.string());
+}
+
+/// The folder that a record calls the first one; empty if it is that one's.
+fs::path firstOf(const Entries& entries, const fs::path& folder)
+{
+    for (const auto& [kind, name] : entries)
+        if (kind == firstFolder) return folder / name;
+    return {};
+}
+
+/// Does what the record of a folder says, and removes it.
+void finish(const fs::path& folder, const std::string& maker)
+{
+    const fs::path record = folder / recordName(maker);
+    FileDescriptor lock = lockAbandoned(record.string(), maker);
+    if (!lock) return;
+    const Entries entries = entriesOf(record);
+    const fs::path first = firstOf(entries, folder);
+    if (!first.empty()) {
+        const auto decides = [&] {
+            const Entries there = entriesOf(first / recordName(maker));
+            return !there.empty() && firstOf(there, first).empty();
+        };
+        lock = FileDescriptor(); // for the record there leads back to this one
+        if (decides()) finish(first, maker);
+        if (!decides()) unlink(record.c_str());
+        return;
+    }
+    placeFiles(folder, maker, entries);
+    std::vector<fs::path> done = {record};
+    for (const auto& [kind, name] : entries) {
+        if (kind != otherFolder) continue;
+        const fs::path other = folder / name;
+        const Entries there = entriesOf(other / recordName(maker));
+        std::error_code ignored;
+        if (!fs::equivalent(firstOf(there, other), folder, ignored)) continue;
+        placeFiles(other, maker, there);
+        done.push_back(other / recordName(maker));
+    }
+    for (const fs::path& path : done) unlink(path.c_str()); // the first one decides
 }
 
 } // namespace
@@ -160,20 +222,26 @@ void commit(const std::vector<OutputFile*>& all)
     const std::vector<fs::path> folders = foldersOf(files);
     static std::mutex one; // a process has one record in a folder
     std::unique_lock<std::mutex> turn(one, std::defer_lock);
-    std::unique_ptr<const Records> records;
+    std::unique_ptr<Records> records;
     if (files.size() > 1) {
         turn.lock();
-        for (const OutputFile* file : files) checkWritable(file->path(), file->replaces());
-        records = std::make_unique<const Records>(files, folders);
+        records = std::make_unique<Records>(files, folders);
     }
     std::size_t placed = 0;
     try {
-        for (; placed < files.size(); ++placed) files[placed]->place();
+        for (; placed < files.size(); ++placed) files[placed]->place(records != nullptr);
     } catch (...) {
-        while (placed > 0) files[--placed]->takeBack();
+        std::size_t left = placed + 1; // with the one that failed
+        while (left > 0 && files[left - 1]->takeBack()) --left;
+        if (left > 0 && records) {
+            for (OutputFile* file : files) file->leave();
+            records->leave();
+        }
+        for (const fs::path& folder : folders) syncFolder(folder.string());
         throw;
     }
     for (const fs::path& folder : folders) syncFolder(folder.string());
+    for (OutputFile* file : files) file->dropOld();
 }
 
 void recover(const std::string& folder)
@@ -192,11 +260,10 @@ void recover(const std::string& folder)
     }
     for (const std::string& name : names) {
         const std::string maker = makerOf(name);
-        const int lock = maker.empty() ? -1 : lockAbandoned((place / name).string());
-        if (lock < 0) continue;
-        if (access((place / recordName(maker)).c_str(), F_OK) != 0)
+        if (maker.empty()) continue;
+        const FileDescriptor lock = lockAbandoned((place / name).string(), maker);
+        if (lock && access((place / recordName(maker)).c_str(), F_OK) != 0)
             fs::remove_all(place / name, problem);
-        close(lock);
     }
 }
 

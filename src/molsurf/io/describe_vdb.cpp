@@ -40,7 +40,7 @@ std::string measure(const openvdb::FloatGrid& grid)
 
 std::string describe(const openvdb::GridBase& grid)
 {
-    std::string out = "  grid " + grid.getName() + "\n";
+    std::string out = infoTitle("  grid " + grid.getName());
     out += infoLine("type", grid.type());
     out += infoLine("class", openvdb::GridBase::gridClassToString(grid.getGridClass()));
     out += infoLine("transform", grid.transform().mapType());
@@ -68,7 +68,7 @@ std::string describe(const openvdb::GridBase& grid)
 std::string describeVdb(const std::string& path)
 {
     const VdbFile file = readVdb(path);
-    std::string out = path + "\n  metadata\n";
+    std::string out = infoTitle(path) + infoTitle("  metadata");
     for (auto meta = file.metadata.beginMeta(); meta != file.metadata.endMeta(); ++meta)
         out += infoLine(meta->first, meta->second->str());
     for (const auto& grid : file.grids) out += describe(*grid);

@@ -49,6 +49,12 @@ std::string hint(int reason)
     refuse(path, "it exists already [hint: `force` replaces it]");
 }
 
+/// Gives a file a second name; where a file system knows no such thing, that one alone.
+bool alsoNamed(const std::string& path, const std::string& name)
+{
+    return link(path.c_str(), name.c_str()) == 0 || (errno != ENOENT && moveFile(path, name, true));
+}
+
 } // namespace
 
 void checkWritable(const std::string& path, bool overwrite)
@@ -123,16 +129,33 @@ void OutputFile::finish()
     finished_ = true;
 }
 
-void OutputFile::place()
+void OutputFile::place(bool keeping)
 {
+    if (keeping && replaces_) {
+        hasOld_ = alsoNamed(target_, keptName(target_));
+        if (!hasOld_ && errno != ENOENT) fail("cannot rename");
+    }
     placed_ = moveFile(temporary_, target_, replaces_);
     if (!placed_ && errno == EEXIST) refuseExisting(path_);
     if (!placed_) fail("cannot rename");
 }
 
-void OutputFile::takeBack()
+bool OutputFile::takeBack()
 {
-    if (!replaces_) placed_ = !moveFile(target_, temporary_, false);
+    // The new file has its temporary name again before the old one comes back: while there is a
+    // record of the commit, recover() would put it in its place.
+    const bool free = !placed_ || (hasOld_ ? alsoNamed(target_, temporary_)
+                                           : moveFile(target_, temporary_, false));
+    if (!free || (hasOld_ && !moveFile(keptName(target_), target_, true))) return false;
+    placed_ = false;
+    dropOld(); // which is there if it had two names
+    return true;
+}
+
+void OutputFile::dropOld()
+{
+    if (hasOld_) unlink(keptName(target_).c_str());
+    hasOld_ = false;
 }
 
 void OutputFile::commit()

@@ -57,12 +57,23 @@ public:
     ///         made a file of that name meanwhile
     void commit();
 
-    /// The parts of molsurf::commit(): where the file goes, whether it may replace another one
-    /// there, the renaming alone, and the way back, unless another file was replaced.
+    /// The parts of molsurf::commit(): where the file goes, and whether it may replace another one
+    /// there.
     const std::string& target() const { return target_; }
     bool replaces() const { return replaces_; }
-    void place();
-    void takeBack();
+
+    /// The renaming alone.
+    /// @param[in] keeping  a file that is replaced stays under keptName(), until dropOld()
+    void place(bool keeping);
+
+    /// The way back after place(), whether or not that has failed: the file that was replaced is
+    /// there again.
+    /// @return false if the system refuses that
+    bool takeBack();
+    void dropOld();
+
+    /// Leaves the file under the name that it has, for recover() to complete it.
+    void leave() { placed_ = true; }
 
     /// Throws the Error for a write that failed with the present errno.
     [[noreturn]] void fail(const char* step) const;
@@ -70,7 +81,7 @@ public:
 private:
     std::string path_, target_, temporary_;
     bool replaces_;
-    bool finished_ = false, placed_ = false;
+    bool finished_ = false, placed_ = false, hasOld_ = false;
     __gnu_cxx::stdio_filebuf<char> buffer_; // holds the lock of the temporary file
     std::ostream file_{nullptr};
 };

@@ -27,7 +27,7 @@ std::string extensionOf(const std::string& path)
     return extension;
 }
 
-std::string contentOf(const std::string& path)
+std::string contentOf(const std::string& path, std::size_t maxBytes)
 {
     std::error_code failure;
     if (std::filesystem::is_directory(path, failure)) badMesh("it is a folder");
@@ -36,10 +36,16 @@ std::string contentOf(const std::string& path)
     if (!file) badMesh(std::strerror(errno));
     std::string content;
     const auto size = std::filesystem::file_size(path, failure);
-    if (!failure) content.reserve(size);
+    const std::uintmax_t most = maxBytes  ? maxBytes
+                                : failure ? std::uintmax_t{4} << 30
+                                          : std::uintmax_t(-1);
+    if (!failure && size <= most) content.reserve(size);
     std::vector<char> piece(std::size_t(1) << 16);
-    while (file.read(piece.data(), std::streamsize(piece.size())) || file.gcount() > 0)
+    while (content.size() <= most &&
+           (file.read(piece.data(), std::streamsize(piece.size())) || file.gcount() > 0))
         content.append(piece.data(), std::size_t(file.gcount()));
+    if (content.size() > most)
+        badMesh("expected at most " + std::to_string(most) + " bytes [hint: a larger `maxInput`]");
     if (file.bad()) badMesh(std::strerror(errno));
     return content;
 }
@@ -125,8 +131,13 @@ std::size_t weld(Mesh& mesh)
 
 Mesh readMesh(const std::string& path)
 {
+    return readMesh(path, 0);
+}
+
+Mesh readMesh(const std::string& path, std::size_t maxBytes)
+{
     try {
-        const std::string content = contentOf(path);
+        const std::string content = contentOf(path, maxBytes);
         const std::string extension = extensionOf(path);
         const bool stl = extension == ".stl";
         Mesh mesh = stl                   ? parseStl(content)

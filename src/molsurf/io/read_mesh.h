@@ -19,6 +19,10 @@ bool isMeshName(const std::string& path);
 /// See molsurf/files.h.
 Mesh readMesh(const std::string& path);
 
+/// The same of a file with at most so many bytes; 0: as many as it has, or 4 GiB of one without a
+/// size.
+Mesh readMesh(const std::string& path, std::size_t maxBytes);
+
 /// The formats, each from the content of a file. A message begins with what is wrong; the caller
 /// names the file.
 /// @throws Error(ErrorKind::Input)

@@ -3,7 +3,10 @@
 
 /// @file
 /// Files and folders that stand for an output until it is complete. Each is locked (flock) by the
-/// process that made it, so that others can tell whether it is still at work.
+/// process that made it, and its name tells which one that was, so that others find out whether it
+/// is still at work: by the lock, and on the same machine also where a file system has no locks.
+
+#include "molsurf/core/file_descriptor.h"
 
 #include <string>
 
@@ -17,12 +20,18 @@ std::string temporaryName(const std::string& path);
 /// The same for a maker, in the place of this process, and a path that is no symbolic link.
 std::string temporaryName(const std::string& path, const std::string& maker);
 
-/// The maker in the names of this process: its number and a random one, since processes of other
-/// machines may write into the same folder.
+/// The name that a file of this path has while another one takes its place: ".NAME.MAKER.old".
+std::string keptName(const std::string& path);
+
+/// The maker in the names of this process: its number, 8 hexadecimal digits for the machine (host
+/// and space of process numbers), and 8 for the boot of the machine and the start of the process.
 const std::string& ownMaker();
 
 /// The maker of a file of such a name; empty for other names.
 std::string makerOf(const std::string& name);
+
+/// Whether a text is a maker.
+bool isMaker(const std::string& text);
 
 /// Where an output lies: the path itself, or where a symbolic link leads.
 std::string followed(const std::string& path);
@@ -37,9 +46,12 @@ int makeLockedFile(const std::string& name);
 /// The same for a folder, which only its owner may enter.
 int makeLockedFolder(const std::string& name);
 
-/// Locks a file or folder of this user that another process has made.
-/// @return a descriptor, or -1 if it is gone, locked, or somebody else's
-int lockAbandoned(const std::string& name);
+/// Opens a file or folder, and no symbolic link to one, if it is of this user.
+FileDescriptor openOwn(const std::string& name);
+
+/// Locks a file or folder of this user that a process has left which is gone.
+/// @return none if it is gone, somebody else's, or of a process that may be at work
+FileDescriptor lockAbandoned(const std::string& name, const std::string& maker);
 
 /// Gives a file another name in its folder.
 /// @return false if that fails, with errno: EEXIST if it may not @a replace another file

@@ -109,9 +109,9 @@ std::vector<float> placesInChains(const Structure& structure)
 /// Values by chain, number, insertion code and perhaps name of an atom.
 using Table = std::map<std::tuple<std::string, int, char, std::string>, float>;
 
-Table readTable(const std::string& path)
+Table readTable(const std::string& path, std::size_t maxBytes)
 {
-    const std::string text = loadText(path);
+    const std::string text = loadText(path, maxBytes);
     Table out;
     for (LineReader lines(text); lines.next();) {
         std::string line(lines.line());
@@ -157,9 +157,10 @@ Table readTable(const std::string& path)
 }
 
 void fillFromTable(const Structure& structure, const std::vector<Ball>& balls,
-                   const std::string& path, BallValues& out, std::vector<std::string>& warnings)
+                   const std::string& path, std::size_t maxBytes, BallValues& out,
+                   std::vector<std::string>& warnings)
 {
-    const Table table = readTable(path);
+    const Table table = readTable(path, maxBytes);
     Table unused = table;
     for (const Ball& ball : balls) {
         const Residue& residue = residueOf(structure, ball);
@@ -204,7 +205,7 @@ const std::vector<std::string>& valueWords()
 
 BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls,
                       const std::string& by, bool ranged, const Vec3d& centre, double probe,
-                      std::vector<std::string>& warnings)
+                      std::size_t maxBytes, std::vector<std::string>& warnings)
 {
     using Map = BallValues::Map;
     const auto filled = [&](BallValues out, const auto& value) {
@@ -249,12 +250,12 @@ BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls
         spread(out);
     } else if (by.rfind("table=", 0) == 0) {
         out = {"value", "Value", "", Map::Magnitude, 0.0, 1.0, {}};
-        fillFromTable(structure, balls, by.substr(6), out, warnings);
+        fillFromTable(structure, balls, by.substr(6), maxBytes, out, warnings);
         spread(out);
     } else if (by.rfind("potential=", 0) == 0 || by.rfind("potential-out=", 0) == 0) {
         const std::size_t equals = by.find('=');
         out = {"potential", "Potential", "kT/e", Map::Charge, -5.0, 5.0, {}};
-        const auto field = std::make_shared<ScalarMap>(readDx(by.substr(equals + 1)));
+        const auto field = std::make_shared<ScalarMap>(readDx(by.substr(equals + 1), maxBytes));
         out.field = field;
         out.outward = equals > std::string("potential").size() ? probe : 0.0;
         for (const Ball& ball : balls) out.valueOf.push_back(field->at(Vec3d(ball.center)));

@@ -33,12 +33,13 @@ const std::vector<std::string>& valueWords();
 /// @param[in]     ranged    whether the ends of the colours are given: B factors are then no pLDDT
 /// @param[in]     probe     radius [Å]
 /// @param[in]     centre    that radii are taken from [Å]
+/// @param[in]     maxBytes  that a file may have; see loadText()
 /// @param[in,out] warnings  of residues in the table that the structure does not have
 /// @throws Error(ErrorKind::Usage) if `by` is none of these
 /// @throws Error(ErrorKind::Input) if the file has no such values, or the table cannot be read or
 ///         fits no atom
 BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls,
                       const std::string& by, bool ranged, const openvdb::Vec3d& centre,
-                      double probe, std::vector<std::string>& warnings);
+                      double probe, std::size_t maxBytes, std::vector<std::string>& warnings);
 
 } // namespace molsurf

@@ -85,7 +85,7 @@ std::vector<std::string> authorsNames(const Structure& structure, const Assembly
 
 std::string describe(const Structure& structure, const Assembly& assembly)
 {
-    std::string out = "  assembly " + assembly.name + "\n";
+    std::string out = infoTitle("  assembly " + assembly.name);
     if (!assembly.problem.empty()) return out + infoLine("problem", assembly.problem);
     std::size_t atoms = 0;
     std::vector<openvdb::Vec3d> centroids;
@@ -129,7 +129,7 @@ std::string describe(const Structure& structure, const Assembly& assembly)
 std::string describeStructure(const std::string& path, std::size_t maxInput)
 {
     const Structure structure = readStructure(path, maxInput);
-    std::string out = path + "\n  structure\n";
+    std::string out = infoTitle(path) + infoTitle("  structure");
     out += infoLine("format", structure.format);
     std::vector<std::string> models;
     for (const Model& model : structure.models) models.push_back(std::to_string(model.number));

@@ -4,15 +4,12 @@
 #include "molsurf/error.h"
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/match_atoms.h"
+#include "molsurf/structure/load_text.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
@@ -221,16 +218,9 @@ std::optional<std::array<std::uint8_t, 3>> parseColor(const std::string& text)
     return color;
 }
 
-std::vector<GroupRule> readGroups(const std::string& path)
+std::vector<GroupRule> readGroups(const std::string& path, std::size_t maxBytes)
 {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) fail(path, "it is a folder");
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file.is_open() || file.bad()) {
-        fail(path, std::string("cannot be read: ") + std::strerror(errno ? errno : EIO));
-    }
+    const std::string text = loadBytes(path, maxBytes);
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     const bool json = first != std::string::npos && text[first] == '{';
     std::vector<GroupRule> rules = json ? readJson(path, text) : readTable(path, text);

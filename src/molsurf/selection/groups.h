@@ -29,7 +29,7 @@ const std::vector<std::string>& colorNames();
 ///
 /// @throws Error(ErrorKind::Input) if the file cannot be read, is neither, has no group, or two of
 ///         one name
-std::vector<GroupRule> readGroups(const std::string& path);
+std::vector<GroupRule> readGroups(const std::string& path, std::size_t maxBytes = 0);
 
 /// Labels balls.
 ///

@@ -7,9 +7,11 @@
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/text_fields.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 
 namespace molsurf
@@ -264,9 +266,9 @@ void addRule(RadiiSet& set, const Fields& fields, const std::string& place)
     }
 }
 
-RadiiSet readFile(const std::string& path)
+RadiiSet readFile(const std::string& path, std::size_t maxBytes)
 {
-    const std::string text = loadText(path);
+    const std::string text = loadText(path, maxBytes);
     RadiiSet set;
     set.name = path;
     for (LineReader lines(text); lines.next();) {
@@ -329,7 +331,7 @@ double RadiiSet::find(const std::string& residue, const std::string& atom,
     return radius < 0 ? 0 : radius;
 }
 
-RadiiSet readRadii(const std::string& name)
+RadiiSet readRadii(const std::string& name, std::size_t maxBytes)
 {
     if (name == "bondi") return bondiSet();
     if (name == "alvarez") return alvarezSet();
@@ -345,7 +347,7 @@ RadiiSet readRadii(const std::string& name)
                     "martini3 or a file that exists, got " +
                         inQuotes(name));
     }
-    return readFile(name);
+    return readFile(name, maxBytes);
 }
 
 std::string describeRadii()
@@ -369,6 +371,13 @@ std::string describeRadii()
            "\n" + describe(martini3, "Souza et al., Nat. Methods 18 (2021) 382 [Å]") +
            "\nmartini: the one of these two whose beads the file has; taken for such files "
            "anyway\n";
+}
+
+bool isRadiiSet(const std::string& name)
+{
+    constexpr const char* sets[] = {"bondi",   "alvarez", "gemmi",    "protor",
+                                    "naccess", "martini", "martini2", "martini3"};
+    return std::find(std::begin(sets), std::end(sets), name) != std::end(sets);
 }
 
 } // namespace molsurf

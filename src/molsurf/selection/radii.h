@@ -46,8 +46,12 @@ struct RadiiSet {
 /// then `* ATOM`, then the element, then `*`. A later line
 /// replaces an equal earlier one. 0 leaves the atom out.
 ///
+/// @param[in] maxBytes  that a file may have; see loadText()
 /// @throws Error(ErrorKind::Input) if `name` is neither a set nor a file that can be read, or, with
 ///         file and line, if a line is not a rule
-RadiiSet readRadii(const std::string& name);
+RadiiSet readRadii(const std::string& name, std::size_t maxBytes = 0);
+
+/// Whether readRadii() takes a name for that of a set, whatever files there are.
+bool isRadiiSet(const std::string& name);
 
 } // namespace molsurf

@@ -53,9 +53,9 @@ float ScalarMap::at(const Vec3d& x) const
     return float(sum);
 }
 
-ScalarMap readDx(const std::string& path)
+ScalarMap readDx(const std::string& path, std::size_t maxBytes)
 {
-    const std::string text = loadText(path);
+    const std::string text = loadText(path, maxBytes);
     ScalarMap out;
     std::size_t items = 0;
     int deltas = 0;

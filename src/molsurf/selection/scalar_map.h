@@ -26,6 +26,6 @@ struct ScalarMap {
 
 /// Reads the format OpenDX as APBS writes it: a lattice along the axes, one array of numbers.
 /// @throws Error(ErrorKind::Input) with the line, if the file is no such map
-ScalarMap readDx(const std::string& path);
+ScalarMap readDx(const std::string& path, std::size_t maxBytes = 0);
 
 } // namespace molsurf

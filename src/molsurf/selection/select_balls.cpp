@@ -182,7 +182,7 @@ std::vector<double> findRadii(const Structure& structure, const SelectOptions& o
         }
         return radii;
     }
-    const RadiiSet set = readRadii(radiiName(structure, options.radii)),
+    const RadiiSet set = readRadii(radiiName(structure, options.radii), options.maxInput),
                    fallback = readRadii("bondi");
     out.radii = std::filesystem::path(set.name).filename().string();
     std::vector<std::string>& warnings = out.warnings;
@@ -456,8 +456,9 @@ void addValues(const Structure& structure, const SelectOptions& options, double 
     for (const Ball& ball : out.balls)
         centre += openvdb::Vec3d(ball.center) / double(out.balls.size());
     if (out.unit) centre = out.unit->centre;
-    BallValues values = ballValues(structure, out.balls, options.valueBy,
-                                   options.valueRange.has_value(), centre, probe, out.warnings);
+    BallValues values =
+        ballValues(structure, out.balls, options.valueBy, options.valueRange.has_value(), centre,
+                   probe, options.maxInput, out.warnings);
     if (options.valueRange) {
         values.low = (*options.valueRange)[0];
         values.high = (*options.valueRange)[1];

@@ -54,6 +54,8 @@ std::string readAll(std::FILE* file, const std::string& path, std::size_t expect
     std::size_t got = 0;
     do {
         const std::size_t size = bytes.size();
+        if (bytes.capacity() < size + chunk) // not twice the limit
+            bytes.reserve(std::min(2 * bytes.capacity(), limit.bytes) + chunk);
         bytes.resize(size + chunk);
         got = std::fread(&bytes[size], 1, chunk, file);
         bytes.resize(size + got);
@@ -68,7 +70,7 @@ std::string readBytes(const std::string& path, const Limit& limit)
     if (path == "-") return readAll(stdin, path, 0, limit);
     std::error_code status;
     if (std::filesystem::is_directory(path, status)) {
-        failAt(path, "is a folder, expected a structure file");
+        failAt(path, "is a folder, expected a file");
     }
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                                &std::fclose);
@@ -130,6 +132,11 @@ std::string unpack(std::string bytes, const std::string& path, const Limit& limi
 }
 
 } // namespace
+
+std::string loadBytes(const std::string& path, std::size_t maxBytes)
+{
+    return readBytes(path, Limit(maxBytes));
+}
 
 std::string loadText(const std::string& path, std::size_t maxBytes)
 {

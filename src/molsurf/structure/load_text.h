@@ -19,4 +19,8 @@ namespace molsurf
 ///         empty or larger than it may be, or if its gzip data are damaged or cut short
 std::string loadText(const std::string& path, std::size_t maxBytes = 0);
 
+/// The same as it lies on the disk, which may be nothing. From a file or device without an end no
+/// more is read than @a maxBytes and a block.
+std::string loadBytes(const std::string& path, std::size_t maxBytes = 0);
+
 } // namespace molsurf

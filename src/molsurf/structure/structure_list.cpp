@@ -2,12 +2,12 @@
 #include "molsurf/structure/structure_list.h"
 
 #include "molsurf/error.h"
+#include "molsurf/structure/load_text.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <iterator>
+#include <sstream>
 
 namespace molsurf
 {
@@ -41,9 +41,8 @@ std::vector<std::string> structuresIn(const std::string& folder)
 
 } // namespace
 
-std::vector<std::string> readStructureList(const std::string& path)
+std::vector<std::string> readStructureList(const std::string& path, std::size_t maxBytes)
 {
-    std::ifstream file;
     std::error_code ignored;
     if (path != "-") {
         if (std::filesystem::is_directory(path, ignored)) return structuresIn(path);
@@ -53,10 +52,8 @@ std::vector<std::string> readStructureList(const std::string& path)
                 path +
                     ": it is a structure, expected a list of them or a folder [hint: vdb_molsurf " +
                     path + " -o FILE]");
-        file.open(path);
-        if (!file) throw Error(ErrorKind::Input, "cannot read " + path);
     }
-    std::istream& in = path == "-" ? std::cin : file;
+    std::istringstream in(loadBytes(path, maxBytes));
     std::vector<std::string> inputs;
     for (std::string line; std::getline(in, line);) {
         const char* blank = " \t\r";
@@ -64,7 +61,6 @@ std::vector<std::string> readStructureList(const std::string& path)
         if (begin == std::string::npos || line[begin] == '#') continue;
         inputs.push_back(line.substr(begin, line.find_last_not_of(blank) + 1 - begin));
     }
-    if (in.bad()) throw Error(ErrorKind::Input, "cannot read " + path);
     if (inputs.empty())
         throw Error(ErrorKind::Input, path + ": expected the name of a structure file a line");
     return inputs;

@@ -8,9 +8,11 @@
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/bricks/run_brick.h"
 #include "molsurf/error.h"
+#include "molsurf/io/read_mesh.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/mesh/measure.h"
+#include "molsurf/mesh/topology.h"
 #include "support/mesh_checks.h"
 
 #include <gtest/gtest.h>
@@ -18,6 +20,7 @@
 #include <zlib.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -55,7 +58,10 @@ class Bricks : public ::testing::Test
 protected:
     void SetUp() override
     {
-        folder_ = std::filesystem::temp_directory_path() /
+        // Where there is one, a folder in memory: every file that is written is synced.
+        const std::filesystem::path memory = "/dev/shm";
+        folder_ = (std::filesystem::is_directory(memory) ? memory
+                                                         : std::filesystem::temp_directory_path()) /
                   ("molsurf_bricks_" + std::to_string(getpid()) + "_" +
                    ::testing::UnitTest::GetInstance()->current_test_info()->name());
         std::filesystem::create_directories(folder_);
@@ -357,6 +363,20 @@ TEST_F(Bricks, ACutFileIsRefused)
     EXPECT_THROW(BrickFile(path("other.brick")), Error);
 }
 
+TEST_F(Bricks, FilesThatAreRefusedAreClosed)
+{
+    std::ofstream(path("short.brick")) << "MOLBRK05";
+    std::ofstream(path("other.brick")) << "something else, of some length";
+    const auto opened = [] {
+        const std::filesystem::directory_iterator all("/proc/self/fd");
+        return std::distance(begin(all), end(all));
+    };
+    const auto before = opened();
+    for (int i = 0; i < 100; ++i)
+        EXPECT_THROW(BrickFile(path(i % 2 ? "short.brick" : "other.brick")), Error);
+    EXPECT_EQ(opened(), before);
+}
+
 /// Two bricks of a molecule, and what is done to them.
 struct HostileBricks : Bricks {
     void SetUp() override
@@ -405,10 +425,12 @@ struct HostileBricks : Bricks {
     std::string merged()
     {
         try {
-            const MergedBricks all({pathOf(0), pathOf(1)}, "test", 12, options);
+            const MergedBricks all({pathOf(0), pathOf(1)}, "test", plan, options, true);
             OutputFile vdb(path("m.vdb"), true), ply(path("m.ply"), true);
             all.writeVdb({}, vdb, progress);
             all.writePly(ply, progress);
+            vdb.commit();
+            ply.commit();
         } catch (const Error& e) {
             return e.what();
         }
@@ -473,7 +495,7 @@ TEST_F(HostileBricks, NoGridsAreRefused)
 {
     bricks[0].grids.clear();
     write(0);
-    expectRefused("grids is empty");
+    expectRefused("grids do not begin with surface");
 }
 
 TEST_F(HostileBricks, LeavesThatAreNoneAreRefused)
@@ -490,16 +512,22 @@ TEST_F(HostileBricks, LeavesThatAreNoneAreRefused)
         std::memcpy(&bytes[leaves.offset], &leaf, sizeof leaf);
         putBack(0, bytes);
     };
+    with([](StoredLeaf& leaf) { leaf.negative ^= 1; });
+    expectRefused("not those of their leaf");
     with([](StoredLeaf& leaf) { leaf.negative = 4; });
-    expectRefused("unknown signs");
+    expectRefused("not those of their leaf");
+    with([](StoredLeaf& leaf) { leaf.mask[0] ^= 1; });
+    expectRefused("not those of their leaf");
     with([](StoredLeaf& leaf) { leaf.origin[1] += 3; });
     expectRefused("between leaves");
     with([](StoredLeaf& leaf) { leaf.origin[2] = 1 << 30; });
     expectRefused("far away");
     with([](StoredLeaf& leaf) { leaf.size = ~std::uint64_t(0) - 7; });
-    expectRefused("lie outside");
+    expectRefused("values lie elsewhere");
     with([](StoredLeaf& leaf) { leaf.offset = std::uint64_t(1) << 50; });
-    expectRefused("lie outside");
+    expectRefused("values lie elsewhere");
+    with([&](StoredLeaf& leaf) { leaf.origin[0] += plan.bricks[0].box.dim().x(); });
+    expectRefused("far away");
     with([&](StoredLeaf& leaf) {
         StoredLeaf next;
         std::memcpy(&next, &good[leaves.offset + sizeof next], sizeof next);
@@ -518,6 +546,152 @@ TEST_F(HostileBricks, VerticesThatAreNoneAreRefused)
     bricks[0].mesh.border.front().piece = 1u << 30;
     write(0);
     expectRefused("a piece that it does not have");
+}
+
+TEST_F(HostileBricks, MeshesThatAreNotWhatTheySayAreRefused)
+{
+    const BrickMesh good = bricks[0].mesh;
+    const auto expectRefusedWith = [&](const auto& change, const char* why) {
+        bricks[0].mesh = good;
+        change(bricks[0].mesh);
+        write(0);
+        expectRefused(why);
+    };
+    expectRefusedWith([](BrickMesh& b) { b.mesh.triangles.resize(b.mesh.triangles.size() / 2); },
+                      "brick");
+    expectRefusedWith([](BrickMesh& b) { b.mesh.triangles.erase(b.mesh.triangles.begin() + 40); },
+                      "holes");
+    expectRefusedWith([](BrickMesh& b) { b.mesh.triangles[40][1] = b.mesh.triangles[40][0]; },
+                      "two vertices");
+    expectRefusedWith([](BrickMesh& b) { b.pieces.emplace_back(); }, "number of pieces");
+    expectRefusedWith([](BrickMesh& b) { b.openEdges.pop_back(); }, "open edges");
+    expectRefusedWith([](BrickMesh& b) { b.openEdges.front().surplus = -1; }, "open edges");
+    expectRefusedWith([](BrickMesh& b) { b.mesh.positions[7][2] = NAN; }, "far away");
+    expectRefusedWith([](BrickMesh& b) { b.pieces.front().area = INFINITY; }, "without a size");
+    expectRefusedWith(
+        [](BrickMesh& b) {
+            for (auto& t : b.mesh.triangles)
+                for (auto& v : t) v += v >= b.owned;
+            for (auto& v : b.border) v.vertex += v.vertex >= b.owned;
+            for (auto& e : b.openEdges) e.from += e.from >= b.owned, e.to += e.to >= b.owned;
+            b.mesh.positions.insert(b.mesh.positions.begin() + long(b.owned), Vec3f(0.0f));
+            b.mesh.normals.insert(b.mesh.normals.begin() + long(b.owned), Vec3f(0.0f));
+            for (auto& a : b.mesh.scalars) a.values.insert(a.values.begin() + long(b.owned), 0.0f);
+            b.areas.push_back(1.0f);
+            b.pieces.emplace_back();
+            ++b.owned;
+        },
+        "no triangle");
+}
+
+TEST_F(HostileBricks, BricksWithoutAMeshAreRefusedWhereOneIsWanted)
+{
+    OutputFile file(pathOf(0), true);
+    writeBrick(bricks[0], "test", 1, false, file, progress);
+    file.commit();
+    expectRefused("holds no mesh");
+    EXPECT_NO_THROW(MergedBricks({pathOf(0), pathOf(1)}, "test", plan, options, false));
+}
+
+TEST_F(HostileBricks, GroupsOfMoreAtomsThanThereAreAreRefused)
+{
+    for (Brick& brick : bricks) {
+        brick.groups.resize(2);
+        brick.groups[0].atoms = 13;
+    }
+    write(0);
+    write(1);
+    expectRefused("more atoms than the plan");
+}
+
+TEST_F(HostileBricks, LeavesFarFromEachOtherAreRefusedBeforeMemoryIsTaken)
+{
+    using Leaf = openvdb::FloatTree::LeafNodeType;
+    auto& grid = dynamic_cast<openvdb::FloatGrid&>(*bricks[0].grids.front());
+    for (int i = 1; i < 40; ++i)
+        for (int j = 1; j < 25; ++j)
+            grid.tree().addLeaf(new Leaf(openvdb::Coord(i << 13, j << 13, 0), 1.0f));
+    write(0);
+    plan.bricks[0].box = anySpace();
+    expectRefused("too far from each other");
+}
+
+TEST_F(HostileBricks, LeavesThatEncloseTooMuchAreRefused)
+{
+    using Leaf = openvdb::FloatTree::LeafNodeType;
+    auto& grid = dynamic_cast<openvdb::FloatGrid&>(*bricks[0].grids.front());
+    for (int j = 1; j < 4; ++j)
+        for (const int z : {-(1 << 26), (1 << 26) - 8})
+            grid.tree().addLeaf(new Leaf(openvdb::Coord(0, j << 13, z), -1.0f));
+    write(0);
+    plan.bricks[0].box = anySpace();
+    expectRefused("enclose more");
+}
+
+/// Changes bytes, and numbers of the header, as somebody might who makes the checksum right again.
+std::string mutated(std::string bytes, std::mt19937& random)
+{
+    std::uint64_t head[2];
+    std::memcpy(head, &bytes[8], sizeof head);
+    const auto below = [&](std::size_t end) { return std::size_t(random()) % end; };
+    for (std::size_t times = 1 + below(3); times > 0; --times) {
+        const std::size_t body = 32, at = body + below(std::size_t(head[0]) - body);
+        const std::size_t size = std::min<std::size_t>(std::size_t(1) << below(5), head[0] - at);
+        switch (below(4)) {
+        case 0:
+            bytes[at] = char(bytes[at] ^ (1 << below(8)));
+            break;
+        case 1:
+            bytes.replace(at, size, bytes, body + below(std::size_t(head[0]) - body - size), size);
+            break;
+        case 2:
+            bytes.replace(at, size, size, below(2) ? '\xff' : '\0');
+            break;
+        case 3: { // another number in the header
+            const char* others[] = {
+                "0",          "1",    "-1",   "2",   "1e300", "18446744073709551615",
+                "4294967296", "true", "null", "\"\""};
+            std::size_t from = std::size_t(head[0]) + below(bytes.size() - std::size_t(head[0]));
+            from = bytes.find_first_of("0123456789", from);
+            if (from == std::string::npos) break;
+            const std::size_t end = bytes.find_first_not_of("0123456789.e-+", from);
+            const std::string old = bytes.substr(from, end - from);
+            const std::string fresh =
+                below(2) ? others[below(std::size(others))]
+                         : std::to_string(std::atoll(old.c_str()) + (below(2) ? 1 : -1));
+            bytes.replace(from, old.size(), fresh);
+            break;
+        }
+        }
+    }
+    head[1] = bytes.size() - head[0];
+    std::memcpy(&bytes[8], head, sizeof head);
+    return bytes;
+}
+
+// MOLSURF_MUTATIONS says how many, if not a few thousand.
+TEST_F(HostileBricks, MutatedOnesGiveFilesThatCanBeReadOrOneLine)
+{
+    const char* asked = std::getenv("MOLSURF_MUTATIONS");
+    const std::string good = bytesOf(0);
+    std::mt19937 random(31);
+    int whole = 0;
+    const int count = asked ? std::atoi(asked) : 3000;
+    for (int i = 0; i < count; ++i) {
+        putBack(0, mutated(good, random));
+        const std::string said = merged();
+        EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+        if (!said.empty()) continue;
+        ++whole;
+        EXPECT_NO_THROW(readVdb(path("m.vdb"))) << i;
+        const Topology topology = checkTopology(readMesh(path("m.ply")), progress);
+        const MergedBricks all({pathOf(0), pathOf(1)}, "test", plan, options, true);
+        EXPECT_TRUE(topology.closed || !all.report().surface.closed) << i;
+        EXPECT_TRUE(topology.manifold || !all.report().surface.manifold) << i;
+    }
+    RecordProperty("merged", whole);
+    EXPECT_GT(whole, count / 100);
+    EXPECT_LT(whole, count);
 }
 
 // Beyond 4096 voxels a tree has another node under its root: what lies between two of them along z

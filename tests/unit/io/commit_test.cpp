@@ -116,9 +116,23 @@ TEST(Commit, PlacesNoFileIfOneIsThereAlready)
     EXPECT_THROW(commit({&a, &b}), Error);
     EXPECT_FALSE(std::filesystem::exists(folder / "a"));
     EXPECT_EQ(contentOf(folder / "b"), "other");
-    a.place();
+    a.place(false);
     a.takeBack();
     EXPECT_FALSE(std::filesystem::exists(folder / "a"));
+}
+
+TEST(Commit, BringsBackWhatItHasReplaced)
+{
+    const Folder folder;
+    const Names names = {"a", "b", "c"};
+    for (const std::string& name : names) std::ofstream(folder / name) << "old";
+    OutputFile a(folder / "a", true), b(folder / "b", true), c(folder / "c", true),
+        d(folder / "d", false);
+    for (OutputFile* file : {&a, &b, &c, &d}) writeText("new", *file);
+    std::ofstream(folder / "d") << "other";
+    EXPECT_THROW(commit({&a, &b, &c, &d}), Error);
+    for (const std::string& name : names) EXPECT_EQ(contentOf(folder / name), "old") << name;
+    EXPECT_EQ(contentOf(folder / "d"), "other");
 }
 
 TEST(Commit, LeavesNoRecord)
@@ -141,12 +155,13 @@ TEST(Recover, LeavesFilesOfProcessesAtWork)
 TEST(Recover, LeavesFilesOfOtherNames)
 {
     const Folder folder;
-    const Names names = {".a.12.part", ".a.part", ".vdb_molsurf.commit", "a.12-0123abcd.part"};
+    const Names names = {".a.12.part", ".a.part", ".vdb_molsurf.commit",
+                         "a.12-0123abcd89abcdef.part"};
     for (const std::string& name : names) std::ofstream(folder / name) << "mine";
     recover(folder / ".");
     EXPECT_EQ(folder.names(), names);
-    std::ofstream(folder / ".a.12-0123abcd.part") << "a process that is gone";
-    std::filesystem::create_directories(folder / ".bricks.12-0123abcd.part/deep");
+    std::ofstream(folder / ".a.12-0123abcd89abcdef.part") << "a process that is gone";
+    std::filesystem::create_directories(folder / ".bricks.12-0123abcd89abcdef.part/deep");
     recover(folder / ".");
     EXPECT_EQ(folder.names(), names);
 }
@@ -154,7 +169,7 @@ TEST(Recover, LeavesFilesOfOtherNames)
 TEST(Recover, DoesNotReplaceAFileThatCameMeanwhile)
 {
     const Folder folder;
-    const std::string maker = "12-0123abcd";
+    const std::string maker = "12-0123abcd89abcdef";
     std::ofstream(folder / ".vdb_molsurf." + maker + ".commit") << std::string("+a\0=b\0", 6);
     for (const char* name : {"a", "b"}) {
         std::ofstream(folder / name) << "other";
@@ -166,11 +181,104 @@ TEST(Recover, DoesNotReplaceAFileThatCameMeanwhile)
     EXPECT_EQ(contentOf(folder / "b"), "new");
 }
 
-TEST(Recover, EndsWithARecordThatNamesItsOwnFolder)
+const std::string maker = "12-0123abcd89abcdef", record = ".vdb_molsurf." + maker + ".commit";
+
+/// Makes a complete file of a process that is gone.
+void leaveComplete(const std::string& path)
+{
+    std::ofstream(temporaryName(path, maker)) << "new";
+}
+
+void writeRecord(const std::string& path, const std::string& entries)
+{
+    std::ofstream(path) << entries;
+}
+
+TEST(Recover, EndsWithRecordsThatNameEachOther)
+{
+    using namespace std::string_literals;
+    const Folder folder;
+    std::filesystem::create_directory(folder / "b");
+    for (const std::string& entries : {"@.\0"s, "&.\0"s, "@b\0"s, "&b\0"s}) {
+        writeRecord(folder / record, entries);
+        writeRecord(folder / ("b/" + record), "@..\0"s);
+        recover(folder / ".");
+        recover(folder / "b");
+        EXPECT_EQ(folder.names(), (Names{"b"})) << entries;
+        EXPECT_TRUE(std::filesystem::is_empty(folder / "b")) << entries;
+    }
+}
+
+// A record counts in its folder alone, and in others that have one which leads back.
+TEST(Recover, WritesNowhereElse)
+{
+    using namespace std::string_literals;
+    const Folder folder;
+    for (const char* name : {"in", "other"}) std::filesystem::create_directory(folder / name);
+    for (const char* name : {"a", "in/a", "other/a"}) leaveComplete(folder / name);
+    writeRecord(folder / ("in/" + record),
+                "=../a\0=.\0=..\0=/\0=\0&..\0&../other\0&none\0=../other/a\0=a\0"s);
+    writeRecord(folder / ("other/" + record), "@.\0=a\0"s);
+    recover(folder / "in");
+    EXPECT_EQ(contentOf(folder / "in/a"), "new");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "other/a"));
+}
+
+TEST(Recover, NamesTheRecordThatItCannotFollow)
 {
     const Folder folder;
-    std::ofstream(folder / ".vdb_molsurf.12-0123abcd.commit") << std::string("@.\0", 3);
+    std::filesystem::create_directory(folder / "a");
+    leaveComplete(folder / "a");
+    writeRecord(folder / record, std::string("=a\0", 3));
+    try {
+        recover(folder / ".");
+        FAIL() << "a file cannot replace a folder";
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("remove " + (folder / ("./" + record))),
+                  std::string::npos)
+            << e.what();
+    }
+}
+
+// The record of a first folder decides, and a process that holds it is at it.
+TEST(Recover, LeavesARecordWhoseFirstFolderIsNotDone)
+{
+    using namespace std::string_literals;
+    const Folder folder;
+    std::filesystem::create_directory(folder / "b");
+    writeRecord(folder / record, "&b\0"s);
+    writeRecord(folder / ("b/" + record), "@..\0=a\0"s);
+    leaveComplete(folder / "b/a");
+    {
+        const FileDescriptor other = lockAbandoned(folder / record, maker);
+        ASSERT_TRUE(other);
+        recover(folder / "b");
+        EXPECT_TRUE(std::filesystem::exists(folder / ("b/" + record)));
+        EXPECT_FALSE(std::filesystem::exists(folder / "b/a"));
+    }
+    recover(folder / "b");
+    EXPECT_EQ(contentOf(folder / "b/a"), "new");
+    EXPECT_EQ(folder.names(), (Names{"b"}));
+}
+
+TEST(Recover, LeavesSymbolicLinksAndWhatIsOfOthers)
+{
+    const Folder folder;
+    const std::string part = temporaryName(folder / "a", maker);
+    std::ofstream(folder / "mine") << "mine";
+    std::filesystem::create_symlink("mine", part);
     recover(folder / ".");
+    EXPECT_TRUE(std::filesystem::is_symlink(part));
+    std::filesystem::remove(part);
+    if (geteuid() != 0) GTEST_SKIP() << "files cannot be given to others here";
+    leaveComplete(folder / "a");
+    writeRecord(folder / record, std::string("=a\0", 3));
+    ASSERT_EQ(chown((folder / record).c_str(), 65534, 65534), 0);
+    ASSERT_EQ(chown(part.c_str(), 65534, 65534), 0);
+    const Names before = folder.names();
+    recover(folder / ".");
+    EXPECT_EQ(folder.names(), before);
 }
 
 } // namespace
