@@ -17,7 +17,8 @@ const std::vector<ReportKey>& reportKeys()
         {"atoms", "", "The number of atoms or beads that the surface is made of"},
         {"voxel", "Å", "The edge of a voxel; null if no grid was made"},
         {"center", "Å",
-         "The point of the input that is the origin of the files, of --center; else null"},
+         "The point of the input that is the origin of the files; null if the surface was not "
+         "moved"},
         {"surface", "", "The measures of the surface"},
         {"surface.kind", "",
          "variational, ses, sas, vdw, gaussian; mixed, of parts of several kinds"},
@@ -25,15 +26,13 @@ const std::vector<ReportKey>& reportKeys()
         {"surface.volume", "Å³", "The volume inside, cavities left out"},
         {"surface.euler_characteristic", "",
          "The Euler number of all walls: twice their number less twice the tunnels. Of sas and vdw "
-         "it "
-         "is that of the exact boundary"},
+         "it is that of the exact boundary"},
         {"surface.mesh_euler_characteristic", "",
          "The Euler number of the mesh; on sas and vdw the mesh bridges what is narrower than a "
-         "voxel. "
-         "Null without a mesh"},
+         "voxel. Null without a mesh"},
         {"surface.components", "",
-         "The number of closed pieces that are no walls of cavities; null if it "
-         "is not known, as of sas and vdw by symmetry"},
+         "The number of closed pieces that are no walls of cavities; null if it is not known, as "
+         "of sas and vdw by symmetry"},
         {"surface.cavities", "", "The number of cavities; null if it is not known"},
         {"surface.outer_area", "Å²", "The area without the walls of cavities"},
         {"surface.outer_volume", "Å³", "The volume with the cavities"},
@@ -43,57 +42,50 @@ const std::vector<ReportKey>& reportKeys()
         {"surface.vertices", "", "The number of vertices of the mesh"},
         {"surface.triangles", "", "The number of triangles of the mesh"},
         {"surface.closed", "",
-         "Whether every edge of the mesh has two triangles; a mesh that has not is "
-         "not written"},
+         "Whether every edge of the mesh has two triangles; a mesh that has not is not written"},
         {"surface.manifold", "",
-         "Whether the triangles about each vertex form one fan and are oriented "
-         "alike"},
+         "Whether the triangles about each vertex form one fan and are oriented alike"},
         {"surface.degenerate_triangles", "", "The number of triangles without area"},
         {"surface.max_residual", "Å",
          "The largest distance of a vertex from the surface, by the spline"},
         {"surface.gradient_share", "",
-         "Of the vertices away from kinks, the share at which the spline's "
-         "gradient has a length within 0.03 of 1"},
+         "Of the vertices away from kinks, the share at which the spline's gradient has a length "
+         "within 0.03 of 1"},
         {"surface.kink_share", "",
          "The share of vertices within two voxels of a kink of the distance"},
         {"surface.cusp_length", "Å",
-         "The length of the creases of sas at which ses touches itself in cusps. "
-         "Voxels round these off, so that area is missing there; null of "
-         "other kinds"},
+         "The length of the creases of sas at which ses touches itself in cusps. Voxels round "
+         "these off, so that area is missing there; null of other kinds"},
         {"surface.mean_curvature", "1/Å",
-         "The distribution of the mean curvature over the area, positive "
-         "where convex"},
+         "The distribution of the mean curvature over the area, positive where convex"},
         {"surface.mean_curvature.mean", "1/Å", "The mean"},
         {"surface.mean_curvature.standard_deviation", "1/Å", "The standard deviation"},
         {"surface.mean_curvature.min", "1/Å", "The least value"},
         {"surface.mean_curvature.max", "1/Å", "The largest value"},
         {"surface.mean_curvature.percentiles", "1/Å",
-         "By the percentage of the area that does not exceed "
-         "it: 1, 5, 10, 25, 50, 75, 90, 95, 99"},
+         "By the percentage of the area that does not exceed it: 1, 5, 10, 25, 50, 75, 90, 95, 99"},
         {"surface.gaussian_curvature", "1/Å²", "The same of the Gaussian curvature"},
         {"surface.total_mean_curvature", "Å",
-         "The integral of the mean curvature, of --curvature-totals"},
+         "The integral of the mean curvature, if it was asked for"},
         {"surface.total_gaussian_curvature", "",
-         "The integral of the Gaussian curvature: 2 pi times the "
-         "Euler number"},
+         "The integral of the Gaussian curvature: 2 pi times the Euler number"},
         {"surface.willmore_energy", "", "The integral of the squared mean curvature"},
         {"surface.integrated_area", "Å²", "The area by the same quadrature"},
         {"surface.integrated_volume", "Å³", "The volume by the same quadrature"},
         {"surface.unresolved_area", "Å²",
-         "The area that curvatures are not integrated over, at gaps below "
-         "a voxel"},
-        {"coarse", "", "Null without --coarse"},
+         "The area that curvatures are not integrated over, at gaps below a voxel"},
+        {"coarse", "", "Null without beads"},
         {"coarse.beads", "", "The number of beads"},
         {"coarse.atoms", "", "The number of atoms that they stand for"},
-        {"resolution", "", "The rules of --resolution, in their order"},
+        {"resolution", "", "The rules of resolution, in their order"},
         {"resolution[].selection", "", "The selection, or all"},
         {"resolution[].resolution", "Å", "The resolution"},
         {"resolution[].atoms", "", "The number of atoms that have it"},
         {"resolution[].level", "",
-         "The logarithm of the factor of their Gaussians, of --match-volume"},
+         "The logarithm of the factor of their Gaussians, where the volume is kept"},
         {"evolution", "", "The flow of the variational surface; null of other kinds"},
         {"evolution.steps", "", "The number of steps"},
-        {"evolution.converged", "", "Whether the interface is at rest, by --tolerance"},
+        {"evolution.converged", "", "Whether the interface is at rest within the tolerance"},
         {"evolution.energy", "Å²", "The energy before the first step and after each"},
         {"evolution.mean_displacement", "Å", "The mean displacement of each step"},
         {"evolution.max_speed", "1/Å", "The largest speed of each step"},
@@ -121,16 +113,16 @@ const std::vector<ReportKey>& reportKeys()
         {"groups[].area", "Å²", "The area of the surface that is nearest to its atoms"},
         {"groups[].volume", "Å³",
          "The volume inside that is nearest to its atoms; null without a grid"},
-        {"groups[].color", "", "Its colour as #rrggbb, of --color group"},
+        {"groups[].color", "", "Its colour as #rrggbb if the surface is coloured by group"},
         {"groups[].alone_area", "Å²", "The area of the group alone, on the surface of areas_of"},
         {"areas_of", "",
-         "The kind of surface that interfaces and tables are of: sas unless --surface is "
-         "given; null if there are none"},
-        {"interfaces", "", "Pairs of groups that bury area, of --interfaces"},
+         "The kind of surface that interfaces and tables are of: sas unless another is asked for; "
+         "null if there are none"},
+        {"interfaces", "", "Pairs of groups that bury area between them"},
         {"interfaces[].groups", "", "The names of both"},
         {"interfaces[].buried_area", "Å²", "Half of the area that both lose by meeting"},
         {"interfaces[].count", "", "How many such there are in a whole by symmetry"},
-        {"parts", "", "Surfaces of their own, of --split and --surface-of"},
+        {"parts", "", "Groups with surfaces of their own"},
         {"parts[].name", "", "The name of the group"},
         {"parts[].atoms", "", "The number of its atoms"},
         {"parts[].surface", "", "Its measures, with the keys of surface"},
@@ -138,7 +130,8 @@ const std::vector<ReportKey>& reportKeys()
         {"instances[].part", "", "The index of the part that it is a copy of"},
         {"instances[].operator", "", "The name of the operator"},
         {"instances[].matrix", "", "x to matrix x of points (x, y, z, 1), row by row"},
-        {"symmetry", "", "Null without --by-symmetry"},
+        {"symmetry", "",
+         "How the whole follows from a unit by symmetry; null if it was made at once"},
         {"symmetry.point_group", "", "Schoenflies' symbol"},
         {"symmetry.order", "", "The number of units"},
         {"symmetry.copies_in_unit", "", "The number of the assembly's copies in a unit"},
@@ -147,20 +140,20 @@ const std::vector<ReportKey>& reportKeys()
         {"symmetry.gap", "Å", "The largest gap between units that was closed"},
         {"symmetry.open_vertices", "", "The vertices of a border that meet none: 0"},
         {"warnings", "", "One text each"},
-        {"areas", "", "The tables of --areas by their names; each row has the keys of the .csv"}};
+        {"areas", "",
+         "The tables of areas that were asked for, by their names; each row has the keys of the "
+         ".csv"}};
     return all;
 }
 
 std::string reportPage()
 {
     std::string page =
-        "# The report\n\n"
-        "`-o FILE.json` writes a report of the surface and of the run. The keys of schema " +
+        "# The report\n\nA .json file holds a report of the surface and of the run. The keys of "
+        "schema " +
         std::to_string(reportSchema) +
-        " are\nthese; a number that is not known is null. New keys may be added; a key that "
-        "changes its "
-        "meaning or goes\nraises `schema`. `vdb_molsurf --report-page` prints this page.\n\n"
-        "| key | unit | meaning |\n|---|---|---|\n";
+        " are these; a number that is\nnot known is null. Keys may be added; one that changes its "
+        "meaning or goes raises `schema`.\n\n| key | unit | meaning |\n|---|---|---|\n";
     for (const ReportKey& key : reportKeys())
         page += "| `" + std::string(key.path) + "` | " + key.unit + " | " + key.meaning + " |\n";
     return page;

@@ -181,8 +181,8 @@ MeshPieces piecesOf(const Mesh& mesh, const Progress& progress)
     std::size_t count = 0;
     pieces.of = connectedPieces(mesh, count, progress);
     // Volumes are taken about a vertex, so that they do not cancel far from the origin.
-    pieces.measures = measurePieces(mesh, pieces.of, count, Vec3d(mesh.positions[0]), pieces.flat,
-                                    progress);
+    pieces.measures =
+        measurePieces(mesh, pieces.of, count, Vec3d(mesh.positions[0]), pieces.flat, progress);
     return pieces;
 }
 
