@@ -6,9 +6,11 @@
 #     mutations   scripts/mutate.py: the code broken on purpose, which tests have to notice
 #     fuzzing     scripts/fuzz.sh: each target for 60 seconds, or SECONDS
 #     asan, tsan  scripts/sanitizers.sh: the unit tests under the sanitizers of addresses and of threads
+#     surfaces    tests/surfaces/random_surfaces.py: 400 surfaces of proteins, each held against its report
+#     calls       tests/surfaces/random_calls.py: 20,000 calls with mutated files and options, under sanitizers
 #     figures     scripts/check_docs.py --figures: the numbers of the pages, some of structures that are in FOLDER
 #     site        scripts/docs.sh: the pages as a site
-# All of it takes two hours on 2 cores, in some 6 GB. What a step prints is in build-nightly/NAME.log. The exit
+# All of it takes four hours on 2 cores, in some 6 GB. What a step prints is in build-nightly/NAME.log. The exit
 # status is 1 if one fails; the others still run.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -20,6 +22,16 @@ headers() {
 mutations() { scripts/mutate.py; }
 fuzzing() { scripts/fuzz.sh "$seconds"; }
 asan() { scripts/sanitizers.sh asan; }
+surfaces() {
+  cmake --preset release && cmake --build --preset release --target vdb_molsurf &&
+    tests/surfaces/random_surfaces.py build-release/tools/vdb_molsurf --runs 400 "${structures[@]}"
+}
+calls() {
+  export LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0 ASAN_OPTIONS=detect_container_overflow=0
+  cmake --preset fuzz && cmake --build --preset asan --target vdb_molsurf &&
+    seq 1 4 | xargs -P "$(nproc)" -I {} tests/surfaces/random_calls.py build-fuzz/tools/vdb_molsurf --runs 5000 \
+      --seed {} --keep build-nightly/calls
+}
 tsan() { scripts/sanitizers.sh tsan; }
 figures() {
   cmake --preset release && cmake --build --preset release --target vdb_molsurf &&
@@ -33,12 +45,12 @@ while [[ $# -gt 0 ]]; do
   case $1 in
     --fuzz) seconds=${2:?--fuzz needs seconds} && shift ;;
     --structures) structures=(--structures "${2:?--structures needs a folder}") && shift ;;
-    headers | mutations | fuzzing | asan | tsan | figures | site) steps+=("$1") ;;
+    headers | mutations | fuzzing | asan | tsan | surfaces | calls | figures | site) steps+=("$1") ;;
     *) echo "nightly.sh: expected a step or an option, got $1 [hint: see the first lines of this script]" >&2; exit 2 ;;
   esac
   shift
 done
-[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan figures site)
+[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces calls figures site)
 
 scripts/install_deps.sh --test --check clang dpkg-dev
 mkdir -p build-nightly

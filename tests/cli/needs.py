@@ -40,7 +40,8 @@ def other_user():
 
 def faulty(**what):
     """The environment of a file system that lacks something: tests/support/faulty_system.cpp."""
-    return {**os.environ, "LD_PRELOAD": os.environ.get("FAULTY_SYSTEM", "none"),
+    library = os.environ.get("FAULTY_SYSTEM", "none")  # a path with a space would be two
+    return {**os.environ, "LD_PRELOAD": os.path.basename(library), "LD_LIBRARY_PATH": os.path.dirname(library),
             **{f"FAULTY_{name.upper()}": str(value) for name, value in what.items()}}
 
 
