@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 namespace molsurf::tool
 {
@@ -159,15 +160,45 @@ void centerMesh(Call& call, MolecularSurface& result, ShownMeshes& shown)
 
 } // namespace
 
+namespace
+{
+
+/// The processor time after which a run is ended.
+/// @param[in] estimate  what it takes by the estimate [s]
+double mostSeconds(const SurfaceOptions& options, double estimate)
+{
+    constexpr double times = 4.0, least = 60.0; // [s]
+    const EvolveOptions& flow = options.evolution;
+    const bool several = options.interfaces || options.split || !options.surfaceOf.empty() ||
+                         options.matchVolume || options.ballAreas;
+    const bool asked = flow.flow == Flow::Paper || flow.steps >= 0 || flow.maxSteps >= 0;
+    // The estimate is of one surface, and of the steps that it needs.
+    return several || asked ? std::numeric_limits<double>::infinity()
+                            : std::max(times * estimate, least);
+}
+
+} // namespace
+
 Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& terminal,
                  Clock::time_point start, WarmStart* warm,
                  const std::function<void(MolecularSurface&)>& extend, const Companions& companions)
 {
     stopIfAsked();
-    if (call.options.grid) checkCost(balls, call.options, limitsOf(call), terminal);
+    if (call.options.grid) {
+        const double seconds = checkCost(balls, call.options, limitsOf(call), terminal);
+        terminal.limit(mostSeconds(call.options, seconds), call.hours);
+    }
     call.options.meshLabels = showsMesh(call.outputs);
     if (balls.instances.size() > 0 && balls.copies > 1) call.options.split = true;
-    MolecularSurface result = makeSurface(balls, call.options, &terminal, warm);
+    MolecularSurface result;
+    try {
+        result = makeSurface(balls, call.options, &terminal, warm);
+    } catch (const Cancelled&) {
+        if (!terminal.overdue()) throw;
+        throw Error(ErrorKind::Numeric, "the surface takes more than four times as long as it was "
+                                        "estimated to, or more than --max-hours [hint: a larger "
+                                        "--voxel, or --max-steps]");
+    }
     if (call.options.contacts && call.contacts != ContactLevel::Atom &&
         balls.names->residues.size() == 1)
         result.report.warnings.push_back("contacts: all atoms are of one residue [hint: --contacts "

@@ -105,7 +105,27 @@ void Terminal::update(const char* stage, double fraction)
 
 bool Terminal::cancelled() const
 {
-    return stopRequested();
+    return stopRequested() || overdue();
+}
+
+void Terminal::limit(double processor, double hours)
+{
+    constexpr double longest = 1e7; // [s], which no clock here counts to
+    latest_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                 std::chrono::duration<double>(std::min(3600.0 * hours, longest)));
+    most_ = std::clock() + std::clock_t(std::min(processor, longest) * CLOCKS_PER_SEC);
+}
+
+bool Terminal::overdue() const
+{
+    constexpr std::chrono::milliseconds betweenLooks(100);
+    const Clock::rep now = Clock::now().time_since_epoch().count();
+    Clock::rep before = looked_;
+    if (now - before > std::chrono::duration_cast<Clock::duration>(betweenLooks).count() &&
+        looked_.compare_exchange_strong(before, now) &&
+        (std::clock() > most_ || now > latest_.time_since_epoch().count()))
+        overdue_ = true;
+    return overdue_;
 }
 
 void Terminal::erase()

@@ -6,7 +6,10 @@
 
 #include "molsurf/progress.h"
 
+#include <atomic>
 #include <chrono>
+#include <ctime>
+#include <limits>
 #include <string>
 
 namespace molsurf::tool
@@ -34,6 +37,14 @@ public:
     /// What is put before the names of stages from now on: "frame 3/38: ".
     void setPrefix(const std::string& prefix) { prefix_ = prefix; }
 
+    /// Ends the run when it has taken more than this from now on.
+    /// @param[in] processor  time of all threads [s]; infinite: no limit
+    /// @param[in] hours      by the clock
+    void limit(double processor, double hours);
+
+    /// Whether the run ends because it has taken too long.
+    bool overdue() const;
+
     /// Takes the bar away, so that a line can be printed.
     void erase();
 
@@ -43,6 +54,10 @@ private:
     bool drawn_ = false;
     std::string stage_, prefix_;
     Clock::time_point stageStart_, lastDrawn_;
+    Clock::time_point latest_ = Clock::time_point::max();
+    std::clock_t most_ = std::numeric_limits<std::clock_t>::max();
+    mutable std::atomic<Clock::rep> looked_{0}; // when the time of all threads was asked for
+    mutable std::atomic<bool> overdue_{false};
 };
 
 } // namespace molsurf::tool

@@ -40,6 +40,8 @@ def lasting(path):
         return without(("seconds", "peak_memory_bytes"), json.loads(data))
     if path.suffix == ".csv":
         rows = [line.split(",") for line in data.decode().splitlines()]
+        if "seconds" not in rows[0]:  # as in summary.csv
+            return rows
         column = rows[0].index("seconds")
         return [row[:column] + row[column + 1:] for row in rows]
     return data

@@ -5,6 +5,7 @@ import gzip
 import os
 import random
 import subprocess
+import time
 import unittest
 
 from tool import CRAMBIN, FAST, TOOL, ToolTest
@@ -99,6 +100,15 @@ class Limits(ToolTest):
         for words in ((), ("--memory", "60M")):
             self.refuse(CRAMBIN, "--voxel", "0.2", "--max-hours", "1e-5", "-o", "a.vdb", *words,
                         says=["hours", "--max-hours"])
+
+    def test_a_run_ends_at_its_hours(self):
+        """Its estimate is far below them: the paper's flow goes on without an end."""
+        before = time.monotonic()
+        done = self.check(1, CRAMBIN, "--flow", "paper", "--max-steps", "1000000", "--max-hours", "0.0005",
+                          "-o", "a.ply", says=["more than --max-hours", "[hint: "])
+        self.assertLess(time.monotonic() - before, 30)
+        self.assertNotIn(b"interrupted", done.stderr)
+        self.assertEqual(self.names(), [])
 
     def test_a_dry_run_answers_in_any_case(self):
         self.balls("giant.xyzr", ["0 0 0 1000\n"])

@@ -184,6 +184,20 @@ class Information(ToolTest):
         self.check(2, "help", "build", "more", says="got 'more'")
         self.check(2, "help", "bricks", "plam", says="did you mean plan?")
 
+    def test_options_that_change_nothing_say_so(self):
+        for option, output, are in ((["--plain-color", "red"], "a.ply", ".png, .html and .glb"),
+                                    (["--depth-cue"], "a.html", ".png"), (["--vdb-half"], "a.ply", ".vdb"),
+                                    (["--curvature-totals"], "a.ply", ".json"),
+                                    (["--crisp", "--color", "chain"], "a.vdb", ".ply, .obj, .off, .glb and .3mf"),
+                                    (["--color", "chain"], "a.stl", "none of the files can hold colours"),
+                                    (["--fields", "density"], "a.html", "none of the files can hold that")):
+            self.check(0, CRAMBIN, "--voxel", "2", *option, "-o", output, "--force", says=[option[0], are])
+        self.check(0, CRAMBIN, "--voxel", "2", "--vdb-half", "-o", "b.vdb")
+
+    def test_defaults_are_not_warned_of(self):
+        done = self.check(0, CRAMBIN, "--voxel", "2", "-o", "a.ply")
+        self.assertNotIn(b"--epsilon", done.stderr)
+
     def test_help_is_the_one_in_docs(self):
         done = self.check(0, "--help")
         self.assertEqual(done.stdout.decode(), (ROOT / "docs" / "cli-help.txt").read_text())

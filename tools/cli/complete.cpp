@@ -182,6 +182,26 @@ void completePicture(Call& call)
         warnIfGiven(call, {"view", "turn"}, ".png and .html");
 }
 
+/// An option that shows in some kinds of files alone.
+struct Shown {
+    const char* option;
+    std::vector<Format> in;
+    const char* are;
+};
+
+const std::vector<Shown>& shownIn()
+{
+    static const std::vector<Shown> all = {
+        {"plain-color", {Format::Png, Format::Html, Format::Glb}, ".png, .html and .glb"},
+        {"depth-cue", {Format::Png}, ".png"},
+        {"vdb-half", {Format::Vdb}, ".vdb"},
+        {"curvature-totals", {Format::Json}, ".json"},
+        {"crisp",
+         {Format::Ply, Format::Obj, Format::Off, Format::Glb, Format::ThreeMf},
+         ".ply, .obj, .off, .glb and .3mf"}};
+    return all;
+}
+
 // Says what none of the files can hold.
 void warnOfLosses(Call& call)
 {
@@ -194,6 +214,13 @@ void warnOfLosses(Call& call)
     if (call.crisp && (call.options.split || !call.options.surfaceOf.empty()))
         call.warnings.push_back("--crisp is not for surfaces of their own");
     if (call.outputs.empty()) return;
+    for (const Shown& shown : shownIn()) {
+        const auto holds = [&](const Output& o) {
+            return std::count(shown.in.begin(), shown.in.end(), o.format) > 0;
+        };
+        if (std::none_of(call.outputs.begin(), call.outputs.end(), holds))
+            warnIfGiven(call, {shown.option}, shown.are);
+    }
     const bool vdb = writes(call, {Format::Vdb}), mesh = writes(call, {Format::Ply, Format::Glb});
     const bool means = call.options.ballAreas && !call.atoms.valueBy.empty(); // in tables
     if (call.has("color") && call.options.color != ColorBy::Nothing && !vdb && !means &&

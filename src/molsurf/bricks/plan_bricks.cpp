@@ -544,8 +544,8 @@ void checkCost(const PlannedBrick& cost, const RunLimits& limits)
     throw Error(ErrorKind::Input, text);
 }
 
-void checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLimits& limits,
-               const Progress& progress)
+double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLimits& limits,
+                 const Progress& progress)
 {
     const double leaves =
         leavesAtMost(atoms.balls, options.voxel, Influence(atoms, options).ofSurface());
@@ -555,8 +555,11 @@ void checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLim
         (2.0 * bytesPerFineLeaf + bytesPerValueOfLeaf * valuesAlong(options)) * leaves;
     const double seconds =
         2.0 * (secondsPerLeaf + secondsPerFlowLeaf) * leaves + secondsPerBoundaryBall * balls;
-    if (bytes < double(limits.memory) && seconds < 3600.0 * limits.hours * limits.threads) return;
-    checkCost(planWhole(atoms, options, progress).bricks[0], limits);
+    if (bytes < double(limits.memory) && seconds < 3600.0 * limits.hours * limits.threads)
+        return seconds;
+    const PlannedBrick cost = planWhole(atoms, options, progress).bricks[0];
+    checkCost(cost, limits);
+    return cost.seconds;
 }
 
 void checkPlan(const BrickPlan& plan, const SurfaceOptions& options)

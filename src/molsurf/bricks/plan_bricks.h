@@ -29,8 +29,9 @@ struct RunLimits {
 void checkCost(const PlannedBrick& cost, const RunLimits& limits);
 
 /// The same of a surface in one piece. It takes no time to speak of where the molecule is small.
-void checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLimits& limits,
-               const Progress& progress);
+/// @return the estimated time on one core, or more [s]
+double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLimits& limits,
+                 const Progress& progress);
 
 /// Checks the numbers of a plan that was read from a file, which could prolong a run or lead it out
 /// of space: its steps are those that the options say, and its bricks are boxes of whole leaves.

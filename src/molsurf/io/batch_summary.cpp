@@ -52,16 +52,16 @@ void writeSummaryJson(const BatchSummary& summary, OutputFile& file)
 void writeSummaryCsv(const BatchSummary& summary, OutputFile& file)
 {
     std::string text = "input,status,atoms,area,volume,euler_characteristic,components,cavities,"
-                       "seconds,message\n";
+                       "message\n";
     for (const BatchEntry& e : summary.entries) {
         text += csvCell(e.input) + "," + e.status;
         if (e.status == "failed") {
-            text += ",,,,,,,," + csvCell(e.message) + "\n";
+            text += ",,,,,,," + csvCell(e.message) + "\n";
             continue;
         }
         text += "," + digits(e.atoms) + "," + digits(e.area) + "," + digits(e.volume) + "," +
                 digits(e.eulerCharacteristic) + "," + digits(e.components) + "," +
-                digits(e.cavities) + "," + digits(e.seconds) + ",\n";
+                digits(e.cavities) + ",\n";
     }
     put(text, file);
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 
 namespace molsurf
 {
@@ -61,7 +63,12 @@ std::string csvCell(const std::string& name)
 {
     const bool formula = !name.empty() && std::strchr("=+-@\t\r", name[0]);
     const std::string text = formula ? "'" + name : name;
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    // Readers take these for a value that is missing: sodium is a residue, an atom and an element.
+    constexpr const char* missing[] = {"NA", "N/A", "NaN", "nan", "NULL", "null", "None", "none"};
+    const auto same = [&](const char* word) { return text == word; };
+    if (text.find_first_of(",\"\r\n") == std::string::npos &&
+        std::none_of(std::begin(missing), std::end(missing), same))
+        return text;
     std::string out = "\"";
     for (const char letter : text) out += letter == '"' ? "\"\"" : std::string(1, letter);
     return out + "\"";

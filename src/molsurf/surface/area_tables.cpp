@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <utility>
@@ -25,13 +27,21 @@ std::string lettered(char letter)
     return letter == '\0' || letter == ' ' ? "" : std::string(1, letter);
 }
 
+/// Sums of rounded areas are those of the whole to some 1e-10, and no digit is noise.
+double digitsThatHold(double number)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.12g", number);
+    return std::strtod(text, nullptr);
+}
+
 /// The columns that name residues, filled row by row.
 class ResidueColumns
 {
 public:
     void add(const BallNames::Residue& r)
     {
-        chain_.push_back(r.chain);
+        chain_.push_back(r.chain.empty() ? "_" : r.chain);
         name_.push_back(r.name);
         number_.push_back(r.number);
         code_.push_back(lettered(r.insertionCode));
@@ -252,6 +262,9 @@ void addOrigin(const BallSet& atoms, const std::string& kind, double probe, Tabl
 {
     const std::size_t rows =
         std::visit([](const auto& v) { return v.size(); }, table.columns[0].values);
+    for (Table::Column& column : table.columns)
+        if (auto* numbers = std::get_if<Numbers>(&column.values))
+            for (double& number : *numbers) number = digitsThatHold(number);
     table.columns.push_back({"surface", Texts(rows, kind)});
     table.columns.push_back({"probe_A", Numbers(rows, probe)});
     table.columns.push_back({"radii", Texts(rows, atoms.radii.empty() ? "input" : atoms.radii)});
