@@ -31,7 +31,7 @@ std::string lettered(char letter)
 double digitsThatHold(double number)
 {
     char text[32];
-    std::snprintf(text, sizeof text, "%.12g", number);
+    std::snprintf(text, sizeof text, "%.13g", number);
     return std::strtod(text, nullptr);
 }
 
