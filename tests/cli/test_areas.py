@@ -160,6 +160,27 @@ class Areas(ToolTest):
         told = {tuple(i["groups"]): i["buried_area"] for i in self.report("a.json")["interfaces"]}
         self.assertAlmostEqual(told["A", "B"], interface, 8)
 
+    def test_are_of_the_accessible_surface_unless_another_is_named(self):
+        self.check(0, ASPARTATE, *SAS, "-o", "sas.interfaces.csv", "-o", "sas.residues.csv")
+        self.check(0, ASPARTATE, "--voxel", "2", "-o", "a.interfaces.csv", "-o", "a.residues.csv", "-o", "a.ply",
+                   "-o", "a.json", "--areas", "residues", says=["variational: area", "areas of atoms and groups: sas"])
+        for name in "interfaces", "residues":
+            self.assertEqual((self.folder / f"a.{name}.csv").read_bytes(), (self.folder / f"sas.{name}.csv").read_bytes())
+        report = self.report("a.json")
+        self.assertEqual((report["areas_of"], report["surface"]["kind"]), ("sas", "variational"))
+        self.assertTrue(all(i["buried_area"] > 0 for i in report["interfaces"]))
+        row = self.table("a.residues.csv")[0]
+        self.assertEqual([row[c] for c in ("surface", "probe_A", "radii")], ["sas", "1.4", "bondi"])
+        self.check(0, ASPARTATE, "--surface", "vdw", "--radii", "protor", "-o", "b.residues.csv")
+        row = self.table("b.residues.csv")[0]
+        self.assertEqual([row[c] for c in ("surface", "probe_A", "radii")], ["vdw", "0", "protor"])
+
+    def test_names_that_readers_take_for_missing(self):
+        self.write("a.pdb", atom(1, 0.0, chain=" ") + atom(2, 2.0, residue=" NA", name="NA", number=2, chain=" "))
+        self.check(0, "a.pdb", "--ions", "-o", "a.atoms.csv")
+        self.assertIn(',"NA",', (self.folder / "a.atoms.csv").read_text())
+        self.assertEqual({row["chain"] for row in self.table("a.atoms.csv")}, {"_"})
+
     def test_frames(self):
         self.check(0, DATA / "1d3z.pdb.gz", *SAS, "--frames", "1-3", "-o", "a.residues.csv", "-o", "a.csv",
                    "-o", "a.pdb")

@@ -152,5 +152,15 @@ class Groups(ToolTest):
                                delta=1e-3)
 
 
+    def test_one_atom_on_large_voxels(self):
+        """Its mesh encloses next to nothing, and its groups are counted all the same."""
+        for place in range(8):
+            x = 0.37 * place
+            (self.folder / "a.pdb").write_text(
+                f"ATOM      1  CA  GLY A   1    {x:8.3f}{2 * x:8.3f}{3 * x:8.3f}  1.00  0.00           C\n")
+            done = self.run_tool("a.pdb", "--voxel", "3", "--group-by", "chain", "-o", "a.json", "--force", timeout=10)
+            self.assertIn(done.returncode, (0, 1), done.stderr)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -310,6 +310,32 @@ TEST(SpecialPositions, DoNotDependOnThePlace)
     }
 }
 
+// Balls that touch are apart, whatever their coordinates round to in single precision.
+TEST(SpecialPositions, BallsThatTouchAreApart)
+{
+    Random random(7);
+    for (int n = 0; n < 2000; ++n) {
+        const auto decimal = [&] { return double(random() % 100000) / 1000.0; };
+        const Vec3d x(decimal(), decimal(), decimal());
+        const double r = 1.0 + double(random() % 100) / 100.0;
+        const double R = 1.0 + double(random() % 100) / 100.0;
+        const std::vector<Ball> balls = {{x, r, 0}, {x + Vec3d(r + R, 0.0, 0.0), R, 1}};
+        ASSERT_EQ(measured(balls).outer, 2) << x << ' ' << r << ' ' << R;
+        ASSERT_EQ(measured(balls).euler, 4);
+    }
+}
+
+// A molecule that lies far from the origin has the area that it has there.
+TEST(SpecialPositions, AreExactFarFromTheOrigin)
+{
+    std::vector<Ball> balls = {{{0.123, 0.456, 0.789}, 1.7, 0}, {{1.654, 0.321, 0.987}, 1.55, 1}};
+    const Totals here = measured(balls, 1.4);
+    for (Ball& b : balls) b.center += Vec3d(654321.0, -123456.0, 98765.0);
+    const Totals there = measured(balls, 1.4);
+    EXPECT_NEAR(there.area, here.area, 1e-7 * here.area);
+    EXPECT_NEAR(there.volume, here.volume, 1e-7 * here.volume);
+}
+
 TEST(SpecialPositions, SameBitsInAnyOrder)
 {
     Random random(5);

@@ -14,6 +14,26 @@ namespace
 using openvdb::Coord;
 using openvdb::Vec3d;
 
+// An inactive voxel keeps its own sign, whatever the active voxel before it in its row has.
+TEST(ToLevelSet, KeepsSignsBesideABandWithHoles)
+{
+    const double voxel = 0.5, width = 1.5;
+    SparseField phi;
+    phi.voxelSize = voxel;
+    phi.table = LeafTable({Coord(0)});
+    phi.values = LeafField(1);
+    std::fill_n(phi.leaf(0), leafSize, float(-width));
+    for (const int v : {3, 70, 300}) {
+        phi.leaf(0)[v] = 0.4f;
+        phi.table.active(0).set(v);
+    }
+    const auto grid = toLevelSet(phi, width, Progress());
+    using Leaf = openvdb::FloatTree::LeafNodeType;
+    for (int v = 0; v < leafSize; ++v)
+        ASSERT_EQ(grid->getConstAccessor().getValue(Leaf::offsetToLocalCoord(openvdb::Index(v))),
+                  v == 3 || v == 70 || v == 300 ? 0.4f : float(-width));
+}
+
 // Larger than a leaf of the tree's upper levels, so that whole tiles lie inside.
 TEST(ToLevelSet, KeepsValuesInTheBandAndSignsEverywhere)
 {

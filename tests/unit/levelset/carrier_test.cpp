@@ -113,6 +113,46 @@ TEST(SmoothCarrier, HasNoRidgeOutsideACrease)
     EXPECT_LT(rough(f.carrier), 0.5 * rough(f.phi)) << rough(f.phi);
 }
 
+// A front between two balls that are far from each other, where psi is low and falls to both sides
+// of the plane through the middle: the carrier has its zero set at the front and nowhere else.
+TEST(SmoothCarrier, KeepsTheSidesOfAFrontThatSpansAGap)
+{
+    const std::vector<Ball> apart = {{{-4.4, 0.2, 0.1}, 1.7, 0}, {{4.4, -0.1, 0.3}, 1.7, 1}};
+    constexpr double voxel = 0.5, front = 0.3, width = 3.0 * voxel;
+    const auto span = [&](Fields& f) {
+        // A slab of the gap, all of it in the table, on one side of y = front.
+        std::vector<openvdb::Coord> origins;
+        for (int x = -16; x <= 8; x += leafDim)
+            for (int y = -8; y <= 0; y += leafDim)
+                for (int z = -8; z <= 0; z += leafDim) origins.emplace_back(x, y, z);
+        GaussianOptions options;
+        options.voxelSize = voxel;
+        options.reach = 20.0;
+        f.psi = GaussianSum(apart, options).evaluate(LeafTable(std::move(origins)), Progress());
+        f.phi = SparseField{f.psi.table, LeafField(f.psi.table.size()), voxel};
+        for (std::size_t n = 0; n < f.table().size(); ++n) {
+            f.phi.table.active(n) = ~LeafMask();
+            for (int v = 0; v < leafSize; ++v) {
+                const openvdb::Coord c = f.table().origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+                f.phi.leaf(n)[v] =
+                    float(std::clamp(c.asVec3d().y() * voxel - front, -width, width));
+            }
+        }
+    };
+    const Fields f = fieldsOf(apart, voxel, span);
+    std::size_t low = 0;
+    for (std::size_t n = 0; n < f.table().size(); ++n) {
+        for (int v = 0; v < leafSize; ++v) {
+            const float d = f.phi.leaf(n)[v], carried = f.carrier.leaf(n)[v];
+            low += f.psi.leaf(n)[v] < -2.0f;
+            if (std::abs(d) <= float(voxel)) continue;
+            ASSERT_GE(carried * (d < 0.0f ? -1.0f : 1.0f), 0.199f * (std::abs(d) - float(voxel)))
+                << f.table().origin(n) << ' ' << v;
+        }
+    }
+    EXPECT_GT(low, 1000u);
+}
+
 // A hollow that was filled has no interface any more: psi alone would bring it back.
 TEST(SmoothCarrier, KeepsFilledHollowsFilled)
 {
