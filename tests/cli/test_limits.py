@@ -2,6 +2,7 @@
 """What would take too much memory or time is refused before the work, and takes little itself."""
 
 import gzip
+import json
 import os
 import random
 import subprocess
@@ -100,6 +101,16 @@ class Limits(ToolTest):
         for words in ((), ("--memory", "60M")):
             self.refuse(CRAMBIN, "--voxel", "0.2", "--max-hours", "1e-5", "-o", "a.vdb", *words,
                         says=["hours", "--max-hours"])
+
+    def test_a_dry_run_knows_of_atoms_far_from_each_other(self):
+        rng = random.Random(1)
+        (self.folder / "far.xyzr").write_text(
+            "".join(f"{rng.uniform(0, 9e5)} {rng.uniform(0, 9e5)} {rng.uniform(0, 9e5)} 1.7\n" for _ in range(300)))
+        said = self.check(0, "far.xyzr", "--surface", "sas", "--dry-run").stderr.decode()
+        estimate = 2**30 * float(said.split(" GiB")[0].split()[-1])
+        self.check(0, "far.xyzr", "--surface", "sas", "-o", "a.ply", "-o", "a.json")
+        peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
+        self.assertTrue(0.7 < estimate / peak < 1.5, (estimate, peak))
 
     def test_a_run_ends_at_its_hours(self):
         """Its estimate is far below them: the paper's flow goes on without an end."""

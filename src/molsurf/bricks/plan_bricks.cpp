@@ -500,6 +500,25 @@ void checkExtent(const BrickPlan& plan, const GaussianExtent& extent)
 
 } // namespace
 
+namespace
+{
+
+/// What the upper nodes of OpenVDB's trees take beyond those of a compact molecule, for the grid
+/// and for the mesher's own: atoms far from each other have nodes of their own.
+double bytesOfNodes(const std::vector<Ball>& balls, double voxel)
+{
+    constexpr double ofBoth = 1.03e6; // two levels; 2,000 atoms took 2.8 GB for 0.7
+    constexpr double edge = 4096.0;   // of the upper one [voxel]
+    constexpr std::size_t compact = 8;
+    std::vector<Coord> nodes;
+    for (const Ball& ball : balls) nodes.push_back(Coord::floor(ball.center / (edge * voxel)));
+    tbb::parallel_sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes.size() > compact ? ofBoth * double(nodes.size() - compact) : 0.0;
+}
+
+} // namespace
+
 BrickPlan planBricks(const BallSet& atoms, const SurfaceOptions& options, const BrickLimits& limits,
                      const Progress& progress)
 {
@@ -514,7 +533,9 @@ BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const P
     const Influence influence(atoms, options);
     const double grain = grainOf(atoms.balls, options.voxel, influence.ofSurface());
     constexpr double most = 1.5e6; // leaves, in 18 MB
-    return makePlan(atoms, options, influence, {1, 0}, grain, most, progress);
+    BrickPlan plan = makePlan(atoms, options, influence, {1, 0}, grain, most, progress);
+    plan.bricks[0].bytes += std::size_t(bytesOfNodes(atoms.balls, options.voxel));
+    return plan;
 }
 
 void checkCost(const PlannedBrick& cost, const RunLimits& limits)

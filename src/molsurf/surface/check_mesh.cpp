@@ -63,10 +63,12 @@ double flatVolume(const Mesh& mesh, const Progress& progress)
         double sum = 0.0;
         for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
             const auto& t = mesh.triangles[i];
-            const Vec3d a = Vec3d(mesh.positions[t[0]]) - origin;
-            sum += a.dot((Vec3d(mesh.positions[t[1]]) - origin)
-                             .cross(Vec3d(mesh.positions[t[2]]) - origin)) /
-                   6.0;
+            // Of edges, which do not cancel in a large molecule.
+            const Vec3d a(mesh.positions[t[0]]);
+            sum +=
+                (a - origin)
+                    .dot((Vec3d(mesh.positions[t[1]]) - a).cross(Vec3d(mesh.positions[t[2]]) - a)) /
+                6.0;
         }
         return sum;
     });
