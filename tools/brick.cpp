@@ -111,6 +111,7 @@ int brick(const Call& call)
     Terminal terminal(call.progress);
     const Clock::time_point start = Clock::now();
     Report report;
+    checkCost(manifest.plan.bricks[call.brick - 1], limitsOf(call));
     BallSet atoms = readBalls(build, terminal, report);
     colorBalls(build.options, terminal, atoms);
     std::shared_ptr<const SparseField> coarse;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
+#include "bricks.h"
 #include "cli/option_table.h"
 #include "outputs.h"
 #include "sha256.h"
@@ -76,6 +77,7 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
         said.push_back(description);
         SurfaceOptions options = call.options;
         options.fields = {"spline"};
+        checkCost(selection, options, limitsOf(call), terminal);
         MolecularSurface result = makeSurface(selection, options, &terminal);
         read.converged = !result.report.evolution || result.report.evolution->converged;
         read.operand = operandOf(std::move(result));
