@@ -112,12 +112,9 @@ class Limits(ToolTest):
         peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
         self.assertTrue(0.7 < estimate / peak < 1.5, (estimate, peak))
 
-    def test_other_verbs_refuse_what_is_too_large(self):
+    def test_compare_refuses_what_is_too_large(self):
         self.check(1, "compare", CRAMBIN, CRAMBIN, "--voxel", "0.05", "--epsilon", "10", "--probe", "90",
                    says=["GiB of memory, and there are"])
-        self.check(0, "bricks", "plan", CRAMBIN, "--voxel", "0.05", "--bricks", "1", "--surface", "sas", "--probe",
-                   "90", "-o", "plan.json")
-        self.check(1, "bricks", "run", "plan.json", "1", says=["GiB of memory, and there are"])
 
     def test_a_run_ends_at_its_hours(self):
         """Its estimate is far below them: the paper's flow goes on without an end."""
