@@ -108,7 +108,7 @@ def surface_options(rng):
     """Options of a build; most of them go together."""
     choices = (
         lambda: ["--surface", rng.choice(("variational", "ses", "sas", "vdw", "gaussian"))],
-        lambda: ["--voxel", number(rng, "0.7", "1", "2", "5", "10", "0.06")],
+        lambda: ["--voxel", number(rng, "0.7", "1", "2", "5", "10", "0.4")],
         lambda: ["--probe", number(rng, "0", "0.1", "1.4", "3", "10")],
         lambda: ["--lambda", number(rng, "0", "0.001", "0.1", "1", "100")],
         lambda: ["--epsilon", number(rng, "0.1", "0.5", "2")],
