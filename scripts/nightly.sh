@@ -10,7 +10,7 @@
 #     calls       tests/surfaces/random_calls.py: 20,000 calls with mutated files and options, under sanitizers
 #     figures     scripts/check_docs.py --figures: the numbers of the pages, some of structures that are in FOLDER
 #     site        scripts/docs.sh: the pages as a site
-# All of it takes four hours on 2 cores, in some 6 GB. What a step prints is in build-nightly/NAME.log. The exit
+# All of it takes some hours on 2 cores, in some 6 GB. What a step prints is in build-nightly/NAME.log. The exit
 # status is 1 if one fails; the others still run.
 set -euo pipefail
 cd "$(dirname "$0")/.."
