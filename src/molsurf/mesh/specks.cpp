@@ -61,14 +61,15 @@ void fill(const Mesh& mesh, const std::vector<std::uint32_t>& vertices, bool cav
 
 } // namespace
 
-std::vector<std::uint32_t> dropSpecks(MeshPieces& pieces, openvdb::FloatGrid& surface, Mesh& mesh)
+std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
+                                                     openvdb::FloatGrid& surface, Mesh& mesh)
 {
     constexpr double rounding = 1e-3; // of the integral of the normal over a closed piece
     const double least = leastPiece * std::pow(surface.voxelSize()[0], 3);
     const std::size_t count = pieces.measures.size();
     std::vector<char> small(count, 0);
     for (std::size_t p = 0; p < count; ++p) small[p] = std::abs(pieces.measures[p].volume) < least;
-    if (std::find(small.begin(), small.end(), 1) == small.end()) return {};
+    if (std::find(small.begin(), small.end(), 1) == small.end()) return std::nullopt;
 
     // A piece that is cut open has no volume.
     std::vector<Vec3d> normals(count, Vec3d(0.0));
@@ -80,7 +81,7 @@ std::vector<std::uint32_t> dropSpecks(MeshPieces& pieces, openvdb::FloatGrid& su
     }
     for (std::size_t p = 0; p < count; ++p)
         small[p] = small[p] && normals[p].length() <= rounding * pieces.measures[p].area;
-    if (std::find(small.begin(), small.end(), 1) == small.end()) return {};
+    if (std::find(small.begin(), small.end(), 1) == small.end()) return std::nullopt;
 
     std::vector<std::vector<std::uint32_t>> specks(count);
     std::vector<std::uint32_t> kept, numbers(mesh.positions.size());

@@ -11,6 +11,7 @@
 #include <openvdb/openvdb.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace molsurf
@@ -24,15 +25,14 @@ constexpr double leastPiece = 0.1;
 /// level set that it was made of, where the voxels that they enclose change their signs.
 /// @param[in,out] pieces   those of the mesh
 /// @param[in,out] surface  the level set
-/// @return the vertices that stay, as indices of before, ascending; empty if all do
-std::vector<std::uint32_t> dropSpecks(MeshPieces& pieces, openvdb::FloatGrid& surface, Mesh& mesh);
+/// @return the vertices that stay, as indices of before, ascending; nothing if all do
+std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
+                                                     openvdb::FloatGrid& surface, Mesh& mesh);
 
 /// Makes an array over vertices one of those that stay.
-/// @param[in] kept  of dropSpecks(): empty if all do
 template<typename T>
 void keepVertices(const std::vector<std::uint32_t>& kept, std::vector<T>& values)
 {
-    if (kept.empty() || values.empty()) return;
     std::size_t count = 0;
     for (const std::uint32_t v : kept)
         if (v < values.size()) values[count++] = values[v];

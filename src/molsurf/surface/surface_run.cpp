@@ -320,11 +320,11 @@ GradientCounts SurfaceRun::countGradients(const std::vector<float>& slopes)
 MeshPieces SurfaceRun::dropSpecks()
 {
     MeshPieces pieces = piecesOf(result_.mesh, progress_);
-    const std::vector<std::uint32_t> kept =
-        molsurf::dropSpecks(pieces, *result_.surface, result_.mesh);
-    keepVertices(kept, stats_.slopes);
-    keepVertices(kept, stats_.cells);
-    keepVertices(kept, stats_.residuals);
+    if (const auto kept = molsurf::dropSpecks(pieces, *result_.surface, result_.mesh)) {
+        keepVertices(*kept, stats_.slopes);
+        keepVertices(*kept, stats_.cells);
+        keepVertices(*kept, stats_.residuals);
+    }
     checkLeft();
     return pieces;
 }

@@ -61,7 +61,7 @@ TEST(Specks, NothingGoesWhereThereIsNone)
     Mesh mesh = meshOf(*grid);
     MeshPieces pieces = piecesOf(mesh);
     const std::size_t before = mesh.triangles.size();
-    EXPECT_TRUE(dropSpecks(pieces, *grid, mesh).empty());
+    EXPECT_FALSE(dropSpecks(pieces, *grid, mesh).has_value());
     EXPECT_EQ(mesh.triangles.size(), before);
 }
 
@@ -79,8 +79,9 @@ TEST(Specks, GoFromMeshAndLevelSet)
         ASSERT_EQ(pieces.measures.size(), 2u) << place;
         ASSERT_LT(std::abs(pieces.measures[1].volume), 0.1 * std::pow(voxel, 3));
         const std::size_t vertices = mesh.positions.size();
-        const std::vector<std::uint32_t> kept = dropSpecks(pieces, *grid, mesh);
-        EXPECT_EQ(kept.size(), mesh.positions.size());
+        const auto kept = dropSpecks(pieces, *grid, mesh);
+        ASSERT_TRUE(kept.has_value());
+        EXPECT_EQ(kept->size(), mesh.positions.size());
         EXPECT_LT(mesh.positions.size(), vertices);
         EXPECT_EQ(pieces.measures.size(), 1u);
         EXPECT_EQ(pieces.of.size(), mesh.positions.size());
@@ -92,6 +93,18 @@ TEST(Specks, GoFromMeshAndLevelSet)
     }
 }
 
+TEST(Specks, NothingIsLeftOfASpeckAlone)
+{
+    const auto grid = ball();
+    for (auto value = grid->beginValueAll(); value; ++value) value.setValue(0.5f);
+    grid->getAccessor().setValue(Coord(0), -0.01f);
+    Mesh mesh = meshOf(*grid);
+    MeshPieces pieces = piecesOf(mesh);
+    ASSERT_EQ(pieces.measures.size(), 1u);
+    EXPECT_TRUE(dropSpecks(pieces, *grid, mesh)->empty());
+    EXPECT_TRUE(mesh.positions.empty() && mesh.triangles.empty() && pieces.measures.empty());
+}
+
 TEST(Specks, ACavityOfSomeVoxelsStays)
 {
     const auto grid = ball();
@@ -100,7 +113,7 @@ TEST(Specks, ACavityOfSomeVoxelsStays)
     Mesh mesh = meshOf(*grid);
     MeshPieces pieces = piecesOf(mesh);
     ASSERT_EQ(pieces.measures.size(), 2u);
-    EXPECT_TRUE(dropSpecks(pieces, *grid, mesh).empty());
+    EXPECT_FALSE(dropSpecks(pieces, *grid, mesh).has_value());
 }
 
 TEST(Specks, APieceThatIsCutOpenStays)
