@@ -135,9 +135,13 @@ private:
     {
         const auto count = take<std::uint32_t>();
         for (std::uint32_t i = 0; i < count; ++i) {
-            text(); // name
-            const std::string type = text();
+            const std::string name = text(), type = text();
             const auto size = take<std::uint32_t>();
+            if (name == openvdb::GridBase::META_SAVE_HALF_FLOAT) {
+                if (type != "bool" || size != 1) refuseBytes(name + " is not true or false");
+                half_ = take<std::uint8_t>() != 0;
+                continue;
+            }
             if (type != "string" && openvdb::Metadata::isRegisteredType(type)) {
                 if (openvdb::Metadata::createMetadata(type)->size() != size)
                     refuseBytes("metadata of type " + type + " have another length than that");
@@ -172,9 +176,9 @@ private:
         constexpr std::string_view before = "Tree_", after = "_5_4_3", halves = "_HalfFloat";
         text(); // name
         std::string name = text();
-        half_ = name.size() > halves.size() &&
-                name.compare(name.size() - halves.size(), halves.size(), halves) == 0;
-        if (half_) name.resize(name.size() - halves.size());
+        if (name.size() > halves.size() &&
+            name.compare(name.size() - halves.size(), halves.size(), halves) == 0)
+            name.resize(name.size() - halves.size());
         if (name.size() < before.size() + after.size() || name.rfind(before, 0) != 0 ||
             name.compare(name.size() - after.size(), after.size(), after) != 0)
             refuseBytes("it has a grid of type " + name);
@@ -182,6 +186,7 @@ private:
         const bool instance = !text().empty();
         skip(3 * sizeof(std::int64_t)); // places in the file, which are not used
         compression_ = take<std::uint32_t>();
+        half_ = false; // whatever its type's name says: OpenVDB takes the word of the metadata
         metadata();
         transform();
         if (!instance) tree();
