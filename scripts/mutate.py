@@ -5,7 +5,7 @@
     scripts/mutate.py [NAME ...] [--check] [--folder build-mutate] [--parallel N]
 
 tests/mutations.json lists the mutations: a name, a file, a text that is in it once, what replaces that text, the
-target to build, and a regular expression of the tests (as of ctest -R) of which at least one has to fail. NAME is
+targets to build, and a regular expression of the tests (as of ctest -R) of which at least one has to fail. NAME is
 a part of the names of those to try; without one all are. Everything happens in a copy of the tree in --folder, with a
 build folder of its own, so that the tree itself is never touched; the copy stays there for the next time.
 
@@ -65,8 +65,9 @@ def copy_tree(folder):
 
 
 def build(folder, target, jobs):
-    """Builds a target; returns what the compiler said if that fails."""
-    done = subprocess.run(["cmake", "--build", "--preset", "release", "--parallel", str(jobs), "--target", target],
+    """Builds targets; returns what the compiler said if that fails."""
+    done = subprocess.run(["cmake", "--build", "--preset", "release", "--parallel", str(jobs), "--target",
+                           *target.split()],
                           cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     return None if done.returncode == 0 else done.stdout
 
