@@ -104,6 +104,12 @@ int buildInBricks(const Call& call, Clock::time_point start)
     Terminal terminal(call.progress);
     Report report;
     BallSet atoms = readBalls(call, terminal, report);
+    const std::size_t reading = peakMemory();
+    if (call.memory > 0 && reading > call.memory)
+        throw Error(ErrorKind::Input, "reading took " + sizeText(reading) +
+                                          " of memory, --memory is " + sizeText(call.memory) +
+                                          " [hint: --memory " +
+                                          std::to_string(reading / 1000000 * 12 / 10) + "M]");
     if (call.memory == 0) checkBalls(atoms.balls, call.options, Pieces::One, availableMemory());
     const BrickPlan one = planWhole(atoms, call.options, terminal);
     const std::size_t whole = one.bricks[0].bytes;
@@ -112,7 +118,7 @@ int buildInBricks(const Call& call, Clock::time_point start)
         limits.memory = std::numeric_limits<std::size_t>::max(); // bricks take less
         checkCost(one.bricks[0], limits);
     }
-    if (call.memory == 0 || whole <= call.memory) {
+    if (call.memory == 0 || memoryFor(one.bricks[0]) <= call.memory) {
         if (!call.dryRun) return endOf(buildSurface(call, atoms, report, terminal, start));
         terminal.erase();
         for (const std::string& line : describePlan(one)) say(line);

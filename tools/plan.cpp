@@ -17,7 +17,7 @@ namespace molsurf::tool
 
 std::vector<std::string> describePlan(const BrickPlan& plan)
 {
-    std::size_t voxels = 0, bytes = 0;
+    std::size_t voxels = 0, bytes = peakMemory(); // reading has one of its own
     double seconds = 0.0;
     for (const PlannedBrick& brick : plan.bricks) {
         voxels += brick.voxels;

@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MPL-2.0
-"""Makes surfaces of proteins with options drawn at random, and holds each against what the program says of it.
+"""Makes surfaces with options drawn at random, and holds each against what the program says of it.
 
-    tests/surfaces/random_surfaces.py PROGRAM [--runs 200] [--seed 1] [--structures FOLDER]
+    tests/surfaces/random_surfaces.py PROGRAM [--runs 200] [--seed 1] [--structures FOLDER | --molecules]
 
-A run takes a structure (of tests/data, or of FOLDER), turned and shifted, a kind of surface, a voxel, a weight, and
-perhaps groups. With status 0 or 3 and a mesh, the mesh has to be closed and a manifold, with the Euler number, the
-counts and the pieces that the report tells; with any other status there is one line of error and no file. No run
-may take more than four times its estimated time, nor 1.5 times its estimated memory. Prints a line for each fault,
-and exits with 1 if there is one. The first line has the seed.
+A run takes a structure (of tests/data, or of FOLDER), turned and shifted, or with --molecules 1 to 12 atoms at
+random or on a lattice; a kind of surface, a voxel, a weight, and perhaps groups. With status 0 or 3 and a mesh, the
+mesh has to be closed and a manifold, with the Euler number, the counts and the pieces that the report tells; with
+any other status there is one line of error and no file. No run may take more than four times its estimated time
+(a molecule: 5 s of processor time), and its estimated memory has to be 0.7 to 1.5 times its peak. Prints a line for each fault, and exits
+with 1 if there is one. The first line has the seed.
 """
 
 import argparse
@@ -101,6 +102,28 @@ def structures(folders):
     return found
 
 
+def molecule(rng):
+    """The ATOM records of 1 to 12 atoms in two chains, near one another or on a lattice."""
+    pitch, side = rng.choice((0.7, 1.4, 2.0, 3.4)), rng.uniform(1, 12)
+    lattice, shift = rng.random() < 0.4, rng.choice((0, 0, 0.37, 100, -900))
+    lines = []
+    for i in range(rng.randint(1, 12)):
+        x, y, z = (shift + (pitch * rng.randrange(4) if lattice else rng.uniform(0, side)) for _ in range(3))
+        chain = rng.choice("AAB")
+        lines.append(f"ATOM  {i + 1:5d}  {rng.choice('CNOS')}   GLY {chain}{i + 1:4d}    {x:8.3f}{y:8.3f}{z:8.3f}  1.00")
+    return "\n".join(lines) + "\n"
+
+
+def draw_molecule(rng):
+    """Words of a run of a molecule."""
+    words = ["--surface", rng.choice(KINDS), "--voxel", f"{10 ** rng.uniform(-0.6, 1):.3g}"]
+    if rng.random() < 0.3:
+        words += ["--probe", rng.choice(("0", "0.1", "1", "3"))]
+    if rng.random() < 0.4:
+        words += ["--group-by", rng.choice(("chain", "residues:1", "residues:3"))]
+    return words
+
+
 def draw(rng, files):
     """(name, words) of a run."""
     while True:
@@ -136,15 +159,17 @@ def main():
     parser.add_argument("--runs", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--structures", action="append", default=[])
+    parser.add_argument("--molecules", action="store_true")
     args = parser.parse_args()
     files = structures([ROOT / "tests/data", *args.structures])
-    print(f"seed {args.seed}, {args.runs} runs, {len(files)} structures")
-    rng, counts, faulty, slow = random.Random(args.seed), collections.Counter(), 0, []
+    print(f"seed {args.seed}, {args.runs} runs, {'molecules' if args.molecules else f'{len(files)} structures'}")
+    counts, faulty, slow, sizes = collections.Counter(), 0, [], []
     for number in range(args.runs):
-        name, words = draw(rng, files)
+        rng = random.Random(f"{args.seed} {number}")  # each run by itself
+        name, words = ("molecule", draw_molecule(rng)) if args.molecules else draw(rng, files)
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
-            (folder / "a.pdb").write_text(turned(files[name], rng))
+            (folder / "a.pdb").write_text(molecule(rng) if args.molecules else turned(files[name], rng))
             words = [str(folder / "a.pdb"), *words]
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
             done = subprocess.run([args.program, *words, "-j", "1", "-o", folder / "a.ply", "-o", folder / "a.json"],
@@ -153,14 +178,17 @@ def main():
             seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
             faults, made = [], sorted(p.name for p in folder.iterdir())
             counts[done.returncode] += 1
+            if args.molecules and seconds > 5:
+                faults.append(f"it took {seconds:.1f} s")
             if "a.ply" in made:
                 report = json.loads((folder / "a.json").read_text())
                 faults += faults_of_mesh(folder / "a.ply", report)
                 size, time_of = estimate(args.program, words)
                 slow.append(seconds / max(time_of, 1.0))
+                sizes.append(size / report["peak_memory_bytes"])
                 if seconds > 4 * time_of and seconds > 5:
                     faults.append(f"it took {seconds:.1f} s, estimated {time_of:.1f}")
-                if report["peak_memory_bytes"] > 1.5 * size:
+                if not 0.7 * report["peak_memory_bytes"] <= size <= 1.5 * report["peak_memory_bytes"]:
                     faults.append(f"it took {report['peak_memory_bytes']} bytes, estimated {size:.0f}")
             if done.returncode == 0 and "a.ply" not in made:
                 faults.append("status 0 and no mesh")
@@ -173,7 +201,8 @@ def main():
         for fault in faults:
             print(f"run {number}: {name} {' '.join(words[1:])}: {fault}", flush=True)
         faulty += bool(faults)
-    print(f"statuses {dict(counts)}; time over its estimate: {max(slow, default=0):.2f} at most")
+    print(f"statuses {dict(counts)}; time over its estimate: {max(slow, default=0):.2f} at most; estimated memory over "
+          f"its peak: {min(sizes, default=0):.2f} to {max(sizes, default=0):.2f}")
     print(f"surfaces: {args.runs} runs, {faulty} faults")
     return 1 if faulty else 0
 

@@ -26,20 +26,20 @@ using openvdb::Vec3d;
 namespace
 {
 
-// Measured on 1F2N, 1K4R, 6ZU5 and 1M4X at 0.5 to 2 Å and on small proteins: peaks of the resident
-// memory against the leaves that hold atoms or lie beside them. No peak was above 0.96 of what
-// these give, since not all such leaves have a part of the surface. It is either that of the flow
-// and the distances, or that of the mesh.
-constexpr double processBytes = 70e6;          // program, libraries, buffers
-constexpr double bytesPerAtom = 40.0;          // of the whole molecule: balls, and reading them
-constexpr double bytesPerNear = 85.0;          // of the balls near a brick: cell lists, copies
-constexpr double bytesPerBoundaryBall = 1.8e3; // of those: the boundary of their union
-constexpr double bytesPerOffsetBall = 1.3e3;   // the same where the surface lies inside of it
-constexpr double bytesPerFlowLeaf = 12e3;      // within the halo of the flow
-constexpr double bytesPerCoarseLeaf = 2.2e3;   // of the whole at rest on voxels twice as large
-constexpr double bytesPerMeshLeaf = 12.5e3;    // within the halo of the spline
-constexpr double bytesPerFineLeaf = 25e3;      // the same of a surface that runs between atoms
-constexpr double bytesPerKeptLeaf = 5.5e3; // of the flow, where these are kept for the next brick
+// Measured on 280 surfaces of 30 to 545,000 atoms, all kinds, voxels of 0.25 to 2 Å and probes of
+// 0.5 to 3 Å, with Debian's OpenVDB: peaks of the resident memory against the leaves that hold
+// atoms or lie beside them. A peak is either that of the flow and the distances, or that of the
+// mesh. The surface of a larger probe passes fewer balls, and fewer of those leaves.
+constexpr double processBytes = 60e6;           // program, libraries, buffers
+constexpr double bytesPerAtom = 40.0;           // of the whole molecule: balls, and reading them
+constexpr double bytesPerNear = 85.0;           // of the balls near a brick: cell lists, copies
+constexpr double bytesPerBoundaryBall = 1.55e3; // of those: the boundary of their union
+constexpr double bytesPerFlowLeaf = 10e3;       // within the halo of the flow
+constexpr double bytesPerCoarseLeaf = 2.2e3;    // of the whole at rest on voxels twice as large
+constexpr double bytesPerMeshLeaf = 11e3;       // within the halo of the spline
+constexpr double bytesPerUnionLeaf = 14.5e3;    // the same where the surface may pass each atom
+constexpr double sharePerProbe = 0.4;           // fewer of both, for each Å of the probe
+constexpr double bytesPerKeptLeaf = 7e3; // of the flow, where these are kept for the next brick
 constexpr double bytesPerValueOfLeaf = 2.5e3; // of a grid that goes along with the surface
 // On one core of a Xeon of 2.6 GHz: on 6ZU5 and 1K4R at 0.5 and 1 Å, both kinds, these give 0.75 to
 // 1.2 times what was measured.
@@ -139,7 +139,8 @@ double leavesAtMost(const std::vector<Ball>& balls, double voxel, double reach)
 double grainOf(const std::vector<Ball>& balls, double voxel, double reach)
 {
     const double few = std::max(4e6, 2.0 * double(balls.size()));
-    while (leavesAtMost(balls, voxel, reach) > few) voxel *= 2.0;
+    // Smaller leaves than an atom lie inside of it, and are not those of its surface.
+    while (voxel < 0.5 || leavesAtMost(balls, voxel, reach) > few) voxel *= 2.0;
     return voxel;
 }
 
@@ -299,15 +300,15 @@ public:
         }
         // Grids with wider bands may have leaves in a box that holds no other.
         brick.voxels = std::max(std::size_t(voxelsPerLeaf * own), std::size_t(inSpline > 0.0));
-        const double forBoundary = !isUnion(options_.kind)    ? 0.0
-                                   : offsetOf(options_) > 0.0 ? bytesPerOffsetBall
-                                                              : bytesPerBoundaryBall;
-        const double perBall = bytesPerNear + forBoundary;
-        const bool fine =
-            options_.kind == SurfaceKind::Gaussian || options_.kind == SurfaceKind::VanDerWaals;
+        const double share = 1.0 / (1.0 + sharePerProbe * probeOf(options_));
+        const double perBall =
+            bytesPerNear + (isUnion(options_.kind) ? share * bytesPerBoundaryBall : 0.0);
         const double forFlow = bytesPerFlowLeaf * inFlow;
         const double coarse = startsCoarse(options_) ? bytesPerCoarseLeaf * coarseLeaves() : 0.0;
-        const double forMesh = (fine ? bytesPerFineLeaf : bytesPerMeshLeaf) * inSpline;
+        const double perLeaf = options_.kind == SurfaceKind::Variational
+                                   ? bytesPerMeshLeaf
+                                   : share * bytesPerUnionLeaf;
+        const double forMesh = perLeaf * inSpline;
         brick.bytes = std::size_t(
             processBytes + coarse + bytesPerAtom * double(atoms_) + perBall * double(balls) +
             (keeping_ ? bytesPerKeptLeaf * inFlow + forMesh : std::max(forFlow, forMesh)) +
@@ -381,12 +382,12 @@ public:
     std::vector<PlannedBrick> cutEvenly(std::size_t memory, const CoordBBox& box) const
     {
         std::vector<PlannedBrick> out;
-        const std::size_t least = estimate(box).bytes / memory + 1;
+        const std::size_t least = memoryFor(estimate(box)) / memory + 1;
         for (std::size_t parts = least; parts <= 2 * least + 1; ++parts) {
             out.clear();
             cutInto(parts, box, out);
             if (std::all_of(out.begin(), out.end(),
-                            [&](const PlannedBrick& b) { return b.bytes <= memory; }))
+                            [&](const PlannedBrick& b) { return memoryFor(b) <= memory; }))
                 return out;
         }
         return {};
@@ -396,13 +397,13 @@ public:
     {
         const PlannedBrick brick = estimate(box);
         CoordBBox first, second;
-        if (brick.bytes <= memory) {
+        if (memoryFor(brick) <= memory) {
             keep(brick, out);
         } else if (cut(box, 0.5, first, second)) {
             halve(memory, first, out);
             halve(memory, second, out);
         } else {
-            tooLittle("the smallest brick", double(brick.bytes), memory);
+            tooLittle("the smallest brick", double(memoryFor(brick)), memory);
         }
     }
 
@@ -538,6 +539,12 @@ BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const P
     return plan;
 }
 
+std::size_t memoryFor(const PlannedBrick& brick)
+{
+    constexpr double margin = 1.15; // two of 280 peaks were above that times their estimate
+    return std::size_t(processBytes + margin * (double(brick.bytes) - processBytes));
+}
+
 void checkCost(const PlannedBrick& cost, const RunLimits& limits)
 {
     char text[200];
@@ -573,7 +580,7 @@ double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunL
     const double balls = double(atoms.balls.size());
     const double bytes =
         processBytes + (bytesPerAtom + bytesPerNear + bytesPerBoundaryBall) * balls +
-        (2.0 * bytesPerFineLeaf + bytesPerValueOfLeaf * valuesAlong(options)) * leaves;
+        (4.0 * bytesPerUnionLeaf + bytesPerValueOfLeaf * valuesAlong(options)) * leaves;
     const double seconds =
         2.0 * (secondsPerLeaf + secondsPerFlowLeaf) * leaves + secondsPerBoundaryBall * balls;
     if (bytes < double(limits.memory) && seconds < 3600.0 * limits.hours * limits.threads)

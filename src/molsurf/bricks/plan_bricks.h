@@ -17,6 +17,10 @@ namespace molsurf
 /// where leaves are many, larger ones are counted, and where these are many, a sample of them.
 BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const Progress& progress);
 
+/// Returns the memory that a brick is given where there is a limit [byte]: more than its estimate,
+/// which is neither the least nor the most.
+std::size_t memoryFor(const PlannedBrick& brick);
+
 /// What a run may take.
 struct RunLimits {
     std::size_t memory; ///< [byte]

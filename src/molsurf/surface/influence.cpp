@@ -23,6 +23,7 @@ Influence::Influence(const GaussianExtent& extent, const SurfaceOptions& options
 
 double Influence::ofSurface() const
 {
+    if (options_.kind == SurfaceKind::VanDerWaals) return 0.0;
     return extent_.maxGrownRadius - extent_.maxRadius + extent_.maxTolerance;
 }
 

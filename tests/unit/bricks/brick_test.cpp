@@ -245,7 +245,7 @@ TEST_F(Bricks, NeedTheMemoryOfTheirSurface)
     };
     const std::size_t plain = bytes(SurfaceKind::Variational, {"surface"});
     EXPECT_GT(bytes(SurfaceKind::Gaussian, {"surface"}), plain); // runs between the atoms
-    EXPECT_GT(bytes(SurfaceKind::SolventExcluded, {"surface"}), plain);
+    EXPECT_GT(bytes(SurfaceKind::VanDerWaals, {"surface"}), plain); // has all atoms on its boundary
     const std::size_t one = bytes(SurfaceKind::Variational, {"surface", "mean_curvature"}) - plain;
     const std::size_t three = bytes(SurfaceKind::Variational, {"surface", "Cd"}) - plain;
     EXPECT_GT(one, 0u);
