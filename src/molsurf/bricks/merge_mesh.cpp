@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -177,10 +176,6 @@ std::uint64_t MergedMesh::indexOf(std::size_t brick, std::uint32_t vertex) const
 
 void MergedMesh::writePly(OutputFile& file, const Progress& progress) const
 {
-    if (vertices() > std::size_t(std::numeric_limits<std::int32_t>::max()))
-        throw Error(ErrorKind::Output, "cannot write " + file.path() +
-                                           ": .ply counts at most 2147483647 vertices [hint: a "
-                                           "larger `voxel`]");
     constexpr float farthest = 1e6f; // [Å], as readMesh() takes them
     const PlyLayout layout = commonLayout(bricks_);
     const std::string header = plyHeader(layout, vertices(), triangles());

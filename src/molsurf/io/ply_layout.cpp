@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/ply_layout.h"
 
+#include "molsurf/error.h"
+
 #include <cstring>
+#include <limits>
 
 namespace molsurf
 {
@@ -33,6 +36,9 @@ PlyLayout layoutOf(const Mesh& mesh)
 std::string plyHeader(const PlyLayout& layout, std::size_t vertices, std::size_t triangles,
                       const std::vector<std::string>& comments)
 {
+    if (vertices > std::size_t(std::numeric_limits<std::int32_t>::max()))
+        throw Error(ErrorKind::Output,
+                    ".ply counts at most 2147483647 vertices [hint: a larger `voxel`]");
     std::string header = "ply\nformat binary_little_endian 1.0\n";
     for (const std::string& comment : comments) header += "comment " + comment + "\n";
     header += "element vertex " + std::to_string(vertices) + "\n";

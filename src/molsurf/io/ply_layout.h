@@ -30,6 +30,7 @@ struct PlyLayout {
 
 PlyLayout layoutOf(const Mesh& mesh);
 
+/// @throws Error(ErrorKind::Output) if its indices cannot count the vertices
 std::string plyHeader(const PlyLayout& layout, std::size_t vertices, std::size_t triangles,
                       const std::vector<std::string>& comments = {});
 

@@ -142,7 +142,7 @@ void writeStl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit)
 {
     if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max())
         throw Error(ErrorKind::Output, "cannot write " + file.path() + ": .stl holds at most " +
-                                           "4294967295 triangles [hint: write .ply]");
+                                           "4294967295 triangles [hint: write .obj]");
 
     // Not "solid": that is how readers know the text form.
     char header[80] = "binary STL, lengths in ";

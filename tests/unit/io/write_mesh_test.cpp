@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_mesh.h"
 
+#include "molsurf/error.h"
+#include "molsurf/io/ply_layout.h"
+
 #include "support/folder.h"
 
 #include <gtest/gtest.h>
@@ -119,6 +122,12 @@ TEST(WritePly, EmptyMesh)
     const std::string bytes = test::written([](OutputFile& file) { writePly(Mesh(), file); });
     EXPECT_NE(bytes.find("element vertex 0\n"), std::string::npos);
     EXPECT_NE(bytes.find("element face 0\n"), std::string::npos);
+}
+
+TEST(WritePly, RefusesWhatItsIndicesCannotCount)
+{
+    EXPECT_NO_THROW(plyHeader(PlyLayout(), 0x7fffffff, 1));
+    EXPECT_THROW(plyHeader(PlyLayout(), 0x80000000, 1), Error);
 }
 
 TEST(WriteObj, GivesTheSameFloatsBack)
