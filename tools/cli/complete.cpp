@@ -312,18 +312,18 @@ void completeAreas(Call& call)
     call.options.grid = !asksForNumbers(call);
     if (tables.empty()) return;
     SurfaceOptions& options = call.options;
-    const auto refuse = [&](const char* option, const std::string& hint) {
+    const auto refuse = [&](const char* option, const char* hint) {
         if (call.has(option))
             misuse("areas by atom (" +
                    std::string(call.areas.empty() ? "-o " + areaFile(call) : "--areas") +
-                   ") and --" + option + " together [hint: " + hint + "]");
+                   ") and --" + option + " together" + hint);
     };
-    refuse("coarse", "a run without --coarse");
-    refuse("split", "--interfaces has the areas of groups alone");
-    refuse("surface-of", "a run without --surface-of");
-    refuse("instances", "--by-symmetry has those of a unit in the whole");
-    if (options.grid) refuse("memory", "--surface sas needs no grid");
-    refuse("dry-run", "--dry-run -o FILE.vdb");
+    refuse("coarse", " [hint: a run without --coarse]");
+    refuse("split", " [hint: --interfaces has the areas of groups alone]");
+    refuse("surface-of", " [hint: a run without --surface-of]");
+    refuse("instances", " [hint: --by-symmetry has those of a unit in the whole]");
+    if (options.grid) refuse("memory", " [hint: --surface sas needs no grid]");
+    refuse("dry-run", " [hint: --dry-run -o FILE.vdb]");
     call.atoms.names = true;
     options.contacts = tables.count("contacts") > 0;
     options.ballAreas = tables.size() > std::size_t(options.contacts);

@@ -454,7 +454,7 @@ BrickFile::BrickFile(const std::string& path, const openvdb::CoordBBox& box)
 
 void BrickFile::refuse(const std::string& what) const
 {
-    throw Error(ErrorKind::Input, path_ + " " + what + " [hint: run the brick again]");
+    throw Error(ErrorKind::Input, path_ + " " + what + " [hint: run the brick again with `force`]");
 }
 
 std::vector<StoredLeaf> BrickFile::leaves(std::size_t g) const

@@ -4,6 +4,7 @@
 #include "molsurf/bricks/merge_vdb.h"
 #include "molsurf/error.h"
 #include "molsurf/flow/evolve.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -59,9 +60,9 @@ std::vector<BrickFile> openBricks(const std::vector<std::string>& paths, const s
         if (bricks.back().header().plan != id || bricks.back().header().number != k + 1)
             throw Error(ErrorKind::Input, paths[k] + " belongs to another plan");
         if (!fits(bricks.back().header(), bricks.front().header()))
-            throw Error(ErrorKind::Input, paths[k] +
-                                              ": its grids or groups are others than those of " +
-                                              paths[0] + " [hint: run the bricks again]");
+            throw Error(ErrorKind::Input,
+                        paths[k] + ": its grids or groups are others than those of " + paths[0] +
+                            " [hint: run the bricks again with `force`]");
         if (meshed && !bricks.back().header().meshed()) bricks.back().refuse("holds no mesh");
     }
     return bricks;
@@ -140,10 +141,7 @@ MergedBricks::MergedBricks(const std::vector<std::string>& paths, const std::str
 {
     report_.surface = mesh_.report();
     report_.surface.kind = nameOf(options.kind);
-    if (mesh_.triangles() == 0)
-        throw Error(ErrorKind::Numeric,
-                    "merge: nothing of the molecule is left at this resolution [hint: a smaller "
-                    "`voxel`, `lambda` or `epsilon`]");
+    if (mesh_.triangles() == 0) failNothingLeft("merge", options.kind);
     if (!report_.surface.closed)
         report_.warnings.push_back("merge: the bricks do not fit everywhere: the mesh has gaps");
     report_.evolution = evolutionOf(bricks_, options.evolution, options.voxel);

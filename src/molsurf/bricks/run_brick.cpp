@@ -148,8 +148,8 @@ void checkBrickOptions(const SurfaceOptions& options)
 {
     const auto refuse = [](const std::string& what) {
         throw Error(ErrorKind::Usage,
-                    what + " needs the whole molecule at once: it is not for bricks [hint: without "
-                           "`memory`, on a machine that has enough]");
+                    what + " needs the whole molecule at once: it is not for bricks [hint: a run "
+                           "in one piece, on a machine that has enough memory]");
     };
     if (options.split) refuse("`split`");
     if (!options.surfaceOf.empty()) refuse("`surfaceOf`");

@@ -75,7 +75,7 @@ BallValues bFactors(const Structure& structure, bool asGiven, std::vector<std::s
     BallValues out{"bfactor", "B factor", "Å²", BallValues::Map::Magnitude, 0.0, 1.0, {}};
     if (asGiven || !arePredicted(structure)) return out;
     warnings.push_back("B factors are the same within every residue and from 0 to 100: taken as "
-                       "the pLDDT of a predicted model [hint: with `valueRange` they are B "
+                       "the pLDDT of a predicted model [hint: with `range` they are B "
                        "factors]");
     return {"plddt", "pLDDT", "", BallValues::Map::Confidence, 0.0, 100.0, {}};
 }

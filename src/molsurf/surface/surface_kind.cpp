@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/surface_kind.h"
 
+#include "molsurf/error.h"
 #include "molsurf/flow/evolve.h"
 
 #include <algorithm>
+#include <string>
 
 namespace molsurf
 {
@@ -46,6 +48,15 @@ BandWidths widthsOf(const SurfaceOptions& options)
     const double width = splineWidthOf(options), offset = offsetOf(options);
     const double grown = 0.5 * options.minWall;
     return {offset + width + grown, std::max(width - offset, options.voxel) + grown};
+}
+
+void failNothingLeft(const char* stage, SurfaceKind kind)
+{
+    throw Error(ErrorKind::Numeric, std::string(stage) +
+                                        ": nothing of the molecule is left at this resolution" +
+                                        (kind == SurfaceKind::Variational
+                                             ? " [hint: a smaller `voxel`, `lambda` or `epsilon`]"
+                                             : " [hint: a smaller `voxel`]"));
 }
 
 GaussianOptions gaussianOptions(const SurfaceOptions& options)

@@ -40,6 +40,10 @@ double splineWidthOf(const SurfaceOptions& options);
 /// Gives how far from the surface of its set the distance is computed.
 BandWidths widthsOf(const SurfaceOptions& options);
 
+/// Says that the voxels show nothing of a surface, and what would.
+/// @param[in] stage  that found it
+[[noreturn]] void failNothingLeft(const char* stage, SurfaceKind kind);
+
 /// Gives the parameters of the sum of Gaussians.
 GaussianOptions gaussianOptions(const SurfaceOptions& options);
 

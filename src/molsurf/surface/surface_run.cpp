@@ -260,9 +260,7 @@ void SurfaceRun::mesh()
 void SurfaceRun::checkLeft() const
 {
     if (!scope_.region.whole() || !result_.mesh.triangles.empty()) return;
-    throw Error(ErrorKind::Numeric,
-                "mesh: nothing of the molecule is left at this resolution [hint: a smaller "
-                "`voxel`, `lambda` or `epsilon`]");
+    failNothingLeft("mesh", options_.kind);
 }
 
 bool SurfaceRun::fillCavities()
