@@ -21,6 +21,9 @@
 namespace molsurf::tool
 {
 
+/// "about 5e+04 voxels, 0.2 GiB of memory at most, 0.5 s on one core".
+std::string costText(const PlannedBrick& cost);
+
 /// What a plan comes to, a line each.
 std::vector<std::string> describePlan(const BrickPlan& plan);
 
@@ -39,6 +42,9 @@ Call callOf(PlanManifest manifest, const std::string& path);
 void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std::string>& paths,
                  const std::string& id, bool meshed, Terminal& terminal, Clock::time_point start,
                  Report& report);
+
+/// Whether a build can be made in bricks, as far as its options tell.
+bool goesInBricks(const Call& call);
 
 /// What a surface may take by a call and on this machine.
 RunLimits limitsOf(const Call& call);

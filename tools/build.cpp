@@ -73,7 +73,11 @@ RunLimits limitsOf(const Call& call)
 {
     const std::size_t threads =
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    return {std::max(call.memory, availableMemory()), call.hours, int(threads)};
+    RunLimits limits{std::max(call.memory, availableMemory()), call.hours, int(threads)};
+    if (call.verb == BricksRun) limits.hint = " [hint: a plan of more bricks";
+    if (call.verb == Convert) limits.hint = " [hint: a surface of a larger `voxel`";
+    limits.bricks = goesInBricks(call);
+    return limits;
 }
 
 std::string summary(const Report& report)
@@ -163,18 +167,14 @@ void centerMesh(Call& call, MolecularSurface& result, ShownMeshes& shown)
 namespace
 {
 
-/// The processor time after which a run is ended.
-/// @param[in] estimate  what it takes by the estimate [s]
-double mostSeconds(const SurfaceOptions& options, double estimate)
+/// Whether the estimate is that of the run: it is of one surface, and of the steps that it needs.
+bool isEstimated(const SurfaceOptions& options)
 {
-    constexpr double times = 4.0, least = 60.0; // [s]
     const EvolveOptions& flow = options.evolution;
     const bool several = options.interfaces || options.split || !options.surfaceOf.empty() ||
                          options.matchVolume || options.ballAreas;
     const bool asked = flow.flow == Flow::Paper || flow.steps >= 0 || flow.maxSteps >= 0;
-    // The estimate is of one surface, and of the steps that it needs.
-    return several || asked ? std::numeric_limits<double>::infinity()
-                            : std::max(times * estimate, least);
+    return !several && !asked;
 }
 
 } // namespace
@@ -186,7 +186,8 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     stopIfAsked();
     if (call.options.grid) {
         const double seconds = checkCost(balls, call.options, limitsOf(call), terminal);
-        terminal.limit(mostSeconds(call.options, seconds), call.hours);
+        constexpr double any = std::numeric_limits<double>::infinity();
+        terminal.limitTo(isEstimated(call.options) ? seconds : any, call.hours);
     }
     call.options.meshLabels = showsMesh(call.outputs);
     if (balls.instances.size() > 0 && balls.copies > 1) call.options.split = true;
@@ -194,10 +195,8 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     try {
         result = makeSurface(balls, call.options, &terminal, warm);
     } catch (const Cancelled&) {
-        if (!terminal.overdue()) throw;
-        throw Error(ErrorKind::Numeric, "the surface takes more than four times as long as it was "
-                                        "estimated to, or more than --max-hours [hint: a larger "
-                                        "--voxel, or --max-steps]");
+        terminal.failIfOverdue(" [hint: a larger --voxel or --max-hours, or fewer --max-steps]");
+        throw;
     }
     if (call.options.contacts && call.contacts != ContactLevel::Atom &&
         balls.names->residues.size() == 1)

@@ -95,6 +95,19 @@ std::string sizeText(std::size_t bytes)
 
 } // namespace
 
+bool goesInBricks(const Call& call)
+{
+    if (call.verb != Build || call.atoms.instances || call.atoms.bySymmetry || !call.frames.empty())
+        return false;
+    try {
+        checkBrickOptions(call.options);
+        checkOutputs(call);
+    } catch (const Error&) {
+        return false;
+    }
+    return true;
+}
+
 int buildInBricks(const Call& call, Clock::time_point start)
 {
     prepareOutputs(call);

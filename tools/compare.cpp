@@ -63,7 +63,10 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
     read.path = path;
     terminal.update("read", 0.0);
     if (isVdbFile(path)) {
-        const VdbFile file = readVdb(path);
+        const VdbFile file = readVdb(path, [&](const VdbContent& content) {
+            checkCost(costOfStored(content), limitsOf(call));
+            return true;
+        });
         stopIfAsked();
         refuseScene(path, file.metadata);
         terminal.update("surface", 0.0);

@@ -6,6 +6,7 @@
 #include "terminal.h"
 #include "write_result.h"
 
+#include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/error.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/write_vdb.h"
@@ -24,6 +25,9 @@ StoredSurface restore(const Call& call, const VdbFile& file, Terminal& terminal)
 {
     try {
         return storedSurface(file.grids, file.metadata, call.options, terminal);
+    } catch (const Cancelled&) {
+        terminal.failIfOverdue(" [hint: a surface of a larger --voxel, or a larger --max-hours]");
+        throw;
     } catch (const Error& e) {
         throw Error(e.kind(), call.input + ": " + e.what());
     }
@@ -59,7 +63,18 @@ int convert(const Call& asked, Clock::time_point start)
     Terminal terminal(asked.progress);
     Clock::time_point lapStart = Clock::now();
     terminal.update("read", 0.0);
-    const VdbFile file = readVdb(asked.input);
+    PlannedBrick cost;
+    const VdbFile file = readVdb(asked.input, [&](const VdbContent& content) {
+        cost = costOfStored(content);
+        if (!asked.dryRun) checkCost(cost, limitsOf(asked));
+        return !asked.dryRun;
+    });
+    if (asked.dryRun) {
+        terminal.erase();
+        say(costText(cost));
+        return 0;
+    }
+    terminal.limitTo(cost.seconds, asked.hours);
     const double readSeconds = secondsSince(lapStart);
     stopIfAsked();
 

@@ -15,22 +15,26 @@
 namespace molsurf::tool
 {
 
+std::string costText(const PlannedBrick& cost)
+{
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "about %.3g voxels, %.3g GiB of memory at most, %.3g s on one core",
+                  double(cost.voxels), double(cost.bytes) / double(1 << 30), cost.seconds);
+    return text;
+}
+
 std::vector<std::string> describePlan(const BrickPlan& plan)
 {
-    std::size_t voxels = 0, bytes = peakMemory(); // reading has one of its own
-    double seconds = 0.0;
+    PlannedBrick all;
+    all.bytes = peakMemory(); // reading has one of its own
     for (const PlannedBrick& brick : plan.bricks) {
-        voxels += brick.voxels;
-        bytes = std::max(bytes, brick.bytes);
-        seconds += brick.seconds;
+        all.voxels += brick.voxels;
+        all.bytes = std::max(all.bytes, brick.bytes);
+        all.seconds += brick.seconds;
     }
-    char text[200];
-    std::snprintf(
-        text, sizeof text,
-        "%zu atoms, %s, about %.3g voxels, %.3g GiB of memory at most, %.3g s on one core",
-        plan.atoms, counted(plan.bricks.size(), "brick", "bricks").c_str(), double(voxels),
-        double(bytes) / double(1 << 30), seconds);
-    return {text};
+    return {std::to_string(plan.atoms) + " atoms, " +
+            counted(plan.bricks.size(), "brick", "bricks") + ", " + costText(all)};
 }
 
 namespace

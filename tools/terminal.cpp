@@ -5,6 +5,7 @@
 #include "stop.h"
 
 #include "molsurf/core/printable.h"
+#include "molsurf/error.h"
 
 #include <unistd.h>
 
@@ -114,6 +115,20 @@ void Terminal::limit(double processor, double hours)
     latest_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                  std::chrono::duration<double>(std::min(3600.0 * hours, longest)));
     most_ = std::clock() + std::clock_t(std::min(processor, longest) * CLOCKS_PER_SEC);
+}
+
+void Terminal::limitTo(double estimate, double hours)
+{
+    constexpr double times = 4.0, least = 60.0; // [s]
+    limit(std::max(times * estimate, least), hours);
+}
+
+void Terminal::failIfOverdue(const std::string& hint) const
+{
+    if (overdue())
+        throw Error(ErrorKind::Numeric, "the surface takes more than four times as long as it was "
+                                        "estimated to, or more than it may" +
+                                            hint);
 }
 
 bool Terminal::overdue() const

@@ -42,8 +42,15 @@ public:
     /// @param[in] hours      by the clock
     void limit(double processor, double hours);
 
+    /// The same of a run whose time was estimated [s]: four times as long, and a minute at least.
+    void limitTo(double estimate, double hours);
+
     /// Whether the run ends because it has taken too long.
     bool overdue() const;
+
+    /// What to call when the run was cancelled.
+    /// @throws Error(ErrorKind::Numeric) if that was because it took too long
+    void failIfOverdue(const std::string& hint) const;
 
     /// Takes the bar away, so that a line can be printed.
     void erase();

@@ -303,6 +303,19 @@ class Molecules(Msms):
                     ratio = len(a.positions) / (density * self.totals(text)[0][0][3])
                     self.assertAlmostEqual(ratio, 1, delta=0.02)
 
+    def test_dry_run_says_what_it_takes(self):
+        self.write("a", xyzrn(CRAMBIN))
+        estimates = []
+        for density in (1, 100):
+            done = self.run_msms("-if", "a", "-of", "b", "-density", density, "--dry-run")
+            self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+            line = re.fullmatch(r"vdb_molsurf_msms: about \S+ voxels, (\S+) GiB of memory at most, (\S+) s on one core\n",
+                                done.stderr)
+            estimates.append(tuple(map(float, line.groups())))
+        self.assertEqual(self.names(), ["a"])
+        self.assertGreater(min(estimates[0]), 0.02)
+        self.assertTrue(all(a < b for a, b in zip(*estimates)), estimates)
+
     def test_components(self):
         self.write("4at1.xyzrn", xyzrn(DATA / "4at1.ent.gz"))
         alone = self.totals(self.msms("-if", "4at1.xyzrn", "-of", "a", "-af", "a", "-density", 5))

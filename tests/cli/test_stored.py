@@ -115,10 +115,10 @@ class Stored(ToolTest):
         self.check(1, "convert", "a.vdb", "--color", "residue", "-o", "c.ply", says="residue")
         self.assertEqual(self.names(), ["a.vdb", "b.ply"])
 
-    def test_options_that_plan_a_run_are_unknown(self):
+    def test_options_of_bricks_are_unknown(self):
         self.build()
         before = self.names()
-        for words in (["--dry-run"], ["--memory", "4G"]):
+        for words in (["--bricks", "2"], ["--memory", "4G"]):
             self.check(2, "convert", "a.vdb", "-o", "b.ply", *words, says=words[0])
             self.assertEqual(self.names(), before)
             self.assertNotIn(words[0].encode(), self.check(0, "convert", "--help").stdout)

@@ -534,7 +534,7 @@ void completeConvert(Call& call)
 {
     takeInput(call, "convert: expected one .vdb file",
               " [hint: vdb_molsurf convert surface.vdb -o surface.ply]");
-    call.outputs = surfaceOutputs(call);
+    if (!call.dryRun || !call.paths.empty()) call.outputs = surfaceOutputs(call);
     if (writes(call, {Format::Csv})) misuse("-o .csv is for --frames");
     if (writes(call, {Format::AreaTable, Format::Pdb, Format::Mmcif}))
         misuse("convert: a stored surface has no atoms [hint: vdb_molsurf INPUT -o "

@@ -985,8 +985,9 @@ OptionGroup runOptions()
              memory(Build, "memory at most, such as 4G: in bricks, one by one, if\n"
                            "the whole takes more; the flow then takes so many --steps"),
              number("max-hours", "H", "refuse what is estimated to take more hours", "24",
-                    Build | Batch, 1e-6, 1e6, "hours, from 1e-6 to 1e6", OF(hours)),
-             flagOf("dry-run", 0, "say what it takes, and stop", Build, OF(dryRun)),
+                    Build | Batch | Compare | Convert | BricksRun, 1e-6, 1e6,
+                    "hours, from 1e-6 to 1e6", OF(hours)),
+             flagOf("dry-run", 0, "say what it takes, and stop", Build | Convert, OF(dryRun)),
              with(count("threads", "N", "threads at most", "all", runs, 1, 4096, OF(threads)),
                   [](Option& o) { o.letter = 'j'; }),
              flagOf("quiet", 'q', "print errors only", runs, OF(quiet)),

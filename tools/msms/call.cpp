@@ -59,7 +59,7 @@ const char* const about =
     "Computes the solvent-excluded surface of spheres. It takes the options of MSMS 2.6 and "
     "writes\n"
     "its files, so it can stand in for it under the name msms. Options may be cut short: -probe,\n"
-    "-all. Defaults are in brackets.\n";
+    "-all. Defaults are in brackets. With --dry-run it says what it takes, and stops.\n";
 const char* const statuses =
     "Exit status: 0 done, 1 failed, 2 wrong usage, 3 a result failed its own "
     "checks, 130 interrupted.";
@@ -153,6 +153,10 @@ MsmsCall parseMsms(int argc, const char* const* argv)
         if (word == "--man") {
             call.manual = true;
             return call;
+        }
+        if (word == "--dry-run") {
+            call.dryRun = true;
+            continue;
         }
         if (word == "--version") {
             call.version = true;

@@ -23,6 +23,7 @@ struct MsmsCall {
     bool hydrogens = true;    ///< whether spheres of radius 1.2 Å are used
     bool totals = true;       ///< whether areas are printed
     bool help = false, manual = false, version = false;
+    bool dryRun = false;               ///< only say what it takes
     std::vector<std::string> warnings; ///< one line each
 };
 

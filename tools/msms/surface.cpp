@@ -10,7 +10,6 @@
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/thin.h"
 #include "molsurf/mesh/topology.h"
-#include "molsurf/options.h"
 #include "molsurf/surface.h"
 
 #include <algorithm>
@@ -268,15 +267,20 @@ void thinComponent(const Exact& exact, const std::vector<BoundaryPoint>& points,
 
 } // namespace
 
-MsmsSurface msmsSurface(const std::vector<Ball>& balls, double probe, double density, bool all,
-                        Progress& progress)
+SurfaceOptions meshOptions(const std::vector<Ball>& balls, double probe, double density)
 {
     SurfaceOptions options;
     options.kind = SurfaceKind::SolventExcluded;
     options.probe = probe;
     options.voxel = voxelFor(balls, probe, density);
     options.meshLabels = false;
-    Mesh mesh = std::move(makeSurface(balls, options, &progress).mesh);
+    return options;
+}
+
+MsmsSurface msmsSurface(const std::vector<Ball>& balls, double probe, double density, bool all,
+                        Progress& progress)
+{
+    Mesh mesh = std::move(makeSurface(balls, meshOptions(balls, probe, density), &progress).mesh);
 
     const Exact exact(balls, probe, progress);
     const std::vector<BoundaryPoint> points = placeVertices(exact, mesh, progress);

@@ -7,6 +7,7 @@
 
 #include "molsurf/ball.h"
 #include "molsurf/mesh.h"
+#include "molsurf/options.h"
 #include "molsurf/progress.h"
 
 #include <cstdint>
@@ -49,6 +50,9 @@ struct MsmsSurface {
     std::vector<double> excludedOf;   ///< solvent-excluded area of each ball [Å^2]
     std::vector<double> accessibleOf; ///< solvent-accessible area of each ball [Å^2]
 };
+
+/// How the mesh is made that gives the topology.
+SurfaceOptions meshOptions(const std::vector<Ball>& balls, double probe, double density);
 
 /// Makes the components: the outer one of the largest area first, then the others, those of larger
 /// area first.

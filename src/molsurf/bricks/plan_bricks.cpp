@@ -45,6 +45,10 @@ constexpr double bytesPerValueOfLeaf = 2.5e3; // of a grid that goes along with 
 // 1.2 times what was measured.
 constexpr double secondsPerLeaf = 0.09e-3, secondsPerFlowLeaf = 0.11e-3;
 constexpr double secondsPerBoundaryBall = 15e-6;
+// Of surfaces that are stored, 1UBQ to 4V5A at 0.2 to 1 Å: the seconds are 0.6 to 1.6 times what
+// was measured, the memory 0.9 to 1.4 times.
+constexpr double secondsOfStart = 0.03, secondsPerSplineLeaf = 0.05e-3;
+constexpr double secondsPerFittedLeaf = 0.15e-3, bytesPerFittedLeaf = 25e3; // without its spline
 constexpr double bytesToMerge =
     7.0; // an active voxel: leaves without values, statistics of vertices
 constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
@@ -552,8 +556,8 @@ void checkCost(const PlannedBrick& cost, const RunLimits& limits)
         std::snprintf(
             text, sizeof text, "the surface takes about %.3g GiB of memory, and there are %.3g",
             double(cost.bytes) / double(1 << 30), double(limits.memory) / double(1 << 30));
-        std::string hint = " [hint: a larger `voxel`";
-        if (bytesToMerge * double(cost.voxels) < 0.5 * double(limits.memory)) {
+        std::string hint = limits.hint;
+        if (limits.bricks && bytesToMerge * double(cost.voxels) < 0.5 * double(limits.memory)) {
             char size[64];
             std::snprintf(size, sizeof size, ", or `memory` %.2gG, which makes it in bricks",
                           0.8 * double(limits.memory) / (1 << 30));
@@ -566,15 +570,16 @@ void checkCost(const PlannedBrick& cost, const RunLimits& limits)
     const std::string threads =
         std::to_string(limits.threads) + (limits.threads == 1 ? " thread" : " threads");
     std::snprintf(text, sizeof text,
-                  "the surface takes about %.3g hours on %s, expected at most %g [hint: a larger "
-                  "`voxel`, or `maxHours` %.0f]",
-                  hours, threads.c_str(), limits.hours, std::ceil(1.1 * hours));
+                  "the surface takes about %.3g hours on %s, expected at most %g%s, or "
+                  "`maxHours` %.0f]",
+                  hours, threads.c_str(), limits.hours, limits.hint, std::ceil(1.1 * hours));
     throw Error(ErrorKind::Input, text);
 }
 
 double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLimits& limits,
                  const Progress& progress)
 {
+    checkBalls(atoms.balls, options, Pieces::One, limits.memory);
     const double leaves =
         leavesAtMost(atoms.balls, options.voxel, Influence(atoms, options).ofSurface());
     const double balls = double(atoms.balls.size());
@@ -588,6 +593,18 @@ double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunL
     const PlannedBrick cost = planWhole(atoms, options, progress).bricks[0];
     checkCost(cost, limits);
     return cost.seconds;
+}
+
+PlannedBrick costOfStored(const VdbContent& content)
+{
+    const double leaves = double(content.leaves);
+    PlannedBrick cost;
+    cost.voxels = std::size_t(voxelsPerLeaf * leaves);
+    cost.bytes = std::size_t(processBytes + double(content.bytes) +
+                             (content.spline ? bytesPerMeshLeaf : bytesPerFittedLeaf) * leaves);
+    cost.seconds =
+        secondsOfStart + (content.spline ? secondsPerSplineLeaf : secondsPerFittedLeaf) * leaves;
+    return cost;
 }
 
 void checkPlan(const BrickPlan& plan, const SurfaceOptions& options)

@@ -7,6 +7,7 @@
 #include "molsurf/atoms.h"
 #include "molsurf/bricks.h"
 #include "molsurf/bricks/run_brick.h"
+#include "molsurf/io/check_vdb.h"
 
 #include <memory>
 
@@ -23,9 +24,11 @@ std::size_t memoryFor(const PlannedBrick& brick);
 
 /// What a run may take.
 struct RunLimits {
-    std::size_t memory; ///< [byte]
-    double hours;       ///< by the clock
-    int threads;        ///< that it has
+    std::size_t memory;                            ///< [byte]
+    double hours;                                  ///< by the clock
+    int threads;                                   ///< that it has
+    const char* hint = " [hint: a larger `voxel`"; ///< what takes less; more may follow
+    bool bricks = false;                           ///< whether `memory` makes bricks
 };
 
 /// Refuses what is estimated to take more than it may.
@@ -36,6 +39,9 @@ void checkCost(const PlannedBrick& cost, const RunLimits& limits);
 /// @return the estimated time on one core, or more [s]
 double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLimits& limits,
                  const Progress& progress);
+
+/// What it takes to read, mesh and measure a surface that is stored.
+PlannedBrick costOfStored(const VdbContent& content);
 
 /// Checks the numbers of a plan that was read from a file, which could prolong a run or lead it out
 /// of space: its steps are those that the options say, and its bricks are boxes of whole leaves.

@@ -61,7 +61,7 @@ class Checker
 public:
     Checker(std::istream& stream, std::uint64_t size) : stream_(stream), left_(size) {}
 
-    void file()
+    VdbContent file()
     {
         if (take<std::int64_t>() != openvdb::OPENVDB_MAGIC)
             refuseBytes("it has another magic number");
@@ -79,6 +79,7 @@ public:
         metadata();
         const auto grids = take<std::int32_t>();
         for (std::int32_t g = 0; g < grids; ++g) grid();
+        return content_;
     }
 
     void leaf(const std::string& type, bool half, std::uint32_t compression)
@@ -174,7 +175,7 @@ private:
     void grid()
     {
         constexpr std::string_view before = "Tree_", after = "_5_4_3", halves = "_HalfFloat";
-        text(); // name
+        content_.spline = text() == "spline" || content_.spline; // its name
         std::string name = text();
         if (name.size() > halves.size() &&
             name.compare(name.size() - halves.size(), halves.size(), halves) == 0)
@@ -214,6 +215,9 @@ private:
             node(2);
         }
         for (std::uint64_t i = 0; i < leaves_; ++i) leafValues();
+        constexpr std::uint64_t ofLeaf = 128; // beside its values: mask, place, allocation
+        content_.leaves = std::max(content_.leaves, leaves_);
+        content_.bytes += leaves_ * (valuesOf[0] * type_.size + ofLeaf);
     }
 
     /// A mask of a node.
@@ -237,6 +241,7 @@ private:
         }
         const std::uint64_t on = mask(values);
         nodeValues(values, on);
+        content_.bytes += values * std::max<std::uint64_t>(type_.size, sizeof(void*));
         for (std::uint64_t i = 0; i < children; ++i) node(level - 1);
     }
 
@@ -294,14 +299,15 @@ private:
     Type type_ = types[0];
     bool half_ = false;
     std::uint32_t compression_ = 0;
-    std::uint64_t leaves_ = 0;
+    std::uint64_t leaves_ = 0; // of the tree at hand
+    VdbContent content_;
 };
 
 } // namespace
 
-void checkVdb(std::istream& stream, std::uint64_t size)
+VdbContent checkVdb(std::istream& stream, std::uint64_t size)
 {
-    Checker(stream, size).file();
+    return Checker(stream, size).file();
 }
 
 void checkVdbLeaf(std::istream& stream, std::uint64_t size, const std::string& type, bool half,

@@ -11,6 +11,13 @@
 namespace molsurf
 {
 
+/// What a file holds, as far as it says what reading and meshing take.
+struct VdbContent {
+    std::uint64_t leaves = 0; ///< of the grid that has most
+    std::uint64_t bytes = 0;  ///< of all trees in memory
+    bool spline = false;      ///< whether a grid has that name
+};
+
 /// Follows a .vdb file from its first byte to the end of its last grid, and checks what OpenVDB
 /// believes: lengths of texts and metadata buy memory, a length of packed values says how many
 /// bytes go into an array, places of nodes decide which is freed. What passes is read in memory in
@@ -19,7 +26,7 @@ namespace molsurf
 /// @param[in] stream  at its beginning
 /// @param[in] size    of the file [byte]
 /// @throws std::runtime_error with what is wrong
-void checkVdb(std::istream& stream, std::uint64_t size);
+VdbContent checkVdb(std::istream& stream, std::uint64_t size);
 
 /// The same of the values of one leaf, tree::LeafNode::writeBuffers(), and nothing behind them.
 /// @param[in] type         of a value, as "float"

@@ -2,7 +2,6 @@
 #include "molsurf/io/read_vdb.h"
 
 #include "molsurf/error.h"
-#include "molsurf/io/check_vdb.h"
 
 #include <openvdb/io/DelayedLoadMetadata.h>
 #include <openvdb/io/Stream.h>
@@ -46,7 +45,7 @@ bool isVdbFile(const std::string& path)
     return stream && magic == openvdb::OPENVDB_MAGIC;
 }
 
-VdbFile readVdb(const std::string& path)
+VdbFile readVdb(const std::string& path, const std::function<bool(const VdbContent&)>& wanted)
 {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) cannotRead(path, "it is a folder");
@@ -58,13 +57,16 @@ VdbFile readVdb(const std::string& path)
         // variables held before. A stream that throws there stops it.
         stream.exceptions(std::ios_base::badbit | std::ios_base::failbit | std::ios_base::eofbit);
         const WithoutDelayedLoad guard;
-        checkVdb(stream, std::filesystem::file_size(path));
+        const VdbContent held = checkVdb(stream, std::filesystem::file_size(path));
+        if (wanted && !wanted(held)) return {};
         stream.seekg(0);
         openvdb::io::Stream reader(stream, false);
         VdbFile content;
         content.grids = *reader.getGrids();
         content.metadata = *reader.getMetadata();
         return content;
+    } catch (const Error&) {
+        throw;
     } catch (const openvdb::Exception& e) {
         cannotRead(path, std::string("not a .vdb file, or damaged (") + e.what() + ")");
     } catch (const std::bad_alloc&) {

@@ -4,8 +4,11 @@
 /// @file
 /// Reads the grids and metadata of a .vdb file.
 
+#include "molsurf/io/check_vdb.h"
+
 #include <openvdb/openvdb.h>
 
+#include <functional>
 #include <string>
 
 namespace molsurf
@@ -23,7 +26,10 @@ bool isVdbFile(const std::string& path);
 
 /// Reads all of a .vdb file. openvdb::initialize() must have been called.
 ///
+/// @param[in] wanted  tells of what checkVdb() has found whether it is read, or throws an Error
+/// @return nothing if it is not wanted
 /// @throws Error(ErrorKind::Input) if the file does not exist, is no .vdb file or is cut short
-VdbFile readVdb(const std::string& path);
+VdbFile readVdb(const std::string& path,
+                const std::function<bool(const VdbContent&)>& wanted = nullptr);
 
 } // namespace molsurf
