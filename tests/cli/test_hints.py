@@ -1,0 +1,495 @@
+# SPDX-License-Identifier: MPL-2.0
+"""A hint helps whoever follows it: a call that gives it, and calls that follow it.
+
+The hints are found in the sources, and each has a case in CASES or a reason in UNTRIED."""
+
+import functools
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import unittest
+
+from needs import needs
+from tool import DATA, ROOT, TOOL, ToolTest
+
+# What is no text: comments, characters, space; and texts, which stand beside each other if one is cut in two.
+TOKEN = re.compile(r"""//[^\n]*|/\*.*?\*/|'(?:\\.|[^'\\\n])'|\s+|("(?:\\.|[^"\\\n])*")|.""", re.DOTALL)
+MEMBER = re.compile(r"`([a-z]+(?:[A-Z][a-z]*)*)`")  # of the library's options: the program names its own
+
+
+def texts_of(code):
+    """The string literals of a source file, those that the compiler joins in one."""
+    text = ""
+    for token in TOKEN.finditer(code):
+        if token[1]:
+            text += token[1][1:-1]
+        elif text and not token[0].isspace() and not token[0].startswith(("//", "/*")):
+            yield text
+            text = ""
+
+
+def expression_of(text):
+    """A regular expression of what a literal says when it is printed."""
+    text = MEMBER.sub(lambda m: "--" + re.sub("[A-Z]", lambda c: "-" + c[0].lower(), m[1]), text.replace('\\"', '"'))
+    return ".*".join(map(re.escape, re.split(r"%[-+.\d]*l?[a-z%]", text)))
+
+
+@functools.cache
+def hints_of_sources():
+    """{file: [literals with a hint]}"""
+    hints = {}
+    for folder in ("src/molsurf", "tools"):
+        for path in sorted((ROOT / folder).rglob("*")):
+            if path.suffix not in (".cpp", ".h"):
+                continue
+            found = dict.fromkeys(text for text in texts_of(path.read_text()) if "[hint: " in text)
+            if found:
+                hints[str(path.relative_to(ROOT)).removeprefix("src/molsurf/")] = list(found)
+    return hints
+
+
+def pdb(*atoms, head=""):
+    """Atoms of (serial number of the residue, x, name, element, B factor)."""
+    return head + "".join(f"ATOM  {i:5}  {name:<3} ALA A{residue:4}    {x:8.3f}   0.000   0.000  1.00{b:6.2f}{e:>12}\n"
+                          for i, (residue, x, name, e, b) in enumerate(atoms, 1))
+
+
+def biomt(*operators):
+    """An assembly of rotations by 0 or 180 degrees about z, and shifts along x and z."""
+    text = "REMARK 350 BIOMOLECULE: 1\nREMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n"
+    for i, (turned, x, z) in enumerate(operators, 1):
+        s = -1 if turned else 1
+        for row, (a, b, c, t) in enumerate(((s, 0, 0, x), (0, s, 0, 0), (0, 0, 1, z)), 1):
+            text += f"REMARK 350   BIOMT{row} {i:3}{a:10.6f}{b:10.6f}{c:10.6f}     {t:10.5f}\n"
+    return text
+
+
+PLY = """ply
+format ascii 1.0
+element vertex 4
+property float x
+property float y
+property float z
+element face {}
+property list uchar int vertex_indices
+end_header
+0 0 0
+0 0 9
+0 9 0
+9 0 0
+{}"""
+FACES = ("3 0 1 2\n", "3 0 2 3\n", "3 0 3 1\n", "3 1 3 2\n")
+
+# Files that are there in every case, beside those of tests/data.
+FILES = {
+    "dot.xyzr": "0 0 0 0.1\n", "tiny.xyzr": "0.4 0.4 0.4 0.3\n", "one.xyzr": "0 0 0 1\n", "two.xyzr": "0 0 0 1.7\n3 0 0 1.7\n",
+    "far.xyzr": "2e4 0 0 1.7\n", "ball.xyzr": "0 0 0 100\n",
+    "solid.ply": PLY.format(4, "".join(FACES)), "open.ply": PLY.format(3, "".join(FACES[:3])),
+    "strips.ply": PLY.format(4, "".join(FACES)).replace("face 4", "tristrips 4"),
+    "residue.pdb": pdb((1, 0, "N", "N", 1), (1, 1.5, "CA", "C", 2)),
+    "predicted.pdb": pdb(*((n // 2, 1.5 * n, "CA", "C", 60 + 5 * (n // 2)) for n in range(8))),
+    "moved.pdb": pdb((1, 0, "CA", "C", 1), (2, 5, "CA", "C", 1), head=biomt((0, 0, 0), (0, 30, 0))),
+    "bent.pdb": pdb((1, 9, "CA", "C", 1), (2, 12, "CA", "C", 1),
+                    head=biomt((0, 0, 0), (1, 0, 0), (0, 400, 0), (1, -400, 1.5))),
+    "groups.json": '{"groups": [{"name": "a", "select": "A", "colour": "#d55e00"}]}',
+    "copies.json": '{"groups": [{"name": "a", "select": "A", "copies": "1"}]}',
+    "list.txt": "one.xyzr\n", "junk.csv": "junk\n",
+}
+FAST = "--voxel 1 --surface sas"
+PLAN = f"vdb_molsurf bricks plan 1crn.pdb --voxel 1 --bricks 2 -o plan.json -q"
+RUN = "vdb_molsurf bricks run plan.json 1 -q; vdb_molsurf bricks run plan.json 2 -q"
+MERGE = "vdb_molsurf bricks merge plan.json -o a.vdb"
+
+# {source: [(hint, a call that gives it, calls that follow it...)]}; calls are lines of a shell, in one folder.
+CASES = {
+    "flow/evolve.cpp": [
+        ("a smaller --lambda", "vdb_molsurf two.xyzr --lambda 1e4 --regularizer area -o a.vdb",
+         "vdb_molsurf two.xyzr --lambda 1 --regularizer area -o a.vdb")],
+    "structure/structure_list.cpp": [
+        ("vdb_molsurf one.xyzr -o FILE", "vdb_molsurf batch one.xyzr -O out", f"vdb_molsurf one.xyzr {FAST} -o a.ply")],
+    "structure/load_text.cpp": [
+        ("--max-input 10G", "vdb_molsurf 1crn.pdb -o a.ply --max-input 9K",
+         f"vdb_molsurf 1crn.pdb {FAST} -o a.ply --max-input 10G")],
+    "io/read_ply.cpp": [
+        ("save it without strips", "vdb_molsurf compare strips.ply solid.ply",
+         "vdb_molsurf compare solid.ply solid.ply")],
+    "io/read_mesh.cpp": [
+        ("a larger --max-input", "vdb_molsurf compare solid.ply solid.ply --max-input 100",
+         "vdb_molsurf compare solid.ply solid.ply --max-input 1000")],
+    "io/write_structure.cpp": [
+        ("-o FILE.cif", "vdb_molsurf 1a8o.cif.gz --assembly 1 -o a.pdb",
+         "vdb_molsurf 1a8o.cif.gz --assembly 1 -o a.cif"),
+        ("-o FILE.atoms.csv", "vdb_molsurf one.xyzr -o a.pdb", "vdb_molsurf one.xyzr -o a.atoms.csv")],
+    "io/output_file.cpp": [
+        ("a shorter name", f"vdb_molsurf one.xyzr {FAST} -o $(printf %300s | tr ' ' a).ply",
+         f"vdb_molsurf one.xyzr {FAST} -o $(printf %20s | tr ' ' a).ply"),
+        ("--force", f"touch a.ply; vdb_molsurf one.xyzr {FAST} -o a.ply",
+         f"vdb_molsurf one.xyzr {FAST} -o a.ply --force"),
+        ("make the folder first", f"vdb_molsurf one.xyzr {FAST} -o new/a.ply",
+         f"mkdir new && vdb_molsurf one.xyzr {FAST} -o new/a.ply")],
+    "io/frame_table.cpp": [
+        ("--force", f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv",
+         f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv --force")],
+    "bricks/plan_bricks.cpp": [
+        ("--memory 0.1G, or a larger --voxel", "vdb_molsurf 1crn.pdb --voxel 2 --memory 60M -o a.ply",
+         "vdb_molsurf 1crn.pdb --voxel 2 --memory 0.1G -o a.ply"),
+        ("or a larger --voxel", "vdb_molsurf 1crn.pdb --memory 80M --voxel 0.3 -o a.ply",
+         "vdb_molsurf 1crn.pdb --memory 80M --voxel 2 -o a.ply")],
+    "bricks/plan_bricks.h": [
+        ("a larger --voxel, or --max-hours 1", "vdb_molsurf 1crn.pdb --voxel 0.3 --max-hours 1e-5 -o a.ply",
+         "vdb_molsurf 1crn.pdb --voxel 0.3 --max-hours 1 -o a.ply",
+         "vdb_molsurf 1crn.pdb --voxel 4 --max-hours 1e-5 -o b.ply")],
+    "bricks/plan_file.cpp": [
+        ("bricks plan writes one", "vdb_molsurf bricks run copies.json 1",
+         f"{PLAN} && vdb_molsurf bricks run plan.json 1")],
+    "bricks/brick_file.cpp": [
+        ("run the brick again with --force", f"{PLAN}; {RUN}; echo junk >> plan.1.brick; {MERGE}",
+         f"vdb_molsurf bricks run plan.json 1 --force && {MERGE}")],
+    "bricks/run_brick.cpp": [
+        ("in one piece", "vdb_molsurf bricks plan 1crn.pdb --bricks 2 --voxel 2 --color mean-curvature -o plan.json",
+         "vdb_molsurf 1crn.pdb --voxel 2 --color mean-curvature -o a.ply"),
+        ("in one piece", "vdb_molsurf 1crn.pdb --voxel 2 --memory 60M --fill-cavities -o a.ply",
+         "vdb_molsurf 1crn.pdb --voxel 2 --fill-cavities -o a.ply")],
+    "surface/parts.cpp": [
+        ("the groups are A", "vdb_molsurf 1crn.pdb --group-by chain --surface-of B=ses --voxel 2 -o a.ply",
+         "vdb_molsurf 1crn.pdb --group-by chain --surface-of A=ses --voxel 2 -o a.ply")],
+    "surface/frame_source.cpp": [
+        ("the atoms of the trajectory", f"vdb_molsurf 1crn.pdb --trajectory 1d3z.xtc {FAST} -o a.ply",
+         f"vdb_molsurf 1d3z.pdb.gz --trajectory 1d3z.xtc --frames 1 {FAST} -o a.ply"),
+        ("--frames FIRST-", f"vdb_molsurf 1d3z.pdb.gz --frames 10-99 {FAST} -o a.ply",
+         f"vdb_molsurf 1d3z.pdb.gz --frames 10- {FAST} -o a.ply")],
+    "surface/surface_run.cpp": [
+        ("a smaller --voxel", "vdb_molsurf tiny.xyzr --probe 0.1 --voxel 1 -o a.ply",
+         "vdb_molsurf tiny.xyzr --probe 0.1 --voxel 0.05 -o a.ply")],
+    "surface/surface_kind.cpp": [
+        ("a smaller --voxel", "vdb_molsurf dot.xyzr --surface vdw --voxel 2 -o a.ply",
+         "vdb_molsurf dot.xyzr --surface vdw --voxel 0.1 -o a.ply"),
+        ("a smaller --voxel, --lambda or --epsilon", "vdb_molsurf one.xyzr --lambda 1 --epsilon 2 -o a.ply",
+         "vdb_molsurf one.xyzr --lambda 0.1 --epsilon 2 -o a.ply",
+         "vdb_molsurf one.xyzr --lambda 1 --epsilon 1 -o b.ply"),
+        ("a smaller --voxel, --lambda or --epsilon", "vdb_molsurf dot.xyzr --voxel 2 -o a.ply",
+         "vdb_molsurf dot.xyzr --voxel 0.05 -o a.ply"),
+        ("a smaller --voxel, --lambda or --epsilon",
+         f"vdb_molsurf bricks plan dot.xyzr --voxel 2 --bricks 1 -o plan.json; {RUN}; {MERGE}",
+         "vdb_molsurf bricks plan dot.xyzr --voxel 0.05 --bricks 1 -o plan.json --force; "
+         f"vdb_molsurf bricks run plan.json 1 --force; {MERGE}")],
+    "surface/stored_surface.cpp": [
+        ("--fields spline,chain_id", f"vdb_molsurf 1crn.pdb {FAST} -o a.vdb; "
+         "vdb_molsurf convert a.vdb --color chain -o a.ply",
+         f"vdb_molsurf 1crn.pdb {FAST} --fields spline,chain_id -o b.vdb && "
+         "vdb_molsurf convert b.vdb --color chain -o a.ply"),
+        ("--color element --fields spline,Cd", f"vdb_molsurf 1crn.pdb {FAST} -o a.vdb; "
+         "vdb_molsurf convert a.vdb --color element -o a.ply",
+         f"vdb_molsurf 1crn.pdb {FAST} --color element --fields spline,Cd -o b.vdb && "
+         "vdb_molsurf convert b.vdb --color element -o a.ply"),
+        ("--fields spline when it is built", f"vdb_molsurf one.xyzr {FAST} -o a.vdb; vdb_molsurf convert a.vdb -o a.ply",
+         f"vdb_molsurf one.xyzr {FAST} --fields spline -o b.vdb && vdb_molsurf convert b.vdb -o b.ply")],
+    "surface/compare.cpp": [
+        ("vdb_molsurf info FILE.vdb", f"vdb_molsurf one.xyzr {FAST} -o a.vdb && "
+         "sed 's/level set/level sea/g; s/surface/surfeit/g' a.vdb > b.vdb; vdb_molsurf compare b.vdb one.xyzr",
+         "vdb_molsurf info b.vdb | grep surfeit")],
+    "selection/select_balls.cpp": [
+        ("move the molecule to the origin", f"vdb_molsurf far.xyzr {FAST} -o a.ply",
+         f"vdb_molsurf one.xyzr {FAST} -o b.ply"),
+        ("--assembly", f"vdb_molsurf moved.pdb --groups copies.json {FAST} -o a.ply",
+         f"vdb_molsurf moved.pdb --groups copies.json --assembly 1 {FAST} -o a.ply"),
+        ("--assembly 1", f"vdb_molsurf moved.pdb --copies 1 {FAST} -o a.ply",
+         f"vdb_molsurf moved.pdb --copies 1 --assembly 1 {FAST} -o a.ply"),
+        ("--assembly 1", f"vdb_molsurf moved.pdb {FAST} -o a.ply",
+         f"vdb_molsurf moved.pdb --assembly 1 {FAST} -o b.ply")],
+    "selection/ball_values.cpp": [
+        ("with --range they are B factors", f"vdb_molsurf predicted.pdb --color bfactor {FAST} -o a.ply",
+         f"vdb_molsurf predicted.pdb --color bfactor --range 60,80 {FAST} -o b.ply")],
+    "selection/symmetric_unit.cpp": [
+        ("without --by-symmetry", f"vdb_molsurf moved.pdb --assembly 1 --by-symmetry {FAST} -o a.ply",
+         f"vdb_molsurf moved.pdb --assembly 1 {FAST} -o a.ply"),
+        ("without --by-symmetry", f"vdb_molsurf bent.pdb --assembly 1 --by-symmetry {FAST} -o a.ply",
+         f"vdb_molsurf bent.pdb --assembly 1 {FAST} -o a.ply")],
+    "selection/groups.cpp": [
+        ("name, select, color, copies", f"vdb_molsurf 1crn.pdb --groups groups.json {FAST} -o a.ply",
+         f"sed -i s/colour/color/ groups.json; vdb_molsurf 1crn.pdb --groups groups.json {FAST} -o a.ply")],
+    "tools/input_files.cpp": [
+        ("another name", "cp 1crn.pdb a.pdb; vdb_molsurf a.pdb -o a.pdb --force", "vdb_molsurf a.pdb -o b.pdb")],
+    "tools/read_balls.cpp": [
+        ("vdb_molsurf convert a.vdb -o FILE", f"vdb_molsurf one.xyzr {FAST} -o a.vdb; vdb_molsurf a.vdb -o a.ply",
+         "vdb_molsurf convert a.vdb -o a.ply"),
+        ("vdb_molsurf compare measures meshes", "vdb_molsurf solid.ply -o a.json",
+         "vdb_molsurf compare solid.ply solid.ply -o a.json")],
+    "tools/frames.cpp": [
+        ("another name, or --force", f"for v in 2 1; do vdb_molsurf 1d3z.pdb.gz --frames 1 --surface sas --voxel $v "
+         "-o a.ply -o a.csv; done", f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o b.ply -o b.csv",
+         f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o a.csv --force"),
+        ("a larger --tolerance or a smaller --voxel", "vdb_molsurf 1d3z.pdb.gz --frames 1 --max-steps 1 --voxel 2 -o a.ply",
+         "vdb_molsurf 1d3z.pdb.gz --frames 1 --max-steps 1 --voxel 2 --tolerance 9 -o b.ply")],
+    "tools/sidecar.cpp": [
+        ("another name", f"vdb_molsurf moved.pdb --assembly 1 --instances --for usd {FAST} -o a.vdb -o a.usda",
+         f"vdb_molsurf moved.pdb --assembly 1 --instances --for usd {FAST} -o a.vdb -o b.usda")],
+    "tools/batch.cpp": [
+        ("another name", "cp residue.pdb summary.pdb; echo summary.pdb > l; "
+         f"vdb_molsurf batch l -O out --formats json {FAST}",
+         f"mv summary.pdb other.pdb; echo other.pdb > l; vdb_molsurf batch l -O out --formats json {FAST}"),
+        ("another folder, or --force", "for v in 2 1; do vdb_molsurf batch list.txt -O out --voxel $v; done",
+         "vdb_molsurf batch list.txt -O new --voxel 1", "vdb_molsurf batch list.txt -O out --voxel 1 --force")],
+    "tools/brick.cpp": [
+        ("it has to lie where it lay", f"{PLAN}; mkdir sub; mv plan.json sub; vdb_molsurf bricks run sub/plan.json 1",
+         "cp 1crn.pdb sub; vdb_molsurf bricks run sub/plan.json 1"),
+        ("make a new one", f"cp 1crn.pdb b.pdb; vdb_molsurf bricks plan b.pdb --voxel 2 --bricks 2 -o plan.json; "
+         "echo END >> b.pdb; vdb_molsurf bricks run plan.json 1",
+         "vdb_molsurf bricks plan b.pdb --voxel 2 --bricks 2 -o plan.json --force; vdb_molsurf bricks run plan.json 1"),
+        ("another folder, or --force", f"{PLAN}; {RUN}; {PLAN} --force --radii bondi; vdb_molsurf bricks run plan.json 1",
+         "vdb_molsurf bricks run plan.json 1 --force", "mkdir new; cp plan.json 1crn.pdb new; "
+         "vdb_molsurf bricks run new/plan.json 1")],
+    "tools/build.cpp": [
+        ("--surface", f"vdb_molsurf 1crn.pdb --voxel 1 -o a.ply -o a.residues.csv",
+         "vdb_molsurf 1crn.pdb --voxel 1 --surface ses -o b.ply -o b.residues.csv"),
+        ("a plan of more bricks, or --max-hours 1", "vdb_molsurf bricks plan 1crn.pdb --voxel 0.3 --bricks 2 -o plan.json; "
+         "vdb_molsurf bricks run plan.json 1 -j 1 --max-hours 8.5e-5",
+         "vdb_molsurf bricks run plan.json 1 -j 1 --max-hours 1",
+         "vdb_molsurf bricks plan 1crn.pdb --voxel 0.3 --bricks 8 -o plan.json --force; "
+         "vdb_molsurf bricks run plan.json 1 -j 1 --max-hours 8.5e-5 --force"),
+        ("a surface of a larger --voxel, or --max-hours 1", "vdb_molsurf 1crn.pdb --voxel 0.2 --surface sas -o a.vdb; "
+         "vdb_molsurf convert a.vdb -j 1 -o a.ply --max-hours 3e-5",
+         "vdb_molsurf convert a.vdb -j 1 -o a.ply --max-hours 1",
+         "vdb_molsurf 1crn.pdb --voxel 1 --surface sas -o b.vdb; "
+         "vdb_molsurf convert b.vdb -j 1 -o b.ply --max-hours 3e-5"),
+        ("fewer --max-steps", "vdb_molsurf 1crn.pdb --flow paper --max-steps 1000000 --max-hours 0.0003 -o a.ply",
+         "vdb_molsurf 1crn.pdb --flow paper --max-steps 5 --max-hours 0.0003 -o a.ply || test $? = 3"),
+        ("a larger --voxel or --max-hours", # its threads make the estimate of hours smaller than it is
+         "vdb_molsurf 1crn.pdb --surface ses --voxel 0.2 -j 64 --max-hours 1e-5 -o a.ply",
+         "vdb_molsurf 1crn.pdb --surface ses --voxel 2 -j 64 --max-hours 1e-5 -o a.ply",
+         "vdb_molsurf 1crn.pdb --surface ses --voxel 0.2 -j 64 --max-hours 1 -o b.ply"),
+        ("--contacts atom", "vdb_molsurf residue.pdb --contacts residue -o a.contacts.csv",
+         "vdb_molsurf residue.pdb --contacts atom -o b.contacts.csv")],
+    "tools/convert.cpp": [
+        ("a surface of a larger --voxel, or a larger --max-hours",
+         "vdb_molsurf 1crn.pdb --voxel 0.2 --surface sas -o a.vdb; "
+         "vdb_molsurf convert a.vdb -j 64 -o a.ply --max-hours 1e-5",
+         "vdb_molsurf convert a.vdb -j 64 -o a.ply --max-hours 1",
+         "vdb_molsurf 1crn.pdb --voxel 2 --surface sas -o b.vdb; "
+         "vdb_molsurf convert b.vdb -o b.ply --max-hours 1e-5")],
+    "tools/build_in_bricks.cpp": [
+        ("without --memory", "vdb_molsurf 1crn.pdb --memory 80M --voxel 0.25 --center -o a.ply",
+         "vdb_molsurf 1crn.pdb --voxel 0.25 --center -o a.ply")],
+    "tools/cli/complete.cpp": [
+        ("--format ply", f"vdb_molsurf one.xyzr {FAST} -o - > a.ply",
+         f"vdb_molsurf one.xyzr {FAST} -o - --format ply > a.ply"),
+        ("-o FILE.residues.csv, or -o FILE.json --areas residues", "vdb_molsurf 1crn.pdb -o a.residues.json",
+         "vdb_molsurf 1crn.pdb -o a.residues.csv", "vdb_molsurf 1crn.pdb -o a.json --areas residues"),
+        ("-o FILE, for example -o surface.vdb", f"vdb_molsurf one.xyzr {FAST}",
+         f"vdb_molsurf one.xyzr {FAST} -o surface.vdb"),
+        ("-o FILE, for example -o surface.vdb", f"{PLAN}; {RUN}; vdb_molsurf bricks merge plan.json",
+         "vdb_molsurf bricks merge plan.json -o surface.vdb"),
+        ("-o .ply, .glb, .png or .html", f"vdb_molsurf one.xyzr {FAST} --color chain -o a.stl",
+         *(f"vdb_molsurf one.xyzr {FAST} --color chain -o a.{kind}" for kind in ("ply", "glb", "png", "html"))),
+        ("-o .vdb", f"vdb_molsurf one.xyzr {FAST} --fields density -o a.ply",
+         f"vdb_molsurf one.xyzr --voxel 0.5 --fields density -o a.vdb"),
+        ("-o FILE.residues.csv for areas", "vdb_molsurf 1crn.pdb -o a.csv", "vdb_molsurf 1crn.pdb -o a.residues.csv"),
+        ("--frames", f"vdb_molsurf 1d3z.pdb.gz --fields v {FAST} -o a.vdb",
+         f"vdb_molsurf 1d3z.pdb.gz --fields v --frames 1-2 --voxel 2 -o a.vdb"),
+        ("--trajectory", f"vdb_molsurf 1d3z.pdb.gz --model 2 --frames 1 {FAST} -o a.ply",
+         f"vdb_molsurf 1d3z.pdb.gz --model 2 --frames 1 --trajectory 1d3z.xtc {FAST} -o a.ply"),
+        ("-o FILE.residues.csv", f"vdb_molsurf 1crn.pdb --areas residues {FAST} -o a.ply",
+         f"vdb_molsurf 1crn.pdb --surface sas -o a.residues.csv"),
+        ("a run without --coarse", "vdb_molsurf 1crn.pdb --coarse residue -o a.residues.csv",
+         "vdb_molsurf 1crn.pdb -o a.residues.csv"),
+        ("--interfaces has the areas of groups alone",
+         "vdb_molsurf 1crn.pdb --group-by residues:23 --split group --voxel 2 -o a.residues.csv",
+         "vdb_molsurf 1crn.pdb --group-by residues:23 --interfaces --voxel 2 -o a.json"),
+        ("a run without --surface-of",
+         "vdb_molsurf 1crn.pdb --group-by chain --surface-of A=ses --voxel 2 -o a.residues.csv",
+         "vdb_molsurf 1crn.pdb --group-by chain --voxel 2 -o a.residues.csv"),
+        ("--by-symmetry has those of a unit", "vdb_molsurf 1a8o.cif.gz --assembly 1 --instances -o a.residues.csv",
+         "vdb_molsurf 1a8o.cif.gz --assembly 1 --by-symmetry -o a.residues.csv"),
+        ("--surface sas needs no grid", "vdb_molsurf 1crn.pdb --surface ses --memory 80M -o a.residues.csv",
+         "vdb_molsurf 1crn.pdb --surface sas --memory 80M -o a.residues.csv"),
+        ("--dry-run -o FILE.vdb", "vdb_molsurf 1crn.pdb --dry-run -o a.residues.csv",
+         "vdb_molsurf 1crn.pdb --dry-run -o a.vdb"),
+        ("--surface sas or vdw", "vdb_molsurf 1a8o.cif.gz --assembly 1 --by-symmetry --surface ses -o a.residues.csv",
+         "vdb_molsurf 1a8o.cif.gz --assembly 1 --by-symmetry --surface sas -o a.residues.csv",
+         "vdb_molsurf 1a8o.cif.gz --assembly 1 --by-symmetry --surface vdw -o b.residues.csv"),
+        ("without --by-symmetry", "vdb_molsurf 1a8o.cif.gz --assembly 1 --by-symmetry -o a.contacts.csv",
+         "vdb_molsurf 1a8o.cif.gz --assembly 1 -o a.contacts.csv"),
+        ("--group-by entity --color group", f"vdb_molsurf 1a8o.cif.gz --color entity --group-by chain {FAST} -o a.ply",
+         f"vdb_molsurf 1a8o.cif.gz --group-by entity --color group {FAST} -o a.ply"),
+        ("--for usd -o FILE.vdb writes a volume", f"vdb_molsurf one.xyzr {FAST} -o a.usda",
+         f"vdb_molsurf one.xyzr {FAST} --for usd -o a.vdb"),
+        ("--assembly 1", f"vdb_molsurf moved.pdb --instances {FAST} -o a.glb",
+         f"vdb_molsurf moved.pdb --instances --assembly 1 {FAST} -o a.glb"),
+        ("-o .glb, .usda, .html, .png and .json have all",
+         f"vdb_molsurf moved.pdb --instances --assembly 1 {FAST} -o a.ply",
+         *(f"vdb_molsurf moved.pdb --instances --assembly 1 {FAST} -o a.{kind}"
+           for kind in ("glb", "usda", "html", "png", "json"))),
+        ("--assembly 1", f"vdb_molsurf 1a8o.cif.gz --by-symmetry {FAST} -o a.ply",
+         f"vdb_molsurf 1a8o.cif.gz --by-symmetry --assembly 1 {FAST} -o a.ply"),
+        ("--memory 8G in its place", f"vdb_molsurf 1a8o.cif.gz --by-symmetry --assembly 1 {FAST} -o a.vdb",
+         f"vdb_molsurf 1a8o.cif.gz --memory 8G --assembly 1 {FAST} -o a.vdb"),
+        ("vdb_molsurf molecule.pdb -o surface.vdb", "vdb_molsurf 1crn.pdb two.xyzr -o surface.vdb",
+         f"vdb_molsurf 1crn.pdb {FAST} -o surface.vdb"),
+        ("vdb_molsurf batch list.txt -O surfaces", "vdb_molsurf batch", "vdb_molsurf batch list.txt -O surfaces"),
+        ("-O DIR", "vdb_molsurf batch list.txt", "vdb_molsurf batch list.txt -O DIR"),
+        ("vdb_molsurf compare a.vdb b.ply -o difference.ply", "vdb_molsurf compare solid.ply",
+         f"vdb_molsurf two.xyzr {FAST} -o a.vdb -o b.ply && vdb_molsurf compare a.vdb b.ply -o difference.ply"),
+        ("vdb_molsurf convert surface.vdb -o surface.ply", "vdb_molsurf convert",
+         f"vdb_molsurf two.xyzr {FAST} --fields spline -o surface.vdb && "
+         "vdb_molsurf convert surface.vdb -o surface.ply"),
+        ("vdb_molsurf INPUT -o FILE.residues.csv", "vdb_molsurf convert a.vdb -o a.residues.csv",
+         "vdb_molsurf 1crn.pdb -o a.residues.csv"),
+        ("vdb_molsurf bricks plan molecule.cif -o plan.json --bricks 8", "vdb_molsurf bricks plan",
+         "vdb_molsurf bricks plan 1a8o.cif.gz -o plan.json --bricks 8"),
+        ("-o plan.json", "vdb_molsurf bricks plan 1crn.pdb --bricks 8",
+         "vdb_molsurf bricks plan 1crn.pdb --bricks 8 -o plan.json"),
+        ("vdb_molsurf bricks run plan.json 1", f"{PLAN}; vdb_molsurf bricks run plan.json",
+         "vdb_molsurf bricks run plan.json 1"),
+        ("vdb_molsurf bricks merge plan.json -o surface.vdb", f"{PLAN}; {RUN}; vdb_molsurf bricks merge",
+         "vdb_molsurf bricks merge plan.json -o surface.vdb")],
+    "tools/cli/option_table.cpp": [
+        ("did you mean residue?", "vdb_molsurf 1crn.pdb --color resdiue -o a.ply",
+         f"vdb_molsurf 1crn.pdb --color residue {FAST} -o a.ply"),
+        ("all, or some of", "vdb_molsurf 1crn.pdb --fields qqqqqq -o a.vdb",
+         "vdb_molsurf 1crn.pdb --fields all --voxel 1 -o a.vdb")],
+    "tools/cli/parse.cpp": [
+        ("vdb_molsurf help", "vdb_molsurf bricks", "vdb_molsurf help | grep 'bricks plan'"),
+        ("vdb_molsurf convert --help", "vdb_molsurf convert a.vdb --qqqqqq", "vdb_molsurf convert --help"),
+        ("vdb_molsurf --help", "vdb_molsurf 1crn.pdb -o", "vdb_molsurf --help | grep -e '-o,'")],
+    "tools/compare.cpp": [
+        ("write a plain .vdb", f"vdb_molsurf two.xyzr {FAST} --for blender -o a.vdb; vdb_molsurf compare a.vdb two.xyzr",
+         f"vdb_molsurf two.xyzr {FAST} -o b.vdb && vdb_molsurf compare b.vdb two.xyzr {FAST}"),
+        ("-o .ply", "vdb_molsurf compare open.ply solid.ply -o a.vdb",
+         "vdb_molsurf compare open.ply solid.ply -o a.ply"),
+        ("a larger --tolerance or a smaller --voxel", "vdb_molsurf compare two.xyzr solid.ply --lambda 20 --regularizer area",
+         "vdb_molsurf compare two.xyzr solid.ply --lambda 20 --regularizer area --tolerance 0.06",
+         "vdb_molsurf compare two.xyzr solid.ply --lambda 20 --regularizer area --voxel 0.25")],
+    "tools/outputs.cpp": [
+        ("--tolerance 0.053 accepts that, a smaller --voxel resolves it",
+         "vdb_molsurf two.xyzr --lambda 20 --regularizer area -o a.ply",
+         "vdb_molsurf two.xyzr --lambda 20 --regularizer area --tolerance 0.053 -o b.ply",
+         "vdb_molsurf two.xyzr --lambda 20 --regularizer area --voxel 0.25 -o c.ply"),
+        ("--flow newton", "vdb_molsurf 1crn.pdb --voxel 1 --flow paper --max-steps 5 -o a.ply",
+         "vdb_molsurf 1crn.pdb --voxel 1 --flow newton -o b.ply")],
+    "tools/msms/call.cpp": [
+        ("-all_components", "vdb_molsurf_msms -if two.xyzr -of a -free_vertices",
+         "vdb_molsurf_msms -if two.xyzr -of a -all_components"),
+        ("-all_components writes each", "vdb_molsurf_msms -if two.xyzr -of a -one_cavity 1 2",
+         "vdb_molsurf_msms -if two.xyzr -of a -all_components"),
+        ("-h lists them", "vdb_molsurf_msms -if two.xyzr -qqq", "vdb_molsurf_msms -h | grep -e -density"),
+        ("write more of it", "vdb_molsurf_msms -if two.xyzr -of a -no", "vdb_molsurf_msms -if two.xyzr -of a -noh"),
+        ("the file of spheres follows -if", "vdb_molsurf_msms two.xyzr -of a", "vdb_molsurf_msms -if two.xyzr -of a"),
+        ("-h lists the options", "vdb_molsurf_msms -of a", "vdb_molsurf_msms -h | grep -e '-if filename'")],
+    "tools/msms/main.cpp": [
+        ("another name after -of or -af", "cp two.xyzr a.area; vdb_molsurf_msms -if a.area -af a",
+         "vdb_molsurf_msms -if a.area -af b")],
+}
+
+# Hints that no case follows, by a part of their text, and why.
+UNTRIED = {
+    "balls/bead_radii.cpp": {"atoms more than once": "no atoms are known that give it"},
+    "bricks/merged_bricks.cpp": {"run the bricks again": "it takes bricks of two programs"},
+    "io/commit.cpp": {"remove ": "cli.hints.preload follows it"},
+    "io/output_file.cpp": {"free some space": "it takes a full disk, as cli.faults.mount has it",
+                           "choose a folder": "cli.hints.user follows it"},
+    "io/ply_layout.cpp": {"a larger `voxel`": "it takes a mesh of 2^31 vertices"},
+    "io/write_3mf.cpp": {"lib3mf1": "it takes a machine without that package"},
+    "io/write_glb.cpp": {"write .ply": "it takes a mesh of 4 GiB"},
+    "io/write_mesh.cpp": {"write .obj": "it takes a mesh of 2^32 triangles"},
+    "selection/select_balls.cpp": {"`bySymmetry` is for": "the program asks for --assembly before the library does"},
+    "surface/check_balls.cpp": {"`voxel`": "cli.hints.memory follows it"},
+    "surface/check_mesh.cpp": {"a smaller `voxel`": "no atoms are known that give it"},
+    "surface/compare.cpp": {"write .ply instead": "the program refuses it before the library does"},
+    "surface/options.cpp": {"`kind` sas": "the program never asks for it"},
+    "surface/run.cpp": {"`surface` sas": "the program refuses it before the library does"},
+    "surface/unit_mesh.cpp": {"a .glb file": "it takes a mesh of 2^32 vertices"},
+    "surface/unit_run.cpp": {"whole assembly at once": "the program refuses it before the library does",
+                             "a smaller `voxel`": "no unit is known that gives it",
+                             "edges of": "no unit is known that gives it"},
+    "tools/main.cpp": {"a larger --voxel": "what has memory by the estimate seldom ends so"},
+    "tools/msms/main.cpp": {"error: not enough": "what has memory by the estimate seldom ends so",
+                            " [hint: a smaller -density, or fewer spheres": "cli.hints.memory follows it"},
+}
+
+
+class Followed(ToolTest):
+    ENVIRONMENT = {**os.environ, "PATH": f"{pathlib.Path(TOOL).resolve().parent}:{os.environ['PATH']}"}
+
+    def fill(self):
+        """The folder as each case finds it."""
+        shutil.rmtree(self.folder)
+        self.folder.mkdir()
+        for path in DATA.iterdir():
+            (self.folder / path.name).symlink_to(path)
+        for name, text in FILES.items():
+            (self.folder / name).write_text(text)
+
+    def shell(self, line):
+        return subprocess.run(["bash", "-c", line], cwd=self.folder, capture_output=True, text=True, timeout=100,
+                              stdin=subprocess.DEVNULL, env=self.ENVIRONMENT)
+
+    def follow(self, source, hint, wrong, *followed):
+        """Returns the literals of the source that the wrong call printed."""
+        self.fill()
+        error = self.shell(wrong).stderr
+        told = [part for part in re.findall(r"\[hint: (.*)\]", error) if hint in part]
+        said = [text for text in hints_of_sources()[source] if re.search(expression_of(text), error)]
+        self.assertTrue(told and said, f"{wrong}\n{error}")
+        for line in followed:
+            after = self.shell(line)
+            self.assertEqual(after.returncode, 0, f"[hint: {told[0]}] {line}\n{after.stderr}")
+            self.assertNotIn(told[0], after.stderr, line)
+        return said
+
+
+class Hints(Followed):
+    def test_each_helps(self):
+        followed = {}
+        for source, cases in CASES.items():
+            for case in cases:
+                with self.subTest(source=source, hint=case[0]):
+                    followed.setdefault(source, set()).update(self.follow(source, *case))
+        options = set(re.findall("--[a-z][a-z-]*", self.check(0, "--options-page").stdout.decode()))
+        for source, texts in hints_of_sources().items():
+            for text in texts:
+                with self.subTest(source=source, text=text):
+                    self.assertFalse(text.endswith("[hint: "), "a hint begins in the literal that says so")
+                    reasons = [part for part in UNTRIED.get(source, {}) if part in text]
+                    self.assertNotEqual(text in followed.get(source, ()), bool(reasons), "a case, or a reason why not")
+                    if not reasons:
+                        words = set(re.findall("--[a-z-]+", expression_of(text).replace("\\", "")))
+                        self.assertLessEqual(words, options | {"--help"})
+
+    @needs("preload")
+    def test_record_of_a_killed_run(self):
+        call = f"vdb_molsurf one.xyzr {FAST} -q --force -o a.ply -o a.json"
+        self.follow("io/commit.cpp", "remove ./.vdb_molsurf.",
+                    f"LD_PRELOAD=$FAULTY_SYSTEM FAULTY_KILL=2 {call}; LD_PRELOAD=$FAULTY_SYSTEM FAULTY_EIO=1- {call}",
+                    f"rm .vdb_molsurf.*.commit; LD_PRELOAD=$FAULTY_SYSTEM {call}")
+
+    @needs("user")
+    def test_folder_of_another_user(self):
+        user = "setpriv --reuid 65534 --regid 65534 --clear-groups " if os.geteuid() == 0 else ""
+        call = f"chmod 777 .; {user}vdb_molsurf one.xyzr {FAST} -o"
+        self.follow("io/output_file.cpp", "choose a folder you may write to", f"mkdir -m 555 shut; {call} shut/a.ply",
+                    f"{call} a.ply")
+
+    @needs("memory")
+    def test_little_memory(self):
+        self.follow("bricks/plan_bricks.h", "or --memory 0.31G, which makes it in bricks",
+                    "ulimit -v 400000; vdb_molsurf 1crn.pdb --surface ses --voxel 0.1 -o a.vdb",
+                    "ulimit -v 400000; vdb_molsurf 1crn.pdb --surface ses --voxel 0.2 -o b.vdb",
+                    "ulimit -v 400000; vdb_molsurf 1crn.pdb --surface ses --voxel 0.1 --memory 0.31G -o c.vdb")
+        self.follow("tools/build.cpp", "a surface of a larger --voxel",
+                    "vdb_molsurf 1crn.pdb --surface sas --voxel 0.1 -o a.vdb; ulimit -v 300000; "
+                    "vdb_molsurf convert a.vdb -o a.ply",
+                    "vdb_molsurf 1crn.pdb --surface sas --voxel 0.3 -o b.vdb; ulimit -v 300000; "
+                    "vdb_molsurf convert b.vdb -o a.ply")
+        self.follow("tools/msms/main.cpp", "a smaller -density, or fewer spheres",
+                    "ulimit -v 800000; vdb_molsurf_msms -if ball.xyzr -of a -density 100",
+                    "ulimit -v 800000; vdb_molsurf_msms -if ball.xyzr -of a -density 0.3",
+                    "ulimit -v 800000; vdb_molsurf_msms -if two.xyzr -of a -density 100")
+        self.follow("surface/check_balls.cpp", "--voxel 0.5",
+                    "ulimit -v 500000; vdb_molsurf ball.xyzr --surface sas --voxel 0.05 -o a.ply",
+                    "ulimit -v 500000; vdb_molsurf ball.xyzr --surface sas --voxel 0.5 -o a.ply")
+
+
+if __name__ == "__main__":
+    unittest.main()
