@@ -3,6 +3,7 @@
 """Holds what README.md, CONTRIBUTING.md, docs/ and the comments of src/ and tools/ say against the tree.
 
     scripts/check_docs.py [--program vdb_molsurf] [--renew]
+    scripts/check_docs.py --installed FOLDER
     scripts/check_docs.py --figures [--structures FOLDER] [--program vdb_molsurf] [--renew] [PAGE...]
 
 These have to exist: links and the headings they lead to; paths and file names in backticks, or written from a
@@ -10,6 +11,9 @@ folder of the root; numbered sections such as "docs/math.md, section 7", and ADR
 `Type::member`, `someFunction` and `function()` of the code, and the options of the program. Defaults beside options have to be
 those of the help, and docs/options.md and docs/cli-help.txt have to be what the program prints; --renew writes these two.
 Prints one line for each fault, and exits with 1 if there is one.
+
+With --installed the pages below a folder are checked instead (cmake/install_guide.cmake installs them): they link to
+what is there, and name no other file of the project.
 
 With --figures the numbers of all pages, or of some, have to be those of new runs instead (scripts/figures.py tells how a
 page says so); --renew then corrects them. Some runs take structures of FOLDER, and are left out without it.
@@ -116,6 +120,23 @@ def headings(page):
     return re.findall(r"^#+ (.*)$", re.sub(r"^```.*?^```", "", page.read_text(), flags=re.M | re.S), re.M)
 
 
+def path_faults(text, page, tree):
+    for found in re.finditer(r"(?<![\w/.-])(?<!\]\()(?:src|tools|tests|docs|scripts|bench|cmake|\.ci)/[\w./-]*\w", text):
+        if not tree.has(found[0], page):
+            yield found.start(), f"there is no {found[0]}"
+
+
+def link_faults(text, page):
+    for found in re.finditer(r"\]\(([^)\s#]*)(?:#([^)\s]+))?\)", text):
+        target = page.parent / found[1] if found[1] else page
+        if re.match(r"\w+:", found[1]):
+            continue
+        if not target.exists():
+            yield found.start(), f"the link leads to nothing: {found[1]}"
+        elif found[2] and found[2] not in map(slug, headings(target)):
+            yield found.start(), f"{found[1]} has no heading #{found[2]}"
+
+
 def faults_of(text, page, tree, program):
     """(place, fault) of a page, or of the comments of a source file."""
     # "math.md, section 7"; "sections 5, 8 and 9" are those of the page itself, if its sections have numbers.
@@ -127,22 +148,13 @@ def faults_of(text, page, tree, program):
         if numbers or found[1]:
             yield from ((found.start(), f"{name} has no section {number}")
                         for number in re.findall(r"\d+", found[2]) if number not in numbers)
-    for found in re.finditer(r"(?<![\w/.-])(?<!\]\()(?:src|tools|tests|docs|scripts|bench|cmake|\.ci)/[\w./-]*\w", text):
-        if not tree.has(found[0], page):
-            yield found.start(), f"there is no {found[0]}"
+    yield from path_faults(text, page, tree)
     for found in re.finditer(r"\bADR\s+(\d{4})", text):
         if not any(path.startswith(f"docs/adr/{found[1]}") for path in tree.paths):
             yield found.start(), f"there is no ADR {found[1]}"
     if page.suffix != ".md":
         return
-    for found in re.finditer(r"\]\(([^)\s#]*)(?:#([^)\s]+))?\)", text):
-        target = page.parent / found[1] if found[1] else page
-        if re.match(r"\w+:", found[1]):
-            continue
-        if not target.exists():
-            yield found.start(), f"the link leads to nothing: {found[1]}"
-        elif found[2] and found[2] not in map(slug, headings(target)):
-            yield found.start(), f"{found[1]} has no heading #{found[2]}"
+    yield from link_faults(text, page)
     # A block that is indented or fenced has no spans.
     prose = re.sub(r"^```.*?^```|^(?:    |\t).*$", lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.M | re.S)
     for found in re.finditer(r"`([^`]+)`", prose):
@@ -200,6 +212,20 @@ def check(root, program):
     return lines
 
 
+def check_installed(root):
+    """Lines that tell of the faults of installed pages."""
+    tree, own, lines = Tree(root), Tree(ROOT).names, []
+    for page in sorted(root.rglob("*.md")):
+        text = page.read_text()
+        faults = {*path_faults(text, page, tree), *link_faults(text, page)}
+        for found in re.finditer(r"(?<![\w/.*-])[\w-]+\.(?:md|py|sh|cpp|cmake|cjs)\b(?!\s+of\s+the\s+sources)", text):
+            if found[0] in own - tree.names:
+                faults.add((found.start(), f"{found[0]} is not there"))
+        lines += [f"{page.relative_to(root)}:{text.count(chr(10), 0, place) + 1}: {fault}"
+                  for place, fault in sorted(faults)]
+    return lines
+
+
 def check_figures(words):
     import figures
     start, held = time.monotonic(), figures.Figures(ROOT, words.program, words.structures)
@@ -215,10 +241,17 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=ROOT / "build-release/tools/vdb_molsurf")
     parser.add_argument("--renew", action="store_true", help="write docs/options.md and docs/cli-help.txt")
+    parser.add_argument("--installed", metavar="FOLDER", type=pathlib.Path, help="check the pages that were installed")
     parser.add_argument("--figures", action="store_true", help="hold the numbers of the pages against new runs")
     parser.add_argument("--structures", metavar="FOLDER", help="of structures that are not part of the project")
     parser.add_argument("pages", nargs="*", metavar="PAGE", type=pathlib.Path, help="with --figures; all without")
     words = parser.parse_args()
+    if words.installed:
+        lines = check_installed(words.installed.resolve())
+        if not (words.installed / "README.md").exists():
+            lines.append("README.md is not there")
+        print(*lines, f"installed pages: {len(lines)} faults", sep="\n")
+        return 1 if lines else 0
     if not pathlib.Path(words.program).is_file():
         sys.exit(f"{words.program}: there is no program; build it, or give --program")
     if words.figures:

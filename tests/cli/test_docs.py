@@ -89,6 +89,17 @@ class Docs(unittest.TestCase):
                 self.assertRegex(found[0], rf"^{name}:({line}|{line + 2}): ")
                 self.assertTrue(found[0].endswith(": " + fault), found)
 
+    def test_installed_pages(self):
+        """They link to and name what is installed; the tree has more."""
+        with tempfile.TemporaryDirectory() as folder:
+            page = pathlib.Path(folder) / "README.md"
+            page.write_text("CONTRIBUTING.md of the sources, `view.py`\n")
+            self.assertEqual(check_docs.check_installed(page.parent), [])
+            page.write_text("[a](docs/math.md),\nscripts/test.sh,\n`mutate.py`\n")
+            self.assertEqual(check_docs.check_installed(page.parent),
+                             ["README.md:1: the link leads to nothing: docs/math.md",
+                              "README.md:2: there is no scripts/test.sh", "README.md:3: mutate.py is not there"])
+
     def test_moved_folder(self):
         """What is written with its folder is reported when the folder moves."""
         moved = dict(TREE)

@@ -1,6 +1,7 @@
 # Installs the library into an empty folder, builds the consumer against it, and runs it and the
 # installed tool.
-#     cmake -DBUILD=<build folder> -DSOURCE=<this folder> -DWORK=<folder to use> -P check.cmake
+#     cmake -DBUILD=<build folder> -DSOURCE=<this folder> -DWORK=<folder to use> -DPYTHON=<Python> -P check.cmake
+# Then looks for what README.md says is installed, and for files that the installed pages name.
 set(prefix ${WORK}/prefix)
 set(consumer ${WORK}/consumer)
 file(REMOVE_RECURSE ${WORK})
@@ -16,3 +17,12 @@ run(${CMAKE_COMMAND} --build ${consumer})
 run(${consumer}/consumer ${WORK}/two_atoms.ply)
 run(${prefix}/bin/vdb_molsurf --version)
 run(${prefix}/bin/vdb_molsurf_msms --version)
+run(${PYTHON} -B ${SOURCE}/../../scripts/check_docs.py --installed ${prefix}/share/doc/vdb_molsurf)
+file(READ ${prefix}/share/doc/vdb_molsurf/README.md guide)
+foreach(named man/man1/vdb_molsurf.1 man/man1/vdb_molsurf_msms.1 bash-completion/completions/vdb_molsurf)
+  cmake_path(GET named PARENT_PATH folder)
+  string(REPLACE "/man1" "" folder ${folder})
+  if(NOT EXISTS ${prefix}/share/${named} OR NOT guide MATCHES "PREFIX/share/${folder}")
+    message(FATAL_ERROR "share/${named} is not installed, or the guide does not say where it is")
+  endif()
+endforeach()
