@@ -76,6 +76,11 @@ class Stored(ToolTest):
                 for name in ("a.json", "b.json"))
         self.assertAlmostEqual(b["volume"] / a["volume"], 1, delta=0.002)
 
+    def test_every_kind_of_mesh_and_picture(self):
+        self.check(0, CRAMBIN, *FAST, "-o", "a.vdb")
+        for kind in ("ply", "obj", "stl", "off", "glb", "html", "png", "json"):
+            self.check(0, "convert", "a.vdb", "-o", f"b.{kind}", "-q")
+
     def test_recoloured(self):
         self.build()
         for word in ("group", "mean-curvature", "chain"):

@@ -214,6 +214,7 @@ std::vector<Color> ballColors(const BallSet& atoms, ColorBy by, const Progress& 
 
 std::vector<Color> instanceColors(const BallSet& atoms, const Progress& progress)
 {
+    if (atoms.instances.empty()) return {}; // a stored surface has no prototypes either
     struct Prototype {
         openvdb::Vec3d middle;
         double radius;
