@@ -85,7 +85,7 @@ FACES = ("3 0 1 2\n", "3 0 2 3\n", "3 0 3 1\n", "3 1 3 2\n")
 # Files that are there in every case, beside those of tests/data.
 FILES = {
     "dot.xyzr": "0 0 0 0.1\n", "tiny.xyzr": "0.4 0.4 0.4 0.3\n", "one.xyzr": "0 0 0 1\n", "two.xyzr": "0 0 0 1.7\n3 0 0 1.7\n",
-    "far.xyzr": "2e4 0 0 1.7\n", "ball.xyzr": "0 0 0 100\n",
+    "far.xyzr": "2e4 0 0 1.7\n", "ball.xyzr": "0 0 0 100\n", "large.xyzr": "0 0 0 60\n",
     "solid.ply": PLY.format(4, "".join(FACES)), "open.ply": PLY.format(3, "".join(FACES[:3])),
     "strips.ply": PLY.format(4, "".join(FACES)).replace("face 4", "tristrips 4"),
     "residue.pdb": pdb((1, 0, "N", "N", 1), (1, 1.5, "CA", "C", 2)),
@@ -133,10 +133,10 @@ CASES = {
         ("--force", f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv",
          f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv --force")],
     "bricks/plan_bricks.cpp": [
-        ("--memory 0.1G, or a larger --voxel", "vdb_molsurf 1crn.pdb --voxel 2 --memory 60M -o a.ply",
+        ("--memory 0.1G, or a larger --voxel", "vdb_molsurf 1crn.pdb --voxel 2 --memory 56M -o a.ply",
          "vdb_molsurf 1crn.pdb --voxel 2 --memory 0.1G -o a.ply"),
-        ("or a larger --voxel", "vdb_molsurf 1crn.pdb --memory 80M --voxel 0.3 -o a.ply",
-         "vdb_molsurf 1crn.pdb --memory 80M --voxel 2 -o a.ply")],
+        ("or a larger --voxel", "vdb_molsurf 1crn.pdb --memory 62M --voxel 0.1 -o a.ply",
+         "vdb_molsurf 1crn.pdb --memory 62M --voxel 2 -o a.ply")],
     "bricks/plan_bricks.h": [
         ("a larger --voxel, or --max-hours 1", "vdb_molsurf 1crn.pdb --voxel 0.3 --max-hours 1e-5 -o a.ply",
          "vdb_molsurf 1crn.pdb --voxel 0.3 --max-hours 1 -o a.ply",
@@ -150,8 +150,8 @@ CASES = {
     "bricks/run_brick.cpp": [
         ("in one piece", "vdb_molsurf bricks plan 1crn.pdb --bricks 2 --voxel 2 --color mean-curvature -o plan.json",
          "vdb_molsurf 1crn.pdb --voxel 2 --color mean-curvature -o a.ply"),
-        ("in one piece", "vdb_molsurf 1crn.pdb --voxel 2 --memory 60M --fill-cavities -o a.ply",
-         "vdb_molsurf 1crn.pdb --voxel 2 --fill-cavities -o a.ply")],
+        ("in one piece", "vdb_molsurf 1crn.pdb --voxel 0.2 --memory 62M --fill-cavities -o a.ply",
+         "vdb_molsurf 1crn.pdb --voxel 0.2 --fill-cavities -o a.ply")],
     "surface/parts.cpp": [
         ("the groups are A", "vdb_molsurf 1crn.pdb --group-by chain --surface-of B=ses --voxel 2 -o a.ply",
          "vdb_molsurf 1crn.pdb --group-by chain --surface-of A=ses --voxel 2 -o a.ply")],
@@ -270,8 +270,10 @@ CASES = {
          "vdb_molsurf 1crn.pdb --voxel 2 --surface sas -o b.vdb; "
          "vdb_molsurf convert b.vdb -o b.ply --max-hours 1e-5")],
     "tools/build_in_bricks.cpp": [
-        ("without --memory", "vdb_molsurf 1crn.pdb --memory 80M --voxel 0.25 --center -o a.ply",
-         "vdb_molsurf 1crn.pdb --voxel 0.25 --center -o a.ply")],
+        ("without --memory", "vdb_molsurf 1crn.pdb --memory 80M --voxel 0.15 --center -o a.ply",
+         "vdb_molsurf 1crn.pdb --voxel 0.15 --center -o a.ply"),
+        ("--memory ", "vdb_molsurf 1crn.pdb --voxel 2 --memory 20M -o a.ply", # and then the hint that follows
+         "vdb_molsurf 1crn.pdb --voxel 2 --memory 56M -o a.ply || vdb_molsurf 1crn.pdb --voxel 2 --memory 0.1G -o a.ply")],
     "tools/cli/complete.cpp": [
         ("--format ply", f"vdb_molsurf one.xyzr {FAST} -o - > a.ply",
          f"vdb_molsurf one.xyzr {FAST} -o - --format ply > a.ply"),
@@ -474,9 +476,9 @@ class Hints(Followed):
     @needs("memory")
     def test_little_memory(self):
         self.follow("bricks/plan_bricks.h", "or --memory 0.31G, which makes it in bricks",
-                    "ulimit -v 400000; vdb_molsurf 1crn.pdb --surface ses --voxel 0.1 -o a.vdb",
-                    "ulimit -v 400000; vdb_molsurf 1crn.pdb --surface ses --voxel 0.2 -o b.vdb",
-                    "ulimit -v 400000; vdb_molsurf 1crn.pdb --surface ses --voxel 0.1 --memory 0.31G -o c.vdb")
+                    "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.25 -o a.vdb",
+                    "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.4 -o b.vdb",
+                    "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.25 --memory 0.31G -o c.vdb")
         self.follow("tools/build.cpp", "a surface of a larger --voxel",
                     "vdb_molsurf 1crn.pdb --surface sas --voxel 0.1 -o a.vdb; ulimit -v 300000; "
                     "vdb_molsurf convert a.vdb -o a.ply",

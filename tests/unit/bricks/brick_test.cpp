@@ -244,7 +244,7 @@ TEST_F(Bricks, NeedTheMemoryOfTheirSurface)
         return planWhole(atoms, options, progress).bricks[0].bytes;
     };
     const std::size_t plain = bytes(SurfaceKind::Variational, {"surface"});
-    EXPECT_GT(bytes(SurfaceKind::Gaussian, {"surface"}), plain); // runs between the atoms
+    EXPECT_GT(bytes(SurfaceKind::Gaussian, {"surface"}), plain);    // runs between the atoms
     EXPECT_GT(bytes(SurfaceKind::VanDerWaals, {"surface"}), plain); // has all atoms on its boundary
     const std::size_t one = bytes(SurfaceKind::Variational, {"surface", "mean_curvature"}) - plain;
     const std::size_t three = bytes(SurfaceKind::Variational, {"surface", "Cd"}) - plain;
@@ -577,6 +577,7 @@ TEST_F(HostileBricks, MeshesThatAreNotWhatTheySayAreRefused)
             b.mesh.positions.insert(b.mesh.positions.begin() + long(b.owned), Vec3f(0.0f));
             b.mesh.normals.insert(b.mesh.normals.begin() + long(b.owned), Vec3f(0.0f));
             for (auto& a : b.mesh.scalars) a.values.insert(a.values.begin() + long(b.owned), 0.0f);
+            for (auto& a : b.mesh.labels) a.values.insert(a.values.begin() + long(b.owned), 0);
             b.areas.push_back(1.0f);
             b.pieces.emplace_back();
             ++b.owned;
