@@ -84,7 +84,7 @@ std::vector<Task> tasksOf(const Call& call)
         Task task{input, {}};
         for (const Output& kind : call.outputs)
             task.outputs.push_back(
-                {(fs::path(call.folder) / stem).string() + kind.path, kind.format, kind.of, 0.0});
+                {(fs::path(call.folder) / stem).string() + kind.path, kind.format});
         tasks.push_back(std::move(task));
     }
     checkNames(call, tasks);

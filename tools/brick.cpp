@@ -101,7 +101,7 @@ int brick(const Call& call)
         return 0;
     }
     Call build = callOf(manifest, call.input);
-    build.outputs = {{path, Format::Vdb, "", 0.0}};
+    build.outputs = {{path, findFormat("vdb")}};
     build.force = true;
     build.quiet = call.quiet;
     build.inputs = {call.input};

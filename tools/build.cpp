@@ -115,16 +115,6 @@ void sayTimes(const Report& report)
 namespace
 {
 
-// Whether a file holds the mesh or a picture of it.
-bool showsMesh(const std::vector<Output>& outputs)
-{
-    return std::any_of(outputs.begin(), outputs.end(), [](const Output& output) {
-        const Format f = output.format;
-        return f != Format::Vdb && f != Format::Json && f != Format::Usda && f != Format::Csv &&
-               f != Format::AreaTable && f != Format::Pdb && f != Format::Mmcif;
-    });
-}
-
 // The meshes of --lod behind the first one.
 std::vector<Mesh> coarserMeshes(const Call& call, const BallSet& balls, Report& report,
                                 Terminal& terminal)
@@ -189,7 +179,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
         constexpr double any = std::numeric_limits<double>::infinity();
         terminal.limitTo(isEstimated(call.options) ? seconds : any, call.hours);
     }
-    call.options.meshLabels = showsMesh(call.outputs);
+    call.options.meshLabels = call.writes(Triangles | PlainColor);
     if (balls.instances.size() > 0 && balls.copies > 1) call.options.split = true;
     MolecularSurface result;
     try {

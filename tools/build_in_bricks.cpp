@@ -80,8 +80,7 @@ void checkOutputs(const Call& call)
         throw Error(ErrorKind::Usage, "--for and --center need the whole molecule at once [hint: "
                                       "without --memory]");
     for (const Output& output : call.outputs)
-        if (output.format != Format::Vdb && output.format != Format::Ply &&
-            output.format != Format::Json)
+        if ((output.format->verbs & BricksMerge) == 0)
             throw Error(ErrorKind::Usage,
                         "-o " + output.path + ": with bricks expected .vdb, .ply or .json");
 }
@@ -152,7 +151,7 @@ int buildInBricks(const Call& call, Clock::time_point start)
     folder.make();
     colorBalls(call.options, terminal, atoms);
     const bool meshed = std::any_of(call.outputs.begin(), call.outputs.end(),
-                                    [](const Output& o) { return o.format == Format::Ply; });
+                                    [](const Output& o) { return o.holds(Triangles); });
     std::vector<std::string> paths;
     std::shared_ptr<const SparseField> coarse;
     for (std::size_t k = 1; k <= plan.bricks.size(); ++k) {

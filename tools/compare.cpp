@@ -168,8 +168,7 @@ openvdb::GridCPtrVec grids(const Call& call, const Operand& a, const DistanceTo&
 /// Says what cannot be done with these two surfaces.
 void refuse(const Call& call, const Read& a, const Read& b)
 {
-    const bool vdb = std::any_of(call.outputs.begin(), call.outputs.end(),
-                                 [](const Output& o) { return o.format == Format::Vdb; });
+    const bool vdb = call.writes(Grids);
     if (call.colorBySign && !b.operand.surface.closed)
         throw Error(ErrorKind::Input, b.path + ": expected a closed surface for --color "
                                                "signed-distance, got one without an inside");
@@ -240,9 +239,9 @@ int compare(const Call& call, Clock::time_point start)
     writeOutputs(
         call, terminal,
         [&](const Output& output, OutputFile& file) {
-            if (output.format == Format::Ply)
+            if (output.holds(Triangles))
                 writeComparisonMesh(a.operand.surface.mesh, report, file);
-            else if (output.format == Format::Vdb)
+            else if (output.holds(Grids))
                 writeVdb(grids(call, a.operand, toB, terminal), metadata(call, report), file);
             else
                 writeComparison(report, file);

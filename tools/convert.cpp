@@ -96,7 +96,7 @@ int convert(const Call& asked, Clock::time_point start)
     writeOutputs(
         call, terminal,
         [&](const Output& output, OutputFile& out) {
-            if (output.format == Format::Vdb)
+            if (output.holds(Grids))
                 writeRecolored(call, file, surface, out);
             else
                 writeOutput(call, surface.names, surface.result, output, terminal, out);

@@ -41,9 +41,9 @@ Call callOf(const Call& call, std::size_t file, int frame)
                whole.extension().string();
     };
     for (Output output : call.outputs) {
-        if (output.format == Format::Csv || output.format == Format::AreaTable) continue;
-        if (output.format == Format::Usda)
-            output.of = numbered(output.of); // one file for all frames
+        if (output.holds(AllFrames)) continue;
+        if (output.holds(Stage))
+            output.beside = numbered(output.beside); // one file for all frames
         else
             output.path = numbered(output.path);
         one.outputs.push_back(std::move(output));
@@ -54,7 +54,7 @@ Call callOf(const Call& call, std::size_t file, int frame)
 std::string tableOf(const Call& call)
 {
     for (const Output& output : call.outputs)
-        if (output.format == Format::Csv) return output.path;
+        if (output.holds(FrameRows)) return output.path;
     return "";
 }
 
@@ -71,12 +71,12 @@ bool isDone(const Call& one, const std::string& options, const FrameTable& table
     std::size_t files = 0, there = 0;
     bool known = false;
     for (const Output& output : one.outputs) {
-        if (output.format == Format::Usda) continue;
+        if (output.holds(Stage)) continue;
         ++files;
         std::error_code ignored;
         if (!std::filesystem::exists(output.path, ignored)) continue;
         ++there;
-        if (output.format != Format::Vdb) continue;
+        if (!output.holds(Grids)) continue;
         const VdbFile stored = readVdb(output.path);
         const auto made = stored.metadata.getMetadata<openvdb::StringMetadata>("frames.options");
         const auto frame = stored.metadata.getMetadata<openvdb::Int64Metadata>("frame");
@@ -141,7 +141,7 @@ public:
         }
         if (!tableName_.empty() && !call_.force) table_ = readFrameTable(tableName_);
         for (const Output& output : call_.outputs) {
-            if (output.format != Format::AreaTable) continue;
+            if (!output.holds(Areas) || !output.holds(AllFrames)) continue;
             checkOutput(call_, output);
             areas_.push_back({output, std::make_unique<OutputFile>(output.path, call_.force)});
         }
@@ -225,8 +225,8 @@ private:
         const auto extend = [&](MolecularSurface& result) {
             if (moves_) addVelocity(call_, balls, displacement, terminal_, result);
             for (auto& [output, file] : areas_)
-                appendCsv(areaTable(output.of, call_, balls, result), source_.number(i), i == 0,
-                          *file);
+                appendCsv(areaTable(output.format->table, call_, balls, result), source_.number(i),
+                          i == 0, *file);
         };
         FrameRow row;
         table.add = [&](const Report& report, OutputFiles& files) {

@@ -30,9 +30,9 @@ void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std:
     writeOutputs(
         call, terminal,
         [&](const Output& output, OutputFile& file) {
-            if (output.format == Format::Vdb) {
+            if (output.holds(Grids)) {
                 merged.writeVdb(vdbMetadata(call, report), file, terminal);
-            } else if (output.format == Format::Ply) {
+            } else if (output.holds(Triangles)) {
                 merged.writePly(file, terminal);
             } else {
                 writeReport(report, file);

@@ -98,7 +98,7 @@ void checkOutput(const Call& call, const Output& output)
 {
     InputFiles(call).refuse(output.path);
     checkWritable(output.path, mayReplace(call, output));
-    if (output.format == Format::ThreeMf) load3mf();
+    if (output.format == findFormat("3mf")) load3mf();
 }
 
 void prepareOutputs(const Call& call, const std::vector<std::string>& more)
@@ -141,9 +141,7 @@ void writeOutputs(const Call& call, Terminal& terminal,
 {
     std::vector<Output> outputs = call.outputs;
     std::stable_sort(outputs.begin(), outputs.end(), [](const Output& a, const Output& b) {
-        const auto turn = [](const Output& o) {
-            return 2 * (o.format == Format::Json) + (o.path == "-");
-        };
+        const auto turn = [](const Output& o) { return 2 * o.holds(Numbers) + (o.path == "-"); };
         return turn(a) < turn(b);
     });
 
@@ -157,7 +155,7 @@ void writeOutputs(const Call& call, Terminal& terminal,
     // Files are written side by side; standard output and the report, which tells the time of the
     // others, after them.
     const auto apart = [&](const Output& o) {
-        return sideBySide && o.format != Format::Json && o.path != "-";
+        return sideBySide && !o.holds(Numbers) && o.path != "-";
     };
     terminal.update("write", 0.0);
     for (const Output& output : outputs) {
@@ -175,7 +173,7 @@ void writeOutputs(const Call& call, Terminal& terminal,
         tbb::simple_partitioner());
     stopIfAsked();
     for (std::size_t i = files.size(); i < outputs.size(); ++i) {
-        if (outputs[i].format == Format::Json) timeIt();
+        if (outputs[i].holds(Numbers)) timeIt();
         files.push_back(
             std::make_unique<OutputFile>(outputs[i].path, mayReplace(call, outputs[i])));
         writeOne(outputs[i], *files.back());

@@ -17,16 +17,16 @@ void addSidecars(Call& call)
 {
     std::vector<Output> sidecars;
     for (const Output& output : call.outputs) {
-        if (output.format != Format::Vdb) continue;
+        if (!output.holds(Grids)) continue;
         if (output.path == "-")
             throw Error(ErrorKind::Usage, "--for usd: expected a file for the .vdb, got -");
         const fs::path path = output.path;
         if (call.verb == Verb::Batch) // its paths are extensions
-            sidecars.push_back({".usda", Format::Usda, ""});
+            sidecars.push_back({".usda", findFormat("usda")});
         else
             sidecars.push_back(
                 {(path.parent_path() / (frameName(output.path).stem + ".usda")).string(),
-                 Format::Usda, output.path});
+                 findFormat("usda"), output.path});
         const auto same = [&](const Output& o) {
             return fs::path(o.path).lexically_normal() ==
                    fs::path(sidecars.back().path).lexically_normal();
@@ -44,15 +44,16 @@ void addSidecars(Call& call)
 
 bool mayReplace(const Call& call, const Output& output)
 {
-    return call.force || (output.format == Format::Usda && !output.of.empty() &&
-                          frameName(output.of).frame && isOwnUsda(output.path));
+    return call.force || (output.holds(Stage) && !output.beside.empty() &&
+                          frameName(output.beside).frame && isOwnUsda(output.path));
 }
 
 UsdVolume usdVolume(const Call& call, const Output& output)
 {
-    const std::string vdb =
-        output.of.empty() ? fs::path(output.path).replace_extension(".vdb").string() : output.of;
-    return usdVolumeOf(vdb, !output.of.empty(), usdaMetersPerAngstrom / call.scene.scale);
+    const std::string vdb = output.beside.empty()
+                                ? fs::path(output.path).replace_extension(".vdb").string()
+                                : output.beside;
+    return usdVolumeOf(vdb, !output.beside.empty(), usdaMetersPerAngstrom / call.scene.scale);
 }
 
 } // namespace molsurf::tool

@@ -153,13 +153,6 @@ std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, co
     return out;
 }
 
-/// Whether a file holds the mesh of a whole, triangle by triangle.
-bool holdsWhole(Format format)
-{
-    return format == Format::Ply || format == Format::Obj || format == Format::Stl ||
-           format == Format::Off || format == Format::ThreeMf;
-}
-
 /// The options of a picture of a surface, whose automatic view comes from the atoms: it is the same
 /// for every voxel.
 DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, bool coloredCopies,
@@ -203,14 +196,6 @@ openvdb::Vec3d originOf(const Call& call)
     return call.center ? call.scene.center : openvdb::Vec3d(0.0);
 }
 
-/// The values of the atoms in the place of their B factors.
-std::vector<double> columnB(const Output& output, const BallSet& atoms,
-                            const MolecularSurface& result)
-{
-    return output.of == "residues" ? residueAreasOfBalls(atoms, result.ballAreas)
-                                   : result.ballAreas;
-}
-
 } // namespace
 
 Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
@@ -239,9 +224,10 @@ std::string optionsDigest(const Call& call)
     return sha256OfText(all).substr(0, 16);
 }
 
-bool isCrisp(const Call& call, Format format)
+/// Whether a file shows borders between colours that are cut.
+bool isCrisp(const Call& call, const Output& output)
 {
-    return call.crisp || format == Format::Png || format == Format::Html;
+    return call.crisp || output.holds(Views);
 }
 
 std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh& mesh,
@@ -253,7 +239,7 @@ std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh
     const bool named = by == ColorBy::Chain || by == ColorBy::Group || by == ColorBy::Element ||
                        by == ColorBy::Residue || by == ColorBy::Nucleotide || ofBalls;
     const bool shown = std::any_of(call.outputs.begin(), call.outputs.end(),
-                                   [&](const Output& o) { return isCrisp(call, o.format); });
+                                   [&](const Output& o) { return isCrisp(call, o); });
     if (!named || !shown || !mesh.parts.empty()) return std::nullopt;
     const SurfaceKind kind = call.options.kind;
     const bool spheres = kind == SurfaceKind::VanDerWaals || kind == SurfaceKind::SolventAccessible;
@@ -265,83 +251,131 @@ std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh
         spheres ? call.options.voxel : 0.0, ofBalls ? atoms.labels->values->name : "", progress);
 }
 
+struct Writing {
+    const Call& call;
+    const BallSet& atoms;
+    const MolecularSurface& result;
+    const Output& output;
+    const Progress& progress;
+    const Mesh& mesh;                 ///< with the borders that the format shows
+    const Mesh& whole;                ///< by symmetry the mesh of the whole, else the same
+    std::vector<const Mesh*> coarser; ///< further levels of detail
+};
+
+namespace
+{
+
+std::vector<MeshInstance> instancesOf(const Writing& w)
+{
+    return instancesOf(w.call, w.atoms, w.mesh, w.call.colorsCopies(), w.progress);
+}
+
+void writeGrids(const Writing& w, OutputFile& file)
+{
+    openvdb::MetaMap metadata = vdbMetadata(w.call, w.result.report);
+    addLabelMetadata(w.atoms, w.call.options.fields, w.progress, metadata);
+    writeVdb(gridsOf(w.call, w.result), metadata, file);
+}
+
+void writeStage(const Writing& w, OutputFile& file)
+{
+    if (w.output.beside.empty() && !w.atoms.instances.empty())
+        writeUsdaInstances(
+            w.mesh, {stemOf(w.output.path), w.call.scene.scale, instancesOf(w), w.coarser}, file);
+    else
+        writeUsda(gridsOf(w.call, w.result), usdVolume(w.call, w.output), file);
+}
+
+void writeGlb(const Writing& w, OutputFile& file)
+{
+    writeGlb(w.mesh,
+             {stemOf(w.output.path), w.call.scene.scale, w.call.picture.plain, instancesOf(w),
+              w.coarser},
+             file);
+}
+
+void writePage(const Writing& w, OutputFile& file)
+{
+    const DrawOptions view = pictureOf(w.call, w.atoms, w.mesh, true, w.progress);
+    writeHtml(w.mesh,
+              {titleOf(w.call.input), legendsOf(w.call, w.atoms, w.mesh, w.progress),
+               w.call.picture.plain, viewAxes(w.mesh, view), view.instances, w.call.colorsCopies(),
+               w.coarser},
+              file);
+}
+
+void writeAreaTable(const Writing& w, OutputFile& file)
+{
+    writeCsv(areaTable(w.output.format->table, w.call, w.atoms, w.result), file);
+}
+
+/// Writes atoms with their areas, or those of their residues, as B factors.
+template<void write(const BallSet&, const std::vector<double>&, const openvdb::Vec3d&, OutputFile&)>
+void writeAtoms(const Writing& w, OutputFile& file)
+{
+    const std::vector<double>& own = w.result.ballAreas;
+    const bool ofResidues = w.output.format->table == std::string("residues");
+    write(w.atoms, ofResidues ? residueAreasOfBalls(w.atoms, own) : own, originOf(w.call), file);
+}
+
+} // namespace
+
+const std::vector<Format>& formatTable()
+{
+    constexpr unsigned all = Build | Batch | Convert | Compare | BricksMerge;
+    constexpr unsigned built = Build | Batch, meshed = built | Convert;
+    static const std::vector<Format> table = {
+        {"vdb", all, Grids | Colors | SceneUnits, "", writeGrids},
+        {"ply", all, Triangles | Colors | CutBorders | VertexCurvatures, "",
+         [](const Writing& w, OutputFile& file) { writePly(w.whole, file); }},
+        {"obj", meshed, Triangles | Colors | CutBorders | Millimetres, "",
+         [](const Writing& w, OutputFile& file) { writeObj(w.whole, file, printUnit(w.call)); }},
+        {"stl", meshed, Triangles | Millimetres, "",
+         [](const Writing& w, OutputFile& file) { writeStl(w.whole, file, printUnit(w.call)); }},
+        {"off", meshed, Triangles | Colors | CutBorders, "",
+         [](const Writing& w, OutputFile& file) { writeOff(w.whole, file); }},
+        {"glb", meshed,
+         Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels, "",
+         writeGlb},
+        {"3mf", meshed, Triangles | Colors | CutBorders | Millimetres, "",
+         [](const Writing& w, OutputFile& file) {
+             write3mf(w.whole, stemOf(w.output.path), printUnit(w.call).perAngstrom, file);
+         }},
+        {"html", meshed, Colors | ColorChoices | PlainColor | Copies | Levels | Views, "",
+         writePage},
+        {"json", all, Numbers | Copies, "",
+         [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
+        {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "",
+         [](const Writing& w, OutputFile& file) {
+             writePicture(w.call, w.atoms, w.mesh, w.output.turn, w.progress, file);
+         }},
+        {"usda", Build, Stage | Colors | SceneUnits | Copies | Levels, "", writeStage},
+        {"csv", Build, FrameRows | AllFrames, "", nullptr},
+        {"atoms.csv", built, Areas | AllFrames, "atoms", writeAreaTable},
+        {"residues.csv", built, Areas | AllFrames, "residues", writeAreaTable},
+        {"contacts.csv", built, Areas | AllFrames, "contacts", writeAreaTable},
+        {"interfaces.csv", built, Areas | AllFrames, "interfaces", writeAreaTable},
+        {"pdb", built, Areas, "atoms", writeAtoms<writePdb>},
+        {"cif", built, Areas, "atoms", writeAtoms<writeMmcif>},
+        {"residues.pdb", built, Areas, "residues", writeAtoms<writePdb>},
+        {"residues.cif", built, Areas, "residues", writeAtoms<writeMmcif>}};
+    return table;
+}
+
 void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,
                  const Output& output, const Progress& progress, OutputFile& file,
                  const ShownMeshes& shown)
 {
-    std::vector<const Mesh*> levels;
-    for (const Mesh& mesh : shown.coarser) levels.push_back(&mesh);
-    const Mesh& mesh = shown.crisp && isCrisp(call, output.format) ? *shown.crisp : result.mesh;
-    std::optional<Mesh> wholes;
-    if (atoms.unit && holdsWhole(output.format))
-        wholes = wholeMesh(
+    const Mesh& mesh = shown.crisp && isCrisp(call, output) ? *shown.crisp : result.mesh;
+    std::optional<Mesh> whole;
+    if (atoms.unit && output.holds(Triangles))
+        whole = wholeMesh(
             atoms, result, mesh, call.weld,
             call.colorsCopies() ? instanceColors(atoms, progress) : std::vector<Color>(), progress);
-    const Mesh& whole = wholes ? *wholes : mesh;
-    switch (output.format) {
-    case Format::Vdb: {
-        openvdb::MetaMap metadata = vdbMetadata(call, result.report);
-        addLabelMetadata(atoms, call.options.fields, progress, metadata);
-        writeVdb(gridsOf(call, result), metadata, file);
-        break;
-    }
-    case Format::Usda:
-        if (output.of.empty() && !atoms.instances.empty())
-            writeUsdaInstances(mesh,
-                               {stemOf(output.path), call.scene.scale,
-                                instancesOf(call, atoms, mesh, call.colorsCopies(), progress),
-                                levels},
-                               file);
-        else
-            writeUsda(gridsOf(call, result), usdVolume(call, output), file);
-        break;
-    case Format::Ply:
-        writePly(whole, file);
-        break;
-    case Format::Obj:
-        writeObj(whole, file, printUnit(call));
-        break;
-    case Format::Stl:
-        writeStl(whole, file, printUnit(call));
-        break;
-    case Format::Off:
-        writeOff(whole, file);
-        break;
-    case Format::Glb:
-        writeGlb(mesh,
-                 {stemOf(output.path), call.scene.scale, call.picture.plain,
-                  instancesOf(call, atoms, mesh, call.colorsCopies(), progress), levels},
-                 file);
-        break;
-    case Format::ThreeMf:
-        write3mf(whole, stemOf(output.path), printUnit(call).perAngstrom, file);
-        break;
-    case Format::Png:
-        writePicture(call, atoms, mesh, output.turn, progress, file);
-        break;
-    case Format::Html: {
-        const DrawOptions view = pictureOf(call, atoms, mesh, true, progress);
-        writeHtml(mesh,
-                  {titleOf(call.input), legendsOf(call, atoms, mesh, progress), call.picture.plain,
-                   viewAxes(mesh, view), view.instances, call.colorsCopies(), levels},
-                  file);
-        break;
-    }
-    case Format::Json:
-        writeReport(result.report, file);
-        break;
-    case Format::Csv: // of all frames: frames.cpp
-        break;
-    case Format::AreaTable:
-        writeCsv(areaTable(output.of, call, atoms, result), file);
-        break;
-    case Format::Pdb:
-        writePdb(atoms, columnB(output, atoms, result), originOf(call), file);
-        break;
-    case Format::Mmcif:
-        writeMmcif(atoms, columnB(output, atoms, result), originOf(call), file);
-        break;
-    }
+    std::vector<const Mesh*> coarser;
+    for (const Mesh& level : shown.coarser) coarser.push_back(&level);
+    output.format->write(
+        {call, atoms, result, output, progress, mesh, whole ? *whole : mesh, coarser}, file);
 }
 
 } // namespace molsurf::tool

@@ -272,7 +272,7 @@ class Areas(ToolTest):
                 (["-o", "a.table.csv"], "-o .csv is for --frames")):
             self.check(2, CRAMBIN, *words, *([] if "-o" in words else ["-o", "a.json"]), says=says)
         self.check(0, CRAMBIN, *FAST, "-o", "a.vdb")
-        self.check(2, "convert", "a.vdb", "-o", "a.atoms.csv", says="a stored surface has no atoms")
+        self.check(2, "convert", "a.vdb", "-o", "a.atoms.csv", says="convert writes .vdb, .ply,")
         self.check(0, CRAMBIN, *FAST, "-o", "a.stl", "--areas", "atoms", says="--areas is for .json")
 
     @needs("freesasa")

@@ -292,8 +292,6 @@ CASES = {
          f"vdb_molsurf 1d3z.pdb.gz --fields v --frames 1-2 --voxel 2 -o a.vdb"),
         ("--trajectory", f"vdb_molsurf 1d3z.pdb.gz --model 2 --frames 1 {FAST} -o a.ply",
          f"vdb_molsurf 1d3z.pdb.gz --model 2 --frames 1 --trajectory 1d3z.xtc {FAST} -o a.ply"),
-        ("-o FILE.residues.csv", f"vdb_molsurf 1crn.pdb --areas residues {FAST} -o a.ply",
-         f"vdb_molsurf 1crn.pdb --surface sas -o a.residues.csv"),
         ("a run without --coarse", "vdb_molsurf 1crn.pdb --coarse residue -o a.residues.csv",
          "vdb_molsurf 1crn.pdb -o a.residues.csv"),
         ("--interfaces has the areas of groups alone",
@@ -319,7 +317,7 @@ CASES = {
          f"vdb_molsurf one.xyzr {FAST} --for usd -o a.vdb"),
         ("--assembly 1", f"vdb_molsurf moved.pdb --instances {FAST} -o a.glb",
          f"vdb_molsurf moved.pdb --instances --assembly 1 {FAST} -o a.glb"),
-        ("-o .glb, .usda, .html, .png and .json have all",
+        ("-o FILE.glb has all",
          f"vdb_molsurf moved.pdb --instances --assembly 1 {FAST} -o a.ply",
          *(f"vdb_molsurf moved.pdb --instances --assembly 1 {FAST} -o a.{kind}"
            for kind in ("glb", "usda", "html", "png", "json"))),
@@ -336,8 +334,6 @@ CASES = {
         ("vdb_molsurf convert surface.vdb -o surface.ply", "vdb_molsurf convert",
          f"vdb_molsurf two.xyzr {FAST} --fields spline -o surface.vdb && "
          "vdb_molsurf convert surface.vdb -o surface.ply"),
-        ("vdb_molsurf INPUT -o FILE.residues.csv", "vdb_molsurf convert a.vdb -o a.residues.csv",
-         "vdb_molsurf 1crn.pdb -o a.residues.csv"),
         ("vdb_molsurf bricks plan molecule.cif -o plan.json --bricks 8", "vdb_molsurf bricks plan",
          "vdb_molsurf bricks plan 1a8o.cif.gz -o plan.json --bricks 8"),
         ("-o plan.json", "vdb_molsurf bricks plan 1crn.pdb --bricks 8",

@@ -249,7 +249,7 @@ class Instances(ToolTest):
         self.check(2, *dimer, "--lod", "1,20", "-o", "a.glb", says="20")
         self.check(2, *dimer, "--lod", "1,2", "--voxel", "1", "-o", "a.glb", says=["--voxel", "--lod"])
         self.check(2, *dimer, "-o", "a.vdb", "-o", "a.usda", "--for", "usd", says=["a.usda", "another name"])
-        self.check(2, "convert", "a.vdb", "-o", "a.usda", says=".usda is for --instances")
+        self.check(2, "convert", "a.vdb", "-o", "a.usda", says="convert writes .vdb, .ply,")
         self.check(2, "batch", "a.txt", "-O", ".", "--formats", "usda", says="--formats")
         self.check(2, CRAMBIN, "--memory", "1G", "--lod", "1,2", "-o", "a.html", says="--instances")
         self.assertEqual(self.names(), [])

@@ -4,6 +4,8 @@
 /// @file
 /// What the user asked for, as values.
 
+#include "cli/formats.h"
+
 #include "molsurf/atoms.h"
 #include "molsurf/io/scene.h"
 #include "molsurf/options.h"
@@ -30,31 +32,15 @@ enum Verb : unsigned {
     BricksMerge = 128
 };
 
-/// Kinds of output files.
-enum class Format {
-    Vdb,
-    Ply,
-    Obj,
-    Stl,
-    Off,
-    Glb,
-    Json,
-    Png,
-    Html,
-    Usda,
-    Csv, ///< the table of frames
-    ThreeMf,
-    AreaTable, ///< .csv
-    Pdb,       ///< atoms with their areas
-    Mmcif      ///< the same
-};
-
 /// One file to write.
 struct Output {
     std::string path; ///< "-" is standard output
-    Format format;
-    std::string of; ///< Usda: the .vdb beside it; AreaTable, Pdb, Mmcif: "atoms", "residues", ...
-    double turn = 0.0; ///< Png: of a turntable, beside that of the picture [degree]
+    const Format* format;
+    std::string beside{}; ///< of a Stage: the .vdb that it shows
+    double turn = 0.0;    ///< of a picture of a turntable, beside that of all [degree]
+
+    /// Whether it holds one of these.
+    bool holds(unsigned some) const { return (format->holds & some) != 0; }
 };
 
 /// The values of the options that were given, by name; in the order of the command line if one was
@@ -115,6 +101,9 @@ struct Call {
     std::vector<std::string> warnings; ///< one line each
 
     bool has(const char* option) const { return given.count(option) > 0; }
+
+    /// Whether one of the files holds one of these.
+    bool writes(unsigned some) const;
     bool drawsLegend() const;
 
     /// Whether copies of an assembly, which nodes place, have colours.

@@ -2,6 +2,7 @@
 #include "cli/complete.h"
 
 #include "cli/option_table.h"
+#include "cli/verb_table.h"
 #include "sidecar.h"
 
 #include "molsurf/bricks/run_brick.h"
@@ -28,10 +29,6 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr const char* fileNames = "a name that ends in .vdb, .ply, .obj, .stl, .off, .glb, .3mf, "
-                                  ".html, .json, .png, .usda, .atoms.csv, .residues.csv, "
-                                  ".contacts.csv, .interfaces.csv, .pdb or .cif";
-
 /// The end of a file's name that says what it is: "ply", "atoms.csv".
 std::string endOf(const std::string& path)
 {
@@ -39,24 +36,25 @@ std::string endOf(const std::string& path)
     const std::string end = name.extension().string();
     if (end.empty()) return end;
     const std::string both = name.stem().extension().string() + end;
-    return formatWords.count(both.substr(1)) ? both.substr(1) : end.substr(1);
+    return findFormat(both.substr(1)) ? both.substr(1) : end.substr(1);
 }
 
-/// Output::of.
-/// @param[in] word  the end of the file's name
-std::string tableOf(const std::string& word, Format format)
+/// Refuses a name as x.residues.json, whose file would hold something else.
+void checkTable(const std::string& path, const std::string& word)
 {
-    if (format != Format::AreaTable && format != Format::Pdb && format != Format::Mmcif) return "";
-    const std::size_t dot = word.find('.');
-    return dot == std::string::npos ? "atoms" : word.substr(0, dot);
+    const std::string stem = path.substr(0, path.size() - std::min(word.size() + 1, path.size()));
+    const std::string table = lowered(stem.substr(stem.rfind('.') + 1));
+    if (word.find('.') == std::string::npos && table.size() < stem.size() &&
+        std::count(areaTables().begin(), areaTables().end(), table) > 0)
+        misuse("-o " + path + ": there are no " + table + " as ." + word + " [hint: -o FILE." +
+               table + ".csv, or -o FILE.json --areas " + table + "]");
 }
 
 /// The files of --output.
-/// @param[in] some      formats that the verb writes
-/// @param[in] expected  said of them
-std::vector<Output> outputsOf(const Call& call, std::initializer_list<Format> some,
-                              const std::string& expected)
+std::vector<Output> outputsOf(const Call& call)
 {
+    if (call.paths.empty() && call.verb != Compare)
+        misuse("nothing to write [hint: -o FILE, for example -o surface.vdb]");
     if (!call.format.empty() && std::count(call.paths.begin(), call.paths.end(), "-") == 0)
         misuse("--format is for -o - only; the extension of a file says what it is");
     std::vector<Output> outputs;
@@ -69,39 +67,15 @@ std::vector<Output> outputsOf(const Call& call, std::initializer_list<Format> so
             path == "-" ? path : fs::weakly_canonical(fs::absolute(path), ignored).string();
         if (!seen.insert(real).second) misuse("-o " + path + " is given twice");
         const std::string word = path == "-" ? call.format : endOf(path);
-        const auto found = formatWords.find(word);
-        const std::size_t dot = path.rfind('.', path.size() - word.size() - 2);
-        const std::string table =
-            dot == std::string::npos
-                ? ""
-                : lowered(path.substr(dot + 1, path.size() - word.size() - dot - 2));
-        if (path != "-" && word.find('.') == std::string::npos &&
-            std::count(areaTables().begin(), areaTables().end(), table) > 0)
-            misuse("-o " + path + ": there are no " + table + " as ." + word + " [hint: -o FILE." +
-                   table + ".csv, or -o FILE.json --areas " + table + "]");
-        if (found == formatWords.end()) misuse("-o " + path + ": expected " + fileNames);
-        if (std::count(some.begin(), some.end(), found->second) == 0)
-            misuse("-o " + path + ": " + expected);
-        outputs.push_back({path, found->second, tableOf(word, found->second), 0.0});
+        if (path != "-") checkTable(path, word);
+        const Format* format = findFormat(word);
+        const std::string some = endingsOf(~0u, call.verb, " or ");
+        if (!format) misuse("-o " + path + ": expected a name that ends in " + some);
+        if ((format->verbs & call.verb) == 0)
+            misuse("-o " + path + ": " + infoOf(call.verb).name + " writes " + some);
+        outputs.push_back({path, format});
     }
     return outputs;
-}
-
-std::vector<Output> surfaceOutputs(const Call& call)
-{
-    if (call.paths.empty()) misuse("nothing to write [hint: -o FILE, for example -o surface.vdb]");
-    return outputsOf(call,
-                     {Format::Vdb, Format::Ply, Format::Obj, Format::Stl, Format::Off, Format::Glb,
-                      Format::Json, Format::Png, Format::Html, Format::Csv, Format::ThreeMf,
-                      Format::Usda, Format::AreaTable, Format::Pdb, Format::Mmcif},
-                     fileNames);
-}
-
-bool writes(const Call& call, std::initializer_list<Format> some)
-{
-    return std::any_of(call.outputs.begin(), call.outputs.end(), [&](const Output& output) {
-        return std::count(some.begin(), some.end(), output.format) > 0;
-    });
 }
 
 /// The only input.
@@ -130,12 +104,46 @@ void warnIfGiven(Call& call, std::initializer_list<const char*> options, const s
         if (call.has(name)) call.warnings.push_back(std::string("--") + name + " is for " + is);
 }
 
+/// Options that make sense together, or not.
+struct Rule {
+    const char* option;
+    std::vector<std::string> others; ///< of which it needs one, or excludes all
+    const char* why = "";            ///< the end of the message
+};
+
+const std::vector<Rule>& needed()
+{
+    static const std::vector<Rule> all = {{"min-wall", {"print-scale"}},
+                                          {"weld", {"by-symmetry"}},
+                                          {"lod", {"instances", "by-symmetry"}},
+                                          {"instances", {"assembly"}, " [hint: --assembly 1]"},
+                                          {"by-symmetry", {"assembly"}, " [hint: --assembly 1]"}};
+    return all;
+}
+
+const std::vector<Rule>& excluded()
+{
+    static const std::vector<Rule> all = {
+        {"groups", {"group-by"}},
+        {"steps", {"max-steps"}},
+        {"no-hetero", {"hetero", "ions"}},
+        {"quiet", {"verbose"}},
+        {"lod", {"voxel"}, ": the first of --lod is the voxel"},
+        {"frames", {"memory", "dry-run", "turntable"}},
+        {"trajectory", {"memory", "dry-run", "turntable"}},
+        {"weld", {"crisp"}},
+        {"instances",
+         {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center"}},
+        {"by-symmetry",
+         {"instances", "copies", "split", "surface-of", "frames", "trajectory", "memory", "dry-run",
+          "center", "fill-cavities", "match-volume"}}};
+    return all;
+}
+
 // To be called before completeSurface().
 void completeScene(Call& call)
 {
     if (call.scene.known()) {
-        if (!writes(call, {Format::Vdb, Format::Glb, Format::Usda}))
-            call.warnings.push_back("--for is for .vdb, .glb and .usda");
         for (const char* field : {"density", "Cd"}) {
             // Copies have colours instead of vertices.
             if (field == std::string("Cd") && call.colorsCopies()) continue;
@@ -143,11 +151,7 @@ void completeScene(Call& call)
         }
     }
     if (call.scene.host == Host::Usd) addSidecars(call);
-    if (!writes(call, {Format::Stl, Format::Obj, Format::ThreeMf}))
-        warnIfGiven(call, {"print-scale"}, ".stl, .obj and .3mf");
-    if (!call.has("min-wall")) return;
-    if (!call.has("print-scale")) misuse("--min-wall: expected --print-scale too");
-    call.options.minWall = call.wall / call.printScale;
+    if (call.has("min-wall")) call.options.minWall = call.wall / call.printScale;
 }
 
 // Puts the frames of a turntable in the place of each picture.
@@ -155,7 +159,7 @@ void addTurntable(Call& call)
 {
     std::vector<Output> outputs;
     for (const Output& output : call.outputs) {
-        if (output.format != Format::Png) {
+        if (!output.holds(Pixels)) {
             outputs.push_back(output);
             continue;
         }
@@ -173,35 +177,6 @@ void addTurntable(Call& call)
     call.picture.turnable = true;
 }
 
-void completePicture(Call& call)
-{
-    if (call.turntable > 0) addTurntable(call);
-    const bool png = writes(call, {Format::Png});
-    if (!png) warnIfGiven(call, {"size", "background", "legend", "turntable"}, ".png");
-    if (!png && !writes(call, {Format::Html}))
-        warnIfGiven(call, {"view", "turn"}, ".png and .html");
-}
-
-/// An option that shows in some kinds of files alone.
-struct Shown {
-    const char* option;
-    std::vector<Format> in;
-    const char* are;
-};
-
-const std::vector<Shown>& shownIn()
-{
-    static const std::vector<Shown> all = {
-        {"plain-color", {Format::Png, Format::Html, Format::Glb}, ".png, .html and .glb"},
-        {"depth-cue", {Format::Png}, ".png"},
-        {"vdb-half", {Format::Vdb}, ".vdb"},
-        {"curvature-totals", {Format::Json}, ".json"},
-        {"crisp",
-         {Format::Ply, Format::Obj, Format::Off, Format::Glb, Format::ThreeMf},
-         ".ply, .obj, .off, .glb and .3mf"}};
-    return all;
-}
-
 // Says what none of the files can hold.
 void warnOfLosses(Call& call)
 {
@@ -214,24 +189,20 @@ void warnOfLosses(Call& call)
     if (call.crisp && (call.options.split || !call.options.surfaceOf.empty()))
         call.warnings.push_back("--crisp is not for surfaces of their own");
     if (call.outputs.empty()) return;
-    for (const Shown& shown : shownIn()) {
-        const auto holds = [&](const Output& o) {
-            return std::count(shown.in.begin(), shown.in.end(), o.format) > 0;
-        };
-        if (std::none_of(call.outputs.begin(), call.outputs.end(), holds))
-            warnIfGiven(call, {shown.option}, shown.are);
-    }
-    const bool vdb = writes(call, {Format::Vdb}), mesh = writes(call, {Format::Ply, Format::Glb});
+    for (const OptionGroup& group : optionTable())
+        for (const Option& option : group.options)
+            if ((option.verbs & call.verb) && option.shownIn && !call.writes(option.shownIn))
+                warnIfGiven(call, {option.name}, endingsOf(option.shownIn, call.verb));
+    const bool vdb = call.writes(Grids);
     const bool means = call.options.ballAreas && !call.atoms.valueBy.empty(); // in tables
-    if (call.has("color") && call.options.color != ColorBy::Nothing && !vdb && !means &&
-        !writes(call, {Format::Ply, Format::Obj, Format::Off, Format::Glb, Format::ThreeMf,
-                       Format::Png, Format::Html, Format::Usda}))
+    if (call.has("color") && call.options.color != ColorBy::Nothing && !means &&
+        !call.writes(Colors))
         call.warnings.push_back("--color: none of the files can hold colours [hint: -o .ply, .glb, "
                                 ".png or .html, for example]");
     if (!call.has("fields") || vdb) return;
     std::vector<std::string> lost;
     for (const std::string& field : call.options.fields)
-        if (!mesh || !findCurvatureField(field)) lost.push_back(field);
+        if (!call.writes(VertexCurvatures) || !findCurvatureField(field)) lost.push_back(field);
     if (!lost.empty())
         call.warnings.push_back("--fields " + joinWords(lost, ",") +
                                 ": none of the files can hold that [hint: -o .vdb]");
@@ -242,7 +213,7 @@ void completeFrames(Call& call)
     std::vector<std::string>& fields = call.options.fields;
     if (call.frames.empty() && !call.trajectory.empty()) call.frames = "all";
     if (call.frames.empty()) {
-        if (writes(call, {Format::Csv}))
+        if (call.writes(FrameRows))
             misuse("-o .csv is for --frames [hint: -o FILE.residues.csv for areas]");
         warnIfGiven(call, {"start"}, "--frames");
         if (call.has("fields")) {
@@ -254,10 +225,8 @@ void completeFrames(Call& call)
         return;
     }
     parseFrames(call.frames);
-    if (call.memory > 0 || call.dryRun) misuse("--frames and --memory or --dry-run together");
     if (call.trajectory.empty() && call.has("model"))
         misuse("--model and --frames together: frames are models [hint: --trajectory]");
-    if (call.has("turntable")) misuse("--turntable and --frames together");
     if (call.trajectory == "-") misuse("--trajectory -: expected a file, it is read at random");
     for (const Output& output : call.outputs)
         if (output.path == "-") misuse("--frames: expected files to write, got -");
@@ -266,10 +235,8 @@ void completeFrames(Call& call)
 /// Whether files have areas of atoms and nothing else.
 bool holdOnlyAreas(const std::vector<Output>& outputs)
 {
-    return std::all_of(outputs.begin(), outputs.end(), [](const Output& o) {
-        return o.format == Format::AreaTable || o.format == Format::Pdb ||
-               o.format == Format::Mmcif;
-    });
+    return std::all_of(outputs.begin(), outputs.end(),
+                       [](const Output& o) { return o.holds(Areas); });
 }
 
 /// Whether all that is asked for is known in closed form.
@@ -280,9 +247,7 @@ bool asksForNumbers(const Call& call)
     return hasClosedForm(call.options) && !call.atoms.bySymmetry && !byPoint && !call.center &&
            !call.outputs.empty() &&
            std::all_of(call.outputs.begin(), call.outputs.end(), [&](const Output& o) {
-               return o.format == Format::AreaTable || o.format == Format::Pdb ||
-                      o.format == Format::Mmcif || o.format == Format::Csv ||
-                      (o.format == Format::Json && !call.areas.empty());
+               return o.holds(Areas | FrameRows) || (o.holds(Numbers) && !call.areas.empty());
            });
 }
 
@@ -290,7 +255,7 @@ bool asksForNumbers(const Call& call)
 std::string areaFile(const Call& call)
 {
     for (const Output& output : call.outputs)
-        if (!output.of.empty() && output.format != Format::Usda) return output.path;
+        if (output.holds(Areas)) return output.path;
     return "";
 }
 
@@ -299,9 +264,7 @@ void completeAreas(Call& call)
 {
     std::set<std::string> tables(call.areas.begin(), call.areas.end());
     for (const Output& output : call.outputs)
-        if (!output.of.empty() && output.format != Format::Usda) tables.insert(output.of);
-    if (!call.areas.empty() && !writes(call, {Format::Json}))
-        call.warnings.push_back("--areas is for .json [hint: -o FILE.residues.csv]");
+        if (output.holds(Areas)) tables.insert(output.format->table);
     if (tables.count("contacts") == 0) warnIfGiven(call, {"contacts"}, ".contacts.csv");
     if (!call.has("surface") && (!tables.empty() || call.options.interfaces)) {
         // The field's words mean this surface.
@@ -344,8 +307,6 @@ void completeAreas(Call& call)
 void completeGroups(Call& call)
 {
     SurfaceOptions& options = call.options;
-    if (!call.groupsFile.empty() && !call.atoms.groupBy.empty())
-        misuse("--groups and --group-by together");
     if (!call.groupsFile.empty())
         call.atoms.groups = readGroups(call.groupsFile, call.atoms.maxInput);
     const bool copies = call.colorGroups == "copy";
@@ -368,43 +329,31 @@ void completeGroups(Call& call)
     const auto has = [&](const char* field) { return hasField(options.fields, field); };
     if (has("Cd") && options.color == ColorBy::Nothing) options.color = ColorBy::Chain;
     call.atoms.labels = options.color != ColorBy::Nothing || has("chain_id") || has("Cd") ||
-                        writes(call, {Format::Html});
+                        call.writes(ColorChoices);
 }
 
 void completeInstances(Call& call)
 {
     if (!call.atoms.instances) {
-        if (!call.lod.empty() && !call.atoms.bySymmetry)
-            misuse("--lod: expected --instances or --by-symmetry too");
         for (const Output& output : call.outputs)
-            if (output.format == Format::Usda && !call.atoms.bySymmetry)
+            if (output.holds(Stage) && !call.atoms.bySymmetry)
                 misuse("-o " + output.path +
                        ": expected --instances too [hint: --for usd -o FILE.vdb writes a volume]");
         return;
     }
-    if (call.atoms.assembly == "none")
-        misuse("--instances: expected --assembly too [hint: --assembly 1]");
     if (call.atoms.valueBy == "radius" || call.atoms.valueBy.rfind("potential", 0) == 0)
         misuse("--instances and --color " +
                call.atoms.valueBy.substr(0, call.atoms.valueBy.find('=')) + " together");
-    for (const char* option :
-         {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center"})
-        if (call.has(option)) misuse("--instances and --" + std::string(option) + " together");
     for (const Output& output : call.outputs)
-        if (output.format != Format::Glb && output.format != Format::Json &&
-            output.format != Format::Png && output.format != Format::Usda &&
-            output.format != Format::Html)
-            call.warnings.push_back("-o " + output.path +
-                                    ": it holds each distinct copy once [hint: -o .glb, .usda, "
-                                    ".html, .png and .json have all]");
+        if (!output.holds(Copies))
+            call.warnings.push_back(
+                "-o " + output.path +
+                ": it holds each distinct copy once [hint: -o FILE.glb has all]");
 }
 
 void completeLevels(Call& call)
 {
     if (call.lod.empty()) return;
-    if (call.has("voxel")) misuse("--voxel and --lod together: the first of --lod is the voxel");
-    if (!writes(call, {Format::Glb, Format::Usda, Format::Html}))
-        call.warnings.push_back("--lod is for .glb, .usda and .html");
     call.options.voxel = call.lod.front();
     SurfaceOptions coarsest = call.options;
     coarsest.voxel = call.lod.back();
@@ -413,17 +362,9 @@ void completeLevels(Call& call)
 
 void completeSymmetry(Call& call)
 {
-    if (!call.atoms.bySymmetry) {
-        if (call.weld) misuse("--weld: expected --by-symmetry too");
-        return;
-    }
-    if (call.atoms.assembly == "none")
-        misuse("--by-symmetry: expected --assembly too [hint: --assembly 1]");
-    for (const char* option : {"instances", "copies", "split", "surface-of", "frames", "trajectory",
-                               "memory", "dry-run", "center", "fill-cavities", "match-volume"})
-        if (call.has(option)) misuse("--by-symmetry and --" + std::string(option) + " together");
+    if (!call.atoms.bySymmetry) return;
     for (const Output& output : call.outputs)
-        if (output.format == Format::Vdb)
+        if (output.holds(Grids))
             misuse("-o " + output.path +
                    ": --by-symmetry makes no grid of the whole [hint: --memory 8G in its place "
                    "makes it in bricks]");
@@ -431,7 +372,6 @@ void completeSymmetry(Call& call)
         misuse("--by-symmetry and --color potential together");
     for (const std::string& field : call.options.fields)
         if (!findCurvatureField(field)) misuse("--by-symmetry and --fields " + field + " together");
-    if (call.weld && call.crisp) misuse("--weld and --crisp together");
     SurfaceOptions coarsest = call.options;
     if (!call.lod.empty()) coarsest.voxel = call.lod.back();
     call.atoms.surroundings = surroundingsOf(coarsest);
@@ -450,15 +390,30 @@ void completeResolutions(Call& call)
 
 } // namespace
 
+void checkPairs(const Call& call)
+{
+    const auto given = [&](const std::string& name) {
+        const auto found = call.given.find(name); // a switch has no values
+        return found != call.given.end() &&
+               (found->second.empty() || lowered(found->second.back()) != "none");
+    };
+    for (const Rule& rule : excluded())
+        for (const std::string& other : rule.others)
+            if (given(rule.option) && given(other))
+                misuse("--" + std::string(rule.option) + " and --" + other + " together" +
+                       rule.why);
+    for (const Rule& rule : needed())
+        if (given(rule.option) && std::none_of(rule.others.begin(), rule.others.end(), given))
+            misuse("--" + std::string(rule.option) + ": expected --" +
+                   joinWords(rule.others, " or --") + " too" + rule.why);
+}
+
 void completeSurface(Call& call)
 {
     completeResolutions(call);
     completeAreas(call);
     completeGroups(call);
     SurfaceOptions& options = call.options;
-    if (call.has("steps") && call.has("max-steps")) misuse("--steps and --max-steps together");
-    if (call.has("hetero") && call.has("no-hetero")) misuse("--hetero and --no-hetero together");
-    if (call.has("ions") && call.has("no-hetero")) misuse("--ions and --no-hetero together");
     checkOptions(call.atoms);
     checkOptions(options);
 
@@ -481,14 +436,14 @@ void completeSurface(Call& call)
 void completeBuild(Call& call)
 {
     takeInput(call, "expected one INPUT", " [hint: vdb_molsurf molecule.pdb -o surface.vdb]");
-    if (!call.dryRun || !call.paths.empty()) call.outputs = surfaceOutputs(call);
+    if (!call.dryRun || !call.paths.empty()) call.outputs = outputsOf(call);
     completeFrames(call);
     completeInstances(call);
     completeLevels(call);
     completeSymmetry(call);
     completeScene(call);
     completeSurface(call);
-    completePicture(call);
+    if (call.turntable > 0) addTurntable(call);
     warnOfLosses(call);
 }
 
@@ -499,19 +454,17 @@ void completeBatch(Call& call)
     if (call.folder.empty()) misuse("batch: nowhere to write to [hint: -O DIR]");
     std::set<std::string> seen;
     for (const std::string& word : splitWords(lowered(call.formats))) {
-        const auto found = formatWords.find(word);
-        if (found == formatWords.end() || found->second == Format::Csv ||
-            found->second == Format::Usda || !seen.insert(word).second)
-            misuse("--formats: expected some of vdb, ply, obj, stl, off, glb, 3mf, html, json, "
-                   "png, atoms.csv, residues.csv, contacts.csv, interfaces.csv, pdb, cif, got '" +
+        const Format* format = findFormat(word);
+        if (!format || (format->verbs & Batch) == 0 || !seen.insert(word).second)
+            misuse("--formats: expected some of " + endingsOf(~0u, Batch) + ", got '" +
                    call.formats + "'");
-        call.outputs.push_back({"." + word, found->second, tableOf(word, found->second), 0.0});
+        call.outputs.push_back({"." + word, format});
     }
     std::vector<std::string>& fields = call.options.fields;
     fields.erase(std::remove(fields.begin(), fields.end(), "v"), fields.end());
     completeScene(call);
     completeSurface(call);
-    completePicture(call);
+    if (call.turntable > 0) addTurntable(call);
     warnOfLosses(call);
 }
 
@@ -525,8 +478,7 @@ void completeCompare(Call& call)
         if (file.empty()) misuse("compare: expected the name of a file, got an empty word");
     if (call.inputs[0] == "-" && call.inputs[1] == "-")
         misuse("compare: - - : standard input can be only one of the two");
-    call.outputs = outputsOf(call, {Format::Ply, Format::Vdb, Format::Json},
-                             "compare writes .ply, .vdb or .json");
+    call.outputs = outputsOf(call);
     completeSurface(call);
 }
 
@@ -534,15 +486,10 @@ void completeConvert(Call& call)
 {
     takeInput(call, "convert: expected one .vdb file",
               " [hint: vdb_molsurf convert surface.vdb -o surface.ply]");
-    if (!call.dryRun || !call.paths.empty()) call.outputs = surfaceOutputs(call);
-    if (writes(call, {Format::Csv})) misuse("-o .csv is for --frames");
-    if (writes(call, {Format::AreaTable, Format::Pdb, Format::Mmcif}))
-        misuse("convert: a stored surface has no atoms [hint: vdb_molsurf INPUT -o "
-               "FILE.residues.csv]");
-    if (writes(call, {Format::Usda})) misuse("-o .usda is for --instances");
-    if (writes(call, {Format::Vdb}) && call.options.color == ColorBy::Nothing)
+    if (!call.dryRun || !call.paths.empty()) call.outputs = outputsOf(call);
+    if (call.writes(Grids) && call.options.color == ColorBy::Nothing)
         misuse("-o .vdb: expected --color too, without which it would be a copy");
-    completePicture(call);
+    if (call.turntable > 0) addTurntable(call);
     warnOfLosses(call);
 }
 
@@ -555,7 +502,7 @@ void completePlan(Call& call)
         misuse("bricks plan: expected one file to write [hint: -o plan.json]");
     if (call.paths[0] == "-" || endOf(call.paths[0]) != "json")
         misuse("-o " + call.paths[0] + ": expected a name that ends in .json");
-    call.outputs = {{call.paths[0], Format::Json, "", 0.0}};
+    call.outputs = {{call.paths[0], findFormat("json")}};
     if ((call.bricks > 0) == (call.memory > 0))
         misuse("bricks plan: expected either --bricks N or --memory SIZE");
     completeSurface(call);
@@ -579,9 +526,7 @@ void completeMerge(Call& call)
 {
     takeInput(call, "bricks merge: expected one plan",
               " [hint: vdb_molsurf bricks merge plan.json -o surface.vdb]");
-    if (call.paths.empty()) misuse("nothing to write [hint: -o FILE, for example -o surface.vdb]");
-    call.outputs = outputsOf(call, {Format::Vdb, Format::Ply, Format::Json},
-                             "bricks merge writes .vdb, .ply or .json");
+    call.outputs = outputsOf(call);
 }
 
 void completeInfo(Call& call)

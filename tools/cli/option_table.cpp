@@ -21,26 +21,23 @@
 namespace molsurf::tool
 {
 
-const std::map<std::string, Format> formatWords = {{"vdb", Format::Vdb},
-                                                   {"ply", Format::Ply},
-                                                   {"obj", Format::Obj},
-                                                   {"stl", Format::Stl},
-                                                   {"off", Format::Off},
-                                                   {"glb", Format::Glb},
-                                                   {"json", Format::Json},
-                                                   {"png", Format::Png},
-                                                   {"html", Format::Html},
-                                                   {"csv", Format::Csv},
-                                                   {"3mf", Format::ThreeMf},
-                                                   {"usda", Format::Usda},
-                                                   {"atoms.csv", Format::AreaTable},
-                                                   {"residues.csv", Format::AreaTable},
-                                                   {"contacts.csv", Format::AreaTable},
-                                                   {"interfaces.csv", Format::AreaTable},
-                                                   {"pdb", Format::Pdb},
-                                                   {"residues.pdb", Format::Pdb},
-                                                   {"cif", Format::Mmcif},
-                                                   {"residues.cif", Format::Mmcif}};
+const Format* findFormat(const std::string& word)
+{
+    for (const Format& format : formatTable())
+        if (word == format.word) return &format;
+    return nullptr;
+}
+
+std::string endingsOf(unsigned holds, unsigned verbs, const char* last)
+{
+    std::vector<std::string> words;
+    for (const Format& format : formatTable())
+        if ((format.holds & holds) && (format.verbs & verbs))
+            words.push_back("." + std::string(format.word));
+    const std::string end = words.back();
+    words.pop_back();
+    return words.empty() ? end : joinWords(words, ", ") + last + end;
+}
 
 const std::vector<std::string>& areaTables()
 {
@@ -421,10 +418,22 @@ constexpr unsigned structures = surfaces | Compare;                 // they read
 constexpr unsigned wholes = Build | Batch;                          // of whole molecules
 constexpr unsigned files = Build | Compare | Convert | BricksMerge; // with -o
 constexpr unsigned runs = 0xff & ~Info;
-const char* const meshFormats = "vdb, ply, obj, stl, off, glb, 3mf, html, json or png";
-const char* const buildFormats =
-    "vdb, ply, obj, stl, off, glb, 3mf, html,\njson, png, atoms.csv, residues.csv, contacts.csv, "
-    "interfaces.csv,\npdb, cif, residues.pdb or residues.cif";
+/// The formats that a verb writes to one place.
+Values formatsOf(unsigned verb)
+{
+    Values words;
+    for (const Format& format : formatTable())
+        if ((format.verbs & verb) && (format.holds & (Stage | FrameRows)) == 0)
+            words.push_back(format.word);
+    return words;
+}
+
+/// The option with the formats that show it.
+Option shownIn(unsigned formats, Option option)
+{
+    option.shownIn = formats;
+    return option;
+}
 
 OptionGroup outputOptions()
 {
@@ -433,18 +442,15 @@ OptionGroup outputOptions()
         o.set = [](Call& call, const Values& values) { call.paths = values; };
         return o;
     };
-    const auto format = [](unsigned verbs, const std::string& words) {
-        Option o{"format", 0, "WORD", "what -o - writes: " + words, "", verbs};
-        std::string list = "," + words + ","; // without spaces and the last "or"
-        for (const char* gap : {"\n", " or ", " "})
-            for (std::size_t at; (at = list.find(gap)) != std::string::npos;)
-                list.replace(at, std::strlen(gap), std::strlen(gap) == 4 ? "," : "");
-        for (const auto& [name, ignored] : formatWords)
-            if (list.find("," + name + ",") != std::string::npos) o.words.push_back(name);
-        o.set = [=, known = o.words](Call& call, const Values& values) {
+    const auto format = [](Verb verb, unsigned verbs) {
+        const Values known = formatsOf(verb);
+        Option o{"format", 0,     "WORD", "what -o - writes: one of\n" + inLines(known),
+                 "",       verbs, known};
+        o.set = [=](Call& call, const Values& values) {
             call.format = lowered(values.back());
             if (!std::count(known.begin(), known.end(), call.format))
-                wrong("format", words, values.back(), didYouMean(values.back(), known));
+                wrong("format", joinWords(known, ", "), values.back(),
+                      didYouMean(values.back(), known));
         };
         return o;
     };
@@ -456,12 +462,9 @@ OptionGroup outputOptions()
     Option folder{"folder", 'O',  "DIR", "where the files go, with the names of the structures",
                   "",       Batch};
     folder.set = [](Call& call, const Values& values) { call.folder = values.back(); };
-    Option formats{"formats",
-                   0,
-                   "LIST",
-                   "files to write, by commas: vdb, ply, obj, stl, off,\nglb, 3mf, html, json, png",
-                   Call().formats,
-                   Batch};
+    Option formats{"formats",      0,
+                   "LIST",         "files to write, by commas, of\n" + inLines(formatsOf(Batch)),
+                   Call().formats, Batch};
     formats.set = [](Call& call, const Values& values) { call.formats = values.back(); };
     Option shown = either("color",
                           "distance (viridis) or signed-distance (blue: A is\ninside B, red: "
@@ -486,8 +489,8 @@ OptionGroup outputOptions()
              output(BricksPlan, "the manifest, a name that ends in .json"),
              output(BricksMerge, "file to write; repeats; the extension says what:\n"
                                  ".vdb level set and fields, .ply mesh, .json report"),
-             folder, formats, format(Build, buildFormats), format(Convert, meshFormats),
-             format(Compare | BricksMerge, "vdb, ply or json"),
+             folder, formats, format(Build, Build), format(Convert, Convert),
+             format(Compare, Compare | BricksMerge),
              force(files | BricksPlan, "replace existing files"),
              force(Batch, "do all again, and replace existing files"),
              force(BricksRun, "do it again if it is done"), shown,
@@ -639,15 +642,17 @@ OptionGroup surfaceOptions()
               "vdw: van der Waals; gaussian",
               structures, OF(options.kind), surfaceKinds),
          number("voxel", "H", "edge of a voxel [Å], 0.05 to 10", structures, OF(options.voxel)),
-         levels,
+         shownIn(Levels, levels),
          number("blobbiness", "D", "decay of the Gaussians of --surface gaussian", structures,
                 OF(options.blobbiness)),
          flag("fill-cavities", "drop the inner walls", wholes | Compare, OF(options.fillCavities)),
          fields, attributes,
-         flag("vdb-half", "floats of the .vdb in 16 bits, within 0.05 %: half the size", surfaces,
-              OF(options.halfFloats)),
-         flag("curvature-totals", "integrate curvature over the surface, for the report", wholes,
-              OF(options.curvatureTotals))}};
+         shownIn(Grids,
+                 flag("vdb-half", "floats of the .vdb in 16 bits, within 0.05 %: half the size",
+                      surfaces, OF(options.halfFloats))),
+         shownIn(Numbers,
+                 flag("curvature-totals", "integrate curvature over the surface, for the report",
+                      wholes, OF(options.curvatureTotals)))}};
 }
 
 OptionGroup resolutionOptions()
@@ -820,8 +825,9 @@ OptionGroup groupOptions()
                       "potential=FILE.dx, potential-out=FILE.dx (a probe out)",
                       "none", surfaces)),
          range,
-         with(flag("crisp", "mesh files: triangles are cut where colours meet", Build, OF(crisp)),
-              [](Option& o) { o.stored = nullptr; }),
+         shownIn(CutBorders, with(flag("crisp", "mesh files: triangles are cut where colours meet",
+                                       Build, OF(crisp)),
+                                  [](Option& o) { o.stored = nullptr; })),
          color("chain, group (of grids chain_id, group_id), element,\n"
                "residue, nucleotide (of Cd so coloured), mean-curvature,\n"
                "gaussian-curvature; those of Cd unless given",
@@ -842,12 +848,12 @@ OptionGroup areaOptions()
                 wrong("areas", "some of " + joinWords(areaTables(), ", "), values.back(),
                       didYouMean(table, areaTables()));
     };
-    return {
-        "Areas",
-        {areas, with(word("contacts", "LEVEL",
-                          "contact areas between atoms, residues or chains: atom,\nresidue, chain",
-                          wholes, OF(contacts), contactLevels),
-                     [](Option& o) { o.stored = nullptr; })}};
+    return {"Areas",
+            {shownIn(Numbers, areas),
+             with(word("contacts", "LEVEL",
+                       "contact areas between atoms, residues or chains: atom,\nresidue, chain",
+                       wholes, OF(contacts), contactLevels),
+                  [](Option& o) { o.stored = nullptr; })}};
 }
 
 OptionGroup sceneOptions()
@@ -863,18 +869,20 @@ OptionGroup sceneOptions()
                 {"blender", "houdini", "usd"}};
     host.set = setScene;
     host.stored = [](const Call& c) { return stored(nameOf(c.scene.host)); };
-    return {"Scene",
-            {host,
-             flag("center", "the middle of the surface comes to the origin", wholes, OF(center)),
-             number("print-scale", "S", ".stl, .obj, .3mf in mm, S of them per Å", "",
-                    wholes | Convert, 1e-6, 1e6, "mm per Å, from 1e-6 to 1e6", OF(printScale)),
-             with(number("min-wall", "W", "thicken what is thinner than W mm; with --print-scale",
-                         "", wholes, 1e-300, 1e300, "a positive number of mm", OF(wall)),
-                  [](Option& o) {
-                      o.stored = [](const Call& c) {
-                          return openvdb::DoubleMetadata(c.options.minWall).copy();
-                      };
-                  })}};
+    return {
+        "Scene",
+        {shownIn(SceneUnits, host),
+         flag("center", "the middle of the surface comes to the origin", wholes, OF(center)),
+         shownIn(Millimetres,
+                 number("print-scale", "S", ".stl, .obj, .3mf in mm, S of them per Å", "",
+                        wholes | Convert, 1e-6, 1e6, "mm per Å, from 1e-6 to 1e6", OF(printScale))),
+         with(number("min-wall", "W", "thicken what is thinner than W mm; with --print-scale", "",
+                     wholes, 1e-300, 1e300, "a positive number of mm", OF(wall)),
+              [](Option& o) {
+                  o.stored = [](const Call& c) {
+                      return openvdb::DoubleMetadata(c.options.minWall).copy();
+                  };
+              })}};
 }
 
 OptionGroup pictureOptions()
@@ -900,21 +908,23 @@ OptionGroup pictureOptions()
     };
     return {
         "Picture",
-        {view,
-         number("turn", "A", "turned by so many degrees about the upright", "0", draw, -1e9, 1e9,
-                "a number of degrees", OF(picture.turn)),
-         count("size", "N", "width in pixels; the height follows the shape", "1200", draw, 16,
-               16384, OF(picture.width)),
-         background, plain,
-         with(flag("depth-cue", "distant parts fade to the background", draw, OF(picture.depthCue)),
-              [](Option& o) { o.stored = nullptr; }),
-         with(word("legend", "WORD",
-                   "on or off; auto: beside colours, if 600 pixels wide\n"
-                   "or more",
-                   draw, OF(legend), {LegendChoice::Auto, LegendChoice::On, LegendChoice::Off}),
-              [](Option& o) { o.stored = nullptr; }),
-         count("turntable", "N", "N pictures round the upright: name.0001.png, ...", "", draw, 2,
-               9999, OF(turntable))}};
+        {shownIn(Views, view),
+         shownIn(Views, number("turn", "A", "turned by so many degrees about the upright", "0",
+                               draw, -1e9, 1e9, "a number of degrees", OF(picture.turn))),
+         shownIn(Pixels, count("size", "N", "width in pixels; the height follows the shape", "1200",
+                               draw, 16, 16384, OF(picture.width))),
+         shownIn(Pixels, background), shownIn(PlainColor, plain),
+         shownIn(Pixels, with(flag("depth-cue", "distant parts fade to the background", draw,
+                                   OF(picture.depthCue)),
+                              [](Option& o) { o.stored = nullptr; })),
+         shownIn(Pixels, with(word("legend", "WORD",
+                                   "on or off; auto: beside colours, if 600 pixels wide\n"
+                                   "or more",
+                                   draw, OF(legend),
+                                   {LegendChoice::Auto, LegendChoice::On, LegendChoice::Off}),
+                              [](Option& o) { o.stored = nullptr; })),
+         shownIn(Pixels, count("turntable", "N", "N pictures round the upright: name.0001.png, ...",
+                               "", draw, 2, 9999, OF(turntable)))}};
 }
 
 OptionGroup flowOptions()
@@ -1003,6 +1013,12 @@ OptionGroup runOptions()
 }
 
 } // namespace
+
+bool Call::writes(unsigned some) const
+{
+    return std::any_of(outputs.begin(), outputs.end(),
+                       [=](const Output& output) { return output.holds(some); });
+}
 
 bool Call::drawsLegend() const
 {

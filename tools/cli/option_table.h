@@ -34,6 +34,8 @@ struct Option {
     /// Where in a value the path of a file begins that is read; npos: the value names none. Null:
     /// no value does.
     std::function<std::size_t(const std::string& value)> file = nullptr;
+    /// The formats that show it, as a set of Holds; 0: it is no matter of formats.
+    unsigned shownIn = 0;
 };
 
 /// Options under a title.
@@ -63,9 +65,6 @@ void addOptions(const Call& call, openvdb::MetaMap& map);
 
 /// What --fields takes, `surface` first.
 const std::vector<std::string>& knownFields();
-
-/// The formats that a word or the end of a file's name can mean.
-extern const std::map<std::string, Format> formatWords;
 
 /// The tables of areas: "atoms", "residues", "contacts", "interfaces".
 const std::vector<std::string>& areaTables();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "cli/parse.h"
 
+#include "cli/complete.h"
 #include "cli/help.h"
 #include "cli/option_table.h"
 #include "cli/verb_table.h"
@@ -188,7 +189,6 @@ void setOptions(const GivenOptions& given, Call& call)
             option.set(call, found->second);
         }
     }
-    if (call.quiet && call.verbose) misuse("--quiet and --verbose together");
     call.progress = call.progress && !call.quiet;
 }
 
@@ -230,6 +230,7 @@ Parsed parse(int argc, const char* const* argv)
     if (call.has("list-radii")) return {{}, describeRadii()};
     if (call.has("config")) readConfig(call.given["config"].back(), all, call);
     setOptions(GivenOptions(call.given), call);
+    checkPairs(call);
     infoOf(call.verb).complete(call);
     return {std::move(call), ""};
 }
