@@ -180,6 +180,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
         terminal.limitTo(isEstimated(call.options) ? seconds : any, call.hours);
     }
     call.options.meshLabels = call.writes(Triangles | PlainColor);
+    call.options.energy = call.writes(Numbers);
     if (balls.instances.size() > 0 && balls.copies > 1) call.options.split = true;
     MolecularSurface result;
     try {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -113,8 +114,9 @@ struct EvolutionReport {
     double displacementRms = 0.0, displacementTail = 0.0;
     /// Share of the interface at which that displacement is above a tenth of a voxel.
     double unsettledShare = 0.0;
-    /// Energy of the final interface, by a quadrature that does not depend on the voxels [Å^2].
-    double finalEnergy = 0.0;
+    /// Energy of the final interface, by a quadrature that does not depend on the voxels [Å^2]; not
+    /// a number without SurfaceOptions::energy.
+    double finalEnergy = std::numeric_limits<double>::quiet_NaN();
     /// Number of voxels at gaps of the final interface that are too narrow for the grid.
     std::size_t unresolvedGapVoxels = 0;
 };

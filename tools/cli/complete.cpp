@@ -247,7 +247,7 @@ bool asksForNumbers(const Call& call)
     return hasClosedForm(call.options) && !call.atoms.bySymmetry && !byPoint && !call.center &&
            !call.outputs.empty() &&
            std::all_of(call.outputs.begin(), call.outputs.end(), [&](const Output& o) {
-               return o.holds(Areas | FrameRows) || (o.holds(Numbers) && !call.areas.empty());
+               return o.holds(Areas | FrameRows | Numbers);
            });
 }
 

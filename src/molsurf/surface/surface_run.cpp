@@ -176,7 +176,7 @@ void SurfaceRun::distance()
     } else {
         const openvdb::CoordBBox near = scope_.region.grown(scope_.distanceHalo);
         SparseField carrier = carrierOf(atoms_, options_, scope_.extent, band_, progress_);
-        if (sum_ && result_.report.evolution) {
+        if (options_.energy && sum_ && result_.report.evolution) {
             result_.report.evolution->finalEnergy = interfaceEnergy(
                 carrier, *sum_, weightsOf(options_.evolution), scope_.region, progress_);
         }
