@@ -89,7 +89,8 @@ double surroundingsOf(const SurfaceOptions& options);
 /// @param[in,out] warm      an optional start from the previous frame, made with nearly the same
 ///                          balls and the same options; this run replaces it by its own. Surfaces
 ///                          of parts and kinds without a flow ignore it.
-/// @throws Error(ErrorKind::Usage) if an option is out of its range
+/// @throws Error(ErrorKind::Usage) if an option is out of its range, or the balls lack the labels,
+///         groups or values that SurfaceOptions::color shows
 /// @throws Error(ErrorKind::Input) if a ball cannot be used; the message has its index
 /// @throws Error(ErrorKind::Numeric) if there is no surface at this resolution
 /// @throws Error(ErrorKind::Check) if the result contradicts itself

@@ -4,6 +4,7 @@
 #include "molsurf/color/value_colors.h"
 
 #include "molsurf/balls/contacts.h"
+#include "molsurf/error.h"
 
 #include <algorithm>
 #include <numeric>
@@ -209,6 +210,29 @@ std::vector<Color> ballColors(const BallSet& atoms, ColorBy by, const Progress& 
         return out;
     default:
         return out;
+    }
+}
+
+void checkColors(const BallSet& atoms, ColorBy by)
+{
+    const auto expect = [](bool there, const char* what) {
+        if (!there) throw Error(ErrorKind::Usage, std::string("`color`: expected ") + what);
+    };
+    const auto& labels = atoms.labels;
+    switch (by) {
+    case ColorBy::Nothing:
+    case ColorBy::MeanCurvature:
+    case ColorBy::GaussianCurvature:
+        return;
+    case ColorBy::Plain:
+        return expect(!atoms.colors.empty(),
+                      "colours of the balls, as of SelectOptions::plainColor");
+    case ColorBy::Group:
+        return expect(labels && !labels->groups.empty(), "groups, as of SelectOptions::groupBy");
+    case ColorBy::Value:
+        return expect(labels && labels->values, "values, as of SelectOptions::valueBy");
+    default:
+        return expect(labels.has_value(), "labels, as of SelectOptions::labels");
     }
 }
 

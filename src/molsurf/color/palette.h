@@ -24,6 +24,10 @@ constexpr Color neutralColor = {190, 190, 190};
 /// @param[in] neighbours  for each thing those that it touches
 std::vector<Color> distinctColors(const std::vector<std::vector<std::int32_t>>& neighbours);
 
+/// Checks that balls have what colours are chosen by.
+/// @throws Error(ErrorKind::Usage) that names it
+void checkColors(const BallSet& atoms, ColorBy by);
+
 /// The colour of every ball: elements by the CPK convention (with Jmol's values), chains and groups
 /// by distinctColors() where the file of groups gives none.
 ///

@@ -4,6 +4,7 @@
 #include "molsurf/balls/boundary_check.h"
 #include "molsurf/balls/placed_ball.h"
 #include "molsurf/color/curvature_colors.h"
+#include "molsurf/color/palette.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/surface/check_balls.h"
@@ -152,6 +153,7 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
     Progress nobody;
     Progress& progress = listener ? *listener : nobody;
     checkOptions(options);
+    checkColors(atoms, options.color);
     if (options.matchVolume && !atoms.resolutions.empty()) {
         BallSet matched = atoms;
         SurfaceOptions once = options;

@@ -41,6 +41,24 @@ const Attribute<T>* find(const std::vector<Attribute<T>>& all, const std::string
     return nullptr;
 }
 
+TEST(Groups, ColoursWithoutWhatTheyShowAreRefused)
+{
+    BallSet bare;
+    bare.balls = {{openvdb::Vec3d(0.0), 1.7}};
+    for (const ColorBy by : {ColorBy::Chain, ColorBy::Group, ColorBy::Element, ColorBy::Residue,
+                             ColorBy::Nucleotide, ColorBy::Plain, ColorBy::Value}) {
+        SurfaceOptions options;
+        options.color = by;
+        try {
+            makeSurface(bare, options);
+            ADD_FAILURE() << int(by) << " was taken";
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::Usage);
+            EXPECT_NE(std::string(e.what()).find("SelectOptions::"), std::string::npos) << e.what();
+        }
+    }
+}
+
 TEST(Groups, ShareAreaAndVolumeOfTwoBalls)
 {
     SurfaceOptions options;
