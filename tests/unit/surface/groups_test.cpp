@@ -44,7 +44,7 @@ const Attribute<T>* find(const std::vector<Attribute<T>>& all, const std::string
 TEST(Groups, ColoursWithoutWhatTheyShowAreRefused)
 {
     BallSet bare;
-    bare.balls = {{openvdb::Vec3d(0.0), 1.7}};
+    bare.balls = {{openvdb::Vec3d(0.0), 1.7, 0}};
     for (const ColorBy by : {ColorBy::Chain, ColorBy::Group, ColorBy::Element, ColorBy::Residue,
                              ColorBy::Nucleotide, ColorBy::Plain, ColorBy::Value}) {
         SurfaceOptions options;
