@@ -8,8 +8,9 @@ A run takes a structure (of tests/data, or of FOLDER), turned and shifted, or wi
 random or on a lattice; a kind of surface, a voxel, a weight, and perhaps groups. With status 0 or 3 and a mesh, the
 mesh has to be closed and a manifold, with the Euler number, the counts and the pieces that the report tells; with
 any other status there is one line of error and no file. No run may take more than four times its estimated time
-(a molecule: 5 s of processor time), and its estimated memory has to be 0.7 to 1.5 times its peak. Prints a line for each fault, and exits
-with 1 if there is one. The first line has the seed.
+(a molecule: 5 s of processor time), nor 1.5 times its estimated memory or less than half of it. Prints a line for
+each fault, and exits with 1 if there is one. The first line has the seed, the last but one the share of estimates of
+memory that are 0.7 to 1.5 times the peak.
 """
 
 import argparse
@@ -188,7 +189,7 @@ def main():
                 sizes.append(size / report["peak_memory_bytes"])
                 if seconds > 4 * time_of and seconds > 5:
                     faults.append(f"it took {seconds:.1f} s, estimated {time_of:.1f}")
-                if not 0.7 * report["peak_memory_bytes"] <= size <= 1.5 * report["peak_memory_bytes"]:
+                if not size / 2 <= report["peak_memory_bytes"] <= 1.5 * size:
                     faults.append(f"it took {report['peak_memory_bytes']} bytes, estimated {size:.0f}")
             if done.returncode == 0 and "a.ply" not in made:
                 faults.append("status 0 and no mesh")
@@ -202,7 +203,8 @@ def main():
             print(f"run {number}: {name} {' '.join(words[1:])}: {fault}", flush=True)
         faulty += bool(faults)
     print(f"statuses {dict(counts)}; time over its estimate: {max(slow, default=0):.2f} at most; estimated memory over "
-          f"its peak: {min(sizes, default=0):.2f} to {max(sizes, default=0):.2f}")
+          f"its peak: {min(sizes, default=0):.2f} to {max(sizes, default=0):.2f}, "
+          f"{sum(0.7 <= size <= 1.5 for size in sizes)} of {len(sizes)} within 0.7 to 1.5")
     print(f"surfaces: {args.runs} runs, {faulty} faults")
     return 1 if faulty else 0
 
