@@ -16,7 +16,7 @@ packages=(
   lib3mf-dev
 )
 test=(libgtest-dev libcgal-dev python3 python3-openvdb python3-numpy python3-biopython libopenvdb-tools)
-check=(clang-format libbenchmark-dev)
+check=(clang-format libbenchmark-dev universal-ctags)
 optional=(blender chromium freesasa groff snakemake strace) # 1.4 GB
 # Node.js may be there from elsewhere, whose packages do not go together with Debian's.
 command -v node > /dev/null || optional+=(nodejs)
