@@ -22,8 +22,9 @@ struct Evolved {
     Spline spline; ///< of phi
 };
 
+/// @param[out] last  null, or takes the displacements of the last step
 inline Evolved evolveBalls(const std::vector<Ball>& balls, double epsilon, double voxel,
-                           const EvolveOptions& options)
+                           const EvolveOptions& options, Displacements* last = nullptr)
 {
     GaussianOptions gaussian;
     gaussian.epsilon = epsilon;
@@ -47,7 +48,7 @@ inline Evolved evolveBalls(const std::vector<Ball>& balls, double epsilon, doubl
     const auto source = [&](const openvdb::Coord& origin, float* psi) {
         field.evaluate(origin, gaussian.reach, psi);
     };
-    out.report = evolve(out.band, source, options, progress);
+    out.report = evolve(out.band, source, options, progress, {}, 0, last);
     out.spline = {prefilter(out.band.phi, progress)};
     return out;
 }

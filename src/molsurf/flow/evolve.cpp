@@ -45,28 +45,6 @@ double coarseness(double voxelSize)
     return std::max(1.0, voxelSize / fine);
 }
 
-/// Whether a flow has come as near to rest as its voxels let it: in eight steps neither the root
-/// mean square nor the quantile of its displacements has fallen by a tenth, nor have area and
-/// volume changed.
-/// @param[in] rms, tails  of the steps so far
-bool stalled(const std::vector<double>& rms, const std::vector<double>& tails,
-             const EvolutionReport& report)
-{
-    constexpr std::size_t steps = 8;
-    constexpr double change = 1e-3; // relative, of area and volume
-    if (tails.size() <= steps) return false;
-    const auto falls = [](const std::vector<double>& values) {
-        const auto recent = values.end() - steps;
-        return *std::min_element(recent, values.end()) <
-               0.9 * *std::min_element(values.begin(), recent);
-    };
-    const auto changes = [](const std::vector<double>& values) {
-        const auto [low, high] = std::minmax_element(values.end() - steps, values.end());
-        return *high - *low > change * *high;
-    };
-    return !falls(rms) && !falls(tails) && !changes(report.area) && !changes(report.volume);
-}
-
 /// Whether tunnels or gaps still close: a little of the interface moves far, and the area changes.
 /// What moves far while that does not is what the voxels do not resolve.
 bool stillCloses(const EvolutionReport& report, double voxelSize)
@@ -201,6 +179,24 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
     }
     record(newton.sums(band, region, progress), region.whole(), report);
     return report;
+}
+
+bool stalled(const std::vector<double>& rms, const std::vector<double>& tails,
+             const EvolutionReport& report)
+{
+    constexpr std::size_t steps = 8;
+    constexpr double change = 1e-3; // relative, of area and volume
+    if (tails.size() <= steps) return false;
+    const auto falls = [](const std::vector<double>& values) {
+        const auto recent = values.end() - steps;
+        return *std::min_element(recent, values.end()) <
+               0.9 * *std::min_element(values.begin(), recent);
+    };
+    const auto changes = [](const std::vector<double>& values) {
+        const auto [low, high] = std::minmax_element(values.end() - steps, values.end());
+        return *high - *low > change * *high;
+    };
+    return !falls(rms) && !falls(tails) && !changes(report.area) && !changes(report.volume);
 }
 
 void judge(const Displacements& last, const EvolveOptions& options, double voxelSize,

@@ -12,6 +12,8 @@
 #include "molsurf/progress.h"
 #include "molsurf/report.h"
 
+#include <vector>
+
 namespace molsurf
 {
 
@@ -64,6 +66,13 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
 
 /// The smallest tolerance that the last step of a flow meets [voxel].
 double toleranceOf(const EvolutionReport& report, double voxelSize);
+
+/// Whether a flow has come as near to rest as its voxels let it: in eight steps neither the root
+/// mean square nor the quantile of its displacements has fallen by a tenth, nor have area and
+/// volume changed.
+/// @param[in] rms, tails  of the steps so far
+bool stalled(const std::vector<double>& rms, const std::vector<double>& tails,
+             const EvolutionReport& report);
 
 /// Finds whether the displacements of a step meet the stopping rule.
 /// @param[in]     voxelSize  edge h of a voxel [Å]

@@ -15,19 +15,16 @@ namespace molsurf
 namespace
 {
 
-constexpr float outside = 1e30f;    // u where the system is not solved
-constexpr float known = 1e29f;      // u below this is a solution
-constexpr int footReach = 4;        // rim of u that feet lie in [voxel]
-constexpr float longestStep = 0.8f; // [voxel]
+constexpr float outside = 1e30f; // u where the system is not solved
+constexpr float known = 1e29f;   // u below this is a solution
+constexpr int footReach = 4;     // rim of u that feet lie in [voxel]
 
 // Added to the stiffness [1/Å^2]: where the metric is flat the surface moves as a whole over some
 // 3 Å in a step.
 constexpr float leastStiffness = 0.1f;
 
-// A step is extended by no more than the first factor, and by the second where u is long. From
-// where on it is extended and where it is long [voxel]: eagerly, and where that would only make the
-// grid's noise swing.
-constexpr float extension = 3.0f, longExtension = 5.0f;
+// From where on steps are extended and where they are long [voxel]: eagerly, and where that would
+// only make the grid's noise swing.
 constexpr float eagerFrom = 0.01f, eagerLong = 0.03f, calmFrom = 0.04f, calmLong = 0.06f;
 
 // What u is taken for, at most, where it alternates [voxel].
@@ -188,24 +185,15 @@ MOLSURF_KERNEL void feetRows(const float* __restrict phiBlock, const float* __re
     }
 }
 
-/// The steps that are made of a leaf's displacements: these, but where they fall by the same factor
-/// in two steps, the way that is left. If u falls by a factor 1 - theta, that is u/theta.
-/// @param[in]     from     steps are extended above this, fully at twice that [voxel]
-/// @param[in]     longFrom  the same of the larger factor
-/// @param[in,out] history   of the step before; then of this one
+/// The steps that are made of a leaf's displacements.
+/// @param[in]     from,longFrom  see extendedStep()
+/// @param[in,out] history        of the step before; then of this one
 MOLSURF_KERNEL void extend(const float* __restrict atFoot, float h, float from, float longFrom,
                            StepHistory& __restrict history, float* __restrict step)
 {
     for (int v = 0; v < leafSize; ++v) {
-        const float u = atFoot[v], length = std::abs(u) / h;
-        const float lastU = history.u[v], lastStep = history.step[v];
-        const float far = clamped(length / longFrom - 1.0f, 0.0f, 1.0f);
-        const float most = extension + (longExtension - extension) * far;
-        const float theta =
-            clamped(lastStep * (lastU - u) / (lastStep * lastStep + 1e-12f), 1.0f / most, 1.0f);
-        const float trust = clamped(length / from - 1.0f, 0.0f, 1.0f);
-        const float factor = lastStep * u > 0.0f ? 1.0f + trust * (1.0f / theta - 1.0f) : 1.0f;
-        step[v] = clamped(factor * u, -longestStep * h, longestStep * h);
+        const float u = atFoot[v];
+        step[v] = extendedStep(u, history.u[v], history.step[v], h, from, longFrom);
         history.u[v] = u;
         history.step[v] = step[v];
     }

@@ -5,12 +5,14 @@
 /// A semi-implicit step of the flow: a Newton step for the displacement of the whole interface.
 /// docs/math.md, section 4.
 
+#include "molsurf/core/simd.h"
 #include "molsurf/flow/displacement.h"
 #include "molsurf/flow/front.h"
 #include "molsurf/flow/narrow_band.h"
 #include "molsurf/grid/region.h"
 #include "molsurf/progress.h"
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -26,6 +28,29 @@ struct StepHistory {
     alignas(64) float u[leafSize] = {};    ///< that it solved for
     alignas(64) float step[leafSize] = {}; ///< that it made
 };
+
+/// The longest step [voxel], and by how much steps are extended at most: where u is short, and
+/// where it is long.
+constexpr float longestStep = 0.8f, extension = 3.0f, longExtension = 5.0f;
+
+/// The step that is made of a displacement u [Å]: u itself, but where it falls by the same factor
+/// in two steps, the way that is left. If u falls by theta times the step, that is u/theta.
+/// @param[in] lastU, lastStep  of the step before; 0: there was none
+/// @param[in] h                edge of a voxel [Å]
+/// @param[in] from             steps are extended above this, fully at twice that [voxel]
+/// @param[in] longFrom         the same of the larger factor
+MOLSURF_INLINE float extendedStep(float u, float lastU, float lastStep, float h, float from,
+                                  float longFrom)
+{
+    const float length = std::abs(u) / h;
+    const float far = clamped(length / longFrom - 1.0f, 0.0f, 1.0f);
+    const float most = extension + (longExtension - extension) * far;
+    const float theta =
+        clamped(lastStep * (lastU - u) / (lastStep * lastStep + 1e-12f), 1.0f / most, 1.0f);
+    const float trust = clamped(length / from - 1.0f, 0.0f, 1.0f);
+    const float factor = lastStep * u > 0.0f ? 1.0f + trust * (1.0f / theta - 1.0f) : 1.0f;
+    return clamped(factor * u, -longestStep * h, longestStep * h);
+}
 
 /// Semi-implicit steps, one after another. The displacement u along the inward normal solves
 ///

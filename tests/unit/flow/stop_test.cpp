@@ -90,6 +90,56 @@ TEST(Stop, AllowsWhatCoarseVoxelsDoNotResolve)
     EXPECT_NEAR(toleranceOf(report(0.018f, 1.0), 1.0), 0.009, 1e-3);
 }
 
+// Those that count are the voxels nearer than one to the interface: a shell of two voxels.
+TEST(Stop, IsByTheVoxelsBesideTheInterface)
+{
+    constexpr double h = 0.25;
+    Displacements last;
+    const EvolutionReport report =
+        test::evolveBalls({{Vec3f(0.1f, 0.2f, 0.3f), 1.7f, 0}}, 0.5, h, {}, &last).report;
+    EXPECT_NEAR(double(last.count) * h * h * h / (2.0 * h * report.area.back()), 1.0, 0.03);
+}
+
+// The rule for giving up in numbers: in eight steps nothing has fallen by a tenth, and neither area
+// nor volume have changed by a thousandth.
+TEST(Stop, GivesUpOnlyIfAllStandsStill)
+{
+    struct Series {
+        int steps;
+        double rms, tail, area, volume; // of the last step, those before being 1
+    };
+    const auto gaveUp = [](const Series& s) {
+        EvolutionReport report;
+        const std::vector<double> ones(std::size_t(s.steps - 1), 1.0);
+        const auto with = [&](double last) {
+            std::vector<double> all = ones;
+            all.push_back(last);
+            return all;
+        };
+        report.area = with(s.area);
+        report.volume = with(s.volume);
+        return stalled(with(s.rms), with(s.tail), report);
+    };
+    EXPECT_TRUE(gaveUp({9, 1, 1, 1, 1}));
+    EXPECT_TRUE(gaveUp({20, 0.95, 1.5, 1.0005, 0.9995}));
+    EXPECT_FALSE(gaveUp({8, 1, 1, 1, 1}));
+    EXPECT_FALSE(gaveUp({20, 0.85, 1, 1, 1}));
+    EXPECT_FALSE(gaveUp({20, 1, 0.85, 1, 1}));
+    EXPECT_FALSE(gaveUp({20, 1, 1, 0.998, 1}));
+    EXPECT_FALSE(gaveUp({20, 1, 1, 1, 1.002}));
+}
+
+TEST(Stop, OnCoarserVoxelsComesNearerToRest)
+{
+    EvolveOptions options;
+    options.steps = 3;
+    const EvolveOptions coarse = coarseFlow(options, 0.5);
+    EXPECT_LT(coarse.tolerance, options.tolerance);
+    EXPECT_LT(coarse.steps, 0); // to rest, however many are asked for
+    options.tolerance = 1e-4;
+    EXPECT_EQ(coarseFlow(options, 0.5).tolerance, options.tolerance);
+}
+
 // What the program advises is enough: at the tolerance that a run says it meets, it converges.
 TEST(Stop, TheToleranceThatIsAdvisedIsMet)
 {
