@@ -71,6 +71,46 @@ TEST(InitialSurface, WithWeightsIsNearTheMinimum)
     EXPECT_NEAR(sum / count, 0.0, 0.006);
 }
 
+// The same for the area regulariser, whose curvature moves it inward by 0.017 Å.
+TEST(InitialSurface, WithWeightsOfTheAreaIsNearTheMinimum)
+{
+    const double R = 3.1, voxel = 0.25, C = M_LN2 / (0.5 * R), lambda = 0.4;
+    const test::Shape ball = test::sphere(R);
+    const LeafTable table =
+        test::bandTable(ball.distance, ball.centre, ball.extent, voxel, 3.0 * voxel);
+    const SparseField psi = test::filled(
+        table, voxel, [&](const Vec3d& x) { return -C * ((x - ball.centre).lengthSqr() - R * R); });
+    const double rest = test::minimalRadius(R, {0.5, lambda, Regularizer::Area});
+    EXPECT_LT(rest - R, -0.012);
+    const SparseField phi =
+        initialSurface(psi, 3.0 * voxel, Weights{0.0f, float(lambda)}, Progress());
+    test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+        const double d = (x - ball.centre).length() - rest;
+        if (std::abs(d) < 0.5 * voxel) {
+            ASSERT_NEAR(phi.leaf(n)[v], d, 0.004);
+        }
+    });
+}
+
+// Away from its zero set a field may be anything: the distance is carried outward to the rim.
+TEST(InitialSurface, IsTheDistanceWherePsiIsSteeper)
+{
+    const double R = 3.1, voxel = 0.25, width = 4.0 * voxel;
+    const test::Shape ball = test::sphere(R);
+    const LeafTable table = test::bandTable(ball.distance, ball.centre, ball.extent, voxel, width);
+    const SparseField psi = test::filled(table, voxel, [&](const Vec3d& x) {
+        const double d = ball.distance(x);
+        return -d * (1.0 + 2.0 * d * d);
+    });
+    const SparseField phi = initialSurface(psi, width, {}, Progress());
+    test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+        const double d = ball.distance(x);
+        if (std::abs(d) < 3.0 * voxel) {
+            ASSERT_NEAR(phi.leaf(n)[v], d, 0.02) << d;
+        }
+    });
+}
+
 // Where psi is flat the first guess means nothing, but the result stays within the band and keeps
 // its signs: psi has its maximum and vanishing gradient at the centre.
 TEST(InitialSurface, IsFiniteAtTheCentreOfAnAtomAndKeepsSigns)

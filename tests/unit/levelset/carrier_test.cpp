@@ -89,6 +89,29 @@ TEST(SmoothCarrier, HasTheLevelOfPsiAtTheFeet)
     EXPECT_LT(worst, 0.0025); // [Å]
 }
 
+// No voxel is nearer to this front than half a voxel, and psi has another level there than 0.
+TEST(SmoothCarrier, KnowsTheLevelOfAFrontBetweenVoxels)
+{
+    constexpr double voxel = 0.5, front = 0.25, level = -0.4;
+    std::vector<openvdb::Coord> origins;
+    for (int i = 0; i < 8; ++i)
+        origins.emplace_back(8 * (i / 4) - 8, 8 * (i / 2 % 2) - 8, 8 * (i % 2) - 8);
+    LeafTable table(std::move(origins));
+    for (std::size_t n = 0; n < table.size(); ++n) table.active(n) = ~LeafMask();
+    const SparseField phi =
+        test::filled(table, voxel, [](const Vec3d& x) { return x.x() - front; });
+    const SparseField psi =
+        test::filled(table, voxel, [](const Vec3d& x) { return level - slope * (x.x() - front); });
+    const SparseField slopes = test::filled(table, voxel, [](const Vec3d&) { return slope; });
+    const SparseField carrier =
+        smoothCarrier(phi, {psi.values, slopes.values, false, 0.0}, 3.0 * voxel, Progress());
+    test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+        if (std::abs(x.x() - front) < voxel) {
+            ASSERT_NEAR(carrier.leaf(n)[v], x.x() - front, 1e-4) << x;
+        }
+    });
+}
+
 // The third difference along an axis across the crease between the balls: that of the distance
 // does not fall with the voxel, since it has a ridge there.
 TEST(SmoothCarrier, HasNoRidgeOutsideACrease)
