@@ -116,5 +116,71 @@ TEST(CrispBorders, KeepWhatVerticesHave)
     for (const auto& scalar : two.scalars) EXPECT_EQ(scalar.values.size(), two.positions.size());
 }
 
+/// Balls around an axis along z, which passes no vertex of the meshes here.
+const Vec3d axis(0.3, 0.05, 0.0);
+std::vector<Ball> around(int count)
+{
+    std::vector<Ball> balls;
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2.0 * M_PI * i / count + 1.1;
+        balls.push_back({axis + 4.0 * Vec3d(std::cos(angle), std::sin(angle), 0.0), 2.0, i});
+    }
+    return balls;
+}
+
+// The arcs that the normals of a sphere imply lie on it, to a quarter of their rise.
+TEST(CrispBorders, LieOnTheArcs)
+{
+    const Mesh mesh = surfaceOf({{Vec3f(0.0f), 3.0f, 0}}, SurfaceKind::VanDerWaals);
+    const Color all[] = {red, green, blue};
+    for (const int owners : {2, 3}) {
+        const Mesh crisp =
+            withCrispBorders(mesh, around(owners), {all, all + owners}, 0.0, "", Progress());
+        std::size_t meetings = 0;
+        for (const auto& [x, colors] : bordersOf(crisp)) {
+            EXPECT_NEAR(x.length(), 3.0, 0.01);
+            if (owners == 2) { // the plane between them
+                EXPECT_NEAR((Vec3d(x) - axis).dot(around(2)[0].center - axis), 0.0, 1e-3);
+            }
+            if (colors.size() < 3) continue;
+            ++meetings;
+            EXPECT_NEAR(std::hypot(x.x() - axis.x(), x.y() - axis.y()), 0.0, 1e-3);
+        }
+        EXPECT_EQ(meetings, owners == 2 ? 0u : 2u);
+    }
+}
+
+TEST(CrispBorders, HaveMeansOfNormalsAndScalarsButStepsOfWhatBelongsToASide)
+{
+    Mesh mesh = surfaceOf({{Vec3f(0.0f), 3.0f, 0}}, SurfaceKind::VanDerWaals);
+    const std::vector<Ball> balls = around(3);
+    mesh.scalars = {{"height", {}}, {"side", {}}};
+    const auto colored = withCrispBorders(mesh, balls, {red, green, blue}, 0.0, "", Progress());
+    const auto sideOf = [](const Color& c) { return c == red ? 1.0f : c == green ? 2.0f : 5.0f; };
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        mesh.scalars[0].values.push_back(mesh.positions[v].z());
+        mesh.scalars[1].values.push_back(sideOf(colored.colors[v]));
+    }
+    const Mesh crisp = withCrispBorders(mesh, balls, {red, green, blue}, 0.0, "side", Progress());
+    EXPECT_GT(crisp.positions.size(), mesh.positions.size() + 30);
+    for (std::size_t v = 0; v < crisp.positions.size(); ++v) {
+        EXPECT_EQ(crisp.scalars[1].values[v], sideOf(crisp.colors[v]));
+        EXPECT_NEAR(crisp.scalars[0].values[v], crisp.positions[v].z(), 0.12); // rise of an arc
+        EXPECT_GT(crisp.normals[v].dot(crisp.positions[v].unit()), 0.9995f);
+    }
+}
+
+// The neck that a probe leaves is far from the circle in which the balls meet.
+TEST(CrispBorders, StayWhereNoCreaseIsNear)
+{
+    const std::vector<Ball> balls = {{Vec3f(0, 0, 0), 2.0f, 0}, {Vec3f(2.5f, 0, 0), 2.0f, 1}};
+    const Mesh mesh = surfaceOf(balls, SurfaceKind::SolventExcluded);
+    const auto cut = [&](double crease) {
+        return withCrispBorders(mesh, balls, {red, blue}, crease, "", Progress()).positions;
+    };
+    EXPECT_EQ(cut(0.02), cut(0.0));
+    EXPECT_NE(cut(1.0), cut(0.0));
+}
+
 } // namespace
 } // namespace molsurf
