@@ -28,6 +28,16 @@ TEST(PowerOwners, TwoBallsMeetInThePlaneOfEqualPower)
     EXPECT_EQ(near[1].centre, Vec3d(0.0));
 }
 
+TEST(PowerOwners, TheLowerOfTwoOwnersHasWhatIsBetween)
+{
+    const std::vector<Ball> balls = {{Vec3f(-2, 0, 0), 1.5f, 0}, {Vec3f(2, 0, 0), 1.5f, 1}};
+    std::vector<OwnersPower> near;
+    for (const std::int32_t first : {3, 1}) {
+        PowerOwners(balls, {first, 4 - first}).at({0.0, 0.7, 0.0}, 0.0, near);
+        EXPECT_EQ(near[0].owner, 1);
+    }
+}
+
 TEST(PowerOwners, AgreesWithAllBalls)
 {
     std::mt19937 random(3);

@@ -2,6 +2,7 @@
 // A whole from one unit of it, against the whole in one piece.
 
 #include "molsurf/error.h"
+#include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/rotation_group.h"
@@ -131,6 +132,8 @@ TEST_P(BySymmetry, IsTheWhole)
         const Mesh welded = wholeMesh(unit, a, a.mesh, true, {}, Progress());
         const Topology topology = checkTopology(welded, Progress());
         EXPECT_TRUE(topology.closed && topology.oriented);
+        // Triangles that join vertices of the wrong units are as large as the whole.
+        EXPECT_NEAR(measure(welded, Progress()).area, found.area, 0.01 * found.area);
         EXPECT_EQ(welded.positions.size(), found.vertices);
         EXPECT_EQ(welded.triangles.size(), found.triangles);
     }

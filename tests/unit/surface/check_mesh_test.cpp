@@ -69,5 +69,17 @@ TEST(CheckMesh, RefusesNormalsThatPointInward)
         "enclose volumes that differ [hint: a smaller `voxel`]");
 }
 
+// Triangles and arcs may enclose volumes that differ by a tenth of a voxel all over the surface.
+TEST(CheckMesh, AllowsVolumesATenthOfAVoxel)
+{
+    const MolecularSurface made = makeSurface({{{0.1, 0.2, 0.3}, 1.7, 0}});
+    SurfaceReport report = made.report.surface;
+    const double exact = report.volume, voxels = voxel * report.area;
+    report.volume = exact + 0.05 * voxels;
+    EXPECT_NO_THROW(checkMesh(made.mesh, report, voxel, Progress()));
+    report.volume = exact + 0.2 * voxels;
+    EXPECT_THROW(checkMesh(made.mesh, report, voxel, Progress()), Error);
+}
+
 } // namespace
 } // namespace molsurf::test
