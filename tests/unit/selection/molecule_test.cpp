@@ -65,6 +65,14 @@ TEST(Molecule, HasBoundMetalsAndNoIonsOfTheSolution)
     EXPECT_EQ(kept(polymer + ions, options), (Names{"GLY", "ZN", "MG", "NA", "CL"}));
 }
 
+// An ion is an atom alone; a cluster that begins with a metal is a ligand, as far as ligands reach.
+TEST(Molecule, HasClustersOfMetals)
+{
+    const std::string cluster = record("HETATM", 3, "FE1", "SF4", 2, 5.2, "FE") + // 3.7 Å
+                                record("HETATM", 4, " S1", "SF4", 2, 7.4, "S");
+    EXPECT_EQ(kept(polymer + cluster), (Names{"GLY", "SF4"}));
+}
+
 TEST(Molecule, HasNoBuffersAndTheFirstLineNamesThem)
 {
     const std::string content = polymer + record("HETATM", 3, " S", "SO4", 2, 4.9, "S") +
