@@ -260,6 +260,19 @@ class Commit(ToolTest):
         self.assertEqual(self.names(), FILES)
 
     @needs("preload")
+    def test_files_of_other_machines_stay_where_there_are_no_locks(self):
+        """Their processes may be at work; a lock that is free tells that they are not."""
+        other = ".a.obj.12-0123456789abcdef.part"
+        (self.folder / other).write_text("half")
+        before = self.names()
+        self.check(1, "none.pdb", "-o", "b.json", env=faulty(without="flock"))
+        self.assertEqual(self.names(), before)
+        self.check(0, CRAMBIN, *FAST, "--dry-run", "-o", "b.json")  # which changes nothing
+        self.assertEqual(self.names(), before)
+        self.check(1, "none.pdb", "-o", "b.json")
+        self.assertEqual(self.names(), FILES)
+
+    @needs("preload")
     def test_all_is_on_the_disk_before_the_first_name(self):
         self.begin()
         self.check(0, *self.WORDS, env=faulty(log=self.folder / "log"))
