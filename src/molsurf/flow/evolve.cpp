@@ -45,17 +45,6 @@ double coarseness(double voxelSize)
     return std::max(1.0, voxelSize / fine);
 }
 
-/// Whether tunnels or gaps still close: a little of the interface moves far, and the area changes.
-/// What moves far while that does not is what the voxels do not resolve.
-bool stillCloses(const EvolutionReport& report, double voxelSize)
-{
-    const double few = 1.6e-3 * voxelSize * voxelSize, change = 6e-4 * voxelSize;
-    const std::vector<double>& A = report.area;
-    const std::size_t n = A.size();
-    return report.unsettledShare > few &&
-           (n < 3 || std::abs(A[n - 1] - A[n - 3]) > change * A[n - 1]);
-}
-
 /// Adds the sums of an interface to a report.
 /// @throws Error(ErrorKind::Numeric) if they are not finite, or nothing is left of a whole surface
 void record(const InterfaceSums& sums, bool whole, EvolutionReport& report)
@@ -197,6 +186,15 @@ bool stalled(const std::vector<double>& rms, const std::vector<double>& tails,
         return *high - *low > change * *high;
     };
     return !falls(rms) && !falls(tails) && !changes(report.area) && !changes(report.volume);
+}
+
+bool stillCloses(const EvolutionReport& report, double voxelSize)
+{
+    const double few = 1.6e-3 * voxelSize * voxelSize, change = 6e-4 * voxelSize;
+    const std::vector<double>& A = report.area;
+    const std::size_t n = A.size();
+    return report.unsettledShare > few &&
+           (n < 3 || std::abs(A[n - 1] - A[n - 3]) > change * A[n - 1]);
 }
 
 void judge(const Displacements& last, const EvolveOptions& options, double voxelSize,

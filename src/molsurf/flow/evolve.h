@@ -74,6 +74,10 @@ double toleranceOf(const EvolutionReport& report, double voxelSize);
 bool stalled(const std::vector<double>& rms, const std::vector<double>& tails,
              const EvolutionReport& report);
 
+/// Whether tunnels or gaps still close: a little of the interface moves far, and the area changes
+/// in two steps. What moves far while that does not is what the voxels do not resolve.
+bool stillCloses(const EvolutionReport& report, double voxelSize);
+
 /// Finds whether the displacements of a step meet the stopping rule.
 /// @param[in]     voxelSize  edge h of a voxel [Å]
 /// @param[in,out] report     converged and the last displacements are set
