@@ -75,6 +75,10 @@ TEST(BoundaryCheck, TellsWhatDisagrees)
     ++euler.measure.pieces[0].eulerCharacteristic;
     EXPECT_NE(euler.verdict().find("Euler"), std::string::npos);
 
+    Checked flat = right;
+    flat.measure.pieces[0].area = 0.0;
+    EXPECT_NE(flat.verdict().find("area of a piece"), std::string::npos);
+
     Checked inward = right;
     for (BoundaryPiece& piece : inward.measure.pieces) piece.volume *= -1.0;
     EXPECT_NE(inward.verdict().find("outer piece or a cavity"), std::string::npos);
@@ -87,6 +91,20 @@ TEST(BoundaryCheck, LoopsThatDoNotCloseAreNotMeasured)
     while (boundary.arcs[open].ends[0] < 0) ++open;
     boundary.arcs[open].ends[0] = boundary.arcs[open].ends[1]; // another corner
     EXPECT_THROW(measureBoundary(boundary, Progress()), Error);
+}
+
+TEST(BoundaryCheck, FacesThatDoNotMeetAreNotMeasured)
+{
+    BallBoundary boundary = ballBoundary(someBalls(), 1.4, Progress());
+    std::size_t open = 0;
+    while (boundary.arcs[open].ends[0] < 0) ++open;
+    boundary.arcs[open].half *= 0.99;
+    try {
+        measureBoundary(boundary, Progress());
+        ADD_FAILURE() << "expected an Error";
+    } catch (const Error& e) {
+        EXPECT_EQ(std::string(e.what()), "boundary: a piece is not closed");
+    }
 }
 
 TEST(BoundaryCheck, MeshesHaveTheirTolerance)
