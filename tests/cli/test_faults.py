@@ -260,6 +260,19 @@ class Commit(ToolTest):
         self.assertEqual(self.names(), FILES)
 
     @needs("preload")
+    def test_a_process_that_nobody_waits_for_is_gone(self):
+        process = subprocess.Popen([TOOL, CRAMBIN, "--voxel", "0.15", "-q", "--force", "-o", "a.json", "-o", "a.obj"],
+                                   cwd=self.folder, env=faulty(without="flock"))
+        while process.poll() is None and not any(name.endswith(".part") for name in self.names()):
+            time.sleep(0.005)
+        process.kill()
+        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)  # it stays a zombie
+        self.assertNotEqual(self.names(), FILES, "it ended before it wrote")
+        self.check(1, "none.pdb", "-o", "b.json", env=faulty(without="flock"))
+        self.assertEqual(self.names(), FILES)
+        self.assertEqual(process.wait(), -signal.SIGKILL)
+
+    @needs("preload")
     def test_files_of_other_machines_stay_where_there_are_no_locks(self):
         """Their processes may be at work; a lock that is free tells that they are not."""
         other = ".a.obj.12-0123456789abcdef.part"
