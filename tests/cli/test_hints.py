@@ -249,11 +249,11 @@ CASES = {
          "vdb_molsurf bricks run plan.json 1 -j 1 --max-hours 1",
          "vdb_molsurf bricks plan 1crn.pdb --voxel 0.3 --bricks 8 -o plan.json --force; "
          "vdb_molsurf bricks run plan.json 1 -j 1 --max-hours 8.5e-5 --force"),
-        ("a surface of a larger --voxel, or --max-hours 1", "vdb_molsurf 1crn.pdb --voxel 0.2 --surface sas -o a.vdb; "
-         "vdb_molsurf convert a.vdb -j 1 -o a.ply --max-hours 3e-5",
+        ("a surface of a larger --voxel, or --max-hours 1", "vdb_molsurf 1crn.pdb --voxel 0.1 --surface sas -o a.vdb; "
+         "vdb_molsurf convert a.vdb -j 1 -o a.ply --max-hours 3e-4",
          "vdb_molsurf convert a.vdb -j 1 -o a.ply --max-hours 1",
          "vdb_molsurf 1crn.pdb --voxel 1 --surface sas -o b.vdb; "
-         "vdb_molsurf convert b.vdb -j 1 -o b.ply --max-hours 3e-5"),
+         "vdb_molsurf convert b.vdb -j 1 -o b.ply --max-hours 3e-4"),
         ("fewer --max-steps", "vdb_molsurf 1crn.pdb --flow paper --max-steps 1000000 --max-hours 0.0003 -o a.ply",
          "vdb_molsurf 1crn.pdb --flow paper --max-steps 5 --max-hours 0.0003 -o a.ply || test $? = 3"),
         ("a larger --voxel or --max-hours", # its threads make the estimate of hours smaller than it is
