@@ -201,7 +201,7 @@ struct SymmetryReport {
     std::size_t copies = 1; ///< copies of the assembly in a unit
     double deviation = 0.0; ///< farthest that a copy lies from where a rotation brings it [Å]
     double gap = 0.0;       ///< largest gap between units that was closed [Å]
-    std::size_t openVertices = 0; ///< of a unit's border, that meet none of a neighbour's
+    std::size_t openVertices = 0; ///< edges of a unit's border that fit none of a neighbour's
 };
 
 /// The whole report.

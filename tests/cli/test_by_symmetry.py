@@ -38,6 +38,23 @@ class BySymmetry(ToolTest):
     def shell(self):
         self.write("shell.pdb", biomt([(m, (0, 0, 0)) for m in icosahedron()]) + blob())
 
+    def ring(self, fold, *of_blob):
+        self.write("ring.pdb", ring(fold).replace(ring(fold).splitlines(True)[-1], blob(*of_blob)))
+
+    def closed_mesh(self, name):
+        """The vertices and triangles of a .ply, which is closed and what its .json says."""
+        surface = self.report(name + ".json")["surface"]
+        self.assertTrue(surface["closed"])
+        _, vertices, triangles = read_ply((self.folder / (name + ".ply")).read_bytes())
+        self.assertEqual(len(vertices), surface["vertices"])
+        self.assertEqual(len(triangles), surface["triangles"])
+        edges = collections.Counter()
+        for a, b, c in triangles:
+            edges.update([(a, b), (b, c), (c, a)])
+        self.assertEqual(set(edges.values()), {1})
+        self.assertTrue(all((b, a) in edges for a, b in edges))
+        return vertices, triangles
+
     def test_a_shell(self):
         self.shell()
         done = self.check(0, "shell.pdb", *ASSEMBLY, "--surface", "ses", "--by-symmetry", "-o",
@@ -68,23 +85,28 @@ class BySymmetry(ToolTest):
         for name, words in (("a", ["--weld"]), ("b", [])):
             self.check(0, "shell.pdb", *ASSEMBLY, "--by-symmetry", *words, "-o", name + ".ply", "-o",
                        name + ".json")
-        surface = self.report("a.json")["surface"]
-        self.assertTrue(surface["closed"])
-        _, vertices, triangles = read_ply((self.folder / "a.ply").read_bytes())
-        self.assertEqual(len(vertices), surface["vertices"])
-        self.assertEqual(len(triangles), surface["triangles"])
-        edges = collections.Counter()
-        for a, b, c in triangles:
-            edges.update([(a, b), (b, c), (c, a)])
-        self.assertEqual(set(edges.values()), {1})
-        self.assertTrue(all((b, a) in edges for a, b in edges))
+        vertices, triangles = self.closed_mesh("a")
         _, apart, again = read_ply((self.folder / "b.ply").read_bytes())
         self.assertEqual(len(again), len(triangles))
         self.assertGreater(len(apart), len(vertices))
 
+    def test_interlocking_units(self):
+        """The border winds between atoms of all units, and differs by gaps and necks from theirs."""
+        self.ring(5, 120, (14.0, 1.0, 0.0), 16.0)
+        for surface in ("variational", "ses", "sas", "vdw"):
+            words = [*ASSEMBLY, "--surface", surface, "--force"]
+            self.check(0, "ring.pdb", *words, "--by-symmetry", "--weld", "-o", "a.ply", "-o",
+                       "a.json")
+            self.check(0, "ring.pdb", *words, "-o", "b.json")
+            self.closed_mesh("a")
+            unit, whole = self.report("a.json"), self.report("b.json")
+            for name, within in (("area", 0.01), ("volume", 0.003)):
+                found, expected = unit["surface"][name], whole["surface"][name]
+                self.assertLess(abs(found - expected), within * expected, (surface, name))
+            self.assertGreater(unit["symmetry"]["open_vertices"], 0, surface)
+
     def test_a_ring_and_a_dimer(self):
-        self.write("ring.pdb", ring(7).replace(ring(7).splitlines(True)[-1],
-                                               blob(60, (12.0, 1.0, 0.0), 6.0)))
+        self.ring(7, 60, (12.0, 1.0, 0.0), 6.0)
         self.check(0, "ring.pdb", *ASSEMBLY, "--by-symmetry", "-o", "r.json", says="(C7)")
         self.check(0, DIMER, *ASSEMBLY, "--by-symmetry", "--weld", "-o", "d.json", "-o", "d.stl",
                    says="(C2)")

@@ -138,7 +138,8 @@ const std::vector<ReportKey>& reportKeys()
         {"symmetry.deviation", "Å",
          "The farthest that a copy lies from where a rotation brings it"},
         {"symmetry.gap", "Å", "The largest gap between units that was closed"},
-        {"symmetry.open_vertices", "", "The vertices of a border that meet none: 0"},
+        {"symmetry.open_vertices", "",
+         "The edges of a unit's border that fit none: triangles fill holes there"},
         {"warnings", "", "One text each"},
         {"areas", "",
          "The tables of areas that were asked for, by their names; each row has the keys of the "

@@ -20,8 +20,9 @@ namespace molsurf
 struct BorderFit {
     std::vector<SharedVertex> shared; ///< every vertex of the border, once for each neighbour
     std::size_t open = 0;             ///< edges of the border that fit none of a neighbour's
-    std::size_t caps = 0; ///< holes that were left in the whole, and closed by triangles
-    double largest = 0.0; ///< gap that was closed [Å]
+    std::size_t holes = 0;            ///< that these left in the whole, and triangles fill
+    double filled = 0.0;              ///< area of these triangles [Å^2]
+    double largest = 0.0;             ///< gap that was closed [Å]
 };
 
 /// The vertices of a whole that vertices of its units share.
@@ -56,11 +57,13 @@ private:
 
 /// Makes the border of a unit congruent with those of its neighbours.
 ///
-/// The surface of a neighbour is that of the unit, turned, but was found on other voxels. Lines
-/// that meet are replaced by the mean of both, which gets the vertices of both; corners by the mean
-/// of the corners that meet there.
+/// The surface of a neighbour is that of the unit, turned, but was found on other voxels. Where the
+/// lines of both run side by side they are glued: they get the vertices of both, each in the middle
+/// of where it was on either side. Holes that are left are filled by triangles. A surface that is
+/// glued along edges is one, whatever edges these are, so the whole is closed if the unit's surface
+/// was.
 ///
-/// @param[in]     voxel  what is farther apart than two of these does not meet [Å]
+/// @param[in]     voxel  what is farther apart is not glued [Å]
 /// @param[in,out] part   what owner 0 has; its loops are used up
 BorderFit fitBorder(const std::vector<Instance>& motions, const SymmetricUnit& unit, double voxel,
                     CutMesh& part);

@@ -274,22 +274,23 @@ CutMesh cutToOwner(const Mesh& mesh, const PowerOwners& owners, const Spline& sp
     struct Step {
         std::uint32_t to;
         std::int32_t other; ///< beyond the edge that ends there
+        std::uint32_t triangle;
     };
     std::vector<Step> next(edges.size()); // of each vertex of the border
     for (const BorderEdge& border : borders) {
         const BorderVertex from = added[border.from - first], to = added[border.to - first];
-        next[border.from - first] = {border.to, to.other};
+        next[border.from - first] = {border.to, to.other, border.triangle};
         if (from.other == to.other || from.other < 0 || to.other < 0) continue;
         Jet jet;
         const Vec3d x = finder.corner(0.5 * (Vec3d(from.position) + Vec3d(to.position)), from.other,
                                       to.other, jet);
         const auto corner = first + std::uint32_t(added.size());
         added.push_back(vertexAt(x, jet, to.other));
-        next.push_back({border.to, to.other});
-        next[border.from - first] = {corner, from.other};
-        Triangle& t = triangles[border.triangle]; // (from, to, third)
-        triangles.push_back({corner, t[1], t[2]});
-        t[1] = corner;
+        next.push_back({border.to, to.other, std::uint32_t(triangles.size())});
+        next[border.from - first] = {corner, from.other, border.triangle};
+        const std::uint32_t third = triangles[border.triangle][2];
+        triangles[border.triangle][1] = corner;
+        triangles.push_back({corner, border.to, third});
     }
 
     std::vector<char> seen(added.size(), 0);
@@ -301,6 +302,7 @@ CutMesh cutToOwner(const Mesh& mesh, const PowerOwners& owners, const Spline& sp
             const Step& step = next[v - first];
             loop.vertices.push_back(v);
             loop.owners.push_back(step.other);
+            loop.triangles.push_back(step.triangle);
             v = step.to;
         }
     }

@@ -18,8 +18,9 @@ namespace molsurf
 
 /// A closed line of border vertices, the unit on its left if seen from outside the molecule.
 struct BorderLoop {
-    std::vector<std::uint32_t> vertices; ///< in order
-    std::vector<std::int32_t> owners;    ///< beyond the edge from vertex i to the next one
+    std::vector<std::uint32_t> vertices;  ///< in order
+    std::vector<std::int32_t> owners;     ///< beyond the edge from vertex i to the next one
+    std::vector<std::uint32_t> triangles; ///< at that edge: their first two vertices are its own
 };
 
 /// A part of a mesh with its border.

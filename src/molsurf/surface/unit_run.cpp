@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace molsurf
@@ -86,8 +87,9 @@ std::vector<Ball> owningBalls(const BallSet& atoms, double grown)
 
 /// What the unit has of a union of balls, in closed form.
 struct UnionShare {
-    double area = 0.0, volume = 0.0; ///< [Å^2], [Å^3]
-    double euler = 0.0;              ///< of the Euler characteristic of the boundary
+    double volume = 0.0;       ///< [Å^3]
+    double euler = 0.0;        ///< of the Euler characteristic of the boundary
+    std::vector<double> areas; ///< of each ball [Å^2]; 0 for those of neighbours
 };
 
 /// Rotations by which more than three spheres can meet in a point, on their axis: of each the
@@ -138,8 +140,9 @@ UnionShare shareOf(const BallSet& atoms, double grown, const Progress& progress)
     const PowerCells cells = powerCells(balls, progress);
     const BallIndex index(atoms.balls, {0.0, 0.0, 2.0});
     UnionShare sum;
-    const auto add = [&](std::size_t i, double part) {
-        sum.area += part * cells.areas[i];
+    sum.areas.assign(balls.size(), 0.0);
+    const auto add = [&](std::size_t i, double part, std::size_t of) {
+        sum.areas[of] += part * cells.areas[i];
         sum.volume += part * cells.volumes[i];
     };
     const auto eulerAt = [&](std::size_t i, const std::vector<std::size_t>& images) {
@@ -151,12 +154,32 @@ UnionShare shareOf(const BallSet& atoms, double grown, const Progress& progress)
         if (atoms.unit->motionOf[i] != 0) continue;
         const std::vector<std::size_t> images = imagesAt(atoms, index, i);
         const double part = 1.0 / double(images.size() + 1);
-        add(i, part);
-        for (const std::size_t j : images) add(j, part);
+        add(i, part, i);
+        for (const std::size_t j : images) add(j, part, i);
         sum.euler += images.empty() ? eulerOf(atoms, index, cells, axes, i, balls[i].radius)
                                     : part * eulerAt(i, images);
     }
     return sum;
+}
+
+/// Replaces the measures of a whole by those in closed form. How many pieces it has is not known.
+/// @return the areas of balls in all units [Å^2]; 0 for those of neighbours
+std::vector<double> takeClosedForm(const BallSet& atoms, double grown, const Progress& progress,
+                                   SurfaceReport& surface)
+{
+    const double order = double(atoms.unit->inverse.size());
+    UnionShare share = shareOf(atoms, grown, progress);
+    const double euler = order * share.euler;
+    if (std::abs(euler - std::round(euler)) < 0.01)
+        surface.eulerCharacteristic = int(std::lround(euler));
+    surface.area = 0.0;
+    for (double& area : share.areas) surface.area += area *= order;
+    surface.volume = order * share.volume;
+    surface.piecesKnown = false;
+    surface.components = 0;
+    surface.cavities.clear();
+    surface.outerArea = surface.outerVolume = 0.0;
+    return std::move(share.areas);
 }
 
 /// The connected pieces of the whole: each piece of every unit joined to those that it meets.
@@ -181,6 +204,22 @@ std::vector<PieceMeasure> wholePieces(const SymmetricUnit& unit, const BorderFit
     std::vector<PieceMeasure> out(count);
     for (std::size_t i = 0; i < number.size(); ++i) out[number[i]] += pieces[i % n];
     return out;
+}
+
+/// @param[in] area  of the unit's surface [Å^2]
+/// @throws Error(ErrorKind::Check) if the whole is not closed, or by too much that was not found
+void checkFit(const BorderFit& fit, double area, const SurfaceReport& surface)
+{
+    constexpr double most = 0.05; // of the area that triangles over holes may have
+    if (surface.closed && surface.manifold && fit.filled <= most * area) return;
+    char text[240];
+    std::snprintf(
+        text, sizeof text,
+        "mesh: %zu edges of the unit's border fit none of its neighbours', expected holes "
+        "of at most %g %% of the area, got %.3g %% [hint: without `bySymmetry`, with "
+        "`memory` 8G where the whole is too large]",
+        fit.open, 100.0 * most, 100.0 * fit.filled / area);
+    throw Error(ErrorKind::Check, text);
 }
 
 } // namespace
@@ -224,9 +263,9 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     // Areas are those of the surface that was found, volumes those that the fitted one encloses.
     SurfaceReport& surface = run.result().report.surface;
     std::size_t count = 0;
-    std::vector<std::uint32_t> pieceOf = connectedPieces(part.mesh, count, progress);
-    std::vector<PieceMeasure> pieces = measurePieces(part.mesh, pieceOf, count, unit.centre,
-                                                     surface.degenerateTriangles, progress);
+    const std::vector<std::uint32_t> foundOf = connectedPieces(part.mesh, count, progress);
+    const std::vector<PieceMeasure> found = measurePieces(part.mesh, foundOf, count, unit.centre,
+                                                          surface.degenerateTriangles, progress);
     const BorderFit fit = fitBorder(atoms.instances, unit, options.voxel, part);
     std::vector<float> slopes;
     for (const std::uint32_t v : part.sources) slopes.push_back(stats.slopes[v]);
@@ -234,20 +273,24 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
 
     surface.kind = nameOf(options.kind);
     surface.degenerateTriangles = 0;
-    pieceOf = connectedPieces(mesh, count, progress);
-    const std::vector<PieceMeasure> fitted =
+    const std::vector<std::uint32_t> pieceOf = connectedPieces(mesh, count, progress);
+    std::vector<PieceMeasure> pieces =
         measurePieces(mesh, pieceOf, count, unit.centre, surface.degenerateTriangles, progress);
-    for (std::size_t i = 0; i < count; ++i) pieces[i].volume = fitted[i].volume;
+    for (PieceMeasure& piece : pieces) piece.area = 0.0;
+    std::vector<char> counted(found.size(), 0);
+    for (std::size_t v = 0; v < foundOf.size(); ++v)
+        if (!std::exchange(counted[foundOf[v]], 1))
+            pieces[pieceOf[v]].area += found[foundOf[v]].area;
     std::vector<PieceMeasure> whole = wholePieces(unit, fit, pieceOf, pieces);
     countPieces(whole, surface);
     BorderClasses classes(unit, fit.shared, mesh.positions.size());
     const std::size_t units = unit.inverse.size();
     surface.triangles = units * mesh.triangles.size();
     surface.vertices = units * (mesh.positions.size() - classes.border().size()) + classes.count();
-    const std::size_t edges = (3 * surface.triangles + units * fit.open) / 2;
+    const std::size_t edges = 3 * surface.triangles / 2;
     surface.eulerCharacteristic = surface.meshEulerCharacteristic =
         int(std::int64_t(surface.vertices + surface.triangles) - std::int64_t(edges));
-    surface.closed = topology.closed && fit.open == 0;
+    surface.closed = topology.closed;
     surface.manifold = topology.oriented;
     surface.maxResidual = stats.maxResidual;
     const GradientCounts counts = run.countGradients(slopes);
@@ -258,30 +301,16 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     const std::vector<float> areas = vertexAreas(mesh, progress);
     surface.meanCurvature = statistics(mesh.scalars[0].values, areas);
     surface.gaussianCurvature = statistics(mesh.scalars[1].values, areas);
-    if (isClosedForm(options)) {
-        const UnionShare share = shareOf(atoms, grown, progress);
-        const double euler = order * share.euler;
-        if (std::abs(euler - std::round(euler)) < 0.01)
-            surface.eulerCharacteristic = int(std::lround(euler));
-        surface.area = order * share.area;
-        surface.volume = order * share.volume;
-        // Those of the mesh are not the surface's.
-        surface.piecesKnown = false;
-        surface.components = 0;
-        surface.cavities.clear();
-        surface.outerArea = surface.outerVolume = 0.0;
-    }
-    if (!surface.closed || !surface.manifold)
-        throw Error(ErrorKind::Check,
-                    "mesh: " + std::to_string(fit.open) +
-                        " edges of the unit's border fit none "
-                        "of its neighbours': the whole would not be closed [hint: without "
-                        "`bySymmetry`, with `memory` 8G where the whole is too large]");
+    const double area = surface.area;
+    if (isClosedForm(options))
+        run.result().ballAreas = takeClosedForm(atoms, grown, progress, surface);
+    checkFit(fit, area / order, surface);
     watch.stop("unit");
     run.freeFields();
     run.labels();
     MolecularSurface result = run.finish();
     result.surface.reset();
+    result.ballAreas.clear(); // makeSurface() has those of the unit
     result.shared = fit.shared;
     result.report.symmetry =
         SymmetryReport{unit.pointGroup, units, unit.copies, unit.deviation, fit.largest, fit.open};
