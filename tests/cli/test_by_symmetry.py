@@ -105,6 +105,23 @@ class BySymmetry(ToolTest):
                 self.assertLess(abs(found - expected), within * expected, (surface, name))
             self.assertGreater(unit["symmetry"]["open_vertices"], 0, surface)
 
+    def test_a_closed_form_needs_no_mesh(self):
+        self.ring(5, 120, (14.0, 1.0, 0.0), 16.0)
+        words = ["ring.pdb", *ASSEMBLY, "--by-symmetry", "--group-by", "chain", "--force"]
+        for surface in ("sas", "vdw"):
+            self.check(0, *words, "--surface", surface, "-o", "a.json")
+            self.check(0, *words, "--surface", surface, "-o", "b.json", "-o", "b.ply")
+            alone, meshed = self.report("a.json"), self.report("b.json")
+            self.assertEqual(alone["surface"]["triangles"], 0)
+            self.assertIsNone(alone["voxel"])
+            self.assertEqual(alone["symmetry"]["order"], 5)
+            for name in ("area", "volume", "euler_characteristic", "components", "cavities"):
+                self.assertEqual(alone["surface"][name], meshed["surface"][name], name)
+            (group,), (other,) = alone["groups"], meshed["groups"]
+            self.assertEqual((group["name"], group["atoms"], group["area"]),
+                             (other["name"], other["atoms"], other["area"]))
+            self.assertIsNone(group["volume"])
+
     def test_a_ring_and_a_dimer(self):
         self.ring(7, 60, (12.0, 1.0, 0.0), 6.0)
         self.check(0, "ring.pdb", *ASSEMBLY, "--by-symmetry", "-o", "r.json", says="(C7)")

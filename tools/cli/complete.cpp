@@ -244,7 +244,8 @@ bool asksForNumbers(const Call& call)
 {
     const std::string& value = call.atoms.valueBy;
     const bool byPoint = value == "radius" || value.rfind("potential", 0) == 0;
-    return hasClosedForm(call.options) && !call.atoms.bySymmetry && !byPoint && !call.center &&
+    const bool unit = call.atoms.bySymmetry; // a mesh of it says nothing more of the whole
+    return hasClosedForm(call.options) && !byPoint && !(unit && !value.empty()) && !call.center &&
            !call.outputs.empty() &&
            std::all_of(call.outputs.begin(), call.outputs.end(), [&](const Output& o) {
                return o.holds(Areas | FrameRows | Numbers);

@@ -74,15 +74,20 @@ void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Lab
     } else {
         area = groupSums(labels, result.ballAreas);
     }
-    std::vector<double> points(other + 1, 0.0);
-    const std::vector<Vec3f> inside = pointsInside(*result.surface, result.report.surface.volume);
-    for (const std::int32_t ball : nearestBalls(atoms.balls, inside, reach, progress)) {
-        if (atoms.unit && (ball < 0 || atoms.unit->motionOf[std::size_t(ball)] != 0)) continue;
-        const std::int32_t g = ball < 0 ? -1 : labels.groupOf[std::size_t(ball)];
-        points[g < 0 ? other : std::size_t(g)] += 1.0;
+    std::vector<double> volume(other + 1, std::numeric_limits<double>::quiet_NaN());
+    if (result.surface) {
+        std::vector<double> points(other + 1, 0.0);
+        const std::vector<Vec3f> inside =
+            pointsInside(*result.surface, result.report.surface.volume);
+        for (const std::int32_t ball : nearestBalls(atoms.balls, inside, reach, progress)) {
+            if (atoms.unit && (ball < 0 || atoms.unit->motionOf[std::size_t(ball)] != 0)) continue;
+            const std::int32_t g = ball < 0 ? -1 : labels.groupOf[std::size_t(ball)];
+            points[g < 0 ? other : std::size_t(g)] += 1.0;
+        }
+        const bool none =
+            std::all_of(points.begin(), points.end(), [](double n) { return n == 0.0; });
+        volume = scaled(none ? area : points, result.report.surface.volume);
     }
-    const bool none = std::all_of(points.begin(), points.end(), [](double n) { return n == 0.0; });
-    const std::vector<double> volume = scaled(none ? area : points, result.report.surface.volume);
 
     std::vector<Color> colors;
     if (options.color == ColorBy::Group) colors = groupColors(atoms, progress);
@@ -155,7 +160,8 @@ Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, 
 void labelSurface(const BallSet& atoms, const SurfaceOptions& options, double reach,
                   Progress& progress, MolecularSurface& result)
 {
-    const Labels nearest = label(atoms, options, reach, progress, result);
+    Labels nearest;
+    if (result.surface) nearest = label(atoms, options, reach, progress, result);
     if (atoms.labels && !atoms.labels->groups.empty())
         reportGroups(atoms, options, nearest, reach, progress, result);
 }

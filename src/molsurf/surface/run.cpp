@@ -10,13 +10,13 @@
 #include "molsurf/surface/check_balls.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/interfaces.h"
+#include "molsurf/surface/label_surface.h"
 #include "molsurf/surface/match_volume.h"
 #include "molsurf/surface/parts.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/surface_run.h"
 #include "molsurf/surface/unit_run.h"
 
-#include <limits>
 #include <utility>
 
 namespace molsurf
@@ -67,21 +67,7 @@ MolecularSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& opti
     if (atoms.labels && atoms.labels->values)
         result.ballValues.assign(atoms.labels->values->valueOf.begin(),
                                  atoms.labels->values->valueOf.end());
-    if (atoms.labels && !atoms.labels->groups.empty()) {
-        const BallLabels& labels = *atoms.labels;
-        std::vector<GroupReport>& groups = result.report.groups;
-        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-        for (const Group& group : labels.groups)
-            groups.push_back({group.name, 0, 0.0, unknown, ""});
-        groups.push_back({"other", 0, 0.0, unknown, ""});
-        for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
-            GroupReport& group =
-                labels.groupOf[i] < 0 ? groups.back() : groups[std::size_t(labels.groupOf[i])];
-            ++group.atoms;
-            group.area += result.ballAreas[i];
-        }
-        if (groups.back().atoms == 0) groups.pop_back();
-    }
+    labelSurface(atoms, options, 0.0, progress, result);
     watch.stop("areas");
     return result;
 }

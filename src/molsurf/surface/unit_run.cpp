@@ -12,6 +12,7 @@
 #include "molsurf/mesh/statistics.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/spline/curvature.h"
+#include "molsurf/surface/label_surface.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/surface_run.h"
 #include "molsurf/surface/unit_border.h"
@@ -182,6 +183,24 @@ std::vector<double> takeClosedForm(const BallSet& atoms, double grown, const Pro
     return std::move(share.areas);
 }
 
+/// What is known of the whole in closed form.
+MolecularSurface runUnitWithoutGrid(const BallSet& atoms, const SurfaceOptions& options,
+                                    Progress& progress)
+{
+    const SymmetricUnit& unit = *atoms.unit;
+    MolecularSurface result;
+    Stopwatch watch(result.report);
+    progress.update("areas", 0.0);
+    result.report.surface.kind = nameOf(options.kind);
+    result.ballAreas = takeClosedForm(atoms, grownBy(options), progress, result.report.surface);
+    labelSurface(atoms, options, 0.0, progress, result);
+    result.ballAreas.clear(); // makeSurface() has those of the unit
+    result.report.symmetry =
+        SymmetryReport{unit.pointGroup, unit.inverse.size(), unit.copies, unit.deviation, 0.0, 0};
+    watch.stop("areas");
+    return result;
+}
+
 /// The connected pieces of the whole: each piece of every unit joined to those that it meets.
 std::vector<PieceMeasure> wholePieces(const SymmetricUnit& unit, const BorderFit& fit,
                                       const std::vector<std::uint32_t>& pieceOf,
@@ -236,6 +255,7 @@ double surroundingsOf(const SurfaceOptions& options)
 MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
     checkUnitOptions(options);
+    if (!options.grid) return runUnitWithoutGrid(atoms, options, progress);
     const SymmetricUnit& unit = *atoms.unit;
     const double order = double(unit.inverse.size());
     SurfaceRun run(atoms, options, Scope(), progress);
