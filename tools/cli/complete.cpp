@@ -247,9 +247,8 @@ bool asksForNumbers(const Call& call)
     const bool unit = call.atoms.bySymmetry; // a mesh of it says nothing more of the whole
     return hasClosedForm(call.options) && !byPoint && !(unit && !value.empty()) && !call.center &&
            !call.outputs.empty() &&
-           std::all_of(call.outputs.begin(), call.outputs.end(), [&](const Output& o) {
-               return o.holds(Areas | FrameRows | Numbers);
-           });
+           std::all_of(call.outputs.begin(), call.outputs.end(),
+                       [&](const Output& o) { return o.holds(Areas | FrameRows | Numbers); });
 }
 
 /// The first file with areas by atom.
