@@ -93,7 +93,7 @@ struct SurfaceOptions {
     std::vector<std::string> fields;
     bool halfFloats = false; ///< whether the grids' values are saved as 16-bit floats
     bool meshLabels = true;  ///< whether the mesh has the atom, chain and group of its vertices
-    bool energy = true; ///< whether the report has the energy at rest, 5 to 9 % of the time
+    bool energy = true;      ///< whether the report has the energy at rest, 5 to 9 % of the time
     bool curvatureTotals = false; ///< whether the report has the integrals of curvature
     bool ballAreas = false;       ///< whether MolecularSurface::ballAreas is made
     bool contacts = false;        ///< whether MolecularSurface::contacts is made
