@@ -458,9 +458,11 @@ class Hints(Followed):
     @needs("preload")
     def test_record_of_a_killed_run(self):
         call = f"vdb_molsurf one.xyzr {FAST} -q --force -o a.ply -o a.json"
+        # A path with a space would be two.
+        faulty = 'LD_LIBRARY_PATH="$(dirname "$FAULTY_SYSTEM")" LD_PRELOAD=$(basename "$FAULTY_SYSTEM")'
         self.follow("io/commit.cpp", "remove ./.vdb_molsurf.",
-                    f"LD_PRELOAD=$FAULTY_SYSTEM FAULTY_KILL=2 {call}; LD_PRELOAD=$FAULTY_SYSTEM FAULTY_EIO=1- {call}",
-                    f"rm .vdb_molsurf.*.commit; LD_PRELOAD=$FAULTY_SYSTEM {call}")
+                    f"{faulty} FAULTY_KILL=2 {call}; {faulty} FAULTY_EIO=1- {call}",
+                    f"rm .vdb_molsurf.*.commit; {faulty} {call}")
 
     @needs("user")
     def test_folder_of_another_user(self):

@@ -123,8 +123,10 @@ TEST_P(BySymmetry, IsTheWhole)
         const Mesh welded = wholeMesh(unit, a, a.mesh, true, {}, Progress());
         const Topology topology = checkTopology(welded, Progress());
         EXPECT_TRUE(topology.closed && topology.oriented);
-        // Triangles that join vertices of the wrong units are as large as the whole.
-        EXPECT_NEAR(measure(welded, Progress()).area, found.area, 0.01 * found.area);
+        // Triangles that join vertices of the wrong units are as large as the whole. A mesh bridges
+        // the creases of a union, which its closed form has.
+        EXPECT_NEAR(measure(welded, Progress()).area, found.area,
+                    (exact ? 0.05 : 0.01) * found.area);
         EXPECT_EQ(welded.positions.size(), found.vertices);
         EXPECT_EQ(welded.triangles.size(), found.triangles);
         if (exact || rough) continue;
