@@ -258,6 +258,25 @@ class Areas(ToolTest):
         self.check(0, CRAMBIN, *SAS, "--probe", "3", "-o", "a.residues.csv")
         self.assertNotIn("relative_accessibility", self.table("a.residues.csv")[0])
 
+    def test_numbers_alone_need_no_mesh(self):
+        words = [CRAMBIN, "--surface", "sas", "--voxel", "1"]
+        self.check(0, *words, "-o", "a.json")
+        self.check(0, *words, "-o", "b.json", "-o", "b.ply")
+        numbers, meshed = self.report("a.json")["surface"], self.report("b.json")["surface"]
+        self.assertIsNone(numbers["closed"])
+        for key in ("area", "volume", "euler_characteristic", "components", "cavities"):
+            self.assertAlmostEqual(numbers[key], meshed[key], delta=1e-9 * abs(meshed[key]))
+
+    def test_what_is_of_grids_is_of_grids_with_a_report_alone(self):
+        words = ["--surface", "sas", "--voxel", "1"]
+        self.check(0, CRAMBIN, *words, "-o", "a.json", "--dry-run", says="GiB of memory")
+        self.assertEqual(self.names(), [])
+        self.check(0, ASPARTATE, "--surface", "sas", "--voxel", "0.7", "-o", "a.json", "--memory", "80M", says="in bricks")
+        self.assertTrue(self.report("a.json")["surface"]["closed"])
+        self.check(0, "compare", CRAMBIN, CRAMBIN, *words, "-o", "b.json")
+        self.check(0, DATA / "1a8o.cif.gz", *words, "--assembly", "1", "--instances", "-o", "c.json")
+        self.assertTrue(self.report("c.json")["surface"]["closed"])
+
     def test_wrong_calls(self):
         for words, says in (
                 (["--areas", "atom"], ["expected some of atoms, residues, contacts, interfaces", "did you mean atoms"]),

@@ -245,10 +245,13 @@ bool asksForNumbers(const Call& call)
     const std::string& value = call.atoms.valueBy;
     const bool byPoint = value == "radius" || value.rfind("potential", 0) == 0;
     const bool unit = call.atoms.bySymmetry; // a mesh of it says nothing more of the whole
-    return hasClosedForm(call.options) && !byPoint && !(unit && !value.empty()) && !call.center &&
-           !call.outputs.empty() &&
+    // Estimates, bricks and prototypes are of grids; completeAreas() refuses them with areas.
+    const bool ofGrid = call.dryRun || call.memory > 0 || call.atoms.instances;
+    const unsigned some = Areas | FrameRows | (ofGrid && call.areas.empty() ? 0u : Numbers);
+    return (call.verb & (Build | Batch)) != 0 && hasClosedForm(call.options) && !byPoint &&
+           !(unit && !value.empty()) && !call.center && !call.outputs.empty() &&
            std::all_of(call.outputs.begin(), call.outputs.end(),
-                       [&](const Output& o) { return o.holds(Areas | FrameRows | Numbers); });
+                       [=](const Output& o) { return o.holds(some); });
 }
 
 /// The first file with areas by atom.
