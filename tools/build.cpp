@@ -152,11 +152,6 @@ void centerMesh(Call& call, MolecularSurface& result, ShownMeshes& shown)
     result.report.center = {center[0], center[1], center[2]};
 }
 
-} // namespace
-
-namespace
-{
-
 /// Whether the estimate is that of the run: it is of one surface, and of the steps that it needs.
 bool isEstimated(const SurfaceOptions& options)
 {

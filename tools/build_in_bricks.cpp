@@ -13,7 +13,6 @@
 #include <malloc.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -81,8 +80,8 @@ void checkOutputs(const Call& call)
                                       "without --memory]");
     for (const Output& output : call.outputs)
         if ((output.format->verbs & BricksMerge) == 0)
-            throw Error(ErrorKind::Usage,
-                        "-o " + output.path + ": with bricks expected .vdb, .ply or .json");
+            throw Error(ErrorKind::Usage, "-o " + output.path + ": with bricks expected " +
+                                              endingsOf(~0u, BricksMerge, " or "));
 }
 
 std::string sizeText(std::size_t bytes)
@@ -150,8 +149,7 @@ int buildInBricks(const Call& call, Clock::time_point start)
     prepareOutputs(call, folder.content(plan.bricks.size()));
     folder.make();
     colorBalls(call.options, terminal, atoms);
-    const bool meshed = std::any_of(call.outputs.begin(), call.outputs.end(),
-                                    [](const Output& o) { return o.holds(Triangles); });
+    const bool meshed = call.writes(Triangles);
     std::vector<std::string> paths;
     std::shared_ptr<const SparseField> coarse;
     for (std::size_t k = 1; k <= plan.bricks.size(); ++k) {

@@ -362,6 +362,24 @@ const std::vector<Format>& formatTable()
     return table;
 }
 
+const Format* findFormat(const std::string& word)
+{
+    for (const Format& format : formatTable())
+        if (word == format.word) return &format;
+    return nullptr;
+}
+
+std::string endingsOf(unsigned holds, unsigned verbs, const char* last)
+{
+    std::vector<std::string> words;
+    for (const Format& format : formatTable())
+        if ((format.holds & holds) && (format.verbs & verbs))
+            words.push_back("." + std::string(format.word));
+    const std::string end = words.back();
+    words.pop_back();
+    return words.empty() ? end : joinWords(words, ", ") + last + end;
+}
+
 void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,
                  const Output& output, const Progress& progress, OutputFile& file,
                  const ShownMeshes& shown)

@@ -104,6 +104,9 @@ struct Call {
 
     /// Whether one of the files holds one of these.
     bool writes(unsigned some) const;
+
+    /// Whether there are files, and each holds one of these.
+    bool writesOnly(unsigned some) const;
     bool drawsLegend() const;
 
     /// Whether copies of an assembly, which nodes place, have colours.

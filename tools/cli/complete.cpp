@@ -193,13 +193,12 @@ void warnOfLosses(Call& call)
         for (const Option& option : group.options)
             if ((option.verbs & call.verb) && option.shownIn && !call.writes(option.shownIn))
                 warnIfGiven(call, {option.name}, endingsOf(option.shownIn, call.verb));
-    const bool vdb = call.writes(Grids);
     const bool means = call.options.ballAreas && !call.atoms.valueBy.empty(); // in tables
     if (call.has("color") && call.options.color != ColorBy::Nothing && !means &&
         !call.writes(Colors))
         call.warnings.push_back("--color: none of the files can hold colours [hint: -o .ply, .glb, "
                                 ".png or .html, for example]");
-    if (!call.has("fields") || vdb) return;
+    if (!call.has("fields") || call.writes(Grids)) return;
     std::vector<std::string> lost;
     for (const std::string& field : call.options.fields)
         if (!call.writes(VertexCurvatures) || !findCurvatureField(field)) lost.push_back(field);
@@ -232,13 +231,6 @@ void completeFrames(Call& call)
         if (output.path == "-") misuse("--frames: expected files to write, got -");
 }
 
-/// Whether files have areas of atoms and nothing else.
-bool holdOnlyAreas(const std::vector<Output>& outputs)
-{
-    return std::all_of(outputs.begin(), outputs.end(),
-                       [](const Output& o) { return o.holds(Areas); });
-}
-
 /// Whether all that is asked for is known in closed form.
 bool asksForNumbers(const Call& call)
 {
@@ -249,9 +241,7 @@ bool asksForNumbers(const Call& call)
     const bool ofGrid = call.dryRun || call.memory > 0 || call.atoms.instances;
     const unsigned some = Areas | FrameRows | (ofGrid && call.areas.empty() ? 0u : Numbers);
     return (call.verb & (Build | Batch)) != 0 && hasClosedForm(call.options) && !byPoint &&
-           !(unit && !value.empty()) && !call.center && !call.outputs.empty() &&
-           std::all_of(call.outputs.begin(), call.outputs.end(),
-                       [=](const Output& o) { return o.holds(some); });
+           !(unit && !value.empty()) && !call.center && call.writesOnly(some);
 }
 
 /// The first file with areas by atom.
@@ -272,8 +262,7 @@ void completeAreas(Call& call)
     if (!call.has("surface") && (!tables.empty() || call.options.interfaces)) {
         // The field's words mean this surface.
         call.options.areasOf = SurfaceKind::SolventAccessible;
-        if (!call.outputs.empty() && holdOnlyAreas(call.outputs))
-            call.options.kind = SurfaceKind::SolventAccessible;
+        if (call.writesOnly(Areas)) call.options.kind = SurfaceKind::SolventAccessible;
     }
     call.options.grid = !asksForNumbers(call);
     if (tables.empty()) return;

@@ -21,24 +21,6 @@
 namespace molsurf::tool
 {
 
-const Format* findFormat(const std::string& word)
-{
-    for (const Format& format : formatTable())
-        if (word == format.word) return &format;
-    return nullptr;
-}
-
-std::string endingsOf(unsigned holds, unsigned verbs, const char* last)
-{
-    std::vector<std::string> words;
-    for (const Format& format : formatTable())
-        if ((format.holds & holds) && (format.verbs & verbs))
-            words.push_back("." + std::string(format.word));
-    const std::string end = words.back();
-    words.pop_back();
-    return words.empty() ? end : joinWords(words, ", ") + last + end;
-}
-
 const std::vector<std::string>& areaTables()
 {
     static const std::vector<std::string> all = {"atoms", "residues", "contacts", "interfaces"};
@@ -1017,6 +999,13 @@ OptionGroup runOptions()
 bool Call::writes(unsigned some) const
 {
     return std::any_of(outputs.begin(), outputs.end(),
+                       [=](const Output& output) { return output.holds(some); });
+}
+
+bool Call::writesOnly(unsigned some) const
+{
+    return !outputs.empty() &&
+           std::all_of(outputs.begin(), outputs.end(),
                        [=](const Output& output) { return output.holds(some); });
 }
 

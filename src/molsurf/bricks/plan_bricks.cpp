@@ -503,11 +503,6 @@ void checkExtent(const BrickPlan& plan, const GaussianExtent& extent)
     throw Error(ErrorKind::Input, "the plan is damaged: its largest ball is not that of the atoms");
 }
 
-} // namespace
-
-namespace
-{
-
 /// What the upper nodes of OpenVDB's trees take beyond those of a compact molecule, for the grid
 /// and for the mesher's own: atoms far from each other have nodes of their own.
 double bytesOfNodes(const std::vector<Ball>& balls, double voxel)
