@@ -72,6 +72,8 @@ class Bricks(ToolTest):
             self.assertAlmostEqual(merged["surface"][name], whole["surface"][name], 5)
         self.assertEqual(merged["grid"]["active_voxels"], whole["grid"]["active_voxels"])
         self.assertEqual(merged["evolution"]["converged"], whole["evolution"]["converged"])
+        self.assertAlmostEqual(merged["evolution"]["final_energy"], whole["evolution"]["final_energy"],
+                               delta=1e-6 * whole["evolution"]["final_energy"])
         for a, b in zip(merged["evolution"]["energy"], whole["evolution"]["energy"]):
             self.assertAlmostEqual(a, b, 6)
         self.assertEqual([g["name"] for g in merged["groups"]], [g["name"] for g in whole["groups"]])

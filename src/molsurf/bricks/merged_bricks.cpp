@@ -101,6 +101,7 @@ std::optional<EvolutionReport> evolutionOf(const std::vector<BrickFile>& bricks,
                                            const EvolveOptions& options, double voxel)
 {
     EvolutionReport all;
+    all.finalEnergy = 0.0;
     bool any = false;
     std::vector<double> moved;
     Displacements last;
