@@ -29,8 +29,8 @@ WIDER = {"candidates": 10, "number": 9, "computeBrick": 9, "mergeBricks": 8, "co
 
 def functions():
     """(name, place, lines, parameters) of each function with a body."""
-    files = subprocess.run(["git", "ls-files", "src/*.cpp", "src/*.h", "tools/*.cpp", "tools/*.h"], cwd=ROOT,
-                           check=True, capture_output=True, text=True).stdout.split("\n")[:-1]
+    files = sorted(str(file.relative_to(ROOT)) for folder in ("src", "tools")
+                   for file in (ROOT / folder).rglob("*") if file.suffix in (".cpp", ".h"))
     tags = subprocess.run(["ctags", "--output-format=json", "--fields=+neS", "--kinds-C++=f", "-f", "-", *files],
                           cwd=ROOT, check=True, capture_output=True, text=True).stdout
     for line in tags.splitlines():
