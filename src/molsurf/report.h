@@ -61,12 +61,13 @@ struct SurfaceIntegrals {
 
 /// Area, volume and topology of a closed surface.
 struct SurfaceReport {
-    std::string kind = "variational"; ///< a word of nameOf(SurfaceKind)
-    double area = 0.0;                ///< area of all walls [Å^2]
-    double volume = 0.0;              ///< enclosed volume without cavities [Å^3]
-    int eulerCharacteristic = 0;      ///< of all walls
-    int meshEulerCharacteristic = 0;  ///< of the mesh; where the surface is known in closed form,
-                                      ///< the mesh may bridge what is narrower than a voxel
+    std::string kind = "variational";           ///< a word of nameOf(SurfaceKind)
+    double area = 0.0;                          ///< area of all walls [Å^2]
+    double volume = 0.0;                        ///< enclosed volume without cavities [Å^3]
+    std::optional<int> eulerCharacteristic = 0; ///< of all walls; none where it is not known, as
+                                                ///< of some wholes in closed form from a unit
+    int meshEulerCharacteristic = 0; ///< of the mesh; where the surface is known in closed form,
+                                     ///< the mesh may bridge what is narrower than a voxel
     bool piecesKnown = true; ///< whether components, cavities, outerArea and outerVolume are; not
                              ///< those of a whole in closed form that follows from a unit
     int components = 0;      ///< number of closed pieces that are not walls of cavities

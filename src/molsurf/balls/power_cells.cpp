@@ -160,15 +160,10 @@ PowerCells powerCells(const std::vector<Ball>& balls, const Progress& progress)
 {
     PowerCells out;
     out.volumes.resize(balls.size());
-    out.euler.resize(balls.size());
     if (balls.empty()) return out;
     const BallBoundary boundary = ballBoundary(balls, 0.0, progress);
     const BoundaryMeasure measure = measureBoundary(boundary, progress);
     out.areas = areasOfBalls(boundary, measure, balls.size());
-    for (std::size_t p = 0; p < boundary.patches.size(); ++p) {
-        const PlacedBall& ball = boundary.balls[std::size_t(boundary.patches[p].ball)];
-        out.euler[std::size_t(ball.index)] += measure.patchEuler[p];
-    }
     const BallIndex index(balls, {1.0, 0.0, 1.0});
 
     struct Part {

@@ -26,7 +26,6 @@ struct PowerFacet {
 struct PowerCells {
     std::vector<double> volumes; ///< one a ball [Å^3]; they add up to that of the union
     std::vector<double> areas;   ///< of the sphere that no other ball covers [Å^2], one a ball
-    std::vector<double> euler;   ///< BoundaryMeasure::patchEuler, one a ball
     std::vector<PowerFacet> facets;
 };
 

@@ -293,7 +293,7 @@ SurfaceReport MergedMesh::report() const
         if (i - begin != 2) report.manifold = false;
     }
     report.manifold = report.manifold && report.closed;
-    const int euler = report.eulerCharacteristic;
+    const int euler = *report.eulerCharacteristic;
     if (report.manifold &&
         (triangles() % 2 != 0 || euler % 2 != 0 || euler > 2 * std::int64_t(whole.size())))
         throw Error(ErrorKind::Input, "merge: the bricks contradict each other: V - E + F is " +

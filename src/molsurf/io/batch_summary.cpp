@@ -38,7 +38,8 @@ void writeSummaryJson(const BatchSummary& summary, OutputFile& file)
             entry.update(Json{{"atoms", e.atoms},
                               {"area", e.area},
                               {"volume", e.volume},
-                              {"euler_characteristic", e.eulerCharacteristic},
+                              {"euler_characteristic",
+                               e.eulerCharacteristic ? Json(*e.eulerCharacteristic) : Json()},
                               {"components", e.components},
                               {"cavities", e.cavities},
                               {"seconds", e.seconds}});
@@ -60,8 +61,8 @@ void writeSummaryCsv(const BatchSummary& summary, OutputFile& file)
             continue;
         }
         text += "," + digits(e.atoms) + "," + digits(e.area) + "," + digits(e.volume) + "," +
-                digits(e.eulerCharacteristic) + "," + digits(e.components) + "," +
-                digits(e.cavities) + ",\n";
+                (e.eulerCharacteristic ? digits(*e.eulerCharacteristic) : "") + "," +
+                digits(e.components) + "," + digits(e.cavities) + ",\n";
     }
     put(text, file);
 }
@@ -85,7 +86,8 @@ std::optional<BatchSummary> readSummary(const std::string& path)
                 entry.atoms = jsonNumber<std::size_t>(e.at("atoms"));
                 entry.area = jsonNumber<double>(e.at("area"));
                 entry.volume = jsonNumber<double>(e.at("volume"));
-                entry.eulerCharacteristic = jsonNumber<int>(e.at("euler_characteristic"));
+                if (const Json& euler = e.at("euler_characteristic"); !euler.is_null())
+                    entry.eulerCharacteristic = jsonNumber<int>(euler);
                 entry.components = jsonNumber<int>(e.at("components"));
                 entry.cavities = jsonNumber<std::size_t>(e.at("cavities"));
                 entry.seconds = jsonNumber<double>(e.at("seconds"));

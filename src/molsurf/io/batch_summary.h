@@ -21,7 +21,7 @@ struct BatchEntry {
     std::size_t atoms = 0;
     double area = 0.0;   ///< [Å^2]
     double volume = 0.0; ///< [Å^3]
-    int eulerCharacteristic = 0;
+    std::optional<int> eulerCharacteristic;
     int components = 0;
     std::size_t cavities = 0;
     double seconds = 0.0;

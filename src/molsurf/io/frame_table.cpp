@@ -49,13 +49,13 @@ FrameRow frameRow(std::size_t file, int frame, bool warm, const std::string& opt
                   const Report& report)
 {
     const SurfaceReport& s = report.surface;
-    FrameRow row{frame, s.eulerCharacteristic, !report.evolution || report.evolution->converged,
-                 options, ""};
+    FrameRow row{frame, s.eulerCharacteristic.value_or(0),
+                 !report.evolution || report.evolution->converged, options, ""};
     row.line = digits(file) + "," + digits(frame) + "," + (warm ? "warm" : "cold") + "," +
                (row.rests ? "yes" : "no") + "," +
                digits(report.evolution ? report.evolution->steps : 0) + "," + digits(report.atoms) +
-               "," + digits(s.area) + "," + digits(s.volume) + "," + digits(s.eulerCharacteristic) +
-               "," + digits(s.components) + "," + digits(s.cavities.size()) + "," +
+               "," + digits(s.area) + "," + digits(s.volume) + "," + digits(row.euler) + "," +
+               digits(s.components) + "," + digits(s.cavities.size()) + "," +
                digits(report.seconds.back().second) + "," + options;
     return row;
 }

@@ -128,7 +128,7 @@ void add(SurfaceReport& sum, const SurfaceReport& part)
     }
     sum.area += part.area;
     sum.volume += part.volume;
-    sum.eulerCharacteristic += part.eulerCharacteristic;
+    *sum.eulerCharacteristic += *part.eulerCharacteristic; // no part is of a symmetric unit
     sum.components += part.components;
     append(sum.cavities, part.cavities);
     sum.outerArea += part.outerArea;

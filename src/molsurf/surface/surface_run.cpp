@@ -355,21 +355,22 @@ void SurfaceRun::describeCurvature()
         [&] { surface.gaussianCurvature = statistics(mesh.scalars[1].values, areas); });
     if (!options_.curvatureTotals) return;
     constexpr double tolerance = 5.0; // for each unit of the Euler characteristic [sr]
-    const int chi = std::max(std::abs(surface.eulerCharacteristic), 2);
+    const int chi = std::max(std::abs(surface.eulerCharacteristic.value_or(0)), 2);
     surface.integrals = integrateSurface(mesh, spline_, tolerance * chi, progress_);
 }
 
 void describePieces(const std::vector<BoundaryPiece>& pieces, bool fillCavities, SurfaceReport& s)
 {
     s.area = s.volume = s.outerArea = s.outerVolume = 0.0;
-    s.components = s.eulerCharacteristic = 0;
+    s.components = 0;
+    int euler = 0;
     s.cavities.clear();
     for (const BoundaryPiece& piece : pieces) {
         const bool cavity = !piece.outer;
         if (cavity && fillCavities) continue;
         s.area += piece.area;
         s.volume += piece.volume;
-        s.eulerCharacteristic += piece.eulerCharacteristic;
+        euler += piece.eulerCharacteristic;
         if (cavity) {
             s.cavities.push_back({piece.area, -piece.volume});
         } else {
@@ -378,6 +379,7 @@ void describePieces(const std::vector<BoundaryPiece>& pieces, bool fillCavities,
             s.outerVolume += piece.volume;
         }
     }
+    s.eulerCharacteristic = euler;
     std::stable_sort(s.cavities.begin(), s.cavities.end(),
                      [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
 }

@@ -2,7 +2,6 @@
 #include "molsurf/surface/unit_run.h"
 
 #include "molsurf/balls/ball_index.h"
-#include "molsurf/balls/power_cells.h"
 #include "molsurf/balls/power_owners.h"
 #include "molsurf/core/disjoint_sets.h"
 #include "molsurf/error.h"
@@ -17,6 +16,7 @@
 #include "molsurf/surface/surface_run.h"
 #include "molsurf/surface/unit_border.h"
 #include "molsurf/surface/unit_cut.h"
+#include "molsurf/surface/unit_union.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,9 +31,6 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// How near the images of a ball on an axis are [Å].
-constexpr double onAxis = 0.05;
-
 void checkUnitOptions(const SurfaceOptions& options)
 {
     const auto refuse = [](const std::string& what) {
@@ -46,19 +43,6 @@ void checkUnitOptions(const SurfaceOptions& options)
     if (options.fillCavities) refuse("`fillCavities`");
     for (const std::string& field : options.fields)
         if (!findCurvatureField(field)) refuse("`fields` " + field);
-}
-
-/// The images of a ball of the unit that lie where it is: it is on an axis.
-std::vector<std::size_t> imagesAt(const BallSet& atoms, const BallIndex& index, std::size_t i)
-{
-    std::vector<std::size_t> out;
-    const Vec3d x(atoms.balls[i].center);
-    index.forEachNear(x, x, 0.0, [&](const Ball& ball, std::int32_t j) {
-        if (atoms.unit->motionOf[std::size_t(j)] == atoms.unit->motionOf[i]) return;
-        if (ball.atom != atoms.balls[i].atom || ball.radius != atoms.balls[i].radius) return;
-        if ((Vec3d(ball.center) - x).length() < onAxis) out.push_back(std::size_t(j));
-    });
-    return out;
 }
 
 /// The balls that decide whose a point is. Images of a ball on an axis move a little toward their
@@ -86,93 +70,14 @@ std::vector<Ball> owningBalls(const BallSet& atoms, double grown)
     return out;
 }
 
-/// What the unit has of a union of balls, in closed form.
-struct UnionShare {
-    double volume = 0.0;       ///< [Å^3]
-    double euler = 0.0;        ///< of the Euler characteristic of the boundary
-    std::vector<double> areas; ///< of each ball [Å^2]; 0 for those of neighbours
-};
-
-/// Rotations by which more than three spheres can meet in a point, on their axis: of each the
-/// powers from itself on, as indices of motions.
-std::vector<std::vector<std::size_t>> highAxes(const SymmetricUnit& unit)
-{
-    std::vector<std::vector<std::size_t>> out;
-    for (std::size_t g = 1; g < unit.inverse.size(); ++g) {
-        std::vector<std::size_t> powers = {g};
-        while (unit.product[g][powers.back()] != 0)
-            powers.push_back(unit.product[g][powers.back()]);
-        if (powers.size() >= 3) out.push_back(std::move(powers));
-    }
-    return out;
-}
-
-/// What a ball adds to the Euler characteristic. Where spheres of images meet in a point of an
-/// axis, they are moved apart, each in its own way: the mean of the images has a fair share.
-double eulerOf(const BallSet& atoms, const BallIndex& index, const PowerCells& cells,
-               const std::vector<std::vector<std::size_t>>& axes, std::size_t i, double radius)
-{
-    const Vec3d x(atoms.balls[i].center);
-    for (const std::vector<std::size_t>& powers : axes) {
-        double sum = cells.euler[i];
-        std::size_t found = 1;
-        for (const std::size_t g : powers) {
-            const Instance& m = atoms.instances[g];
-            const Vec3d image = MeshInstance{0, {}, m.rotation, m.translation, {}}.placed(x);
-            if ((image - x).length() > 2.0 * radius) break;
-            index.forEachNear(image, image, 0.0, [&](const Ball& ball, std::int32_t j) {
-                if ((Vec3d(ball.center) - image).length() > onAxis ||
-                    atoms.unit->motionOf[std::size_t(j)] != std::int32_t(g))
-                    return;
-                sum += cells.euler[std::size_t(j)];
-                ++found;
-            });
-        }
-        if (found == powers.size() + 1) return sum / double(found);
-    }
-    return cells.euler[i];
-}
-
-UnionShare shareOf(const BallSet& atoms, double grown, const Progress& progress)
-{
-    const std::vector<std::vector<std::size_t>> axes = highAxes(*atoms.unit);
-    std::vector<Ball> balls = atoms.balls;
-    for (Ball& ball : balls) ball.radius += grown;
-    const PowerCells cells = powerCells(balls, progress);
-    const BallIndex index(atoms.balls, {0.0, 0.0, 2.0});
-    UnionShare sum;
-    sum.areas.assign(balls.size(), 0.0);
-    const auto add = [&](std::size_t i, double part, std::size_t of) {
-        sum.areas[of] += part * cells.areas[i];
-        sum.volume += part * cells.volumes[i];
-    };
-    const auto eulerAt = [&](std::size_t i, const std::vector<std::size_t>& images) {
-        double euler = cells.euler[i];
-        for (const std::size_t j : images) euler += cells.euler[j];
-        return euler;
-    };
-    for (std::size_t i = 0; i < balls.size(); ++i) {
-        if (atoms.unit->motionOf[i] != 0) continue;
-        const std::vector<std::size_t> images = imagesAt(atoms, index, i);
-        const double part = 1.0 / double(images.size() + 1);
-        add(i, part, i);
-        for (const std::size_t j : images) add(j, part, i);
-        sum.euler += images.empty() ? eulerOf(atoms, index, cells, axes, i, balls[i].radius)
-                                    : part * eulerAt(i, images);
-    }
-    return sum;
-}
-
 /// Replaces the measures of a whole by those in closed form. How many pieces it has is not known.
 /// @return the areas of balls in all units [Å^2]; 0 for those of neighbours
 std::vector<double> takeClosedForm(const BallSet& atoms, double grown, const Progress& progress,
                                    SurfaceReport& surface)
 {
     const double order = double(atoms.unit->inverse.size());
-    UnionShare share = shareOf(atoms, grown, progress);
-    const double euler = order * share.euler;
-    if (std::abs(euler - std::round(euler)) < 0.01)
-        surface.eulerCharacteristic = int(std::lround(euler));
+    UnitShare share = shareOfUnit(atoms, grown, progress);
+    surface.eulerCharacteristic = share.wholeEuler;
     surface.area = 0.0;
     for (double& area : share.areas) surface.area += area *= order;
     surface.volume = order * share.volume;

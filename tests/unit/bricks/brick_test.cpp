@@ -135,7 +135,7 @@ protected:
         EXPECT_TRUE(report.closed && report.manifold);
         EXPECT_EQ(report.vertices, expected.vertices);
         EXPECT_EQ(report.triangles, expected.triangles);
-        const int euler = measure(whole.mesh, progress).eulerCharacteristic;
+        const int euler = *measure(whole.mesh, progress).eulerCharacteristic;
         EXPECT_EQ(report.eulerCharacteristic, euler);
         EXPECT_EQ(report.maxResidual < 1e-3, expected.maxResidual < 1e-3);
         EXPECT_EQ(report.meanCurvature.percentiles, expected.meanCurvature.percentiles);

@@ -251,6 +251,40 @@ TEST(SymmetricUnit, SharesABallOnAnAxis)
     }
 }
 
+/// On a lattice atoms are on axes, stand in the places of others' images, and have four and more
+/// spheres through a point, which fall apart in another way in each unit.
+TEST(SymmetricUnit, OnALatticeIsTheWhole)
+{
+    std::mt19937 random(5);
+    const auto below = [&](int count) { return int(random() % unsigned(count)); };
+    const std::vector<Case> all = cases();
+    int shared = 0; // draws with atoms in the places of others' images
+    for (int draw = 0; draw < 60; ++draw) {
+        const Case& c = all[std::size_t(draw) % all.size()];
+        SCOPED_TRACE(std::string(c.name) + " " + std::to_string(draw));
+        const double edge = draw % 2 ? 3.0 : 1.5;
+        Structure s = blob({0, 0, 0}, 1.0, std::size_t(1 + below(9)), 3);
+        for (Atom& atom : s.atoms) {
+            atom.radius = 1.7f;
+            atom.position = Vec3d(1 + below(4), below(4), below(4)) * edge;
+        }
+        s.assemblies = {assemblyOf(c.operators)};
+        SurfaceOptions options;
+        options.kind = draw % 3 ? SurfaceKind::SolventAccessible : SurfaceKind::VanDerWaals;
+        options.grid = false;
+        const BallSet unit = selectBalls(s, assembly(true, options));
+        const BallSet whole = selectBalls(s, assembly(false, options));
+        const SurfaceReport found = makeSurface(unit, options).report.surface;
+        const SurfaceReport expected = makeSurface(whole, options).report.surface;
+        EXPECT_NEAR(found.area, expected.area, 1e-6 * expected.area);
+        EXPECT_NEAR(found.volume, expected.volume, 1e-6 * expected.volume);
+        ASSERT_TRUE(found.eulerCharacteristic);
+        EXPECT_EQ(*found.eulerCharacteristic, *expected.eulerCharacteristic);
+        shared += unit.unit->inverse.size() * unit.unit->balls != whole.balls.size();
+    }
+    EXPECT_GE(shared, 3);
+}
+
 /// Groups count the whole; a name stands for all copies that the rotations make of a chain.
 TEST(SymmetricUnit, GroupsAddUp)
 {

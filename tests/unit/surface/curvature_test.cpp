@@ -138,7 +138,7 @@ TEST(CurvatureReport, GaussBonnetOnAProtein)
         const MolecularSurface result = test::runOn(test::balls("1a8o.cif.gz", "1"), options);
         const SurfaceReport& report = result.report.surface;
         ASSERT_TRUE(report.integrals);
-        const double chi = report.eulerCharacteristic;
+        const double chi = *report.eulerCharacteristic;
         EXPECT_NEAR(report.integrals->gaussianCurvature, 2.0 * M_PI * chi,
                     0.01 * 2.0 * M_PI * std::max(std::abs(chi), 2.0));
         EXPECT_EQ(report.integrals->unresolvedArea, 0.0);

@@ -21,7 +21,7 @@ void say(const char* what, const MolecularSurface& r)
     printf("%s: area %.1f volume %.1f steps %d converged %d rise %.2e residual %.2e euler %d\n",
            what, r.report.surface.area, r.report.surface.volume, r.report.evolution->steps,
            r.report.evolution->converged, test::largestRise(*r.report.evolution),
-           r.report.surface.maxResidual, r.report.surface.eulerCharacteristic);
+           r.report.surface.maxResidual, *r.report.surface.eulerCharacteristic);
 }
 
 TEST(Pipeline, DimerOf1A8O)

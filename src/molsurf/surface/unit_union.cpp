@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/unit_union.h"
+
+#include "molsurf/balls/boundary_check.h"
+#include "molsurf/balls/boundary_measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+
+namespace
+{
+
+/// A boundary with its measures, checked.
+struct MeasuredUnion {
+    BallBoundary boundary;
+    BoundaryMeasure measure;
+
+    MeasuredUnion(const std::vector<Ball>& balls, const Progress& progress)
+        : boundary(ballBoundary(balls, 0.0, progress)), measure(measureBoundary(boundary, progress))
+    {
+        checkBoundary(boundary, measure, progress);
+    }
+
+    std::size_t ballOf(std::size_t patch) const { return indexOf(boundary.patches[patch].ball); }
+    std::size_t indexOf(std::int32_t place) const
+    {
+        return std::size_t(boundary.balls[std::size_t(place)].index);
+    }
+};
+
+/// What the unit has of the Euler characteristic. Faces, arcs and corners of the boundary count
+/// with the mean weight of the balls whose spheres they lie on. Where many spheres meet in a point
+/// or a circle, which arcs and corners there are depends on how placedBalls() moves them, and that
+/// differs from unit to unit: which spheres meet there does not.
+///
+/// @param[in] weights  the unit's part of each ball
+double eulerOfUnit(const std::vector<Ball>& balls, const std::vector<double>& weights,
+                   const MeasuredUnion& all)
+{
+    constexpr double near = 1e-5;       // of a sphere [Å], far above the moves of placedBalls()
+    constexpr double leastPatch = 1e-6; // [Å^2]: one that these moves can make
+    const BallIndex index(balls, {1.0, 0.0, 1.0});
+    const auto weightAt = [&](const Vec3d& x) {
+        double sum = 0.0, count = 0.0;
+        index.forEachNear(x, x, near, [&](const Ball& ball, std::int32_t i) {
+            if (std::abs((Vec3d(ball.center) - x).length() - double(ball.radius)) > near) return;
+            sum += weights[std::size_t(i)];
+            ++count;
+        });
+        return count > 0.0 ? sum / count : 0.0;
+    };
+    const BallBoundary& boundary = all.boundary;
+    std::vector<double> faces(balls.size(), 0.0); // of each ball: less holes
+    std::vector<Vec3d> places(balls.size());      // of each ball: on the longest of its arcs
+    std::vector<double> longest(balls.size(), 0.0);
+    double euler = 0.0;
+    for (const Arc& arc : boundary.arcs) {
+        const Vec3d middle = arc.centre + arc.radius * arc.middle;
+        const bool open = arc.ends[0] >= 0;
+        if (open) euler -= weightAt(middle);
+        for (const std::int32_t place : arc.balls) {
+            const std::size_t i = all.indexOf(place);
+            if (open) faces[i] += 1.0 / 6.0; // what patchEuler has of the arc and its corners
+            if (arc.half * arc.radius <= longest[i]) continue;
+            longest[i] = arc.half * arc.radius;
+            places[i] = middle;
+        }
+    }
+    for (const Corner& corner : boundary.corners) euler += weightAt(corner.position);
+    for (std::size_t p = 0; p < boundary.patches.size(); ++p) {
+        const std::size_t i = all.ballOf(p);
+        const double weight =
+            all.measure.patchAreas[p] < leastPatch ? weightAt(places[i]) : weights[i];
+        euler += weight * (faces[i] + all.measure.patchEuler[p]);
+    }
+    return euler;
+}
+
+} // namespace
+
+std::vector<std::size_t> imagesAt(const BallSet& atoms, const BallIndex& index, std::size_t i)
+{
+    std::vector<std::size_t> out;
+    const Vec3d x(atoms.balls[i].center);
+    index.forEachNear(x, x, 0.0, [&](const Ball& ball, std::int32_t j) {
+        if (std::size_t(j) == i || ball.radius != atoms.balls[i].radius) return;
+        if ((Vec3d(ball.center) - x).length() < onAxis) out.push_back(std::size_t(j));
+    });
+    return out;
+}
+
+UnitShare shareOfUnit(const BallSet& atoms, double grown, const Progress& progress)
+{
+    const SymmetricUnit& unit = *atoms.unit;
+    std::vector<Ball> balls = atoms.balls;
+    for (Ball& ball : balls) ball.radius += grown;
+    const MeasuredUnion all(balls, progress);
+    std::vector<double> areas(balls.size(), 0.0), fluxes(balls.size(), 0.0);
+    for (std::size_t p = 0; p < all.boundary.patches.size(); ++p) {
+        const Patch& patch = all.boundary.patches[p];
+        const Vec3d& normal = all.measure.patchNormals[p];
+        areas[all.ballOf(p)] += all.measure.patchAreas[p];
+        fluxes[all.ballOf(p)] +=
+            patch.radius * all.measure.patchAreas[p] + (patch.centre - unit.centre).dot(normal);
+    }
+
+    UnitShare sum;
+    sum.areas.assign(balls.size(), 0.0);
+    // Of balls in one place the first stands for all: between two that are not quite equal lies a
+    // circle with a direction of its own in each unit.
+    std::vector<Ball> single;
+    std::vector<double> weights; // the unit's parts of these
+    const BallIndex index(atoms.balls, {0.0, 0.0, 2.0});
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        std::vector<std::size_t> here = imagesAt(atoms, index, i);
+        here.push_back(i);
+        const double part = 1.0 / double(here.size());
+        double weight = 0.0;
+        for (const std::size_t j : here) {
+            if (unit.motionOf[j] == 0) weight += part;
+            if (unit.motionOf[i] != 0) continue;
+            sum.areas[i] += part * areas[j];
+            sum.volume += part * fluxes[j] / 3.0;
+        }
+        if (*std::min_element(here.begin(), here.end()) != i) continue;
+        single.push_back(balls[i]);
+        weights.push_back(weight);
+    }
+    const double order = double(unit.inverse.size());
+    const double euler =
+        order * (single.size() == balls.size() ? eulerOfUnit(balls, weights, all)
+                                               : eulerOfUnit(single, weights, {single, progress}));
+    const double whole = 2.0 * std::round(0.5 * euler);
+    if (std::abs(euler - whole) < 0.01) sum.wholeEuler = int(whole);
+    return sum;
+}
+
+} // namespace molsurf
