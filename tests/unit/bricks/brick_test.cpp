@@ -188,6 +188,15 @@ TEST_F(Bricks, RoundedRidgesAreThoseOfTheWhole)
     expectSame(test::randomBalls(60, 16.0, openvdb::Vec3d(1.3, -2.1, 0.4), 3), options, 8);
 }
 
+// A probe of many voxels: distances come from leaves away.
+TEST_F(Bricks, LargeProbesAreThoseOfTheWhole)
+{
+    SurfaceOptions options = coarse();
+    options.voxel = 0.4;
+    options.probe = 6.0;
+    expectSame(test::randomBalls(150, 30.0, openvdb::Vec3d(1.3, -2.1, 0.4), 3), options, 8);
+}
+
 TEST_F(Bricks, HalfFloatsAreThoseOfTheWhole)
 {
     SurfaceOptions options = coarse(SurfaceKind::Gaussian);
