@@ -5,6 +5,7 @@
 #include "sha256.h"
 #include "sidecar.h"
 
+#include "molsurf/color/color_table.h"
 #include "molsurf/color/crisp_borders.h"
 #include "molsurf/color/legend.h"
 #include "molsurf/color/palette.h"
@@ -122,12 +123,10 @@ std::string stemOf(const std::string& path)
 std::vector<Legend> legendsOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
                               const Progress& progress)
 {
-    std::vector<ColorBy> kinds = {ColorBy::Chain, ColorBy::Group, ColorBy::MeanCurvature,
-                                  ColorBy::GaussianCurvature};
     const ColorBy asked = call.options.color;
-    const auto found = std::find(kinds.begin(), kinds.end(), asked);
-    if (found != kinds.end()) kinds.erase(found);
-    if (asked != ColorBy::Nothing) kinds.insert(kinds.begin(), asked);
+    std::vector<ColorBy> kinds = {asked};
+    for (const ColorKind& kind : colorTable())
+        if (kind.offered && kind.by != asked) kinds.push_back(kind.by);
     std::vector<Legend> legends;
     for (const ColorBy kind : kinds)
         if (auto legend = legendOf(kind, atoms, mesh, progress))
@@ -234,10 +233,8 @@ std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh
                               const Progress& progress)
 {
     const ColorBy by = call.options.color;
-    const bool ofBalls = by == ColorBy::Value && atoms.labels && atoms.labels->values &&
-                         !atoms.labels->values->byPoint();
-    const bool named = by == ColorBy::Chain || by == ColorBy::Group || by == ColorBy::Element ||
-                       by == ColorBy::Residue || by == ColorBy::Nucleotide || ofBalls;
+    const ColorKind& colors = kindOf(by);
+    const bool named = colors.hasBorders && colors.hasBorders(atoms);
     const bool shown = std::any_of(call.outputs.begin(), call.outputs.end(),
                                    [&](const Output& o) { return isCrisp(call, o); });
     if (!named || !shown || !mesh.parts.empty()) return std::nullopt;
@@ -246,9 +243,10 @@ std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh
     std::vector<Ball> balls = atoms.balls;
     for (Ball& ball : balls)
         if (isUnion(kind)) ball.radius += grownBy(call.options);
-    return withCrispBorders(
-        mesh, balls, atoms.colors.empty() ? ballColors(atoms, by, progress) : atoms.colors,
-        spheres ? call.options.voxel : 0.0, ofBalls ? atoms.labels->values->name : "", progress);
+    return withCrispBorders(mesh, balls,
+                            atoms.colors.empty() ? ballColors(atoms, by, progress) : atoms.colors,
+                            spheres ? call.options.voxel : 0.0,
+                            by == ColorBy::Value ? atoms.labels->values->name : "", progress);
 }
 
 struct Writing {

@@ -6,6 +6,7 @@
 #include "sidecar.h"
 
 #include "molsurf/bricks/run_brick.h"
+#include "molsurf/color/color_table.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/spline/curvature.h"
@@ -180,11 +181,9 @@ void addTurntable(Call& call)
 // Says what none of the files can hold.
 void warnOfLosses(Call& call)
 {
-    const ColorBy by = call.options.color;
     if (call.atoms.valueRange && call.atoms.valueBy.empty())
         call.warnings.push_back("--range is for --color by a value, as bfactor");
-    if (call.crisp && (by == ColorBy::Nothing || by == ColorBy::MeanCurvature ||
-                       by == ColorBy::GaussianCurvature))
+    if (call.crisp && !kindOf(call.options.color).hasBorders)
         call.warnings.push_back("--crisp is for --color chain, group, element or residue");
     if (call.crisp && (call.options.split || !call.options.surfaceOf.empty()))
         call.warnings.push_back("--crisp is not for surfaces of their own");

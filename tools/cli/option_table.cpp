@@ -4,6 +4,7 @@
 #include "sha256.h"
 
 #include "molsurf/bricks.h"
+#include "molsurf/color/color_table.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/ball_values.h"
 #include "molsurf/selection/choose_copies.h"
@@ -208,13 +209,13 @@ Option text(const char* name, const char* value, std::string help, const char* n
 /// One of a few values that nameOf() names.
 template<typename Of, typename Enum>
 Option word(const char* name, const char* value, std::string help, unsigned verbs, const Of& of,
-            std::initializer_list<Enum> choices)
+            const std::vector<Enum>& choices)
 {
     const Call preset;
     Option o{name, 0, value, std::move(help), nameOf(of(preset)), verbs};
     for (const Enum choice : choices) o.words.push_back(nameOf(choice));
-    o.set = [=, all = std::vector<Enum>(choices), words = o.words](Call& call, const Values& v) {
-        for (const Enum choice : all) {
+    o.set = [=, words = o.words](Call& call, const Values& v) {
+        for (const Enum choice : choices) {
             if (lowered(v.back()) != nameOf(choice)) continue;
             of(call) = choice;
             return;
@@ -223,6 +224,13 @@ Option word(const char* name, const char* value, std::string help, unsigned verb
     };
     o.stored = [=](const Call& call) { return stored(nameOf(of(call))); };
     return o;
+}
+
+template<typename Of, typename Enum>
+Option word(const char* name, const char* value, std::string help, unsigned verbs, const Of& of,
+            std::initializer_list<Enum> choices)
+{
+    return word(name, value, std::move(help), verbs, of, std::vector<Enum>(choices));
 }
 
 /// A choice of two words, the second one the default.
@@ -246,9 +254,13 @@ constexpr auto surfaceKinds = {SurfaceKind::Variational, SurfaceKind::SolventExc
 
 constexpr auto contactLevels = {ContactLevel::Atom, ContactLevel::Residue, ContactLevel::Chain};
 
-constexpr auto colorings = {
-    ColorBy::Nothing, ColorBy::Chain,      ColorBy::Group,         ColorBy::Element,
-    ColorBy::Residue, ColorBy::Nucleotide, ColorBy::MeanCurvature, ColorBy::GaussianCurvature};
+std::vector<ColorBy> colorings()
+{
+    std::vector<ColorBy> out;
+    for (const ColorKind& kind : colorTable())
+        if (kind.complete) out.push_back(kind.by);
+    return out;
+}
 
 /// GROUP=KIND, the group ending at the last =.
 std::pair<std::string, SurfaceKind> parseSurfaceOf(const std::string& text)
@@ -714,7 +726,7 @@ OptionGroup groupOptions()
     };
     split.stored = [](const Call& c) { return stored(c.options.split ? "group" : "none"); };
     const auto color = [](std::string text, std::string preset, unsigned verbs) {
-        Option o = word("color", "WORD", std::move(text), verbs, OF(options.color), colorings);
+        Option o = word("color", "WORD", std::move(text), verbs, OF(options.color), colorings());
         o.preset = std::move(preset);
         return o;
     };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/run_brick.h"
 
+#include "molsurf/color/color_table.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
 #include "molsurf/levelset/round_ridges.h"
@@ -162,8 +163,7 @@ void checkBrickOptions(const SurfaceOptions& options)
     if (options.splineLevel > 0) refuse("`splineLevel`");
     if (options.kind == SurfaceKind::Variational && options.evolution.flow == Flow::Paper)
         refuse("`flow` paper");
-    if (options.color == ColorBy::MeanCurvature || options.color == ColorBy::GaussianCurvature)
-        refuse("`color` by curvature");
+    if (kindOf(options.color).ofCurvature) refuse("`color` by curvature");
 }
 
 Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/color/curvature_colors.h"
 
+#include "molsurf/color/color_table.h"
 #include "molsurf/color/palette.h"
 
 #include <algorithm>
@@ -12,8 +13,8 @@ namespace molsurf
 
 const char* curvatureNameOf(ColorBy by)
 {
-    if (by == ColorBy::MeanCurvature) return "mean_curvature";
-    return by == ColorBy::GaussianCurvature ? "gaussian_curvature" : nullptr;
+    const ColorKind& kind = kindOf(by);
+    return kind.ofCurvature ? kind.attribute : nullptr;
 }
 
 ColorScale curvatureScale(const std::vector<float>& curvature)

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/color/palette.h"
 
-#include "molsurf/color/value_colors.h"
+#include "molsurf/color/color_table.h"
 
 #include "molsurf/balls/contacts.h"
 #include "molsurf/error.h"
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 #include <tuple>
 
 namespace molsurf
@@ -33,108 +34,6 @@ Color paletteColor(std::size_t i)
         if (shade == 2) c = std::uint8_t(c * 6 / 10);
     }
     return color;
-}
-
-Color elementColor(std::uint8_t element)
-{
-    switch (element) {
-    case 1:
-        return {255, 255, 255};
-    case 6:
-        return {144, 144, 144};
-    case 7:
-        return {48, 80, 248};
-    case 8:
-        return {255, 13, 13};
-    case 9:
-        return {144, 224, 80};
-    case 11:
-        return {171, 92, 242};
-    case 12:
-        return {138, 255, 0};
-    case 15:
-        return {255, 128, 0};
-    case 16:
-        return {255, 255, 48};
-    case 17:
-        return {31, 240, 31};
-    case 19:
-        return {143, 64, 212};
-    case 20:
-        return {61, 255, 0};
-    case 25:
-        return {156, 122, 199};
-    case 26:
-        return {224, 102, 51};
-    case 27:
-        return {240, 144, 160};
-    case 28:
-        return {80, 208, 80};
-    case 29:
-        return {200, 128, 51};
-    case 30:
-        return {125, 128, 176};
-    case 34:
-        return {255, 161, 0};
-    case 35:
-        return {166, 41, 41};
-    case 53:
-        return {148, 0, 148};
-    default:
-        return {255, 20, 147};
-    }
-}
-
-Color classColor(ResidueClass residue)
-{
-    switch (residue) {
-    case ResidueClass::Hydrophobic:
-        return {153, 153, 153};
-    case ResidueClass::Aromatic:
-        return {204, 121, 167};
-    case ResidueClass::Polar:
-        return {0, 158, 115};
-    case ResidueClass::Positive:
-        return {0, 114, 178};
-    case ResidueClass::Negative:
-        return {213, 94, 0};
-    case ResidueClass::Special:
-        return {240, 228, 66};
-    case ResidueClass::Nucleic:
-    case ResidueClass::Adenine:
-    case ResidueClass::Cytosine:
-    case ResidueClass::Guanine:
-    case ResidueClass::Thymine:
-        return {86, 180, 233};
-    default:
-        return {230, 159, 0};
-    }
-}
-
-/// Of Okabe and Ito's colours, like those of the classes.
-Color baseColor(ResidueClass residue)
-{
-    switch (residue) {
-    case ResidueClass::Adenine:
-        return {213, 94, 0};
-    case ResidueClass::Cytosine:
-        return {240, 228, 66};
-    case ResidueClass::Guanine:
-        return {0, 158, 115};
-    case ResidueClass::Thymine:
-        return {0, 114, 178};
-    default:
-        return neutralColor;
-    }
-}
-
-std::vector<Color> spread(const std::vector<Color>& colors, const std::vector<std::int32_t>& of)
-{
-    std::vector<Color> out(of.size(), neutralColor);
-    for (std::size_t i = 0; i < of.size(); ++i) {
-        if (of[i] >= 0) out[i] = colors[std::size_t(of[i])];
-    }
-    return out;
 }
 
 } // namespace
@@ -187,53 +86,17 @@ std::vector<Color> groupColors(const BallSet& atoms, const Progress& progress)
 
 std::vector<Color> ballColors(const BallSet& atoms, ColorBy by, const Progress& progress)
 {
-    std::vector<Color> out(atoms.balls.size(), neutralColor);
-    if (!atoms.labels) return out;
-    const BallLabels& labels = *atoms.labels;
-    switch (by) {
-    case ColorBy::Chain:
-        return spread(chainColors(atoms, progress), labels.chainOf);
-    case ColorBy::Group:
-        if (labels.groups.empty()) return out;
-        return spread(groupColors(atoms, progress), labels.groupOf);
-    case ColorBy::Value:
-        if (!labels.values) return out;
-        return valueColors(*labels.values);
-    case ColorBy::Element:
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = elementColor(labels.elementOf[i]);
-        return out;
-    case ColorBy::Residue:
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = classColor(labels.residueClassOf[i]);
-        return out;
-    case ColorBy::Nucleotide:
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = baseColor(labels.residueClassOf[i]);
-        return out;
-    default:
-        return out;
-    }
+    const ColorKind& kind = kindOf(by);
+    if (!kind.ofBalls || !kind.has(atoms))
+        return std::vector<Color>(atoms.balls.size(), neutralColor);
+    return kind.ofBalls(atoms, progress);
 }
 
 void checkColors(const BallSet& atoms, ColorBy by)
 {
-    const auto expect = [](bool there, const char* what) {
-        if (!there) throw Error(ErrorKind::Usage, std::string("`color`: expected ") + what);
-    };
-    const auto& labels = atoms.labels;
-    switch (by) {
-    case ColorBy::Nothing:
-    case ColorBy::MeanCurvature:
-    case ColorBy::GaussianCurvature:
-        return;
-    case ColorBy::Plain:
-        return expect(!atoms.colors.empty(),
-                      "colours of the balls, as of SelectOptions::plainColor");
-    case ColorBy::Group:
-        return expect(labels && !labels->groups.empty(), "groups, as of SelectOptions::groupBy");
-    case ColorBy::Value:
-        return expect(labels && labels->values, "values, as of SelectOptions::valueBy");
-    default:
-        return expect(labels.has_value(), "labels, as of SelectOptions::labels");
-    }
+    const ColorKind& kind = kindOf(by);
+    if (kind.has && !kind.has(atoms))
+        throw Error(ErrorKind::Usage, std::string("`color`: expected ") + kind.needs);
 }
 
 std::vector<Color> instanceColors(const BallSet& atoms, const Progress& progress)

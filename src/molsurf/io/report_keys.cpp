@@ -26,8 +26,7 @@ const std::vector<ReportKey>& reportKeys()
         {"surface.volume", "Å³", "The volume inside, cavities left out"},
         {"surface.euler_characteristic", "",
          "The Euler number of all walls: twice their number less twice the tunnels. Of sas and vdw "
-         "it is that of the exact boundary. Null where the parts of symmetric units do not add up "
-         "to that of a closed surface"},
+         "it is that of the exact boundary, null where units do not add up to a closed one"},
         {"surface.mesh_euler_characteristic", "",
          "The Euler number of the mesh; on sas and vdw the mesh bridges what is narrower than a "
          "voxel. Null without a mesh"},

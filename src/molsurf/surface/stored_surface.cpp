@@ -2,6 +2,7 @@
 #include "molsurf/surface/stored_surface.h"
 
 #include "molsurf/color/color_map.h"
+#include "molsurf/color/color_table.h"
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/error.h"
@@ -229,12 +230,9 @@ void colorByCurvature(const Source& from, ColorBy by, FloatGrid& levelSet, const
 /// The colours of the file, if these are colours that the program knows.
 ColorBy storedColors(const Source& from)
 {
-    constexpr ColorBy all[] = {
-        ColorBy::Chain,      ColorBy::Group, ColorBy::Element,       ColorBy::Residue,
-        ColorBy::Nucleotide, ColorBy::Plain, ColorBy::MeanCurvature, ColorBy::GaussianCurvature};
     if (!find<Vec3SGrid>(from.grids, "Cd")) return ColorBy::Nothing;
-    for (const ColorBy one : all)
-        if (textOf(from.metadata, "option.color") == nameOf(one)) return one;
+    for (const ColorKind& kind : colorTable())
+        if (textOf(from.metadata, "option.color") == kind.word) return kind.by;
     return ColorBy::Nothing;
 }
 
