@@ -332,6 +332,8 @@ const std::vector<Format>& formatTable()
          [](const Writing& w, OutputFile& file) { writeStl(w.whole, file, printUnit(w.call)); }},
         {"off", meshed, Triangles | Colors | CutBorders, "",
          [](const Writing& w, OutputFile& file) { writeOff(w.whole, file); }},
+        {"wrl", meshed, Triangles | Colors | CutBorders | Millimetres, "",
+         [](const Writing& w, OutputFile& file) { writeWrl(w.whole, file, printUnit(w.call)); }},
         {"glb", meshed,
          Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels, "",
          writeGlb},

@@ -30,10 +30,11 @@ void writeMesh(const Mesh& mesh, const std::string& path, bool replace)
     if (end == ".obj") return write([&](OutputFile& file) { writeObj(mesh, file); });
     if (end == ".stl") return write([&](OutputFile& file) { writeStl(mesh, file); });
     if (end == ".off") return write([&](OutputFile& file) { writeOff(mesh, file); });
+    if (end == ".wrl") return write([&](OutputFile& file) { writeWrl(mesh, file); });
     if (end == ".glb") return write([&](OutputFile& file) { writeGlb(mesh, {stem}, file); });
     if (end == ".3mf") return write([&](OutputFile& file) { write3mf(mesh, stem, 1.0, file); });
     throw Error(ErrorKind::Usage,
-                path + ": expected a name that ends in .ply, .obj, .stl, .off, .glb or .3mf");
+                path + ": expected a name that ends in .ply, .obj, .stl, .off, .wrl, .glb or .3mf");
 }
 
 void writeVdb(const MolecularSurface& surface, const std::string& path, bool replace)

@@ -15,7 +15,7 @@ namespace molsurf
 {
 
 /// Writes a mesh in the format that the extension tells: .ply (binary, with all attributes), .obj,
-/// .stl, .off, .glb or .3mf. Lengths are in Å.
+/// .stl, .off, .wrl, .glb or .3mf. Lengths are in Å.
 /// @param[in] replace  whether a file that exists may be replaced
 /// @throws Error(ErrorKind::Usage) if the extension is another one
 /// @throws Error(ErrorKind::Output) if the file cannot be written, or if it exists and may not be

@@ -466,14 +466,14 @@ OptionGroup outputOptions()
                           "signed-distance", "distance", Compare, OF(colorBySign));
     return {"Output",
             {output(Build, "file to write; repeats; the extension says what:\n"
-                           ".vdb level set and fields; .ply .obj .stl .off .glb\n"
-                           ".3mf mesh; .html page that shows it; .json report;\n"
+                           ".vdb level set and fields; .ply .obj .stl .off .wrl\n"
+                           ".glb .3mf mesh; .html page that shows it; .json report;\n"
                            ".png picture; .usda copies, with --instances; areas as\n"
                            "tables .atoms.csv .residues.csv .contacts.csv\n"
                            ".interfaces.csv, and atoms .pdb .cif with them as B\n"
                            "factors; - is standard output"),
              output(Convert, "file to write; repeats; the extension says what:\n"
-                             ".ply .obj .stl .off .glb .3mf mesh; .html page;\n"
+                             ".ply .obj .stl .off .wrl .glb .3mf mesh; .html page;\n"
                              ".json report; .png picture; with --color .vdb, the\n"
                              "grids with Cd anew; - is standard output"),
              output(Compare, "file to write; repeats; the extension says what:\n"

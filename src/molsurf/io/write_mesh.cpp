@@ -6,6 +6,7 @@
 #include "molsurf/io/ply_layout.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -56,28 +57,32 @@ private:
     char* end_;
 };
 
-void putVectors(Buffer& buffer, const char* key, const std::vector<openvdb::Vec3f>& vectors)
+void putVectors(Buffer& buffer, const char* key, const std::vector<openvdb::Vec3f>& vectors,
+                double scale = 1.0)
 {
     for (const openvdb::Vec3f& v : vectors) {
         Line line(buffer);
         line << key;
-        for (int i = 0; i < 3; ++i) (line << " ").number(v[i]);
+        for (int i = 0; i < 3; ++i) (line << " ").number(float(scale * v[i]));
         line << "\n";
     }
 }
 
-/// Positions, with colours from 0 to 1 behind them if there are any.
+/// " 0.5 0.25 1": a colour in [0, 1].
+void putColor(Line& line, const std::array<std::uint8_t, 3>& color)
+{
+    for (const std::uint8_t c : color)
+        (line << " ").number(float(std::round(c / 255.0 * 1e4) / 1e4));
+}
+
+/// Positions, with colours behind them if there are any.
 void putVertices(Buffer& buffer, const Mesh& mesh, double scale)
 {
     for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
         Line line(buffer);
         line << "v";
         for (int i = 0; i < 3; ++i) (line << " ").number(float(scale * mesh.positions[n][i]));
-        if (!mesh.colors.empty()) {
-            for (const std::uint8_t c : mesh.colors[n]) {
-                (line << " ").number(float(std::round(c / 255.0 * 1e4) / 1e4));
-            }
-        }
+        if (!mesh.colors.empty()) putColor(line, mesh.colors[n]);
         line << "\n";
     }
 }
@@ -196,6 +201,38 @@ void writeOff(const Mesh& mesh, OutputFile& file)
         for (const std::uint32_t corner : triangle) (line << " ").number(corner);
         line << "\n";
     }
+    buffer.flush();
+    file.finish();
+}
+
+void writeWrl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit)
+{
+    Buffer buffer(file);
+    const auto put = [&](const char* text) { Line(buffer) << text; };
+    put("#VRML V2.0 utf8\n# lengths in ");
+    put(unit.name);
+    put("\nShape {\nappearance Appearance { material Material { ambientIntensity 0.3 } }\n");
+    put("geometry IndexedFaceSet {\ncoord Coordinate { point [\n");
+    putVectors(buffer, "", mesh.positions, unit.perAngstrom);
+    put("] }\nnormal Normal { vector [\n");
+    putVectors(buffer, "", mesh.normals);
+    put("] }\n");
+    if (!mesh.colors.empty()) {
+        put("color Color { color [\n");
+        for (const auto& color : mesh.colors) {
+            Line line(buffer);
+            putColor(line, color);
+            line << "\n";
+        }
+        put("] }\n");
+    }
+    put("coordIndex [\n");
+    for (const auto& triangle : mesh.triangles) {
+        Line line(buffer);
+        for (const std::uint32_t corner : triangle) line.number(corner) << " ";
+        line << "-1\n";
+    }
+    put("]\n}\n}\n");
     buffer.flush();
     file.finish();
 }

@@ -51,4 +51,11 @@ void writeStl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit = {});
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeOff(const Mesh& mesh, OutputFile& file);
 
+/// Writes VRML 2.0 (ISO/IEC 14772-1:1997) as text: one IndexedFaceSet with positions [unit],
+/// normals and, if there are any, colours from 0 to 1 at the vertices. The format has no place for
+/// other attributes.
+///
+/// @throws Error(ErrorKind::Output) if the file cannot be written
+void writeWrl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit = {});
+
 } // namespace molsurf

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <sstream>
 
@@ -178,6 +179,46 @@ TEST(WriteStl, FacetNormalsPointOutward)
             EXPECT_NEAR(normal.length(), 1.0f, 1e-6f);
             EXPECT_GT(normal.dot(mesh.positions[triangle[0]] - inside), 0.0f);
         }
+    }
+}
+
+/// The numbers of a field of VRML, between its [ and its ].
+std::vector<double> fieldOf(const std::string& text, const std::string& name)
+{
+    const std::size_t begin = text.find(name + " [");
+    if (begin == std::string::npos) return {};
+    std::istringstream words(text.substr(begin + name.size() + 2));
+    std::vector<double> out;
+    for (double number; words >> number;) out.push_back(number);
+    return out;
+}
+
+TEST(WriteWrl, HasWhatTheMeshHas)
+{
+    Mesh mesh = tetrahedron();
+    const auto written = [&](const LengthUnit& unit) {
+        return test::written([&](OutputFile& file) { writeWrl(mesh, file, unit); });
+    };
+    EXPECT_EQ(written({}).find("color ["), std::string::npos);
+    mesh.colors = {{255, 0, 51}, {0, 0, 0}, {102, 255, 255}, {1, 2, 3}};
+    const std::string text = written({2.0, "mm"});
+    EXPECT_EQ(text.rfind("#VRML V2.0 utf8\n# lengths in mm\n", 0), 0u);
+    EXPECT_EQ(std::count(text.begin(), text.end(), '{'), std::count(text.begin(), text.end(), '}'));
+    const std::vector<double> points = fieldOf(text, "point"), normals = fieldOf(text, "vector"),
+                              colors = fieldOf(text, "color"),
+                              indices = fieldOf(text, "coordIndex");
+    ASSERT_EQ(points.size(), 12u);
+    ASSERT_EQ(normals.size(), 12u);
+    ASSERT_EQ(colors.size(), 12u);
+    ASSERT_EQ(indices.size(), 16u);
+    for (std::size_t n = 0; n < 4; ++n) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(float(points[3 * n + k]), 2.0f * mesh.positions[n][int(k)]);
+            EXPECT_EQ(float(normals[3 * n + k]), mesh.normals[n][int(k)]);
+            EXPECT_NEAR(colors[3 * n + k], mesh.colors[n][k] / 255.0, 1e-4);
+            EXPECT_EQ(indices[4 * n + k], mesh.triangles[n][k]);
+        }
+        EXPECT_EQ(indices[4 * n + 3], -1.0);
     }
 }
 
