@@ -34,7 +34,8 @@ enum class ColorBy {
     Plain,      ///< SelectOptions::plainColor
     MeanCurvature,
     GaussianCurvature,
-    Value ///< BallLabels::values
+    Value,       ///< BallLabels::values
+    Illustrative ///< the chain, lighter at carbon
 };
 
 /// The term h that lambda weighs in the energy density w = g^2 + lambda h; section 2 of the paper
@@ -117,7 +118,7 @@ double probeOf(const SurfaceOptions& options);
 const char* nameOf(SurfaceKind kind);
 
 /// Returns the word of the command line for a property: none, chain, group, element, residue,
-/// nucleotide, plain, mean-curvature, gaussian-curvature, value.
+/// nucleotide, illustrative, plain, mean-curvature, gaussian-curvature, value.
 const char* nameOf(ColorBy color);
 
 /// Returns the word of the command line for a regulariser: gradient, area.

@@ -813,18 +813,19 @@ OptionGroup groupOptions()
               [](Option& o) { o.stored = nullptr; }),
          orMore(color("colours of the mesh and the grid Cd: chain, entity, class,\n"
                       "copy, group, element, residue (or residue-type),\n"
-                      "nucleotide, plain=#RRGGBB, mean-curvature,\n"
-                      "gaussian-curvature; by value: bfactor, occupancy,\n"
-                      "charge, hydrophobicity, rainbow, radius, table=FILE,\n"
-                      "potential=FILE.dx, potential-out=FILE.dx (a probe out)",
+                      "nucleotide, illustrative (chain, carbon lighter),\n"
+                      "plain=#RRGGBB, mean-curvature, gaussian-curvature;\n"
+                      "by value: bfactor, occupancy, charge, hydrophobicity,\n"
+                      "rainbow, radius, table=FILE, potential=FILE.dx,\n"
+                      "potential-out=FILE.dx (a probe out)",
                       "none", surfaces)),
          range,
          shownIn(CutBorders, with(flag("crisp", "mesh files: triangles are cut where colours meet",
                                        Build, OF(crisp)),
                                   [](Option& o) { o.stored = nullptr; })),
          color("chain, group (of grids chain_id, group_id), element,\n"
-               "residue, nucleotide (of Cd so coloured), mean-curvature,\n"
-               "gaussian-curvature; those of Cd unless given",
+               "residue, nucleotide, illustrative (of Cd so coloured),\n"
+               "mean-curvature, gaussian-curvature; those of Cd unless given",
                "", Convert)}};
 }
 

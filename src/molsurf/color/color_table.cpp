@@ -234,6 +234,25 @@ ColorKind byNucleotide()
     return kind;
 }
 
+/// Chains as illustrators paint them: carbon is lighter than the other elements of its chain.
+ColorKind illustrative()
+{
+    ColorKind kind = byChain();
+    kind.by = ColorBy::Illustrative;
+    kind.word = "illustrative";
+    kind.attribute = ""; // a chain has two colours
+    kind.offered = false;
+    kind.ofBalls = [](const BallSet& atoms, const Progress& progress) {
+        std::vector<Color> out = spread(chainColors(atoms, progress), atoms.labels->chainOf);
+        constexpr int carbon = 6;
+        for (std::size_t i = 0; i < out.size(); ++i)
+            if (atoms.labels->elementOf[i] == carbon)
+                for (std::uint8_t& c : out[i]) c = std::uint8_t(c + (255 - c) / 2);
+        return out;
+    };
+    return kind;
+}
+
 /// One colour, which needs no legend.
 ColorKind plain()
 {
@@ -291,6 +310,7 @@ const std::vector<ColorKind>& colorTable()
         byElement(),
         byResidue(),
         byNucleotide(),
+        illustrative(),
         byCurvature(ColorBy::MeanCurvature, "mean-curvature", "Mean curvature", "mean_curvature",
                     "1/Å"),
         byCurvature(ColorBy::GaussianCurvature, "gaussian-curvature", "Gaussian curvature",
