@@ -2,6 +2,7 @@
 #include "molsurf/levelset/round_ridges.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/simd.h"
 #include "molsurf/grid/leaf_block.h"
 #include "molsurf/levelset/stencil.h"
 
@@ -40,17 +41,33 @@ LeafTable ridgesOf(const DistanceBand& S, const Progress& progress)
     return pruned(ridges);
 }
 
-/// What a step adds to S at a voxel.
-float change(const float* p, float inverse, float time)
+/// One step: S moves where it is convex beyond the radius of a ridge.
+/// @param[in] block   S in a leaf and about it
+/// @param[in] moving  the voxels that may move, where S is not beyond `farthest` [Å]
+MOLSURF_KERNEL void moveRidges(const float* __restrict block, const LeafMask& moving, float inverse,
+                               float time, float farthest, float* __restrict out)
 {
+    constexpr int X = LeafBlock<float, 1>::strideX, Y = LeafBlock<float, 1>::strideY;
     constexpr float limit = float(0.5 / ridgeRadius);
-    const Derivatives d = derivatives<1>(p, inverse);
-    const float slope2 = d.x * d.x + d.y * d.y + d.z * d.z + 1e-6f, slope = std::sqrt(slope2);
-    const float along = (d.x * d.x * d.xx + d.y * d.y * d.yy + d.z * d.z * d.zz +
-                         2.0f * (d.x * d.y * d.xy + d.y * d.z * d.yz + d.x * d.z * d.xz)) /
-                        slope2;
-    const float H = std::min(0.5f * (d.xx + d.yy + d.zz - along) / slope, 2.0f * inverse);
-    return H > limit ? 2.0f * time * (H - limit) * slope : 0.0f;
+    for (int row = 0; row < 64; ++row) {
+        const int bits = moving.row(row);
+        const float* p = block + (row / 8 + 1) * X + (row % 8 + 1) * Y + 1;
+        if (bits == 0) {
+            for (int z = 0; z < 8; ++z) out[8 * row + z] = p[z];
+            continue;
+        }
+        for (int z = 0; z < 8; ++z) {
+            const Derivatives d = derivatives<1>(p + z, inverse);
+            const float slope2 = d.x * d.x + d.y * d.y + d.z * d.z + 1e-6f;
+            const float along = (d.x * d.x * d.xx + d.y * d.y * d.yy + d.z * d.z * d.zz +
+                                 2.0f * (d.x * d.y * d.xy + d.y * d.z * d.yz + d.x * d.z * d.xz)) /
+                                slope2;
+            const float slope = std::sqrt(slope2);
+            const float H = smaller(0.5f * (d.xx + d.yy + d.zz - along) / slope, 2.0f * inverse);
+            const float on = (bits & rowBits[z]) && std::abs(p[z]) <= farthest ? 1.0f : 0.0f;
+            out[8 * row + z] = p[z] + on * 2.0f * time * larger(H - limit, 0.0f) * slope;
+        }
+    }
 }
 
 } // namespace
@@ -75,12 +92,7 @@ void roundRidges(DistanceBand& S, const Progress& progress)
         parallelFor(ridges.size(), progress, [&](std::size_t n) {
             LeafBlock<float, 1> block;
             block.gather(S.phi.table, S.phi.values, leaf[n]);
-            float* out = next.leaf(n);
-            std::copy_n(S.phi.leaf(leaf[n]), leafSize, out);
-            ridges.active(n).forEach([&](int v) {
-                const float* p = block.at(v >> 6, v >> 3 & 7, v & 7);
-                if (std::abs(*p) <= reach * h) out[v] += change(p, inverse, time);
-            });
+            moveRidges(block.values, ridges.active(n), inverse, time, reach * h, next.leaf(n));
         });
         parallelFor(ridges.size(), progress, [&](std::size_t n) {
             std::copy_n(next.leaf(n), leafSize, S.phi.leaf(leaf[n]));
