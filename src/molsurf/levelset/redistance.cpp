@@ -189,7 +189,7 @@ int listOf(const LeafMask& mask, std::uint16_t* voxels)
     return count;
 }
 
-/// The seeds of all interface voxels, leaf by leaf, and where those of each leaf begin.
+/// The seeds of some interface voxels, leaf by leaf, and where those of each leaf begin.
 PagedArray<Seed> findSeeds(const SparseField& coefficients, const std::vector<LeafMask>& interface,
                            std::vector<std::size_t>& begins, const Progress& progress)
 {
@@ -591,7 +591,12 @@ DistanceBand redistance(SparseField phi, const BandWidths& width, double level,
     const SparseField coefficients = prefilter(phi, progress);
     phi.values = LeafField();
     const LeafTable& table = coefficients.table;
-    const PagedArray<Seed> seeds = findSeeds(coefficients, interface, begins, progress);
+    // Half of them are enough for a level that lies deep inside. Near the interface each sheet of a
+    // wall or gap of one voxel needs its own.
+    std::vector<LeafMask> seeded = interface;
+    if (level < -2.0 * phi.voxelSize)
+        for (std::size_t n = 0; n < table.size(); ++n) seeded[n] &= inner[n];
+    const PagedArray<Seed> seeds = findSeeds(coefficients, seeded, begins, progress);
     DistanceBand band;
     band.phi.voxelSize = phi.voxelSize;
     if (seeds.empty()) return band;

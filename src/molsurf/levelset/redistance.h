@@ -12,7 +12,8 @@ namespace molsurf
 
 /// Computes the signed distance to the zero set of the cubic B-spline through phi.
 ///
-/// 1. For every voxel next to the interface the closest point y on the spline's zero set is found
+/// 1. For every voxel next to the interface, for the inner ones alone if the level is more than two
+///    voxels inside, the closest point y on the spline's zero set is found
 ///    by Newton's method (Chopp, Some improvements of the fast marching method, SIAM J. Sci.
 ///    Comput. 23(1):230-244, 2001), with the normal n and the shape operator A there.
 /// 2. Every voxel takes the nearest of these points.
