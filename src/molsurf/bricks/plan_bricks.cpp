@@ -312,14 +312,16 @@ public:
         const double perLeaf = options_.kind == SurfaceKind::Variational
                                    ? bytesPerMeshLeaf
                                    : share * bytesPerUnionLeaf;
-        const double forMesh = perLeaf * inSpline;
+        // What follows the flow is made twice, the second time beside the first level set.
+        const double filled = options_.fillCavities ? 1.45 : 1.0;
+        const double forMesh = filled * perLeaf * inSpline;
         brick.bytes = std::size_t(
             processBytes + coarse + bytesPerAtom * double(atoms_) + perBall * double(balls) +
             (keeping_ ? bytesPerKeptLeaf * inFlow + forMesh : std::max(forFlow, forMesh)) +
             bytesPerValueOfLeaf * valuesAlong(options_) * own);
-        brick.seconds = secondsPerLeaf * inSpline + (isUnion(options_.kind)
-                                                         ? secondsPerBoundaryBall * double(balls)
-                                                         : secondsPerFlowLeaf * inFlow);
+        brick.seconds = filled * secondsPerLeaf * inSpline +
+                        (isUnion(options_.kind) ? secondsPerBoundaryBall * double(balls)
+                                                : secondsPerFlowLeaf * inFlow);
         return brick;
     }
 
