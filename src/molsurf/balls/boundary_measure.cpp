@@ -280,6 +280,18 @@ DisjointSets joinedFaces(const std::vector<std::vector<Face>>& faces,
     return joined;
 }
 
+/// Adds a face of a patch, and tells its arcs.
+void addFace(const BallBoundary& boundary, std::uint32_t patch, const Face& face,
+             std::int32_t piece, BoundaryMeasure& out)
+{
+    for (const std::uint32_t arc : face.arcs) {
+        const bool first = boundary.arcs[arc].balls[0] == boundary.patches[patch].ball;
+        out.arcPieces[arc] = piece;
+        out.arcFaces[arc][first ? 0 : 1] = std::uint32_t(out.faces.size());
+    }
+    out.faces.push_back({patch, piece, face.area, face.normal, 2 - face.loops});
+}
+
 } // namespace
 
 BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& progress)
@@ -303,6 +315,7 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
     std::vector<double> euler;
     std::vector<Vec3d> normal; // integrated
     out.arcPieces.assign(boundary.arcs.size(), -1);
+    out.arcFaces.assign(boundary.arcs.size(), {});
     for (std::size_t p = 0; p < patches; ++p) {
         const Patch& patch = boundary.patches[p];
         out.patchAreas.push_back(0.0);
@@ -320,8 +333,7 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
             }
             const Face& face = faces[p][f];
             const std::size_t n = number[root];
-            out.faces.push_back({std::uint32_t(p), std::int32_t(n), face.area});
-            for (const std::uint32_t arc : face.arcs) out.arcPieces[arc] = std::int32_t(n);
+            addFace(boundary, std::uint32_t(p), face, std::int32_t(n), out);
             out.pieces[n].area += face.area;
             out.pieces[n].volume +=
                 (patch.radius * face.area + (patch.centre - origin[n]).dot(face.normal)) / 3.0;

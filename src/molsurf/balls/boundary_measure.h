@@ -7,6 +7,7 @@
 #include "molsurf/balls/ball_boundary.h"
 #include "molsurf/progress.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -25,8 +26,10 @@ struct BoundaryPiece {
 /// A connected part of a patch.
 struct BoundaryFace {
     std::uint32_t patch;
-    std::int32_t piece; ///< index; -1: of a cavity that is left out
-    double area;        ///< [Å^2]
+    std::int32_t piece;    ///< index; -1: of a cavity that is left out
+    double area;           ///< [Å^2]
+    openvdb::Vec3d normal; ///< integrated over it [Å^2]
+    int characteristic;    ///< its Euler number: 2 - loops
 };
 
 /// Cavities with less area are left out [Å^2]: they are no larger than what moves of 1e-9 Å and
@@ -43,6 +46,8 @@ struct BoundaryMeasure {
     std::vector<double> patchEuler;
     std::vector<BoundaryFace> faces;     ///< of all patches, in their order
     std::vector<std::int32_t> arcPieces; ///< of each arc the piece that it lies on, or -1
+    /// Of each arc the faces on the spheres of its two balls, indices of `faces`.
+    std::vector<std::array<std::uint32_t, 2>> arcFaces;
 };
 
 /// Measures the boundary of a union of balls, without a grid.
