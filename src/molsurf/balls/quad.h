@@ -25,6 +25,7 @@ struct QuadVector {
         return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
     }
     QuadVector operator*(const Quad& s) const { return {x * s, y * s, z * s}; }
+    QuadVector operator+(const QuadVector& o) const { return {x + o.x, y + o.y, z + o.z}; }
     QuadVector operator-(const QuadVector& o) const { return {x - o.x, y - o.y, z - o.z}; }
 };
 

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Area, volume and topology of a solvent-excluded surface in closed form.
+
+#include "molsurf/balls/boundary_measure.h"
+
+#include <vector>
+
+namespace molsurf
+{
+
+/// The measures of a solvent-excluded surface. It bounds what no probe reaches whose centre is
+/// outside of the union of grown balls. Where it pinches off in a cusp two pieces end.
+struct ExcludedMeasure {
+    /// The closed pieces, in the order of their first patch, as those of a union: outer ones, and
+    /// the walls of cavities. (`component` is not used: one part of the union may have several.)
+    std::vector<BoundaryPiece> pieces;
+    double contactArea = 0.0;  ///< of parts of the balls themselves [Å^2]
+    double toricArea = 0.0;    ///< of parts that a probe makes which touches two balls [Å^2]
+    double concaveArea = 0.0;  ///< of parts that a probe makes which touches three balls [Å^2]
+    double creaseLength = 0.0; ///< of the edges where concave faces meet [Å]
+    std::vector<double> areas; ///< the share of each of BallBoundary::balls [Å^2]
+    /// Whether all faces, edges and vertices fit together. They may not where four and more probes
+    /// touch each other in one point to within rounding, as in molecules with many symmetries. Area
+    /// and volume are right all the same, but the Euler number of a piece may be wrong by 2.
+    bool topologyKnown = true;
+};
+
+/// Measures the solvent-excluded surface of balls from the boundary of the balls grown by a probe.
+///
+/// Contact faces are the patches, drawn in by the probe radius p. An arc of radius rho gives a part
+/// of a torus, from one ball to the other. If rho < p, and the plane of the arc lies between the
+/// balls, it ends at two points of its axis, and what would be between them is not there. A corner
+/// gives the part of the probe there that lies in the cone of its three balls, and nearer to it
+/// than to any other corner: a triangle of great circles less caps (Connolly, J. Appl. Cryst.
+/// 16:548-558, 1983; Sanner, Olson and Spehner, Biopolymers 38:305-320, 1996; Quan and Stamm,
+/// J. Comput. Phys. 322:760-782, 2016).
+///
+/// A point of a toric or concave face belongs to that of the balls which the probe touches there
+/// (to 0.01 Å) for which |x - x_i|^2 - r_i^2 is least. (It hardly differs from the one whose
+/// surface is nearest, and is the same for equal radii.)
+///
+/// @param[in] boundary  of the balls of radius r_i + probe
+/// @param[in] measure   of this boundary. Cavities that it leaves out are so here
+/// @param[in] probe     [Å]
+/// @return exact but for rounding and the moves of placedBalls()
+/// @throws Error(ErrorKind::Check) if the parts do not fit together
+ExcludedMeasure measureExcluded(const BallBoundary& boundary, const BoundaryMeasure& measure,
+                                double probe, const Progress& progress);
+
+/// The area of every ball [Å^2], in the order of the caller's balls.
+/// @param[in] count  of those balls
+std::vector<double> areasOfBalls(const BallBoundary& boundary, const ExcludedMeasure& measure,
+                                 std::size_t count);
+
+} // namespace molsurf
