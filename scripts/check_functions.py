@@ -17,7 +17,7 @@ LINES, PARAMETERS = 70, 6
 
 LONGER = {"cutToOwner": 134, "groupOptions": 130, "selectBalls": 104, "report": 97, "runUnit": 84,
           "withCrispBorders": 90, "unitBalls": 80, "cutBrick": 79, "msmsSurface": 74,
-          "reportKeys": 140, "verbTable": 71}  # the last two are tables
+          "verbTable": 71}  # the last is a table
 WIDER = {"candidates": 10, "number": 9, "computeBrick": 9, "mergeBricks": 8, "count": 8, "surfaceOf": 8,
          "ballValues": 8, "writeOutput": 7, "writeAll": 7, "moveToSurface": 7, "evolve": 7, "makePlan": 7,
          "addArc": 7,

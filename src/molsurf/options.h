@@ -101,8 +101,8 @@ struct SurfaceOptions {
     /// The kind of surface that ballAreas, contacts and interfaces are of; none: that of `kind`.
     std::optional<SurfaceKind> areasOf;
     /// Whether there is a grid and a mesh of it. Without them the result has what is known in
-    /// closed form, of the kinds SolventAccessible and VanDerWaals alone, with none of split,
-    /// surfaceOf, fields, fillCavities, minWall and curvatureTotals.
+    /// closed form, of the kinds SolventExcluded, SolventAccessible and VanDerWaals alone, with
+    /// none of split, surfaceOf, fields, fillCavities, minWall and curvatureTotals.
     bool grid = true;
 };
 

@@ -68,6 +68,9 @@ struct SurfaceReport {
                                                 ///< of some wholes in closed form from a unit
     int meshEulerCharacteristic = 0; ///< of the mesh; where the surface is known in closed form,
                                      ///< the mesh may bridge what is narrower than a voxel
+    /// Of the mesh, where area and volume are known in closed form: it lacks what is narrower than
+    /// a voxel [Å^2, Å^3].
+    std::optional<double> meshArea, meshVolume;
     bool piecesKnown = true; ///< whether components, cavities, outerArea and outerVolume are; not
                              ///< those of a whole in closed form that follows from a unit
     int components = 0;      ///< number of closed pieces that are not walls of cavities

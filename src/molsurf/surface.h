@@ -47,8 +47,10 @@ struct MolecularSurface {
     std::vector<SharedVertex> shared; ///< of a symmetric unit, whose mesh is open: its border
     /// With SurfaceOptions::ballAreas the part of the surface that belongs to each ball, in the
     /// order of the caller's; they add up to the area of the whole [Å^2]. Solvent-accessible and
-    /// van der Waals surfaces have them as exposedAreas() gives them. A point of another surface
-    /// belongs to the ball whose own surface is nearest. Of a symmetric unit its own balls alone.
+    /// van der Waals surfaces have them as exposedAreas() gives them. Of the solvent-excluded
+    /// surface they are in closed form, too: where a probe rests on several balls, a point belongs
+    /// to that of them for which |x - x_i|^2 - r_i^2 is least. A point of another surface belongs
+    /// to the ball whose own surface is nearest. Of a symmetric unit its own balls alone.
     std::vector<double> ballAreas;
     /// With these and BallLabels::values the mean of the value on each ball's part of the surface;
     /// not a number where it has none.

@@ -53,7 +53,7 @@ class Areas(ToolTest):
                 self.assertEqual([float(r["area"]) for r in rows], [r["area"] for r in told])
                 self.assertEqual(list(rows[0]), list(told[0]))
             # Closed forms need no grid.
-            closed = kind in ("sas", "vdw")
+            closed = kind in ("ses", "sas", "vdw")
             self.assertEqual(report["voxel"] is None, closed)
             self.assertEqual(report["surface"]["manifold"] is None, closed)
 
@@ -283,7 +283,7 @@ class Areas(ToolTest):
                 (["--contacts", "model"], "expected atom or residue or chain"),
                 (["-o", "a.atoms.csv", "--coarse", "residue"], "--coarse together"),
                 (["-o", "a.atoms.csv", "--split", "group", "--group-by", "chain"], "--split together"),
-                (["-o", "a.atoms.csv", "--memory", "1G", "--surface", "ses"], "--memory together"),
+                (["-o", "a.atoms.csv", "--memory", "1G", "--surface", "gaussian"], "--memory together"),
                 (["-o", "a.atoms.csv", "--instances", "--assembly", "1"], "--instances together"),
                 (["-o", "a.contacts.csv", "--by-symmetry", "--assembly", "1", *SAS], "--by-symmetry together"),
                 (["-o", "a.pdb", "--dry-run", *SAS], ["(-o a.pdb) and --dry-run together", "[hint: "]),

@@ -60,14 +60,15 @@ class BySymmetry(ToolTest):
         done = self.check(0, "shell.pdb", *ASSEMBLY, "--surface", "ses", "--by-symmetry", "-o",
                           "a.json", "-o", "a.glb", "-o", "a.png", "--color", "copy", "--size", "300",
                           says=["used 120 atoms (1 copy) in each of 60 units", "(I)"])
-        self.check(0, "shell.pdb", *ASSEMBLY, "--surface", "ses", "-o", "b.json")
+        self.check(0, "shell.pdb", *ASSEMBLY, "--surface", "ses", "-o", "b.json", "-o", "b.ply")
         unit, whole = self.report("a.json"), self.report("b.json")
         symmetry = unit["symmetry"]
         self.assertEqual((symmetry["point_group"], symmetry["order"]), ("I", 60))
         self.assertLess(symmetry["deviation"], 1e-3)
         self.assertEqual(unit["atoms"], whole["atoms"])
         for name, within in (("area", 0.005), ("volume", 0.002)):
-            found, expected = unit["surface"][name], whole["surface"][name]
+            # Of the unit there is a mesh alone.
+            found, expected = unit["surface"][name], whole["surface"]["mesh_" + name]
             self.assertLess(abs(found - expected), within * expected, name)
         self.assertEqual(len(unit["instances"]), 60)
         self.assertIsNone(whole["symmetry"])

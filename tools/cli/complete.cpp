@@ -240,7 +240,8 @@ bool asksForNumbers(const Call& call)
     const bool ofGrid = call.dryRun || call.memory > 0 || call.atoms.instances;
     const unsigned some = Areas | FrameRows | (ofGrid && call.areas.empty() ? 0u : Numbers);
     return (call.verb & (Build | Batch)) != 0 && hasClosedForm(call.options) && !byPoint &&
-           !(unit && !value.empty()) && !call.center && call.writesOnly(some);
+           !(unit && (!value.empty() || !isBoundary(call.options))) && !call.center &&
+           call.writesOnly(some);
 }
 
 /// The first file with areas by atom.
@@ -283,7 +284,7 @@ void completeAreas(Call& call)
     options.ballAreas = tables.size() > std::size_t(options.contacts);
     SurfaceOptions shown = options;
     shown.kind = options.areasOf.value_or(options.kind);
-    if (call.atoms.bySymmetry && options.ballAreas && !isClosedForm(shown))
+    if (call.atoms.bySymmetry && options.ballAreas && !isBoundary(shown))
         misuse("areas of atoms and --by-symmetry together: expected a closed form [hint: --surface "
                "sas or vdw]");
     if (call.atoms.bySymmetry && (options.contacts || tables.count("interfaces") > 0))

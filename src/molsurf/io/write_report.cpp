@@ -52,6 +52,8 @@ Json surfaceJson(const SurfaceReport& surface)
             {"max_residual", surface.maxResidual},
             {"gradient_share", surface.gradientShare},
             {"kink_share", surface.kinkShare},
+            {"mesh_area", surface.meshArea ? Json(*surface.meshArea) : Json()},
+            {"mesh_volume", surface.meshVolume ? Json(*surface.meshVolume) : Json()},
             {"cusp_length", surface.cuspLength ? Json(*surface.cuspLength) : Json()},
             {"mean_curvature", statisticsJson(surface.meanCurvature)},
             {"gaussian_curvature", statisticsJson(surface.gaussianCurvature)},

@@ -3,6 +3,7 @@
 
 #include "molsurf/balls/contacts.h"
 #include "molsurf/selection/subset.h"
+#include "molsurf/surface/closed_form.h"
 #include "molsurf/surface/influence.h"
 #include "molsurf/surface/parts.h"
 #include "molsurf/surface/surface_kind.h"
@@ -30,7 +31,7 @@ struct Areas {
 Areas areasOf(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
     if (isClosedForm(options)) {
-        std::vector<double> areas = exposedAreas(atoms.balls, grownBy(options), progress);
+        std::vector<double> areas = measureClosedForm(atoms.balls, options, progress).ballAreas;
         return {std::accumulate(areas.begin(), areas.end(), 0.0), std::move(areas)};
     }
     QuietProgress quiet(progress);

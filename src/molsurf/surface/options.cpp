@@ -81,8 +81,8 @@ void checkOptions(const SurfaceOptions& options)
     }
     if (!options.grid && !hasClosedForm(options))
         throw Error(ErrorKind::Usage,
-                    "`grid`: there is no closed form for what is asked for [hint: `kind` sas or "
-                    "vdw]");
+                    "`grid`: there is no closed form for what is asked for [hint: `kind` ses, sas "
+                    "or vdw]");
     check(options.splineLevel >= 0 && options.splineLevel <= 2, "`splineLevel`", "0, 1 or 2",
           options.splineLevel);
 }

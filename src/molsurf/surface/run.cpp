@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface.h"
 
-#include "molsurf/balls/boundary_check.h"
 #include "molsurf/balls/placed_ball.h"
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/surface/check_balls.h"
+#include "molsurf/surface/closed_form.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/interfaces.h"
 #include "molsurf/surface/label_surface.h"
@@ -58,12 +58,11 @@ MolecularSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& opti
     MolecularSurface result;
     Stopwatch watch(result.report);
     progress.update("areas", 0.0);
-    const BallBoundary boundary = ballBoundary(atoms.balls, grownBy(options), progress);
-    const BoundaryMeasure measure = measureBoundary(boundary, progress);
-    checkBoundary(boundary, measure, progress);
+    ClosedForm measured = measureClosedForm(atoms.balls, options, progress);
     result.report.surface.kind = nameOf(options.kind);
-    describePieces(measure.pieces, false, result.report.surface);
-    result.ballAreas = areasOfBalls(boundary, measure, atoms.balls.size());
+    describePieces(measured, false, result.report.surface);
+    result.report.surface.cuspLength = measured.cuspLength;
+    result.ballAreas = std::move(measured.ballAreas);
     if (atoms.labels && atoms.labels->values)
         result.ballValues.assign(atoms.labels->values->valueOf.begin(),
                                  atoms.labels->values->valueOf.end());
@@ -92,14 +91,15 @@ MolecularSurface runInOrder(const BallSet& atoms, const SurfaceOptions& options,
 std::vector<double> areasApart(const BallSet& atoms, const SurfaceOptions& options,
                                Progress& progress)
 {
-    if (!isClosedForm(options)) {
-        if (atoms.unit)
+    const bool whole = !atoms.unit || isBoundary(options);
+    if (!isClosedForm(options) || !whole) {
+        if (!whole)
             throw Error(ErrorKind::Usage, "areas of atoms by symmetry: expected a surface in "
                                           "closed form [hint: `surface` sas or vdw]");
         QuietProgress quiet(progress);
         return makeSurface(atoms, options, &quiet).ballAreas;
     }
-    std::vector<double> areas = exposedAreas(atoms.balls, grownBy(options), progress);
+    std::vector<double> areas = measureClosedForm(atoms.balls, options, progress).ballAreas;
     if (atoms.unit) areas.resize(atoms.unit->balls);
     return areas;
 }

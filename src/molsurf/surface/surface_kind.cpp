@@ -29,7 +29,12 @@ double grownBy(const SurfaceOptions& options)
 
 bool isClosedForm(const SurfaceOptions& options)
 {
-    return isUnion(options.kind) && offsetOf(options) == 0.0 && options.minWall == 0.0;
+    return isUnion(options.kind) && options.minWall == 0.0;
+}
+
+bool isBoundary(const SurfaceOptions& options)
+{
+    return isClosedForm(options) && offsetOf(options) == 0.0;
 }
 
 bool hasClosedForm(const SurfaceOptions& options)

@@ -30,6 +30,9 @@ double grownBy(const SurfaceOptions& options);
 /// Tells whether area, volume and pieces of a surface are known in closed form.
 bool isClosedForm(const SurfaceOptions& options);
 
+/// Tells whether a surface is the boundary of a union of balls itself, and not one inside of it.
+bool isBoundary(const SurfaceOptions& options);
+
 /// Tells whether SurfaceOptions::grid may be false: area, volume and pieces of the surface, and the
 /// areas of its balls, are known in closed form, and nothing is asked for that needs voxels.
 bool hasClosedForm(const SurfaceOptions& options);

@@ -150,18 +150,15 @@ bool SurfaceRun::keepsLevelSet() const
 DistanceBand SurfaceRun::distanceToBalls()
 {
     BallUnion set = unionOf(atoms_.balls, grownBy(options_), progress_);
-    if (const double probe = offsetOf(options_); probe > 0.0) {
-        cuspLength_ = 0.0;
-        for (const Arc& arc : set.boundary.arcs)
-            if (arc.radius < probe) *cuspLength_ += 2.0 * arc.half * arc.radius;
-    }
-    if (scope_.region.whole() && isClosedForm(options_)) {
-        exact_ = measureBoundary(set.boundary, progress_);
-        checkBoundary(set.boundary, *exact_, progress_);
+    const double probe = offsetOf(options_);
+    if (probe > 0.0) cuspLength_ = cuspLengthOf(set.boundary, probe);
+    // What a mesh holds for a cavity may be open to the outside where probes touch each other.
+    const bool filled = options_.fillCavities && probe > 0.0;
+    if (scope_.region.whole() && isClosedForm(options_) && !filled && !atoms_.unit) {
+        exact_ = measureClosedForm(set.boundary, options_, atoms_.balls.size(), progress_);
         const bool grouped = atoms_.labels && !atoms_.labels->groups.empty();
         if ((options_.ballAreas || grouped) && !options_.fillCavities)
-            result_.ballAreas = areasOfBalls(set.boundary, *exact_, atoms_.balls.size());
-        tolerance_ = meshTolerance(set.boundary, *exact_, options_.voxel);
+            result_.ballAreas = exact_->ballAreas;
     }
     return distanceToUnion(std::move(set), options_.voxel, widthsOf(options_), progress_,
                            scope_.region.grown(scope_.splineHalo));
@@ -359,13 +356,13 @@ void SurfaceRun::describeCurvature()
     surface.integrals = integrateSurface(mesh, spline_, tolerance * chi, progress_);
 }
 
-void describePieces(const std::vector<BoundaryPiece>& pieces, bool fillCavities, SurfaceReport& s)
+void describePieces(const ClosedForm& exact, bool fillCavities, SurfaceReport& s)
 {
     s.area = s.volume = s.outerArea = s.outerVolume = 0.0;
     s.components = 0;
     int euler = 0;
     s.cavities.clear();
-    for (const BoundaryPiece& piece : pieces) {
+    for (const BoundaryPiece& piece : exact.pieces) {
         const bool cavity = !piece.outer;
         if (cavity && fillCavities) continue;
         s.area += piece.area;
@@ -379,7 +376,8 @@ void describePieces(const std::vector<BoundaryPiece>& pieces, bool fillCavities,
             s.outerVolume += piece.volume;
         }
     }
-    s.eulerCharacteristic = euler;
+    s.eulerCharacteristic.reset();
+    if (exact.topologyKnown) s.eulerCharacteristic = euler;
     std::stable_sort(s.cavities.begin(), s.cavities.end(),
                      [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
 }
@@ -389,9 +387,10 @@ void SurfaceRun::takeClosedForm()
     if (!exact_) return;
     // A mesh bridges what is narrower than a voxel: creases and small cavities.
     SurfaceReport& s = result_.report.surface;
-    const double meshArea = s.area, meshVolume = s.volume;
-    describePieces(exact_->pieces, options_.fillCavities, s);
-    checkMesh(s.area, s.volume, meshArea, meshVolume, tolerance_);
+    s.meshArea = s.area;
+    s.meshVolume = s.volume;
+    describePieces(*exact_, options_.fillCavities, s);
+    checkMesh(s.area, s.volume, *s.meshArea, *s.meshVolume, exact_->tolerance);
 }
 
 openvdb::FloatGrid::Ptr SurfaceRun::sasGrid()

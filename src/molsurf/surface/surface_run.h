@@ -5,13 +5,13 @@
 /// The stages from atoms to a surface, in one place for runs of a whole molecule, of a brick of it,
 /// and for stored surfaces.
 
-#include "molsurf/balls/boundary_check.h"
 #include "molsurf/balls/boundary_measure.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/grid/region.h"
 #include "molsurf/mesh/extract.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/surface.h"
+#include "molsurf/surface/closed_form.h"
 #include "molsurf/surface/influence.h"
 #include "molsurf/surface/surface_kind.h"
 
@@ -44,9 +44,9 @@ struct Scope {
 SparseField restOnCoarserVoxels(const BallSet& atoms, const SurfaceOptions& options,
                                 Progress& progress, Report& report);
 
-/// Puts the measures of pieces in a report.
+/// Puts measures in closed form in a report.
 /// @param[in] fillCavities  whether cavities do not count
-void describePieces(const std::vector<BoundaryPiece>& pieces, bool fillCavities, SurfaceReport& s);
+void describePieces(const ClosedForm& exact, bool fillCavities, SurfaceReport& s);
 
 /// Measures the wall time of stages; a stage may come more than once.
 class Stopwatch
@@ -185,10 +185,9 @@ private:
     DistanceBand S_;
     Spline spline_;
     ExtractStats stats_;
-    bool stored_ = false;                  ///< mesh and level set come from elsewhere
-    std::optional<BoundaryMeasure> exact_; ///< of surfaces in closed form
-    MeshTolerance tolerance_{};            ///< of the mesh from these
-    std::optional<double> cuspLength_;     ///< SurfaceReport::cuspLength
+    bool stored_ = false;              ///< mesh and level set come from elsewhere
+    std::optional<ClosedForm> exact_;  ///< of surfaces in closed form
+    std::optional<double> cuspLength_; ///< SurfaceReport::cuspLength
 };
 
 } // namespace molsurf

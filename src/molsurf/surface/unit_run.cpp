@@ -41,6 +41,7 @@ void checkUnitOptions(const SurfaceOptions& options)
     if (!options.surfaceOf.empty()) refuse("`surfaceOf`");
     if (options.matchVolume) refuse("`matchVolume`");
     if (options.fillCavities) refuse("`fillCavities`");
+    if (!options.grid && !isBoundary(options)) refuse("a solvent-excluded surface without `grid`");
     for (const std::string& field : options.fields)
         if (!findCurvatureField(field)) refuse("`fields` " + field);
 }
@@ -227,7 +228,7 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     surface.meanCurvature = statistics(mesh.scalars[0].values, areas);
     surface.gaussianCurvature = statistics(mesh.scalars[1].values, areas);
     const double area = surface.area;
-    if (isClosedForm(options))
+    if (isBoundary(options))
         run.result().ballAreas = takeClosedForm(atoms, grown, progress, surface);
     checkFit(fit, area / order, surface);
     watch.stop("unit");

@@ -229,11 +229,11 @@ TEST(BallAreas, AddUpToTheAreaOfEveryKind)
     }
 }
 
-TEST(BallAreas, WithoutAGridAreThoseWithOne)
+void expectSameWithoutGrid(SurfaceKind kind)
 {
     const std::vector<Ball> all = balls("1crn.pdb");
     SurfaceOptions options;
-    options.kind = SurfaceKind::SolventAccessible;
+    options.kind = kind;
     options.ballAreas = options.contacts = true;
     const MolecularSurface meshed = makeSurface(groupsOfTwo(all), options);
     options.grid = false;
@@ -251,8 +251,24 @@ TEST(BallAreas, WithoutAGridAreThoseWithOne)
         EXPECT_NEAR(bare.report.groups[g].area, meshed.report.groups[g].area, 1e-9);
     for (std::size_t i = 0; i < all.size(); ++i)
         EXPECT_NEAR(bare.ballAreas[i], meshed.ballAreas[i], 1e-9);
-    options.kind = SurfaceKind::SolventExcluded;
-    EXPECT_THROW(makeSurface(groupsOfTwo(all), options), Error);
+    EXPECT_FALSE(bare.report.surface.meshArea);
+    EXPECT_EQ(bare.report.surface.cuspLength, meshed.report.surface.cuspLength);
+    ASSERT_TRUE(meshed.report.surface.meshArea && meshed.report.surface.meshVolume);
+    EXPECT_NEAR(*meshed.report.surface.meshArea, bare.report.surface.area,
+                0.1 * bare.report.surface.area);
+}
+
+TEST(BallAreas, WithoutAGridAreThoseWithOne)
+{
+    for (const SurfaceKind kind :
+         {SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals, SurfaceKind::SolventExcluded}) {
+        SCOPED_TRACE(nameOf(kind));
+        expectSameWithoutGrid(kind);
+    }
+    SurfaceOptions options;
+    options.kind = SurfaceKind::Gaussian;
+    options.grid = false;
+    EXPECT_THROW(makeSurface(groupsOfTwo(balls("1crn.pdb")), options), Error);
 }
 
 // Half of what the balls lose is the interface.

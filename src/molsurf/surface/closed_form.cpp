@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/closed_form.h"
+
+#include "molsurf/balls/excluded_measure.h"
+#include "molsurf/surface/check_balls.h"
+#include "molsurf/surface/surface_kind.h"
+
+namespace molsurf
+{
+
+namespace
+{
+
+/// As meshTolerance() of a union: a crease takes up to h of area for its length, on either side;
+/// and a face of radius r, where another sheet of the surface may be nearer than a voxel, h A/r.
+MeshTolerance excludedTolerance(const BallBoundary& boundary, const BoundaryMeasure& measure,
+                                const ExcludedMeasure& excluded, double probe, double voxel)
+{
+    double bends = (excluded.toricArea + excluded.concaveArea) / probe;
+    for (std::size_t p = 0; p < boundary.patches.size(); ++p) {
+        const double R = boundary.patches[p].radius, r = R - probe;
+        bends += measure.patchAreas[p] * r / (R * R);
+    }
+    const double creases = 2.0 * (excluded.creaseLength + cuspLengthOf(boundary, probe));
+    return {voxel * (creases + 1.5 * bends), 0.4 * voxel * voxel * (creases + bends)};
+}
+
+} // namespace
+
+ClosedForm measureClosedForm(const BallBoundary& boundary, const SurfaceOptions& options,
+                             std::size_t count, const Progress& progress)
+{
+    BoundaryMeasure measure = measureBoundary(boundary, progress);
+    checkBoundary(boundary, measure, progress);
+    ClosedForm out;
+    const double probe = offsetOf(options);
+    if (probe == 0.0) {
+        out.ballAreas = areasOfBalls(boundary, measure, count);
+        out.tolerance = meshTolerance(boundary, measure, options.voxel);
+        out.pieces = std::move(measure.pieces);
+        return out;
+    }
+    ExcludedMeasure excluded = measureExcluded(boundary, measure, probe, progress);
+    out.ballAreas = areasOfBalls(boundary, excluded, count);
+    out.cuspLength = cuspLengthOf(boundary, probe);
+    out.tolerance = excludedTolerance(boundary, measure, excluded, probe, options.voxel);
+    out.pieces = std::move(excluded.pieces);
+    out.topologyKnown = excluded.topologyKnown;
+    return out;
+}
+
+ClosedForm measureClosedForm(const std::vector<Ball>& balls, const SurfaceOptions& options,
+                             const Progress& progress)
+{
+    if (balls.empty()) return {};
+    checkFinite(balls);
+    return measureClosedForm(ballBoundary(balls, grownBy(options), progress), options, balls.size(),
+                             progress);
+}
+
+double cuspLengthOf(const BallBoundary& boundary, double probe)
+{
+    double length = 0.0;
+    for (const Arc& arc : boundary.arcs)
+        if (arc.radius < probe) length += 2.0 * arc.half * arc.radius;
+    return length;
+}
+
+} // namespace molsurf

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What is known in closed form of a surface of a union of balls, on the union or inside of it.
+
+#include "molsurf/balls/boundary_check.h"
+#include "molsurf/balls/boundary_measure.h"
+#include "molsurf/options.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace molsurf
+{
+
+/// Measures of a surface of isClosedForm() options.
+struct ClosedForm {
+    std::vector<BoundaryPiece> pieces;
+    bool topologyKnown = true;        ///< ExcludedMeasure::topologyKnown
+    std::vector<double> ballAreas;    ///< in the order of the caller's balls [Å^2]
+    std::optional<double> cuspLength; ///< SurfaceReport::cuspLength
+    MeshTolerance tolerance;          ///< of a mesh
+};
+
+/// Measures a surface and checks the measures.
+/// @param[in] boundary  of the balls grown by grownBy()
+/// @param[in] count     of the caller's balls
+/// @throws Error(ErrorKind::Check) if two ways to the same number disagree
+ClosedForm measureClosedForm(const BallBoundary& boundary, const SurfaceOptions& options,
+                             std::size_t count, const Progress& progress);
+
+/// Finds the boundary of the balls, too.
+/// @param[in] balls  every one finite
+ClosedForm measureClosedForm(const std::vector<Ball>& balls, const SurfaceOptions& options,
+                             const Progress& progress);
+
+/// Tells the length of the arcs that are smaller than a probe [Å]: SurfaceReport::cuspLength.
+double cuspLengthOf(const BallBoundary& boundary, double probe);
+
+} // namespace molsurf
