@@ -14,4 +14,5 @@
 #include "molsurf/options.h"
 #include "molsurf/progress.h"
 #include "molsurf/report.h"
+#include "molsurf/settings.h"
 #include "molsurf/surface.h"
