@@ -284,4 +284,15 @@ void checkOptions(const SelectOptions& options);
 BallSet readAtoms(const std::string& path, const SelectOptions& options = {}, double probe = 0.0,
                   const Progress& progress = Progress());
 
+/// A file that is in memory.
+struct FileContent {
+    std::string name;  ///< stands for it in messages; its extension decides between formats where
+                       ///< the content leaves a choice
+    std::string bytes; ///< as they would lie on the disk, gzip too
+};
+
+/// Reads atoms from a file in memory; otherwise as above.
+BallSet readAtoms(FileContent file, const SelectOptions& options = {}, double probe = 0.0,
+                  const Progress& progress = Progress());
+
 } // namespace molsurf
