@@ -16,3 +16,4 @@
 #include "molsurf/report.h"
 #include "molsurf/settings.h"
 #include "molsurf/surface.h"
+#include "molsurf/tables.h"
