@@ -8,6 +8,7 @@
 #include "molsurf/ball.h"
 #include "molsurf/bricks.h"
 #include "molsurf/compare.h"
+#include "molsurf/distance.h"
 #include "molsurf/error.h"
 #include "molsurf/files.h"
 #include "molsurf/mesh.h"
