@@ -9,6 +9,7 @@
 #     surfaces    tests/surfaces/random_surfaces.py: 400 surfaces of proteins, each held against its report
 #     calls       tests/surfaces/random_calls.py: 20,000 calls with mutated files and options, under sanitizers
 #     figures     scripts/check_docs.py --figures: the numbers of the pages, some of structures that are in FOLDER
+#     wheel       scripts/wheel.sh: the Python module, its wheel and its tests
 #     site        scripts/docs.sh: the pages as a site
 # All of it takes some hours on 2 cores, in some 6 GB. What a step prints is in build-nightly/NAME.log. The exit
 # status is 1 if one fails; the others still run.
@@ -38,6 +39,7 @@ figures() {
     scripts/install_deps.sh gemmi pdb2pqr apbs-data && scripts/paper_structures.sh paper &&
     scripts/check_docs.py --figures "${structures[@]}"
 }
+wheel() { scripts/wheel.sh; }
 site() { scripts/docs.sh; }
 
 seconds=60 structures=() steps=()
@@ -45,12 +47,12 @@ while [[ $# -gt 0 ]]; do
   case $1 in
     --fuzz) seconds=${2:?--fuzz needs seconds} && shift ;;
     --structures) structures=(--structures "${2:?--structures needs a folder}") && shift ;;
-    headers | mutations | fuzzing | asan | tsan | surfaces | calls | figures | site) steps+=("$1") ;;
+    headers | mutations | fuzzing | asan | tsan | surfaces | calls | figures | wheel | site) steps+=("$1") ;;
     *) echo "nightly.sh: expected a step or an option, got $1 [hint: see the first lines of this script]" >&2; exit 2 ;;
   esac
   shift
 done
-[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces calls figures site)
+[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces calls figures wheel site)
 
 scripts/install_deps.sh --test --check clang dpkg-dev
 mkdir -p build-nightly
@@ -59,7 +61,7 @@ for step in "${steps[@]}"; do
   echo "== $step"
   began=$SECONDS verdict=passed
   "$step" < /dev/null > "build-nightly/$step.log" 2>&1 || { verdict=FAILED status=1; }
-  last=$(grep -E '^(.*tests passed.*|.* faults.*|.* killed.*|Made in .*|.*ninja: no work.*)$' "build-nightly/$step.log" | tail -n 1 || true)
+  last=$(grep -E '^(.*tests passed.*|.* faults.*|.* killed.*|Made in .*|.* passed.* in .*|.*ninja: no work.*)$' "build-nightly/$step.log" | tail -n 1 || true)
   table+=("$(printf '%-10s %-7s %3d:%02d  %s' "$step" "$verdict" $(((SECONDS - began) / 60)) $(((SECONDS - began) % 60)) \
     "${last:-$(tail -n 1 "build-nightly/$step.log")}")")
   echo "${table[-1]}"

@@ -284,4 +284,30 @@ void checkOptions(const SelectOptions& options);
 BallSet readAtoms(const std::string& path, const SelectOptions& options = {}, double probe = 0.0,
                   const Progress& progress = Progress());
 
+/// A file that is in memory.
+struct FileContent {
+    std::string name;  ///< stands for it in messages; its extension decides between formats where
+                       ///< the content leaves a choice
+    std::string bytes; ///< as they would lie on the disk, gzip too
+};
+
+/// Reads atoms from a file in memory; otherwise as above.
+BallSet readAtoms(FileContent file, const SelectOptions& options = {}, double probe = 0.0,
+                  const Progress& progress = Progress());
+
+/// Radii of atoms that were not read from a file [Å]: as readAtoms() gives them, but for atoms of
+/// which nothing is known.
+///
+/// @param[in] names     of the atoms: "CA"
+/// @param[in] residues  their names: "ALA"; one an atom, or none at all
+/// @param[in] elements  symbols in any case, "" where the name has to tell; one an atom, or none
+/// @param[in] set       see SelectOptions::radii
+/// @return one an atom; 0: it is to be left out, as hydrogens of a set of heavy atoms with theirs;
+///         not a number: nothing tells its radius
+/// @throws Error(ErrorKind::Input) if the set is none, or the lists differ in length
+std::vector<double> atomRadii(const std::vector<std::string>& names,
+                              const std::vector<std::string>& residues,
+                              const std::vector<std::string>& elements,
+                              const std::string& set = "bondi");
+
 } // namespace molsurf

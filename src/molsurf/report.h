@@ -253,4 +253,8 @@ struct Report {
     }
 };
 
+/// The report as JSON text, indented, with a final line feed. Numbers that are not finite are null;
+/// bytes that are no UTF-8 become U+FFFD. `evolution` is null if the report has none.
+std::string reportText(const Report& report);
+
 } // namespace molsurf

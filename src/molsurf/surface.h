@@ -60,6 +60,19 @@ struct MolecularSurface {
     Report report; ///< measures of the surface; its caller fills in command, input and the like
 };
 
+/// The active voxels of a grid, in the order of its tree. The centre of voxel ijk lies at
+/// `origin` + ijk `edge` [Å].
+struct Voxels {
+    std::vector<std::array<std::int32_t, 3>> coordinates; ///< ijk
+    std::vector<float> values;                            ///< one a voxel
+    double edge = 0.0;                                    ///< [Å]
+    openvdb::Vec3d origin{0.0};                           ///< [Å]
+};
+
+/// Lists the active voxels of a grid whose voxels are cubes along the axes.
+/// @throws Error(ErrorKind::Input) if they are not
+Voxels voxelsOf(const openvdb::FloatGrid& grid);
+
 /// A start for the flow of the next frame of a trajectory: how far the surface of the frame before
 /// moved from its initial place to rest.
 class WarmStart

@@ -107,6 +107,12 @@ CASES = {
     "flow/evolve.cpp": [
         ("a smaller --lambda", "vdb_molsurf two.xyzr --lambda 1e4 --regularizer area -o a.vdb",
          "vdb_molsurf two.xyzr --lambda 1 --regularizer area -o a.vdb")],
+    "core/words.cpp": [
+        ("did you mean residue?", "vdb_molsurf 1crn.pdb --color resdiue -o a.ply",
+         f"vdb_molsurf 1crn.pdb --color residue {FAST} -o a.ply")],
+    "surface/settings.cpp": [
+        ("all, or some of", "vdb_molsurf 1crn.pdb --fields qqqqqq -o a.vdb",
+         "vdb_molsurf 1crn.pdb --fields all --voxel 1 -o a.vdb")],
     "structure/structure_list.cpp": [
         ("vdb_molsurf one.xyzr -o FILE", "vdb_molsurf batch one.xyzr -O out", f"vdb_molsurf one.xyzr {FAST} -o a.ply")],
     "structure/load_text.cpp": [
@@ -342,11 +348,6 @@ CASES = {
          "vdb_molsurf bricks run plan.json 1"),
         ("vdb_molsurf bricks merge plan.json -o surface.vdb", f"{PLAN}; {RUN}; vdb_molsurf bricks merge",
          "vdb_molsurf bricks merge plan.json -o surface.vdb")],
-    "tools/cli/option_table.cpp": [
-        ("did you mean residue?", "vdb_molsurf 1crn.pdb --color resdiue -o a.ply",
-         f"vdb_molsurf 1crn.pdb --color residue {FAST} -o a.ply"),
-        ("all, or some of", "vdb_molsurf 1crn.pdb --fields qqqqqq -o a.vdb",
-         "vdb_molsurf 1crn.pdb --fields all --voxel 1 -o a.vdb")],
     "tools/cli/parse.cpp": [
         ("vdb_molsurf help", "vdb_molsurf bricks", "vdb_molsurf help | grep 'bricks plan'"),
         ("vdb_molsurf convert --help", "vdb_molsurf convert a.vdb --qqqqqq", "vdb_molsurf convert --help"),

@@ -6,10 +6,9 @@
 
 #include "cli/formats.h"
 
-#include "molsurf/atoms.h"
 #include "molsurf/io/scene.h"
-#include "molsurf/options.h"
 #include "molsurf/picture/draw_mesh.h"
+#include "molsurf/settings.h"
 #include "molsurf/surface/area_tables.h"
 
 #include <cstddef>
@@ -51,15 +50,14 @@ using GivenOptions = std::map<std::string, std::vector<std::string>>;
 enum class LegendChoice { Auto, On, Off };
 const char* nameOf(LegendChoice choice);
 
-/// A command line. The first part is set by options, see optionTable(), the second made of it.
-struct Call {
+/// A command line. The settings and the first part are set by options, see optionTable(), the
+/// second part is made of them.
+struct Call : Settings {
     Verb verb = Build;
     std::string command;             ///< the command line as typed, quoted for a shell
     std::vector<std::string> inputs; ///< the words that are no options
     GivenOptions given;
 
-    SelectOptions atoms;
-    SurfaceOptions options;
     std::vector<std::string> paths;       ///< of --output
     std::string format;                   ///< of standard output; empty: none
     std::string folder;                   ///< Batch: where the files go
@@ -71,7 +69,6 @@ struct Call {
     std::string groupsFile;
     std::vector<double> lod; ///< voxels of levels of detail [Å], the finest first; empty: one
     Scene scene;             ///< of the .vdb and the node of the .glb
-    std::string colorGroups; ///< what has colours that are no ColorBy: copy, entity or class
     bool crisp = false;      ///< mesh files have the borders between colours cut
     std::vector<std::string> areas; ///< tables of areas in the report: "atoms", "residues", ...
     ContactLevel contacts = ContactLevel::Residue; ///< of tables of contacts

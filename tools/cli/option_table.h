@@ -7,6 +7,8 @@
 
 #include "cli/call.h"
 
+#include "molsurf/core/words.h"
+
 #include <openvdb/openvdb.h>
 
 #include <functional>
@@ -69,21 +71,7 @@ const std::vector<std::string>& knownFields();
 /// The tables of areas: "atoms", "residues", "contacts", "interfaces".
 const std::vector<std::string>& areaTables();
 
-/// A number with the fewest digits that give it back.
-std::string shortest(double number);
-
 /// @throws Error(ErrorKind::Usage)
 [[noreturn]] void misuse(const std::string& message);
-
-/// " [hint: did you mean WORD?]" for the word nearest to what was typed; empty if none is near.
-std::string didYouMean(const std::string& typed, const std::vector<std::string>& words);
-
-/// The words between commas.
-std::vector<std::string> splitWords(const std::string& list);
-
-std::string joinWords(const std::vector<std::string>& words, const char* between);
-
-/// The text in small letters of ASCII.
-std::string lowered(std::string text);
 
 } // namespace molsurf::tool

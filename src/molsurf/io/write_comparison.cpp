@@ -159,7 +159,7 @@ double usualRange(const std::vector<float>& distances)
     return std::max(double(*place), least);
 }
 
-std::string shortest(double value)
+std::string shortestFloat(double value)
 {
     char digits[32];
     return std::string(digits, std::to_chars(digits, digits + sizeof digits, float(value)).ptr);
@@ -170,10 +170,10 @@ std::vector<std::string> colorComments(const ComparisonReport& report)
 {
     const ColorScale& color = report.color;
     std::vector<std::string> lines = {"colors: " + report.shown + " in Angstrom, map " + color.map +
-                                      " from " + shortest(color.low) + " to " +
-                                      shortest(color.high)};
+                                      " from " + shortestFloat(color.low) + " to " +
+                                      shortestFloat(color.high)};
     for (std::size_t i = 0; i < color.stops.size(); ++i) {
-        std::string line = "color " + shortest(color.valueOf(i));
+        std::string line = "color " + shortestFloat(color.valueOf(i));
         for (const std::uint8_t part : color.stops[i]) line += " " + std::to_string(int(part));
         lines.push_back(line);
     }

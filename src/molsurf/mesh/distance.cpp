@@ -186,13 +186,15 @@ Distance DistanceTo::Query::at(const Vec3d& x)
             const Vec3d way = local - foot->y;
             const double distance = way.length(), height = foot->normal.dot(way);
             // Away from the normal, at an edge of the surface, its sign means little.
-            if (std::abs(height) >= 0.5 * distance)
-                return {distance, surface.closed && height < 0.0};
-            return {distance, surface.closed && to_.pseudonormal(near).dot(x - near.point) < 0.0};
+            const bool below = std::abs(height) >= 0.5 * distance
+                                   ? height < 0.0
+                                   : to_.pseudonormal(near).dot(x - near.point) < 0.0;
+            return {distance, surface.closed && below, surface.pose.toWorld(foot->y),
+                    surface.pose.turn * foot->normal};
         }
     }
-    const Vec3d way = x - near.point;
-    return {way.length(), surface.closed && to_.pseudonormal(near).dot(way) < 0.0};
+    const Vec3d way = x - near.point, normal = unit(to_.pseudonormal(near));
+    return {way.length(), surface.closed && normal.dot(way) < 0.0, near.point, normal};
 }
 
 } // namespace molsurf

@@ -40,8 +40,10 @@ bool hasInside(const Mesh& mesh, const VertexTriangles& around, const Progress& 
 
 /// The distance of a point from a surface.
 struct Distance {
-    double value = 0.0;  ///< Euclidean, to the closest point [Å]
-    bool inside = false; ///< the point is inside; false for a surface that is not closed
+    double value = 0.0;          ///< Euclidean, to the closest point [Å]
+    bool inside = false;         ///< the point is inside; false for a surface that is not closed
+    openvdb::Vec3d closest{0.0}; ///< the closest point [Å]
+    openvdb::Vec3d normal{0.0};  ///< there, unit, outward
 };
 
 /// Finds distances of points from one surface.

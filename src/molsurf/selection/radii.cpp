@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/radii.h"
 
+#include "molsurf/atoms.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/select_balls.h"
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <string_view>
 
 namespace molsurf
@@ -348,6 +350,32 @@ RadiiSet readRadii(const std::string& name, std::size_t maxBytes)
                         inQuotes(name));
     }
     return readFile(name, maxBytes);
+}
+
+std::vector<double> atomRadii(const std::vector<std::string>& names,
+                              const std::vector<std::string>& residues,
+                              const std::vector<std::string>& elements, const std::string& set)
+{
+    for (const auto* list : {&residues, &elements})
+        if (!list->empty() && list->size() != names.size())
+            throw Error(ErrorKind::Input, "radii: expected " + std::to_string(names.size()) +
+                                              " names of " +
+                                              (list == &residues ? "residues" : "elements") +
+                                              ", got " + std::to_string(list->size()));
+    const RadiiSet known = readRadii(set == "martini" ? "martini2" : set),
+                   fallback = readRadii("bondi");
+    std::vector<double> out;
+    out.reserve(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::string residue = residues.empty() ? "" : residues[i];
+        const std::string symbol = elements.empty() ? "" : elements[i];
+        const std::uint8_t element =
+            symbol.empty() ? guessElement(names[i], residue) : elementNumber(symbol);
+        double radius = known.find(residue, names[i], element);
+        if (radius < 0) radius = fallback.find(residue, names[i], element);
+        out.push_back(radius < 0 ? std::numeric_limits<double>::quiet_NaN() : radius);
+    }
+    return out;
 }
 
 std::string describeRadii()

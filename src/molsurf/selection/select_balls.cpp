@@ -530,6 +530,14 @@ BallSet readAtoms(const std::string& path, const SelectOptions& options, double 
     return selectBalls(readStructure(path, options.maxInput), options, probe, progress);
 }
 
+BallSet readAtoms(FileContent file, const SelectOptions& options, double probe,
+                  const Progress& progress)
+{
+    checkOptions(options);
+    return selectBalls(parseStructure(std::move(file.bytes), file.name, options.maxInput), options,
+                       probe, progress);
+}
+
 BallSet selectBalls(const Structure& structure, const SelectOptions& options, double probe,
                     const Progress& progress)
 {

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <utility>
 
 namespace molsurf
 {
@@ -138,14 +139,20 @@ std::string loadBytes(const std::string& path, std::size_t maxBytes)
     return readBytes(path, Limit(maxBytes));
 }
 
-std::string loadText(const std::string& path, std::size_t maxBytes)
+std::string unpackedText(std::string bytes, const std::string& path, std::size_t maxBytes)
 {
     const Limit limit(maxBytes);
-    std::string text = readBytes(path, limit);
+    checkSize(bytes.size(), limit, path);
+    std::string text = std::move(bytes);
     if (isGzip(text, 0)) text = unpack(std::move(text), path, limit);
     if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) failAt(path, "is empty");
     return text;
+}
+
+std::string loadText(const std::string& path, std::size_t maxBytes)
+{
+    return unpackedText(readBytes(path, Limit(maxBytes)), path, maxBytes);
 }
 
 } // namespace molsurf

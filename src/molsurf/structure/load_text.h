@@ -19,6 +19,10 @@ namespace molsurf
 ///         empty or larger than it may be, or if its gzip data are damaged or cut short
 std::string loadText(const std::string& path, std::size_t maxBytes = 0);
 
+/// The text of a file that is in memory; otherwise as above.
+/// @param[in] path  stands for it in messages
+std::string unpackedText(std::string bytes, const std::string& path, std::size_t maxBytes = 0);
+
 /// The same as it lies on the disk, which may be nothing. From a file or device without an end no
 /// more is read than @a maxBytes and a block.
 std::string loadBytes(const std::string& path, std::size_t maxBytes = 0);

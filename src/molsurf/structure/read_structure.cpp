@@ -86,6 +86,13 @@ Structure readStructure(const std::string& path, std::size_t maxBytes)
     return parseAndCheck(format, std::move(text), path);
 }
 
+Structure parseStructure(std::string bytes, const std::string& path, std::size_t maxBytes)
+{
+    std::string text = unpackedText(std::move(bytes), path, maxBytes);
+    const StructureFormat format = detectFormat(path, text);
+    return parseAndCheck(format, std::move(text), path);
+}
+
 Structure readStructureAs(StructureFormat format, const std::string& path, std::size_t maxBytes)
 {
     return parseAndCheck(format, loadText(path, maxBytes), path);

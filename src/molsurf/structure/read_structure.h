@@ -37,6 +37,10 @@ namespace molsurf
 ///         finite or lies beyond 1e6 Å
 Structure readStructure(const std::string& path, std::size_t maxBytes = 0);
 
+/// Reads a structure from a file in memory; otherwise as above.
+/// @param[in] path  stands for it in messages
+Structure parseStructure(std::string bytes, const std::string& path, std::size_t maxBytes = 0);
+
 /// Reads a structure whose format is known, whatever its content looks like; otherwise as above.
 Structure readStructureAs(StructureFormat format, const std::string& path,
                           std::size_t maxBytes = 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/area_tables.h"
 
+#include "molsurf/error.h"
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/structure/element.h"
 
@@ -63,6 +64,25 @@ private:
     Counts number_;
 };
 
+/// The names of the balls of a table.
+/// @param[in] atoms  checked: it has names
+const BallNames& namesOf(const BallSet& atoms)
+{
+    if (!atoms.names)
+        throw Error(ErrorKind::Usage, "table: expected `names` of the atoms, got none");
+    return *atoms.names;
+}
+
+/// Checks that a surface has areas of these atoms.
+void checkAreas(const BallSet& atoms, const MolecularSurface& result)
+{
+    const std::size_t areas = result.ballAreas.size();
+    if (areas > 0 && areas <= atoms.balls.size()) return;
+    throw Error(ErrorKind::Usage, "table: expected a surface with `ballAreas` of " +
+                                      std::to_string(atoms.balls.size()) + " atoms, got " +
+                                      std::to_string(areas));
+}
+
 /// The sum of each residue's balls.
 Numbers sumsOf(const BallNames& names, const Numbers& values)
 {
@@ -94,7 +114,8 @@ Numbers meansOfResidues(const BallNames& names, const Counts& balls, const Molec
 
 Table atomTable(const BallSet& atoms, const MolecularSurface& result)
 {
-    const BallNames& names = *atoms.names;
+    checkAreas(atoms, result);
+    const BallNames& names = namesOf(atoms);
     ResidueColumns residues;
     Texts name, altloc, element;
     Counts id;
@@ -121,7 +142,8 @@ Table atomTable(const BallSet& atoms, const MolecularSurface& result)
 
 Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& result)
 {
-    const BallNames& names = *atoms.names;
+    checkAreas(atoms, result);
+    const BallNames& names = namesOf(atoms);
     const Numbers areas = sumsOf(names, result.ballAreas);
     Counts balls(areas.size(), 0);
     for (std::size_t i = 0; i < result.ballAreas.size(); ++i)
@@ -150,6 +172,11 @@ Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& r
     return table;
 }
 
+std::optional<double> largestArea(const std::string& residue)
+{
+    return largestAccessibleArea(residue);
+}
+
 const char* nameOf(ContactLevel level)
 {
     return level == ContactLevel::Atom    ? "atom"
@@ -159,7 +186,7 @@ const char* nameOf(ContactLevel level)
 
 Table contactTable(const BallSet& atoms, ContactLevel level, const MolecularSurface& result)
 {
-    const BallNames& names = *atoms.names;
+    const BallNames& names = namesOf(atoms);
     const std::size_t own = atoms.unit ? atoms.unit->balls : atoms.balls.size();
     std::map<std::string, std::int32_t> chains;
     Texts chainNames;
@@ -224,7 +251,7 @@ Table contactTable(const BallSet& atoms, ContactLevel level, const MolecularSurf
 
 Table interfaceTable(const BallSet& atoms, const Report& report)
 {
-    const BallNames& names = *atoms.names;
+    const BallNames& names = namesOf(atoms);
     ResidueColumns residues;
     Texts first, second, group;
     Numbers alone, together, buried, area;

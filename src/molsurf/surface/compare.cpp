@@ -101,26 +101,6 @@ Pose poseOf(const openvdb::GridBase& grid)
     return pose;
 }
 
-/// The spline through a level set.
-Spline fitted(const FloatGrid& grid, const Progress& progress)
-{
-    SparseField given = fromGrid(grid);
-    const float full = std::abs(grid.background()) * (1.0f - 1e-6f);
-    for (std::size_t n = 0; n < given.table.size(); ++n)
-        given.table.active(n) &= within(given.leaf(n), full);
-    const double width = completedWidthVox * given.voxelSize;
-    SparseField S = redistance(copied(given), {width, width}, 0.0, progress).phi;
-    parallelFor(S.table.size(), progress, [&](std::size_t n) {
-        const std::int32_t m = given.table.find(S.table.origin(n));
-        if (m == noLeaf) return;
-        const LeafMask& known = given.table.active(m);
-        known.forEach([&](int v) { S.leaf(n)[v] = given.leaf(m)[v]; });
-        S.table.active(n) |= known;
-    });
-    if (S.table.size() == 0) return Spline();
-    return fitSpline(S, 0, progress);
-}
-
 /// Refuses leaves near the largest whole numbers.
 void checkPlace(const FloatGrid& grid)
 {
@@ -162,6 +142,25 @@ void sayIfOpen(Operand& operand)
 
 } // namespace
 
+Spline splineThrough(const FloatGrid& grid, const Progress& progress)
+{
+    SparseField given = fromGrid(grid);
+    const float full = std::abs(grid.background()) * (1.0f - 1e-6f);
+    for (std::size_t n = 0; n < given.table.size(); ++n)
+        given.table.active(n) &= within(given.leaf(n), full);
+    const double width = completedWidthVox * given.voxelSize;
+    SparseField S = redistance(copied(given), {width, width}, 0.0, progress).phi;
+    parallelFor(S.table.size(), progress, [&](std::size_t n) {
+        const std::int32_t m = given.table.find(S.table.origin(n));
+        if (m == noLeaf) return;
+        const LeafMask& known = given.table.active(m);
+        known.forEach([&](int v) { S.leaf(n)[v] = given.leaf(m)[v]; });
+        S.table.active(n) |= known;
+    });
+    if (S.table.size() == 0) return Spline();
+    return fitSpline(S, 0, progress);
+}
+
 Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
 {
     Operand operand;
@@ -190,7 +189,7 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
             refuse("grids 'surface' and 'spline': expected one origin and direction, got two");
         surface.spline = Spline{fromGrid(*coefficients)};
     } else {
-        surface.spline = fitted(*stored, progress);
+        surface.spline = splineThrough(*stored, progress);
     }
 
     // The mesh is made in the frame of the spline.

@@ -40,6 +40,10 @@ struct Operand {
 ///         of cubes, or has no zero
 Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress);
 
+/// The spline through the band of a level set, whose values it takes; what it lacks is added as
+/// above. Without coefficients if there is no zero.
+Spline splineThrough(const openvdb::FloatGrid& levelSet, const Progress& progress);
+
 /// The surface that makeSurface() made; its options must ask for the field "spline".
 Operand operandOf(MolecularSurface&& result);
 

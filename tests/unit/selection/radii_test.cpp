@@ -30,6 +30,41 @@ TEST(Radii, BuiltInSets)
     EXPECT_LT(bondi.find("XXX", "X", 0), 0);
 }
 
+TEST(Radii, OfAtomsWithoutAFileAreThoseOfTheFile)
+{
+    for (const char* set : {"bondi", "protor", "gemmi"}) {
+        SelectOptions options;
+        options.names = true;
+        options.radii = set;
+        const BallSet read = readAtoms(dataFile("1crn.pdb"), options);
+        std::vector<std::string> names, residues, elements;
+        for (std::size_t i = 0; i < read.balls.size(); ++i) {
+            names.push_back(read.names->atoms[i].name);
+            residues.push_back(read.names->residues[std::size_t(read.names->residueOf[i])].name);
+            elements.push_back(elementSymbol(read.names->atoms[i].element));
+        }
+        const std::vector<double> radii = atomRadii(names, residues, elements, set);
+        ASSERT_EQ(radii.size(), read.balls.size());
+        for (std::size_t i = 0; i < radii.size(); ++i) EXPECT_EQ(radii[i], read.balls[i].radius);
+        EXPECT_EQ(atomRadii(names, residues, {}, set), radii); // names tell elements
+    }
+}
+
+TEST(Radii, OfAtomsThatNothingIsKnownOfAreNone)
+{
+    EXPECT_TRUE(std::isnan(atomRadii({"??"}, {}, {"Xx"})[0]));
+    EXPECT_EQ(atomRadii({"H"}, {"ALA"}, {"h"}, "protor")[0], 0.0);
+    EXPECT_EQ(atomRadii({"ZN"}, {"ZN"}, {""}, "protor")[0], 1.39); // bondi fills the gap
+    EXPECT_TRUE(atomRadii({}, {}, {}).empty());
+    EXPECT_HAS(errorOf(ErrorKind::Input,
+                       [] {
+                           atomRadii({"C", "N"}, {"ALA"}, {});
+                       }),
+               "radii: expected 2 names of residues, got 1");
+    EXPECT_HAS(errorOf(ErrorKind::Input, [] { atomRadii({"C"}, {}, {}, "no-such-set"); }),
+               "radii: expected bondi");
+}
+
 TEST(Radii, AreListedWithTheirSource)
 {
     const std::string text = describeRadii();

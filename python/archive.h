@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Molecules and surfaces as bytes, for pickles. They are read by the same version of the module
+/// alone; a damaged text is an error.
+
+#include <molsurf/molsurf.h>
+
+#include <openvdb/io/Stream.h>
+
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace molsurf::python
+{
+
+/// Appends values to a text.
+class Packer
+{
+public:
+    template<typename... T>
+    void operator()(const T&... values)
+    {
+        (add(values), ...);
+    }
+    std::string take() { return std::move(bytes_); }
+
+private:
+    void raw(const void* data, std::size_t size)
+    {
+        bytes_.append(static_cast<const char*>(data), size);
+    }
+    void add(const std::string& text)
+    {
+        add(std::uint64_t(text.size()));
+        raw(text.data(), text.size());
+    }
+    template<typename T>
+    void add(const std::vector<T>& values)
+    {
+        add(std::uint64_t(values.size()));
+        if constexpr (std::is_trivially_copyable_v<T>)
+            raw(values.data(), values.size() * sizeof(T));
+        else
+            for (const T& value : values) add(value);
+    }
+    template<typename T>
+    void add(const std::optional<T>& value)
+    {
+        add(value.has_value());
+        if (value) add(*value);
+    }
+    template<typename A, typename B>
+    void add(const std::pair<A, B>& both)
+    {
+        (*this)(both.first, both.second);
+    }
+    template<typename T>
+    void add(const T& value)
+    {
+        if constexpr (std::is_trivially_copyable_v<T>)
+            raw(&value, sizeof value);
+        else
+            members(*this, value);
+    }
+
+    std::string bytes_;
+};
+
+/// Reads what Packer wrote.
+class Unpacker
+{
+public:
+    Unpacker(const char* data, std::size_t size) : at_(data), left_(size) {}
+
+    template<typename... T>
+    void operator()(T&... values)
+    {
+        (get(values), ...);
+    }
+    bool done() const { return left_ == 0; }
+
+private:
+    void raw(void* data, std::size_t size)
+    {
+        if (size > left_) throw std::invalid_argument("the pickle is damaged");
+        if (size > 0) std::memcpy(data, at_, size);
+        at_ += size;
+        left_ -= size;
+    }
+    /// A number of things that take at least so many bytes each.
+    std::size_t count(std::size_t least)
+    {
+        std::uint64_t n = 0;
+        raw(&n, sizeof n);
+        if (n > left_ / least) throw std::invalid_argument("the pickle is damaged");
+        return std::size_t(n);
+    }
+    void get(std::string& text)
+    {
+        text.resize(count(1));
+        raw(text.data(), text.size());
+    }
+    template<typename T>
+    void get(std::vector<T>& values)
+    {
+        if constexpr (std::is_trivially_copyable_v<T>) {
+            values.resize(count(sizeof(T)));
+            raw(values.data(), values.size() * sizeof(T));
+        } else {
+            values.resize(count(1));
+            for (T& value : values) get(value);
+        }
+    }
+    template<typename T>
+    void get(std::optional<T>& value)
+    {
+        bool there = false;
+        get(there);
+        value.reset();
+        if (there) get(value.emplace());
+    }
+    template<typename A, typename B>
+    void get(std::pair<A, B>& both)
+    {
+        (*this)(both.first, both.second);
+    }
+    template<typename T>
+    void get(T& value)
+    {
+        if constexpr (std::is_trivially_copyable_v<T>)
+            raw(&value, sizeof value);
+        else
+            members(*this, value);
+    }
+
+    const char* at_;
+    std::size_t left_;
+};
+
+// The members of each type that is not copied byte by byte. V is const or not.
+#define MOLSURF_MEMBERS(Type, ...)                                                                 \
+    template<typename A>                                                                           \
+    void members(A& archive, const Type& v)                                                        \
+    {                                                                                              \
+        archive(__VA_ARGS__);                                                                      \
+    }                                                                                              \
+    template<typename A>                                                                           \
+    void members(A& archive, Type& v)                                                              \
+    {                                                                                              \
+        archive(__VA_ARGS__);                                                                      \
+    }
+
+MOLSURF_MEMBERS(ResolutionRule, v.select, v.resolution)
+MOLSURF_MEMBERS(ResolutionGroup, v.rule, v.balls, v.level)
+MOLSURF_MEMBERS(Excluded, v.reason, v.count)
+MOLSURF_MEMBERS(Instance, v.prototype, v.name, v.rotation, v.translation)
+MOLSURF_MEMBERS(SymmetricUnit, v.pointGroup, v.centre, v.copies, v.balls, v.deviation, v.motionOf,
+                v.product, v.inverse)
+MOLSURF_MEMBERS(Group, v.name, v.balls, v.color)
+MOLSURF_MEMBERS(BallValues, v.name, v.title, v.unit, v.map, v.low, v.high, v.centre, v.outward,
+                v.valueOf)
+MOLSURF_MEMBERS(BallLabels, v.chainOf, v.chains, v.groupOf, v.groups, v.elementOf, v.residueClassOf,
+                v.values, v.warnings, v.chainColors)
+MOLSURF_MEMBERS(BallNames::Residue, v.chain, v.labelChain, v.name, v.number, v.insertionCode,
+                v.hetatm)
+MOLSURF_MEMBERS(BallNames::Atom, v.name, v.altloc, v.element, v.occupancy)
+MOLSURF_MEMBERS(BallNames, v.residues, v.residueOf, v.atoms)
+MOLSURF_MEMBERS(BallSet, v.balls, v.decays, v.resolutions, v.resolutionOf, v.drops, v.copies,
+                v.copyBegin, v.copyNumbers, v.instances, v.unit, v.beads, v.beadAtoms, v.labels,
+                v.names, v.colors, v.radii, v.model, v.warnings)
+MOLSURF_MEMBERS(Attribute<float>, v.name, v.values)
+MOLSURF_MEMBERS(Attribute<std::int32_t>, v.name, v.values)
+MOLSURF_MEMBERS(MeshPart, v.name, v.firstTriangle)
+MOLSURF_MEMBERS(Mesh, v.positions, v.normals, v.triangles, v.scalars, v.labels, v.colors, v.parts)
+MOLSURF_MEMBERS(SurfaceReport, v.kind, v.area, v.volume, v.eulerCharacteristic,
+                v.meshEulerCharacteristic, v.piecesKnown, v.components, v.cavities, v.outerArea,
+                v.outerVolume, v.vertices, v.triangles, v.closed, v.manifold, v.degenerateTriangles,
+                v.maxResidual, v.gradientShare, v.kinkShare, v.cuspLength, v.meanCurvature,
+                v.gaussianCurvature, v.integrals)
+MOLSURF_MEMBERS(EvolutionReport, v.steps, v.converged, v.energy, v.area, v.volume,
+                v.meanDisplacement, v.maxSpeed, v.displacementRms, v.displacementTail,
+                v.unsettledShare, v.finalEnergy, v.unresolvedGapVoxels)
+MOLSURF_MEMBERS(GroupReport, v.name, v.atoms, v.area, v.volume, v.color, v.aloneArea)
+MOLSURF_MEMBERS(InterfaceReport, v.first, v.second, v.area, v.count, v.buried)
+MOLSURF_MEMBERS(ResolutionReport, v.select, v.resolution, v.atoms, v.level)
+MOLSURF_MEMBERS(PartReport, v.name, v.atoms, v.surface)
+MOLSURF_MEMBERS(InstanceReport, v.part, v.name, v.matrix)
+MOLSURF_MEMBERS(SymmetryReport, v.pointGroup, v.order, v.copies, v.deviation, v.gap, v.openVertices)
+MOLSURF_MEMBERS(Report, v.program, v.version, v.command, v.input, v.atoms, v.voxel, v.center,
+                v.surface, v.coarse, v.resolutions, v.groups, v.interfaces, v.parts, v.instances,
+                v.symmetry, v.evolution, v.activeVoxels, v.gridBytes, v.seconds, v.peakMemoryBytes,
+                v.threads, v.warnings, v.areasOf)
+
+#undef MOLSURF_MEMBERS
+
+/// Grids as the text of a stream of OpenVDB.
+inline std::string packGrids(const openvdb::GridCPtrVec& grids)
+{
+    std::ostringstream out(std::ios::binary);
+    openvdb::io::Stream stream(out);
+    stream.write(grids);
+    return out.str();
+}
+
+inline openvdb::GridPtrVec unpackGrids(const std::string& bytes)
+{
+    std::istringstream in(bytes, std::ios::binary);
+    return *openvdb::io::Stream(in, false).getGrids();
+}
+
+} // namespace molsurf::python

@@ -1,0 +1,612 @@
+// SPDX-License-Identifier: MPL-2.0
+// The module vdb_molsurf._core: the face of the library for the Python part of the package, which
+// checks arguments and gives them their types.
+
+#include "archive.h"
+#include "arrays.h"
+#include "signals.h"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+namespace molsurf::python
+{
+
+using openvdb::Vec3d;
+
+namespace
+{
+
+/// Names of settings and their values, as people would type them.
+using Given = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+Settings settingsOf(const Given& given)
+{
+    Settings settings;
+    for (const auto& [name, values] : given)
+        for (const Setting& row : settingTable())
+            if (row.name == name) row.set(settings, values);
+    return settings;
+}
+
+/// Atoms, with what they were asked for.
+struct Molecule {
+    std::shared_ptr<BallSet> atoms;
+    std::string source; ///< the name of the file
+};
+
+/// A surface, with all that it was made from.
+struct MadeSurface {
+    MolecularSurface result;
+    std::shared_ptr<BallSet> atoms;
+    SurfaceOptions options;
+    std::vector<std::int32_t> atom; ///< of each vertex, its place in `atoms`
+    std::shared_ptr<const SurfaceDistance> distance{};
+};
+
+std::array<PyObject*, 5> errorTypes; ///< by ErrorKind
+
+/// A message with names as Python has them: `maxSteps` becomes `max_steps`.
+std::string withKeywords(const std::string& message)
+{
+    std::string out;
+    bool inside = false;
+    for (const char letter : message) {
+        inside = inside != (letter == '`');
+        const bool capital = inside && letter >= 'A' && letter <= 'Z';
+        if (capital) out += '_';
+        out += capital ? char(letter - 'A' + 'a') : letter;
+    }
+    for (const auto& [from, to] : {std::pair("`surface`", "`kind`"), {"`lambda`", "`lambda_`"}})
+        for (std::size_t at = 0; (at = out.find(from, at)) != std::string::npos;)
+            out.replace(at, std::strlen(from), to);
+    return out;
+}
+
+void translate(const std::exception_ptr& thrown, void*)
+{
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const Error& e) {
+        PyErr_SetString(errorTypes[std::size_t(e.kind())], withKeywords(e.what()).c_str());
+    }
+}
+
+void addErrors(nb::module_& m)
+{
+    const std::pair<const char*, PyObject*> kinds[] = {{"OptionError", PyExc_ValueError},
+                                                       {"InputError", PyExc_ValueError},
+                                                       {"NumericError", PyExc_ArithmeticError},
+                                                       {"OutputError", PyExc_OSError},
+                                                       {"CheckError", PyExc_RuntimeError}};
+    for (std::size_t k = 0; k < errorTypes.size(); ++k) {
+        const std::string name = std::string("vdb_molsurf.") + kinds[k].first;
+        errorTypes[k] = PyErr_NewException(name.c_str(), kinds[k].second, nullptr);
+        m.attr(kinds[k].first) = nb::handle(errorTypes[k]);
+    }
+    nb::register_exception_translator(translate, nullptr);
+}
+
+nb::list describeSettings()
+{
+    const char* types[] = {"switch", "whole", "number", "text", "word", "list", "rules"};
+    nb::list out;
+    for (const Setting& row : settingTable()) {
+        nb::dict one;
+        one["name"] = row.name;
+        one["type"] = types[std::size_t(row.type)];
+        one["text"] = withKeywords(row.text);
+        one["preset"] = row.preset;
+        one["words"] = row.words;
+        one["low"] = row.low;
+        one["high"] = row.high;
+        one["of_atoms"] = row.ofAtoms;
+        one["default"] = row.get ? nb::cast(row.get(Settings())) : nb::none();
+        out.append(one);
+    }
+    return out;
+}
+
+Molecule readMolecule(const std::string& name, const std::optional<nb::bytes>& content,
+                      const Given& given,
+                      const std::vector<std::pair<std::string, std::string>>& groups,
+                      const How& how)
+{
+    Settings settings = settingsOf(given);
+    settings.atoms.names = settings.atoms.labels = true;
+    for (const auto& [group, select] : groups) settings.atoms.groups.push_back({group, select, {}});
+    if (!settings.colorGroups.empty()) settings.atoms.groupBy = settings.colorGroups;
+    const double probe = probeOf(settings.options);
+    FileContent file{name, content ? std::string(content->c_str(), content->size()) : ""};
+    Molecule out{nullptr, name};
+    out.atoms = run(how, [&](const Progress& progress) {
+        return std::make_shared<BallSet>(
+            content ? readAtoms(std::move(file), settings.atoms, probe, progress)
+                    : readAtoms(name, settings.atoms, probe, progress));
+    });
+    return out;
+}
+
+/// Makes labels of atoms, which count places in the BallSet, those of the file.
+/// @return the labels as they were
+std::vector<std::int32_t> takeAtoms(const std::vector<std::int32_t>& fileIds,
+                                    MolecularSurface& result)
+{
+    const auto idOf = [&](std::int32_t atom) {
+        return atom < 0 ? atom : fileIds[std::size_t(atom)];
+    };
+    std::vector<std::int32_t> places;
+    for (Attribute<std::int32_t>& label : result.mesh.labels) {
+        if (label.name != "atom_id") continue;
+        places = label.values;
+        for (std::int32_t& atom : label.values) atom = idOf(atom);
+    }
+    for (const openvdb::GridBase::Ptr& grid : result.fields)
+        if (const auto ids = openvdb::gridPtrCast<openvdb::Int32Grid>(grid);
+            ids && grid->getName() == "atom_id")
+            for (auto voxel = ids->beginValueOn(); voxel; ++voxel) voxel.setValue(idOf(*voxel));
+    return places;
+}
+
+/// @param[in] balls  the surface's own, which are kept
+MadeSurface surfaceOf(std::shared_ptr<BallSet> balls, const std::string& source,
+                      const SurfaceOptions& options, const How& how)
+{
+    MadeSurface out;
+    out.options = options;
+    std::vector<std::int32_t> fileIds;
+    for (std::size_t i = 0; i < balls->balls.size(); ++i) {
+        fileIds.push_back(balls->balls[i].atom);
+        balls->balls[i].atom = std::int32_t(i);
+    }
+    out.result = run(how, [&](Progress& progress) {
+        MolecularSurface made = makeSurface(*balls, options, &progress);
+        out.atom = takeAtoms(fileIds, made);
+        return made;
+    });
+    for (std::size_t i = 0; i < fileIds.size(); ++i) balls->balls[i].atom = fileIds[i];
+    out.atoms = std::move(balls);
+    Report& report = out.result.report;
+    report.version = MOLSURF_VERSION;
+    report.input = source;
+    report.voxel = options.grid ? options.voxel : 0.0;
+    report.warnings.insert(report.warnings.begin(), out.atoms->warnings.begin(),
+                           out.atoms->warnings.end());
+    for (std::string& warning : report.warnings) warning = withKeywords(warning);
+    report.threads =
+        how.threads > 0
+            ? how.threads
+            : int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    return out;
+}
+
+/// Options of the surface of a molecule.
+/// @param[in] extra  switches that have no row
+SurfaceOptions optionsOf(const Given& given, const std::vector<std::string>& extra,
+                         const std::string& areasOf)
+{
+    Settings settings = settingsOf(given);
+    if (!settings.colorGroups.empty()) settings.options.color = ColorBy::Group;
+    SurfaceOptions& options = settings.options;
+    options.energy = false;
+    for (const std::string& name : extra) {
+        if (name == "atom_areas") options.ballAreas = true;
+        if (name == "no_grid") options.grid = false;
+    }
+    for (const SurfaceKind kind :
+         {SurfaceKind::Variational, SurfaceKind::SolventExcluded, SurfaceKind::SolventAccessible,
+          SurfaceKind::VanDerWaals, SurfaceKind::Gaussian})
+        if (areasOf == nameOf(kind)) options.areasOf = kind;
+    return options;
+}
+
+/// Checks a mesh that comes from arrays, or whose arrays anybody may have written to.
+/// @throws Error(ErrorKind::Input) if a vertex is nowhere, or a triangle names one that is not
+/// there
+void checkMesh(const Mesh& mesh)
+{
+    const std::size_t vertices = mesh.positions.size();
+    for (std::size_t i = 0; i < vertices; ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            if (!std::isfinite(mesh.positions[i][axis]))
+                throw Error(ErrorKind::Input,
+                            "vertex " + std::to_string(i) + ": expected finite coordinates");
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (const std::uint32_t vertex : mesh.triangles[i])
+            if (vertex >= vertices)
+                throw Error(ErrorKind::Input, "face " + std::to_string(i) +
+                                                  ": expected vertices below " +
+                                                  std::to_string(vertices) + ", got " +
+                                                  std::to_string(std::int32_t(vertex)));
+}
+
+nb::tuple pairsOf(std::vector<ContactArea>&& contacts)
+{
+    std::vector<std::array<std::int32_t, 2>> pairs;
+    std::vector<double> areas, distances;
+    for (const ContactArea& contact : contacts) {
+        pairs.push_back({std::int32_t(contact.balls[0]), std::int32_t(contact.balls[1])});
+        areas.push_back(contact.area);
+        distances.push_back(contact.distance);
+    }
+    return nb::make_tuple(owned<std::int32_t>(std::move(pairs)), owned<double>(std::move(areas)),
+                          owned<double>(std::move(distances)));
+}
+
+nb::tuple distancesOf(MadeSurface& surface, const Positions& positions, const How& how)
+{
+    std::vector<Vec3d> points;
+    for (std::size_t i = 0; i < positions.shape(0); ++i)
+        points.emplace_back(positions.data() + 3 * i);
+    std::vector<double> distance;
+    std::vector<Vec3d> closest, normal;
+    std::vector<std::int32_t> atom;
+    auto to = surface.distance;
+    const auto found = run(how, [&](Progress& progress) {
+        if (!to) {
+            checkMesh(surface.result.mesh);
+            to = std::make_shared<SurfaceDistance>(*surface.atoms, surface.options, surface.result,
+                                                   progress);
+        }
+        return to->at(points, progress);
+    });
+    surface.distance = to;
+    for (const PointDistance& d : found) {
+        distance.push_back(d.distance);
+        closest.push_back(d.closest);
+        normal.push_back(d.normal);
+        atom.push_back(d.ball);
+    }
+    return nb::make_tuple(owned<double>(std::move(distance)), owned<double>(std::move(closest)),
+                          owned<double>(std::move(normal)), owned<std::int32_t>(std::move(atom)));
+}
+
+nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::string& level)
+{
+    const BallSet& atoms = *surface.atoms;
+    MolecularSurface& result = surface.result;
+    if (name == "atoms") return dictOf(atomTable(atoms, result));
+    const double probe = probeOf(surface.options);
+    if (name == "residues") return dictOf(residueTable(atoms, probe, result));
+    if (name == "interfaces") return dictOf(interfaceTable(atoms, result.report));
+    if (result.contacts.empty())
+        result.contacts =
+            run(How(), [&](Progress& p) { return contactAreas(atoms.balls, probe, p); });
+    for (const ContactLevel one : {ContactLevel::Atom, ContactLevel::Chain})
+        if (level == nameOf(one)) return dictOf(contactTable(atoms, one, result));
+    return dictOf(contactTable(atoms, ContactLevel::Residue, result));
+}
+
+/// The columns of atoms that are texts and numbers; empty without names.
+nb::dict namesOf(const BallSet& atoms)
+{
+    nb::dict out;
+    if (!atoms.names) return out;
+    std::vector<std::string> name, residue, chain, altloc, code;
+    std::vector<std::int32_t> number, index, id;
+    std::vector<std::int32_t> element;
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
+        const BallNames::Atom& atom = atoms.names->atoms[i];
+        const BallNames::Residue& r = atoms.names->residues[std::size_t(atoms.names->residueOf[i])];
+        name.push_back(atom.name);
+        altloc.push_back(atom.altloc == '\0' ? "" : std::string(1, atom.altloc));
+        element.push_back(atom.element);
+        residue.push_back(r.name);
+        chain.push_back(r.chain);
+        code.push_back(r.insertionCode == ' ' ? "" : std::string(1, r.insertionCode));
+        number.push_back(r.number);
+        index.push_back(atoms.names->residueOf[i]);
+        id.push_back(atoms.balls[i].atom);
+    }
+    out["atom"] = name;
+    out["altloc"] = altloc;
+    out["element"] = owned<std::int32_t>(std::move(element));
+    out["residue"] = residue;
+    out["chain"] = chain;
+    out["insertion_code"] = code;
+    out["number"] = owned<std::int32_t>(std::move(number));
+    out["residue_index"] = owned<std::int32_t>(std::move(index));
+    out["atom_id"] = owned<std::int32_t>(std::move(id));
+    return out;
+}
+
+nb::bytes bytesOf(const std::string& text)
+{
+    return nb::bytes(text.data(), text.size());
+}
+
+nb::bytes pack(const BallSet& atoms, const std::string& source)
+{
+    if (atoms.labels && atoms.labels->values && atoms.labels->values->field)
+        throw nb::type_error("atoms with the values of a map cannot be pickled");
+    Packer packer;
+    packer(std::string(MOLSURF_VERSION), source, atoms);
+    return bytesOf(packer.take());
+}
+
+void checkVersion(const std::string& version)
+{
+    if (version != MOLSURF_VERSION)
+        throw nb::value_error(
+            ("the pickle is of version " + version.substr(0, 20) + ", expected " MOLSURF_VERSION)
+                .c_str());
+}
+
+Molecule unpackMolecule(const nb::bytes& bytes)
+{
+    Unpacker unpacker(bytes.c_str(), bytes.size());
+    std::string version;
+    unpacker(version);
+    checkVersion(version);
+    Molecule out{std::make_shared<BallSet>(), ""};
+    unpacker(out.source, *out.atoms);
+    return out;
+}
+
+nb::bytes packSurface(const MadeSurface& surface)
+{
+    const MolecularSurface& result = surface.result;
+    openvdb::GridCPtrVec grids;
+    if (result.surface) grids.push_back(result.surface);
+    grids.insert(grids.end(), result.fields.begin(), result.fields.end());
+    Packer packer;
+    const nb::bytes atoms = pack(*surface.atoms, "");
+    packer(std::string(MOLSURF_VERSION), std::string(atoms.c_str(), atoms.size()), result.mesh,
+           result.shared, result.ballAreas, result.ballValues, result.contacts, result.report,
+           surface.atom, bool(result.surface), grids.empty() ? std::string() : packGrids(grids));
+    return bytesOf(packer.take());
+}
+
+/// @param[in] options  that it was made with
+MadeSurface unpackSurface(const nb::bytes& bytes, const SurfaceOptions& options)
+{
+    Unpacker unpacker(bytes.c_str(), bytes.size());
+    std::string version, atoms, grids;
+    unpacker(version);
+    checkVersion(version);
+    MadeSurface out;
+    MolecularSurface& result = out.result;
+    bool first = false;
+    unpacker(atoms, result.mesh, result.shared, result.ballAreas, result.ballValues,
+             result.contacts, result.report, out.atom, first, grids);
+    out.atoms = unpackMolecule(bytesOf(atoms)).atoms;
+    out.options = options;
+    if (!grids.empty())
+        for (const openvdb::GridBase::Ptr& grid : unpackGrids(grids)) result.fields.push_back(grid);
+    if (first && !result.fields.empty()) {
+        result.surface = openvdb::gridPtrCast<openvdb::FloatGrid>(result.fields.front());
+        result.fields.erase(result.fields.begin());
+    }
+    return out;
+}
+
+/// A mesh of arrays.
+Mesh meshOf(const Floats3& vertices, const Whole3& faces)
+{
+    Mesh mesh;
+    for (std::size_t i = 0; i < vertices.shape(0); ++i)
+        mesh.positions.emplace_back(vertices.data() + 3 * i);
+    for (std::size_t i = 0; i < faces.shape(0); ++i) {
+        const std::int32_t* t = faces.data() + 3 * i;
+        mesh.triangles.push_back({std::uint32_t(t[0]), std::uint32_t(t[1]), std::uint32_t(t[2])});
+    }
+    checkMesh(mesh);
+    return mesh;
+}
+
+nb::dict dictOf(OneWay&& way)
+{
+    nb::dict out;
+    out["distance"] = owned<float>(std::move(way.distance));
+    out["signed_distance"] = owned<float>(std::move(way.signedDistance));
+    out["mean"] = way.mean;
+    out["rms"] = way.rms;
+    out["max"] = way.max;
+    out["max_at"] = nb::make_tuple(way.maxAt[0], way.maxAt[1], way.maxAt[2]);
+    out["mean_signed"] = way.meanSigned;
+    out["inside"] = way.inside;
+    return out;
+}
+
+nb::tuple comparisonOf(const Mesh& a, const Mesh& b, const How& how)
+{
+    Comparison both = run(how, [&](Progress& progress) { return compare(a, b, &progress); });
+    return nb::make_tuple(both.hausdorff, dictOf(std::move(both.aToB)),
+                          dictOf(std::move(both.bToA)));
+}
+
+void save(const MadeSurface& surface, const std::string& path, bool replace, int width)
+{
+    nb::gil_scoped_release free;
+    const std::string end = std::filesystem::path(path).extension().string();
+    if (end == ".vdb") return writeVdb(surface.result, path, replace);
+    if (end == ".json") return writeReport(surface.result.report, path, replace);
+    checkMesh(surface.result.mesh);
+    if (end == ".png") return writePicture(surface.result.mesh, path, width, replace);
+    if (end != ".ply" && end != ".obj" && end != ".stl" && end != ".off" && end != ".wrl" &&
+        end != ".glb" && end != ".3mf")
+        throw Error(ErrorKind::Usage, path + ": expected a name that ends in .ply, .obj, .stl, "
+                                             ".off, .wrl, .glb, .3mf, .vdb, .json or .png");
+    writeMesh(surface.result.mesh, path, replace);
+}
+
+void addMolecule(nb::module_& m)
+{
+    nb::class_<Molecule>(m, "Molecule")
+        .def("__len__", [](const Molecule& v) { return v.atoms->balls.size(); })
+        .def_ro("source", &Molecule::source)
+        .def_prop_ro("positions",
+                     [](nb::handle_t<Molecule> self) {
+                         auto& balls = nb::cast<Molecule&>(self).atoms->balls;
+                         return columnsOf(balls, balls.data()->center.asPointer(), 3, self);
+                     })
+        .def_prop_ro("radii",
+                     [](nb::handle_t<Molecule> self) {
+                         auto& balls = nb::cast<Molecule&>(self).atoms->balls;
+                         return columnsOf(balls, &balls.data()->radius, 1, self);
+                     })
+        .def_prop_ro("names", [](const Molecule& v) { return namesOf(*v.atoms); })
+        .def_prop_ro("warnings",
+                     [](const Molecule& v) {
+                         std::vector<std::string> all = v.atoms->warnings;
+                         for (std::string& warning : all) warning = withKeywords(warning);
+                         return all;
+                     })
+        .def_prop_ro("copies", [](const Molecule& v) { return v.atoms->copies; })
+        .def_prop_ro("groups",
+                     [](const Molecule& v) {
+                         std::vector<std::string> all;
+                         if (v.atoms->labels)
+                             for (const Group& group : v.atoms->labels->groups)
+                                 all.push_back(group.name);
+                         return all;
+                     })
+        .def("surface",
+             [](const Molecule& v, const Given& given, const std::vector<std::string>& extra,
+                const std::string& areasOf, Listener progress, int threads) {
+                 return surfaceOf(std::make_shared<BallSet>(*v.atoms), v.source,
+                                  optionsOf(given, extra, areasOf), {progress, threads});
+             })
+        .def("__getstate__", [](const Molecule& v) { return pack(*v.atoms, v.source); })
+        .def("__setstate__",
+             [](Molecule& v, const nb::bytes& bytes) { new (&v) Molecule(unpackMolecule(bytes)); });
+}
+
+void addSurface(nb::module_& m)
+{
+    nb::class_<MadeSurface> type(m, "Surface");
+    const auto add = [&](const char* name, auto f) {
+        type.def_prop_ro(name, [f](nb::handle_t<MadeSurface> self) {
+            return f(nb::cast<MadeSurface&>(self), self);
+        });
+    };
+    add("vertices",
+        [](MadeSurface& s, nb::handle o) { return view<float>(s.result.mesh.positions, o); });
+    add("normals",
+        [](MadeSurface& s, nb::handle o) { return view<float>(s.result.mesh.normals, o); });
+    add("faces", [](MadeSurface& s, nb::handle o) {
+        return view<std::int32_t>(s.result.mesh.triangles, o); // indices are below 2^31
+    });
+    add("colors",
+        [](MadeSurface& s, nb::handle o) { return view<std::uint8_t>(s.result.mesh.colors, o); });
+    add("atom", [](MadeSurface& s, nb::handle o) { return view<std::int32_t>(s.atom, o); });
+    add("atom_areas",
+        [](MadeSurface& s, nb::handle o) { return view<double>(s.result.ballAreas, o); });
+    add("vertex_data", [](MadeSurface& s, nb::handle o) {
+        nb::dict all;
+        for (auto& one : s.result.mesh.scalars) all[one.name.c_str()] = view<float>(one.values, o);
+        for (auto& one : s.result.mesh.labels)
+            all[one.name.c_str()] = view<std::int32_t>(one.values, o);
+        return all;
+    });
+    add("area", [](MadeSurface& s, nb::handle) { return s.result.report.surface.area; });
+    add("volume", [](MadeSurface& s, nb::handle) { return s.result.report.surface.volume; });
+    add("closed", [](MadeSurface& s, nb::handle) { return s.result.report.surface.closed; });
+    add("kind", [](MadeSurface& s, nb::handle) { return std::string(nameOf(s.options.kind)); });
+    add("voxel", [](MadeSurface& s, nb::handle) { return s.options.voxel; });
+    add("atoms", [](MadeSurface& s, nb::handle) { return s.atoms->balls.size(); });
+    add("cavities", [](MadeSurface& s, nb::handle) {
+        std::vector<std::array<double, 2>> all;
+        for (const Cavity& cavity : s.result.report.surface.cavities)
+            all.push_back({cavity.area, cavity.volume});
+        return owned<double>(std::move(all));
+    });
+    type.def("report_text",
+             [](const MadeSurface& s) { return bytesOf(reportText(s.result.report)); })
+        .def("contacts",
+             [](const MadeSurface& s) {
+                 if (!s.result.contacts.empty())
+                     return pairsOf(std::vector<ContactArea>(s.result.contacts));
+                 return pairsOf(run(How(), [&](Progress& p) {
+                     return contactAreas(s.atoms->balls, probeOf(s.options), p);
+                 }));
+             })
+        .def("distance",
+             [](MadeSurface& s, const Positions& points, Listener progress, int threads) {
+                 return distancesOf(s, points, {progress, threads});
+             })
+        .def("voxels",
+             [](const MadeSurface& s) {
+                 if (!s.result.surface)
+                     throw Error(ErrorKind::Usage, "voxels: the surface has no grid of its own");
+                 Voxels all = voxelsOf(*s.result.surface);
+                 return nb::make_tuple(owned<std::int32_t>(std::move(all.coordinates)),
+                                       owned<float>(std::move(all.values)), all.edge,
+                                       nb::make_tuple(all.origin[0], all.origin[1], all.origin[2]));
+             })
+        .def("table", tableOf)
+        .def("save", save)
+        .def("state", packSurface);
+}
+
+void addFunctions(nb::module_& m)
+{
+    m.def("settings", describeSettings);
+    m.def("read",
+          [](const std::string& name, const std::optional<nb::bytes>& content, const Given& given,
+             const std::vector<std::pair<std::string, std::string>>& groups, Listener progress,
+             int threads) {
+              return readMolecule(name, content, given, groups, {progress, threads});
+          });
+    m.def("surface", [](const Positions& positions, const Numbers& radii, const Given& given,
+                        const std::vector<std::string>& extra, const std::string& areasOf,
+                        Listener progress, int threads) {
+        auto atoms = std::make_shared<BallSet>();
+        atoms->balls = ballsOf(positions, radii);
+        return surfaceOf(std::move(atoms), "", optionsOf(given, extra, areasOf),
+                         {progress, threads});
+    });
+    m.def("areas", [](const Positions& positions, const Numbers& radii, double probe,
+                      Listener progress, int threads) {
+        const std::vector<Ball> balls = ballsOf(positions, radii);
+        return owned<double>(
+            run({progress, threads}, [&](Progress& p) { return exposedAreas(balls, probe, p); }));
+    });
+    m.def("contacts", [](const Positions& positions, const Numbers& radii, double probe,
+                         Listener progress, int threads) {
+        const std::vector<Ball> balls = ballsOf(positions, radii);
+        return pairsOf(
+            run({progress, threads}, [&](Progress& p) { return contactAreas(balls, probe, p); }));
+    });
+    m.def("radii",
+          [](const std::vector<std::string>& names, const std::vector<std::string>& residues,
+             const std::vector<std::string>& elements, const std::string& set) {
+              return owned<double>(atomRadii(names, residues, elements, set));
+          });
+    m.def("compare", [](const Floats3& va, const Whole3& fa, const Floats3& vb, const Whole3& fb,
+                        Listener progress, int threads) {
+        return comparisonOf(meshOf(va, fa), meshOf(vb, fb), {progress, threads});
+    });
+    m.def("largest_area", [](const std::string& residue) { return largestArea(residue); });
+    m.def("read_mesh", [](const std::string& path) {
+        Mesh mesh = readMesh(path);
+        return nb::make_tuple(owned<float>(std::move(mesh.positions)),
+                              owned<std::int32_t>(std::move(mesh.triangles)));
+    });
+    m.def("unpack_surface", [](const nb::bytes& bytes, const Given& given,
+                               const std::vector<std::string>& extra, const std::string& areasOf) {
+        return unpackSurface(bytes, optionsOf(given, extra, areasOf));
+    });
+}
+
+} // namespace
+
+} // namespace molsurf::python
+
+NB_MODULE(_core, m)
+{
+    openvdb::initialize();
+    m.attr("__version__") = MOLSURF_VERSION;
+    molsurf::python::addErrors(m);
+    molsurf::python::addMolecule(m);
+    molsurf::python::addSurface(m);
+    molsurf::python::addFunctions(m);
+}

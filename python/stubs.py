@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MPL-2.0
+"""Prints the type hints of the package, python/vdb_molsurf/__init__.pyi, whose keywords come from the module's table:
+
+    python stubs.py > vdb_molsurf/__init__.pyi
+"""
+
+import textwrap
+
+from vdb_molsurf import _options
+
+HEAD = '''\
+# SPDX-License-Identifier: MPL-2.0
+# python/stubs.py makes this file out of the table of settings.
+from collections.abc import Callable, Mapping, Sequence
+from os import PathLike
+from types import ModuleType
+from typing import Any, BinaryIO, Literal, NamedTuple, TextIO, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+biopython: ModuleType
+mdanalysis: ModuleType
+mdtraj: ModuleType
+
+Path = Union[str, PathLike[str]]
+MeshLike = Union[Surface, Path, tuple[ArrayLike, ArrayLike]]
+
+class OptionError(ValueError): ...
+class InputError(ValueError): ...
+class NumericError(ArithmeticError): ...
+class OutputError(OSError): ...
+class CheckError(RuntimeError): ...
+
+class Distances(NamedTuple):
+    distance: NDArray[np.float64]
+    closest: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    atom: NDArray[np.int32]
+
+class Contacts(NamedTuple):
+    pairs: NDArray[np.int32]
+    area: NDArray[np.float64]
+    distance: NDArray[np.float64]
+
+class Voxels(NamedTuple):
+    coordinates: NDArray[np.int32]
+    values: NDArray[np.float32]
+    edge: float
+    origin: tuple[float, float, float]
+
+class Samples(NamedTuple):
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    faces: NDArray[np.int32]
+
+class Comparison(NamedTuple):
+    hausdorff: float
+    a_to_b: dict[str, Any]
+    b_to_a: dict[str, Any]
+
+class Surface:
+'''
+
+ARRAYS = {"vertices": "float32", "normals": "float32", "faces": "int32", "curvature": "float32",
+          "gaussian_curvature": "float32", "shape_index": "float64", "principal_curvatures": "float64",
+          "colors": "uint8", "atom": "int32", "atom_areas": "float64", "cavities": "float64"}
+PLAIN = {"vertex_data": "dict[str, NDArray[Any]]", "contacts": "Contacts", "area": "float", "volume": "float",
+         "closed": "bool", "kind": "str", "report": "dict[str, Any]"}
+OF_ATOMS = {"positions": "float64", "radii": "float64", "name": "str_", "element": "int32", "residue": "str_",
+            "residue_number": "int32", "insertion_code": "str_", "residue_index": "int32", "chain": "str_",
+            "altloc": "str_", "atom_id": "int32"}
+OF_MOLECULES = {"copies": "int", "groups": "list[str]", "warnings": "list[str]"}
+
+METHODS = '''\
+    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces"],
+              level: Literal["atom", "residue", "chain"] = "residue") -> dict[str, NDArray[Any]]: ...
+    def sample(self, n: int, seed: int | None = None) -> Samples: ...
+    def distance(self, points: ArrayLike, *, progress: Callable[[str, float], object] | bool | None = None,
+                 threads: int = 0) -> Distances: ...
+    def voxels(self) -> Voxels: ...
+    def save(self, path: Path, *, replace: bool = True) -> None: ...
+    def picture(self, path: Path, width: int = 1200, *, replace: bool = True) -> None: ...
+'''
+
+FUNCTIONS = '''\
+def areas(positions: ArrayLike, radii: ArrayLike, probe: float = 1.4, *,
+          progress: Callable[[str, float], object] | bool | None = None, threads: int = 0) -> NDArray[np.float64]: ...
+def contacts(positions: ArrayLike, radii: ArrayLike, probe: float = 1.4, *,
+             progress: Callable[[str, float], object] | bool | None = None, threads: int = 0) -> Contacts: ...
+def compare(a: MeshLike, b: MeshLike, *, progress: Callable[[str, float], object] | bool | None = None,
+            threads: int = 0) -> Comparison: ...
+def radii(names: Sequence[str] | NDArray[Any], residues: Sequence[str] | NDArray[Any] | None = None,
+          elements: Sequence[str] | NDArray[Any] | None = None, set: str = "bondi") -> NDArray[np.float64]: ...
+'''
+
+
+def type_of(row):
+    """The type of a keyword; words are spelt out."""
+    if row["type"] == "word":
+        return "Literal[" + ", ".join(f'"{word}"' for word in row["words"]) + "]"
+    return _options.TYPES[row["type"]]
+
+
+def default_of(row):
+    """What a keyword is unless it is given, as far as one value says that."""
+    value = row["default"]
+    if row["type"] == "switch":
+        return "False"
+    if row["type"] == "number":
+        return repr(value)
+    if row["type"] == "word" and value in row["words"]:
+        return f'"{value}"'
+    return "..."
+
+
+def keywords(where):
+    """The keywords of a function, as lines."""
+    lines = [f"{name}: {type_of(row)} = {default_of(row)}," for name, row in _options.KEYWORDS.items()
+             if where == "read" or not row["of_atoms"]]
+    more = {"groups": _options.GROUPS, **{name: _options.MORE[name] for name in ("threads", "progress")}}
+    lines += [f"{name}: {kind} = {preset}," for name, (kind, preset, _) in
+              (more if where == "read" else _options.MORE).items()]
+    return lines
+
+
+def function(name, first, where, result):
+    """A function with all keywords."""
+    return f"def {name}({first}, *,\n" + textwrap.indent("\n".join(keywords(where)), "    ") + f"\n) -> {result}: ...\n"
+
+
+def properties(types, shape="NDArray[np.{}]"):
+    return "".join(f"    @property\n    def {name}(self) -> {shape.format(kind)}: ...\n" for name, kind in types.items())
+
+
+def main():
+    print(HEAD + properties(ARRAYS) + properties(PLAIN, "{}") + METHODS)
+    print("class Molecule:\n    def __len__(self) -> int: ...\n" + properties(OF_ATOMS) + properties(OF_MOLECULES, "{}") +
+          textwrap.indent(function("surface", "self", "surface", "Surface"), "    "))
+    print(function("surface", "positions: ArrayLike, radii: ArrayLike", "surface", "Surface"))
+    print(function("read", "source: Path | bytes | bytearray | memoryview | TextIO | BinaryIO", "read", "Molecule"))
+    print(FUNCTIONS, end="")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Command line, keywords and type hints have one set of names, defaults and ranges."""
+
+import ast
+import pathlib
+import re
+import runpy
+import sys
+
+import vdb_molsurf as ms
+from conftest import ROOT
+from vdb_molsurf import _options
+
+# Options of `build` that set no member of the library's options: files, frames, pictures, the run.
+COMMAND_LINE = {"output", "format", "force", "weld", "frames", "trajectory", "start", "lod", "groups", "crisp", "areas",
+                "contacts", "for", "center", "print-scale", "min-wall", "view", "turn", "size", "background", "plain-color",
+                "depth-cue", "legend", "turntable", "memory", "max-hours", "dry-run", "threads", "quiet", "verbose",
+                "no-progress", "config", "help", "version", "list-radii"}
+
+
+def options_of_build():
+    """Name and default of the options that the page of the command line has."""
+    page = (ROOT / "docs" / "options.md").read_text()
+    rows = re.findall(r"^\| `--([a-z-]+)[^`]*`(?:, `-\w`)? \| (.*) \| (.*?) \| ([^|]*) \|$", page, re.MULTILINE)
+    return {name: preset for name, _, preset, verbs in rows if re.search(r"\b(build|all)\b", verbs)}
+
+
+def test_command_line_and_keywords_have_the_same_names_and_defaults():
+    told = options_of_build()
+    assert set(told) == set(_options.SETTINGS) | COMMAND_LINE
+    for name, row in _options.SETTINGS.items():
+        assert told[name] == row["preset"] or name == "steps", name
+        words = " ".join(row["text"].split())
+        assert row["text"] and "--" not in words
+
+
+def test_keywords_are_names_of_python():
+    assert all(name.isidentifier() for name in _options.KEYWORDS)
+    assert len(_options.KEYWORDS) == len(_options.SETTINGS) - len(_options.ELSEWHERE)
+    assert not set(_options.KEYWORDS) & set(_options.MORE)
+
+
+def hinted(name):
+    """The keywords of a function in the type hints, with their defaults."""
+    tree = ast.parse((pathlib.Path(ms.__file__).parent / "__init__.pyi").read_text())
+    function = next(node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == name)
+    return {a.arg: ast.unparse(d) for a, d in zip(function.args.kwonlyargs, function.args.kw_defaults)}
+
+
+def test_type_hints_have_the_same_keywords():
+    everything = set(_options.KEYWORDS)
+    of_surfaces = {name for name, row in _options.KEYWORDS.items() if not row["of_atoms"]}
+    assert set(hinted("surface")) == of_surfaces | set(_options.MORE)
+    assert set(hinted("read")) == everything | {"groups", "threads", "progress"}
+    assert hinted("read")["voxel"] == "0.5" and hinted("read")["kind"] == "'variational'"
+
+
+def test_type_hints_are_those_that_the_script_makes(capsys, monkeypatch):
+    monkeypatch.setattr(sys, "argv", ["stubs.py"])
+    runpy.run_path(str(ROOT / "python" / "stubs.py"), run_name="__main__")
+    assert capsys.readouterr().out == (ROOT / "python" / "vdb_molsurf" / "__init__.pyi").read_text()
+
+
+def test_type_hints_name_what_there_is():
+    tree = ast.parse((pathlib.Path(ms.__file__).parent / "__init__.pyi").read_text())
+    for node in tree.body:
+        if isinstance(node, (ast.ClassDef, ast.FunctionDef)):
+            assert hasattr(ms, node.name), node.name
+        if isinstance(node, ast.ClassDef):
+            for member in node.body:
+                if isinstance(member, ast.FunctionDef):
+                    assert hasattr(getattr(ms, node.name), member.name), (node.name, member.name)
+    assert {name for name in ms.__all__} <= {node.name for node in tree.body if hasattr(node, "name")}
+
+
+def test_docstrings_tell_every_keyword():
+    for name, row in _options.KEYWORDS.items():
+        text = (ms.read if row["of_atoms"] else ms.surface).__doc__
+        assert f"\n    {name}: " in text, name
+    assert "From 0.05 to 10." in ms.surface.__doc__
+
+
+def test_every_keyword_is_taken(crambin):
+    from conftest import DATA
+    examples = {"kind": "ses", "fields": "density", "max_steps": 3, "steps": 2, "spline_level": 1, "regularizer": "area",
+                "flow": "newton", "surface_of": ["A=vdw"], "split": "group", "color": "element", "group_by": "chain",
+                "range": (0, 50), "resolution": 8, "coarse": "residue", "select": "A", "model": 1, "assembly": "none",
+                "altloc": "all", "radii": "protor", "max_input": "1G", "copies": None, "lambda_": 0.02, "tolerance": 0.02,
+                "voxel": 1.0, "probe": 1.2, "blobbiness": 2.0, "epsilon": 0.4}
+    for name, row in _options.KEYWORDS.items():
+        value = True if row["type"] == "switch" else examples[name]
+        if name in ("hetero", "no_hetero", "interfaces"):
+            continue  # with others below
+        made = ms.read(DATA / "1crn.pdb", **{"voxel": 1, "group_by": "chain", name: value}).surface()
+        assert made.area > 0, name
+    assert ms.read(DATA / "1crn.pdb", no_hetero=True, group_by="residues:23", interfaces=True, voxel=1).surface().area > 0
+    assert ms.read(DATA / "1crn.pdb", hetero=True, voxel=1).surface().area > 0

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Atoms out of files, their tables, groups and colours."""
+
+import gzip
+import io
+
+import numpy as np
+import pytest
+
+import vdb_molsurf as ms
+from conftest import DATA
+
+
+def test_atoms_are_arrays(crambin):
+    assert len(crambin) == 327 and repr(crambin) == "<Molecule 1crn.pdb: 327 atoms, 1 chains>"
+    assert crambin.positions.shape == (327, 3) and crambin.positions.dtype == np.float64
+    assert crambin.positions[0].tolist() == [17.047, 14.099, 3.625]
+    assert crambin.name[:4].tolist() == ["N", "CA", "C", "O"] and crambin.residue[0] == "THR"
+    assert crambin.residue_number[-1] == 46 and crambin.residue_index[-1] == 45 and crambin.element[0] == 7
+    assert set(crambin.chain) == {"A"} and set(crambin.altloc) == {""} and set(crambin.insertion_code) == {""}
+    assert np.array_equal(crambin.atom_id, np.arange(327)) and crambin.copies == 1
+    assert crambin.radii[1] == 1.7
+
+
+def test_every_source_gives_the_same_atoms(crambin, tmp_path):
+    text = (DATA / "1crn.pdb").read_text()
+    packed = gzip.compress(text.encode())
+    (tmp_path / "a.gz").write_bytes(packed)
+    for source in (str(DATA / "1crn.pdb"), text, text.encode(), packed, bytearray(packed), memoryview(packed),
+                   tmp_path / "a.gz", io.StringIO(text), io.BytesIO(packed), open(DATA / "1crn.pdb")):
+        assert np.array_equal(ms.read(source).positions, crambin.positions)
+
+
+def test_selections_radii_and_assemblies():
+    assert len(ms.read(DATA / "1crn.pdb", select="A/1-10")) < 100
+    assert ms.read(DATA / "1crn.pdb", radii="protor").radii[1] == 1.88
+    two = ms.read(DATA / "1a8o.cif.gz", assembly="1", group_by="copy")
+    assert two.copies == 2 and len(two.groups) == 2 and len(set(two.chain)) == 2
+    assert len(ms.read(DATA / "1ubq.pdb", waters=True)) > len(ms.read(DATA / "1ubq.pdb"))
+
+
+def test_written_positions_are_those_of_the_surface():
+    m = ms.read(DATA / "1crn.pdb")
+    before = m.surface(kind="sas", grid=False).area
+    m.positions[:] *= 10
+    assert m.surface(kind="sas", grid=False).area == pytest.approx(
+        (4 * np.pi * (m.radii + 1.4)**2).sum(), rel=1e-6) and before < 4000
+
+
+def test_keywords_of_read_are_defaults(crambin):
+    m = ms.read(DATA / "1crn.pdb", kind="sas", voxel=1, color="bfactor")
+    s = m.surface()
+    assert s.kind == "sas" and s.report["voxel"] == 1 and len(s.colors) == len(s.vertices)
+    assert m.surface(kind="vdw", color="none").kind == "vdw"
+    with pytest.raises(ValueError, match="read"):
+        crambin.surface(color="bfactor")
+    with pytest.raises(ValueError, match="read"):
+        crambin.surface(color="entity")
+    with pytest.raises(ValueError, match="expected groups"):
+        crambin.surface(interfaces=True)
+
+
+def test_tables_are_dicts_of_arrays(crambin):
+    s = crambin.surface(kind="sas", grid=False)
+    atoms, residues = s.table("atoms"), s.table("residues")
+    assert len(atoms["area"]) == 327 and atoms["atom"][1] == "CA" and atoms["element"][0] == "N"
+    assert residues["area"].sum() == pytest.approx(s.area) and len(residues["residue"]) == 46
+    index = crambin.residue_index
+    assert np.allclose(residues["area"], np.bincount(index, weights=s.atom_areas))
+    assert residues["relative_accessibility"][0] == pytest.approx(residues["area"][0] / 172)
+    contacts = s.table("contacts", "residue")
+    assert contacts["area"].min() > 0 and len(s.table("contacts", "atom")["area"]) > len(contacts["area"])
+    assert {len(column) for column in contacts.values()} == {len(contacts["area"])}
+
+
+def test_interfaces_add_up():
+    m = ms.read(DATA / "1a8o.cif.gz", assembly="1", group_by="copy")
+    s = m.surface(kind="sas", interfaces=True, grid=False)
+    pair, = s.report["interfaces"]
+    rows = s.table("interfaces")
+    assert rows["area"].sum() == pytest.approx(pair["buried_area"], rel=1e-6) and pair["buried_area"] > 500
+    named = ms.read(DATA / "1crn.pdb", groups={"first": "A/1-20", "rest": "A/21-46"})
+    assert named.groups == ["first", "rest"]
+    assert [group["name"] for group in named.surface(voxel=1).report["groups"]] == ["first", "rest"]
+
+
+def test_parts_have_surfaces_of_their_own():
+    m = ms.read(DATA / "1a8o.cif.gz", assembly="1", group_by="copy")
+    s = m.surface(voxel=1, split="group")
+    assert len(s.report["parts"]) == 2
+    with pytest.raises(ValueError):
+        s.voxels()
+
+
+def test_radii_of_names(crambin):
+    found = ms.radii(crambin.name, crambin.residue)
+    assert np.array_equal(found, crambin.radii)
+    assert np.isnan(ms.radii(["??"], elements=["Xx"])).all()
+    assert ms.radii(["H"], ["ALA"], ["H"], set="protor").tolist() == [0.0]
+    for wrong in (lambda: ms.radii([1, 2]), lambda: ms.radii(["C"], ["ALA", "ALA"]), lambda: ms.radii(["C"], set="no")):
+        with pytest.raises((TypeError, ValueError)):
+            wrong()

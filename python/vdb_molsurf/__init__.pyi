@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: MPL-2.0
+# python/stubs.py makes this file out of the table of settings.
+from collections.abc import Callable, Mapping, Sequence
+from os import PathLike
+from types import ModuleType
+from typing import Any, BinaryIO, Literal, NamedTuple, TextIO, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+biopython: ModuleType
+mdanalysis: ModuleType
+mdtraj: ModuleType
+
+Path = Union[str, PathLike[str]]
+MeshLike = Union[Surface, Path, tuple[ArrayLike, ArrayLike]]
+
+class OptionError(ValueError): ...
+class InputError(ValueError): ...
+class NumericError(ArithmeticError): ...
+class OutputError(OSError): ...
+class CheckError(RuntimeError): ...
+
+class Distances(NamedTuple):
+    distance: NDArray[np.float64]
+    closest: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    atom: NDArray[np.int32]
+
+class Contacts(NamedTuple):
+    pairs: NDArray[np.int32]
+    area: NDArray[np.float64]
+    distance: NDArray[np.float64]
+
+class Voxels(NamedTuple):
+    coordinates: NDArray[np.int32]
+    values: NDArray[np.float32]
+    edge: float
+    origin: tuple[float, float, float]
+
+class Samples(NamedTuple):
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    faces: NDArray[np.int32]
+
+class Comparison(NamedTuple):
+    hausdorff: float
+    a_to_b: dict[str, Any]
+    b_to_a: dict[str, Any]
+
+class Surface:
+    @property
+    def vertices(self) -> NDArray[np.float32]: ...
+    @property
+    def normals(self) -> NDArray[np.float32]: ...
+    @property
+    def faces(self) -> NDArray[np.int32]: ...
+    @property
+    def curvature(self) -> NDArray[np.float32]: ...
+    @property
+    def gaussian_curvature(self) -> NDArray[np.float32]: ...
+    @property
+    def shape_index(self) -> NDArray[np.float64]: ...
+    @property
+    def principal_curvatures(self) -> NDArray[np.float64]: ...
+    @property
+    def colors(self) -> NDArray[np.uint8]: ...
+    @property
+    def atom(self) -> NDArray[np.int32]: ...
+    @property
+    def atom_areas(self) -> NDArray[np.float64]: ...
+    @property
+    def cavities(self) -> NDArray[np.float64]: ...
+    @property
+    def vertex_data(self) -> dict[str, NDArray[Any]]: ...
+    @property
+    def contacts(self) -> Contacts: ...
+    @property
+    def area(self) -> float: ...
+    @property
+    def volume(self) -> float: ...
+    @property
+    def closed(self) -> bool: ...
+    @property
+    def kind(self) -> str: ...
+    @property
+    def report(self) -> dict[str, Any]: ...
+    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces"],
+              level: Literal["atom", "residue", "chain"] = "residue") -> dict[str, NDArray[Any]]: ...
+    def sample(self, n: int, seed: int | None = None) -> Samples: ...
+    def distance(self, points: ArrayLike, *, progress: Callable[[str, float], object] | bool | None = None,
+                 threads: int = 0) -> Distances: ...
+    def voxels(self) -> Voxels: ...
+    def save(self, path: Path, *, replace: bool = True) -> None: ...
+    def picture(self, path: Path, width: int = 1200, *, replace: bool = True) -> None: ...
+
+class Molecule:
+    def __len__(self) -> int: ...
+    @property
+    def positions(self) -> NDArray[np.float64]: ...
+    @property
+    def radii(self) -> NDArray[np.float64]: ...
+    @property
+    def name(self) -> NDArray[np.str_]: ...
+    @property
+    def element(self) -> NDArray[np.int32]: ...
+    @property
+    def residue(self) -> NDArray[np.str_]: ...
+    @property
+    def residue_number(self) -> NDArray[np.int32]: ...
+    @property
+    def insertion_code(self) -> NDArray[np.str_]: ...
+    @property
+    def residue_index(self) -> NDArray[np.int32]: ...
+    @property
+    def chain(self) -> NDArray[np.str_]: ...
+    @property
+    def altloc(self) -> NDArray[np.str_]: ...
+    @property
+    def atom_id(self) -> NDArray[np.int32]: ...
+    @property
+    def copies(self) -> int: ...
+    @property
+    def groups(self) -> list[str]: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    def surface(self, *,
+        kind: Literal["variational", "ses", "sas", "vdw", "gaussian"] = "variational",
+        voxel: float = 0.5,
+        probe: float = 1.4,
+        blobbiness: float = 2.3,
+        fill_cavities: bool = False,
+        fields: str | Sequence[object] = ...,
+        vdb_half: bool = False,
+        curvature_totals: bool = False,
+        epsilon: float = 0.5,
+        match_volume: bool = False,
+        split: Literal["group"] = ...,
+        surface_of: str | float | Sequence[str | float] = ...,
+        interfaces: bool = False,
+        color: str = ...,
+        lambda_: float = 0.01,
+        regularizer: Literal["gradient", "area"] = "gradient",
+        flow: Literal["newton", "paper"] = "newton",
+        max_steps: int = ...,
+        steps: int = ...,
+        tolerance: float = 0.01,
+        spline_level: int = ...,
+        atom_areas: bool = True,
+        areas_of: str = "",
+        grid: bool = True,
+        threads: int = 0,
+        progress: Callable[[str, float], object] | bool | None = None,
+    ) -> Surface: ...
+
+def surface(positions: ArrayLike, radii: ArrayLike, *,
+    kind: Literal["variational", "ses", "sas", "vdw", "gaussian"] = "variational",
+    voxel: float = 0.5,
+    probe: float = 1.4,
+    blobbiness: float = 2.3,
+    fill_cavities: bool = False,
+    fields: str | Sequence[object] = ...,
+    vdb_half: bool = False,
+    curvature_totals: bool = False,
+    epsilon: float = 0.5,
+    match_volume: bool = False,
+    split: Literal["group"] = ...,
+    surface_of: str | float | Sequence[str | float] = ...,
+    interfaces: bool = False,
+    color: str = ...,
+    lambda_: float = 0.01,
+    regularizer: Literal["gradient", "area"] = "gradient",
+    flow: Literal["newton", "paper"] = "newton",
+    max_steps: int = ...,
+    steps: int = ...,
+    tolerance: float = 0.01,
+    spline_level: int = ...,
+    atom_areas: bool = True,
+    areas_of: str = "",
+    grid: bool = True,
+    threads: int = 0,
+    progress: Callable[[str, float], object] | bool | None = None,
+) -> Surface: ...
+
+def read(source: Path | bytes | bytearray | memoryview | TextIO | BinaryIO, *,
+    select: str = ...,
+    model: int = ...,
+    assembly: str = ...,
+    copies: str = ...,
+    altloc: str = ...,
+    no_hydrogens: bool = False,
+    ions: bool = False,
+    hetero: bool = False,
+    no_hetero: bool = False,
+    waters: bool = False,
+    radii: str = ...,
+    max_input: str = ...,
+    kind: Literal["variational", "ses", "sas", "vdw", "gaussian"] = "variational",
+    voxel: float = 0.5,
+    probe: float = 1.4,
+    blobbiness: float = 2.3,
+    fill_cavities: bool = False,
+    fields: str | Sequence[object] = ...,
+    vdb_half: bool = False,
+    curvature_totals: bool = False,
+    epsilon: float = 0.5,
+    resolution: str | float | Sequence[str | float] = ...,
+    coarse: str | float | Sequence[str | float] = ...,
+    match_volume: bool = False,
+    group_by: str = ...,
+    split: Literal["group"] = ...,
+    surface_of: str | float | Sequence[str | float] = ...,
+    interfaces: bool = False,
+    color: str = ...,
+    range: str | Sequence[object] = ...,
+    lambda_: float = 0.01,
+    regularizer: Literal["gradient", "area"] = "gradient",
+    flow: Literal["newton", "paper"] = "newton",
+    max_steps: int = ...,
+    steps: int = ...,
+    tolerance: float = 0.01,
+    spline_level: int = ...,
+    groups: Mapping[str, str] | None = None,
+    threads: int = 0,
+    progress: Callable[[str, float], object] | bool | None = None,
+) -> Molecule: ...
+
+def areas(positions: ArrayLike, radii: ArrayLike, probe: float = 1.4, *,
+          progress: Callable[[str, float], object] | bool | None = None, threads: int = 0) -> NDArray[np.float64]: ...
+def contacts(positions: ArrayLike, radii: ArrayLike, probe: float = 1.4, *,
+             progress: Callable[[str, float], object] | bool | None = None, threads: int = 0) -> Contacts: ...
+def compare(a: MeshLike, b: MeshLike, *, progress: Callable[[str, float], object] | bool | None = None,
+            threads: int = 0) -> Comparison: ...
+def radii(names: Sequence[str] | NDArray[Any], residues: Sequence[str] | NDArray[Any] | None = None,
+          elements: Sequence[str] | NDArray[Any] | None = None, set: str = "bondi") -> NDArray[np.float64]: ...

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Arguments as arrays of the type that the module takes. Errors say type or shape, never the values."""
+
+import numpy as np
+
+
+def numbers(values, name):
+    """An array of float64, of whatever shape."""
+    if isinstance(values, (str, bytes)):
+        raise TypeError(f"{name}: expected numbers, got {type(values).__name__}")
+    try:
+        array = np.asarray(values)
+    except ValueError:
+        raise TypeError(f"{name}: expected numbers, got a ragged {type(values).__name__}") from None
+    except TypeError:
+        raise TypeError(f"{name}: expected numbers, got {type(values).__name__}") from None
+    if array.dtype.kind not in "fiu" and array.size > 0:
+        kind = "complex numbers" if array.dtype.kind == "c" else array.dtype.name
+        raise TypeError(f"{name}: expected numbers, got " +
+                        (f"an array of {kind}" if hasattr(values, "dtype") else f"a {type(values).__name__} of {kind}"))
+    return np.asarray(array, dtype=np.float64, order="C")
+
+
+def points(values, name):
+    """An array of float64 of shape (n, 3)."""
+    array = numbers(values, name)
+    if array.size == 0 and array.ndim < 2:
+        array = array.reshape(0, 3)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{name}: expected shape (n, 3), got {array.shape}")
+    return array
+
+
+def balls(positions, radii):
+    """Positions (n, 3) and radii (n,) as float64; at least one ball, all of them finite."""
+    x, r = points(positions, "positions"), numbers(radii, "radii")
+    if len(x) == 0:
+        raise ValueError("positions: expected at least one atom, got none")
+    if r.ndim == 0:
+        r = np.full(len(x), float(r))
+    if r.shape != (len(x),):
+        raise ValueError(f"radii: expected a number or shape ({len(x)},), got {r.shape}")
+    bad = np.flatnonzero(~np.isfinite(x).all(axis=1))
+    if len(bad):
+        raise ValueError(f"positions: expected finite numbers, got {x[bad[0]].tolist()} at index {bad[0]}")
+    bad = np.flatnonzero(~((r > 0) & np.isfinite(r)))
+    if len(bad):
+        raise ValueError(f"radii: expected finite numbers above 0, got {r[bad[0]]} at index {bad[0]}")
+    return x, r
+
+
+def texts(columns):
+    """A table whose lists of texts are arrays."""
+    return {name: np.array(values, dtype=str) if isinstance(values, list) else values
+            for name, values in columns.items()}

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Atoms out of files."""
+
+import errno
+import os
+
+import numpy as np
+
+from . import _arrays, _core, _options
+from ._surface import Surface, _called, _made, _split
+
+
+# Colours by what read() always takes.
+_ANYWAY = ("none", "chain", "group", "element", "residue", "residue-type", "nucleotide", "illustrative",
+           "mean-curvature", "gaussian-curvature")
+
+
+class Molecule:
+    """Atoms of a file, or of an assembly of it, as arrays: what read() makes.
+
+    `positions` and `radii` are views of its memory: what is written there is what surface() takes.
+    """
+
+    __slots__ = ("_core", "_given", "_names")
+
+    def __init__(self, core, given):
+        self._core, self._given, self._names = core, given, None
+
+    def __len__(self):
+        return len(self._core)
+
+    def __repr__(self):
+        return f"<Molecule {os.path.basename(self._core.source)[:40]}: {len(self)} atoms, {len(np.unique(self.chain))} chains>"
+
+    def __reduce__(self):
+        return Molecule, (self._core, self._given)
+
+    def _column(self, name):
+        if self._names is None:
+            self._names = _arrays.texts(self._core.names)
+        return self._names[name]
+
+    @property
+    def positions(self):
+        """Positions of the atoms, (n, 3) float64 [Å]."""
+        return self._core.positions
+
+    @property
+    def radii(self):
+        """Radii of the atoms, (n,) float64 [Å]."""
+        return self._core.radii
+
+    @property
+    def name(self):
+        """Names of the atoms: "CA"."""
+        return self._column("atom")
+
+    @property
+    def element(self):
+        """Atomic numbers, (n,) int32; 0: unknown."""
+        return self._column("element")
+
+    @property
+    def residue(self):
+        """Name of each atom's residue: "ALA"."""
+        return self._column("residue")
+
+    @property
+    def residue_number(self):
+        """Author's number of each atom's residue, (n,) int32."""
+        return self._column("number")
+
+    @property
+    def insertion_code(self):
+        """Insertion code of each atom's residue, "" without one."""
+        return self._column("insertion_code")
+
+    @property
+    def residue_index(self):
+        """Each atom's residue, counted from 0, (n,) int32."""
+        return self._column("residue_index")
+
+    @property
+    def chain(self):
+        """Author's name of each atom's chain; in an assembly's second copy "A-2"."""
+        return self._column("chain")
+
+    @property
+    def altloc(self):
+        """Alternate location of each atom, "" without one."""
+        return self._column("altloc")
+
+    @property
+    def atom_id(self):
+        """Place of each atom in its file, from 0, (n,) int32."""
+        return self._column("atom_id")
+
+    @property
+    def copies(self):
+        """How many copies the assembly has; 1 without one."""
+        return self._core.copies
+
+    @property
+    def groups(self):
+        """Names of the groups."""
+        return self._core.groups
+
+    @property
+    def warnings(self):
+        """What the reader had to say, a line each."""
+        return self._core.warnings
+
+    def surface(self, **options):
+        """The surface of the atoms. Keywords are those of surface(); read() may have given some.
+
+        Keywords:
+        """
+        options, extra, areas_of, how = _split(options)
+        pairs = _options.given(options, "surface", _options.MORE)
+        color = dict(self._given).get("color")
+        for name, values in pairs:
+            if name == "color" and values != color and _options.of_file(values[0], _ANYWAY):
+                raise ValueError(f"color: '{values[0][:40]}' needs what read() has to take from the file "
+                                 f"[hint: read(..., color=...)]")
+        named = {name for name, _ in pairs}
+        made = _made([pair for pair in self._given if pair[0] not in named] + pairs, extra, areas_of)
+        if any(name in ("interfaces", "split", "surface-of") for name, _ in made[0]) and not self.groups:
+            raise ValueError("interfaces, split and surface_of: expected groups [hint: read(..., group_by=\"chain\")]")
+        return Surface(_called(self._core.surface, *made, **how), made)
+
+
+Molecule.surface.__doc__ = Molecule.surface.__doc__.rstrip() + "\n" + _options.documented("surface") + "\n"
+
+
+def read(source, *, groups=None, progress=None, threads=0, **options):
+    """Atoms of a file: PDB, mmCIF, PQR, xyzr or xyzrn, also gzipped.
+
+    source: a path, the text of a file (with a line feed in it), its bytes, or something that has read().
+    Keywords of surface() are taken, too, and are the defaults of Molecule.surface().
+
+    Keywords:
+    """
+    given = _options.given(options, "atoms", ("groups", "progress", "threads"))
+    if groups is not None and not (hasattr(groups, "items") and all(
+            isinstance(k, str) and isinstance(v, str) for k, v in groups.items())):
+        raise TypeError("groups: expected a dict of selections by name")
+    if groups and any(name == "group-by" for name, _ in given):
+        raise ValueError("groups and group_by together")
+    if hasattr(source, "read"):
+        source = source.read()
+    if isinstance(source, str) and "\n" in source:
+        source = source.encode()
+    if isinstance(source, (bytes, bytearray, memoryview)):
+        name, content = "text", bytes(source)
+    elif isinstance(source, (str, os.PathLike)):
+        name, content = os.fspath(source), None
+        if name == "-" or not os.path.exists(name):
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), name[:120])
+        if os.path.isdir(name):
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), name[:120])
+    else:
+        raise TypeError(f"source: expected a path, text, bytes or a file, got {type(source).__name__}")
+    core = _called(_core.read, name, content, given, list((groups or {}).items()), progress=progress, threads=threads)
+    return Molecule(core, given)
+
+
+read.__doc__ = read.__doc__.rstrip() + "\n" + _options.documented("read") + "\n"
+
+
+def radii(names, residues=None, elements=None, set="bondi"):
+    """Radii of atoms by their names, residues and elements, (n,) float64 [Å].
+
+    set: bondi, alvarez, gemmi; of heavy atoms with their hydrogens protor or naccess; martini2, martini3; or the path
+    of a file. 0 stands for an atom that is to be left out, not a number for one of which nothing is known.
+    """
+    lists = []
+    for name, values in (("names", names), ("residues", residues), ("elements", elements)):
+        array = np.asarray([] if values is None else values)
+        if array.ndim != 1 or (array.size and array.dtype.kind not in "UO"):
+            raise TypeError(f"{name}: expected texts, got {array.dtype.name} of shape {array.shape}")
+        lists.append([str(value) for value in array])
+    return _core.radii(*lists, str(set))

@@ -1,0 +1,341 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Surfaces, and what is known of balls in closed form."""
+
+import json
+import os
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _arrays, _core, _options
+
+
+class Distances(NamedTuple):
+    """Where points lie to a surface."""
+    distance: np.ndarray
+    closest: np.ndarray
+    normal: np.ndarray
+    atom: np.ndarray
+
+
+class Contacts(NamedTuple):
+    """Pairs of atoms that touch, with the area of each contact and the distance of their centres."""
+    pairs: np.ndarray
+    area: np.ndarray
+    distance: np.ndarray
+
+
+class Voxels(NamedTuple):
+    """Active voxels; the centre of voxel ijk lies at origin + ijk * edge."""
+    coordinates: np.ndarray
+    values: np.ndarray
+    edge: float
+    origin: tuple
+
+
+class Samples(NamedTuple):
+    """Points on a surface, evenly by area."""
+    points: np.ndarray
+    normals: np.ndarray
+    faces: np.ndarray
+
+
+class Comparison(NamedTuple):
+    """Distances of two surfaces, both ways; each way is a dict of numbers and arrays."""
+    hausdorff: float
+    a_to_b: dict
+    b_to_a: dict
+
+    def __repr__(self):
+        return (f"<Comparison: Hausdorff {self.hausdorff:.4g} Å, mean {self.a_to_b['mean']:.4g} and "
+                f"{self.b_to_a['mean']:.4g} Å>")
+
+
+def _listener(progress):
+    """What the module calls with stage and fraction, and what ends it."""
+    if progress is None or progress is False:
+        return None, lambda: None
+    if progress is not True:
+        if not callable(progress):
+            raise TypeError(f"progress: expected a callable, True or None, got {type(progress).__name__}")
+        return progress, lambda: None
+    from tqdm.auto import tqdm
+    bar = tqdm(total=1.0, bar_format="{desc}: {percentage:3.0f}% {bar} {elapsed}", leave=False)
+
+    def show(stage, fraction):
+        bar.set_description(stage, refresh=False)
+        bar.n = fraction
+        bar.refresh()
+    return show, bar.close
+
+
+def _threads(threads):
+    if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)) or not 0 <= threads <= 4096:
+        raise ValueError("threads: expected a whole number from 0 to 4096")
+    return int(threads)
+
+
+def _called(function, *arguments, progress=None, threads=0):
+    listener, end = _listener(progress)
+    try:
+        return function(*arguments, listener, _threads(threads))
+    finally:
+        end()
+
+
+def _split(options):
+    """Keywords without a row, and the others."""
+    options = dict(options)
+    more = {name: options.pop(name) for name in _options.MORE if name in options}
+    extra = []
+    for name, on in (("atom_areas", more.pop("atom_areas", True)), ("grid", more.pop("grid", True))):
+        if not isinstance(on, (bool, np.bool_)):
+            raise TypeError(f"{name}: expected bool, got {type(on).__name__}")
+        if name == "atom_areas" and on:
+            extra.append("atom_areas")
+        if name == "grid" and not on:
+            extra.append("no_grid")
+    areas_of = more.pop("areas_of", "")
+    kinds = _options.KEYWORDS["kind"]["words"]
+    if areas_of and areas_of not in kinds:
+        raise ValueError(f"areas_of: expected {' or '.join(kinds)}")
+    return options, extra, areas_of, more
+
+
+def _made(pairs, extra, areas_of):
+    """What the module takes; surfaces of parts have no areas of atoms."""
+    parts = any(name in ("split", "surface-of") for name, _ in pairs)
+    return pairs, [name for name in extra if not (parts and name == "atom_areas")], areas_of
+
+
+class Surface:
+    """The surface of a molecule: what surface() and Molecule.surface() make.
+
+    Arrays are views of its memory: they may be written to, and live on without it.
+    """
+
+    __slots__ = ("_core", "_made")
+
+    def __init__(self, core, made):
+        self._core, self._made = core, made
+
+    def __repr__(self):
+        return (f"<Surface {self.kind}: {self._core.atoms} atoms, {len(self.vertices)} vertices, "
+                f"{len(self.faces)} faces, area {self.area:.1f} Å², volume {self.volume:.1f} Å³>")
+
+    def __reduce__(self):
+        return _unpickled, (self._core.state(), self._made)
+
+    @property
+    def vertices(self):
+        """Positions of the vertices, (n, 3) float32 [Å]."""
+        return self._core.vertices
+
+    @property
+    def faces(self):
+        """Vertices of the triangles, counter-clockwise from outside, (m, 3) int32."""
+        return self._core.faces
+
+    @property
+    def normals(self):
+        """Unit normals of the vertices, outward, (n, 3) float32."""
+        return self._core.normals
+
+    @property
+    def vertex_data(self):
+        """All that the vertices have, by name: curvatures, chain_id, values. atom_id counts atoms of the file."""
+        return self._core.vertex_data
+
+    @property
+    def curvature(self):
+        """Mean curvature of the vertices, positive where convex, (n,) float32 [1/Å]."""
+        return self._core.vertex_data["mean_curvature"]
+
+    @property
+    def gaussian_curvature(self):
+        """Gaussian curvature of the vertices, (n,) float32 [1/Å²]."""
+        return self._core.vertex_data["gaussian_curvature"]
+
+    @property
+    def shape_index(self):
+        """Koenderink's shape index of the vertices, 1 for a cap and -1 for a cup, (n,) float64."""
+        mean, gauss = np.float64(self.curvature), np.float64(self.gaussian_curvature)
+        half = np.sqrt(np.maximum(mean * mean - gauss, 0.0))
+        return 2 / np.pi * np.arctan2(mean, half)
+
+    @property
+    def principal_curvatures(self):
+        """The larger and the smaller principal curvature of the vertices, (n, 2) float64 [1/Å]."""
+        mean, gauss = np.float64(self.curvature), np.float64(self.gaussian_curvature)
+        half = np.sqrt(np.maximum(mean * mean - gauss, 0.0))
+        return np.stack([mean + half, mean - half], axis=1)
+
+    @property
+    def colors(self):
+        """Red, green, blue of the vertices, (n, 3) uint8; empty without `color`."""
+        return self._core.colors
+
+    @property
+    def atom(self):
+        """The atom of each vertex, a place in the arrays of atoms, (n,) int32."""
+        return self._core.atom
+
+    @property
+    def atom_areas(self):
+        """The area of each atom's part of the surface, (atoms,) float64 [Å²]."""
+        areas = self._core.atom_areas
+        if len(areas) == 0:
+            raise AttributeError("atom_areas: the surface was made without them [hint: atom_areas=True]")
+        return areas
+
+    @property
+    def area(self):
+        """Area of all walls, those of cavities too [Å²]."""
+        return self._core.area
+
+    @property
+    def volume(self):
+        """Volume inside, without the cavities [Å³]."""
+        return self._core.volume
+
+    @property
+    def cavities(self):
+        """Area and volume of each closed cavity, (k, 2) float64."""
+        return self._core.cavities
+
+    @property
+    def contacts(self):
+        """Contacts of atoms, by the probe of the surface; see contacts()."""
+        return Contacts(*self._core.contacts())
+
+    @property
+    def closed(self):
+        """Whether every edge of the mesh has two triangles."""
+        return self._core.closed
+
+    @property
+    def kind(self):
+        """The kind of surface: "ses"."""
+        return self._core.kind
+
+    @property
+    def report(self):
+        """Everything that was measured, as a dict with the keys of a .json file."""
+        return json.loads(self._core.report_text())
+
+    def table(self, name, level="residue"):
+        """A table as a dict of arrays: "atoms", "residues", "contacts" or "interfaces".
+
+        level: of contacts: "atom", "residue" or "chain".
+        """
+        names, levels = ("atoms", "residues", "contacts", "interfaces"), ("atom", "residue", "chain")
+        if name not in names:
+            raise ValueError(f"table: expected {', '.join(names)}, got '{str(name)[:40]}'")
+        if level not in levels:
+            raise ValueError(f"level: expected {', '.join(levels)}, got '{str(level)[:40]}'")
+        return _arrays.texts(self._core.table(name, level))
+
+    def sample(self, n, seed=None):
+        """n points spread over the surface evenly by area, at random; a seed makes them the same again."""
+        if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 0:
+            raise ValueError("n: expected a whole number from 0 up")
+        random = np.random.default_rng(seed)
+        corners = np.float64(self.vertices)[self.faces]
+        areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        if n > 0 and not areas.sum() > 0:
+            raise ValueError("sample: the surface has no mesh")
+        ends = np.cumsum(areas)
+        faces = np.searchsorted(ends, random.random(n) * (ends[-1] if len(ends) else 0), side="right")
+        faces = np.minimum(faces, max(len(areas) - 1, 0)).astype(np.int32)
+        u, v = np.sqrt(random.random(n)), random.random(n)
+        weights = np.stack([1 - u, u * (1 - v), u * v], axis=1)[:, :, None]
+        normals = (np.float64(self.normals)[self.faces[faces]] * weights).sum(axis=1)
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+        return Samples((corners[faces] * weights).sum(axis=1), normals, faces)
+
+    def distance(self, points, *, progress=None, threads=0):
+        """Where points lie to the surface: signed distance (negative inside), closest point, normal there, nearest atom.
+
+        Exact for kind sas and vdw; of the others see docs/accuracy.md.
+        """
+        return Distances(*_called(self._core.distance, _arrays.points(points, "points"), progress=progress,
+                                  threads=threads))
+
+    def voxels(self):
+        """The voxels of the level set, about three on either side of the surface, and their signed distances."""
+        return Voxels(*self._core.voxels())
+
+    def save(self, path, *, replace=True):
+        """Writes a file; its extension says what: .ply .obj .stl .off .wrl .glb .3mf .vdb .json .png."""
+        self._core.save(os.fspath(path), bool(replace), 1200)
+
+    def picture(self, path, width=1200, *, replace=True):
+        """Draws the surface into a .png of so many pixels."""
+        path = os.fspath(path)
+        if not path.endswith(".png"):
+            raise ValueError("picture: expected a name that ends in .png")
+        self._core.save(path, bool(replace), int(width))
+
+
+def _unpickled(state, made):
+    return Surface(_core.unpack_surface(state, *made), made)
+
+
+def surface(positions, radii, **options):
+    """The surface of balls at positions (n, 3) with radii (n,), or one for all [Å].
+
+    Keywords:
+    """
+    options, extra, areas_of, how = _split(options)
+    made = _made(_options.given(options, "surface", _options.MORE), extra, areas_of)
+    for name, values in made[0]:
+        if name == "color" and _options.of_file(values[0], ("none", "mean-curvature", "gaussian-curvature")):
+            raise ValueError(f"color: '{values[0][:40]}' needs atoms of a file [hint: read()]")
+    x, r = _arrays.balls(positions, radii)
+    return Surface(_called(_core.surface, x, r, *made, **how), made)
+
+
+surface.__doc__ = surface.__doc__.rstrip() + "\n" + _options.documented("surface") + "\n"
+
+
+def _probe(probe):
+    if isinstance(probe, bool) or not isinstance(probe, (int, float, np.number)):
+        raise TypeError(f"probe: expected float, got {type(probe).__name__}")
+    if not 0 <= probe <= 100:
+        raise ValueError(f"probe: expected 0 to 100 Å, got {float(probe):g}")
+    return float(probe)
+
+
+def areas(positions, radii, probe=1.4, *, progress=None, threads=0):
+    """The area of each ball of radius r + probe that no other ball covers, in closed form, (n,) float64 [Å²].
+
+    With a probe it is the solvent-accessible area, with 0 the van der Waals area.
+    """
+    return _called(_core.areas, *_arrays.balls(positions, radii), _probe(probe), progress=progress, threads=threads)
+
+
+def contacts(positions, radii, probe=1.4, *, progress=None, threads=0):
+    """The contacts between balls of radius r + probe: facets of their power diagram, in closed form."""
+    return Contacts(*_called(_core.contacts, *_arrays.balls(positions, radii), _probe(probe), progress=progress,
+                             threads=threads))
+
+
+def _mesh(of, name):
+    """Vertices and faces of a surface, a file, or a pair of arrays."""
+    if isinstance(of, (str, os.PathLike)):
+        return _core.read_mesh(os.fspath(of))
+    pair = (of.vertices, of.faces) if hasattr(of, "vertices") and hasattr(of, "faces") else of
+    if not isinstance(pair, (tuple, list)) or len(pair) != 2:
+        raise TypeError(f"{name}: expected a surface, a path or (vertices, faces), got {type(of).__name__}")
+    faces = np.asarray(pair[1])
+    if faces.dtype.kind not in "iu" or faces.ndim != 2 or faces.shape[1] != 3:
+        raise ValueError(f"{name}: expected faces of whole numbers, (m, 3), got {faces.dtype} {faces.shape}")
+    if len(faces) and not (0 <= int(faces.min()) and int(faces.max()) < 2**31):
+        raise ValueError(f"{name}: expected faces from 0 to 2^31")
+    return (np.ascontiguousarray(_arrays.points(pair[0], name), dtype=np.float32),
+            np.ascontiguousarray(faces, dtype=np.int32))
+
+
+def compare(a, b, *, progress=None, threads=0):
+    """How far two surfaces are from each other: each a Surface, a file .ply .obj .stl, or (vertices, faces)."""
+    return Comparison(*_called(_core.compare, *_mesh(a, "a"), *_mesh(b, "b"), progress=progress, threads=threads))

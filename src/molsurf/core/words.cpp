@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/core/words.h"
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+
+namespace molsurf
+{
+
+std::string shortest(double number)
+{
+    char digits[32];
+    return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
+std::string lowered(std::string text)
+{
+    for (char& letter : text)
+        if (letter >= 'A' && letter <= 'Z') letter = char(letter - 'A' + 'a');
+    return text;
+}
+
+std::vector<std::string> splitWords(const std::string& list)
+{
+    std::vector<std::string> words;
+    for (std::size_t begin = 0; begin <= list.size();) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        words.push_back(list.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return words;
+}
+
+std::string joinWords(const std::vector<std::string>& words, const char* between)
+{
+    std::string all;
+    for (const std::string& word : words) all += (all.empty() ? "" : between) + word;
+    return all;
+}
+
+std::string inLines(const std::vector<std::string>& words)
+{
+    constexpr std::size_t width = 62;
+    std::string all, line;
+    for (const std::string& word : words) {
+        if (!line.empty() && line.size() + word.size() > width) {
+            all += line + "\n";
+            line.clear();
+        }
+        line += word + ",";
+    }
+    all += line;
+    all.pop_back();
+    return all;
+}
+
+std::string didYouMean(const std::string& typed, const std::vector<std::string>& words)
+{
+    const auto distance = [](const std::string& a, const std::string& b) { // Levenshtein's
+        std::vector<std::size_t> row(b.size() + 1);
+        std::iota(row.begin(), row.end(), std::size_t(0));
+        for (std::size_t i = 1; i <= a.size(); ++i) {
+            std::size_t diagonal = row[0]++;
+            for (std::size_t j = 1; j <= b.size(); ++j) {
+                const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
+                diagonal = row[j];
+                row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+            }
+        }
+        return row.back();
+    };
+    std::string best;
+    std::size_t least = std::max<std::size_t>(1, typed.size() / 3) + 1;
+    for (const std::string& word : words) {
+        const std::size_t d = distance(lowered(typed), lowered(word));
+        const bool begins = typed.size() >= 3 && word.rfind(lowered(typed), 0) == 0;
+        if (d < least || (begins && best.empty())) {
+            least = std::min(least, d);
+            best = word;
+        }
+    }
+    return best.empty() ? "" : " [hint: did you mean " + best + "?]";
+}
+
+} // namespace molsurf

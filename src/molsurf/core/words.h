@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Words that people type: lists, numbers and near misses.
+
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// The text in small letters of ASCII.
+std::string lowered(std::string text);
+
+/// The words between commas.
+std::vector<std::string> splitWords(const std::string& list);
+
+std::string joinWords(const std::vector<std::string>& words, const char* between);
+
+/// Words with commas between, in lines for a help text.
+std::string inLines(const std::vector<std::string>& words);
+
+/// A number with the fewest digits that give it back.
+std::string shortest(double number);
+
+/// " [hint: did you mean WORD?]" for the word nearest to what was typed; empty if none is near.
+std::string didYouMean(const std::string& typed, const std::vector<std::string>& words);
+
+} // namespace molsurf

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The options of atoms and surfaces by name, a row each: command lines, help texts and keywords of
+/// other languages are made of these rows.
+
+#include "molsurf/atoms.h"
+#include "molsurf/options.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace molsurf
+{
+
+/// What the rows set.
+struct Settings {
+    SelectOptions atoms;
+    SurfaceOptions options;
+    std::string colorGroups; ///< what has colours that are no ColorBy: copy, entity or class; they
+                             ///< are those of groups that SelectOptions::groupBy has to make
+};
+
+/// The value of a setting, as it is written into files.
+using SettingValue = std::variant<bool, std::int64_t, double, std::string>;
+
+/// What the value of a setting is, written as text.
+enum class SettingType {
+    Switch, ///< There is none: it is on or off.
+    Whole,  ///< a whole number
+    Number, ///< a number
+    Text,   ///< any text
+    Word,   ///< one of Setting::words
+    List,   ///< words or numbers with commas between
+    Rules   ///< a text each of several values
+};
+
+/// A setting. Its name is that of an option of the command line: "fill-cavities".
+struct Setting {
+    const char* name;
+    SettingType type;
+    const char* value;  ///< what stands for its value in a help text; null for a switch
+    std::string text;   ///< what it does; names others in backticks, as Error does; '\n' starts a
+                        ///< new line
+    std::string preset; ///< the default for people; empty for none
+    std::vector<std::string> words = {}; ///< values that are words, or the beginnings of values
+    double low = std::numeric_limits<double>::quiet_NaN();  ///< least and largest number; not a
+    double high = std::numeric_limits<double>::quiet_NaN(); ///< number: see the text
+    bool ofAtoms = false;                                   ///< whether readAtoms() needs it
+    /// Sets it; several values are for SettingType::Rules alone, and none is for a switch.
+    /// @throws Error(ErrorKind::Usage) for a value that it cannot have
+    std::function<void(Settings&, const std::vector<std::string>& values)> set = nullptr;
+    /// Its value as metadata of a file; null: it is not stored.
+    std::function<SettingValue(const Settings&)> get = nullptr;
+    /// Where in a value the path of a file begins that is read; npos: the value names none. Null:
+    /// no value does.
+    std::function<std::size_t(const std::string& value)> file = nullptr;
+};
+
+/// All of them.
+const std::vector<Setting>& settingTable();
+
+} // namespace molsurf

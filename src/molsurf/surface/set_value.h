@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What sets a value from a word that a person typed: functions of a target and its values, for
+/// tables of options. `of` gives the variable of a target that is set.
+
+#include "molsurf/core/words.h"
+#include "molsurf/error.h"
+#include "molsurf/options.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// The name of an option as errors have it: "max-input" is `maxInput`.
+std::string memberName(const std::string& option);
+
+/// @throws Error(ErrorKind::Usage)
+[[noreturn]] void wrongValue(const std::string& option, const std::string& expected,
+                             const std::string& got, const std::string& hint = "");
+
+/// A number that is the whole of a word.
+/// @throws Error(ErrorKind::Usage) if the word is none
+template<typename T>
+T parsedValue(const std::string& option, const std::string& expected, const std::string& word)
+{
+    T value{};
+    const char* end = word.data() + word.size();
+    const auto [stop, failure] = std::from_chars(word.data(), end, value);
+    if (failure != std::errc() || stop != end || !std::isfinite(double(value)))
+        wrongValue(option, expected, word);
+    return value;
+}
+
+/// The colour of a word.
+/// @param[in] more  what else the option takes
+/// @throws Error(ErrorKind::Usage) if the word is none
+std::array<std::uint8_t, 3> colorValue(const std::string& option, const std::string& more,
+                                       const std::string& word);
+
+/// The colours whose word alone asks for them.
+std::vector<ColorBy> completeColors();
+
+/// "4G", "500M": bytes. K, M, G and T are powers of 1024.
+/// @throws Error(ErrorKind::Usage) if the text is no size
+std::size_t sizeValue(const std::string& option, const std::string& text);
+
+/// A whole number in a range.
+template<typename Of>
+auto countSetter(const std::string& option, int low, int high, const Of& of)
+{
+    return [=](auto& target, const std::vector<std::string>& values) {
+        const std::string range =
+            "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+        of(target) = parsedValue<int>(option, range, values.back());
+        if (of(target) < low || of(target) > high) wrongValue(option, range, values.back());
+    };
+}
+
+/// One of a few values that nameOf() names.
+template<typename Of, typename Enum>
+auto wordSetter(const std::string& option, const std::vector<Enum>& choices, const Of& of)
+{
+    return [=](auto& target, const std::vector<std::string>& values) {
+        std::vector<std::string> words;
+        for (const Enum choice : choices) {
+            words.push_back(nameOf(choice));
+            if (lowered(values.back()) != words.back()) continue;
+            of(target) = choice;
+            return;
+        }
+        wrongValue(option, joinWords(words, " or "), values.back(),
+                   didYouMean(values.back(), words));
+    };
+}
+
+} // namespace molsurf

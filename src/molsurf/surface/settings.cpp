@@ -1,0 +1,499 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/settings.h"
+
+#include "molsurf/selection/ball_values.h"
+#include "molsurf/selection/coarse_grain.h"
+#include "molsurf/selection/radii.h"
+#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/set_value.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace molsurf
+{
+
+namespace
+{
+
+using Values = std::vector<std::string>;
+
+// Rows by the type of their value. `of` gives the variable that the row sets: OF(options.voxel).
+#define OF(variable)                                                                               \
+    [](auto& settings) -> auto&                                                                    \
+    {                                                                                              \
+        return settings.variable;                                                                  \
+    }
+
+template<typename Of>
+Setting number(const char* name, const char* value, std::string text, const Of& of)
+{
+    const Settings preset;
+    Setting row{name, SettingType::Number, value, std::move(text), shortest(of(preset))};
+    row.set = [=](Settings& s, const Values& v) {
+        of(s) = parsedValue<double>(name, "a number", v.back());
+    };
+    row.get = [=](const Settings& s) { return of(s); };
+    return row;
+}
+
+/// The row of a number with its range, which checkOptions() checks.
+Setting within(double low, double high, Setting row)
+{
+    row.low = low;
+    row.high = high;
+    return row;
+}
+
+/// @param[in] none  the value, in files, of a number below `low`
+template<typename Of>
+Setting count(const char* name, const char* value, std::string text, const char* none,
+              std::pair<int, int> range, const Of& of)
+{
+    const auto [low, high] = range;
+    Setting row{name, SettingType::Whole, value,       std::move(text), none,
+                {},   double(low),        double(high)};
+    row.set = countSetter(name, low, high, of);
+    row.get = [=, least = low](const Settings& s) -> SettingValue {
+        return of(s) >= least ? std::to_string(of(s)) : std::string(none);
+    };
+    return row;
+}
+
+/// @param[in] on  what the switch sets
+template<typename Of, typename T = bool>
+Setting flag(const char* name, std::string text, const Of& of, T on = T(true))
+{
+    Setting row{name, SettingType::Switch, nullptr, std::move(text), ""};
+    row.set = [=](Settings& s, const Values&) { of(s) = on; };
+    row.get = [=](const Settings& s) { return of(s) == on; };
+    return row;
+}
+
+/// @param[in] none  what an empty text means
+template<typename Of>
+Setting text(const char* name, const char* value, std::string help, const char* none, const Of& of)
+{
+    const Settings preset;
+    Setting row{name, SettingType::Text, value, std::move(help),
+                of(preset).empty() ? none : of(preset)};
+    row.set = [=](Settings& s, const Values& v) { of(s) = v.back(); };
+    row.get = [=](const Settings& s) { return of(s).empty() ? none : of(s); };
+    return row;
+}
+
+/// One of a few values that nameOf() names.
+template<typename Of, typename Enum>
+Setting word(const char* name, const char* value, std::string help, const Of& of,
+             const std::vector<Enum>& choices)
+{
+    const Settings preset;
+    Setting row{name, SettingType::Word, value, std::move(help), nameOf(of(preset))};
+    for (const Enum choice : choices) row.words.push_back(nameOf(choice));
+    row.set = wordSetter(name, choices, of);
+    row.get = [=](const Settings& s) { return std::string(nameOf(of(s))); };
+    return row;
+}
+
+/// A row with more than its type says.
+template<typename Change>
+Setting changed(Setting row, const Change& change)
+{
+    change(row);
+    return row;
+}
+
+const std::vector<SurfaceKind> surfaceKinds = {
+    SurfaceKind::Variational, SurfaceKind::SolventExcluded, SurfaceKind::SolventAccessible,
+    SurfaceKind::VanDerWaals, SurfaceKind::Gaussian};
+
+/// GROUP=KIND, the group ending at the last =.
+std::pair<std::string, SurfaceKind> parseSurfaceOf(const std::string& text)
+{
+    const std::size_t split = text.rfind('=');
+    for (const SurfaceKind kind : surfaceKinds) {
+        if (split != std::string::npos && split > 0 &&
+            lowered(text.substr(split + 1)) == nameOf(kind))
+            return {text.substr(0, split), kind};
+    }
+    wrongValue("surface-of", "GROUP=KIND with a kind of `surface`", text);
+}
+
+/// D or SELECTION=D, the selection ending at the last =.
+ResolutionRule parseResolution(const std::string& text)
+{
+    const std::size_t split = text.rfind('=');
+    const std::string digits = split == std::string::npos ? text : text.substr(split + 1);
+    ResolutionRule rule;
+    if (split != std::string::npos) rule.select = text.substr(0, split);
+    const char* end = digits.data() + digits.size();
+    const auto [stop, problem] = std::from_chars(digits.data(), end, rule.resolution);
+    if (problem != std::errc() || stop != end || split == 0 ||
+        !(rule.resolution >= minResolution && rule.resolution <= maxResolution))
+        wrongValue("resolution", "D or SELECTION=D with D from 1 to 50 Å", text);
+    return rule;
+}
+
+/// What `fields` takes.
+Values allFields()
+{
+    Values names = fieldNames();
+    names.insert(names.begin(), "surface");
+    return names;
+}
+
+void setFields(Settings& settings, const Values& values)
+{
+    const Values known = allFields();
+    Values wanted;
+    for (const std::string& field : splitWords(values.back())) {
+        const auto same = [&](const std::string& one) { return lowered(one) == lowered(field); };
+        const auto found = std::find_if(known.begin(), known.end(), same);
+        if (lowered(field) == "all") {
+            wanted = known;
+        } else if (found != known.end()) {
+            wanted.push_back(*found);
+        } else {
+            const std::string hint = didYouMean(field, known);
+            throw Error(ErrorKind::Usage,
+                        "`fields`: unknown field '" + field + "'" +
+                            (hint.empty() ? " [hint: all, or some of " + joinWords(known, ",") + "]"
+                                          : hint));
+        }
+    }
+    settings.options.fields.clear();
+    for (const std::string& field : known) // `surface` is always there
+        if (field != "surface" && std::count(wanted.begin(), wanted.end(), field))
+            settings.options.fields.push_back(field);
+}
+
+std::vector<Setting> atomSettings()
+{
+    const auto of = [](auto member) {
+        return [=](auto& s) -> auto&
+        {
+            return s.atoms.*member;
+        };
+    };
+    Setting maxInput{"max-input", SettingType::Text, "SIZE",
+                     "bytes that INPUT may have, unpacked, such as 10G", "4G"};
+    maxInput.set = [](Settings& s, const Values& values) {
+        s.atoms.maxInput = sizeValue("max-input", values.back());
+    };
+    return {
+        text("select", "EXPR", "gemmi selections joined by |, e.g. \"/1/A/53-132|*;polymer\"",
+             "all", of(&SelectOptions::select)),
+        changed(count("model", "N", "number of the model in the file", "the first", {1, 1000000000},
+                      of(&SelectOptions::model)),
+                [](Setting& row) {
+                    row.get = [](const Settings& s) {
+                        return s.atoms.model ? std::to_string(s.atoms.model) : "first";
+                    };
+                }),
+        text("assembly", "ID",
+             "biological assembly to build; none: as in the file;\n"
+             "ncs: with the copies of MTRIX records or struct_ncs_oper",
+             "", of(&SelectOptions::assembly)),
+        flag("instances",
+             "the surface of each distinct copy of the assembly once:\n"
+             "the .glb, .usda, .html, .png and .json place the copies",
+             of(&SelectOptions::instances)),
+        flag("by-symmetry",
+             "the joint surface of the whole assembly from one unit,\n"
+             "which its rotations repeat",
+             of(&SelectOptions::bySymmetry)),
+        text("copies", "LIST",
+             "copies of the assembly: numbers such as 1,7,20-25, or\n"
+             "fold:N, those about the nearest N-fold axis, with copy 1",
+             "all", of(&SelectOptions::copies)),
+        text("altloc", "A", "alternate location to take, or all", "highest occupancy",
+             of(&SelectOptions::altloc)),
+        flag("no-hydrogens", "drop hydrogens", of(&SelectOptions::hydrogens), false),
+        flag("ions", "keep free ions of the solution", of(&SelectOptions::ions)),
+        flag("hetero",
+             "keep all ligands, ions, buffers and lipids; otherwise\n"
+             "those that touch a polymer and are no free ions, buffers,\n"
+             "lipids or detergents",
+             of(&SelectOptions::hetero), Hetero::All),
+        flag("no-hetero", "drop all ligands and ions", of(&SelectOptions::hetero), Hetero::None),
+        flag("waters", "keep waters", of(&SelectOptions::waters)),
+        changed(text("radii", "SET", "van der Waals radii: a name of `listRadii`, or a file", "",
+                     of(&SelectOptions::radii)),
+                [](Setting& row) {
+                    row.file = [](const std::string& value) {
+                        return isRadiiSet(value) ? std::string::npos : 0;
+                    };
+                }),
+        maxInput};
+}
+
+Setting fieldSetting()
+{
+    Setting fields{"fields",
+                   SettingType::List,
+                   "LIST",
+                   "grids of the .vdb, by commas, or all of\n" + inLines(allFields()) +
+                       ";\ncurvatures also at the vertices of a .ply; positive\n"
+                       "where convex, 1/R on a ball; shape_index 1: a cap",
+                   "surface",
+                   allFields()};
+    fields.words.insert(fields.words.begin(), "all");
+    fields.set = setFields;
+    fields.get = [](const Settings& s) {
+        std::string all = "surface";
+        for (const std::string& field : s.options.fields) all += "," + field;
+        return all;
+    };
+    return fields;
+}
+
+std::vector<Setting> surfaceSettings()
+{
+    return {word("surface", "KIND",
+                 "variational; ses, sas: solvent-excluded, -accessible;\n"
+                 "vdw: van der Waals; gaussian",
+                 OF(options.kind), surfaceKinds),
+            within(minVoxel, maxVoxel,
+                   number("voxel", "H", "edge of a voxel [Å], 0.05 to 10", OF(options.voxel))),
+            within(0.0, 100.0, number("probe", "R", "probe radius [Å]", OF(options.probe))),
+            within(0.1, 100.0,
+                   number("blobbiness", "D", "decay of the Gaussians of `surface` gaussian",
+                          OF(options.blobbiness))),
+            flag("fill-cavities", "drop the inner walls", OF(options.fillCavities)),
+            fieldSetting(),
+            flag("vdb-half", "floats of the .vdb in 16 bits, within 0.05 %: half the size",
+                 OF(options.halfFloats)),
+            flag("curvature-totals", "integrate curvature over the surface, for the report",
+                 OF(options.curvatureTotals))};
+}
+
+std::vector<Setting> resolutionSettings()
+{
+    Setting resolution{"resolution", SettingType::Rules, "[SEL=]D",
+                       "blur to D [Å], 1 to 50, all atoms or those of a\n"
+                       "selection; repeats, later ones win",
+                       ""};
+    resolution.set = [](Settings& s, const Values& values) {
+        for (const std::string& value : values)
+            s.atoms.resolutions.push_back(parseResolution(value));
+    };
+    resolution.get = [](const Settings& s) {
+        Values all;
+        for (const ResolutionRule& rule : s.atoms.resolutions)
+            all.push_back((rule.select.empty() ? "" : rule.select + "=") +
+                          shortest(rule.resolution));
+        return joinWords(all, ", ");
+    };
+    Setting coarse{"coarse",
+                   SettingType::Rules,
+                   "[SEL=]WORD",
+                   "beads in the place of atoms: residue (its backbone and\n"
+                   "side chain), N (about N atoms each) or atom; all or\n"
+                   "those of a selection; repeats, later ones win",
+                   "atom",
+                   {"atom", "residue"}};
+    coarse.set = [](Settings& s, const Values& values) {
+        for (const std::string& value : values) s.atoms.coarse.push_back(parseCoarse(value));
+    };
+    coarse.get = [](const Settings& s) {
+        Values all;
+        for (const CoarseRule& rule : s.atoms.coarse) all.push_back(nameOf(rule));
+        return all.empty() ? "atom" : joinWords(all, ", ");
+    };
+    resolution.ofAtoms = coarse.ofAtoms = true;
+    return {within(0.01, 10.0,
+                   number("epsilon", "E", "tolerance of the Gaussian sum [Å]; larger is smoother",
+                          OF(options.epsilon))),
+            resolution, coarse,
+            flag("match-volume", "resolutions keep the volume of the fine surface",
+                 OF(options.matchVolume))};
+}
+
+/// The beginnings of colours by the values of a file.
+const Values colorFiles = {"table=", "potential=", "potential-out="};
+
+/// The words of groups that are made to be coloured.
+const Values coloredGroups = {"copy", "entity", "class"};
+
+Values colorWords()
+{
+    Values words;
+    for (const ColorBy by : completeColors()) words.push_back(nameOf(by));
+    words.insert(words.end(), coloredGroups.begin(), coloredGroups.end());
+    words.insert(words.end(), valueWords().begin(), valueWords().end());
+    for (const std::string& start : colorFiles) words.push_back(start + "FILE");
+    words.push_back("residue-type");
+    words.push_back("plain=#RRGGBB");
+    return words;
+}
+
+void setColor(Settings& s, const Values& values)
+{
+    const std::string typed = lowered(values.back());
+    const std::string word = typed == "residue-type" ? "residue" : typed;
+    const auto among = [&](const Values& some) {
+        return std::count(some.begin(), some.end(), word) > 0;
+    };
+    s.colorGroups = among(coloredGroups) ? word : "";
+    s.atoms.valueBy = among(valueWords()) ? word : "";
+    for (const std::string& start : colorFiles)
+        if (word == start)
+            wrongValue("color", start + "FILE", values.back());
+        else if (word.rfind(start, 0) == 0)
+            s.atoms.valueBy = start + values.back().substr(start.size());
+    s.options.color = s.atoms.valueBy.empty() ? ColorBy::Nothing : ColorBy::Value;
+    s.atoms.plainColor.reset();
+    if (word.rfind("plain=", 0) == 0) {
+        s.atoms.plainColor = colorValue("color", "", word.substr(6));
+        s.options.color = ColorBy::Plain;
+        return;
+    }
+    if (!s.colorGroups.empty() || !s.atoms.valueBy.empty()) return;
+    for (const ColorBy by : completeColors()) {
+        if (word != nameOf(by)) continue;
+        s.options.color = by;
+        return;
+    }
+    const Values all = colorWords();
+    wrongValue("color", joinWords(all, ", "), values.back(), didYouMean(word, all));
+}
+
+Setting colorSetting()
+{
+    Setting color{"color",
+                  SettingType::Text,
+                  "WORD",
+                  "colours of the mesh and the grid Cd: chain, entity, class,\n"
+                  "copy, group, element, residue (or residue-type),\n"
+                  "nucleotide, illustrative (chain, carbon lighter),\n"
+                  "plain=#RRGGBB, mean-curvature, gaussian-curvature;\n"
+                  "by value: bfactor, occupancy, charge, hydrophobicity,\n"
+                  "rainbow, radius, table=FILE, potential=FILE.dx,\n"
+                  "potential-out=FILE.dx (a probe out)",
+                  "none",
+                  colorWords()};
+    color.set = setColor;
+    color.get = [](const Settings& s) -> std::string {
+        if (!s.colorGroups.empty()) return s.colorGroups;
+        return s.atoms.valueBy.empty() ? nameOf(s.options.color) : s.atoms.valueBy;
+    };
+    color.file = [](const std::string& value) {
+        for (const std::string& start : colorFiles)
+            if (lowered(value).rfind(start, 0) == 0) return start.size();
+        return std::string::npos;
+    };
+    return color;
+}
+
+void setRange(Settings& s, const Values& values)
+{
+    const std::string expected = "two numbers LOW,HIGH, the first one less";
+    const Values words = splitWords(values.back());
+    if (words.size() != 2) wrongValue("range", expected, values.back());
+    const double low = parsedValue<double>("range", expected, words[0]);
+    const double high = parsedValue<double>("range", expected, words[1]);
+    if (!(low < high)) wrongValue("range", expected, values.back());
+    s.atoms.valueRange = {low, high};
+}
+
+std::vector<Setting> groupSettings()
+{
+    Setting surfaceOf{"surface-of", SettingType::Rules, "GROUP=KIND",
+                      "this group alone, by another `surface`; repeats; the\n"
+                      "other atoms together",
+                      ""};
+    surfaceOf.set = [](Settings& s, const Values& values) {
+        for (const std::string& value : values)
+            s.options.surfaceOf.push_back(parseSurfaceOf(value));
+    };
+    surfaceOf.get = [](const Settings& s) {
+        Values all;
+        for (const auto& [name, kind] : s.options.surfaceOf)
+            all.push_back(name + "=" + nameOf(kind));
+        return joinWords(all, ",");
+    };
+    Setting split{"split", SettingType::Word,
+                  "group", "a level set and a closed mesh for every group, alone",
+                  "",      {"group"}};
+    split.set = [](Settings& s, const Values& values) {
+        if (lowered(values.back()) != "group") wrongValue("split", "group", values.back());
+        s.options.split = true;
+    };
+    split.get = [](const Settings& s) { return std::string(s.options.split ? "group" : "none"); };
+    Setting range{"range", SettingType::List, "LOW,HIGH", "values at the ends of the colours", ""};
+    range.set = setRange;
+    range.get = [](const Settings& s) {
+        const auto& r = s.atoms.valueRange;
+        return r ? shortest((*r)[0]) + "," + shortest((*r)[1]) : "auto";
+    };
+    Setting groupBy =
+        text("group-by", "WORD",
+             "groups by chain, entity, class (a chain's copies),\ncopy or residues:N instead", "",
+             OF(atoms.groupBy));
+    groupBy.words = {"chain", "entity", "class", "copy"};
+    groupBy.ofAtoms = range.ofAtoms = true;
+    return {groupBy,
+            split,
+            surfaceOf,
+            changed(flag("interfaces", "buried areas between groups, for the report",
+                         OF(options.interfaces)),
+                    [](Setting& row) { row.get = nullptr; }),
+            colorSetting(),
+            range};
+}
+
+std::vector<Setting> flowSettings()
+{
+    const auto of = [](auto member) {
+        return [=](auto& s) -> auto&
+        {
+            return s.options.evolution.*member;
+        };
+    };
+    const auto shown = [](const char* preset, Setting row) {
+        row.preset = preset;
+        return row;
+    };
+    constexpr std::pair<int, int> steps = {0, 1000000};
+    return {within(0.0, 1e6,
+                   number("lambda", "L", "weight of the regulariser [Å^2 for gradient, 1 for area]",
+                          of(&EvolveOptions::lambda))),
+            word("regularizer", "KIND", "gradient or area", of(&EvolveOptions::regularizer),
+                 std::vector<Regularizer>{Regularizer::Gradient, Regularizer::Area}),
+            word("flow", "KIND", "newton, or paper: the paper's own scheme, for comparison",
+                 of(&EvolveOptions::flow), std::vector<Flow>{Flow::Newton, Flow::Paper}),
+            shown("50; paper: 200", count("max-steps", "N", "steps at most", "default of the flow",
+                                          steps, of(&EvolveOptions::maxSteps))),
+            shown("until it converges",
+                  count("steps", "N", "so many steps, converged or not", "by the stopping rule",
+                        steps, of(&EvolveOptions::steps))),
+            number("tolerance", "T",
+                   "converged when the way left is below T voxels (rms), and\n"
+                   "below 8 T on 99.9 % of the surface",
+                   of(&EvolveOptions::tolerance)),
+            changed(count("spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2",
+                          "0", {0, 2}, OF(options.splineLevel)),
+                    [](Setting& row) {
+                        row.get = [](const Settings& s) {
+                            return std::int64_t(s.options.splineLevel);
+                        };
+                    })};
+}
+
+#undef OF
+
+} // namespace
+
+const std::vector<Setting>& settingTable()
+{
+    static const std::vector<Setting> all = [] {
+        std::vector<Setting> rows = atomSettings();
+        for (Setting& row : rows) row.ofAtoms = true;
+        for (auto* more : {surfaceSettings, resolutionSettings, groupSettings, flowSettings})
+            for (Setting& row : more()) rows.push_back(std::move(row));
+        return rows;
+    }();
+    return all;
+}
+
+} // namespace molsurf

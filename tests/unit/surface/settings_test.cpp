@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MPL-2.0
+// The table of settings: every row sets and gives back what it says.
+
+#include "molsurf/error.h"
+#include "molsurf/settings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <set>
+
+namespace molsurf
+{
+namespace
+{
+
+const Setting& row(const std::string& name)
+{
+    for (const Setting& one : settingTable())
+        if (one.name == name) return one;
+    throw std::out_of_range(name);
+}
+
+std::string messageOf(const std::string& name, const std::vector<std::string>& values)
+{
+    Settings settings;
+    try {
+        row(name).set(settings, values);
+    } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::Usage);
+        return e.what();
+    }
+    return "taken";
+}
+
+/// A value that each type of row takes, other than the default.
+std::string exampleOf(const Setting& setting)
+{
+    if (setting.type == SettingType::Word) return setting.words.back();
+    if (setting.type == SettingType::Number) return "0.75";
+    if (setting.type == SettingType::Whole) return "2";
+    const std::string name = setting.name;
+    return name == "max-input"    ? "5G"
+           : name == "copies"     ? "1,3"
+           : name == "fields"     ? "spline"
+           : name == "resolution" ? "*=8"
+           : name == "coarse"     ? "residue"
+           : name == "surface-of" ? "core=ses"
+           : name == "color"      ? "element"
+           : name == "range"      ? "1,2"
+                                  : "chain";
+}
+
+TEST(Settings, HaveNamesOfTheirOwnAndTextsWithoutOptions)
+{
+    std::set<std::string> names;
+    for (const Setting& setting : settingTable()) {
+        EXPECT_TRUE(names.insert(setting.name).second) << setting.name;
+        EXPECT_EQ(setting.text.find("--"), std::string::npos) << setting.name;
+        EXPECT_EQ(setting.value == nullptr, setting.type == SettingType::Switch) << setting.name;
+        ASSERT_TRUE(setting.set) << setting.name;
+    }
+    EXPECT_EQ(names.count("voxel"), 1u);
+    EXPECT_GT(names.size(), 35u);
+}
+
+TEST(Settings, EachChangesWhatItGives)
+{
+    for (const Setting& setting : settingTable()) {
+        Settings settings;
+        if (!setting.get) continue;
+        const SettingValue before = setting.get(settings);
+        setting.set(settings, setting.value ? std::vector<std::string>{exampleOf(setting)}
+                                            : std::vector<std::string>{});
+        EXPECT_NE(setting.get(settings), before) << setting.name;
+        // Whatever it gives is taken again.
+        const SettingValue after = setting.get(settings);
+        if (const auto* text = std::get_if<std::string>(&after)) {
+            Settings again;
+            setting.set(again, {*text});
+            EXPECT_EQ(setting.get(again), after) << setting.name;
+        }
+    }
+}
+
+TEST(Settings, RangesAreThoseThatAreChecked)
+{
+    const auto allows = [](const Setting& setting, double value) {
+        Settings settings;
+        try {
+            setting.set(settings,
+                        {setting.type == SettingType::Whole ? std::to_string(std::lround(value))
+                                                            : std::to_string(value)});
+            checkOptions(settings.options);
+        } catch (const Error&) {
+            return false;
+        }
+        return true;
+    };
+    int ranges = 0;
+    for (const Setting& setting : settingTable()) {
+        if (!std::isfinite(setting.low)) continue;
+        ++ranges;
+        const double beyond = setting.type == SettingType::Whole ? 1.0 : 1e-3;
+        EXPECT_TRUE(allows(setting, setting.low)) << setting.name;
+        EXPECT_TRUE(allows(setting, setting.high)) << setting.name;
+        EXPECT_FALSE(allows(setting, setting.low - beyond)) << setting.name;
+        EXPECT_FALSE(allows(setting, setting.high + beyond)) << setting.name;
+    }
+    EXPECT_EQ(ranges, 9);
+}
+
+TEST(Settings, NameTheMemberOfAWrongValue)
+{
+    EXPECT_EQ(messageOf("voxel", {"fine"}), "`voxel`: expected a number, got 'fine'");
+    EXPECT_EQ(messageOf("max-input", {"much"}),
+              "`maxInput`: expected a size such as 500M or 4G, got 'much'");
+    EXPECT_EQ(messageOf("surface", {"see"}),
+              "`surface`: expected variational or ses or sas or vdw or gaussian, got 'see' [hint: "
+              "did you mean ses?]");
+    EXPECT_EQ(messageOf("surface-of", {"core"}),
+              "`surfaceOf`: expected GROUP=KIND with a kind of `surface`, got 'core'");
+    EXPECT_EQ(messageOf("max-steps", {"1.5"}),
+              "`maxSteps`: expected a whole number from 0 to 1000000, got '1.5'");
+    EXPECT_EQ(messageOf("fields", {"curvature,mean_curvture"}).find("`fields`: unknown field"), 0u);
+    EXPECT_EQ(messageOf("range", {"2,1"}),
+              "`range`: expected two numbers LOW,HIGH, the first one less, got '2,1'");
+}
+
+TEST(Settings, AColorSaysWhatElseItNeeds)
+{
+    Settings settings;
+    row("color").set(settings, {"bfactor"});
+    EXPECT_EQ(settings.options.color, ColorBy::Value);
+    EXPECT_EQ(settings.atoms.valueBy, "bfactor");
+    row("color").set(settings, {"entity"});
+    EXPECT_EQ(settings.colorGroups, "entity");
+    EXPECT_EQ(settings.atoms.valueBy, "");
+    row("color").set(settings, {"plain=#102030"});
+    EXPECT_EQ(settings.options.color, ColorBy::Plain);
+    EXPECT_EQ((*settings.atoms.plainColor)[1], 0x20);
+    row("color").set(settings, {"Table=Values.csv"});
+    EXPECT_EQ(settings.atoms.valueBy, "table=Values.csv");
+    EXPECT_EQ(row("color").file("table=Values.csv"), 6u);
+}
+
+} // namespace
+} // namespace molsurf
