@@ -147,7 +147,6 @@ def draw(rng, files):
 
 def estimate(program, words):
     """(bytes, processor seconds) by --dry-run."""
-    words = [word for word in words if word != "--fill-cavities"]
     said = subprocess.run([program, *words, "--dry-run"], capture_output=True, text=True).stderr.split()
     if "GiB" not in said:
         return math.inf, math.inf
