@@ -21,7 +21,7 @@ KEYWORDS = {_RENAMED.get(name, name.replace("-", "_")): row for name, row in SET
 MORE = {
     "atom_areas": ("bool", "True", "the area of each atom's part of the surface, as `atom_areas`"),
     "areas_of": ("str", '""', "the kind of surface that areas, contacts and interfaces are of, if it is another"),
-    "grid": ("bool", "True", "level set and mesh; without them `sas` and `vdw` have what is known in closed form"),
+    "grid": ("bool", "True", "level set and mesh; without them `ses`, `sas` and `vdw` have what is known in closed form"),
     "threads": ("int", "0", "threads at most; 0: all"),
     "progress": ("Callable[[str, float], object] | bool | None", "None",
                  "is told stage and fraction; True shows a bar by tqdm"),
