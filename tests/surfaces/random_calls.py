@@ -113,7 +113,7 @@ def surface_options(rng):
         lambda: ["--lambda", number(rng, "0", "0.001", "0.1", "1", "100")],
         lambda: ["--epsilon", number(rng, "0.1", "0.5", "2")],
         lambda: ["--regularizer", rng.choice(("gradient", "area"))],
-        lambda: ["--flow", rng.choice(("newton", "paper"))],
+        lambda: rng.choice((["--flow", "newton"], ["--flow", "paper", "--max-steps", "20"])),  # of 200, all made
         lambda: ["--max-steps", rng.choice(("0", "1", "5"))],
         lambda: ["--group-by", rng.choice(("chain", "entity", "class", "copy", "residues:1", "residues:7", "residues:0"))],
         lambda: ["--color", rng.choice(("chain", "group", "element", "residue", "nucleotide", "bfactor", "charge",
