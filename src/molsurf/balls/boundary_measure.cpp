@@ -319,8 +319,6 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
     for (std::size_t p = 0; p < patches; ++p) {
         const Patch& patch = boundary.patches[p];
         out.patchAreas.push_back(0.0);
-        out.patchNormals.emplace_back(0.0);
-        out.patchEuler.push_back(0.0);
         for (std::size_t f = 0; f < faces[p].size(); ++f) {
             const std::size_t root = joined.find(std::uint32_t(begins[p] + f));
             if (root == begins[p] + f) {
@@ -339,13 +337,10 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
                 (patch.radius * face.area + (patch.centre - origin[n]).dot(face.normal)) / 3.0;
             normal[n] += face.normal;
             out.patchAreas[p] += face.area;
-            out.patchNormals[p] += face.normal;
             // Faces, less arcs, plus corners, of which each ends three arcs.
             double openSides = 0.0;
             for (const std::uint32_t arc : face.arcs) openSides += boundary.arcs[arc].ends[0] >= 0;
-            const double share = 2.0 - face.loops - openSides / 6.0;
-            euler[n] += share;
-            out.patchEuler[p] += share;
+            euler[n] += 2.0 - face.loops - openSides / 6.0;
         }
     }
     for (std::size_t n = 0; n < euler.size(); ++n) {

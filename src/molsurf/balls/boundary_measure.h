@@ -38,12 +38,8 @@ constexpr double leastCavity = 1e-8;
 
 /// The pieces, and the share of every ball.
 struct BoundaryMeasure {
-    std::vector<BoundaryPiece> pieces;        ///< in the order of their first ball
-    std::vector<double> patchAreas;           ///< one a patch [Å^2]
-    std::vector<openvdb::Vec3d> patchNormals; ///< of each patch the integral of its normal [Å^2]
-    /// What each patch adds to the Euler characteristic: its faces, less half of the arcs about
-    /// them and with a third of the corners. They add up to those of all pieces.
-    std::vector<double> patchEuler;
+    std::vector<BoundaryPiece> pieces;   ///< in the order of their first ball
+    std::vector<double> patchAreas;      ///< one a patch [Å^2]
     std::vector<BoundaryFace> faces;     ///< of all patches, in their order
     std::vector<std::int32_t> arcPieces; ///< of each arc the piece that it lies on, or -1
     /// Of each arc the faces on the spheres of its two balls, indices of `faces`.

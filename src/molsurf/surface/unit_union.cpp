@@ -56,28 +56,24 @@ double eulerOfUnit(const std::vector<Ball>& balls, const std::vector<double>& we
         return count > 0.0 ? sum / count : 0.0;
     };
     const BallBoundary& boundary = all.boundary;
-    std::vector<double> faces(balls.size(), 0.0); // of each ball: less holes
-    std::vector<Vec3d> places(balls.size());      // of each ball: on the longest of its arcs
+    std::vector<Vec3d> places(balls.size()); // of each ball: on the longest of its arcs
     std::vector<double> longest(balls.size(), 0.0);
     double euler = 0.0;
     for (const Arc& arc : boundary.arcs) {
         const Vec3d middle = arc.centre + arc.radius * arc.middle;
-        const bool open = arc.ends[0] >= 0;
-        if (open) euler -= weightAt(middle);
+        if (arc.ends[0] >= 0) euler -= weightAt(middle);
         for (const std::int32_t place : arc.balls) {
             const std::size_t i = all.indexOf(place);
-            if (open) faces[i] += 1.0 / 6.0; // what patchEuler has of the arc and its corners
             if (arc.half * arc.radius <= longest[i]) continue;
             longest[i] = arc.half * arc.radius;
             places[i] = middle;
         }
     }
     for (const Corner& corner : boundary.corners) euler += weightAt(corner.position);
-    for (std::size_t p = 0; p < boundary.patches.size(); ++p) {
-        const std::size_t i = all.ballOf(p);
-        const double weight =
-            all.measure.patchAreas[p] < leastPatch ? weightAt(places[i]) : weights[i];
-        euler += weight * (faces[i] + all.measure.patchEuler[p]);
+    for (const BoundaryFace& face : all.measure.faces) {
+        const std::size_t i = all.ballOf(face.patch);
+        const bool tiny = all.measure.patchAreas[face.patch] < leastPatch;
+        euler += (tiny ? weightAt(places[i]) : weights[i]) * face.characteristic;
     }
     return euler;
 }
@@ -102,12 +98,11 @@ UnitShare shareOfUnit(const BallSet& atoms, double grown, const Progress& progre
     for (Ball& ball : balls) ball.radius += grown;
     const MeasuredUnion all(balls, progress);
     std::vector<double> areas(balls.size(), 0.0), fluxes(balls.size(), 0.0);
-    for (std::size_t p = 0; p < all.boundary.patches.size(); ++p) {
-        const Patch& patch = all.boundary.patches[p];
-        const Vec3d& normal = all.measure.patchNormals[p];
-        areas[all.ballOf(p)] += all.measure.patchAreas[p];
-        fluxes[all.ballOf(p)] +=
-            patch.radius * all.measure.patchAreas[p] + (patch.centre - unit.centre).dot(normal);
+    for (const BoundaryFace& face : all.measure.faces) {
+        const Patch& patch = all.boundary.patches[face.patch];
+        areas[all.ballOf(face.patch)] += face.area;
+        fluxes[all.ballOf(face.patch)] +=
+            patch.radius * face.area + (patch.centre - unit.centre).dot(face.normal);
     }
 
     UnitShare sum;
