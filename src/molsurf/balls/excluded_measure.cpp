@@ -124,7 +124,7 @@ struct CornerScratch {
     std::vector<std::uint8_t> used;
     std::vector<std::int32_t> touched; // balls
     RegionScratch room;
-    SphereRegion region, share;
+    SphereRegion region;
 };
 
 /// A cone of directions.
@@ -257,8 +257,7 @@ void shareRegion(const BallBoundary& boundary, const Vec3d& place, double probe,
             if (cosine < 1.0) s.shared.push_back({way / d, cosine});
         }
         if (none) continue;
-        findRegion(s.shared, inside, s.room, s.share);
-        part.shares.emplace_back(k, s.share.area * probe * probe);
+        part.shares.emplace_back(k, regionArea(s.shared, inside, s.room) * probe * probe);
     }
 }
 

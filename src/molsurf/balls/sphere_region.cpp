@@ -239,4 +239,13 @@ void findRegion(const std::vector<SphereCap>& caps, const Vec3d& inside, RegionS
         loops < 0 ? 2.0 * M_PI : std::abs(region.area + turned - 2.0 * M_PI * characteristic);
 }
 
+double regionArea(const std::vector<SphereCap>& caps, const Vec3d& inside, RegionScratch& scratch)
+{
+    scratch.arcs.clear();
+    for (int k = 0; k < int(caps.size()); ++k) addRimArcs(caps, k, scratch, scratch.arcs);
+    double area = 0.0;
+    for (const RimArc& arc : scratch.arcs) area -= fan(arc, caps[std::size_t(arc.cap)], inside);
+    return area;
+}
+
 } // namespace molsurf

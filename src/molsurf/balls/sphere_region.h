@@ -52,6 +52,7 @@ struct RegionScratch {
         int cap;
     };
     std::vector<Cover> covers;
+    std::vector<RimArc> arcs;
     std::vector<int> next; // after each arc, along the loop
     std::vector<RegionFace> loops;
 };
@@ -65,5 +66,9 @@ struct RegionScratch {
 /// @param[in] inside  a unit vector; caps cover all that is more than 90 degrees away from it
 void findRegion(const std::vector<SphereCap>& caps, const openvdb::Vec3d& inside,
                 RegionScratch& scratch, SphereRegion& region);
+
+/// The area alone of what findRegion() finds, to the same bits [sr].
+double regionArea(const std::vector<SphereCap>& caps, const openvdb::Vec3d& inside,
+                  RegionScratch& scratch);
 
 } // namespace molsurf

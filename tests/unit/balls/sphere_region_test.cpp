@@ -26,6 +26,7 @@ SphereRegion regionOf(const std::vector<SphereCap>& caps, const Vec3d& inside)
     RegionScratch scratch;
     SphereRegion region;
     findRegion(caps, inside, scratch, region);
+    EXPECT_EQ(regionArea(caps, inside, scratch), region.area);
     return region;
 }
 
