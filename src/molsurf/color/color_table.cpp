@@ -141,12 +141,41 @@ void foldClasses(const BallSet& atoms, Legend& legend)
     for (LegendEntry& entry : legend.entries) entry.name.erase(0, word.size());
 }
 
-ColorKind byChain()
+/// A row of what labels tell, with a colour for each name.
+ColorKind byLabels(ColorBy by, const char* word, const char* title, const char* attribute = "")
 {
-    ColorKind kind{ColorBy::Chain, "chain", "Chain", "chain_id"};
-    kind.offered = true;
+    ColorKind kind{by, word, title, attribute};
     kind.needs = "labels, as of SelectOptions::labels";
     kind.has = hasLabels;
+    kind.hasBorders = always;
+    return kind;
+}
+
+/// A row of the kinds of residues, by the names and colours of a list.
+/// @tparam sorted  whether the legend is sorted by name; else entries are in the order of the balls
+template<const auto& rows, bool sorted>
+ColorKind byClass(ColorBy by, const char* word, const char* title)
+{
+    ColorKind kind = byLabels(by, word, title);
+    kind.ofBalls = [](const BallSet& atoms, const Progress&) {
+        return eachOf(atoms.labels->residueClassOf,
+                      [](ResidueClass c) { return rowOf(rows, c).color; });
+    };
+    kind.describe = [](const BallSet& atoms, const Mesh&, const Progress&, Legend& legend) {
+        addKinds(
+            atoms.labels->residueClassOf, [](ResidueClass c) { return rowOf(rows, c).name; },
+            [](ResidueClass c) { return rowOf(rows, c).color; }, legend);
+        if (sorted)
+            std::sort(legend.entries.begin(), legend.entries.end(),
+                      [](const auto& a, const auto& b) { return a.name < b.name; });
+    };
+    return kind;
+}
+
+ColorKind byChain()
+{
+    ColorKind kind = byLabels(ColorBy::Chain, "chain", "Chain", "chain_id");
+    kind.offered = true;
     kind.ofBalls = [](const BallSet& atoms, const Progress& progress) {
         return spread(chainColors(atoms, progress), atoms.labels->chainOf);
     };
@@ -156,13 +185,12 @@ ColorKind byChain()
         for (std::size_t i = 0; i < colors.size(); ++i)
             legend.entries.push_back({atoms.labels->chains[i], colors[i]});
     };
-    kind.hasBorders = always;
     return kind;
 }
 
 ColorKind byGroup()
 {
-    ColorKind kind{ColorBy::Group, "group", "Group", "group_id"};
+    ColorKind kind = byLabels(ColorBy::Group, "group", "Group", "group_id");
     kind.offered = true;
     kind.needs = "groups, as of SelectOptions::groupBy";
     kind.has = hasGroups;
@@ -176,61 +204,19 @@ ColorKind byGroup()
             legend.entries.push_back({atoms.labels->groups[i].name, colors[i]});
         foldClasses(atoms, legend);
     };
-    kind.hasBorders = always;
     return kind;
 }
 
 /// By the CPK convention, with Jmol's values.
 ColorKind byElement()
 {
-    ColorKind kind{ColorBy::Element, "element", "Element"};
-    kind.needs = "labels, as of SelectOptions::labels";
-    kind.has = hasLabels;
+    ColorKind kind = byLabels(ColorBy::Element, "element", "Element");
     kind.ofBalls = [](const BallSet& atoms, const Progress&) {
         return eachOf(atoms.labels->elementOf, elementColor);
     };
     kind.describe = [](const BallSet& atoms, const Mesh&, const Progress&, Legend& legend) {
         addKinds(atoms.labels->elementOf, elementSymbol, elementColor, legend);
     };
-    kind.hasBorders = always;
-    return kind;
-}
-
-ColorKind byResidue()
-{
-    ColorKind kind{ColorBy::Residue, "residue", "Residue"};
-    kind.needs = "labels, as of SelectOptions::labels";
-    kind.has = hasLabels;
-    kind.ofBalls = [](const BallSet& atoms, const Progress&) {
-        return eachOf(atoms.labels->residueClassOf,
-                      [](ResidueClass c) { return rowOf(classColors, c).color; });
-    };
-    kind.describe = [](const BallSet& atoms, const Mesh&, const Progress&, Legend& legend) {
-        addKinds(
-            atoms.labels->residueClassOf, [](ResidueClass c) { return rowOf(classColors, c).name; },
-            [](ResidueClass c) { return rowOf(classColors, c).color; }, legend);
-    };
-    kind.hasBorders = always;
-    return kind;
-}
-
-ColorKind byNucleotide()
-{
-    ColorKind kind{ColorBy::Nucleotide, "nucleotide", "Nucleotide"};
-    kind.needs = "labels, as of SelectOptions::labels";
-    kind.has = hasLabels;
-    kind.ofBalls = [](const BallSet& atoms, const Progress&) {
-        return eachOf(atoms.labels->residueClassOf,
-                      [](ResidueClass c) { return rowOf(baseColors, c).color; });
-    };
-    kind.describe = [](const BallSet& atoms, const Mesh&, const Progress&, Legend& legend) {
-        addKinds(
-            atoms.labels->residueClassOf, [](ResidueClass c) { return rowOf(baseColors, c).name; },
-            [](ResidueClass c) { return rowOf(baseColors, c).color; }, legend);
-        std::sort(legend.entries.begin(), legend.entries.end(),
-                  [](const auto& a, const auto& b) { return a.name < b.name; });
-    };
-    kind.hasBorders = always;
     return kind;
 }
 
@@ -308,8 +294,8 @@ const std::vector<ColorKind>& colorTable()
         byChain(),
         byGroup(),
         byElement(),
-        byResidue(),
-        byNucleotide(),
+        byClass<classColors, false>(ColorBy::Residue, "residue", "Residue"),
+        byClass<baseColors, true>(ColorBy::Nucleotide, "nucleotide", "Nucleotide"),
         illustrative(),
         byCurvature(ColorBy::MeanCurvature, "mean-curvature", "Mean curvature", "mean_curvature",
                     "1/Å"),
