@@ -168,6 +168,13 @@ void checkBoundary(const BallBoundary& boundary, const BoundaryMeasure& measure,
         disagree("boundary: volume by patches and by power cells", volume, estimate.volume);
 }
 
+BoundaryMeasure checkedMeasure(const BallBoundary& boundary, const Progress& progress)
+{
+    BoundaryMeasure measure = measureBoundary(boundary, progress);
+    checkBoundary(boundary, measure, progress);
+    return measure;
+}
+
 MeshTolerance meshTolerance(const BallBoundary& boundary, const BoundaryMeasure& measure,
                             double voxel)
 {

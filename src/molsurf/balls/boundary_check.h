@@ -40,6 +40,9 @@ std::size_t raysFor(std::size_t balls);
 void checkBoundary(const BallBoundary& boundary, const BoundaryMeasure& measure,
                    const Progress& progress);
 
+/// Measures a boundary, and checks the measures as above.
+BoundaryMeasure checkedMeasure(const BallBoundary& boundary, const Progress& progress);
+
 /// Largest errors of a mesh: of its area [Å^2] and its volume [Å^3].
 struct MeshTolerance {
     double area, volume;

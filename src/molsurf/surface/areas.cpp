@@ -22,9 +22,7 @@ std::vector<double> exposedAreas(const std::vector<Ball>& balls, double probe,
     if (balls.empty()) return {};
     checkFinite(balls);
     const BallBoundary boundary = ballBoundary(balls, probe, progress);
-    const BoundaryMeasure measure = measureBoundary(boundary, progress);
-    checkBoundary(boundary, measure, progress);
-    return areasOfBalls(boundary, measure, balls.size());
+    return areasOfBalls(boundary, checkedMeasure(boundary, progress), balls.size());
 }
 
 std::vector<ContactArea> contactAreas(const std::vector<Ball>& balls, double probe,

@@ -30,8 +30,7 @@ MeshTolerance excludedTolerance(const BallBoundary& boundary, const BoundaryMeas
 ClosedForm measureClosedForm(const BallBoundary& boundary, const SurfaceOptions& options,
                              std::size_t count, const Progress& progress)
 {
-    BoundaryMeasure measure = measureBoundary(boundary, progress);
-    checkBoundary(boundary, measure, progress);
+    BoundaryMeasure measure = checkedMeasure(boundary, progress);
     ClosedForm out;
     const double probe = offsetOf(options);
     if (probe == 0.0) {

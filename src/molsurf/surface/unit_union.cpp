@@ -22,9 +22,8 @@ struct MeasuredUnion {
     BoundaryMeasure measure;
 
     MeasuredUnion(const std::vector<Ball>& balls, const Progress& progress)
-        : boundary(ballBoundary(balls, 0.0, progress)), measure(measureBoundary(boundary, progress))
+        : boundary(ballBoundary(balls, 0.0, progress)), measure(checkedMeasure(boundary, progress))
     {
-        checkBoundary(boundary, measure, progress);
     }
 
     std::size_t ballOf(std::size_t patch) const { return indexOf(boundary.patches[patch].ball); }
