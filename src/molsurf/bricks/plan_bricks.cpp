@@ -8,6 +8,7 @@
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/check_balls.h"
 #include "molsurf/surface/influence.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -39,6 +40,8 @@ constexpr double bytesPerCoarseLeaf = 2.2e3;    // of the whole at rest on voxel
 constexpr double bytesPerMeshLeaf = 11e3;       // within the halo of the spline
 constexpr double bytesPerUnionLeaf = 14.5e3;    // the same where the surface may pass each atom
 constexpr double sharePerProbe = 0.4;           // fewer of both, for each Å of the probe
+constexpr double bytesPerExcludedBall = 3.9e3;  // ses in closed form, which a whole alone has
+constexpr double fewerPerProbe3 = 0.63;         // of these, for each Å^3 of the probe's cube
 constexpr double bytesPerKeptLeaf = 7e3; // of the flow, where these are kept for the next brick
 constexpr double bytesPerValueOfLeaf = 2.5e3; // of a grid that goes along with the surface
 // On one core of a Xeon of 2.6 GHz: on 6ZU5 and 1K4R at 0.5 and 1 Å, both kinds, these give 0.75 to
@@ -266,7 +269,9 @@ public:
             double grain, double most, const Progress& progress)
         : options_(options), influence_(influence), grain_(grain), atoms_(atoms.balls.size()),
           occupancy_(occupancyOf(atoms.balls, grain, influence.ofSurface(), most, progress)),
-          weight_(occupancy_.sample.every)
+          weight_(occupancy_.sample.every),
+          excluded_(isClosedForm(options) && offsetOf(options) > 0.0 && !options.fillCavities &&
+                    !atoms.unit)
     {
     }
 
@@ -314,7 +319,12 @@ public:
                                    : share * bytesPerUnionLeaf;
         // What follows the flow is made twice, the second time beside the first level set.
         const double filled = options_.fillCavities ? 1.45 : 1.0;
-        const double forMesh = filled * perLeaf * inSpline;
+        const double probe = probeOf(options_);
+        const double forClosedForm = excluded_ && box == occupancy_.box
+                                         ? bytesPerExcludedBall * double(balls) /
+                                               (1.0 + fewerPerProbe3 * probe * probe * probe)
+                                         : 0.0;
+        const double forMesh = std::max(filled * perLeaf * inSpline, forClosedForm);
         brick.bytes = std::size_t(
             processBytes + coarse + bytesPerAtom * double(atoms_) + perBall * double(balls) +
             (keeping_ ? bytesPerKeptLeaf * inFlow + forMesh : std::max(forFlow, forMesh)) +
@@ -437,6 +447,7 @@ private:
     std::size_t atoms_;
     Occupancy occupancy_;
     unsigned weight_; // leaves for which one of the sample stands
+    bool excluded_;   // whether the whole has the closed form of a solvent-excluded surface
 };
 
 double secondsOf(const std::vector<PlannedBrick>& bricks)
