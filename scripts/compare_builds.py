@@ -49,6 +49,17 @@ def cases():
     for more in ["", " --start warm --fields v"]:
         yield ["@1d3z.pdb.gz --voxel 1 --frames 1-3 -o f.vdb -o f.ply -o f.json -o f.csv" + more]
     yield ["@1d3z.pdb.gz --trajectory @1d3z.xtc --frames 1-3 --voxel 1 -o f.vdb -o f.glb"]
+    dimer = "@1a8o.cif.gz --assembly 1 --voxel 1"
+    for kind in KINDS:
+        yield [f"{dimer} --by-symmetry --surface {kind} --color chain -o a.ply -o a.glb -o a.json -o a.obj"]
+    yield [f"{dimer} --by-symmetry --weld --fields mean_curvature --color copy -o a.ply -o a.html -o a.stl"]
+    yield [f"{dimer} --by-symmetry --surface sas -o a.json -o a.atoms.csv -o a.residues.pdb"]
+    yield [f"{dimer} --instances --color element -o a.glb -o a.usda -o a.html -o a.png -o a.json"]
+    for color, kind in (("chain", "ses"), ("residue", "vdw"), ("element", "sas"), ("element", "variational")):
+        yield [f"@4at1.ent.gz --voxel 1 --surface {kind} --color {color} --crisp -o a.ply -o a.obj -o a.3mf -o a.png"]
+    for kind in KINDS:
+        yield [f"@4at1.ent.gz --voxel 1 --surface {kind} -o a.atoms.csv -o a.contacts.csv -o a.interfaces.csv -o a.cif"]
+    yield ["@1ubq.pdb --surface ses --color bfactor -o a.html -o a.wrl -o a.off --areas atoms,residues -o a.json"]
     yield ["compare @1crn.pdb @1ubq.pdb -o c.ply -o c.vdb -o c.json"]
     yield ["@1crn.pdb --fields spline,chain_id,Cd --color chain -o a.vdb",
            ("mesh", "a.vdb -o b.ply -o b.glb -o b.json -o b.obj"),
@@ -98,7 +109,7 @@ def content(path):
     if path.suffix == ".vdb":
         data = data[:21] + data[57:]  # the UUID
         return without(without(data, b"command"), b"frames.options")
-    if path.suffix in (".csv", ".brick"):
+    if path.suffix == ".brick" or path.name == "f.csv":
         return None
     return data
 

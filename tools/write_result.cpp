@@ -238,14 +238,13 @@ std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh
     const bool shown = std::any_of(call.outputs.begin(), call.outputs.end(),
                                    [&](const Output& o) { return isCrisp(call, o); });
     if (!named || !shown || !mesh.parts.empty()) return std::nullopt;
-    const SurfaceKind kind = call.options.kind;
-    const bool spheres = kind == SurfaceKind::VanDerWaals || kind == SurfaceKind::SolventAccessible;
+    const KindRow& kind = rowOf(call.options.kind);
     std::vector<Ball> balls = atoms.balls;
     for (Ball& ball : balls)
-        if (isUnion(kind)) ball.radius += grownBy(call.options);
+        if (kind.isUnion) ball.radius += probeOf(call.options);
     return withCrispBorders(mesh, balls,
                             atoms.colors.empty() ? ballColors(atoms, by, progress) : atoms.colors,
-                            spheres ? call.options.voxel : 0.0,
+                            kind.isUnion && !kind.hasOffset ? call.options.voxel : 0.0,
                             by == ColorBy::Value ? atoms.labels->values->name : "", progress);
 }
 

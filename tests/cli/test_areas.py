@@ -288,7 +288,7 @@ class Areas(ToolTest):
                 (["-o", "a.contacts.csv", "--by-symmetry", "--assembly", "1", *SAS], "--by-symmetry together"),
                 (["-o", "a.pdb", "--dry-run", *SAS], ["(-o a.pdb) and --dry-run together", "[hint: "]),
                 (["-o", "a.residues.json"], ["no residues as .json", "[hint: -o FILE.residues.csv"]),
-                (["-o", "a.table.csv"], "-o .csv is for --frames")):
+                (["-o", "a.table.csv"], ["-o a.table.csv: expected --frames", "[hint: -o FILE.residues.csv"])):
             self.check(2, CRAMBIN, *words, *([] if "-o" in words else ["-o", "a.json"]), says=says)
         self.check(0, CRAMBIN, *FAST, "-o", "a.vdb")
         self.check(2, "convert", "a.vdb", "-o", "a.atoms.csv", says="convert writes .vdb, .ply,")

@@ -89,7 +89,7 @@ class WrongCalls(ToolTest):
 
     def test_order_of_options_does_not_decide(self):
         for words in (("--epsilon", "1", "--resolution", "5"), ("--resolution", "5", "--epsilon", "1")):
-            self.refuse(CRAMBIN, "-o", "a.vdb", *words, says="--epsilon and a --resolution")
+            self.refuse(CRAMBIN, "-o", "a.vdb", *words, says="--resolution together: a resolution for all atoms")
 
     def test_files_that_hold_no_colours_or_fields(self):
         self.check(0, CRAMBIN, *FAST, "--color", "chain", "-o", "a.stl", says="none of the files can hold colours")

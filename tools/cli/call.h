@@ -106,6 +106,15 @@ struct Call : Settings {
     bool writesOnly(unsigned some) const;
     bool drawsLegend() const;
 
+    /// Whether one of the surfaces is of such a kind.
+    template<typename Such>
+    bool builds(const Such& such) const
+    {
+        bool any = such(options.kind);
+        for (const auto& [group, kind] : options.surfaceOf) any = any || such(kind);
+        return any;
+    }
+
     /// Whether copies of an assembly, which nodes place, have colours.
     bool colorsCopies() const
     {

@@ -2,6 +2,7 @@
 #include "cli/complete.h"
 
 #include "cli/option_table.h"
+#include "cli/pair_table.h"
 #include "cli/verb_table.h"
 #include "sidecar.h"
 
@@ -13,6 +14,7 @@
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/frame_source.h"
 #include "molsurf/surface/surface_kind.h"
+#include "molsurf/surface/unit_run.h"
 
 #include <algorithm>
 #include <charconv>
@@ -56,13 +58,9 @@ std::vector<Output> outputsOf(const Call& call)
 {
     if (call.paths.empty() && call.verb != Compare)
         misuse("nothing to write [hint: -o FILE, for example -o surface.vdb]");
-    if (!call.format.empty() && std::count(call.paths.begin(), call.paths.end(), "-") == 0)
-        misuse("--format is for -o - only; the extension of a file says what it is");
     std::vector<Output> outputs;
     std::set<std::string> seen;
     for (const std::string& path : call.paths) {
-        if (path == "-" && call.format.empty())
-            misuse("-o -: expected --format too [hint: --format ply, for example]");
         std::error_code ignored;
         const std::string real =
             path == "-" ? path : fs::weakly_canonical(fs::absolute(path), ignored).string();
@@ -91,54 +89,20 @@ void takeInput(Call& call, const std::string& what, const std::string& hint)
     call.input = call.inputs[0];
 }
 
-bool builds(const Call& call, SurfaceKind kind)
+// Says what changes none of the surfaces that are built.
+void warnOfKinds(Call& call)
 {
-    const auto& others = call.options.surfaceOf;
-    return call.options.kind == kind ||
-           std::any_of(others.begin(), others.end(),
-                       [=](const auto& of) { return of.second == kind; });
-}
-
-void warnIfGiven(Call& call, std::initializer_list<const char*> options, const std::string& is)
-{
-    for (const char* name : options)
-        if (call.has(name)) call.warnings.push_back(std::string("--") + name + " is for " + is);
-}
-
-/// Options that make sense together, or not.
-struct Rule {
-    const char* option;
-    std::vector<std::string> others; ///< of which it needs one, or excludes all
-    const char* why = "";            ///< the end of the message
-};
-
-const std::vector<Rule>& needed()
-{
-    static const std::vector<Rule> all = {{"min-wall", {"print-scale"}},
-                                          {"weld", {"by-symmetry"}},
-                                          {"lod", {"instances", "by-symmetry"}},
-                                          {"instances", {"assembly"}, " [hint: --assembly 1]"},
-                                          {"by-symmetry", {"assembly"}, " [hint: --assembly 1]"}};
-    return all;
-}
-
-const std::vector<Rule>& excluded()
-{
-    static const std::vector<Rule> all = {
-        {"groups", {"group-by"}},
-        {"steps", {"max-steps"}},
-        {"no-hetero", {"hetero", "ions"}},
-        {"quiet", {"verbose"}},
-        {"lod", {"voxel"}, ": the first of --lod is the voxel"},
-        {"frames", {"memory", "dry-run", "turntable"}},
-        {"trajectory", {"memory", "dry-run", "turntable"}},
-        {"weld", {"crisp"}},
-        {"instances",
-         {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center"}},
-        {"by-symmetry",
-         {"instances", "copies", "split", "surface-of", "frames", "trajectory", "memory", "dry-run",
-          "center", "fill-cavities", "match-volume"}}};
-    return all;
+    for (const Setting& row : settingTable()) {
+        const std::vector<SurfaceKind>& kinds = row.kinds;
+        if (!call.has(row.name) || kinds.empty() || call.builds([&](SurfaceKind kind) {
+                return std::count(kinds.begin(), kinds.end(), kind) > 0;
+            }))
+            continue;
+        std::vector<std::string> words;
+        for (const SurfaceKind kind : kinds) words.push_back(nameOf(kind));
+        call.warnings.push_back(std::string("--") + row.name + " is for --surface " +
+                                joinWords(words, " or "));
+    }
 }
 
 // To be called before completeSurface().
@@ -164,7 +128,6 @@ void addTurntable(Call& call)
             outputs.push_back(output);
             continue;
         }
-        if (output.path == "-") misuse("--turntable: expected a file for the pictures, got -");
         for (int n = 0; n < call.turntable; ++n) {
             char number[16];
             std::snprintf(number, sizeof number, ".%04d", n + 1);
@@ -181,17 +144,14 @@ void addTurntable(Call& call)
 // Says what none of the files can hold.
 void warnOfLosses(Call& call)
 {
-    if (call.atoms.valueRange && call.atoms.valueBy.empty())
-        call.warnings.push_back("--range is for --color by a value, as bfactor");
-    if (call.crisp && !kindOf(call.options.color).hasBorders)
-        call.warnings.push_back("--crisp is for --color chain, group, element or residue");
-    if (call.crisp && (call.options.split || !call.options.surfaceOf.empty()))
-        call.warnings.push_back("--crisp is not for surfaces of their own");
+    warnOfPairs(call);
     if (call.outputs.empty()) return;
     for (const OptionGroup& group : optionTable())
         for (const Option& option : group.options)
-            if ((option.verbs & call.verb) && option.shownIn && !call.writes(option.shownIn))
-                warnIfGiven(call, {option.name}, endingsOf(option.shownIn, call.verb));
+            if ((option.verbs & call.verb) && call.has(option.name) && option.shownIn &&
+                !call.writes(option.shownIn))
+                call.warnings.push_back(std::string("--") + option.name + " is for " +
+                                        endingsOf(option.shownIn, call.verb));
     const bool means = call.options.ballAreas && !call.atoms.valueBy.empty(); // in tables
     if (call.has("color") && call.options.color != ColorBy::Nothing && !means &&
         !call.writes(Colors))
@@ -206,28 +166,21 @@ void warnOfLosses(Call& call)
                                 ": none of the files can hold that [hint: -o .vdb]");
 }
 
-void completeFrames(Call& call)
+void dropField(Call& call, const char* field)
 {
     std::vector<std::string>& fields = call.options.fields;
+    fields.erase(std::remove(fields.begin(), fields.end(), field), fields.end());
+}
+
+void completeFrames(Call& call)
+{
     if (call.frames.empty() && !call.trajectory.empty()) call.frames = "all";
     if (call.frames.empty()) {
-        if (call.writes(FrameRows))
-            misuse("-o .csv is for --frames [hint: -o FILE.residues.csv for areas]");
-        warnIfGiven(call, {"start"}, "--frames");
-        if (call.has("fields")) {
-            const auto words = splitWords(call.given.at("fields").back());
-            if (std::count(words.begin(), words.end(), "v"))
-                misuse("--fields v: a surface moves from frame to frame [hint: --frames]");
-        }
-        fields.erase(std::remove(fields.begin(), fields.end(), "v"), fields.end());
+        dropField(call, "v");
         return;
     }
     parseFrames(call.frames);
-    if (call.trajectory.empty() && call.has("model"))
-        misuse("--model and --frames together: frames are models [hint: --trajectory]");
     if (call.trajectory == "-") misuse("--trajectory -: expected a file, it is read at random");
-    for (const Output& output : call.outputs)
-        if (output.path == "-") misuse("--frames: expected files to write, got -");
 }
 
 /// Whether all that is asked for is known in closed form.
@@ -244,21 +197,12 @@ bool asksForNumbers(const Call& call)
            call.writesOnly(some);
 }
 
-/// The first file with areas by atom.
-std::string areaFile(const Call& call)
-{
-    for (const Output& output : call.outputs)
-        if (output.holds(Areas)) return output.path;
-    return "";
-}
-
 // To be called before completeGroups().
 void completeAreas(Call& call)
 {
     std::set<std::string> tables(call.areas.begin(), call.areas.end());
     for (const Output& output : call.outputs)
         if (output.holds(Areas)) tables.insert(output.format->table);
-    if (tables.count("contacts") == 0) warnIfGiven(call, {"contacts"}, ".contacts.csv");
     if (!call.has("surface") && (!tables.empty() || call.options.interfaces)) {
         // The field's words mean this surface.
         call.options.areasOf = SurfaceKind::SolventAccessible;
@@ -267,29 +211,9 @@ void completeAreas(Call& call)
     call.options.grid = !asksForNumbers(call);
     if (tables.empty()) return;
     SurfaceOptions& options = call.options;
-    const auto refuse = [&](const char* option, const char* hint) {
-        if (call.has(option))
-            misuse("areas by atom (" +
-                   std::string(call.areas.empty() ? "-o " + areaFile(call) : "--areas") +
-                   ") and --" + option + " together" + hint);
-    };
-    refuse("coarse", " [hint: a run without --coarse]");
-    refuse("split", " [hint: --interfaces has the areas of groups alone]");
-    refuse("surface-of", " [hint: a run without --surface-of]");
-    refuse("instances", " [hint: --by-symmetry has those of a unit in the whole]");
-    if (options.grid) refuse("memory", " [hint: --surface sas needs no grid]");
-    refuse("dry-run", " [hint: --dry-run -o FILE.vdb]");
     call.atoms.names = true;
     options.contacts = tables.count("contacts") > 0;
     options.ballAreas = tables.size() > std::size_t(options.contacts);
-    SurfaceOptions shown = options;
-    shown.kind = options.areasOf.value_or(options.kind);
-    if (call.atoms.bySymmetry && options.ballAreas && !isBoundary(shown))
-        misuse("areas of atoms and --by-symmetry together: expected a closed form [hint: --surface "
-               "sas or vdw]");
-    if (call.atoms.bySymmetry && (options.contacts || tables.count("interfaces") > 0))
-        misuse("contacts or interfaces of residues and --by-symmetry together [hint: without "
-               "--by-symmetry]");
     if (tables.count("interfaces") == 0) return;
     options.interfaces = true;
     if (call.groupsFile.empty() && call.atoms.groupBy.empty() && call.colorGroups.empty())
@@ -301,23 +225,10 @@ void completeGroups(Call& call)
     SurfaceOptions& options = call.options;
     if (!call.groupsFile.empty())
         call.atoms.groups = readGroups(call.groupsFile, call.atoms.maxInput);
-    const bool copies = call.colorGroups == "copy";
-    const bool asNodes = copies && (call.atoms.instances || call.atoms.bySymmetry);
-    if (!call.colorGroups.empty() && !asNodes) {
-        if (copies && call.atoms.assembly == "none")
-            misuse("--color copy: expected --assembly too");
-        if (!call.groupsFile.empty() || !call.atoms.groupBy.empty())
-            misuse("--color " + call.colorGroups + " and groups together [hint: --group-by " +
-                   call.colorGroups + " --color group]");
+    if (!call.colorGroups.empty() && !call.colorsCopies()) {
         call.atoms.groupBy = call.colorGroups;
         options.color = ColorBy::Group;
     }
-    const bool groups = !call.groupsFile.empty() || !call.atoms.groupBy.empty();
-    for (const char* name : {"split", "surface-of", "interfaces"})
-        if (call.has(name) && !groups)
-            misuse("--" + std::string(name) + ": expected --groups or --group-by too");
-    if (options.color == ColorBy::Group && !groups)
-        misuse("--color group: expected --groups or --group-by too");
     const auto has = [&](const char* field) { return hasField(options.fields, field); };
     if (has("Cd") && options.color == ColorBy::Nothing) options.color = ColorBy::Chain;
     call.atoms.labels = options.color != ColorBy::Nothing || has("chain_id") || has("Cd") ||
@@ -326,16 +237,7 @@ void completeGroups(Call& call)
 
 void completeInstances(Call& call)
 {
-    if (!call.atoms.instances) {
-        for (const Output& output : call.outputs)
-            if (output.holds(Stage) && !call.atoms.bySymmetry)
-                misuse("-o " + output.path +
-                       ": expected --instances too [hint: --for usd -o FILE.vdb writes a volume]");
-        return;
-    }
-    if (call.atoms.valueBy == "radius" || call.atoms.valueBy.rfind("potential", 0) == 0)
-        misuse("--instances and --color " +
-               call.atoms.valueBy.substr(0, call.atoms.valueBy.find('=')) + " together");
+    if (!call.atoms.instances) return;
     for (const Output& output : call.outputs)
         if (!output.holds(Copies))
             call.warnings.push_back(
@@ -355,72 +257,27 @@ void completeLevels(Call& call)
 void completeSymmetry(Call& call)
 {
     if (!call.atoms.bySymmetry) return;
-    for (const Output& output : call.outputs)
-        if (output.holds(Grids))
-            misuse("-o " + output.path +
-                   ": --by-symmetry makes no grid of the whole [hint: --memory 8G in its place "
-                   "makes it in bricks]");
-    if (call.atoms.valueBy.rfind("potential", 0) == 0)
-        misuse("--by-symmetry and --color potential together");
-    for (const std::string& field : call.options.fields)
-        if (!findCurvatureField(field)) misuse("--by-symmetry and --fields " + field + " together");
+    checkUnitOptions(call.options);
     SurfaceOptions coarsest = call.options;
     if (!call.lod.empty()) coarsest.voxel = call.lod.back();
     call.atoms.surroundings = surroundingsOf(coarsest);
 }
 
-void completeResolutions(Call& call)
-{
-    const auto& rules = call.atoms.resolutions;
-    const bool all = std::any_of(rules.begin(), rules.end(),
-                                 [](const ResolutionRule& rule) { return rule.select.empty(); });
-    if (all && call.has("epsilon"))
-        misuse("--epsilon and a --resolution for all atoms together: both say how smooth it is");
-    if (call.options.matchVolume && rules.empty())
-        call.warnings.push_back("--match-volume is for --resolution");
-}
-
 } // namespace
-
-void checkPairs(const Call& call)
-{
-    const auto given = [&](const std::string& name) {
-        const auto found = call.given.find(name); // a switch has no values
-        return found != call.given.end() &&
-               (found->second.empty() || lowered(found->second.back()) != "none");
-    };
-    for (const Rule& rule : excluded())
-        for (const std::string& other : rule.others)
-            if (given(rule.option) && given(other))
-                misuse("--" + std::string(rule.option) + " and --" + other + " together" +
-                       rule.why);
-    for (const Rule& rule : needed())
-        if (given(rule.option) && std::none_of(rule.others.begin(), rule.others.end(), given))
-            misuse("--" + std::string(rule.option) + ": expected --" +
-                   joinWords(rule.others, " or --") + " too" + rule.why);
-}
 
 void completeSurface(Call& call)
 {
-    completeResolutions(call);
     completeAreas(call);
     completeGroups(call);
     SurfaceOptions& options = call.options;
     checkOptions(call.atoms);
     checkOptions(options);
 
-    if (!builds(call, SurfaceKind::Variational))
-        warnIfGiven(call,
-                    {"epsilon", "resolution", "match-volume", "lambda", "regularizer", "flow",
-                     "max-steps", "steps", "tolerance"},
-                    "--surface variational");
-    if (!builds(call, SurfaceKind::Gaussian))
-        warnIfGiven(call, {"blobbiness"}, "--surface gaussian");
+    warnOfKinds(call);
     if (options.voxel > coarseVoxel)
         call.warnings.push_back("--voxel " + shortest(options.voxel) +
                                 ": voxels this large cannot show the atoms");
-    if (call.has("epsilon") && builds(call, SurfaceKind::Variational) &&
-        options.epsilon < 0.5 * options.voxel)
+    if (call.has("epsilon") && call.builds(hasFlow) && options.epsilon < 0.5 * options.voxel)
         call.warnings.push_back("--epsilon " + shortest(options.epsilon) +
                                 ": a tolerance below half a voxel is not resolved");
 }
@@ -452,8 +309,7 @@ void completeBatch(Call& call)
                    call.formats + "'");
         call.outputs.push_back({"." + word, format});
     }
-    std::vector<std::string>& fields = call.options.fields;
-    fields.erase(std::remove(fields.begin(), fields.end(), "v"), fields.end());
+    dropField(call, "v");
     completeScene(call);
     completeSurface(call);
     if (call.turntable > 0) addTurntable(call);
@@ -479,8 +335,6 @@ void completeConvert(Call& call)
     takeInput(call, "convert: expected one .vdb file",
               " [hint: vdb_molsurf convert surface.vdb -o surface.ply]");
     if (!call.dryRun || !call.paths.empty()) call.outputs = outputsOf(call);
-    if (call.writes(Grids) && call.options.color == ColorBy::Nothing)
-        misuse("-o .vdb: expected --color too, without which it would be a copy");
     if (call.turntable > 0) addTurntable(call);
     warnOfLosses(call);
 }
@@ -495,7 +349,7 @@ void completePlan(Call& call)
     if (call.paths[0] == "-" || endOf(call.paths[0]) != "json")
         misuse("-o " + call.paths[0] + ": expected a name that ends in .json");
     call.outputs = {{call.paths[0], findFormat("json")}};
-    if ((call.bricks > 0) == (call.memory > 0))
+    if (call.bricks == 0 && call.memory == 0)
         misuse("bricks plan: expected either --bricks N or --memory SIZE");
     completeSurface(call);
     checkBrickOptions(call.options);

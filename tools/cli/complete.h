@@ -10,9 +10,6 @@
 namespace molsurf::tool
 {
 
-/// Checks which options were given together, before they are completed.
-void checkPairs(const Call& call);
-
 void completeBuild(Call& call);
 void completeBatch(Call& call);
 void completeCompare(Call& call);

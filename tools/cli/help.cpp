@@ -73,23 +73,6 @@ std::string statusOf(const VerbInfo& info)
     return all + "130 interrupted.";
 }
 
-/// Text in lines of at most `width` letters.
-std::string wrapped(const std::string& text, std::size_t width)
-{
-    std::string out, line;
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find(' ', begin), text.size());
-        const std::string word = text.substr(begin, end - begin);
-        if (!line.empty() && line.size() + 1 + word.size() > width) {
-            out += line + "\n";
-            line.clear();
-        }
-        line += (line.empty() ? "" : " ") + word;
-        begin = end + 1;
-    }
-    return out + line + "\n";
-}
-
 } // namespace
 
 std::string overview()
@@ -118,7 +101,7 @@ std::string helpText(Verb verb)
         text += std::string("\n") + group.title + "\n";
         for (const Option& option : group.options) text += helpLine(option);
     }
-    return text + "\n" + wrapped("Exit status: " + statusOf(info), 88);
+    return text + "\n" + wrapped("Exit status: " + statusOf(info), 88) + "\n";
 }
 
 namespace

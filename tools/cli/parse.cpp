@@ -4,6 +4,7 @@
 #include "cli/complete.h"
 #include "cli/help.h"
 #include "cli/option_table.h"
+#include "cli/pair_table.h"
 #include "cli/verb_table.h"
 
 #include "molsurf/error.h"
@@ -232,6 +233,7 @@ Parsed parse(int argc, const char* const* argv)
     setOptions(GivenOptions(call.given), call);
     checkPairs(call);
     infoOf(call.verb).complete(call);
+    checkPairs(call); // with its files
     return {std::move(call), ""};
 }
 

@@ -255,8 +255,7 @@ int valuesAlong(const SurfaceOptions& options)
 /// Whether bricks start from the rest of the whole on coarser voxels.
 bool startsCoarse(const SurfaceOptions& options)
 {
-    return options.kind == SurfaceKind::Variational &&
-           startsOnCoarserVoxels(options.evolution, options.voxel);
+    return hasFlow(options.kind) && startsOnCoarserVoxels(options.evolution, options.voxel);
 }
 
 class Planner
@@ -314,9 +313,8 @@ public:
             bytesPerNear + (isUnion(options_.kind) ? share * bytesPerBoundaryBall : 0.0);
         const double forFlow = bytesPerFlowLeaf * inFlow;
         const double coarse = startsCoarse(options_) ? bytesPerCoarseLeaf * coarseLeaves() : 0.0;
-        const double perLeaf = options_.kind == SurfaceKind::Variational
-                                   ? bytesPerMeshLeaf
-                                   : share * bytesPerUnionLeaf;
+        const double perLeaf =
+            hasFlow(options_.kind) ? bytesPerMeshLeaf : share * bytesPerUnionLeaf;
         // What follows the flow is made twice, the second time beside the first level set.
         const double filled = options_.fillCavities ? 1.45 : 1.0;
         const double probe = probeOf(options_);

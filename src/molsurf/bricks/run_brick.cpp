@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/run_brick.h"
 
-#include "molsurf/color/color_table.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
 #include "molsurf/levelset/round_ridges.h"
 #include "molsurf/selection/subset.h"
-#include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/influence.h"
+#include "molsurf/surface/whole_only.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,8 +112,7 @@ Scope brickScope(const SurfaceOptions& options, const Region& region, const Gaus
     // the one beyond it.
     scope.splineHalo = scope.ridgeHalo = 2;
     if (isUnion(options.kind)) return scope;
-    if (options.kind == SurfaceKind::Variational)
-        scope.ridgeHalo += leavesFor(ridgeReach(options.voxel));
+    if (hasFlow(options.kind)) scope.ridgeHalo += leavesFor(ridgeReach(options.voxel));
     // S is the distance to closest points, which lie on a spline of their own.
     const auto [inside, outside] = widthsOf(options);
     constexpr double overhang = 2.5; // [voxel]
@@ -147,23 +145,11 @@ BallSet ballsNear(const BallSet& atoms, const SurfaceOptions& options, const Sco
 
 void checkBrickOptions(const SurfaceOptions& options)
 {
-    const auto refuse = [](const std::string& what) {
+    if (const char* what = missingIn(InBricks, options))
         throw Error(ErrorKind::Usage,
-                    what + " needs the whole molecule at once: it is not for bricks [hint: a run "
-                           "in one piece, on a machine that has enough memory]");
-    };
-    if (options.split) refuse("`split`");
-    if (!options.surfaceOf.empty()) refuse("`surfaceOf`");
-    if (options.interfaces) refuse("`interfaces`");
-    if (options.matchVolume) refuse("`matchVolume`");
-    if (options.fillCavities) refuse("`fillCavities`");
-    if (options.minWall > 0.0) refuse("`minWall`");
-    if (hasField(options.fields, "density")) refuse("`fields` density");
-    if (options.curvatureTotals) refuse("`curvatureTotals`");
-    if (options.splineLevel > 0) refuse("`splineLevel`");
-    if (options.kind == SurfaceKind::Variational && options.evolution.flow == Flow::Paper)
-        refuse("`flow` paper");
-    if (kindOf(options.color).ofCurvature) refuse("`color` by curvature");
+                    std::string(what) +
+                        " needs the whole molecule at once: it is not for bricks [hint: a run in "
+                        "one piece, on a machine that has enough memory]");
 }
 
 Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,

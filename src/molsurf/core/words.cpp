@@ -55,6 +55,28 @@ std::string inLines(const std::vector<std::string>& words)
     return all;
 }
 
+std::string wrapped(const std::string& text, std::size_t width)
+{
+    std::string out;
+    std::size_t column = 0;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find_first_of(" \n", begin), text.size());
+        if (column > 0) {
+            const bool fits = column + 1 + end - begin <= width;
+            out += fits ? ' ' : '\n';
+            column = fits ? column + 1 : 0;
+        }
+        out.append(text, begin, end - begin);
+        column += end - begin;
+        if (end < text.size() && text[end] == '\n') {
+            out += '\n';
+            column = 0;
+        }
+        begin = end + 1;
+    }
+    return out;
+}
+
 std::string didYouMean(const std::string& typed, const std::vector<std::string>& words)
 {
     const auto distance = [](const std::string& a, const std::string& b) { // Levenshtein's

@@ -4,6 +4,7 @@
 /// @file
 /// Words that people type: lists, numbers and near misses.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ std::string joinWords(const std::vector<std::string>& words, const char* between
 
 /// Words with commas between, in lines for a help text.
 std::string inLines(const std::vector<std::string>& words);
+
+/// Letters in a line of the help text of an option.
+constexpr std::size_t helpWidth = 58;
+
+/// Text in lines of at most `width` letters; lines that it has already stay.
+std::string wrapped(const std::string& text, std::size_t width);
 
 /// A number with the fewest digits that give it back.
 std::string shortest(double number);

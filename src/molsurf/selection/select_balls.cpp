@@ -512,15 +512,17 @@ std::vector<GroupRule> withCopies(const Structure& structure, const SelectOption
 void checkOptions(const SelectOptions& options)
 {
     parseCopies(options.copies);
-    if (!options.copies.empty() && options.assembly == "none") {
-        throw Error(ErrorKind::Usage,
-                    "`copies` is for an assembly [hint: `assembly` 1, for example]");
+    const std::pair<const char*, bool> ofAssemblies[] = {{"`copies`", !options.copies.empty()},
+                                                         {"`instances`", options.instances},
+                                                         {"`bySymmetry`", options.bySymmetry}};
+    for (const auto& [name, given] : ofAssemblies) {
+        if (given && options.assembly == "none")
+            throw Error(ErrorKind::Usage,
+                        std::string(name) +
+                            " is for an assembly [hint: `assembly` 1, for example]");
+        if (given && options.bySymmetry && name != std::string("`bySymmetry`"))
+            throw Error(ErrorKind::Usage, std::string("`bySymmetry` and ") + name + " together");
     }
-    if (options.bySymmetry && options.assembly == "none")
-        throw Error(ErrorKind::Usage,
-                    "`bySymmetry` is for an assembly [hint: `assembly` 1, for example]");
-    if (options.bySymmetry && !options.copies.empty())
-        throw Error(ErrorKind::Usage, "`bySymmetry` and `copies` together");
 }
 
 BallSet readAtoms(const std::string& path, const SelectOptions& options, double probe,

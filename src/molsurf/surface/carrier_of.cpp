@@ -36,8 +36,7 @@ LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
                      const Progress& progress)
 {
     GaussianOptions gaussian = gaussianOptions(options);
-    std::vector<Decay> decays =
-        options.kind == SurfaceKind::Variational ? atoms.decays : std::vector<Decay>();
+    std::vector<Decay> decays = hasFlow(options.kind) ? atoms.decays : std::vector<Decay>();
     const std::vector<double> slopes = slopesOf(atoms.balls, gaussian, decays);
     const LeafTable& table = band.phi.table;
     LeafField out(table.size());
@@ -71,12 +70,10 @@ SparseField carrierOf(const BallSet& atoms, const SurfaceOptions& options,
 {
     const LeafField slope = slopeField(atoms, options, extent, band, progress);
     const EvolveOptions& evolution = options.evolution;
-    const bool valley =
-        options.kind == SurfaceKind::Variational && evolution.regularizer == Regularizer::Gradient;
-    return smoothCarrier(
-        band.phi,
-        {band.psi, slope, options.kind == SurfaceKind::Gaussian, valley ? evolution.lambda : 0.0},
-        bandWidthVox * band.phi.voxelSize, progress);
+    const bool valley = hasFlow(options.kind) && evolution.regularizer == Regularizer::Gradient;
+    return smoothCarrier(band.phi,
+                         {band.psi, slope, !hasFlow(options.kind), valley ? evolution.lambda : 0.0},
+                         bandWidthVox * band.phi.voxelSize, progress);
 }
 
 } // namespace molsurf

@@ -53,7 +53,7 @@ ClosedForm measureClosedForm(const std::vector<Ball>& balls, const SurfaceOption
 {
     if (balls.empty()) return {};
     checkFinite(balls);
-    return measureClosedForm(ballBoundary(balls, grownBy(options), progress), options, balls.size(),
+    return measureClosedForm(ballBoundary(balls, probeOf(options), progress), options, balls.size(),
                              progress);
 }
 

@@ -25,7 +25,7 @@ struct ClosedForm {
 };
 
 /// Measures a surface and checks the measures.
-/// @param[in] boundary  of the balls grown by grownBy()
+/// @param[in] boundary  of the balls grown by probeOf()
 /// @param[in] count     of the caller's balls
 /// @throws Error(ErrorKind::Check) if two ways to the same number disagree
 ClosedForm measureClosedForm(const BallBoundary& boundary, const SurfaceOptions& options,

@@ -145,7 +145,7 @@ SurfaceDistance::SurfaceDistance(const BallSet& atoms, const SurfaceOptions& opt
     auto parts = std::make_unique<Parts>(atoms.balls);
     const bool changed = options.split || !options.surfaceOf.empty() || options.fillCavities;
     if (isBoundary(options) && !changed && !atoms.unit && atoms.instances.empty())
-        parts->exact.emplace(atoms.balls, grownBy(options), progress);
+        parts->exact.emplace(atoms.balls, probeOf(options), progress);
     else if (!surface.mesh.triangles.empty())
         parts->meshed.emplace(surface, progress);
     else

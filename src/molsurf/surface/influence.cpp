@@ -9,10 +9,9 @@ namespace molsurf
 {
 
 Influence::Influence(const BallSet& atoms, const SurfaceOptions& options)
-    : Influence(
-          extentOf(atoms.balls, gaussianOptions(options),
-                   options.kind == SurfaceKind::Variational ? atoms.decays : std::vector<Decay>()),
-          options)
+    : Influence(extentOf(atoms.balls, gaussianOptions(options),
+                         hasFlow(options.kind) ? atoms.decays : std::vector<Decay>()),
+                options)
 {
 }
 
@@ -23,7 +22,7 @@ Influence::Influence(const GaussianExtent& extent, const SurfaceOptions& options
 
 double Influence::ofSurface() const
 {
-    if (options_.kind == SurfaceKind::VanDerWaals) return 0.0;
+    if (isBare(options_.kind)) return 0.0;
     return extent_.maxGrownRadius - extent_.maxRadius + extent_.maxTolerance;
 }
 
@@ -36,7 +35,7 @@ double Influence::ofLabel() const
 
 double Influence::acrossGap() const
 {
-    if (options_.kind == SurfaceKind::VanDerWaals) return 0.0;
+    if (isBare(options_.kind)) return 0.0;
     if (isUnion(options_.kind)) return 2.0 * options_.probe;
     // Where the surface of one lies, the Gaussian of the other is not felt any more.
     return 2.0 * gaussianOptions(options_).probe + extent_.cutoff(0.0) - extent_.maxGrownRadius;

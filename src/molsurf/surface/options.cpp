@@ -25,22 +25,6 @@ void check(bool good, const std::string& option, const std::string& expected, do
 
 } // namespace
 
-const char* nameOf(SurfaceKind kind)
-{
-    switch (kind) {
-    case SurfaceKind::SolventExcluded:
-        return "ses";
-    case SurfaceKind::SolventAccessible:
-        return "sas";
-    case SurfaceKind::VanDerWaals:
-        return "vdw";
-    case SurfaceKind::Gaussian:
-        return "gaussian";
-    default:
-        return "variational";
-    }
-}
-
 const char* nameOf(Regularizer regularizer)
 {
     return regularizer == Regularizer::Gradient ? "gradient" : "area";
@@ -49,13 +33,6 @@ const char* nameOf(Regularizer regularizer)
 const char* nameOf(Flow flow)
 {
     return flow == Flow::Newton ? "newton" : "paper";
-}
-
-double probeOf(const SurfaceOptions& options)
-{
-    const bool bare =
-        options.kind == SurfaceKind::VanDerWaals || options.kind == SurfaceKind::Gaussian;
-    return bare ? 0.0 : options.probe;
 }
 
 void checkOptions(const SurfaceOptions& options)

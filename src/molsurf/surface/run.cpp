@@ -16,6 +16,7 @@
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/surface_run.h"
 #include "molsurf/surface/unit_run.h"
+#include "molsurf/surface/whole_only.h"
 
 #include <utility>
 
@@ -160,9 +161,10 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
     const bool valued = atoms.labels && atoms.labels->values; // means of values need areas
     if (options.areasOf.value_or(options.kind) != options.kind && !valued) wanted.ballAreas = false;
     MolecularSurface result;
-    if (!whole && options.ballAreas)
+    const char* apart = options.ballAreas ? missingIn(ByAtom, options) : nullptr;
+    if (apart)
         throw Error(ErrorKind::Usage,
-                    "areas of atoms: expected one surface, and no `split` or `surfaceOf`");
+                    std::string("areas of atoms: expected one surface, and not ") + apart);
     if (atoms.unit) {
         wanted.ballAreas = false;
         result = runUnit(inSpatialOrder(atoms), wanted, progress);

@@ -6,6 +6,7 @@
 #include "molsurf/selection/radii.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/set_value.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <utility>
@@ -95,6 +96,13 @@ Setting word(const char* name, const char* value, std::string help, const Of& of
     return row;
 }
 
+/// The row of what changes surfaces of one kind alone.
+Setting onlyOf(SurfaceKind kind, Setting row)
+{
+    row.kinds = {kind};
+    return row;
+}
+
 /// A row with more than its type says.
 template<typename Change>
 Setting changed(Setting row, const Change& change)
@@ -103,15 +111,27 @@ Setting changed(Setting row, const Change& change)
     return row;
 }
 
-const std::vector<SurfaceKind> surfaceKinds = {
-    SurfaceKind::Variational, SurfaceKind::SolventExcluded, SurfaceKind::SolventAccessible,
-    SurfaceKind::VanDerWaals, SurfaceKind::Gaussian};
+std::vector<SurfaceKind> surfaceKinds()
+{
+    std::vector<SurfaceKind> all;
+    for (const KindRow& row : kindTable()) all.push_back(row.kind);
+    return all;
+}
+
+/// The words of kinds and what they mean.
+std::string kindText()
+{
+    Values all;
+    for (const KindRow& row : kindTable())
+        all.push_back(row.word + (*row.title ? std::string(": ") + row.title : ""));
+    return wrapped(joinWords(all, "; "), helpWidth);
+}
 
 /// GROUP=KIND, the group ending at the last =.
 std::pair<std::string, SurfaceKind> parseSurfaceOf(const std::string& text)
 {
     const std::size_t split = text.rfind('=');
-    for (const SurfaceKind kind : surfaceKinds) {
+    for (const SurfaceKind kind : surfaceKinds()) {
         if (split != std::string::npos && split > 0 &&
             lowered(text.substr(split + 1)) == nameOf(kind))
             return {text.substr(0, split), kind};
@@ -249,16 +269,14 @@ Setting fieldSetting()
 
 std::vector<Setting> surfaceSettings()
 {
-    return {word("surface", "KIND",
-                 "variational; ses, sas: solvent-excluded, -accessible;\n"
-                 "vdw: van der Waals; gaussian",
-                 OF(options.kind), surfaceKinds),
+    return {word("surface", "KIND", kindText(), OF(options.kind), surfaceKinds()),
             within(minVoxel, maxVoxel,
                    number("voxel", "H", "edge of a voxel [Å], 0.05 to 10", OF(options.voxel))),
             within(0.0, 100.0, number("probe", "R", "probe radius [Å]", OF(options.probe))),
-            within(0.1, 100.0,
-                   number("blobbiness", "D", "decay of the Gaussians of `surface` gaussian",
-                          OF(options.blobbiness))),
+            onlyOf(SurfaceKind::Gaussian,
+                   within(0.1, 100.0,
+                          number("blobbiness", "D", "decay of the Gaussians of `surface` gaussian",
+                                 OF(options.blobbiness)))),
             flag("fill-cavities", "drop the inner walls", OF(options.fillCavities)),
             fieldSetting(),
             flag("vdb-half", "floats of the .vdb in 16 bits, within 0.05 %: half the size",
@@ -301,12 +319,14 @@ std::vector<Setting> resolutionSettings()
         return all.empty() ? "atom" : joinWords(all, ", ");
     };
     resolution.ofAtoms = coarse.ofAtoms = true;
-    return {within(0.01, 10.0,
-                   number("epsilon", "E", "tolerance of the Gaussian sum [Å]; larger is smoother",
-                          OF(options.epsilon))),
-            resolution, coarse,
-            flag("match-volume", "resolutions keep the volume of the fine surface",
-                 OF(options.matchVolume))};
+    constexpr SurfaceKind smooth = SurfaceKind::Variational;
+    return {onlyOf(smooth, within(0.01, 10.0,
+                                  number("epsilon", "E",
+                                         "tolerance of the Gaussian sum [Å]; larger is smoother",
+                                         OF(options.epsilon)))),
+            onlyOf(smooth, resolution), coarse,
+            onlyOf(smooth, flag("match-volume", "resolutions keep the volume of the fine surface",
+                                OF(options.matchVolume)))};
 }
 
 /// The beginnings of colours by the values of a file.
@@ -455,29 +475,31 @@ std::vector<Setting> flowSettings()
         return row;
     };
     constexpr std::pair<int, int> steps = {0, 1000000};
-    return {within(0.0, 1e6,
-                   number("lambda", "L", "weight of the regulariser [Å^2 for gradient, 1 for area]",
-                          of(&EvolveOptions::lambda))),
-            word("regularizer", "KIND", "gradient or area", of(&EvolveOptions::regularizer),
-                 std::vector<Regularizer>{Regularizer::Gradient, Regularizer::Area}),
-            word("flow", "KIND", "newton, or paper: the paper's own scheme, for comparison",
-                 of(&EvolveOptions::flow), std::vector<Flow>{Flow::Newton, Flow::Paper}),
-            shown("50; paper: 200", count("max-steps", "N", "steps at most", "default of the flow",
-                                          steps, of(&EvolveOptions::maxSteps))),
-            shown("until it converges",
-                  count("steps", "N", "so many steps, converged or not", "by the stopping rule",
-                        steps, of(&EvolveOptions::steps))),
-            number("tolerance", "T",
-                   "converged when the way left is below T voxels (rms), and\n"
-                   "below 8 T on 99.9 % of the surface",
-                   of(&EvolveOptions::tolerance)),
-            changed(count("spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2",
-                          "0", {0, 2}, OF(options.splineLevel)),
-                    [](Setting& row) {
-                        row.get = [](const Settings& s) {
-                            return std::int64_t(s.options.splineLevel);
-                        };
-                    })};
+    std::vector<Setting> rows = {
+        within(0.0, 1e6,
+               number("lambda", "L", "weight of the regulariser [Å^2 for gradient, 1 for area]",
+                      of(&EvolveOptions::lambda))),
+        word("regularizer", "KIND", "gradient or area", of(&EvolveOptions::regularizer),
+             std::vector<Regularizer>{Regularizer::Gradient, Regularizer::Area}),
+        word("flow", "KIND", "newton, or paper: the paper's own scheme, for comparison",
+             of(&EvolveOptions::flow), std::vector<Flow>{Flow::Newton, Flow::Paper}),
+        shown("50; paper: 200", count("max-steps", "N", "steps at most", "default of the flow",
+                                      steps, of(&EvolveOptions::maxSteps))),
+        shown("until it converges",
+              count("steps", "N", "so many steps, converged or not", "by the stopping rule", steps,
+                    of(&EvolveOptions::steps))),
+        number("tolerance", "T",
+               "converged when the way left is below T voxels (rms), and\n"
+               "below 8 T on 99.9 % of the surface",
+               of(&EvolveOptions::tolerance))};
+    for (Setting& row : rows) row.kinds = {SurfaceKind::Variational};
+    rows.push_back(
+        changed(count("spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2", "0",
+                      {0, 2}, OF(options.splineLevel)),
+                [](Setting& row) {
+                    row.get = [](const Settings& s) { return std::int64_t(s.options.splineLevel); };
+                }));
+    return rows;
 }
 
 #undef OF

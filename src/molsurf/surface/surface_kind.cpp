@@ -3,6 +3,7 @@
 
 #include "molsurf/error.h"
 #include "molsurf/flow/evolve.h"
+#include "molsurf/surface/whole_only.h"
 
 #include <algorithm>
 #include <string>
@@ -10,21 +11,37 @@
 namespace molsurf
 {
 
-bool isUnion(SurfaceKind kind)
+const std::vector<KindRow>& kindTable()
 {
-    return kind != SurfaceKind::Variational && kind != SurfaceKind::Gaussian;
+    using K = SurfaceKind;
+    static const std::vector<KindRow> table = {
+        // union, flow, probe, offset
+        {K::Variational, "variational", "", false, true, true, true},
+        {K::SolventExcluded, "ses", "solvent-excluded", true, false, true, true},
+        {K::SolventAccessible, "sas", "solvent-accessible", true, false, true, false},
+        {K::VanDerWaals, "vdw", "van der Waals", true, false, false, false},
+        {K::Gaussian, "gaussian", "", false, false, false, false}};
+    return table;
+}
+
+const KindRow& rowOf(SurfaceKind kind)
+{
+    return kindTable()[std::size_t(kind)];
+}
+
+const char* nameOf(SurfaceKind kind)
+{
+    return rowOf(kind).word;
+}
+
+double probeOf(const SurfaceOptions& options)
+{
+    return rowOf(options.kind).hasProbe ? options.probe : 0.0;
 }
 
 double offsetOf(const SurfaceOptions& options)
 {
-    return options.kind == SurfaceKind::Variational || options.kind == SurfaceKind::SolventExcluded
-               ? options.probe
-               : 0.0;
-}
-
-double grownBy(const SurfaceOptions& options)
-{
-    return options.kind == SurfaceKind::VanDerWaals ? 0.0 : options.probe;
+    return rowOf(options.kind).hasOffset ? options.probe : 0.0;
 }
 
 bool isClosedForm(const SurfaceOptions& options)
@@ -39,8 +56,7 @@ bool isBoundary(const SurfaceOptions& options)
 
 bool hasClosedForm(const SurfaceOptions& options)
 {
-    return isClosedForm(options) && !options.split && options.surfaceOf.empty() &&
-           !options.fillCavities && options.fields.empty() && !options.curvatureTotals;
+    return !missingIn(InClosedForm, options);
 }
 
 double splineWidthOf(const SurfaceOptions& options)
@@ -57,18 +73,18 @@ BandWidths widthsOf(const SurfaceOptions& options)
 
 void failNothingLeft(const char* stage, SurfaceKind kind)
 {
-    throw Error(ErrorKind::Numeric, std::string(stage) +
-                                        ": nothing of the molecule is left at this resolution" +
-                                        (kind == SurfaceKind::Variational
-                                             ? " [hint: a smaller `voxel`, `lambda` or `epsilon`]"
-                                             : " [hint: a smaller `voxel`]"));
+    throw Error(ErrorKind::Numeric,
+                std::string(stage) + ": nothing of the molecule is left at this resolution" +
+                    (hasFlow(kind) ? " [hint: a smaller `voxel`, `lambda` or `epsilon`]"
+                                   : " [hint: a smaller `voxel`]"));
 }
 
 GaussianOptions gaussianOptions(const SurfaceOptions& options)
 {
     // Stencils reach a voxel beyond the band, along diagonals.
     const double h = options.voxel, reach = (bandWidthVox + 1.5) * h;
-    if (options.kind == SurfaceKind::Gaussian) return {0.0, 0.0, options.blobbiness, h, reach};
+    const KindRow& row = rowOf(options.kind);
+    if (!row.isUnion && !row.hasFlow) return {0.0, 0.0, options.blobbiness, h, reach};
     return {options.probe, options.epsilon, 0.0, h, reach};
 }
 

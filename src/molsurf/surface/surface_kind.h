@@ -8,6 +8,8 @@
 #include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/options.h"
 
+#include <vector>
+
 namespace molsurf
 {
 
@@ -18,14 +20,43 @@ constexpr double surfaceWidthVox = 3.0;
 /// point are up to 2 sqrt(3) away.
 constexpr double splineWidthVox = 4.0;
 
+/// A kind of surface.
+struct KindRow {
+    SurfaceKind kind;
+    const char* word;  ///< of the command line
+    const char* title; ///< what the word means; "" if it says it
+    bool isUnion;      ///< whether it is that of a union of balls, or of a sum of Gaussians
+    bool hasFlow;      ///< whether its level set moves to rest
+    bool hasProbe;     ///< whether its balls are grown by the probe
+    bool hasOffset;    ///< whether it lies inside of theirs by the probe radius
+};
+
+/// All of them, in the order of help texts.
+const std::vector<KindRow>& kindTable();
+
+/// The row of a kind.
+const KindRow& rowOf(SurfaceKind kind);
+
 /// Tells whether a surface is that of a union of balls.
-bool isUnion(SurfaceKind kind);
+inline bool isUnion(SurfaceKind kind)
+{
+    return rowOf(kind).isUnion;
+}
+
+/// Tells whether a surface is at rest after a flow.
+inline bool hasFlow(SurfaceKind kind)
+{
+    return rowOf(kind).hasFlow;
+}
+
+/// Tells whether a surface is that of a union of balls of the atoms' own radii.
+inline bool isBare(SurfaceKind kind)
+{
+    return rowOf(kind).isUnion && !rowOf(kind).hasProbe;
+}
 
 /// Gives how far the surface lies inside the set whose distance is known [Å], >= 0.
 double offsetOf(const SurfaceOptions& options);
-
-/// Gives the probe that the balls of a union surface are grown by [Å], >= 0.
-double grownBy(const SurfaceOptions& options);
 
 /// Tells whether area, volume and pieces of a surface are known in closed form.
 bool isClosedForm(const SurfaceOptions& options);

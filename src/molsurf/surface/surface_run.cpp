@@ -66,7 +66,7 @@ void SurfaceRun::density()
 {
     if (isUnion(options_.kind)) return;
     progress_.update("density", 0.0);
-    const bool evolves = options_.kind == SurfaceKind::Variational;
+    const bool evolves = hasFlow(options_.kind);
     GaussianOptions gaussian = gaussianOptions(options_);
     gaussian.extent = influence_.extent();
     sum_.emplace(atoms_.balls, gaussian, evolves ? atoms_.decays : std::vector<Decay>());
@@ -121,7 +121,7 @@ void SurfaceRun::refineCoarseRest()
 
 void SurfaceRun::flow(WarmStart* warm)
 {
-    if (options_.kind == SurfaceKind::Variational) {
+    if (hasFlow(options_.kind)) {
         progress_.update("evolve", 0.0);
         SparseField cold;
         if (warm) {
@@ -143,13 +143,12 @@ void SurfaceRun::flow(WarmStart* warm)
 /// Whether the evolved level set is still needed when S is known.
 bool SurfaceRun::keepsLevelSet() const
 {
-    return options_.fillCavities ||
-           (options_.kind == SurfaceKind::Variational && hasField(options_.fields, "sas"));
+    return options_.fillCavities || (hasFlow(options_.kind) && hasField(options_.fields, "sas"));
 }
 
 DistanceBand SurfaceRun::distanceToBalls()
 {
-    BallUnion set = unionOf(atoms_.balls, grownBy(options_), progress_);
+    BallUnion set = unionOf(atoms_.balls, probeOf(options_), progress_);
     const double probe = offsetOf(options_);
     if (probe > 0.0) cuspLength_ = cuspLengthOf(set.boundary, probe);
     // What a mesh holds for a cavity may be open to the outside where probes touch each other.
@@ -189,7 +188,7 @@ void SurfaceRun::distance()
             for (int v = 0; v < leafSize; ++v) S_.phi.leaf(n)[v] += float(offset);
         });
     }
-    if (options_.kind == SurfaceKind::Variational) roundRidges(S_, progress_);
+    if (hasFlow(options_.kind)) roundRidges(S_, progress_);
     if (options_.minWall > 0.0)
         thickenWalls(S_, options_.minWall, splineWidthOf(options_), progress_);
     watch_.stop("redistance");
@@ -397,7 +396,7 @@ openvdb::FloatGrid::Ptr SurfaceRun::sasGrid()
 {
     const double width = surfaceWidthVox * options_.voxel;
     SparseField exact;
-    const bool evolved = options_.kind == SurfaceKind::Variational;
+    const bool evolved = hasFlow(options_.kind);
     if (!evolved) {
         exact = distanceToUnion(unionOf(atoms_.balls, options_.probe, progress_), options_.voxel,
                                 {width, width}, progress_, scope_.region.owned)

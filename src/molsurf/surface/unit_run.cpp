@@ -10,13 +10,13 @@
 #include "molsurf/mesh/mesh_instance.h"
 #include "molsurf/mesh/statistics.h"
 #include "molsurf/mesh/topology.h"
-#include "molsurf/spline/curvature.h"
 #include "molsurf/surface/label_surface.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/surface_run.h"
 #include "molsurf/surface/unit_border.h"
 #include "molsurf/surface/unit_cut.h"
 #include "molsurf/surface/unit_union.h"
+#include "molsurf/surface/whole_only.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,21 +30,6 @@ using openvdb::Vec3d;
 
 namespace
 {
-
-void checkUnitOptions(const SurfaceOptions& options)
-{
-    const auto refuse = [](const std::string& what) {
-        throw Error(ErrorKind::Usage,
-                    what + " needs the whole assembly at once [hint: without `bySymmetry`]");
-    };
-    if (options.split) refuse("`split`");
-    if (!options.surfaceOf.empty()) refuse("`surfaceOf`");
-    if (options.matchVolume) refuse("`matchVolume`");
-    if (options.fillCavities) refuse("`fillCavities`");
-    if (!options.grid && !isBoundary(options)) refuse("a solvent-excluded surface without `grid`");
-    for (const std::string& field : options.fields)
-        if (!findCurvatureField(field)) refuse("`fields` " + field);
-}
 
 /// The balls that decide whose a point is. Images of a ball on an axis move a little toward their
 /// own units, so that each has an equal part.
@@ -98,7 +83,7 @@ MolecularSurface runUnitWithoutGrid(const BallSet& atoms, const SurfaceOptions& 
     Stopwatch watch(result.report);
     progress.update("areas", 0.0);
     result.report.surface.kind = nameOf(options.kind);
-    result.ballAreas = takeClosedForm(atoms, grownBy(options), progress, result.report.surface);
+    result.ballAreas = takeClosedForm(atoms, probeOf(options), progress, result.report.surface);
     labelSurface(atoms, options, 0.0, progress, result);
     result.ballAreas.clear(); // makeSurface() has those of the unit
     result.report.symmetry =
@@ -149,6 +134,14 @@ void checkFit(const BorderFit& fit, double area, const SurfaceReport& surface)
 
 } // namespace
 
+void checkUnitOptions(const SurfaceOptions& options)
+{
+    if (const char* what = missingIn(BySymmetry, options))
+        throw Error(ErrorKind::Usage,
+                    std::string(what) +
+                        " needs the whole assembly at once [hint: without `bySymmetry`]");
+}
+
 double surroundingsOf(const SurfaceOptions& options)
 {
     // Two balls that touch through a probe, and the voxels between a surface and what it depends
@@ -180,7 +173,7 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     if (!topology.manifold)
         for (const std::uint32_t v : splitNonManifold(mesh))
             stats.slopes.push_back(stats.slopes[v]);
-    const double grown = isUnion(options.kind) ? grownBy(options) : 0.0;
+    const double grown = isUnion(options.kind) ? probeOf(options) : 0.0;
     const PowerOwners owners(owningBalls(atoms, grown), unit.motionOf);
     CutMesh part = cutToOwner(mesh, owners, run.currentSpline(), progress);
     if (part.mesh.triangles.empty())

@@ -9,6 +9,10 @@
 namespace molsurf
 {
 
+/// Checks that a unit can have what the options ask for.
+/// @throws Error(ErrorKind::Usage) for options that need the whole at once
+void checkUnitOptions(const SurfaceOptions& options);
+
 /// Makes the surface of a unit (BallSet::unit) among the balls around it, and measures the whole
 /// that its rotations make: areas, volumes and pieces are those of the whole, the mesh and its
 /// statistics those of the unit, without a grid.
@@ -18,8 +22,7 @@ namespace molsurf
 /// are those of the unit times the order of the group; its pieces follow from which pieces of the
 /// unit meet at the borders; its Euler characteristic counts corners where m units meet as 1/m.
 ///
-/// @throws Error(ErrorKind::Usage) for options that need the whole at once
-/// @throws Error as makeSurface()
+/// @throws Error as checkUnitOptions() and makeSurface()
 MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Progress& progress);
 
 } // namespace molsurf

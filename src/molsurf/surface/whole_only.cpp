@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/whole_only.h"
+
+#include "molsurf/color/color_table.h"
+#include "molsurf/spline/curvature.h"
+#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/surface_kind.h"
+
+#include <algorithm>
+
+namespace molsurf
+{
+
+namespace
+{
+
+struct Row {
+    const char* what;
+    unsigned ways; ///< that cannot give it
+    bool (*asked)(const SurfaceOptions& options);
+};
+
+const Row rows[] = {
+    {"`surface`", InClosedForm, [](auto& o) { return !isClosedForm(o); }},
+    {"`split`", InBricks | BySymmetry | InClosedForm | ByAtom, [](auto& o) { return o.split; }},
+    {"`surfaceOf`", InBricks | BySymmetry | InClosedForm | ByAtom,
+     [](auto& o) { return !o.surfaceOf.empty(); }},
+    {"`interfaces`", InBricks, [](auto& o) { return o.interfaces; }},
+    {"`matchVolume`", InBricks | BySymmetry, [](auto& o) { return o.matchVolume; }},
+    {"`fillCavities`", InBricks | BySymmetry | InClosedForm,
+     [](auto& o) { return o.fillCavities; }},
+    {"`minWall`", InBricks, [](auto& o) { return o.minWall > 0.0; }},
+    {"a solvent-excluded surface without `grid`", BySymmetry,
+     [](auto& o) { return !o.grid && !isBoundary(o); }},
+    {"`fields` density", InBricks, [](auto& o) { return hasField(o.fields, "density"); }},
+    {"`fields` but those of curvatures", BySymmetry,
+     [](auto& o) { return !std::all_of(o.fields.begin(), o.fields.end(), findCurvatureField); }},
+    {"`fields`", InClosedForm, [](auto& o) { return !o.fields.empty(); }},
+    {"`curvatureTotals`", InBricks | InClosedForm, [](auto& o) { return o.curvatureTotals; }},
+    {"`splineLevel`", InBricks, [](auto& o) { return o.splineLevel > 0; }},
+    {"`flow` paper", InBricks,
+     [](auto& o) { return hasFlow(o.kind) && o.evolution.flow == Flow::Paper; }},
+    {"`color` by curvature", InBricks, [](auto& o) { return kindOf(o.color).ofCurvature; }}};
+
+} // namespace
+
+const char* missingIn(Way way, const SurfaceOptions& options)
+{
+    for (const Row& row : rows)
+        if ((row.ways & way) && row.asked(options)) return row.what;
+    return nullptr;
+}
+
+} // namespace molsurf

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What needs the whole molecule, or its voxels, at once: a row an option.
+
+#include "molsurf/options.h"
+
+namespace molsurf
+{
+
+/// Ways to a surface that cannot give everything. Their bits make sets.
+enum Way : unsigned {
+    InBricks = 1,     ///< part of space by part
+    BySymmetry = 2,   ///< from one unit, which rotations repeat
+    InClosedForm = 4, ///< without voxels
+    ByAtom = 8        ///< with areas of atoms
+};
+
+/// What the options ask for that a way cannot give, in backticks; null: it gives all of it.
+const char* missingIn(Way way, const SurfaceOptions& options);
+
+} // namespace molsurf

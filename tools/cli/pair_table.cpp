@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "cli/pair_table.h"
+
+#include "cli/option_table.h"
+
+#include "molsurf/color/color_table.h"
+#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/surface_kind.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace molsurf::tool
+{
+
+namespace
+{
+
+/// A file of a format.
+Thing file(unsigned holds, const char* table = "")
+{
+    return {"output", table, holds};
+}
+
+/// Tables of areas, in files or in the report.
+constexpr const char* ofAtoms = "areas by atom";
+constexpr const char* ofResidues = "contacts or interfaces of residues";
+
+Pair areasWithout(const char* option, const char* why)
+{
+    return {{option}, Excludes, {{"output", "", Areas, ofAtoms}, {"areas", "", 0, ofAtoms}}, why};
+}
+
+bool hasAreasInClosedForm(const Call& call)
+{
+    SurfaceOptions shown = call.options;
+    shown.kind = shown.areasOf.value_or(shown.kind);
+    return !shown.ballAreas || isBoundary(shown);
+}
+
+/// What several units, bricks or groups of atoms have to do with each other.
+std::vector<Pair> assemblyPairs()
+{
+    const auto coloured = [](const char* word, const char* hint) {
+        return Pair{
+            {"color", word}, Excludes, {{"groups"}, {"group-by"}}, hint, [](const Call& call) {
+                return call.colorsCopies();
+            }};
+    };
+    const auto ofGroups = [](const char* option, const char* value = "") {
+        return Pair{{option, value}, Needs, {{"groups"}, {"group-by"}}, "", [](const Call& call) {
+                        const bool later = call.outputs.empty() && !call.dryRun;
+                        return later || !call.atoms.groupBy.empty() || call.verb == Convert;
+                    }};
+    };
+    return {{{"weld"}, Needs, {{"by-symmetry"}}},
+            {{"weld"}, Excludes, {{"crisp"}}},
+            {{"lod"}, Needs, {{"instances"}, {"by-symmetry"}}},
+            {{"lod"}, Excludes, {{"voxel"}}, ": the first of --lod is the voxel"},
+            {file(Stage),
+             Needs,
+             {{"instances"}, {"by-symmetry"}},
+             " [hint: --for usd -o FILE.vdb writes a volume]",
+             [](const Call& call) { return call.verb != Build; }},
+            {{"instances"},
+             Excludes,
+             {{"split"},
+              {"surface-of"},
+              {"interfaces"},
+              {"frames"},
+              {"trajectory"},
+              {"memory"},
+              {"center"},
+              {"color", "radius"},
+              {"color", "potential"},
+              {"color", "potential-out"}}},
+            {{"by-symmetry"},
+             Excludes,
+             {{"frames"},
+              {"trajectory"},
+              {"memory"},
+              {"dry-run"},
+              {"center"},
+              {"color", "potential"},
+              {"color", "potential-out"}}},
+            {file(Grids),
+             Excludes,
+             {{"by-symmetry"}},
+             ": it makes no grid of the whole [hint: --memory 8G in its place makes it in bricks]"},
+            {{"by-symmetry"},
+             Excludes,
+             {{"output", "contacts", Areas, ofResidues},
+              {"output", "interfaces", Areas, ofResidues},
+              {"areas", "contacts", 0, ofResidues},
+              {"areas", "interfaces", 0, ofResidues}},
+             " [hint: without --by-symmetry]"},
+            {{"color", "copy"}, Needs, {{"assembly"}}},
+            {{"groups"}, Excludes, {{"group-by"}}},
+            coloured("copy", " [hint: --group-by copy --color group]"),
+            coloured("entity", " [hint: --group-by entity --color group]"),
+            coloured("class", " [hint: --group-by class --color group]"),
+            ofGroups("split"),
+            ofGroups("surface-of"),
+            ofGroups("interfaces"),
+            ofGroups("color", "group")};
+}
+
+std::vector<Pair> areaPairs()
+{
+    Pair memory = areasWithout("memory", " [hint: --surface sas needs no grid]");
+    memory.unless = [](const Call& call) { return call.outputs.empty() || !call.options.grid; };
+    Pair unit =
+        areasWithout("by-symmetry", ": expected a closed form [hint: --surface sas or vdw]");
+    unit.unless = hasAreasInClosedForm;
+    return {
+        areasWithout("coarse", " [hint: a run without --coarse]"),
+        areasWithout("split", " [hint: --interfaces has the areas of groups alone]"),
+        areasWithout("surface-of", " [hint: a run without --surface-of]"),
+        areasWithout("instances", " [hint: --by-symmetry has those of a unit in the whole]"),
+        memory,
+        areasWithout("dry-run", " [hint: --dry-run -o FILE.vdb]"),
+        unit,
+        {{"contacts"}, IsFor, {file(Areas, "contacts"), {"areas", "contacts"}}, ".contacts.csv"}};
+}
+
+std::vector<Pair> surfacePairs()
+{
+    const auto unlessAll = [](const Call& call) {
+        const auto& rules = call.atoms.resolutions;
+        return std::none_of(rules.begin(), rules.end(),
+                            [](const ResolutionRule& rule) { return rule.select.empty(); });
+    };
+    return {
+        {{"min-wall"}, Needs, {{"print-scale"}}},
+        {{"steps"}, Excludes, {{"max-steps"}}},
+        {{"no-hetero"}, Excludes, {{"hetero"}, {"ions"}}},
+        {{"epsilon"},
+         Excludes,
+         {{"resolution"}},
+         ": a resolution for all atoms says how smooth it is, too",
+         unlessAll},
+        {{"match-volume"}, IsFor, {{"resolution"}}},
+        {{"probe"},
+         IsFor,
+         {},
+         "--surface variational, ses or sas",
+         [](const Call& call) {
+             return call.builds([](SurfaceKind kind) { return rowOf(kind).hasProbe; }) ||
+                    hasField(call.options.fields, "sas");
+         }},
+        {{"legend"}, IsFor, {{"color"}}, "", [](const Call& call) { return call.verb == Convert; }},
+        {{"range"},
+         IsFor,
+         {},
+         "--color by a value, as bfactor",
+         [](const Call& call) { return !call.atoms.valueBy.empty(); }},
+        {{"crisp"},
+         IsFor,
+         {},
+         "--color chain, group, element or residue",
+         [](const Call& call) { return kindOf(call.options.color).hasBorders != nullptr; }},
+        {{"crisp"},
+         IsFor,
+         {},
+         "one surface, without --split and --surface-of",
+         [](const Call& call) { return !call.options.split && call.options.surfaceOf.empty(); }}};
+}
+
+/// What frames, files and the run have to do with each other.
+std::vector<Pair> runPairs()
+{
+    const auto fromModels = [](const Call& call) { return !call.trajectory.empty(); };
+    const auto ofPlan = [](const Call& call) { return call.verb == BricksPlan; };
+    const auto notBuild = [](const Call& call) { return call.verb != Build; };
+    const std::vector<Thing> notOfFrames = {
+        {"memory"}, {"dry-run"}, {"turntable"}, {"output", "-"}};
+    return {
+        {{"quiet"}, Excludes, {{"verbose"}}},
+        {{"bricks"}, Excludes, {{"memory"}}},
+        {{"frames"}, Excludes, notOfFrames},
+        {{"trajectory"}, Excludes, notOfFrames},
+        {{"model"}, Excludes, {{"frames"}}, ": frames are models [hint: --trajectory]", fromModels},
+        {{"start"}, IsFor, {{"frames"}, {"trajectory"}}, "--frames"},
+        {{"fields", "v"},
+         Needs,
+         {{"frames"}, {"trajectory"}},
+         ": it is the way between frames",
+         notBuild},
+        {file(FrameRows),
+         Needs,
+         {{"frames"}, {"trajectory"}},
+         " [hint: -o FILE.residues.csv for areas]"},
+        {{"turntable"}, Excludes, {{"output", "-"}}},
+        {{"format"}, Needs, {{"output", "-"}}, ": the extension of a file says what it is"},
+        {{"output", "-"}, Needs, {{"format"}}, " [hint: --format ply, for example]", ofPlan},
+        {file(Grids),
+         Needs,
+         {{"color"}},
+         ": without it the file would be a copy",
+         [](const Call& call) { return call.verb != Convert; }}};
+}
+
+/// An option with its value, as it is typed.
+std::string typed(const Thing& thing, const std::string& value)
+{
+    const bool output = thing.option == std::string("output");
+    return (output ? "-o" : "--" + std::string(thing.option)) + (value.empty() ? "" : " " + value);
+}
+
+/// Whether a value of an option is the one that a thing has, or one of its list.
+bool isValue(const std::string& given, const Thing& thing)
+{
+    const std::string value = lowered(given), wanted = thing.value;
+    if (wanted.empty()) return value != "none";
+    if (value == wanted || value.rfind(wanted + "=", 0) == 0) return true;
+    const std::vector<std::string> words = splitWords(value);
+    return thing.option != std::string("output") &&
+           std::count(words.begin(), words.end(), wanted) > 0;
+}
+
+/// How a call has a thing; none: it has not.
+std::optional<std::string> found(const Call& call, const Thing& thing)
+{
+    std::string text;
+    if (thing.holds) {
+        const auto file = std::find_if(call.outputs.begin(), call.outputs.end(), [&](auto& o) {
+            return o.beside.empty() && o.holds(thing.holds) &&
+                   (!*thing.value || std::string(thing.value) == o.format->table);
+        });
+        if (file == call.outputs.end()) return std::nullopt;
+        text = typed(thing, file->path);
+    } else {
+        const auto given = call.given.find(thing.option); // a switch has no values
+        if (given == call.given.end() ||
+            (!given->second.empty() &&
+             std::none_of(given->second.begin(), given->second.end(),
+                          [&](const std::string& value) { return isValue(value, thing); })))
+            return std::nullopt;
+        text = typed(thing, thing.value);
+    }
+    return thing.title ? std::string(thing.title) + " (" + text + ")" : text;
+}
+
+/// "--a, --b or --c".
+std::string anyOf(const std::vector<Thing>& things)
+{
+    std::string text;
+    for (const Thing& thing : things)
+        text += (text.empty() ? "" : " or ") + typed(thing, thing.value);
+    return text;
+}
+
+} // namespace
+
+const std::vector<Pair>& pairTable()
+{
+    static const std::vector<Pair> all = [] {
+        std::vector<Pair> rows;
+        for (auto* more : {runPairs, assemblyPairs, areaPairs, surfacePairs})
+            for (Pair& row : more()) rows.push_back(std::move(row));
+        return rows;
+    }();
+    return all;
+}
+
+void checkPairs(const Call& call)
+{
+    for (const Pair& row : pairTable()) {
+        if (row.pairing == IsFor || (row.unless && row.unless(call))) continue;
+        const std::optional<std::string> thing = found(call, row.thing);
+        if (!thing) continue;
+        bool any = false;
+        for (const Thing& other : row.others) {
+            const std::optional<std::string> second = found(call, other);
+            if (second && row.pairing == Excludes)
+                misuse((other.title ? *second + " and " + *thing : *thing + " and " + *second) +
+                       " together" + row.why);
+            any = any || second;
+        }
+        if (row.pairing == Needs && !any)
+            misuse(*thing + ": expected " + anyOf(row.others) + " too" + row.why);
+    }
+}
+
+void warnOfPairs(Call& call)
+{
+    for (const Pair& row : pairTable()) {
+        if (row.pairing != IsFor || (row.unless && row.unless(call))) continue;
+        const std::optional<std::string> thing = found(call, row.thing);
+        if (!thing || std::any_of(row.others.begin(), row.others.end(), [&](const Thing& other) {
+                return found(call, other).has_value();
+            }))
+            continue;
+        call.warnings.push_back(*thing + " is for " + (*row.why ? row.why : anyOf(row.others)));
+    }
+}
+
+} // namespace molsurf::tool
