@@ -431,10 +431,15 @@ void save(const MadeSurface& surface, const std::string& path, bool replace, int
     if (end == ".json") return writeReport(surface.result.report, path, replace);
     checkMesh(surface.result.mesh);
     if (end == ".png") return writePicture(surface.result.mesh, path, width, replace);
-    if (end != ".ply" && end != ".obj" && end != ".stl" && end != ".off" && end != ".wrl" &&
-        end != ".glb" && end != ".3mf")
-        throw Error(ErrorKind::Usage, path + ": expected a name that ends in .ply, .obj, .stl, "
-                                             ".off, .wrl, .glb, .3mf, .vdb, .json or .png");
+    std::string all;
+    bool known = false;
+    for (const std::string& one : meshEndings()) {
+        known = known || end == one;
+        all += one + ", ";
+    }
+    if (!known)
+        throw Error(ErrorKind::Usage,
+                    path + ": expected a name that ends in " + all + ".vdb, .json or .png");
     writeMesh(surface.result.mesh, path, replace);
 }
 

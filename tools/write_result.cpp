@@ -9,7 +9,6 @@
 #include "molsurf/color/crisp_borders.h"
 #include "molsurf/color/legend.h"
 #include "molsurf/color/palette.h"
-#include "molsurf/io/write_3mf.h"
 #include "molsurf/io/write_glb.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_report.h"
@@ -301,6 +300,13 @@ void writePage(const Writing& w, OutputFile& file)
               file);
 }
 
+void writeMesh(const Writing& w, OutputFile& file)
+{
+    for (const MeshFormat& format : meshFormats())
+        if (std::string(format.word) == w.output.format->word)
+            format.write(w.whole, {stemOf(w.output.path), printUnit(w.call)}, file);
+}
+
 void writeAreaTable(const Writing& w, OutputFile& file)
 {
     writeCsv(areaTable(w.output.format->table, w.call, w.atoms, w.result), file);
@@ -319,45 +325,41 @@ void writeAtoms(const Writing& w, OutputFile& file)
 
 const std::vector<Format>& formatTable()
 {
+    constexpr const char* ofAreas = "table of areas";
+    constexpr const char* withAreas = "atoms with areas as B factors";
     constexpr unsigned all = Build | Batch | Convert | Compare | BricksMerge;
     constexpr unsigned built = Build | Batch, meshed = built | Convert;
+    constexpr unsigned printed = Triangles | Colors | CutBorders | Millimetres;
     static const std::vector<Format> table = {
-        {"vdb", all, Grids | Colors | SceneUnits, "", writeGrids},
-        {"ply", all, Triangles | Colors | CutBorders | VertexCurvatures, "",
-         [](const Writing& w, OutputFile& file) { writePly(w.whole, file); }},
-        {"obj", meshed, Triangles | Colors | CutBorders | Millimetres, "",
-         [](const Writing& w, OutputFile& file) { writeObj(w.whole, file, printUnit(w.call)); }},
-        {"stl", meshed, Triangles | Millimetres, "",
-         [](const Writing& w, OutputFile& file) { writeStl(w.whole, file, printUnit(w.call)); }},
-        {"off", meshed, Triangles | Colors | CutBorders, "",
-         [](const Writing& w, OutputFile& file) { writeOff(w.whole, file); }},
-        {"wrl", meshed, Triangles | Colors | CutBorders | Millimetres, "",
-         [](const Writing& w, OutputFile& file) { writeWrl(w.whole, file, printUnit(w.call)); }},
+        {"vdb", all, Grids | Colors | SceneUnits, "level set and fields", "", writeGrids},
+        {"ply", all, Triangles | Colors | CutBorders | VertexCurvatures, "mesh", "", writeMesh},
+        {"obj", meshed, printed, "mesh", "", writeMesh},
+        {"stl", meshed, Triangles | Millimetres, "mesh", "", writeMesh},
+        {"off", meshed, Triangles | Colors | CutBorders, "mesh", "", writeMesh},
+        {"wrl", meshed, printed, "mesh", "", writeMesh},
         {"glb", meshed,
-         Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels, "",
-         writeGlb},
-        {"3mf", meshed, Triangles | Colors | CutBorders | Millimetres, "",
-         [](const Writing& w, OutputFile& file) {
-             write3mf(w.whole, stemOf(w.output.path), printUnit(w.call).perAngstrom, file);
-         }},
-        {"html", meshed, Colors | ColorChoices | PlainColor | Copies | Levels | Views, "",
-         writePage},
-        {"json", all, Numbers | Copies, "",
+         Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels, "mesh",
+         "", writeGlb},
+        {"3mf", meshed, printed, "mesh", "", writeMesh},
+        {"html", meshed, Colors | ColorChoices | PlainColor | Copies | Levels | Views,
+         "page that shows it", "", writePage},
+        {"json", all, Numbers | Copies, "report", "",
          [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
-        {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "",
+        {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "picture", "",
          [](const Writing& w, OutputFile& file) {
              writePicture(w.call, w.atoms, w.mesh, w.output.turn, w.progress, file);
          }},
-        {"usda", Build, Stage | Colors | SceneUnits | Copies | Levels, "", writeStage},
-        {"csv", Build, FrameRows | AllFrames, "", nullptr},
-        {"atoms.csv", built, Areas | AllFrames, "atoms", writeAreaTable},
-        {"residues.csv", built, Areas | AllFrames, "residues", writeAreaTable},
-        {"contacts.csv", built, Areas | AllFrames, "contacts", writeAreaTable},
-        {"interfaces.csv", built, Areas | AllFrames, "interfaces", writeAreaTable},
-        {"pdb", built, Areas, "atoms", writeAtoms<writePdb>},
-        {"cif", built, Areas, "atoms", writeAtoms<writeMmcif>},
-        {"residues.pdb", built, Areas, "residues", writeAtoms<writePdb>},
-        {"residues.cif", built, Areas, "residues", writeAtoms<writeMmcif>}};
+        {"usda", Build, Stage | Colors | SceneUnits | Copies | Levels, "copies, with --instances",
+         "", writeStage},
+        {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},
+        {"atoms.csv", built, Areas | AllFrames, ofAreas, "atoms", writeAreaTable},
+        {"residues.csv", built, Areas | AllFrames, ofAreas, "residues", writeAreaTable},
+        {"contacts.csv", built, Areas | AllFrames, ofAreas, "contacts", writeAreaTable},
+        {"interfaces.csv", built, Areas | AllFrames, ofAreas, "interfaces", writeAreaTable},
+        {"pdb", built, Areas, withAreas, "atoms", writeAtoms<writePdb>},
+        {"cif", built, Areas, withAreas, "atoms", writeAtoms<writeMmcif>},
+        {"residues.pdb", built, Areas, withAreas, "residues", writeAtoms<writePdb>},
+        {"residues.cif", built, Areas, withAreas, "residues", writeAtoms<writeMmcif>}};
     return table;
 }
 
@@ -366,6 +368,18 @@ const Format* findFormat(const std::string& word)
     for (const Format& format : formatTable())
         if (word == format.word) return &format;
     return nullptr;
+}
+
+std::string filesOf(unsigned verb)
+{
+    std::string all, last;
+    for (const Format& format : formatTable()) {
+        if (!(format.verbs & verb)) continue;
+        if (!last.empty() && last != format.help) all += " " + last + ";";
+        all += (all.empty() ? "." : " .") + std::string(format.word);
+        last = format.help;
+    }
+    return all + " " + last;
 }
 
 std::string endingsOf(unsigned holds, unsigned verbs, const char* last)

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/files.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/io/read_mesh.h"
-#include "molsurf/io/write_3mf.h"
-#include "molsurf/io/write_glb.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_report.h"
 #include "molsurf/io/write_vdb.h"
@@ -17,24 +16,25 @@
 namespace molsurf
 {
 
+std::vector<std::string> meshEndings()
+{
+    std::vector<std::string> all;
+    for (const MeshFormat& format : meshFormats()) all.push_back(std::string(".") + format.word);
+    return all;
+}
+
 void writeMesh(const Mesh& mesh, const std::string& path, bool replace)
 {
     const std::filesystem::path name = path;
-    const std::string end = name.extension().string(), stem = name.stem().string();
-    const auto write = [&](const auto& content) {
+    for (const MeshFormat& format : meshFormats()) {
+        if (name.extension().string() != std::string(".") + format.word) continue;
         OutputFile file(path, replace);
-        content(file);
+        format.write(mesh, {name.stem().string()}, file);
         file.commit();
-    };
-    if (end == ".ply") return write([&](OutputFile& file) { writePly(mesh, file); });
-    if (end == ".obj") return write([&](OutputFile& file) { writeObj(mesh, file); });
-    if (end == ".stl") return write([&](OutputFile& file) { writeStl(mesh, file); });
-    if (end == ".off") return write([&](OutputFile& file) { writeOff(mesh, file); });
-    if (end == ".wrl") return write([&](OutputFile& file) { writeWrl(mesh, file); });
-    if (end == ".glb") return write([&](OutputFile& file) { writeGlb(mesh, {stem}, file); });
-    if (end == ".3mf") return write([&](OutputFile& file) { write3mf(mesh, stem, 1.0, file); });
+        return;
+    }
     throw Error(ErrorKind::Usage,
-                path + ": expected a name that ends in .ply, .obj, .stl, .off, .wrl, .glb or .3mf");
+                path + ": expected a name that ends in " + joinWords(meshEndings(), " or "));
 }
 
 void writeVdb(const MolecularSurface& surface, const std::string& path, bool replace)

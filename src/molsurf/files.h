@@ -10,12 +10,16 @@
 #include "molsurf/surface.h"
 
 #include <string>
+#include <vector>
 
 namespace molsurf
 {
 
-/// Writes a mesh in the format that the extension tells: .ply (binary, with all attributes), .obj,
-/// .stl, .off, .wrl, .glb or .3mf. Lengths are in Å.
+/// How the names of mesh files end: ".ply", ".obj", ...
+std::vector<std::string> meshEndings();
+
+/// Writes a mesh in the format that the extension tells, one of meshEndings(); .ply (binary) has
+/// all attributes. Lengths are in Å.
 /// @param[in] replace  whether a file that exists may be replaced
 /// @throws Error(ErrorKind::Usage) if the extension is another one
 /// @throws Error(ErrorKind::Output) if the file cannot be written, or if it exists and may not be

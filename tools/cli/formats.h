@@ -46,12 +46,16 @@ struct Format {
     const char* word;  ///< how a file's name ends, without the first dot: "ply", "atoms.csv"
     unsigned verbs;    ///< that write it
     unsigned holds;    ///< of Holds
+    const char* help;  ///< what a file is, for help texts; of two in turn with the same said once
     const char* table; ///< the table of areas that it has, one of areaTables(); "" if none
     void (*write)(const Writing& what, OutputFile& file); ///< null: a verb does so by itself
 };
 
 /// All of them, in the order of help texts.
 const std::vector<Format>& formatTable();
+
+/// What a verb's files are, for the help text of --output.
+std::string filesOf(unsigned verb);
 
 /// The format of a word, or null.
 const Format* findFormat(const std::string& word);

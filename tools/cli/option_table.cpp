@@ -253,6 +253,11 @@ OptionGroup outputOptions()
         o.set = [](Call& call, const Values& values) { call.paths = values; };
         return o;
     };
+    const auto written = [&](Verb verb, const char* more) {
+        return output(verb,
+                      "file to write; repeats; the extension says what:\n" +
+                          wrapped(filesOf(verb) + "; - is standard output" + more, helpWidth));
+    };
     const auto format = [](Verb verb, unsigned verbs) {
         const Values known = formatsOf(verb);
         Option o{"format", 0,     "WORD", "what -o - writes: one of\n" + inLines(known),
@@ -281,33 +286,21 @@ OptionGroup outputOptions()
                           "distance (viridis) or signed-distance (blue: A is\ninside B, red: "
                           "outside)",
                           "signed-distance", "distance", Compare, OF(colorBySign));
-    return {"Output",
-            {output(Build, "file to write; repeats; the extension says what:\n"
-                           ".vdb level set and fields; .ply .obj .stl .off .wrl\n"
-                           ".glb .3mf mesh; .html page that shows it; .json report;\n"
-                           ".png picture; .usda copies, with --instances; areas as\n"
-                           "tables .atoms.csv .residues.csv .contacts.csv\n"
-                           ".interfaces.csv, and atoms .pdb .cif with them as B\n"
-                           "factors; - is standard output"),
-             output(Convert, "file to write; repeats; the extension says what:\n"
-                             ".ply .obj .stl .off .wrl .glb .3mf mesh; .html page;\n"
-                             ".json report; .png picture; with --color .vdb, the\n"
-                             "grids with Cd anew; - is standard output"),
-             output(Compare, "file to write; repeats; the extension says what:\n"
-                             ".ply mesh of A with distances and colours,\n"
-                             ".vdb distances on the band of A, .json report;\n"
-                             "- is standard output; without it numbers are printed"),
-             output(BricksPlan, "the manifest, a name that ends in .json"),
-             output(BricksMerge, "file to write; repeats; the extension says what:\n"
-                                 ".vdb level set and fields, .ply mesh, .json report"),
-             folder, formats, format(Build, Build), format(Convert, Convert),
-             format(Compare, Compare | BricksMerge),
-             force(files | BricksPlan, "replace existing files"),
-             force(Batch, "do all again, and replace existing files"),
-             force(BricksRun, "do it again if it is done"), shown,
-             number("range", "D", "distance at the end of the colours [Å]",
-                    "that of 99 % of the vertices", Compare, 1e-300, 1e300,
-                    "a positive number of Å", OF(colorRange))}};
+    return {
+        "Output",
+        {written(Build, ""), written(Convert, "; .vdb with --color"),
+         written(
+             Compare,
+             "; mesh and level set are those of A with distances; without it numbers are printed"),
+         output(BricksPlan, "the manifest, a name that ends in .json"), written(BricksMerge, ""),
+         folder, formats, format(Build, Build), format(Convert, Convert),
+         format(Compare, Compare | BricksMerge),
+         force(files | BricksPlan, "replace existing files"),
+         force(Batch, "do all again, and replace existing files"),
+         force(BricksRun, "do it again if it is done"), shown,
+         number("range", "D", "distance at the end of the colours [Å]",
+                "that of 99 % of the vertices", Compare, 1e-300, 1e300, "a positive number of Å",
+                OF(colorRange))}};
 }
 
 OptionGroup atomOptions()

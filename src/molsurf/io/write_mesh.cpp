@@ -4,6 +4,8 @@
 #include "molsurf/error.h"
 #include "molsurf/io/output_buffer.h"
 #include "molsurf/io/ply_layout.h"
+#include "molsurf/io/write_3mf.h"
+#include "molsurf/io/write_glb.h"
 
 #include <algorithm>
 #include <array>
@@ -235,6 +237,22 @@ void writeWrl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit)
     put("]\n}\n}\n");
     buffer.flush();
     file.finish();
+}
+
+const std::vector<MeshFormat>& meshFormats()
+{
+    using Title = MeshTitle;
+    static const std::vector<MeshFormat> table = {
+        {"ply", [](const Mesh& m, const Title&, OutputFile& f) { writePly(m, f); }},
+        {"obj", [](const Mesh& m, const Title& t, OutputFile& f) { writeObj(m, f, t.unit); }},
+        {"stl", [](const Mesh& m, const Title& t, OutputFile& f) { writeStl(m, f, t.unit); }},
+        {"off", [](const Mesh& m, const Title&, OutputFile& f) { writeOff(m, f); }},
+        {"wrl", [](const Mesh& m, const Title& t, OutputFile& f) { writeWrl(m, f, t.unit); }},
+        {"glb", [](const Mesh& m, const Title& t, OutputFile& f) { writeGlb(m, {t.name}, f); }},
+        {"3mf", [](const Mesh& m, const Title& t, OutputFile& f) {
+             write3mf(m, t.name, t.unit.perAngstrom, f);
+         }}};
+    return table;
 }
 
 } // namespace molsurf

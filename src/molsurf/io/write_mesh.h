@@ -58,4 +58,20 @@ void writeOff(const Mesh& mesh, OutputFile& file);
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeWrl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit = {});
 
+/// What a mesh file says of itself.
+struct MeshTitle {
+    std::string name = "surface"; ///< of the object, in formats that have names
+    LengthUnit unit{};            ///< in formats that are printed from
+};
+
+/// A format of mesh files.
+struct MeshFormat {
+    const char* word; ///< how a file's name ends: "ply"
+    /// @throws Error(ErrorKind::Output) if the file cannot be written
+    void (*write)(const Mesh& mesh, const MeshTitle& title, OutputFile& file);
+};
+
+/// All of them, in the order of help texts.
+const std::vector<MeshFormat>& meshFormats();
+
 } // namespace molsurf
