@@ -85,6 +85,7 @@ FACES = ("3 0 1 2\n", "3 0 2 3\n", "3 0 3 1\n", "3 1 3 2\n")
 # Files that are there in every case, beside those of tests/data.
 FILES = {
     "dot.xyzr": "0 0 0 0.1\n", "tiny.xyzr": "0.4 0.4 0.4 0.3\n", "one.xyzr": "0 0 0 1\n", "two.xyzr": "0 0 0 1.7\n3 0 0 1.7\n",
+    "apart.xyzr": "2.524 -36.942 -21.611 1.19\n5.501 -40.386 -18.396 2.1\n",
     "far.xyzr": "2e4 0 0 1.7\n", "ball.xyzr": "0 0 0 100\n", "large.xyzr": "0 0 0 60\n",
     "solid.ply": PLY.format(4, "".join(FACES)), "open.ply": PLY.format(3, "".join(FACES[:3])),
     "strips.ply": PLY.format(4, "".join(FACES)).replace("face 4", "tristrips 4"),
@@ -166,17 +167,20 @@ CASES = {
          f"vdb_molsurf 1d3z.pdb.gz --trajectory 1d3z.xtc --frames 1 {FAST} -o a.ply"),
         ("--frames FIRST-", f"vdb_molsurf 1d3z.pdb.gz --frames 10-99 {FAST} -o a.ply",
          f"vdb_molsurf 1d3z.pdb.gz --frames 10- {FAST} -o a.ply")],
-    "surface/surface_run.cpp": [
-        ("a smaller --voxel", "vdb_molsurf tiny.xyzr --probe 0.1 --voxel 1 -o a.ply",
-         "vdb_molsurf tiny.xyzr --probe 0.1 --voxel 0.05 -o a.ply")],
     "surface/surface_kind.cpp": [
-        ("a smaller --voxel", "vdb_molsurf dot.xyzr --surface vdw --voxel 2 -o a.ply",
-         "vdb_molsurf dot.xyzr --surface vdw --voxel 0.1 -o a.ply"),
+        ("a --voxel of 0.15", "vdb_molsurf tiny.xyzr --probe 0.1 --voxel 1 -o a.ply",
+         "vdb_molsurf tiny.xyzr --probe 0.1 --voxel 0.15 -o a.ply"),
+        ("a --voxel of 0.05", "vdb_molsurf dot.xyzr --surface vdw --voxel 2 -o a.ply",
+         "vdb_molsurf dot.xyzr --surface vdw --voxel 0.05 -o a.ply"),
+        ("a --voxel of 1", "vdb_molsurf apart.xyzr --surface gaussian --voxel 2.23 -o a.ply",
+         "vdb_molsurf apart.xyzr --surface gaussian --voxel 1 -o a.ply"),
+        ("a smaller --voxel", f"vdb_molsurf bricks plan dot.xyzr --surface vdw --voxel 2 --bricks 1 -o plan.json; "
+         f"vdb_molsurf bricks run plan.json 1 -q; {MERGE}",
+         "vdb_molsurf bricks plan dot.xyzr --surface vdw --voxel 0.05 --bricks 1 -o plan.json --force; "
+         f"vdb_molsurf bricks run plan.json 1 --force; {MERGE}"),
         ("a smaller --voxel, --lambda or --epsilon", "vdb_molsurf one.xyzr --lambda 1 --epsilon 2 -o a.ply",
          "vdb_molsurf one.xyzr --lambda 0.1 --epsilon 2 -o a.ply",
          "vdb_molsurf one.xyzr --lambda 1 --epsilon 1 -o b.ply"),
-        ("a smaller --voxel, --lambda or --epsilon", "vdb_molsurf dot.xyzr --voxel 2 -o a.ply",
-         "vdb_molsurf dot.xyzr --voxel 0.05 -o a.ply"),
         ("a smaller --voxel, --lambda or --epsilon",
          f"vdb_molsurf bricks plan dot.xyzr --voxel 2 --bricks 1 -o plan.json; {RUN}; {MERGE}",
          "vdb_molsurf bricks plan dot.xyzr --voxel 0.05 --bricks 1 -o plan.json --force; "

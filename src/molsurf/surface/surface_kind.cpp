@@ -6,6 +6,7 @@
 #include "molsurf/surface/whole_only.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
 
 namespace molsurf
@@ -77,6 +78,19 @@ void failNothingLeft(const char* stage, SurfaceKind kind)
                 std::string(stage) + ": nothing of the molecule is left at this resolution" +
                     (hasFlow(kind) ? " [hint: a smaller `voxel`, `lambda` or `epsilon`]"
                                    : " [hint: a smaller `voxel`]"));
+}
+
+void failIfTooCoarse(const std::string& what, const std::vector<Ball>& balls,
+                     const SurfaceOptions& options)
+{
+    // Of random molecules those with voxels up to 0.7 radii come out whole.
+    const double radius = double(largestRadius(balls));
+    if (balls.empty() || options.voxel <= radius) return;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  ": voxels of %.3g Å are too large for the balls [hint: a `voxel` of %.2g]",
+                  options.voxel, 0.5 * radius);
+    throw Error(ErrorKind::Numeric, what.substr(0, what.find(" [hint")) + text);
 }
 
 GaussianOptions gaussianOptions(const SurfaceOptions& options)

@@ -8,6 +8,7 @@
 #include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/options.h"
 
+#include <string>
 #include <vector>
 
 namespace molsurf
@@ -77,6 +78,12 @@ BandWidths widthsOf(const SurfaceOptions& options);
 /// Says that the voxels show nothing of a surface, and what would.
 /// @param[in] stage  that found it
 [[noreturn]] void failNothingLeft(const char* stage, SurfaceKind kind);
+
+/// Does nothing if the largest ball is as large as a voxel.
+/// @param[in] what  is wrong with the surface
+/// @throws Error(ErrorKind::Numeric) that says so and names a voxel that is small enough
+void failIfTooCoarse(const std::string& what, const std::vector<Ball>& balls,
+                     const SurfaceOptions& options);
 
 /// Gives the parameters of the sum of Gaussians.
 GaussianOptions gaussianOptions(const SurfaceOptions& options);

@@ -76,8 +76,8 @@ void SurfaceRun::density()
     }
     SparseField psi = sum_->band(bandWidthVox, progress_, scope_.region.grown(scope_.flowHalo));
     if (psi.table.size() == 0 && scope_.region.whole()) {
-        throw Error(ErrorKind::Numeric, "density: no voxel lies inside the surface [hint: a "
-                                        "smaller `voxel`]");
+        failIfTooCoarse("density: no voxel lies inside the surface", atoms_.balls, options_);
+        failNothingLeft("density", options_.kind);
     }
     watch_.stop("density");
 
@@ -256,6 +256,7 @@ void SurfaceRun::mesh()
 void SurfaceRun::checkLeft() const
 {
     if (!scope_.region.whole() || !result_.mesh.triangles.empty()) return;
+    failIfTooCoarse("mesh: nothing of the molecule is left", atoms_.balls, options_);
     failNothingLeft("mesh", options_.kind);
 }
 
@@ -338,7 +339,12 @@ void SurfaceRun::measure()
     const GradientCounts counts = countGradients(stats_.slopes);
     surface.kinkShare = vertices ? double(counts.kink) / vertices : 0.0;
     surface.gradientShare = double(counts.unit) / double(vertices - counts.kink); // or 0/0
-    checkMesh(result_.mesh, surface, options_.voxel, progress_);
+    try {
+        checkMesh(result_.mesh, surface, options_.voxel, progress_);
+    } catch (const Error& e) {
+        failIfTooCoarse(e.what(), atoms_.balls, options_);
+        throw;
+    }
 }
 
 void SurfaceRun::describeCurvature()

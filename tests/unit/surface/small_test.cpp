@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <random>
+#include <string>
 
 namespace molsurf
 {
@@ -107,15 +110,47 @@ TEST(SmallMolecules, AreAnErrorWhereTheVoxelIsFarTooLarge)
         }
     }
     EXPECT_GT(errors, 3);
-    SurfaceOptions options;
-    options.voxel = 10.0;
-    try {
-        test::runOn({{Vec3f(5.0f), 1.7f, 0}}, options);
-        FAIL() << "expected an Error";
-    } catch (const Error& e) {
-        EXPECT_EQ(e.kind(), ErrorKind::Numeric);
-        EXPECT_NE(std::string(e.what()).find("`voxel`"), std::string::npos) << e.what();
+}
+
+// What is refused names a voxel that is small enough, of every kind, and is closed with it.
+TEST(SmallMolecules, NameAVoxelThatHoldsThem)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> step(-3.0f, 3.0f), radius(1.0f, 2.5f), voxel(2.6f, 10.0f);
+    int refused = 0, open = 0;
+    for (int run = 0; run < 150; ++run) {
+        SurfaceOptions options;
+        options.kind = std::array{SurfaceKind::Gaussian, SurfaceKind::Gaussian,
+                                  SurfaceKind::Variational, SurfaceKind::VanDerWaals,
+                                  SurfaceKind::SolventExcluded}[std::size_t(run % 5)];
+        options.voxel = double(voxel(random));
+        std::vector<Ball> balls;
+        Vec3f x = corner;
+        for (int i = 0; i <= run % 7; ++i) {
+            balls.push_back({x, radius(random), i});
+            x += Vec3f(step(random), step(random), step(random));
+        }
+        if (run == 0) { // its mesh is open
+            balls = {{{2.524f, -36.942f, -21.611f}, 1.19f, 0},
+                     {{5.501f, -40.386f, -18.396f}, 2.1f, 1}};
+            options.voxel = 2.23;
+        }
+        try {
+            EXPECT_TRUE(test::runOn(balls, options).report.surface.closed);
+        } catch (const Error& e) {
+            ASSERT_EQ(e.kind(), ErrorKind::Numeric) << e.what();
+            const std::string text = e.what(), hint = "[hint: a `voxel` of ";
+            const std::size_t at = text.find(hint);
+            ASSERT_NE(at, text.npos) << text;
+            ++refused;
+            open += text.find("two triangles at each edge") != text.npos;
+            options.voxel = std::stod(text.substr(at + hint.size()));
+            const SurfaceReport surface = test::runOn(balls, options).report.surface;
+            EXPECT_TRUE(surface.closed && surface.manifold) << text;
+        }
     }
+    EXPECT_GT(refused, 50);
+    EXPECT_GT(open, 0);
 }
 
 } // namespace
