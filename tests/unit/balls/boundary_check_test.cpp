@@ -62,6 +62,16 @@ TEST(BoundaryCheck, TellsWhatDisagrees)
     area.measure.patchAreas[7] += 2.0 * M_PI * std::pow(area.boundary.patches[7].radius, 2);
     EXPECT_NE(area.verdict().find("shares of a sphere"), std::string::npos);
 
+    // Loops in the wrong order are a quarter of the sphere off, at least.
+    for (const double share : {-0.25, 0.25, 0.5}) {
+        for (const std::size_t p : {std::size_t(0), right.boundary.patches.size() / 2}) {
+            Checked loops = right;
+            loops.measure.patchAreas[p] +=
+                share * 4.0 * M_PI * std::pow(loops.boundary.patches[p].radius, 2);
+            EXPECT_NE(loops.verdict().find("shares of a sphere"), std::string::npos) << share;
+        }
+    }
+
     Checked volume = right;
     volume.measure.pieces[0].volume *= 1.05;
     EXPECT_NE(volume.verdict().find("power cells"), std::string::npos);

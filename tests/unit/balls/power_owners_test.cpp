@@ -38,6 +38,22 @@ TEST(PowerOwners, TheLowerOfTwoOwnersHasWhatIsBetween)
     }
 }
 
+// However large other balls are, and however far the point is from all.
+TEST(PowerOwners, TellsAllOwnersWithinTheSlack)
+{
+    const PowerOwners owners(
+        {{Vec3f(0, 0, 0), 1.0f, 0}, {Vec3f(5, 0, 0), 0.5f, 1}, {Vec3f(-90, 0, 0), 9.0f, 2}},
+        {0, 1, 2});
+    std::vector<OwnersPower> near;
+    owners.at({1.5, 0.0, 0.0}, 16.0, near); // powers 1.25 and 12
+    ASSERT_EQ(near.size(), 2u);
+    EXPECT_EQ(near[0].owner, 0);
+    EXPECT_NEAR(near[1].power, 12.0, 1e-9);
+    owners.at({34.0, 3.0, 0.0}, 0.0, near); // 29 Å from the nearest ball
+    ASSERT_FALSE(near.empty());
+    EXPECT_EQ(near[0].owner, 1);
+}
+
 TEST(PowerOwners, AgreesWithAllBalls)
 {
     std::mt19937 random(3);
