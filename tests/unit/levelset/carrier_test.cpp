@@ -58,6 +58,9 @@ TEST(SmoothCarrier, IsPsiOverItsSlopeOnPsiZero)
             ++near;
             worst = std::max(worst, std::abs(f.carrier.leaf(n)[v] + f.psi.leaf(n)[v] / slope));
         });
+        for (std::size_t n = 0; n < f.table().size(); ++n) // far away psi is much lower
+            for (int v = 0; v < leafSize; ++v)
+                ASSERT_LE(std::abs(f.carrier.leaf(n)[v]), 6.001 * voxel); // twice the band
         EXPECT_GT(near, 500u);
         EXPECT_LT(worst, 0.02) << voxel; // [Å]
     }
@@ -89,15 +92,22 @@ TEST(SmoothCarrier, HasTheLevelOfPsiAtTheFeet)
     EXPECT_LT(worst, 0.0025); // [Å]
 }
 
-// No voxel is nearer to this front than half a voxel, and psi has another level there than 0.
-TEST(SmoothCarrier, KnowsTheLevelOfAFrontBetweenVoxels)
+/// All voxels of the eight leaves about the origin.
+LeafTable cube()
 {
-    constexpr double voxel = 0.5, front = 0.25, level = -0.4;
     std::vector<openvdb::Coord> origins;
     for (int i = 0; i < 8; ++i)
         origins.emplace_back(8 * (i / 4) - 8, 8 * (i / 2 % 2) - 8, 8 * (i % 2) - 8);
     LeafTable table(std::move(origins));
     for (std::size_t n = 0; n < table.size(); ++n) table.active(n) = ~LeafMask();
+    return table;
+}
+
+// No voxel is nearer to this front than half a voxel, and psi has another level there than 0.
+TEST(SmoothCarrier, KnowsTheLevelOfAFrontBetweenVoxels)
+{
+    constexpr double voxel = 0.5, front = 0.25, level = -0.4;
+    const LeafTable table = cube();
     const SparseField phi =
         test::filled(table, voxel, [](const Vec3d& x) { return x.x() - front; });
     const SparseField psi =
@@ -108,6 +118,52 @@ TEST(SmoothCarrier, KnowsTheLevelOfAFrontBetweenVoxels)
     test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
         if (std::abs(x.x() - front) < voxel) {
             ASSERT_NEAR(carrier.leaf(n)[v], x.x() - front, 1e-4) << x;
+        }
+    });
+}
+
+// At the bottom of the valley of the metric, (1 + lambda |grad psi|^2) e^psi = 1, the carrier has
+// the shape of psi, and that of the distance where the front has left the valley on either side.
+TEST(SmoothCarrier, HasTheShapeOfPsiInTheValleyAlone)
+{
+    constexpr double voxel = 0.5, front = 0.1, share = 0.5;
+    const LeafTable table = cube();
+    const SparseField phi =
+        test::filled(table, voxel, [](const Vec3d& x) { return x.x() - front; });
+    const SparseField slopes = test::filled(table, voxel, [](const Vec3d&) { return slope; });
+    for (const double lambda : {0.0, 0.1, 1.0}) {
+        const double bottom = -std::log(1.0 + lambda * slope * slope);
+        for (const double above : {-1.4, -0.4, 0.0, 0.4, 1.4}) {
+            const SparseField psi = test::filled(table, voxel, [&](const Vec3d& x) {
+                return bottom + above - share * slope * (x.x() - front);
+            });
+            const SparseField carrier = smoothCarrier(
+                phi, {psi.values, slopes.values, false, lambda}, 3.0 * voxel, Progress());
+            const double shape = std::abs(above) > 1.0 ? 1.0 : share;
+            test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+                const double d = x.x() - front;
+                if (std::abs(d) > voxel) return;
+                ASSERT_NEAR(carrier.leaf(n)[v], shape * d, 2e-3) << lambda << ' ' << above;
+            });
+        }
+    }
+}
+
+// A sheet thinner than a voxel has no normal in its middle.
+TEST(SmoothCarrier, IsThatOfPsiInAThinSheet)
+{
+    constexpr double voxel = 0.5, half = 0.25;
+    const LeafTable table = cube();
+    const auto distance = [](const Vec3d& x) { return std::abs(x.x()) - half; };
+    const SparseField phi = test::filled(table, voxel, distance);
+    const SparseField psi =
+        test::filled(table, voxel, [&](const Vec3d& x) { return -slope * distance(x); });
+    const SparseField slopes = test::filled(table, voxel, [](const Vec3d&) { return slope; });
+    const SparseField carrier =
+        smoothCarrier(phi, {psi.values, slopes.values, false, 0.0}, 3.0 * voxel, Progress());
+    test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+        if (std::abs(x.x()) <= 4.0 * voxel) {
+            ASSERT_NEAR(carrier.leaf(n)[v], distance(x), 0.1) << x;
         }
     });
 }
