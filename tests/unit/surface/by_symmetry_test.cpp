@@ -8,6 +8,7 @@
 #include "molsurf/structure/rotation_group.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/unit_mesh.h"
+#include "molsurf/tables.h"
 #include "support/groups.h"
 
 #include <gtest/gtest.h>
@@ -345,6 +346,38 @@ TEST(SymmetricUnit, InterfacesCountTheWhole)
         const bool exact = kind == SurfaceKind::SolventAccessible;
         EXPECT_NEAR(found, expected, (exact ? 1e-4 : 1e-2) * expected);
     }
+}
+
+/// The rows of a unit are the contacts of its balls, with one another and with images.
+TEST(SymmetricUnit, ContactsAreThoseOfItsBalls)
+{
+    SurfaceOptions options;
+    options.kind = SurfaceKind::SolventAccessible;
+    options.contacts = true;
+    Structure s = blob({9.0, 1.0, 1.0}, 6.0, 120, 3);
+    s.assemblies = {assemblyOf(dihedral(3))};
+    SelectOptions select = assembly(true, options);
+    select.names = true;
+    const BallSet unit = selectBalls(s, select);
+    const Table table = contactTable(unit, ContactLevel::Atom, makeSurface(unit, options));
+    select.bySymmetry = false;
+    const MolecularSurface whole = makeSurface(selectBalls(s, select), options);
+    double expected = 0.0, found = 0.0;
+    std::size_t count = 0, across = 0;
+    for (const ContactArea& contact : whole.contacts) {
+        if (contact.balls[0] >= s.atoms.size()) continue;
+        expected += contact.area;
+        ++count;
+        across += contact.balls[1] >= s.atoms.size();
+    }
+    for (const Table::Column& column : table.columns) {
+        if (column.name != "area") continue;
+        const auto& areas = std::get<std::vector<double>>(column.values);
+        EXPECT_EQ(areas.size(), count);
+        for (const double area : areas) found += area;
+    }
+    EXPECT_GT(across, 20u);
+    EXPECT_NEAR(found, expected, 1e-3 * expected);
 }
 
 TEST(SymmetricUnit, RefusesWhatNeedsTheWhole)

@@ -78,6 +78,12 @@ TEST(Tables, OfContactsHaveALevel)
     const MolecularSurface result = makeSurface(atoms, exact());
     EXPECT_EQ(column<double>(contactTable(atoms, ContactLevel::Atom, result), "area").size(),
               result.contacts.size());
+    double apart = 0.0; // centres of atoms
+    for (const ContactArea& contact : result.contacts)
+        apart += double(
+            (atoms.balls[contact.balls[0]].center - atoms.balls[contact.balls[1]].center).length());
+    EXPECT_NEAR(sum(column<double>(contactTable(atoms, ContactLevel::Atom, result), "distance_A")),
+                apart, 1e-4 * apart);
     EXPECT_GT(
         column<std::string>(contactTable(atoms, ContactLevel::Residue, result), "residue_2").size(),
         100u);
