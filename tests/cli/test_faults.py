@@ -301,6 +301,7 @@ class Commit(ToolTest):
         self.assertTrue(any(first - 2 <= i < record for i in folder), "the folder before the record")
         self.assertTrue(folder[-1] > max(i for i, (what, _) in enumerate(lines) if what == "rename"),
                         "the folder after the names")
+        self.assertEqual(len(folder), 3, "the folder: before the record, with it, and after the names, for all files")
 
     def test_interrupt_and_terminate(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):

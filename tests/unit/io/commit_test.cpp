@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <sys/ptrace.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -155,7 +156,7 @@ TEST(Recover, LeavesFilesOfProcessesAtWork)
 TEST(Recover, LeavesFilesOfOtherNames)
 {
     const Folder folder;
-    const Names names = {".a.12.part", ".a.part", ".vdb_molsurf.commit",
+    const Names names = {".a.12.part", ".a.part", ".vdb_molsurf.12.commit", ".vdb_molsurf.commit",
                          "a.12-0123abcd89abcdef.part"};
     for (const std::string& name : names) std::ofstream(folder / name) << "mine";
     recover(folder / ".");
@@ -262,7 +263,7 @@ TEST(Recover, LeavesARecordWhoseFirstFolderIsNotDone)
     EXPECT_EQ(folder.names(), (Names{"b"}));
 }
 
-TEST(Recover, LeavesSymbolicLinksAndWhatIsOfOthers)
+TEST(Recover, LeavesSymbolicLinksPipesAndWhatIsOfOthers)
 {
     const Folder folder;
     const std::string part = temporaryName(folder / "a", maker);
@@ -270,6 +271,10 @@ TEST(Recover, LeavesSymbolicLinksAndWhatIsOfOthers)
     std::filesystem::create_symlink("mine", part);
     recover(folder / ".");
     EXPECT_TRUE(std::filesystem::is_symlink(part));
+    std::filesystem::remove(part);
+    ASSERT_EQ(mkfifo(part.c_str(), 0600), 0);
+    recover(folder / ".");
+    EXPECT_TRUE(std::filesystem::is_fifo(part));
     std::filesystem::remove(part);
     if (geteuid() != 0) GTEST_SKIP() << "files cannot be given to others here";
     leaveComplete(folder / "a");
