@@ -170,7 +170,8 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
 {
     stopIfAsked();
     if (call.options.grid) {
-        const double seconds = checkCost(balls, call.options, limitsOf(call), terminal);
+        double seconds = checkCost(balls, call.options, limitsOf(call), terminal);
+        if (call.writes(Pixels)) seconds += costOfPicture(0, call.picture.width).seconds;
         constexpr double any = std::numeric_limits<double>::infinity();
         terminal.limitTo(isEstimated(call.options) ? seconds : any, call.hours);
     }

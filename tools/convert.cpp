@@ -66,6 +66,11 @@ int convert(const Call& asked, Clock::time_point start)
     PlannedBrick cost;
     const VdbFile file = readVdb(asked.input, [&](const VdbContent& content) {
         cost = costOfStored(content);
+        if (asked.writes(Pixels)) {
+            const PlannedBrick drawing = costOfPicture(cost.voxels, asked.picture.width);
+            cost.bytes += drawing.bytes;
+            cost.seconds += drawing.seconds;
+        }
         if (!asked.dryRun) checkCost(cost, limitsOf(asked));
         return !asked.dryRun;
     });

@@ -126,6 +126,16 @@ class Limits(ToolTest):
             self.assertTrue(0.7 < estimate / peak < 2, (estimate, peak))
             self.refuse("convert", "a.vdb", "-o", "b.ply", "--max-hours", "1e-5", says=["hours", "--max-hours"])
 
+    def test_convert_says_what_drawing_takes(self):
+        self.check(0, DATA / "4at1.ent.gz", "--surface", "sas", "--voxel", "1", "-o", "a.vdb")
+        for width in (600, 2400):
+            words = ("convert", "a.vdb", "-o", "a.png", "-o", "a.json", "--size", width)
+            said = self.check(0, *words, "--force", "--dry-run").stderr.decode()
+            estimate = 2**30 * float(said.split(" GiB")[0].split()[-1])
+            self.check(0, *words, "--force")
+            peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
+            self.assertTrue(0.7 < estimate / peak < 1.5, (width, estimate, peak))
+
     def test_compare_refuses_what_is_too_large(self):
         self.check(1, "compare", CRAMBIN, CRAMBIN, "--voxel", "0.05", "--epsilon", "10", "--probe", "90",
                    says=["GiB of memory, and there are"])

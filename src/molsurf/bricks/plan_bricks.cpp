@@ -52,6 +52,8 @@ constexpr double secondsPerBoundaryBall = 15e-6;
 // was measured, the memory 0.9 to 1.4 times.
 constexpr double secondsOfStart = 0.03, secondsPerSplineLeaf = 0.05e-3;
 constexpr double secondsPerFittedLeaf = 0.15e-3, bytesPerFittedLeaf = 25e3; // without its spline
+constexpr double bytesPerPixel = 33.0, secondsPerPixel = 1.2e-6;            // of a square picture
+constexpr double bytesPerDrawnVoxel = 118.0, secondsPerDrawnVoxel = 0.5e-6; // rays find triangles
 constexpr double bytesToMerge =
     7.0; // an active voxel: leaves without values, statistics of vertices
 constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
@@ -610,6 +612,15 @@ PlannedBrick costOfStored(const VdbContent& content)
                              (content.spline ? bytesPerMeshLeaf : bytesPerFittedLeaf) * leaves);
     cost.seconds =
         secondsOfStart + (content.spline ? secondsPerSplineLeaf : secondsPerFittedLeaf) * leaves;
+    return cost;
+}
+
+PlannedBrick costOfPicture(std::size_t voxels, int width)
+{
+    const double pixels = double(width) * double(width);
+    PlannedBrick cost;
+    cost.bytes = std::size_t(bytesPerPixel * pixels + bytesPerDrawnVoxel * double(voxels));
+    cost.seconds = secondsPerPixel * pixels + secondsPerDrawnVoxel * double(voxels);
     return cost;
 }
 

@@ -43,6 +43,11 @@ double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunL
 /// What it takes to read, mesh and measure a surface that is stored.
 PlannedBrick costOfStored(const VdbContent& content);
 
+/// What drawing a surface takes beside making it.
+/// @param[in] voxels  of the surface
+/// @param[in] width   of the picture [pixel]
+PlannedBrick costOfPicture(std::size_t voxels, int width);
+
 /// Checks the numbers of a plan that was read from a file, which could prolong a run or lead it out
 /// of space: its steps are those that the options say, and its bricks are boxes of whole leaves.
 /// computeBrick() checks the lengths.
