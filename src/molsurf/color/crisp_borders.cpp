@@ -126,8 +126,8 @@ public:
         x = start;
     }
 
-    /// Barycentric coordinates of the point of a triangle where its three owners meet; its middle,
-    /// if there is no such point in it.
+    /// Barycentric coordinates of the point of a triangle where its three owners meet, or of one
+    /// nearest to that if it lies just outside; the middle, if it is far away.
     Vec3d meeting(const Triangle& t, const std::array<std::int32_t, 3>& owner)
     {
         const Vec3d middle(1.0 / 3.0);
@@ -146,14 +146,18 @@ public:
             const double det = a * d - b * c;
             if (std::abs(det) < 1e-12) return middle;
             const double du = (d * f - b * g) / det, dv = (a * g - c * f) / det;
-            w[1] = std::clamp(w[1] - du, 0.0, 1.0);
-            w[2] = std::clamp(w[2] - dv, 0.0, 1.0);
+            w[1] = std::clamp(w[1] - du, -1.0, 2.0);
+            w[2] = std::clamp(w[2] - dv, -1.0, 2.0);
             w[0] = 1.0 - w[1] - w[2];
             if (std::abs(du) + std::abs(dv) < 1e-5) break;
         }
-        for (int k = 0; k < 3; ++k)
-            if (!(w[k] > 0.01)) return middle;
-        return w;
+        constexpr double least = 0.01, far = -0.5;
+        double sum = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            if (!(w[k] > far)) return middle;
+            sum += w[k] = std::max(w[k], least);
+        }
+        return w / sum;
     }
 
 private:

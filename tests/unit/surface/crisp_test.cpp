@@ -164,6 +164,30 @@ TEST(CrispBorders, OfOwnersFarAwayAreTheirPlane)
         EXPECT_NEAR((Vec3d(x) - axis).dot(across), 0.0, 1e-3); // [Å]
 }
 
+// A point where three owners meet may lie just outside of the triangle that has all of them.
+TEST(CrispBorders, MeetWhereTheirOwnersDo)
+{
+    const Mesh mesh = surfaceOf({{Vec3f(0.0f), 3.0f, 0}}, SurfaceKind::VanDerWaals);
+    double worst = 0.0, sum = 0.0;
+    std::size_t meetings = 0;
+    for (int n = 0; n < 100; ++n) {
+        const Vec3d shift(0.013 * n, 0.007 * (n % 10), 0.0);
+        std::vector<Ball> balls = around(3);
+        for (Ball& ball : balls) ball.center += shift;
+        const Mesh crisp = withCrispBorders(mesh, balls, {red, green, blue}, 0.0, "", Progress());
+        for (const auto& [x, colors] : bordersOf(crisp)) {
+            if (colors.size() < 3) continue;
+            const Vec3d off = Vec3d(x) - axis - shift;
+            worst = std::max(worst, std::hypot(off.x(), off.y()));
+            sum += std::hypot(off.x(), off.y());
+            ++meetings;
+        }
+    }
+    EXPECT_GT(meetings, 150u);
+    EXPECT_LT(worst, 0.35); // [Å]; the middle of its triangle is 0.7 Å off
+    EXPECT_LT(sum / double(meetings), 0.07);
+}
+
 TEST(CrispBorders, HaveMeansOfNormalsAndScalarsButStepsOfWhatBelongsToASide)
 {
     Mesh mesh = surfaceOf({{Vec3f(0.0f), 3.0f, 0}}, SurfaceKind::VanDerWaals);
