@@ -121,9 +121,8 @@ Molecule readMolecule(const std::string& name, const std::optional<nb::bytes>& c
                       const How& how)
 {
     Settings settings = settingsOf(given);
-    settings.atoms.names = settings.atoms.labels = true;
     for (const auto& [group, select] : groups) settings.atoms.groups.push_back({group, select, {}});
-    if (!settings.colorGroups.empty()) settings.atoms.groupBy = settings.colorGroups;
+    if (settings.colorGroups) settings.atoms.groupBy = settings.colorGroups;
     const double probe = probeOf(settings.options);
     FileContent file{name, content ? std::string(content->c_str(), content->size()) : ""};
     Molecule out{nullptr, name};
@@ -194,7 +193,7 @@ SurfaceOptions optionsOf(const Given& given, const std::vector<std::string>& ext
                          const std::string& areasOf)
 {
     Settings settings = settingsOf(given);
-    if (!settings.colorGroups.empty()) settings.options.color = ColorBy::Group;
+    if (settings.colorGroups) settings.options.color = ColorBy::Group;
     SurfaceOptions& options = settings.options;
     options.energy = false;
     for (const std::string& name : extra) {

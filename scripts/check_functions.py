@@ -15,7 +15,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 LINES, PARAMETERS = 70, 6
 
-LONGER = {"cutToOwner": 134, "selectBalls": 104, "report": 97, "runUnit": 84,
+LONGER = {"cutToOwner": 134, "report": 97, "runUnit": 84,
           "withCrispBorders": 90, "unitBalls": 80, "cutBrick": 79, "msmsSurface": 74,
           "verbTable": 71}  # the last is a table
 WIDER = {"candidates": 10, "number": 9, "computeBrick": 9, "mergeBricks": 8, "count": 8, "surfaceOf": 8,

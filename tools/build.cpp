@@ -158,7 +158,7 @@ bool isEstimated(const SurfaceOptions& options)
     const EvolveOptions& flow = options.evolution;
     const bool several = options.interfaces || options.split || !options.surfaceOf.empty() ||
                          options.matchVolume || options.ballAreas;
-    const bool asked = flow.flow == Flow::Paper || flow.steps >= 0 || flow.maxSteps >= 0;
+    const bool asked = flow.flow == Flow::Paper || flow.steps || flow.maxSteps;
     return !several && !asked;
 }
 

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace molsurf
@@ -30,15 +31,56 @@ struct CoarseRule {
     int atoms = 1; ///< atoms in a bead of Level::Cluster, about; >= 2 there, unused elsewhere
 };
 
+/// Some of the copies of an assembly.
+struct CopyChoice {
+    std::vector<std::pair<int, int>> ranges; ///< first and last number, from 1; empty: see fold
+    int fold = 0; ///< those about the nearest axis of so many folds, with copy 1; 0 without ranges:
+                  ///< all
+
+    bool all() const { return ranges.empty() && fold == 0; }
+};
+
 /// A group of atoms that the caller asks for.
 struct GroupRule {
     std::string name;
     std::string select;                               ///< its atoms: gemmi selections joined by '|'
     std::optional<std::array<std::uint8_t, 3>> color; ///< red, green, blue (sRGB), if one is wanted
-    std::string copies{}; ///< copies of the assembly that it is in: "1,7,20-25" or "fold:5", as in
-                          ///< SelectOptions::copies; empty: all
+    CopyChoice copies{};                              ///< copies of the assembly that it is in
     std::vector<int> copyNumbers{}; ///< the numbers that `copies` stands for, which readAtoms()
                                     ///< finds; empty: all
+};
+
+/// How groups are made without rules.
+struct GroupBy {
+    enum class Kind {
+        Chain,
+        Entity,  ///< chains of the same residues
+        Class,   ///< a chain of the file with all its copies
+        Copy,    ///< a copy of the assembly
+        Residues ///< so many residues of a chain as `residues` says
+    };
+    Kind kind = Kind::Chain;
+    int residues = 0; ///< >= 1 for Kind::Residues, unused elsewhere
+};
+
+/// Values of atoms that colours can show. docs/settings.md.
+struct ValueBy {
+    enum class Kind {
+        BFactor,
+        Occupancy,
+        Charge,         ///< of a PQR file
+        Hydrophobicity, ///< of the amino acid
+        Rainbow,        ///< the place of the residue in its chain
+        Radius,         ///< the distance from the centre
+        Table,          ///< of a file: chain, residue number, perhaps the atom, value
+        Potential,      ///< of a map in the format OpenDX, on the surface
+        PotentialOut    ///< the same a probe radius outside of it
+    };
+    Kind kind = Kind::BFactor;
+    std::string file{}; ///< its path, for the last three
+
+    /// Whether points have values of their own, and not those of the nearest ball.
+    bool byPoint() const { return kind == Kind::Radius || kind >= Kind::Potential; }
 };
 
 /// A group of balls that was found.
@@ -95,7 +137,7 @@ struct BallLabels {
     std::vector<Group> groups;                ///< the groups that were asked for, in their order
     std::vector<std::uint8_t> elementOf;      ///< atomic number; 0: the element is unknown
     std::vector<ResidueClass> residueClassOf; ///< the kind of the ball's residue
-    std::optional<BallValues> values;         ///< with SelectOptions::valueBy
+    std::optional<BallValues> values;         ///< if there are any
     std::vector<std::string>
         warnings; ///< one line each, as of groups that lost atoms to later ones
     /// Red, green, blue (sRGB) of each chain. If it is empty the library chooses colours of which
@@ -153,11 +195,9 @@ struct SelectOptions {
     std::string select;
     int model = 0; ///< number of the model in the file; 0: the one that `select` names, or the
                    ///< first
-    std::string assembly = "none"; ///< name of an assembly in the file; "none": the atoms stay
-                                   ///< where they stand in the file
-    /// The copies of the assembly to use: numbers from 1, as "1,7,20-25", or "fold:5" for those
-    /// about the nearest five-fold axis; empty: all.
-    std::string copies;
+    std::optional<std::string> assembly; ///< name of an assembly in the file; none: the atoms stay
+                                         ///< where they stand in the file
+    CopyChoice copies;                   ///< the copies of the assembly to use
     /// The alternate locations to use: those of this label and those without one, or "all"; empty:
     /// those of the highest occupancy.
     std::string altloc;
@@ -174,14 +214,8 @@ struct SelectOptions {
     std::vector<CoarseRule> coarse;          ///< beads; of two rules for an atom the later one wins
     std::vector<ResolutionRule> resolutions; ///< resolutions; the later rule wins
     std::vector<GroupRule> groups;           ///< groups; the later rule wins
-    /// Makes the groups instead of `groups`: "chain", "entity" (chains of the same residues),
-    /// "class" (a chain of the file with all its copies), "copy" (of the assembly), or "residues:N"
-    /// (N residues of a chain each); empty: it makes none.
-    std::string groupBy;
-    /// The values that ColorBy::Value shows: "bfactor", "occupancy", "charge", "hydrophobicity",
-    /// "rainbow", "radius", "table=FILE", "potential=FILE" or "potential-out=FILE", see
-    /// ballValues(); empty: none.
-    std::string valueBy;
+    std::optional<GroupBy> groupBy;          ///< makes the groups instead of `groups`
+    std::optional<ValueBy> valueBy;          ///< the values that ColorBy::Value shows
     std::optional<std::array<double, 2>>
         valueRange; ///< BallValues::low and high, if they are given
     std::optional<std::array<std::uint8_t, 3>>
@@ -189,12 +223,12 @@ struct SelectOptions {
     bool instances = false; ///< whether the balls are those of each prototype of the assembly once,
                             ///< in the coordinates of the file
     /// Whether the balls are those of a unit, of which the rotations of the assembly make the
-    /// whole, and those around it, as BallSet::unit says. Not with `instances` and `copies`.
+    /// whole, and those around it, as BallSet::unit says. Not beside `instances` and `copies`.
     bool bySymmetry = false;
-    double surroundings = 20.0; ///< how far around the unit the balls lie with `bySymmetry` [Å];
-                                ///< see surroundingsOf()
-    bool labels = false;        ///< whether the balls are labelled even if there are no groups
-    bool names = false;         ///< whether BallSet::names is made
+    double surroundings = 20.0; ///< how far around a unit the balls lie [Å], see surroundingsOf()
+    bool labels = true; ///< whether the balls are labelled even if there are neither groups nor
+                        ///< values
+    bool names = true;  ///< whether the balls have names
     /// The bytes that the file's text may have, unpacked; 0: 4 GiB, and no more than 200 times its
     /// packed size.
     std::size_t maxInput = 0;
@@ -249,14 +283,13 @@ struct BallSet {
     std::size_t copies = 1;      ///< copies that the assembly makes; 1 without an assembly
     std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
     std::vector<int> copyNumbers;       ///< number of copy i in the whole assembly, from 1
-    std::vector<Instance> instances;    ///< with SelectOptions::instances the copies of the
-                                        ///< prototypes, which copyBegin then tells apart; with
-                                        ///< SelectOptions::bySymmetry those of the unit
-    std::optional<SymmetricUnit> unit;  ///< with SelectOptions::bySymmetry
+    std::vector<Instance> instances;    ///< the copies of the prototypes, which copyBegin then
+                                        ///< tells apart, or those of the unit; else empty
+    std::optional<SymmetricUnit> unit;  ///< if the balls are those of one and around it
     std::size_t beads = 0;              ///< balls that coarse rules made
     std::size_t beadAtoms = 0;          ///< atoms that these balls stand for
-    std::optional<BallLabels> labels;   ///< present if they were asked for or if there are groups
-    std::optional<BallNames> names;     ///< with SelectOptions::names
+    std::optional<BallLabels> labels;   ///< present unless they were not asked for
+    std::optional<BallNames> names;     ///< the same
     std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue (sRGB), one a ball; empty
                                                      ///< if the caller chose none
     std::string radii; ///< the name of the set, or of the file, that the radii are from; empty: the

@@ -31,10 +31,10 @@ enum class ColorBy {
     Element,
     Residue,    ///< ResidueClass, nucleotides as one
     Nucleotide, ///< the base; what is no nucleotide is grey
-    Plain,      ///< SelectOptions::plainColor
+    Plain,      ///< one that all balls have
     MeanCurvature,
     GaussianCurvature,
-    Value,       ///< BallLabels::values
+    Value,       ///< values of the balls
     Illustrative ///< the chain, lighter at carbon
 };
 
@@ -57,10 +57,10 @@ struct EvolveOptions {
                           ///< Regularizer::Gradient, no unit for Regularizer::Area
     Regularizer regularizer = Regularizer::Gradient;
     Flow flow = Flow::Newton;
-    int maxSteps = -1; ///< largest number of steps; below 0: 50 for the Newton flow, which ends
-                       ///< earlier where it stalls, and 200 for the paper's
-    int steps = -1;    ///< number of steps, whether the flow converges or not; below 0: until it
-                       ///< converges or `maxSteps` is reached
+    std::optional<int> maxSteps; ///< largest number of steps, >= 0; none: 50 for the Newton flow,
+                                 ///< which ends earlier where it stalls, and 200 for the paper's
+    std::optional<int> steps;    ///< number of steps, >= 0, whether the flow converges or not;
+                                 ///< none: until it converges or `maxSteps` is reached
     /// L > 0: the flow takes curvatures from a spline on voxels of edge 2^L h. 0: it takes them
     /// from differences on voxels of edge h.
     int splineLevel = 0;
@@ -106,9 +106,8 @@ struct SurfaceOptions {
     bool grid = true;
 };
 
-/// The range of SurfaceOptions::voxel [Å], and the edge above which voxels are too coarse for a
-/// surface that shows atoms [Å].
-constexpr double minVoxel = 0.05, maxVoxel = 10.0, coarseVoxel = 1.0;
+/// The range of SurfaceOptions::voxel [Å].
+constexpr double minVoxel = 0.05, maxVoxel = 10.0;
 
 /// Returns the probe radius that the surface is made with [Å]. It is 0 for the van der Waals and
 /// the Gaussian surface, whatever SurfaceOptions::probe is.

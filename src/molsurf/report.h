@@ -97,8 +97,7 @@ struct SurfaceReport {
     std::optional<double> cuspLength;
     Statistics meanCurvature;     ///< mean curvature at the vertices [1/Å], positive where convex
     Statistics gaussianCurvature; ///< Gaussian curvature at the vertices [1/Å^2]
-    std::optional<SurfaceIntegrals> integrals; ///< present with
-                                               ///< SurfaceOptions::curvatureTotals
+    std::optional<SurfaceIntegrals> integrals; ///< of the curvature, if they were asked for
 };
 
 /// The history of the flow. Its interface is that of the evolving level set, near the
@@ -119,7 +118,7 @@ struct EvolutionReport {
     /// Share of the interface at which that displacement is above a tenth of a voxel.
     double unsettledShare = 0.0;
     /// Energy of the final interface, by a quadrature that does not depend on the voxels [Å^2]; not
-    /// a number without SurfaceOptions::energy.
+    /// a number if it was not asked for.
     double finalEnergy = std::numeric_limits<double>::quiet_NaN();
     /// Number of voxels at gaps of the final interface that are too narrow for the grid.
     std::size_t unresolvedGapVoxels = 0;
@@ -133,8 +132,8 @@ struct GroupReport {
                            ///< groups and of "other", the atoms without one, add up to the whole
     double volume = 0.0;   ///< volume inside the surface nearest to its balls [Å^3]; adds up, too
     std::string color;     ///< "#rrggbb" if the surface is coloured by group, else empty
-    std::optional<double> aloneArea{}; ///< area of the surface of the group alone [Å^2], with
-                                       ///< SurfaceOptions::interfaces
+    std::optional<double> aloneArea{}; ///< area of the surface of the group alone [Å^2], if
+                                       ///< the report has interfaces
 };
 
 /// The area that two groups of atoms bury between them.
@@ -150,8 +149,8 @@ struct InterfaceReport {
     std::string first, second; ///< names of the groups
     double area = 0.0;         ///< (A_first + A_second - A_both) / 2, each surfaced alone [Å^2]
     std::size_t count = 1;     ///< how many such there are in a whole made by symmetry
-    /// With SurfaceOptions::ballAreas the balls whose area changes; half of what they lose adds up
-    /// to `area`.
+    /// The balls whose area changes, if areas of balls were asked for; half of what they lose adds
+    /// up to `area`.
     std::vector<Buried> buried{};
 };
 
@@ -174,7 +173,7 @@ struct ResolutionReport {
     std::string select;      ///< the selection of the rule; empty: all
     double resolution = 0.0; ///< d [Å]
     std::size_t atoms = 0;   ///< number of balls that have it
-    double level = 0.0;      ///< Decay::level; 0 unless SurfaceOptions::matchVolume
+    double level = 0.0;      ///< Decay::level; 0 where volumes are not matched
 };
 
 /// The beads that stand for several atoms.
@@ -222,8 +221,7 @@ struct Report {
     std::optional<CoarseReport> coarse;        ///< present if there are beads
     std::vector<ResolutionReport> resolutions; ///< one for each rule, in their order
     std::vector<GroupReport> groups;
-    std::vector<InterfaceReport> interfaces; ///< of groups that touch, with
-                                             ///< SurfaceOptions::interfaces
+    std::vector<InterfaceReport> interfaces; ///< of groups that touch, if they were asked for
     std::vector<PartReport> parts; ///< surfaces of their own, of which `surface` is the sum; empty
                                    ///< if there is only one
     std::vector<InstanceReport> instances;    ///< copies; `surface` has each distinct one once

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -23,8 +24,8 @@ namespace molsurf
 struct Settings {
     SelectOptions atoms;
     SurfaceOptions options;
-    std::string colorGroups; ///< what has colours that are no ColorBy: copy, entity or class; they
-                             ///< are those of groups that SelectOptions::groupBy has to make
+    std::optional<GroupBy> colorGroups; ///< what has colours that are no ColorBy: those of groups
+                                        ///< that are made for them
 };
 
 /// The value of a setting, as it is written into files.

@@ -39,23 +39,23 @@ struct ContactArea {
 /// The surface of a molecule, as a level set and as a mesh.
 struct MolecularSurface {
     /// Signed distance from the molecular surface [Å], negative inside, on voxels of edge
-    /// SurfaceOptions::voxel near it. It is null if parts have surfaces of their own
-    /// (SurfaceOptions::split); their level sets are then among `fields`.
+    /// SurfaceOptions::voxel near it. It is null if parts have surfaces of their own, whose level
+    /// sets are then among `fields`, and for a unit of a whole.
     openvdb::FloatGrid::Ptr surface;
     std::vector<openvdb::GridBase::Ptr> fields; ///< the grids that SurfaceOptions::fields names
     Mesh mesh;                                  ///< closed, with its vertices on the surface
     std::vector<SharedVertex> shared; ///< of a symmetric unit, whose mesh is open: its border
-    /// With SurfaceOptions::ballAreas the part of the surface that belongs to each ball, in the
+    /// If it was asked for, the part of the surface that belongs to each ball, in the
     /// order of the caller's; they add up to the area of the whole [Å^2]. Solvent-accessible and
     /// van der Waals surfaces have them as exposedAreas() gives them. Of the solvent-excluded
     /// surface they are in closed form, too: where a probe rests on several balls, a point belongs
     /// to that of them for which |x - x_i|^2 - r_i^2 is least. A point of another surface belongs
     /// to the ball whose own surface is nearest. Of a symmetric unit its own balls alone.
     std::vector<double> ballAreas;
-    /// With these and BallLabels::values the mean of the value on each ball's part of the surface;
-    /// not a number where it has none.
+    /// Beside these, if the balls have values, the mean of the value on each ball's part of the
+    /// surface; not a number where it has none.
     std::vector<double> ballValues;
-    /// With SurfaceOptions::contacts what contactAreas() gives with the probe of the surface.
+    /// If they were asked for, what contactAreas() gives with the probe of the surface.
     std::vector<ContactArea> contacts;
     Report report; ///< measures of the surface; its caller fills in command, input and the like
 };

@@ -15,15 +15,14 @@ namespace molsurf
 
 /// A row for every ball: chain, residue, number, insertion_code, label_chain, atom, altloc,
 /// element, atom_id (its place in the file, from 0), radius_A, area.
-/// @param[in] atoms   with names, SelectOptions::names
-/// @param[in] result  with ballAreas, SurfaceOptions::ballAreas
-/// @throws Error(ErrorKind::Usage) if there are none, or they are of other atoms
+/// @throws Error(ErrorKind::Usage) if the atoms have no names or the result has no areas of balls,
+///         or of others; the message names the option that makes them
 Table atomTable(const BallSet& atoms, const MolecularSurface& result);
 
 /// A row for every residue: chain, residue, number, insertion_code, label_chain, atoms (how many
 /// balls), area, and for solvent-accessible surfaces relative_accessibility, the area's share of
 /// the largest that such a residue has between two glycines, not a number where that is not known.
-/// With ballValues mean_NAME: the mean of the value on the residue's part of the surface.
+/// If the balls have values mean_NAME: the mean of the value on the residue's part of the surface.
 /// @param[in] probe  radius [Å]; accessibilities are relative at 1.4 alone
 /// @throws as atomTable()
 Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& result);
@@ -42,16 +41,15 @@ const char* nameOf(ContactLevel level);
 /// A row for every two atoms, residues or chains that touch: the names of both, of atoms the
 /// distance_A of their centres, and the area of the contact. Contacts within a residue or a chain
 /// do not count for these.
-/// @param[in] result  with contacts, SurfaceOptions::contacts
-/// @throws Error(ErrorKind::Usage) if the atoms have no names
+/// @throws Error(ErrorKind::Usage) if the atoms have no names, or the result no contacts
 Table contactTable(const BallSet& atoms, ContactLevel level, const MolecularSurface& result);
 
 /// A row for every residue that an interface buries: group_1 and group_2, the group that it belongs
 /// to, its name, area_alone and area_together on the surfaces of its group alone and of both,
 /// buried_area, their difference, and area, half of that: its part of the interface. The areas
 /// of an interface's rows add up to InterfaceReport::area.
-/// @param[in] report  with InterfaceReport::buried, SurfaceOptions::interfaces and ballAreas
-/// @throws Error(ErrorKind::Usage) if the atoms have no names
+/// @throws Error(ErrorKind::Usage) if the atoms have no names, or the report no interfaces with
+///         the balls that they bury
 Table interfaceTable(const BallSet& atoms, const Report& report);
 
 } // namespace molsurf

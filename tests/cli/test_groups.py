@@ -122,6 +122,7 @@ class Groups(ToolTest):
                            ("one A copies=x\n", ["group one", '"x"'])):
             (self.folder / "g").write_text(text)
             self.check(1, *DIMER, "--groups", "g", "-o", "b.json", says=says)
+        (self.folder / "g").write_text("one A copies=1\n")
         self.check(1, CRAMBIN, "--groups", "g", "-o", "b.json", says="--assembly")
 
     def test_picture_has_the_colors(self):

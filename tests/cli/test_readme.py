@@ -117,13 +117,14 @@ class Readme(ToolTest):
                     self.assertGreater((self.folder / name).stat().st_size, 0, name)
 
     def test_cpp_is_compiled_elsewhere(self):
-        """The lines of the example are lines of the project that the package test compiles."""
-        compiled = {line.strip() for line in
-                    (ROOT / "tests" / "package" / "consumer.cpp").read_text().splitlines()}
+        """The lines of each example are lines of a program that the package test compiles."""
         examples = blocks("cpp", DOCS / "library.md")
-        self.assertEqual(len(examples), 1)
-        for line in examples[0].splitlines():
-            self.assertIn(line.strip(), compiled)
+        programs = ("consumer", "coloured")
+        self.assertEqual(len(examples), len(programs))
+        for example, program in zip(examples, programs):
+            text = (ROOT / "tests" / "package" / f"{program}.cpp").read_text()
+            for line in example.splitlines():
+                self.assertIn(line.strip(), {compiled.strip() for compiled in text.splitlines()})
 
 
 def add_tests():

@@ -21,10 +21,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         options.labels = true;
         if (choice & 1 && !structure.assemblies.empty())
             options.assembly = structure.assemblies.back().name;
-        options.instances = options.assembly != "none" && choice & 2;
-        options.bySymmetry = options.assembly != "none" && !options.instances && choice & 32;
-        if (choice & 64) options.valueBy = "bfactor";
-        if (choice & 4) options.groupBy = "entity";
+        options.instances = options.assembly && choice & 2;
+        options.bySymmetry = options.assembly && !options.instances && choice & 32;
+        if (choice & 64) options.valueBy = ValueBy{ValueBy::Kind::BFactor};
+        if (choice & 4) options.groupBy = GroupBy{GroupBy::Kind::Entity};
         if (choice & 8) options.coarse = {{"", CoarseRule::Level::Residue, 1}};
         const BallSet balls = selectBalls(structure, options, 1.4, Progress());
         describeSelection(structure, balls);

@@ -7,6 +7,7 @@
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -14,7 +15,8 @@
 namespace molsurf::test
 {
 
-inline std::vector<Ball> balls(const std::string& file, const std::string& assembly = "none")
+inline std::vector<Ball> balls(const std::string& file,
+                               const std::optional<std::string>& assembly = {})
 {
     SelectOptions options;
     options.assembly = assembly;

@@ -118,7 +118,8 @@ struct Call : Settings {
     /// Whether copies of an assembly, which nodes place, have colours.
     bool colorsCopies() const
     {
-        return colorGroups == "copy" && (atoms.instances || atoms.bySymmetry);
+        return colorGroups && colorGroups->kind == GroupBy::Kind::Copy &&
+               (atoms.instances || atoms.bySymmetry);
     }
 };
 

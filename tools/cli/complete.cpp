@@ -9,6 +9,7 @@
 #include "molsurf/bricks/run_brick.h"
 #include "molsurf/color/color_table.h"
 #include "molsurf/error.h"
+#include "molsurf/flow/evolve.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/extra_grids.h"
@@ -152,7 +153,7 @@ void warnOfLosses(Call& call)
                 !call.writes(option.shownIn))
                 call.warnings.push_back(std::string("--") + option.name + " is for " +
                                         endingsOf(option.shownIn, call.verb));
-    const bool means = call.options.ballAreas && !call.atoms.valueBy.empty(); // in tables
+    const bool means = call.options.ballAreas && call.atoms.valueBy; // in tables
     if (call.has("color") && call.options.color != ColorBy::Nothing && !means &&
         !call.writes(Colors))
         call.warnings.push_back("--color: none of the files can hold colours [hint: -o .ply, .glb, "
@@ -186,15 +187,14 @@ void completeFrames(Call& call)
 /// Whether all that is asked for is known in closed form.
 bool asksForNumbers(const Call& call)
 {
-    const std::string& value = call.atoms.valueBy;
-    const bool byPoint = value == "radius" || value.rfind("potential", 0) == 0;
+    const std::optional<ValueBy>& value = call.atoms.valueBy;
     const bool unit = call.atoms.bySymmetry; // a mesh of it says nothing more of the whole
     // Estimates, bricks and prototypes are of grids; completeAreas() refuses them with areas.
     const bool ofGrid = call.dryRun || call.memory > 0 || call.atoms.instances;
     const unsigned some = Areas | FrameRows | (ofGrid && call.areas.empty() ? 0u : Numbers);
-    return (call.verb & (Build | Batch)) != 0 && hasClosedForm(call.options) && !byPoint &&
-           !(unit && (!value.empty() || !isBoundary(call.options))) && !call.center &&
-           call.writesOnly(some);
+    return (call.verb & (Build | Batch)) != 0 && hasClosedForm(call.options) &&
+           !(value && value->byPoint()) && !(unit && (value || !isBoundary(call.options))) &&
+           !call.center && call.writesOnly(some);
 }
 
 // To be called before completeGroups().
@@ -209,15 +209,15 @@ void completeAreas(Call& call)
         if (call.writesOnly(Areas)) call.options.kind = SurfaceKind::SolventAccessible;
     }
     call.options.grid = !asksForNumbers(call);
+    call.atoms.names = !tables.empty();
     if (tables.empty()) return;
     SurfaceOptions& options = call.options;
-    call.atoms.names = true;
     options.contacts = tables.count("contacts") > 0;
     options.ballAreas = tables.size() > std::size_t(options.contacts);
     if (tables.count("interfaces") == 0) return;
     options.interfaces = true;
-    if (call.groupsFile.empty() && call.atoms.groupBy.empty() && call.colorGroups.empty())
-        call.atoms.groupBy = "chain";
+    if (call.groupsFile.empty() && !call.atoms.groupBy && !call.colorGroups)
+        call.atoms.groupBy = GroupBy{GroupBy::Kind::Chain};
 }
 
 void completeGroups(Call& call)
@@ -225,7 +225,7 @@ void completeGroups(Call& call)
     SurfaceOptions& options = call.options;
     if (!call.groupsFile.empty())
         call.atoms.groups = readGroups(call.groupsFile, call.atoms.maxInput);
-    if (!call.colorGroups.empty() && !call.colorsCopies()) {
+    if (call.colorGroups && !call.colorsCopies()) {
         call.atoms.groupBy = call.colorGroups;
         options.color = ColorBy::Group;
     }

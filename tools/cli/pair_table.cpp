@@ -50,7 +50,7 @@ std::vector<Pair> assemblyPairs()
     const auto ofGroups = [](const char* option, const char* value = "") {
         return Pair{{option, value}, Needs, {{"groups"}, {"group-by"}}, "", [](const Call& call) {
                         const bool later = call.outputs.empty() && !call.dryRun;
-                        return later || !call.atoms.groupBy.empty() || call.verb == Convert;
+                        return later || call.atoms.groupBy || call.verb == Convert;
                     }};
     };
     return {{{"weld"}, Needs, {{"by-symmetry"}}},
@@ -153,7 +153,7 @@ std::vector<Pair> surfacePairs()
          IsFor,
          {},
          "--color by a value, as bfactor",
-         [](const Call& call) { return !call.atoms.valueBy.empty(); }},
+         [](const Call& call) { return call.atoms.valueBy.has_value(); }},
         {{"crisp"},
          IsFor,
          {},

@@ -460,7 +460,7 @@ double secondsOf(const std::vector<PlannedBrick>& bricks)
 /// The number of steps that all bricks make.
 int stepsOf(const SurfaceOptions& options)
 {
-    if (options.evolution.steps >= 0) return options.evolution.steps;
+    if (options.evolution.steps) return *options.evolution.steps;
     return startsCoarse(options) ? defaultFrontSteps : defaultBrickSteps;
 }
 

@@ -66,10 +66,8 @@ EvolutionReport evolveAsPaper(NarrowBand& band, const PsiSource& source,
                               const EvolveOptions& options, Progress& progress)
 {
     const double h = band.phi.voxelSize;
-    const bool fixed = options.steps >= 0;
-    const int maxSteps = fixed                   ? options.steps
-                         : options.maxSteps >= 0 ? options.maxSteps
-                                                 : defaultPaperSteps;
+    const bool fixed = options.steps.has_value();
+    const int maxSteps = options.steps.value_or(options.maxSteps.value_or(defaultPaperSteps));
     EvolutionReport report;
     LeafField next(band.phi.table.size());
     for (;;) {
@@ -123,7 +121,7 @@ EvolveOptions coarseFlow(const EvolveOptions& options, double voxelSize)
     constexpr int maxSteps = 100;
     EvolveOptions coarse = options;
     coarse.tolerance = std::min(tolerance / coarseness(voxelSize), options.tolerance);
-    coarse.steps = -1;
+    coarse.steps.reset();
     coarse.maxSteps = maxSteps;
     return coarse;
 }
@@ -133,11 +131,9 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
 {
     if (options.flow == Flow::Paper) return evolveAsPaper(band, source, options, progress);
     const double h = band.phi.voxelSize;
-    const bool fixed = options.steps >= 0;
-    const int maxSteps = fixed                   ? options.steps
-                         : options.maxSteps >= 0 ? options.maxSteps
-                                                 : defaultSteps;
-    const bool mayGiveUp = options.maxSteps < 0; // who asks for steps gets them
+    const bool fixed = options.steps.has_value();
+    const int maxSteps = options.steps.value_or(options.maxSteps.value_or(defaultSteps));
+    const bool mayGiveUp = !options.maxSteps; // who asks for steps gets them
     const bool eager = hasFronts(options);
     const int reinitializations = eager ? 2 : 1; // long steps spoil the distance
     NewtonSteps newton(weightsOf(options), sweepsFor(options, h), eager);

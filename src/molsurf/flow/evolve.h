@@ -17,6 +17,9 @@
 namespace molsurf
 {
 
+/// The edge above which voxels are too coarse for a surface that shows atoms [Å].
+constexpr double coarseVoxel = 1.0;
+
 /// Largest numbers of steps, if the options do not say any: of the Newton flow, and of the paper's.
 constexpr int defaultSteps = 50, defaultPaperSteps = 200;
 

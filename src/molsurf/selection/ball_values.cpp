@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/ball_values.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/scalar_map.h"
@@ -199,13 +200,37 @@ void fillFromTable(const Structure& structure, const std::vector<Ball>& balls,
 const std::vector<std::string>& valueWords()
 {
     static const std::vector<std::string> words = {"bfactor",        "occupancy", "charge",
-                                                   "hydrophobicity", "rainbow",   "radius"};
+                                                   "hydrophobicity", "rainbow",   "radius",
+                                                   "table",          "potential", "potential-out"};
     return words;
 }
 
-BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls,
-                      const std::string& by, bool ranged, const Vec3d& centre, double probe,
-                      std::size_t maxBytes, std::vector<std::string>& warnings)
+std::optional<ValueBy> parseValueBy(const std::string& text)
+{
+    const std::size_t equals = text.find('=');
+    const std::string word = lowered(text.substr(0, equals));
+    for (std::size_t k = 0; k < valueWords().size(); ++k) {
+        if (word != valueWords()[k] || (equals != std::string::npos) != (k >= valuesWithoutFile))
+            continue;
+        ValueBy by{ValueBy::Kind(k)};
+        if (k >= valuesWithoutFile) by.file = text.substr(equals + 1);
+        if (k >= valuesWithoutFile && by.file.empty())
+            throw Error(ErrorKind::Usage,
+                        "`color`: expected " + word + "=FILE, got '" + text + "'");
+        return by;
+    }
+    return std::nullopt;
+}
+
+std::string textOf(const ValueBy& by)
+{
+    const std::string& word = valueWords()[std::size_t(by.kind)];
+    return by.file.empty() ? word : word + "=" + by.file;
+}
+
+BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls, const ValueBy& by,
+                      bool ranged, const Vec3d& centre, double probe, std::size_t maxBytes,
+                      std::vector<std::string>& warnings)
 {
     using Map = BallValues::Map;
     const auto filled = [&](BallValues out, const auto& value) {
@@ -215,55 +240,52 @@ BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls
     const auto atomOf = [&](const Ball& ball) -> const Atom& {
         return structure.atoms[std::size_t(ball.atom)];
     };
+    using Kind = ValueBy::Kind;
+    const std::string& word = valueWords()[std::size_t(by.kind)];
     BallValues out;
-    if ((by == "bfactor" || by == "occupancy") && structure.hasRadii)
+    if ((by.kind == Kind::BFactor || by.kind == Kind::Occupancy) && structure.hasRadii)
         throw Error(ErrorKind::Input, displayName(structure.source) + ": it has no " +
-                                          (by == "bfactor" ? "B factors" : "occupancies") +
+                                          (by.kind == Kind::BFactor ? "B factors" : "occupancies") +
                                           ", which a PDB or mmCIF file has");
-    if (by == "bfactor") {
+    if (by.kind == Kind::BFactor) {
         out = filled(bFactors(structure, ranged, warnings),
                      [&](const Ball& ball) { return atomOf(ball).bFactor; });
         if (out.map == Map::Magnitude) spread(out);
-    } else if (by == "occupancy") {
-        out = filled({by, "Occupancy", "", Map::Magnitude, 0.0, 1.0, {}},
+    } else if (by.kind == Kind::Occupancy) {
+        out = filled({word, "Occupancy", "", Map::Magnitude, 0.0, 1.0, {}},
                      [&](const Ball& ball) { return atomOf(ball).occupancy; });
-    } else if (by == "charge") {
+    } else if (by.kind == Kind::Charge) {
         if (structure.charges.empty())
             throw Error(ErrorKind::Input, displayName(structure.source) +
                                               ": it has no charges, which a PQR file has");
-        out = filled({by, "Charge", "e", Map::Charge, -1.0, 1.0, {}},
+        out = filled({word, "Charge", "e", Map::Charge, -1.0, 1.0, {}},
                      [&](const Ball& ball) { return structure.charges[std::size_t(ball.atom)]; });
         spread(out);
         balance(out);
-    } else if (by == "hydrophobicity") {
-        out = filled({by, "Hydrophobicity", "", Map::Signed, -4.5, 4.5, {}}, [&](const Ball& ball) {
-            return hydrophobicityOf(residueOf(structure, ball).name);
-        });
-    } else if (by == "rainbow") {
+    } else if (by.kind == Kind::Hydrophobicity) {
+        out =
+            filled({word, "Hydrophobicity", "", Map::Signed, -4.5, 4.5, {}}, [&](const Ball& ball) {
+                return hydrophobicityOf(residueOf(structure, ball).name);
+            });
+    } else if (by.kind == Kind::Rainbow) {
         const std::vector<float> places = placesInChains(structure);
-        out = filled({by, "N to C", "", Map::Rainbow, 0.0, 1.0, {}},
+        out = filled({word, "N to C", "", Map::Rainbow, 0.0, 1.0, {}},
                      [&](const Ball& ball) { return places[std::size_t(atomOf(ball).residue)]; });
-    } else if (by == "radius") {
-        out = filled({by, "Radius", "Å", Map::Magnitude, 0.0, 1.0, centre}, [&](const Ball& ball) {
-            return float((Vec3d(ball.center) - centre).length());
-        });
+    } else if (by.kind == Kind::Radius) {
+        out =
+            filled({word, "Radius", "Å", Map::Magnitude, 0.0, 1.0, centre},
+                   [&](const Ball& ball) { return float((Vec3d(ball.center) - centre).length()); });
         spread(out);
-    } else if (by.rfind("table=", 0) == 0) {
+    } else if (by.kind == Kind::Table) {
         out = {"value", "Value", "", Map::Magnitude, 0.0, 1.0, {}};
-        fillFromTable(structure, balls, by.substr(6), maxBytes, out, warnings);
+        fillFromTable(structure, balls, by.file, maxBytes, out, warnings);
         spread(out);
-    } else if (by.rfind("potential=", 0) == 0 || by.rfind("potential-out=", 0) == 0) {
-        const std::size_t equals = by.find('=');
-        out = {"potential", "Potential", "kT/e", Map::Charge, -5.0, 5.0, {}};
-        const auto field = std::make_shared<ScalarMap>(readDx(by.substr(equals + 1), maxBytes));
-        out.field = field;
-        out.outward = equals > std::string("potential").size() ? probe : 0.0;
-        for (const Ball& ball : balls) out.valueOf.push_back(field->at(Vec3d(ball.center)));
     } else {
-        throw Error(ErrorKind::Usage, "`valueBy`: expected " + joined(valueWords()) +
-                                          ", table=FILE, potential=FILE or potential-out=FILE, "
-                                          "got " +
-                                          inQuotes(by));
+        out = {"potential", "Potential", "kT/e", Map::Charge, -5.0, 5.0, {}};
+        const auto field = std::make_shared<ScalarMap>(readDx(by.file, maxBytes));
+        out.field = field;
+        out.outward = by.kind == Kind::PotentialOut ? probe : 0.0;
+        for (const Ball& ball : balls) out.valueOf.push_back(field->at(Vec3d(ball.center)));
     }
     return out;
 }

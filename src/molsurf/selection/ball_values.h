@@ -7,14 +7,26 @@
 #include "molsurf/atoms.h"
 #include "molsurf/structure/structure.h"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace molsurf
 {
 
-/// The words that SelectOptions::valueBy may be, but for those with a file.
+/// The words of ValueBy::Kind, in its order.
 const std::vector<std::string>& valueWords();
+
+/// How many of them, the first ones, are without a file.
+constexpr std::size_t valuesWithoutFile = 6;
+
+/// The values of a word, with a file "table=FILE"; none: it is no such word.
+/// @throws Error(ErrorKind::Usage) if the file is missing
+std::optional<ValueBy> parseValueBy(const std::string& text);
+
+/// The text that parseValueBy() reads.
+std::string textOf(const ValueBy& by);
 
 /// Gives every ball a value.
 ///
@@ -25,21 +37,20 @@ const std::vector<std::string>& valueWords();
 /// - hydrophobicity: of the amino acid (Kyte and Doolittle, J. Mol. Biol. 157:105-132, 1982).
 /// - rainbow: the place of the residue in its chain, 0 at its first, 1 at its last.
 /// - radius: the distance from the centre [Å].
-/// - table=FILE: lines of chain, residue number, perhaps the atom's name, and the value, parted by
+/// - table: lines of chain, residue number, perhaps the atom's name, and the value, parted by
 ///   commas or white space; what starts with # and a first line without a number are skipped.
-/// - potential=FILE: of a map in the format OpenDX, as APBS writes it [kT/e], on the surface;
-///   potential-out=FILE: a probe radius outside of it.
+/// - potential: of a map in the format OpenDX, as APBS writes it [kT/e], on the surface;
+///   potential-out: a probe radius outside of it.
 ///
 /// @param[in]     ranged    whether the ends of the colours are given: B factors are then no pLDDT
 /// @param[in]     probe     radius [Å]
 /// @param[in]     centre    that radii are taken from [Å]
 /// @param[in]     maxBytes  that a file may have; see loadText()
 /// @param[in,out] warnings  of residues in the table that the structure does not have
-/// @throws Error(ErrorKind::Usage) if `by` is none of these
 /// @throws Error(ErrorKind::Input) if the file has no such values, or the table cannot be read or
 ///         fits no atom
-BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls,
-                      const std::string& by, bool ranged, const openvdb::Vec3d& centre,
-                      double probe, std::size_t maxBytes, std::vector<std::string>& warnings);
+BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls, const ValueBy& by,
+                      bool ranged, const openvdb::Vec3d& centre, double probe, std::size_t maxBytes,
+                      std::vector<std::string>& warnings);
 
 } // namespace molsurf

@@ -123,6 +123,23 @@ CopyChoice parseCopies(const std::string& text)
     }
 }
 
+std::string textOf(const CopyChoice& copies)
+{
+    if (copies.fold > 0) return std::string(foldWord) + std::to_string(copies.fold);
+    std::string text;
+    for (const auto& [first, last] : copies.ranges)
+        text += (text.empty() ? "" : ",") + std::to_string(first) +
+                (last == first ? "" : "-" + std::to_string(last));
+    return text;
+}
+
+void checkCopies(const CopyChoice& copies)
+{
+    bool good = copies.fold == 0 || (copies.fold > 1 && copies.ranges.empty());
+    for (const auto& [first, last] : copies.ranges) good = good && first >= 1 && last >= first;
+    if (!good) misuse(textOf(copies));
+}
+
 const RotationAxis* nearestAxis(const Symmetry& symmetry, int fold, const Vec3d& point)
 {
     constexpr double equal = 0.01; // [Å]
@@ -161,7 +178,7 @@ std::vector<std::size_t> chooseCopies(const Structure& structure, const Assembly
 {
     const std::vector<Operator> operators = operatorsOf(assembly);
     std::vector<std::size_t> chosen;
-    if (choice.fold == 0 && choice.ranges.empty()) {
+    if (choice.all()) {
         chosen.resize(operators.size());
         std::iota(chosen.begin(), chosen.end(), std::size_t{0});
         return chosen;

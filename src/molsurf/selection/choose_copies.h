@@ -4,6 +4,7 @@
 /// @file
 /// Some of the copies of an assembly: by number, or those about a rotation axis.
 
+#include "molsurf/atoms.h"
 #include "molsurf/structure/structure.h"
 #include "molsurf/structure/symmetry.h"
 
@@ -11,21 +12,20 @@
 
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace molsurf
 {
 
-/// A choice of copies of an assembly.
-struct CopyChoice {
-    std::vector<std::pair<int, int>> ranges; ///< first and last number, from 1; empty: see fold
-    int fold = 0;                            ///< those about the n-fold axis; 0 without ranges: all
-};
-
 /// Reads "1,7,20-25" or "fold:5"; an empty text is all copies.
 /// @throws Error(ErrorKind::Usage) if the text is neither
 CopyChoice parseCopies(const std::string& text);
+
+/// The text that parseCopies() reads as a choice.
+std::string textOf(const CopyChoice& copies);
+
+/// @throws Error(ErrorKind::Usage) if a number is not possible
+void checkCopies(const CopyChoice& copies);
 
 /// The n-fold axis that passes nearest to a point; of equally near ones (to 0.01 Å) the first.
 /// Null if there is no such axis.

@@ -90,21 +90,20 @@ void appendCopy(const Operator& op, const std::vector<Ball>& balls, std::vector<
 }
 
 std::vector<int> findCopies(const Structure& structure, const std::string& name,
-                            const std::string& copies, const std::vector<Ball>& balls)
+                            const CopyChoice& copies, const std::vector<Ball>& balls)
 {
     const Assembly& assembly = findAssembly(structure, name);
     std::vector<char> used(balls.size());
     const auto parts = ballsOfParts(structure, assembly, balls, used);
     std::vector<int> numbers;
-    for (const std::size_t i :
-         chooseCopies(structure, assembly, parseCopies(copies), centroidOf(parts))) {
+    for (const std::size_t i : chooseCopies(structure, assembly, copies, centroidOf(parts))) {
         numbers.push_back(static_cast<int>(i) + 1);
     }
     return numbers;
 }
 
 AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
-                        const std::string& copies, const std::vector<Ball>& balls)
+                        const CopyChoice& copies, const std::vector<Ball>& balls)
 {
     const Assembly& assembly = findAssembly(structure, name);
     AssemblyCopies out;
@@ -113,8 +112,7 @@ AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
     out.unused = std::size_t(std::count(used.begin(), used.end(), char{0}));
     const std::vector<Operator> operators = operatorsOf(assembly);
     const std::vector<std::size_t> partOf = partsOfCopies(assembly);
-    for (const std::size_t i :
-         chooseCopies(structure, assembly, parseCopies(copies), centroidOf(out.parts))) {
+    for (const std::size_t i : chooseCopies(structure, assembly, copies, centroidOf(out.parts))) {
         if (out.parts[partOf[i]].empty()) continue;
         const std::string problem = rotationProblem(operators[i]);
         if (!problem.empty()) fail(structure, name, problem);
@@ -124,7 +122,7 @@ AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
 }
 
 ExpandedBalls expandAssembly(const Structure& structure, const std::string& name,
-                             const std::string& copies, const std::vector<Ball>& balls)
+                             const CopyChoice& copies, const std::vector<Ball>& balls)
 {
     const AssemblyCopies assembly = copiesOf(structure, name, copies, balls);
     ExpandedBalls out;

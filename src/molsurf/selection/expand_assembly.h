@@ -4,6 +4,7 @@
 /// @file
 /// The copies that make a biological assembly.
 
+#include "molsurf/atoms.h"
 #include "molsurf/ball.h"
 #include "molsurf/structure/structure.h"
 
@@ -37,19 +38,18 @@ struct AssemblyCopies {
 };
 
 /// Finds the copies of an assembly.
-/// @param[in] copies  which copies, see parseCopies(); empty: all
+/// @param[in] copies  which copies
 /// @param[in] balls   in the coordinates of the file
 /// @throws Error as expandAssembly()
 AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
-                        const std::string& copies, const std::vector<Ball>& balls);
+                        const CopyChoice& copies, const std::vector<Ball>& balls);
 
 /// The numbers of some copies of an assembly.
 ///
-/// @param[in] copies  see parseCopies()
 /// @param[in] balls   in the coordinates of the file
 /// @throws Error as expandAssembly()
 std::vector<int> findCopies(const Structure& structure, const std::string& name,
-                            const std::string& copies, const std::vector<Ball>& balls);
+                            const CopyChoice& copies, const std::vector<Ball>& balls);
 
 /// Appends the balls of a part of an assembly as an operator moves them, in double precision from
 /// the atoms' positions.
@@ -60,12 +60,11 @@ void appendCopy(const Operator& op, const std::vector<Ball>& balls, std::vector<
 /// Centres of atoms are computed in double precision from the atoms' positions. A part of the
 /// assembly none of whose chains has a ball makes no copy.
 ///
-/// @param[in] copies  which copies, see parseCopies(); empty: all
+/// @param[in] copies  which copies
 /// @param[in] balls   in the coordinates of the file
 /// @throws Error(ErrorKind::Input) if the file describes no such assembly, if it cannot be built,
 ///         or if it has no such copies
-/// @throws Error(ErrorKind::Usage) if `copies` cannot be parsed
 ExpandedBalls expandAssembly(const Structure& structure, const std::string& name,
-                             const std::string& copies, const std::vector<Ball>& balls);
+                             const CopyChoice& copies, const std::vector<Ball>& balls);
 
 } // namespace molsurf

@@ -3,6 +3,7 @@
 
 #include "molsurf/error.h"
 #include "molsurf/selection/ball_names.h"
+#include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/structure/load_text.h"
 
@@ -33,6 +34,16 @@ std::array<std::uint8_t, 3> colorOf(const std::string& path, const std::string& 
     return *color;
 }
 
+/// The copies of a group in a file.
+CopyChoice copiesOf(const std::string& group, const std::string& text)
+{
+    try {
+        return parseCopies(text);
+    } catch (const Error& e) { // the file of groups is wrong, not the call
+        throw Error(ErrorKind::Input, "group " + group + ": copies: " + e.what());
+    }
+}
+
 std::vector<GroupRule> readJson(const std::string& path, const std::string& text)
 {
     const auto json = nlohmann::json::parse(text, nullptr, false);
@@ -53,7 +64,7 @@ std::vector<GroupRule> readJson(const std::string& path, const std::string& text
         rule.name = word("name");
         rule.select = word("select");
         if (entry.contains("color")) rule.color = colorOf(path, word("color"));
-        if (entry.contains("copies")) rule.copies = word("copies");
+        if (entry.contains("copies")) rule.copies = copiesOf(rule.name, word("copies"));
         for (const auto& item : entry.items()) {
             if (item.key() != "name" && item.key() != "select" && item.key() != "color" &&
                 item.key() != "copies") {
@@ -84,7 +95,7 @@ std::vector<GroupRule> readTable(const std::string& path, const std::string& tex
         rule.select = columns[1];
         for (std::size_t k = 2; k < columns.size(); ++k) {
             if (columns[k].rfind("copies=", 0) == 0) {
-                rule.copies = columns[k].substr(7);
+                rule.copies = copiesOf(rule.name, columns[k].substr(7));
             } else {
                 rule.color = colorOf(path, columns[k]);
             }
@@ -240,23 +251,9 @@ namespace
 class GroupNames
 {
 public:
-    /// @param[in] by  as for labelBalls()
-    /// @throws Error(ErrorKind::Usage) if `by` is none of the words there
-    GroupNames(const Structure& structure, const std::string& by) : by_(by)
+    GroupNames(const Structure& structure, const GroupBy& by) : by_(by), chains_(structure.chains)
     {
-        if (by.rfind("residues:", 0) == 0) {
-            const char* last = by.data() + by.size();
-            const auto [end, problem] = std::from_chars(by.data() + 9, last, perGroup_);
-            if (problem != std::errc() || end != last) perGroup_ = 0;
-        }
-        if (!by.empty() && by != "chain" && by != "entity" && by != "class" && by != "copy" &&
-            perGroup_ < 1) {
-            throw Error(ErrorKind::Usage,
-                        "`groupBy`: expected chain, entity, class, copy or residues:N, got '" + by +
-                            "'");
-        }
-        if (by == "entity") sequences_ = sequences(structure);
-        chains_ = &structure.chains;
+        if (by.kind == GroupBy::Kind::Entity) sequences_ = sequences(structure);
     }
 
     /// The name of the group of a residue.
@@ -264,39 +261,67 @@ public:
     /// @param[in] copy   number of the copy
     std::string nameOf(const Residue& residue, const std::string& chain, int copy)
     {
-        if (by_ == "chain") return chain;
-        if (by_ == "class") return "class " + (*chains_)[std::size_t(residue.chain)];
-        if (by_ == "copy") return "copy " + std::to_string(copy);
-        if (by_ == "entity") {
+        switch (by_.kind) {
+        case GroupBy::Kind::Chain:
+            return chain;
+        case GroupBy::Kind::Class:
+            return "class " + chains_[std::size_t(residue.chain)];
+        case GroupBy::Kind::Copy:
+            return "copy " + std::to_string(copy);
+        case GroupBy::Kind::Entity: {
             const std::int32_t next = std::int32_t(entities_.size()) + 1;
             const auto found =
                 entities_.emplace(sequences_[std::size_t(residue.chain)], next).first;
             return "entity " + std::to_string(found->second);
         }
-        const int block = residue.number >= 1 ? (residue.number - 1) / perGroup_
-                                              : (residue.number - perGroup_) / perGroup_;
-        return chain + "/" + std::to_string(block * perGroup_ + 1) + "-" +
-               std::to_string((block + 1) * perGroup_);
+        default:
+            const int size = by_.residues;
+            const int block =
+                residue.number >= 1 ? (residue.number - 1) / size : (residue.number - size) / size;
+            return chain + "/" + std::to_string(block * size + 1) + "-" +
+                   std::to_string((block + 1) * size);
+        }
     }
 
 private:
-    const std::string& by_;
-    int perGroup_ = 0;                             // residues
-    const std::vector<std::string>* chains_;       // names in the file
+    GroupBy by_;
+    const std::vector<std::string>& chains_;       // names in the file
     std::vector<std::string> sequences_;           // of the chains
     std::map<std::string, std::int32_t> entities_; // by sequence
 };
 
+constexpr std::array<const char*, 4> groupWords = {"chain", "entity", "class", "copy"};
+
 } // namespace
+
+GroupBy parseGroupBy(const std::string& text)
+{
+    for (std::size_t k = 0; k < groupWords.size(); ++k)
+        if (text == groupWords[k]) return {GroupBy::Kind(k)};
+    GroupBy by{GroupBy::Kind::Residues};
+    const char* last = text.data() + text.size();
+    if (text.rfind("residues:", 0) == 0) {
+        const auto [end, problem] = std::from_chars(text.data() + 9, last, by.residues);
+        if (problem == std::errc() && end == last && by.residues >= 1) return by;
+    }
+    throw Error(ErrorKind::Usage,
+                "`groupBy`: expected chain, entity, class, copy or residues:N, got '" + text + "'");
+}
+
+std::string textOf(const GroupBy& by)
+{
+    return by.kind == GroupBy::Kind::Residues ? "residues:" + std::to_string(by.residues)
+                                              : groupWords[std::size_t(by.kind)];
+}
 
 BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls,
                       const std::vector<std::size_t>& copyBegin,
                       const std::vector<int>& copyNumbers, const std::vector<GroupRule>& rules,
-                      const std::string& by)
+                      const std::optional<GroupBy>& by)
 {
-    GroupNames names(structure, by);
+    GroupNames names(structure, by.value_or(GroupBy()));
     BallLabels labels;
-    if (by.empty() && !rules.empty()) {
+    if (!by && !rules.empty()) {
         labelByRules(structure, balls, copyBegin, copyNumbers, rules, labels);
     }
     std::map<std::string, std::int32_t> number; // of groups by name
@@ -306,7 +331,7 @@ BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls
     labels.chainOf.resize(balls.size());
     labels.elementOf.resize(balls.size());
     labels.residueClassOf.resize(balls.size());
-    if (!by.empty()) labels.groupOf.assign(balls.size(), -1);
+    if (by) labels.groupOf.assign(balls.size(), -1);
     for (std::size_t c = 0; c < copies; ++c) {
         const int copy = copyNumbers[c];
         const std::string suffix = copy == 1 ? "" : "-" + std::to_string(copy);
@@ -321,7 +346,7 @@ BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls
             labels.chainOf[i] = index->second;
             labels.elementOf[i] = atom.element;
             labels.residueClassOf[i] = classOf(residue.name);
-            if (!by.empty()) {
+            if (by) {
                 if (atom.residue != lastResidue || i == copyBegin[c]) {
                     const std::string name = names.nameOf(residue, chainName, copy);
                     const auto added = number.emplace(name, std::int32_t(labels.groups.size()));

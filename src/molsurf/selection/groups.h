@@ -31,19 +31,23 @@ const std::vector<std::string>& colorNames();
 ///         one name
 std::vector<GroupRule> readGroups(const std::string& path, std::size_t maxBytes = 0);
 
+/// Reads "chain", "entity", "class", "copy" or "residues:N".
+/// @throws Error(ErrorKind::Usage) if the text is none of these
+GroupBy parseGroupBy(const std::string& text);
+
+/// The text that parseGroupBy() reads.
+std::string textOf(const GroupBy& by);
+
 /// Labels balls.
 ///
 /// @param[in] copyBegin    copy i is balls [copyBegin[i], copyBegin[i + 1])
 /// @param[in] copyNumbers  of copy i in the whole assembly, from 1
 /// @param[in] rules        groups; an atom of several belongs to the last
-/// @param[in] by         "", "chain", "entity" (chains of the same residues), "class" (a
-///                       chain of the file with all its copies), "copy" (of the assembly), or
-///                       "residues:N" (N residues of a chain each): groups instead of the rules
+/// @param[in] by           groups instead of the rules, if there are any
 /// @throws Error(ErrorKind::Input) if a selection does not parse or matches nothing
-/// @throws Error(ErrorKind::Usage) if `by` is none of these
 BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls,
                       const std::vector<std::size_t>& copyBegin,
                       const std::vector<int>& copyNumbers, const std::vector<GroupRule>& rules,
-                      const std::string& by);
+                      const std::optional<GroupBy>& by);
 
 } // namespace molsurf

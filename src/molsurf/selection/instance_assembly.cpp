@@ -32,7 +32,7 @@ MotionKey keyOf(const Operator& op)
 } // namespace
 
 InstancedBalls instanceAssembly(const Structure& structure, const std::string& name,
-                                const std::string& copies, const std::vector<Ball>& balls)
+                                const CopyChoice& copies, const std::vector<Ball>& balls)
 {
     const AssemblyCopies assembly = copiesOf(structure, name, copies, balls);
     // The parts that move together, motion by motion in the order of the file.

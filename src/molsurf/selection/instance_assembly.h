@@ -25,10 +25,10 @@ struct InstancedBalls {
 /// Finds the prototypes of an assembly: the sets of chains that some operators move together. Most
 /// assemblies have one.
 ///
-/// @param[in] copies  which copies, see parseCopies(); empty: all
+/// @param[in] copies  which copies
 /// @param[in] balls   in the coordinates of the file
 /// @throws Error as expandAssembly()
 InstancedBalls instanceAssembly(const Structure& structure, const std::string& name,
-                                const std::string& copies, const std::vector<Ball>& balls);
+                                const CopyChoice& copies, const std::vector<Ball>& balls);
 
 } // namespace molsurf

@@ -457,7 +457,7 @@ void addValues(const Structure& structure, const SelectOptions& options, double 
         centre += openvdb::Vec3d(ball.center) / double(out.balls.size());
     if (out.unit) centre = out.unit->centre;
     BallValues values =
-        ballValues(structure, out.balls, options.valueBy, options.valueRange.has_value(), centre,
+        ballValues(structure, out.balls, *options.valueBy, options.valueRange.has_value(), centre,
                    probe, options.maxInput, out.warnings);
     if (options.valueRange) {
         values.low = (*options.valueRange)[0];
@@ -493,13 +493,14 @@ std::vector<GroupRule> withCopies(const Structure& structure, const SelectOption
 {
     std::vector<GroupRule> groups = options.groups;
     for (GroupRule& group : groups) {
-        if (group.copies.empty()) continue;
+        if (group.copies.all()) continue;
         const std::string where = "group " + group.name + ": copies: ";
-        if (options.assembly == "none") {
+        if (!options.assembly) {
             throw Error(ErrorKind::Input, where + "expected an assembly [hint: `assembly`]");
         }
         try {
-            group.copyNumbers = findCopies(structure, options.assembly, group.copies, balls);
+            checkCopies(group.copies);
+            group.copyNumbers = findCopies(structure, *options.assembly, group.copies, balls);
         } catch (const Error& e) { // the file of groups is wrong, not the call
             throw Error(ErrorKind::Input, where + e.what());
         }
@@ -507,16 +508,71 @@ std::vector<GroupRule> withCopies(const Structure& structure, const SelectOption
     return groups;
 }
 
+/// Puts the balls where they belong: as in the file, as a unit of a whole, each prototype of an
+/// assembly once, or all of its copies.
+/// @param[in] balls  in the coordinates of the file
+/// @return the rotations of a unit
+RotationGroup placeBalls(const Structure& structure, const SelectOptions& options,
+                         std::vector<Ball> balls, Filter& filter, BallSet& out)
+{
+    RotationGroup group;
+    if (!options.assembly) {
+        out.balls = std::move(balls);
+        out.copyBegin = {0, out.balls.size()};
+        out.copyNumbers = {1};
+    } else if (options.bySymmetry) {
+        UnitBalls found = unitBalls(structure, *options.assembly, balls);
+        filter.note("not in the assembly", found.unused);
+        out.balls = std::move(found.balls);
+        out.copyBegin = std::move(found.copyBegin);
+        out.copyNumbers = std::move(found.copyNumbers);
+        group = std::move(found.group);
+        out.unit = SymmetricUnit{group.symmetry.pointGroup,
+                                 group.symmetry.centre,
+                                 out.copyNumbers.size(),
+                                 0,
+                                 found.deviation,
+                                 {},
+                                 group.product,
+                                 group.inverse};
+        for (const Operator& motion : group.motions)
+            out.instances.push_back({0, motion.name, motion.rotation, motion.translation});
+    } else if (options.instances) {
+        InstancedBalls instanced =
+            instanceAssembly(structure, *options.assembly, options.copies, balls);
+        filter.note("not in the assembly", instanced.unused);
+        out.balls = std::move(instanced.balls);
+        out.copyBegin = std::move(instanced.begin);
+        out.copies = out.copyBegin.size() - 1;
+        out.copyNumbers.resize(out.copies);
+        std::iota(out.copyNumbers.begin(), out.copyNumbers.end(), 1);
+        out.instances = std::move(instanced.instances);
+    } else {
+        ExpandedBalls expanded =
+            expandAssembly(structure, *options.assembly, options.copies, balls);
+        filter.note("not in the assembly", expanded.unused);
+        out.balls = std::move(expanded.balls);
+        out.copyBegin = std::move(expanded.copyBegin);
+        out.copyNumbers = std::move(expanded.copyNumbers);
+        out.copies = out.copyBegin.size() - 1;
+    }
+    return group;
+}
+
 } // namespace
 
 void checkOptions(const SelectOptions& options)
 {
-    parseCopies(options.copies);
-    const std::pair<const char*, bool> ofAssemblies[] = {{"`copies`", !options.copies.empty()},
+    checkCopies(options.copies);
+    if (options.groupBy && options.groupBy->kind == GroupBy::Kind::Residues &&
+        options.groupBy->residues < 1)
+        throw Error(ErrorKind::Usage, "`groupBy`: expected at least one residue, got " +
+                                          std::to_string(options.groupBy->residues));
+    const std::pair<const char*, bool> ofAssemblies[] = {{"`copies`", !options.copies.all()},
                                                          {"`instances`", options.instances},
                                                          {"`bySymmetry`", options.bySymmetry}};
     for (const auto& [name, given] : ofAssemblies) {
-        if (given && options.assembly == "none")
+        if (given && !options.assembly)
             throw Error(ErrorKind::Usage,
                         std::string(name) +
                             " is for an assembly [hint: `assembly` 1, for example]");
@@ -565,47 +621,8 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
         beadAtoms = std::move(coarse.beadAtoms);
         out.warnings.insert(out.warnings.end(), coarse.warnings.begin(), coarse.warnings.end());
     }
-    RotationGroup group; // of a symmetric unit
     const std::vector<GroupRule> groups = withCopies(structure, options, balls);
-    if (options.assembly == "none") {
-        out.balls = std::move(balls);
-        out.copyBegin = {0, out.balls.size()};
-        out.copyNumbers = {1};
-    } else if (options.bySymmetry) {
-        UnitBalls found = unitBalls(structure, options.assembly, balls);
-        filter.note("not in the assembly", found.unused);
-        out.balls = std::move(found.balls);
-        out.copyBegin = std::move(found.copyBegin);
-        out.copyNumbers = std::move(found.copyNumbers);
-        group = std::move(found.group);
-        out.unit = SymmetricUnit{group.symmetry.pointGroup,
-                                 group.symmetry.centre,
-                                 out.copyNumbers.size(),
-                                 0,
-                                 found.deviation,
-                                 {},
-                                 group.product,
-                                 group.inverse};
-        for (const Operator& motion : group.motions)
-            out.instances.push_back({0, motion.name, motion.rotation, motion.translation});
-    } else if (options.instances) {
-        InstancedBalls instanced =
-            instanceAssembly(structure, options.assembly, options.copies, balls);
-        filter.note("not in the assembly", instanced.unused);
-        out.balls = std::move(instanced.balls);
-        out.copyBegin = std::move(instanced.begin);
-        out.copies = out.copyBegin.size() - 1;
-        out.copyNumbers.resize(out.copies);
-        std::iota(out.copyNumbers.begin(), out.copyNumbers.end(), 1);
-        out.instances = std::move(instanced.instances);
-    } else {
-        ExpandedBalls expanded = expandAssembly(structure, options.assembly, options.copies, balls);
-        filter.note("not in the assembly", expanded.unused);
-        out.balls = std::move(expanded.balls);
-        out.copyBegin = std::move(expanded.copyBegin);
-        out.copyNumbers = std::move(expanded.copyNumbers);
-        out.copies = out.copyBegin.size() - 1;
-    }
+    const RotationGroup group = placeBalls(structure, options, std::move(balls), filter, out);
     if (out.balls.empty()) {
         failInput(structure, "nothing is left of " + std::to_string(model.end - model.begin) +
                                  " atoms: dropped " + describeDrops(out.drops));
@@ -626,19 +643,19 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     }
     applyResolutions(structure, options, out);
     const bool several = options.instances && out.copies > 1; // a surface for each prototype
-    if (several && (!options.groups.empty() || !options.groupBy.empty()))
+    if (several && (!options.groups.empty() || options.groupBy))
         throw Error(ErrorKind::Usage,
                     "`groups` and `groupBy`: expected one prototype, the assembly "
                     "has " +
                         std::to_string(out.copies) + " with `instances`");
-    if (options.labels || !options.valueBy.empty() || !options.groups.empty() ||
-        !options.groupBy.empty() || several) {
+    if (options.labels || options.valueBy || !options.groups.empty() || options.groupBy ||
+        several) {
         out.labels = labelBalls(structure, out.balls, out.copyBegin, out.copyNumbers, groups,
-                                several ? "copy" : options.groupBy);
+                                several ? GroupBy{GroupBy::Kind::Copy} : options.groupBy);
         out.warnings.insert(out.warnings.end(), out.labels->warnings.begin(),
                             out.labels->warnings.end());
     }
-    if (!options.valueBy.empty()) addValues(structure, options, probe, out);
+    if (options.valueBy) addValues(structure, options, probe, out);
     if (options.plainColor) out.colors.assign(out.balls.size(), *options.plainColor);
     if (options.names) out.names = ballNames(structure, out.balls, out.copyBegin, out.copyNumbers);
     if (out.unit) countWhole(out);

@@ -52,7 +52,7 @@ double deviationOf(const Operator& motion, const Operator& unit, const Operator&
 UnitBalls unitBalls(const Structure& structure, const std::string& name,
                     const std::vector<Ball>& balls)
 {
-    const AssemblyCopies assembly = copiesOf(structure, name, "", balls);
+    const AssemblyCopies assembly = copiesOf(structure, name, {}, balls);
     // The copies that have balls, as an assembly of their own: the others have no symmetry.
     Assembly used;
     std::vector<std::size_t> copyOf; // of an operator

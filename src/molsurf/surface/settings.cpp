@@ -2,7 +2,9 @@
 #include "molsurf/settings.h"
 
 #include "molsurf/selection/ball_values.h"
+#include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/coarse_grain.h"
+#include "molsurf/selection/groups.h"
 #include "molsurf/selection/radii.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/set_value.h"
@@ -46,7 +48,7 @@ Setting within(double low, double high, Setting row)
     return row;
 }
 
-/// @param[in] none  the value, in files, of a number below `low`
+/// @param[in] none  the value, in files, of a number that is not given
 template<typename Of>
 Setting count(const char* name, const char* value, std::string text, const char* none,
               std::pair<int, int> range, const Of& of)
@@ -55,8 +57,9 @@ Setting count(const char* name, const char* value, std::string text, const char*
     Setting row{name, SettingType::Whole, value,       std::move(text), none,
                 {},   double(low),        double(high)};
     row.set = countSetter(name, low, high, of);
-    row.get = [=, least = low](const Settings& s) -> SettingValue {
-        return of(s) >= least ? std::to_string(of(s)) : std::string(none);
+    row.get = [=](const Settings& s) -> SettingValue {
+        const std::optional<int> value = of(s);
+        return value ? std::to_string(*value) : std::string(none);
     };
     return row;
 }
@@ -80,6 +83,18 @@ Setting text(const char* name, const char* value, std::string help, const char* 
                 of(preset).empty() ? none : of(preset)};
     row.set = [=](Settings& s, const Values& v) { of(s) = v.back(); };
     row.get = [=](const Settings& s) { return of(s).empty() ? none : of(s); };
+    return row;
+}
+
+/// A value that a text stands for, which textOf() gives back.
+/// @param[in] none  the text of no value
+template<typename Of, typename Parse>
+Setting parsed(const char* name, const char* value, std::string help, const char* none,
+               const Of& of, const Parse& parse)
+{
+    Setting row{name, SettingType::Text, value, std::move(help), none};
+    row.set = [=](Settings& s, const Values& v) { of(s) = parse(v.back()); };
+    row.get = [=](const Settings& s) { return of(s) ? textOf(*of(s)) : none; };
     return row;
 }
 
@@ -187,6 +202,35 @@ void setFields(Settings& settings, const Values& values)
             settings.options.fields.push_back(field);
 }
 
+Setting assemblySetting()
+{
+    Setting assembly{"assembly", SettingType::Text, "ID",
+                     "biological assembly to build; none: as in the file;\n"
+                     "ncs: with the copies of MTRIX records or struct_ncs_oper",
+                     "none"};
+    assembly.set = [](Settings& s, const Values& values) {
+        s.atoms.assembly.reset();
+        if (values.back() != "none") s.atoms.assembly = values.back();
+    };
+    assembly.get = [](const Settings& s) { return s.atoms.assembly.value_or("none"); };
+    return assembly;
+}
+
+Setting copiesSetting()
+{
+    Setting copies{"copies", SettingType::Text, "LIST",
+                   "copies of the assembly: numbers such as 1,7,20-25, or\n"
+                   "fold:N, those about the nearest N-fold axis, with copy 1",
+                   "all"};
+    copies.set = [](Settings& s, const Values& values) {
+        s.atoms.copies = parseCopies(values.back());
+    };
+    copies.get = [](const Settings& s) {
+        return s.atoms.copies.all() ? "all" : textOf(s.atoms.copies);
+    };
+    return copies;
+}
+
 std::vector<Setting> atomSettings()
 {
     const auto of = [](auto member) {
@@ -210,10 +254,7 @@ std::vector<Setting> atomSettings()
                         return s.atoms.model ? std::to_string(s.atoms.model) : "first";
                     };
                 }),
-        text("assembly", "ID",
-             "biological assembly to build; none: as in the file;\n"
-             "ncs: with the copies of MTRIX records or struct_ncs_oper",
-             "", of(&SelectOptions::assembly)),
+        assemblySetting(),
         flag("instances",
              "the surface of each distinct copy of the assembly once:\n"
              "the .glb, .usda, .html, .png and .json place the copies",
@@ -222,10 +263,7 @@ std::vector<Setting> atomSettings()
              "the joint surface of the whole assembly from one unit,\n"
              "which its rotations repeat",
              of(&SelectOptions::bySymmetry)),
-        text("copies", "LIST",
-             "copies of the assembly: numbers such as 1,7,20-25, or\n"
-             "fold:N, those about the nearest N-fold axis, with copy 1",
-             "all", of(&SelectOptions::copies)),
+        copiesSetting(),
         text("altloc", "A", "alternate location to take, or all", "highest occupancy",
              of(&SelectOptions::altloc)),
         flag("no-hydrogens", "drop hydrogens", of(&SelectOptions::hydrogens), false),
@@ -329,19 +367,25 @@ std::vector<Setting> resolutionSettings()
                                 OF(options.matchVolume)))};
 }
 
-/// The beginnings of colours by the values of a file.
-const Values colorFiles = {"table=", "potential=", "potential-out="};
-
 /// The words of groups that are made to be coloured.
 const Values coloredGroups = {"copy", "entity", "class"};
+
+/// The beginnings of colours by the values of a file.
+Values colorFiles()
+{
+    Values starts;
+    for (std::size_t k = valuesWithoutFile; k < valueWords().size(); ++k)
+        starts.push_back(valueWords()[k] + "=");
+    return starts;
+}
 
 Values colorWords()
 {
     Values words;
     for (const ColorBy by : completeColors()) words.push_back(nameOf(by));
     words.insert(words.end(), coloredGroups.begin(), coloredGroups.end());
-    words.insert(words.end(), valueWords().begin(), valueWords().end());
-    for (const std::string& start : colorFiles) words.push_back(start + "FILE");
+    words.insert(words.end(), valueWords().begin(), valueWords().begin() + valuesWithoutFile);
+    for (const std::string& start : colorFiles()) words.push_back(start + "FILE");
     words.push_back("residue-type");
     words.push_back("plain=#RRGGBB");
     return words;
@@ -351,24 +395,20 @@ void setColor(Settings& s, const Values& values)
 {
     const std::string typed = lowered(values.back());
     const std::string word = typed == "residue-type" ? "residue" : typed;
-    const auto among = [&](const Values& some) {
-        return std::count(some.begin(), some.end(), word) > 0;
-    };
-    s.colorGroups = among(coloredGroups) ? word : "";
-    s.atoms.valueBy = among(valueWords()) ? word : "";
-    for (const std::string& start : colorFiles)
-        if (word == start)
-            wrongValue("color", start + "FILE", values.back());
-        else if (word.rfind(start, 0) == 0)
-            s.atoms.valueBy = start + values.back().substr(start.size());
-    s.options.color = s.atoms.valueBy.empty() ? ColorBy::Nothing : ColorBy::Value;
+    s.colorGroups.reset();
     s.atoms.plainColor.reset();
+    s.atoms.valueBy = parseValueBy(values.back());
+    s.options.color = s.atoms.valueBy ? ColorBy::Value : ColorBy::Nothing;
+    if (s.atoms.valueBy) return;
+    if (std::count(coloredGroups.begin(), coloredGroups.end(), word)) {
+        s.colorGroups = parseGroupBy(word);
+        return;
+    }
     if (word.rfind("plain=", 0) == 0) {
         s.atoms.plainColor = colorValue("color", "", word.substr(6));
         s.options.color = ColorBy::Plain;
         return;
     }
-    if (!s.colorGroups.empty() || !s.atoms.valueBy.empty()) return;
     for (const ColorBy by : completeColors()) {
         if (word != nameOf(by)) continue;
         s.options.color = by;
@@ -394,11 +434,11 @@ Setting colorSetting()
                   colorWords()};
     color.set = setColor;
     color.get = [](const Settings& s) -> std::string {
-        if (!s.colorGroups.empty()) return s.colorGroups;
-        return s.atoms.valueBy.empty() ? nameOf(s.options.color) : s.atoms.valueBy;
+        if (s.colorGroups) return textOf(*s.colorGroups);
+        return s.atoms.valueBy ? textOf(*s.atoms.valueBy) : nameOf(s.options.color);
     };
     color.file = [](const std::string& value) {
-        for (const std::string& start : colorFiles)
+        for (const std::string& start : colorFiles())
             if (lowered(value).rfind(start, 0) == 0) return start.size();
         return std::string::npos;
     };
@@ -447,9 +487,9 @@ std::vector<Setting> groupSettings()
         return r ? shortest((*r)[0]) + "," + shortest((*r)[1]) : "auto";
     };
     Setting groupBy =
-        text("group-by", "WORD",
-             "groups by chain, entity, class (a chain's copies),\ncopy or residues:N instead", "",
-             OF(atoms.groupBy));
+        parsed("group-by", "WORD",
+               "groups by chain, entity, class (a chain's copies),\ncopy or residues:N instead", "",
+               OF(atoms.groupBy), parseGroupBy);
     groupBy.words = {"chain", "entity", "class", "copy"};
     groupBy.ofAtoms = range.ofAtoms = true;
     return {groupBy,

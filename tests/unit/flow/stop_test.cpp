@@ -154,7 +154,7 @@ TEST(Stop, OnCoarserVoxelsComesNearerToRest)
     options.steps = 3;
     const EvolveOptions coarse = coarseFlow(options, 0.5);
     EXPECT_LT(coarse.tolerance, options.tolerance);
-    EXPECT_LT(coarse.steps, 0); // to rest, however many are asked for
+    EXPECT_FALSE(coarse.steps); // to rest, however many are asked for
     options.tolerance = 1e-4;
     EXPECT_EQ(coarseFlow(options, 0.5).tolerance, options.tolerance);
 }

@@ -41,7 +41,7 @@ BallValues valuesOf(const Structure& s, const std::string& by)
     for (std::size_t i = 0; i < s.atoms.size(); ++i)
         balls.push_back({s.atoms[i].position, 1.7, std::int32_t(i)});
     std::vector<std::string> warnings;
-    return ballValues(s, balls, by, false, openvdb::Vec3d(0.0), 1.4, 0, warnings);
+    return ballValues(s, balls, *parseValueBy(by), false, openvdb::Vec3d(0.0), 1.4, 0, warnings);
 }
 
 TEST(BallValues, RangeLeavesOutTwoOfAHundredAtEachEnd)

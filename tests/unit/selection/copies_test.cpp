@@ -16,7 +16,7 @@ SelectOptions copies(const std::string& text)
 {
     SelectOptions options;
     options.assembly = "1";
-    options.copies = text;
+    options.copies = parseCopies(text);
     return options;
 }
 

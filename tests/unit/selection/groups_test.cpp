@@ -82,7 +82,7 @@ BallLabels labelled(const SelectOptions& options, const std::string& file = "/4a
 TEST(Labels, GroupsByChainEntityCopyAndResidues)
 {
     SelectOptions options;
-    options.groupBy = "chain";
+    options.groupBy = parseGroupBy("chain");
     const BallLabels chains = labelled(options);
     ASSERT_EQ(chains.groups.size(), 4u); // two catalytic, two regulatory
     EXPECT_EQ(chains.groups[0].name, "A");
@@ -90,12 +90,12 @@ TEST(Labels, GroupsByChainEntityCopyAndResidues)
     for (const Group& group : chains.groups) all += group.balls;
     EXPECT_EQ(all, chains.chainOf.size());
 
-    options.groupBy = "entity";
+    options.groupBy = parseGroupBy("entity");
     const BallLabels entities = labelled(options);
     ASSERT_EQ(entities.groups.size(), 2u);
     EXPECT_EQ(entities.groups[0].balls, chains.groups[0].balls + chains.groups[2].balls);
 
-    options.groupBy = "copy";
+    options.groupBy = parseGroupBy("copy");
     options.assembly = "1";
     const BallLabels copies = labelled(options, "/1a8o.cif.gz");
     ASSERT_EQ(copies.groups.size(), 2u);
@@ -104,15 +104,14 @@ TEST(Labels, GroupsByChainEntityCopyAndResidues)
     EXPECT_EQ(copies.chains.size(), 2u);
     EXPECT_EQ(copies.chains[1], "A-2");
 
-    options.assembly = "none";
-    options.groupBy = "residues:20";
+    options.assembly.reset();
+    options.groupBy = parseGroupBy("residues:20");
     const BallLabels blocks = labelled(options, "/1crn.pdb");
     ASSERT_EQ(blocks.groups.size(), 3u); // 46 residues
     EXPECT_EQ(blocks.groups[0].name, "A/1-20");
 
     for (const char* bad : {"colour", "residues:", "residues:0", "residues:-3", "residues:2x"}) {
-        options.groupBy = bad;
-        EXPECT_THROW(labelled(options, "/1crn.pdb"), Error) << bad;
+        EXPECT_THROW(parseGroupBy(bad), Error) << bad;
     }
 }
 

@@ -4,6 +4,7 @@
 #include "molsurf/error.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/topology.h"
+#include "molsurf/selection/groups.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/rotation_group.h"
 #include "molsurf/surface.h"
@@ -330,7 +331,7 @@ TEST(SymmetricUnit, InterfacesCountTheWhole)
         Structure s = blob({9.0, 1.0, 1.0}, 6.0, 120, 3);
         s.assemblies = {assemblyOf(dihedral(3))};
         SelectOptions select = assembly(true, options);
-        select.groupBy = "copy";
+        select.groupBy = parseGroupBy("copy");
         const Report a = makeSurface(selectBalls(s, select), options).report;
         select.bySymmetry = false;
         const Report b = makeSurface(selectBalls(s, select), options).report;

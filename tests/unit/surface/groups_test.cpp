@@ -59,6 +59,26 @@ TEST(Groups, ColoursWithoutWhatTheyShowAreRefused)
     }
 }
 
+TEST(Groups, ColoursOfAFileAreMadeOrRefused)
+{
+    const BallSet atoms = readAtoms(MOLSURF_TEST_DATA "/1crn.pdb");
+    SurfaceOptions options;
+    options.voxel = 1.0;
+    for (const ColorBy by : {ColorBy::Chain, ColorBy::Element, ColorBy::Residue,
+                             ColorBy::Nucleotide, ColorBy::Illustrative}) {
+        options.color = by;
+        const Mesh mesh = makeSurface(atoms, options).mesh;
+        EXPECT_EQ(mesh.colors.size(), mesh.positions.size()) << nameOf(by);
+        if (by == ColorBy::Element || by == ColorBy::Residue) {
+            EXPECT_GT(std::set<Color>(mesh.colors.begin(), mesh.colors.end()).size(), 2u);
+        }
+    }
+    for (const ColorBy by : {ColorBy::Group, ColorBy::Plain, ColorBy::Value}) {
+        options.color = by;
+        EXPECT_THROW(makeSurface(atoms, options), Error) << nameOf(by);
+    }
+}
+
 TEST(Groups, ShareAreaAndVolumeOfTwoBalls)
 {
     SurfaceOptions options;
@@ -97,7 +117,7 @@ TEST(Groups, CopiesHaveEqualParts)
 {
     SelectOptions select;
     select.assembly = "1";
-    select.groupBy = "copy";
+    select.groupBy = GroupBy{GroupBy::Kind::Copy};
     const BallSet atoms =
         selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + "/1a8o.cif.gz"), select);
     Progress progress;

@@ -12,7 +12,7 @@ namespace
 
 // CGAL's verdict, and the Euler number of the level set's signs by the rule of OpenVDB's mesher:
 // voxels are connected across faces and edges (18 neighbours), see test::mesherEuler().
-void expectGood(const std::string& file, const std::string& assembly, double voxel,
+void expectGood(const std::string& file, const std::optional<std::string>& assembly, double voxel,
                 bool intersections)
 {
     SurfaceOptions options;
@@ -44,12 +44,12 @@ void expectGood(const std::string& file, const std::string& assembly, double vox
 
 TEST(MeshSlow, OfCrambinPassesCgal)
 {
-    expectGood("1crn.pdb", "none", 0.5, true);
+    expectGood("1crn.pdb", {}, 0.5, true);
 }
 
 TEST(MeshSlow, OfCrambinAtAQuarterPassesCgal)
 {
-    expectGood("1crn.pdb", "none", 0.25, true);
+    expectGood("1crn.pdb", {}, 0.25, true);
 }
 
 TEST(MeshSlow, OfTheDimerOf1A8OPassesCgal)
@@ -64,7 +64,7 @@ TEST(MeshSlow, OfTheDimerOf1A8OAtAQuarterPassesCgal)
 
 TEST(MeshSlow, Of4AT1PassesCgal)
 {
-    expectGood("4at1.ent.gz", "none", 0.5, true);
+    expectGood("4at1.ent.gz", {}, 0.5, true);
 }
 
 // The checker itself: meshes with one fault each.

@@ -2,6 +2,7 @@
 // The table of settings: every row sets and gives back what it says.
 
 #include "molsurf/error.h"
+#include "molsurf/selection/groups.h"
 #include "molsurf/settings.h"
 
 #include <gtest/gtest.h>
@@ -133,15 +134,15 @@ TEST(Settings, AColorSaysWhatElseItNeeds)
     Settings settings;
     row("color").set(settings, {"bfactor"});
     EXPECT_EQ(settings.options.color, ColorBy::Value);
-    EXPECT_EQ(settings.atoms.valueBy, "bfactor");
+    EXPECT_EQ(settings.atoms.valueBy->kind, ValueBy::Kind::BFactor);
     row("color").set(settings, {"entity"});
-    EXPECT_EQ(settings.colorGroups, "entity");
-    EXPECT_EQ(settings.atoms.valueBy, "");
+    EXPECT_EQ(textOf(*settings.colorGroups), "entity");
+    EXPECT_FALSE(settings.atoms.valueBy);
     row("color").set(settings, {"plain=#102030"});
     EXPECT_EQ(settings.options.color, ColorBy::Plain);
     EXPECT_EQ((*settings.atoms.plainColor)[1], 0x20);
     row("color").set(settings, {"Table=Values.csv"});
-    EXPECT_EQ(settings.atoms.valueBy, "table=Values.csv");
+    EXPECT_EQ(settings.atoms.valueBy->file, "Values.csv");
     EXPECT_EQ(row("color").file("table=Values.csv"), 6u);
 }
 
