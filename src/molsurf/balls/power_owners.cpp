@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/balls/power_owners.h"
 
+#include "molsurf/core/parallel.h"
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -39,6 +41,36 @@ void PowerOwners::at(const Vec3d& x, double slack, std::vector<OwnersPower>& nea
         // Balls farther off than the gap have at least this power.
         if (!near.empty() && near[0].power + slack <= gap * (gap + 2.0 * leastRadius_)) return;
     }
+}
+
+PowerExcess PowerOwners::excess(const Vec3d& x, std::int32_t owner, std::int32_t other,
+                                std::vector<OwnersPower>& near) const
+{
+    constexpr double slack = 16.0; // [Å^2]
+    at(x, slack, near);
+    const OwnersPower *own = nullptr, *rest = nullptr;
+    for (const OwnersPower& n : near) {
+        if (n.owner == owner) own = &n;
+        if (n.owner == other || (other < 0 && !rest && n.owner != owner)) rest = &n;
+    }
+    const std::int32_t second = rest ? rest->owner : -1;
+    if (own && rest) return {own->power - rest->power, 2.0 * (rest->centre - own->centre), second};
+    return {own ? -slack : slack, Vec3d(0.0), second};
+}
+
+std::vector<std::int32_t> PowerOwners::ownersOf(const std::vector<openvdb::Vec3f>& points,
+                                                const Progress& progress) const
+{
+    constexpr std::size_t chunk = 256;
+    std::vector<std::int32_t> out(points.size(), 0);
+    parallelFor((points.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
+        std::vector<OwnersPower> near;
+        for (std::size_t i = c * chunk; i < std::min(points.size(), (c + 1) * chunk); ++i) {
+            at(Vec3d(points[i]), 0.0, near);
+            if (!near.empty()) out[i] = near[0].owner;
+        }
+    });
+    return out;
 }
 
 } // namespace molsurf

@@ -3,6 +3,7 @@
 
 #include "molsurf/balls/power_owners.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/zero_between.h"
 
 #include <algorithm>
 #include <array>
@@ -54,50 +55,17 @@ class Cutter
 public:
     Cutter(const Mesh& mesh, const PowerOwners& owners) : mesh_(mesh), owners_(owners) {}
 
-    std::int32_t ownerAt(const Vec3d& x)
-    {
-        owners_.at(x, 0.0, near_);
-        return near_.empty() ? 0 : near_[0].owner;
-    }
-
-    /// How much more power owner a has at a point than owner b, in [-slack, slack] [Å^2].
+    /// How much more power owner a has at a point than owner b [Å^2].
     double excess(const Vec3d& x, std::int32_t a, std::int32_t b)
     {
-        constexpr double slack = 16.0;
-        owners_.at(x, slack, near_);
-        double ofA = 0.0, ofB = 0.0;
-        bool hasA = false, hasB = false;
-        for (const OwnersPower& near : near_) {
-            if (near.owner == a) ofA = near.power, hasA = true;
-            if (near.owner == b) ofB = near.power, hasB = true;
-        }
-        if (hasA && hasB) return ofA - ofB;
-        return hasA ? -slack : slack;
+        return owners_.excess(x, a, b, near_).value;
     }
 
     /// Where the arc from a vertex of owner `own` to one of owner `other` crosses their border.
     double crossing(std::uint32_t a, std::uint32_t b, std::int32_t own, std::int32_t other)
     {
-        double low = 0.0, high = 1.0;
-        double below = excess(onArc(mesh_, a, b, 0.0), own, other);
-        double above = excess(onArc(mesh_, a, b, 1.0), own, other);
-        double t = 0.5;
-        for (int i = 0; i < 20 && high - low > 1e-5; ++i) { // regula falsi (Illinois)
-            t = low + (high - low) * below / (below - above);
-            if (!(t > low && t < high)) t = 0.5 * (low + high);
-            const double f = excess(onArc(mesh_, a, b, t), own, other);
-            if (std::abs(f) < 1e-6) break;
-            if (f < 0.0) {
-                low = t;
-                below = f;
-                above *= 0.5;
-            } else {
-                high = t;
-                above = f;
-                below *= 0.5;
-            }
-        }
-        return t;
+        const auto at = [&](double t) { return excess(onArc(mesh_, a, b, t), own, other); };
+        return zeroBetween(at(0.0), at(1.0), {20, 1e-5, 1e-6}, at);
     }
 
     /// Moves a point near the circle in which the spheres of two owners meet onto it, if it is
@@ -228,15 +196,10 @@ Mesh withCrispBorders(const Mesh& mesh, const std::vector<Ball>& balls,
     }
     const PowerOwners owners(balls, ownerOf);
     const std::size_t vertices = mesh.positions.size();
-    std::vector<std::int32_t> owner(vertices, 0);
     constexpr std::size_t chunk = 256;
-    if (colors.size() > 1) {
-        parallelFor((vertices + chunk - 1) / chunk, progress, [&](std::size_t c) {
-            Cutter cutter(mesh, owners);
-            for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v)
-                owner[v] = cutter.ownerAt(Vec3d(mesh.positions[v]));
-        });
-    }
+    const std::vector<std::int32_t> owner = colors.size() > 1
+                                                ? owners.ownersOf(mesh.positions, progress)
+                                                : std::vector<std::int32_t>(vertices, 0);
 
     Builder out(mesh, stepwise);
     out.mesh().colors.clear();

@@ -2,6 +2,7 @@
 #include "molsurf/surface/unit_cut.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/zero_between.h"
 #include "molsurf/spline/curvature.h"
 
 #include <openvdb/math/Mat3.h>
@@ -21,16 +22,11 @@ using openvdb::Vec3f;
 namespace
 {
 
-constexpr double slack = 16.0;     // of powers that are compared [Å^2]
 constexpr double converged = 1e-4; // of a border vertex, from the surface and the border [voxel]
 constexpr double reach = 1.5;      // how far it may move from where an edge crosses [voxel]
 constexpr int steps = 12;
 
-/// How much more power an owner has than another, with the gradient of that.
-struct Excess {
-    double value; ///< [Å^2]
-    Vec3d slope;  ///< [Å]
-};
+constexpr std::int32_t strongest = -1; // of the other owners
 
 /// Finds points of the border. One a thread.
 class BorderFinder
@@ -41,38 +37,10 @@ public:
     {
     }
 
-    /// Whether owner 0 has a point.
-    bool owns(const Vec3d& x)
+    /// The excess of owner 0 over another one.
+    PowerExcess excess(const Vec3d& x, std::int32_t over)
     {
-        owners_.at(x, 0.0, near_);
-        return !near_.empty() && near_[0].owner == 0;
-    }
-
-    /// The excess of owner 0 over the strongest other one, and that one.
-    Excess excess(const Vec3d& x, std::int32_t& other)
-    {
-        owners_.at(x, slack, near_);
-        const OwnersPower *own = nullptr, *rest = nullptr;
-        for (const OwnersPower& near : near_) {
-            if (near.owner == 0 && !own) own = &near;
-            if (near.owner != 0 && !rest) rest = &near;
-        }
-        other = rest ? rest->owner : -1;
-        if (own && rest) return {own->power - rest->power, 2.0 * (rest->centre - own->centre)};
-        return {own ? -slack : slack, Vec3d(0.0)};
-    }
-
-    /// The excess of owner 0 over a certain one.
-    Excess excessOver(const Vec3d& x, std::int32_t other)
-    {
-        owners_.at(x, slack, near_);
-        const OwnersPower *own = nullptr, *rest = nullptr;
-        for (const OwnersPower& near : near_) {
-            if (near.owner == 0) own = &near;
-            if (near.owner == other) rest = &near;
-        }
-        if (own && rest) return {own->power - rest->power, 2.0 * (rest->centre - own->centre)};
-        return {own ? -slack : slack, Vec3d(0.0)};
+        return owners_.excess(x, 0, over, near_);
     }
 
     /// Where the border crosses an edge, moved onto the surface along the border.
@@ -80,33 +48,25 @@ public:
     /// @param[out] other        the owner beyond
     Vec3d crossing(const Vec3d& own, const Vec3d& foreign, std::int32_t& other, Jet& jet)
     {
-        // Regula falsi (Illinois) on the edge.
-        double low = 0.0, high = 1.0;
-        double below = excess(own, other).value, above = excess(foreign, other).value;
         Vec3d x = own;
-        for (int i = 0; i < steps; ++i) {
-            double t = low + (high - low) * below / (below - above);
-            if (!(t >= low && t <= high)) t = 0.5 * (low + high);
+        const auto at = [&](const Vec3d& y) {
+            const PowerExcess e = excess(y, strongest);
+            other = e.other;
+            return e.value;
+        };
+        const double below = at(own), above = at(foreign);
+        zeroBetween(below, above, {steps, 0.0, 1e-7}, [&](double t) {
             x = own + t * (foreign - own);
-            const double f = excess(x, other).value;
-            if (std::abs(f) < 1e-7) break;
-            if (f < 0.0) {
-                low = t;
-                below = f;
-                above *= 0.5;
-            } else {
-                high = t;
-                above = f;
-                below *= 0.5;
-            }
-        }
+            return at(x);
+        });
         settle(x, jet, [&](const Vec3d& y, Mat3d& rows, Vec3d& values) {
-            const Excess e = excess(y, other);
+            const PowerExcess e = excess(y, strongest);
+            other = e.other;
             rows.setRow(1, e.slope);
             values[1] = e.value;
             return 2;
         });
-        excess(x, other);
+        other = excess(x, strongest).other;
         return x;
     }
 
@@ -115,7 +75,7 @@ public:
     {
         Vec3d x = start;
         settle(x, jet, [&](const Vec3d& y, Mat3d& rows, Vec3d& values) {
-            const Excess one = excessOver(y, first), two = excessOver(y, second);
+            const PowerExcess one = excess(y, first), two = excess(y, second);
             rows.setRow(1, one.slope);
             rows.setRow(2, two.slope);
             values[1] = one.value;
@@ -171,15 +131,15 @@ private:
 };
 
 /// A vertex of the border.
-struct BorderVertex {
+struct AddedVertex {
     Vec3f position, normal;
     float mean = 0.0f, gauss = 0.0f; ///< curvature [1/Å], [1/Å^2]
     std::int32_t other = -1;         ///< the owner beyond
 };
 
-BorderVertex vertexAt(const Vec3d& x, const Jet& jet, std::int32_t other)
+AddedVertex vertexAt(const Vec3d& x, const Jet& jet, std::int32_t other)
 {
-    BorderVertex out;
+    AddedVertex out;
     out.position = Vec3f(x);
     const double slope = jet.gradient.length();
     out.normal = slope > 0.0 ? Vec3f(jet.gradient / slope) : Vec3f(0.0f, 0.0f, 1.0f);
@@ -192,19 +152,120 @@ BorderVertex vertexAt(const Vec3d& x, const Jet& jet, std::int32_t other)
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// An edge of the border, in a triangle of the part.
+struct CutEdge {
+    std::uint32_t from, to;
+    std::uint32_t triangle;
+};
+
+/// What follows a vertex of the border.
+struct CutStep {
+    std::uint32_t to;
+    std::int32_t other; ///< the owner beyond the edge that ends there
+    std::uint32_t triangle;
+};
+
+/// The vertices where the border crosses edges.
+/// @param[in] edges  each with the vertex of owner 0 first
+std::vector<AddedVertex> crossingsOf(const Mesh& mesh,
+                                     const std::vector<std::array<std::uint32_t, 2>>& edges,
+                                     const PowerOwners& owners, const Spline& spline,
+                                     const Progress& progress)
+{
+    constexpr std::size_t chunk = 256;
+    std::vector<AddedVertex> added(edges.size());
+    parallelFor((edges.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
+        BorderFinder finder(owners, spline);
+        for (std::size_t e = c * chunk; e < std::min(edges.size(), (c + 1) * chunk); ++e) {
+            std::int32_t other = -1;
+            Jet jet;
+            const Vec3d x = finder.crossing(Vec3d(mesh.positions[edges[e][0]]),
+                                            Vec3d(mesh.positions[edges[e][1]]), other, jet);
+            added[e] = vertexAt(x, jet, other);
+        }
+    });
+    return added;
+}
+
+/// Follows the border, and adds the corners, where the owner beyond changes.
+/// @param[in]     first  number of the first vertex of the border
+/// @param[in,out] added  the vertices of the border
+/// @return the step after each of them
+std::vector<CutStep> followBorder(const std::vector<CutEdge>& borders, std::uint32_t first,
+                                  BorderFinder& finder, std::vector<AddedVertex>& added,
+                                  std::vector<Triangle>& triangles)
+{
+    std::vector<CutStep> next(added.size());
+    for (const CutEdge& border : borders) {
+        const AddedVertex from = added[border.from - first], to = added[border.to - first];
+        next[border.from - first] = {border.to, to.other, border.triangle};
+        if (from.other == to.other || from.other < 0 || to.other < 0) continue;
+        Jet jet;
+        const Vec3d x = finder.corner(0.5 * (Vec3d(from.position) + Vec3d(to.position)), from.other,
+                                      to.other, jet);
+        const auto corner = first + std::uint32_t(added.size());
+        added.push_back(vertexAt(x, jet, to.other));
+        next.push_back({border.to, to.other, std::uint32_t(triangles.size())});
+        next[border.from - first] = {corner, from.other, border.triangle};
+        const std::uint32_t third = triangles[border.triangle][2];
+        triangles[border.triangle][1] = corner;
+        triangles.push_back({corner, border.to, third});
+    }
+    return next;
+}
+
+std::vector<BorderLoop> loopsOf(const std::vector<CutStep>& next, std::uint32_t first)
+{
+    std::vector<BorderLoop> loops;
+    std::vector<char> seen(next.size(), 0);
+    for (std::size_t e = 0; e < next.size(); ++e) {
+        if (seen[e]) continue;
+        BorderLoop& loop = loops.emplace_back();
+        for (std::uint32_t v = first + std::uint32_t(e); !seen[v - first];) {
+            seen[v - first] = 1;
+            const CutStep& step = next[v - first];
+            loop.vertices.push_back(v);
+            loop.owners.push_back(step.other);
+            loop.triangles.push_back(step.triangle);
+            v = step.to;
+        }
+    }
+    return loops;
+}
+
+/// Adds the vertices of a part: those of the whole at `sources`, and those of the border.
+void addVertices(const Mesh& whole, const std::vector<std::uint32_t>& sources,
+                 const std::vector<AddedVertex>& added, Mesh& part)
+{
+    const std::size_t room = sources.size() + 4 * added.size();
+    part.positions.reserve(room);
+    part.normals.reserve(room);
+    for (const std::uint32_t v : sources) {
+        part.positions.push_back(whole.positions[v]);
+        part.normals.push_back(whole.normals[v]);
+    }
+    for (const Attribute<float>& a : whole.scalars) {
+        Attribute<float>& to = part.scalars.emplace_back();
+        to.name = a.name;
+        to.values.reserve(room);
+        for (const std::uint32_t v : sources) to.values.push_back(a.values[v]);
+    }
+    for (const AddedVertex& v : added) {
+        part.positions.push_back(v.position);
+        part.normals.push_back(v.normal);
+        part.scalars[0].values.push_back(v.mean);
+        part.scalars[1].values.push_back(v.gauss);
+    }
+}
+
 } // namespace
 
 CutMesh cutToOwner(const Mesh& mesh, const PowerOwners& owners, const Spline& spline,
                    const Progress& progress)
 {
     const std::size_t vertices = mesh.positions.size();
-    constexpr std::size_t chunk = 256;
-    std::vector<char> own(vertices);
-    parallelFor((vertices + chunk - 1) / chunk, progress, [&](std::size_t c) {
-        BorderFinder finder(owners, spline);
-        for (std::size_t v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v)
-            own[v] = finder.owns(Vec3d(mesh.positions[v]));
-    });
+    std::vector<std::int32_t> own = owners.ownersOf(mesh.positions, progress);
+    for (std::int32_t& owner : own) owner = owner == 0; // whether it is owner 0
 
     CutMesh out;
     std::vector<std::uint32_t> place(vertices); // in the part, of those that are its
@@ -225,18 +286,14 @@ CutMesh cutToOwner(const Mesh& mesh, const PowerOwners& owners, const Spline& sp
         if (isNew) edges.push_back({a, b});
         return found->second;
     };
-    struct BorderEdge {
-        std::uint32_t from, to;
-        std::uint32_t triangle; ///< of the part
-    };
-    std::vector<BorderEdge> borders;
+    std::vector<CutEdge> borders;
     std::vector<Triangle>& triangles = out.mesh.triangles;
     const auto touched = std::size_t(
         std::count_if(mesh.triangles.begin(), mesh.triangles.end(),
                       [&](const Triangle& t) { return own[t[0]] || own[t[1]] || own[t[2]]; }));
     triangles.reserve(touched + touched / 16); // what comes for the border fits, too
     for (const Triangle& t : mesh.triangles) {
-        const int count = own[t[0]] + own[t[1]] + own[t[2]];
+        const std::int32_t count = own[t[0]] + own[t[1]] + own[t[2]];
         if (count == 0) continue;
         if (count == 3) {
             triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
@@ -257,75 +314,11 @@ CutMesh cutToOwner(const Mesh& mesh, const PowerOwners& owners, const Spline& sp
         }
     }
 
-    std::vector<BorderVertex> added(edges.size());
-    parallelFor((edges.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
-        BorderFinder finder(owners, spline);
-        for (std::size_t e = c * chunk; e < std::min(edges.size(), (c + 1) * chunk); ++e) {
-            std::int32_t other = -1;
-            Jet jet;
-            const Vec3d x = finder.crossing(Vec3d(mesh.positions[edges[e][0]]),
-                                            Vec3d(mesh.positions[edges[e][1]]), other, jet);
-            added[e] = vertexAt(x, jet, other);
-        }
-    });
-
-    // Corners, where the owner beyond changes.
+    std::vector<AddedVertex> added = crossingsOf(mesh, edges, owners, spline, progress);
     BorderFinder finder(owners, spline);
-    struct Step {
-        std::uint32_t to;
-        std::int32_t other; ///< beyond the edge that ends there
-        std::uint32_t triangle;
-    };
-    std::vector<Step> next(edges.size()); // of each vertex of the border
-    for (const BorderEdge& border : borders) {
-        const BorderVertex from = added[border.from - first], to = added[border.to - first];
-        next[border.from - first] = {border.to, to.other, border.triangle};
-        if (from.other == to.other || from.other < 0 || to.other < 0) continue;
-        Jet jet;
-        const Vec3d x = finder.corner(0.5 * (Vec3d(from.position) + Vec3d(to.position)), from.other,
-                                      to.other, jet);
-        const auto corner = first + std::uint32_t(added.size());
-        added.push_back(vertexAt(x, jet, to.other));
-        next.push_back({border.to, to.other, std::uint32_t(triangles.size())});
-        next[border.from - first] = {corner, from.other, border.triangle};
-        const std::uint32_t third = triangles[border.triangle][2];
-        triangles[border.triangle][1] = corner;
-        triangles.push_back({corner, border.to, third});
-    }
-
-    std::vector<char> seen(added.size(), 0);
-    for (std::size_t e = 0; e < added.size(); ++e) {
-        if (seen[e]) continue;
-        BorderLoop& loop = out.loops.emplace_back();
-        for (std::uint32_t v = first + std::uint32_t(e); !seen[v - first];) {
-            seen[v - first] = 1;
-            const Step& step = next[v - first];
-            loop.vertices.push_back(v);
-            loop.owners.push_back(step.other);
-            loop.triangles.push_back(step.triangle);
-            v = step.to;
-        }
-    }
-
-    const std::size_t room = out.sources.size() + 4 * added.size();
-    out.mesh.positions.reserve(room);
-    out.mesh.normals.reserve(room);
-    for (const std::uint32_t v : out.sources) {
-        out.mesh.positions.push_back(mesh.positions[v]);
-        out.mesh.normals.push_back(mesh.normals[v]);
-    }
-    for (const Attribute<float>& a : mesh.scalars) {
-        Attribute<float>& part = out.mesh.scalars.emplace_back();
-        part.name = a.name;
-        part.values.reserve(room);
-        for (const std::uint32_t v : out.sources) part.values.push_back(a.values[v]);
-    }
-    for (const BorderVertex& v : added) {
-        out.mesh.positions.push_back(v.position);
-        out.mesh.normals.push_back(v.normal);
-        out.mesh.scalars[0].values.push_back(v.mean);
-        out.mesh.scalars[1].values.push_back(v.gauss);
-    }
+    const std::vector<CutStep> next = followBorder(borders, first, finder, added, triangles);
+    out.loops = loopsOf(next, first);
+    addVertices(mesh, out.sources, added, out.mesh);
     return out;
 }
 
