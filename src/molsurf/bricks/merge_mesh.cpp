@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/merge_mesh.h"
 
+#include "molsurf/core/disjoint_sets.h"
 #include "molsurf/error.h"
 #include "molsurf/mesh/statistics.h"
 #include "molsurf/mesh/topology.h"
@@ -11,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 #include <utility>
 
 namespace molsurf
@@ -210,63 +210,8 @@ void MergedMesh::writePly(OutputFile& file, const Progress& progress) const
     file.finish();
 }
 
-SurfaceReport MergedMesh::report() const
+void MergedMesh::pairBorders(SurfaceReport& report) const
 {
-    SurfaceReport report;
-    report.vertices = vertices();
-    report.triangles = triangles();
-    if (triangles() == 0) return report;
-    report.closed = report.manifold = true;
-    report.eulerCharacteristic = int(std::int64_t(vertices()) - std::int64_t(triangles() * 3 / 2) +
-                                     std::int64_t(triangles()));
-
-    // Pieces of all bricks, joined where they share a vertex.
-    std::vector<std::size_t> parent;
-    std::vector<PieceMeasure> sums;
-    std::vector<std::size_t> firstPiece;
-    std::size_t kinks = 0, units = 0;
-    for (const BrickFile& brick : bricks_) {
-        firstPiece.push_back(sums.size());
-        for (const PieceMeasure& p : brick.read<PieceMeasure>(brick.header().pieces)) {
-            if (!std::isfinite(p.area + p.volume)) brick.refuse("has pieces without a size");
-            sums.push_back(p);
-        }
-        const Brick& s = brick.header().sums;
-        report.closed = report.closed && s.mesh.closed;
-        report.manifold = report.manifold && s.mesh.manifold;
-        report.degenerateTriangles += s.mesh.flat;
-        report.maxResidual = std::max(report.maxResidual, s.maxResidual);
-        kinks += s.kinkVertices;
-        units += s.unitVertices;
-    }
-    parent.resize(sums.size());
-    std::iota(parent.begin(), parent.end(), std::size_t(0));
-    const auto root = [&](std::size_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
-    std::vector<std::pair<std::uint64_t, std::size_t>> pieceAt; // by vertex of the whole
-    for (std::size_t b = 0; b < bricks_.size(); ++b)
-        for (const BorderVertex& v : border_[b])
-            pieceAt.emplace_back(indexOf(b, v.vertex), firstPiece[b] + v.piece);
-    std::sort(pieceAt.begin(), pieceAt.end());
-    for (std::size_t i = 1; i < pieceAt.size(); ++i) {
-        if (pieceAt[i].first != pieceAt[i - 1].first) continue;
-        const std::size_t r = root(pieceAt[i].second), s = root(pieceAt[i - 1].second);
-        parent[std::max(r, s)] = std::min(r, s);
-    }
-    std::vector<PieceMeasure> whole;
-    std::vector<std::size_t> place(sums.size());
-    for (std::size_t i = 0; i < sums.size(); ++i) { // roots come first
-        if (root(i) == i) {
-            place[i] = whole.size();
-            whole.emplace_back();
-        }
-        whole[place[root(i)]] += sums[i];
-    }
-    countPieces(whole, report);
-
-    // Along the borders the bricks' triangles have to pair up.
     struct Edge {
         std::uint64_t from, to;
         std::int64_t surplus;
@@ -292,6 +237,51 @@ SurfaceReport MergedMesh::report() const
         if (surplus != 0) report.closed = false;
         if (i - begin != 2) report.manifold = false;
     }
+}
+
+SurfaceReport MergedMesh::report() const
+{
+    SurfaceReport report;
+    report.vertices = vertices();
+    report.triangles = triangles();
+    if (triangles() == 0) return report;
+    report.closed = report.manifold = true;
+    report.eulerCharacteristic = int(std::int64_t(vertices()) - std::int64_t(triangles() * 3 / 2) +
+                                     std::int64_t(triangles()));
+
+    // Pieces of all bricks, joined where they share a vertex.
+    std::vector<PieceMeasure> sums;
+    std::vector<std::size_t> firstPiece;
+    GradientCounts counts;
+    for (const BrickFile& brick : bricks_) {
+        firstPiece.push_back(sums.size());
+        for (const PieceMeasure& p : brick.read<PieceMeasure>(brick.header().pieces)) {
+            if (!std::isfinite(p.area + p.volume)) brick.refuse("has pieces without a size");
+            sums.push_back(p);
+        }
+        const Brick& s = brick.header().sums;
+        report.closed = report.closed && s.mesh.closed;
+        report.manifold = report.manifold && s.mesh.manifold;
+        report.degenerateTriangles += s.mesh.flat;
+        report.maxResidual = std::max(report.maxResidual, s.maxResidual);
+        counts += {s.kinkVertices, s.unitVertices};
+    }
+    DisjointSets sets(sums.size());
+    std::vector<std::pair<std::uint64_t, std::size_t>> pieceAt; // by vertex of the whole
+    for (std::size_t b = 0; b < bricks_.size(); ++b)
+        for (const BorderVertex& v : border_[b])
+            pieceAt.emplace_back(indexOf(b, v.vertex), firstPiece[b] + v.piece);
+    std::sort(pieceAt.begin(), pieceAt.end());
+    for (std::size_t i = 1; i < pieceAt.size(); ++i)
+        if (pieceAt[i].first == pieceAt[i - 1].first)
+            sets.join(std::uint32_t(pieceAt[i].second), std::uint32_t(pieceAt[i - 1].second));
+    std::size_t count = 0;
+    const std::vector<std::uint32_t> numbers = sets.numbers(count);
+    std::vector<PieceMeasure> whole(count);
+    for (std::size_t i = 0; i < sums.size(); ++i) whole[numbers[i]] += sums[i];
+    countPieces(whole, report);
+
+    pairBorders(report);
     report.manifold = report.manifold && report.closed;
     const int euler = *report.eulerCharacteristic;
     if (report.manifold &&
@@ -300,8 +290,7 @@ SurfaceReport MergedMesh::report() const
                                           std::to_string(euler) + " for " +
                                           std::to_string(whole.size()) + " pieces");
 
-    report.kinkShare = double(kinks) / double(vertices());
-    report.gradientShare = double(units) / double(vertices() - kinks);
+    describeGradients(counts, vertices(), report);
     const auto [mean, gaussian] = curvatureStatistics(bricks_);
     report.meanCurvature = mean;
     report.gaussianCurvature = gaussian;

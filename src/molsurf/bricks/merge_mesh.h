@@ -42,6 +42,9 @@ public:
 private:
     void checkTriangles(std::size_t brick) const;
     std::uint64_t indexOf(std::size_t brick, std::uint32_t vertex) const;
+    /// Whether the triangles of bricks pair up along their borders: closed and manifold are false
+    /// where they do not.
+    void pairBorders(SurfaceReport& report) const;
 
     const std::vector<BrickFile>& bricks_;
     std::vector<std::uint64_t> firsts_; // of each brick's vertices, and the end

@@ -157,21 +157,35 @@ std::vector<PieceMeasure> measurePieces(const Mesh& mesh, const std::vector<std:
     return sums;
 }
 
-void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report)
+void addPiece(double area, double volume, bool cavity, SurfaceReport& report)
 {
-    for (const PieceMeasure& s : pieces) {
-        report.area += s.area;
-        report.volume += s.volume;
-        if (s.volume < 0.0) {
-            report.cavities.push_back({s.area, -s.volume});
-        } else {
-            ++report.components;
-            report.outerArea += s.area;
-            report.outerVolume += s.volume;
-        }
+    report.area += area;
+    report.volume += volume;
+    if (cavity) {
+        report.cavities.push_back({area, -volume});
+    } else {
+        ++report.components;
+        report.outerArea += area;
+        report.outerVolume += volume;
     }
+}
+
+void sortCavities(SurfaceReport& report)
+{
     std::stable_sort(report.cavities.begin(), report.cavities.end(),
                      [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
+}
+
+void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report)
+{
+    for (const PieceMeasure& s : pieces) addPiece(s.area, s.volume, s.volume < 0.0, report);
+    sortCavities(report);
+}
+
+void describeGradients(const GradientCounts& counts, std::size_t vertices, SurfaceReport& report)
+{
+    report.kinkShare = vertices ? double(counts.kink) / double(vertices) : 0.0;
+    report.gradientShare = double(counts.unit) / double(vertices - counts.kink); // or 0/0
 }
 
 MeshPieces piecesOf(const Mesh& mesh, const Progress& progress)

@@ -49,6 +49,30 @@ MeshPieces piecesOf(const Mesh& mesh, const Progress& progress);
 /// Adds closed pieces to areas and volumes: components, and cavities, whose volume is negative.
 void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report);
 
+/// Adds a piece to area, volume, components and cavities of a report.
+/// @param[in] volume  [Å^3]; below 0 of a cavity's wall
+void addPiece(double area, double volume, bool cavity, SurfaceReport& report);
+
+/// Puts the cavities of a report in order, the largest first.
+void sortCavities(SurfaceReport& report);
+
+/// Numbers of vertices near kinks of the distance, and of those of the others that have a unit
+/// gradient.
+struct GradientCounts {
+    std::size_t kink = 0, unit = 0;
+    GradientCounts& operator+=(const GradientCounts& o)
+    {
+        kink += o.kink;
+        unit += o.unit;
+        return *this;
+    }
+};
+
+/// Fills in the shares of vertices near kinks, and of those of the others that have a unit
+/// gradient.
+/// @param[in] vertices  how many there are
+void describeGradients(const GradientCounts& counts, std::size_t vertices, SurfaceReport& report);
+
 /// Measures the smooth surface that a mesh samples, and checks the mesh.
 ///
 /// Each triangle is replaced by the quadratic patch through its corners and through the midpoints

@@ -45,6 +45,7 @@ MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, P
     run.measure();
     run.curvatures();
     run.describeCurvature();
+    run.integrateCurvature();
     run.takeClosedForm();
     run.grids();
     run.freeFields();

@@ -322,6 +322,7 @@ StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::Met
     result.mesh.positions = std::move(placed);
     run.measure();
     run.describeCurvature();
+    run.integrateCurvature();
 
     Report& report = result.report;
     const std::string kind = textOf(metadata, "option.surface");

@@ -335,10 +335,7 @@ void SurfaceRun::measure()
     surface.kind = nameOf(options_.kind);
     surface.cuspLength = cuspLength_;
     surface.maxResidual = stats_.maxResidual;
-    const std::size_t vertices = stats_.slopes.size();
-    const GradientCounts counts = countGradients(stats_.slopes);
-    surface.kinkShare = vertices ? double(counts.kink) / vertices : 0.0;
-    surface.gradientShare = double(counts.unit) / double(vertices - counts.kink); // or 0/0
+    describeGradients(countGradients(stats_.slopes), stats_.slopes.size(), surface);
     try {
         checkMesh(result_.mesh, surface, options_.voxel, progress_);
     } catch (const Error& e) {
@@ -355,10 +352,15 @@ void SurfaceRun::describeCurvature()
     tbb::parallel_invoke(
         [&] { surface.meanCurvature = statistics(mesh.scalars[0].values, areas); },
         [&] { surface.gaussianCurvature = statistics(mesh.scalars[1].values, areas); });
+}
+
+void SurfaceRun::integrateCurvature()
+{
     if (!options_.curvatureTotals) return;
+    SurfaceReport& surface = result_.report.surface;
     constexpr double tolerance = 5.0; // for each unit of the Euler characteristic [sr]
     const int chi = std::max(std::abs(surface.eulerCharacteristic.value_or(0)), 2);
-    surface.integrals = integrateSurface(mesh, spline_, tolerance * chi, progress_);
+    surface.integrals = integrateSurface(result_.mesh, spline_, tolerance * chi, progress_);
 }
 
 void describePieces(const ClosedForm& exact, bool fillCavities, SurfaceReport& s)
@@ -368,23 +370,13 @@ void describePieces(const ClosedForm& exact, bool fillCavities, SurfaceReport& s
     int euler = 0;
     s.cavities.clear();
     for (const BoundaryPiece& piece : exact.pieces) {
-        const bool cavity = !piece.outer;
-        if (cavity && fillCavities) continue;
-        s.area += piece.area;
-        s.volume += piece.volume;
+        if (!piece.outer && fillCavities) continue;
+        addPiece(piece.area, piece.volume, !piece.outer, s);
         euler += piece.eulerCharacteristic;
-        if (cavity) {
-            s.cavities.push_back({piece.area, -piece.volume});
-        } else {
-            ++s.components;
-            s.outerArea += piece.area;
-            s.outerVolume += piece.volume;
-        }
     }
     s.eulerCharacteristic.reset();
     if (exact.topologyKnown) s.eulerCharacteristic = euler;
-    std::stable_sort(s.cavities.begin(), s.cavities.end(),
-                     [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
+    sortCavities(s);
 }
 
 void SurfaceRun::takeClosedForm()

@@ -63,18 +63,6 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-/// Numbers of vertices near kinks of the distance, and of those of the others that have a unit
-/// gradient.
-struct GradientCounts {
-    std::size_t kink = 0, unit = 0;
-    GradientCounts& operator+=(const GradientCounts& o)
-    {
-        kink += o.kink;
-        unit += o.unit;
-        return *this;
-    }
-};
-
 /// One run. Each method is a stage and needs those above it, if they are not said to be optional.
 /// The results of a stage are kept for later ones until freeFields().
 class SurfaceRun
@@ -131,8 +119,11 @@ public:
     /// @throws Error(ErrorKind::Check) if the mesh does not keep what checkMesh() says
     void measure();
 
-    /// Adds statistics and integrals of the curvatures to the measures. Optional.
+    /// Adds statistics of the curvatures to the measures. Optional.
     void describeCurvature();
+
+    /// Adds their integrals, if they are asked for; the mesh is closed. Optional.
+    void integrateCurvature();
 
     /// Replaces measures of the mesh by those in closed form, if there are any. Optional.
     /// @throws Error(ErrorKind::Check) if they are too far from those of the mesh

@@ -5,10 +5,8 @@
 #include "molsurf/balls/power_owners.h"
 #include "molsurf/core/disjoint_sets.h"
 #include "molsurf/error.h"
-#include "molsurf/mesh/integrate.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/mesh_instance.h"
-#include "molsurf/mesh/statistics.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/surface/label_surface.h"
 #include "molsurf/surface/surface_kind.h"
@@ -116,6 +114,45 @@ std::vector<PieceMeasure> wholePieces(const SymmetricUnit& unit, const BorderFit
     return out;
 }
 
+/// The connected pieces of a unit.
+struct UnitPieces {
+    std::vector<std::uint32_t> of; ///< of each vertex
+    std::vector<PieceMeasure> measures;
+};
+
+UnitPieces unitPieces(const Mesh& mesh, const Vec3d& centre, SurfaceReport& surface,
+                      const Progress& progress)
+{
+    UnitPieces out;
+    std::size_t count = 0;
+    surface.degenerateTriangles = 0;
+    out.of = connectedPieces(mesh, count, progress);
+    out.measures =
+        measurePieces(mesh, out.of, count, centre, surface.degenerateTriangles, progress);
+    return out;
+}
+
+/// Fills in the measures of the whole of a unit: areas are those of the surface that was found,
+/// volumes those that the fitted one encloses.
+void measureWhole(const SymmetricUnit& unit, const BorderFit& fit, const Mesh& mesh,
+                  const UnitPieces& found, const Progress& progress, SurfaceReport& surface)
+{
+    UnitPieces fitted = unitPieces(mesh, unit.centre, surface, progress);
+    for (PieceMeasure& piece : fitted.measures) piece.area = 0.0;
+    std::vector<char> counted(found.measures.size(), 0);
+    for (std::size_t v = 0; v < found.of.size(); ++v)
+        if (!std::exchange(counted[found.of[v]], 1))
+            fitted.measures[fitted.of[v]].area += found.measures[found.of[v]].area;
+    countPieces(wholePieces(unit, fit, fitted.of, fitted.measures), surface);
+    BorderClasses classes(unit, fit.shared, mesh.positions.size());
+    const std::size_t units = unit.inverse.size();
+    surface.triangles = units * mesh.triangles.size();
+    surface.vertices = units * (mesh.positions.size() - classes.border().size()) + classes.count();
+    const std::size_t edges = 3 * surface.triangles / 2;
+    surface.eulerCharacteristic = surface.meshEulerCharacteristic =
+        int(std::int64_t(surface.vertices + surface.triangles) - std::int64_t(edges));
+}
+
 /// @param[in] area  of the unit's surface [Å^2]
 /// @throws Error(ErrorKind::Check) if the whole is not closed, or by too much that was not found
 void checkFit(const BorderFit& fit, double area, const SurfaceReport& surface)
@@ -179,47 +216,22 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     if (part.mesh.triangles.empty())
         throw Error(ErrorKind::Numeric, "mesh: nothing of the unit is left at this resolution "
                                         "[hint: a smaller `voxel`]");
-    // Areas are those of the surface that was found, volumes those that the fitted one encloses.
     SurfaceReport& surface = run.result().report.surface;
-    std::size_t count = 0;
-    const std::vector<std::uint32_t> foundOf = connectedPieces(part.mesh, count, progress);
-    const std::vector<PieceMeasure> found = measurePieces(part.mesh, foundOf, count, unit.centre,
-                                                          surface.degenerateTriangles, progress);
+    const UnitPieces found = unitPieces(part.mesh, unit.centre, surface, progress);
     const BorderFit fit = fitBorder(atoms.instances, unit, options.voxel, part);
     std::vector<float> slopes;
     for (const std::uint32_t v : part.sources) slopes.push_back(stats.slopes[v]);
     mesh = std::move(part.mesh);
 
     surface.kind = nameOf(options.kind);
-    surface.degenerateTriangles = 0;
-    const std::vector<std::uint32_t> pieceOf = connectedPieces(mesh, count, progress);
-    std::vector<PieceMeasure> pieces =
-        measurePieces(mesh, pieceOf, count, unit.centre, surface.degenerateTriangles, progress);
-    for (PieceMeasure& piece : pieces) piece.area = 0.0;
-    std::vector<char> counted(found.size(), 0);
-    for (std::size_t v = 0; v < foundOf.size(); ++v)
-        if (!std::exchange(counted[foundOf[v]], 1))
-            pieces[pieceOf[v]].area += found[foundOf[v]].area;
-    std::vector<PieceMeasure> whole = wholePieces(unit, fit, pieceOf, pieces);
-    countPieces(whole, surface);
-    BorderClasses classes(unit, fit.shared, mesh.positions.size());
-    const std::size_t units = unit.inverse.size();
-    surface.triangles = units * mesh.triangles.size();
-    surface.vertices = units * (mesh.positions.size() - classes.border().size()) + classes.count();
-    const std::size_t edges = 3 * surface.triangles / 2;
-    surface.eulerCharacteristic = surface.meshEulerCharacteristic =
-        int(std::int64_t(surface.vertices + surface.triangles) - std::int64_t(edges));
+    measureWhole(unit, fit, mesh, found, progress, surface);
     surface.closed = topology.closed;
     surface.manifold = topology.oriented;
     surface.maxResidual = stats.maxResidual;
-    const GradientCounts counts = run.countGradients(slopes);
-    surface.kinkShare = slopes.empty() ? 0.0 : double(counts.kink) / double(slopes.size());
-    surface.gradientShare = double(counts.unit) / double(slopes.size() - counts.kink); // or 0/0
+    describeGradients(run.countGradients(slopes), slopes.size(), surface);
 
     run.curvatures();
-    const std::vector<float> areas = vertexAreas(mesh, progress);
-    surface.meanCurvature = statistics(mesh.scalars[0].values, areas);
-    surface.gaussianCurvature = statistics(mesh.scalars[1].values, areas);
+    run.describeCurvature();
     const double area = surface.area;
     if (isBoundary(options))
         run.result().ballAreas = takeClosedForm(atoms, grown, progress, surface);
@@ -231,8 +243,8 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     result.surface.reset();
     result.ballAreas.clear(); // makeSurface() has those of the unit
     result.shared = fit.shared;
-    result.report.symmetry =
-        SymmetryReport{unit.pointGroup, units, unit.copies, unit.deviation, fit.largest, fit.open};
+    result.report.symmetry = SymmetryReport{unit.pointGroup, unit.inverse.size(), unit.copies,
+                                            unit.deviation,  fit.largest,         fit.open};
     return result;
 }
 
