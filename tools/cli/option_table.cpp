@@ -8,7 +8,6 @@
 #include "molsurf/error.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/settings.h"
-#include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/set_value.h"
 
 #include <algorithm>
@@ -23,16 +22,6 @@ namespace molsurf::tool
 const std::vector<std::string>& areaTables()
 {
     static const std::vector<std::string> all = {"atoms", "residues", "contacts", "interfaces"};
-    return all;
-}
-
-const std::vector<std::string>& knownFields()
-{
-    static const std::vector<std::string> all = [] {
-        std::vector<std::string> names = fieldNames();
-        names.insert(names.begin(), "surface");
-        return names;
-    }();
     return all;
 }
 
@@ -55,12 +44,7 @@ namespace
 using Values = std::vector<std::string>;
 
 // Rows by the type of their value. `of` gives the variable of a call that the option sets:
-// OF(options.voxel).
-#define OF(variable)                                                                               \
-    [](auto& call) -> auto&                                                                        \
-    {                                                                                              \
-        return call.variable;                                                                      \
-    }
+// MOLSURF_OF(options.voxel).
 
 openvdb::Metadata::Ptr stored(const std::string& text)
 {
@@ -271,7 +255,7 @@ OptionGroup outputOptions()
         return o;
     };
     const auto force = [](unsigned verbs, const char* text) {
-        Option o = flag("force", text, verbs, OF(force));
+        Option o = flag("force", text, verbs, MOLSURF_OF(force));
         o.stored = nullptr;
         return o;
     };
@@ -285,7 +269,7 @@ OptionGroup outputOptions()
     Option shown = either("color",
                           "distance (viridis) or signed-distance (blue: A is\ninside B, red: "
                           "outside)",
-                          "signed-distance", "distance", Compare, OF(colorBySign));
+                          "signed-distance", "distance", Compare, MOLSURF_OF(colorBySign));
     return {
         "Output",
         {written(Build, ""), written(Convert, "; .vdb with --color"),
@@ -300,7 +284,7 @@ OptionGroup outputOptions()
          force(BricksRun, "do it again if it is done"), shown,
          number("range", "D", "distance at the end of the colours [Å]",
                 "that of 99 % of the vertices", Compare, 1e-300, 1e300, "a positive number of Å",
-                OF(colorRange))}};
+                MOLSURF_OF(colorRange))}};
 }
 
 OptionGroup atomOptions()
@@ -311,7 +295,7 @@ OptionGroup atomOptions()
              setting("by-symmetry", Build),
              shownIn(Triangles,
                      flag("weld", "with --by-symmetry: units share the vertices of their borders",
-                          Build, OF(weld))),
+                          Build, MOLSURF_OF(weld))),
              setting("copies", structures), setting("altloc", structures),
              setting("no-hydrogens", structures), setting("ions", structures),
              setting("hetero", structures), setting("no-hetero", structures),
@@ -333,15 +317,15 @@ OptionGroup frameOptions()
                    "INPUT by their numbers, or frames of --trajectory; also\n"
                    "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
                    "name.csv: a table of all",
-                   "", Build, OF(frames)),
+                   "", Build, MOLSURF_OF(frames)),
               quiet),
          with(text("trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
-                   "", Build, OF(trajectory)),
+                   "", Build, MOLSURF_OF(trajectory)),
               trajectory),
          either("start",
                 "cold: each frame as a run of its own; warm: its flow\n"
                 "begins at the surface of the one before",
-                "warm", "cold", Build, OF(warm))}};
+                "warm", "cold", Build, MOLSURF_OF(warm))}};
 }
 
 OptionGroup surfaceOptions()
@@ -391,7 +375,7 @@ OptionGroup groupOptions()
 {
     const Option groups =
         with(text("groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]", "",
-                  surfaces, OF(groupsFile)),
+                  surfaces, MOLSURF_OF(groupsFile)),
              [](Option& o) {
                  o.stored = [](const Call& c) {
                      Values all;
@@ -405,7 +389,7 @@ OptionGroup groupOptions()
                                    "chain, group (of grids chain_id, group_id), element,\n"
                                    "residue, nucleotide, illustrative (of Cd so coloured),\n"
                                    "mean-curvature, gaussian-curvature; those of Cd unless given",
-                                   Convert, OF(options.color), completeColors()),
+                                   Convert, MOLSURF_OF(options.color), completeColors()),
                               [](Option& o) { o.preset = ""; });
     return {
         "Groups",
@@ -413,7 +397,7 @@ OptionGroup groupOptions()
          setting("surface-of", wholes), setting("interfaces", wholes), setting("color", surfaces),
          setting("range", surfaces),
          shownIn(CutBorders, with(flag("crisp", "mesh files: triangles are cut where colours meet",
-                                       Build, OF(crisp)),
+                                       Build, MOLSURF_OF(crisp)),
                                   [](Option& o) { o.stored = nullptr; })),
          shown}};
 }
@@ -436,7 +420,7 @@ OptionGroup areaOptions()
             {shownIn(Numbers, areas),
              with(word("contacts", "LEVEL",
                        "contact areas between atoms, residues or chains: atom,\nresidue, chain",
-                       wholes, OF(contacts), contactLevels),
+                       wholes, MOLSURF_OF(contacts), contactLevels),
                   [](Option& o) { o.stored = nullptr; })}};
 }
 
@@ -456,12 +440,13 @@ OptionGroup sceneOptions()
     return {
         "Scene",
         {shownIn(SceneUnits, host),
-         flag("center", "the middle of the surface comes to the origin", wholes, OF(center)),
-         shownIn(Millimetres,
-                 number("print-scale", "S", ".stl, .obj, .3mf in mm, S of them per Å", "",
-                        wholes | Convert, 1e-6, 1e6, "mm per Å, from 1e-6 to 1e6", OF(printScale))),
+         flag("center", "the middle of the surface comes to the origin", wholes,
+              MOLSURF_OF(center)),
+         shownIn(Millimetres, number("print-scale", "S", ".stl, .obj, .3mf in mm, S of them per Å",
+                                     "", wholes | Convert, 1e-6, 1e6, "mm per Å, from 1e-6 to 1e6",
+                                     MOLSURF_OF(printScale))),
          with(number("min-wall", "W", "thicken what is thinner than W mm; with --print-scale", "",
-                     wholes, 1e-300, 1e300, "a positive number of mm", OF(wall)),
+                     wholes, 1e-300, 1e300, "a positive number of mm", MOLSURF_OF(wall)),
               [](Option& o) {
                   o.stored = [](const Call& c) {
                       return openvdb::DoubleMetadata(c.options.minWall).copy();
@@ -494,21 +479,21 @@ OptionGroup pictureOptions()
         "Picture",
         {shownIn(Views, view),
          shownIn(Views, number("turn", "A", "turned by so many degrees about the upright", "0",
-                               draw, -1e9, 1e9, "a number of degrees", OF(picture.turn))),
+                               draw, -1e9, 1e9, "a number of degrees", MOLSURF_OF(picture.turn))),
          shownIn(Pixels, count("size", "N", "width in pixels; the height follows the shape", "1200",
-                               draw, 16, 16384, OF(picture.width))),
+                               draw, 16, 16384, MOLSURF_OF(picture.width))),
          shownIn(Pixels, background), shownIn(PlainColor, plain),
          shownIn(Pixels, with(flag("depth-cue", "distant parts fade to the background", draw,
-                                   OF(picture.depthCue)),
+                                   MOLSURF_OF(picture.depthCue)),
                               [](Option& o) { o.stored = nullptr; })),
          shownIn(Pixels, with(word("legend", "WORD",
                                    "on or off; auto: beside colours, if 600 pixels wide\n"
                                    "or more",
-                                   draw, OF(legend),
+                                   draw, MOLSURF_OF(legend),
                                    {LegendChoice::Auto, LegendChoice::On, LegendChoice::Off}),
                               [](Option& o) { o.stored = nullptr; })),
          shownIn(Pixels, count("turntable", "N", "N pictures round the upright: name.0001.png, ...",
-                               "", draw, 2, 9999, OF(turntable)))}};
+                               "", draw, 2, 9999, MOLSURF_OF(turntable)))}};
 }
 
 OptionGroup flowOptions()
@@ -540,29 +525,30 @@ OptionGroup runOptions()
         o.stored = nullptr;
         return o;
     };
-    return {"Run",
-            {count("bricks", "N", "how many bricks, about as large each", "", BricksPlan, 1,
-                   1000000, OF(bricks)),
-             memory(BricksPlan, "or as many bricks as it takes for each to need no more,\n"
-                                "such as 500M or 4G"),
-             memory(Build, "memory at most, such as 4G: in bricks, one by one, if\n"
-                           "the whole takes more; the flow then takes so many --steps"),
-             number("max-hours", "H", "refuse what is estimated to take more hours", "24",
-                    Build | Batch | Compare | Convert | BricksRun, 1e-6, 1e6,
-                    "hours, from 1e-6 to 1e6", OF(hours)),
-             flagOf("dry-run", 0, "say what it takes, and stop", Build | Convert, OF(dryRun)),
-             with(count("threads", "N", "threads at most", "all", runs, 1, 4096, OF(threads)),
-                  [](Option& o) { o.letter = 'j'; }),
-             flagOf("quiet", 'q', "print errors only", runs, OF(quiet)),
-             flagOf("verbose", 'v', "print the time of every stage",
-                    Build | Batch | Compare | Convert | BricksMerge, OF(verbose)),
-             flagOf("no-progress", 0, "no progress bar", runs, OF(progress), false),
-             with(text("config", "FILE", "options as lines \"name = value\"; the command line wins",
-                       "", structures | Convert, OF(config)),
-                  [](Option& o) {
-                      o.stored = nullptr;
-                      o.file = wholeValue;
-                  })}};
+    return {
+        "Run",
+        {count("bricks", "N", "how many bricks, about as large each", "", BricksPlan, 1, 1000000,
+               MOLSURF_OF(bricks)),
+         memory(BricksPlan, "or as many bricks as it takes for each to need no more,\n"
+                            "such as 500M or 4G"),
+         memory(Build, "memory at most, such as 4G: in bricks, one by one, if\n"
+                       "the whole takes more; the flow then takes so many --steps"),
+         number("max-hours", "H", "refuse what is estimated to take more hours", "24",
+                Build | Batch | Compare | Convert | BricksRun, 1e-6, 1e6, "hours, from 1e-6 to 1e6",
+                MOLSURF_OF(hours)),
+         flagOf("dry-run", 0, "say what it takes, and stop", Build | Convert, MOLSURF_OF(dryRun)),
+         with(count("threads", "N", "threads at most", "all", runs, 1, 4096, MOLSURF_OF(threads)),
+              [](Option& o) { o.letter = 'j'; }),
+         flagOf("quiet", 'q', "print errors only", runs, MOLSURF_OF(quiet)),
+         flagOf("verbose", 'v', "print the time of every stage",
+                Build | Batch | Compare | Convert | BricksMerge, MOLSURF_OF(verbose)),
+         flagOf("no-progress", 0, "no progress bar", runs, MOLSURF_OF(progress), false),
+         with(text("config", "FILE", "options as lines \"name = value\"; the command line wins", "",
+                   structures | Convert, MOLSURF_OF(config)),
+              [](Option& o) {
+                  o.stored = nullptr;
+                  o.file = wholeValue;
+              })}};
 }
 
 } // namespace

@@ -65,9 +65,6 @@ std::vector<OptionFile> filesOf(Verb verb, const GivenOptions& given);
 /// "option.NAME.sha256".
 void addOptions(const Call& call, openvdb::MetaMap& map);
 
-/// What --fields takes, `surface` first.
-const std::vector<std::string>& knownFields();
-
 /// The tables of areas: "atoms", "residues", "contacts", "interfaces".
 const std::vector<std::string>& areaTables();
 

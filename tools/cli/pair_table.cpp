@@ -16,19 +16,13 @@ namespace molsurf::tool
 namespace
 {
 
-/// A file of a format.
-Thing file(unsigned holds, const char* table = "")
-{
-    return {"output", table, holds};
-}
-
 /// Tables of areas, in files or in the report.
 constexpr const char* ofAtoms = "areas by atom";
 constexpr const char* ofResidues = "contacts or interfaces of residues";
 
 Pair areasWithout(const char* option, const char* why)
 {
-    return {{option}, Excludes, {{"output", "", Areas, ofAtoms}, {"areas", "", 0, ofAtoms}}, why};
+    return {option, Excludes, {{Areas, "", ofAtoms}, {"areas", ofAtoms}}, why};
 }
 
 bool hasAreasInClosedForm(const Call& call)
@@ -41,68 +35,54 @@ bool hasAreasInClosedForm(const Call& call)
 /// What several units, bricks or groups of atoms have to do with each other.
 std::vector<Pair> assemblyPairs()
 {
-    const auto coloured = [](const char* word, const char* hint) {
-        return Pair{
-            {"color", word}, Excludes, {{"groups"}, {"group-by"}}, hint, [](const Call& call) {
-                return call.colorsCopies();
-            }};
+    const auto coloured = [](const char* what, const char* hint) {
+        return Pair{what, Excludes, {"groups", "group-by"}, hint, [](const Call& call) {
+                        return call.colorsCopies();
+                    }};
     };
-    const auto ofGroups = [](const char* option, const char* value = "") {
-        return Pair{{option, value}, Needs, {{"groups"}, {"group-by"}}, "", [](const Call& call) {
+    const auto ofGroups = [](const char* what) {
+        return Pair{what, Needs, {"groups", "group-by"}, "", [](const Call& call) {
                         const bool later = call.outputs.empty() && !call.dryRun;
                         return later || call.atoms.groupBy || call.verb == Convert;
                     }};
     };
-    return {{{"weld"}, Needs, {{"by-symmetry"}}},
-            {{"weld"}, Excludes, {{"crisp"}}},
-            {{"lod"}, Needs, {{"instances"}, {"by-symmetry"}}},
-            {{"lod"}, Excludes, {{"voxel"}}, ": the first of --lod is the voxel"},
-            {file(Stage),
+    return {{"weld", Needs, {"by-symmetry"}},
+            {"weld", Excludes, {"crisp"}},
+            {"lod", Needs, {"instances", "by-symmetry"}},
+            {"lod", Excludes, {"voxel"}, ": the first of --lod is the voxel"},
+            {{Stage},
              Needs,
-             {{"instances"}, {"by-symmetry"}},
+             {"instances", "by-symmetry"},
              " [hint: --for usd -o FILE.vdb writes a volume]",
              [](const Call& call) { return call.verb != Build; }},
-            {{"instances"},
+            {"instances",
              Excludes,
-             {{"split"},
-              {"surface-of"},
-              {"interfaces"},
-              {"frames"},
-              {"trajectory"},
-              {"memory"},
-              {"center"},
-              {"color", "radius"},
-              {"color", "potential"},
-              {"color", "potential-out"}}},
-            {{"by-symmetry"},
+             {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center",
+              "color=radius", "color=potential", "color=potential-out"}},
+            {"by-symmetry",
              Excludes,
-             {{"frames"},
-              {"trajectory"},
-              {"memory"},
-              {"dry-run"},
-              {"center"},
-              {"color", "potential"},
-              {"color", "potential-out"}}},
-            {file(Grids),
+             {"frames", "trajectory", "memory", "dry-run", "center", "color=potential",
+              "color=potential-out"}},
+            {{Grids},
              Excludes,
-             {{"by-symmetry"}},
+             {"by-symmetry"},
              ": it makes no grid of the whole [hint: --memory 8G in its place makes it in bricks]"},
-            {{"by-symmetry"},
+            {"by-symmetry",
              Excludes,
-             {{"output", "contacts", Areas, ofResidues},
-              {"output", "interfaces", Areas, ofResidues},
-              {"areas", "contacts", 0, ofResidues},
-              {"areas", "interfaces", 0, ofResidues}},
+             {{Areas, "contacts", ofResidues},
+              {Areas, "interfaces", ofResidues},
+              {"areas=contacts", ofResidues},
+              {"areas=interfaces", ofResidues}},
              " [hint: without --by-symmetry]"},
-            {{"color", "copy"}, Needs, {{"assembly"}}},
-            {{"groups"}, Excludes, {{"group-by"}}},
-            coloured("copy", " [hint: --group-by copy --color group]"),
-            coloured("entity", " [hint: --group-by entity --color group]"),
-            coloured("class", " [hint: --group-by class --color group]"),
+            {"color=copy", Needs, {"assembly"}},
+            {"groups", Excludes, {"group-by"}},
+            coloured("color=copy", " [hint: --group-by copy --color group]"),
+            coloured("color=entity", " [hint: --group-by entity --color group]"),
+            coloured("color=class", " [hint: --group-by class --color group]"),
             ofGroups("split"),
             ofGroups("surface-of"),
             ofGroups("interfaces"),
-            ofGroups("color", "group")};
+            ofGroups("color=group")};
 }
 
 std::vector<Pair> areaPairs()
@@ -112,15 +92,14 @@ std::vector<Pair> areaPairs()
     Pair unit =
         areasWithout("by-symmetry", ": expected a closed form [hint: --surface sas or vdw]");
     unit.unless = hasAreasInClosedForm;
-    return {
-        areasWithout("coarse", " [hint: a run without --coarse]"),
-        areasWithout("split", " [hint: --interfaces has the areas of groups alone]"),
-        areasWithout("surface-of", " [hint: a run without --surface-of]"),
-        areasWithout("instances", " [hint: --by-symmetry has those of a unit in the whole]"),
-        memory,
-        areasWithout("dry-run", " [hint: --dry-run -o FILE.vdb]"),
-        unit,
-        {{"contacts"}, IsFor, {file(Areas, "contacts"), {"areas", "contacts"}}, ".contacts.csv"}};
+    return {areasWithout("coarse", " [hint: a run without --coarse]"),
+            areasWithout("split", " [hint: --interfaces has the areas of groups alone]"),
+            areasWithout("surface-of", " [hint: a run without --surface-of]"),
+            areasWithout("instances", " [hint: --by-symmetry has those of a unit in the whole]"),
+            memory,
+            areasWithout("dry-run", " [hint: --dry-run -o FILE.vdb]"),
+            unit,
+            {"contacts", IsFor, {{Areas, "contacts"}, "areas=contacts"}, ".contacts.csv"}};
 }
 
 std::vector<Pair> surfacePairs()
@@ -131,16 +110,16 @@ std::vector<Pair> surfacePairs()
                             [](const ResolutionRule& rule) { return rule.select.empty(); });
     };
     return {
-        {{"min-wall"}, Needs, {{"print-scale"}}},
-        {{"steps"}, Excludes, {{"max-steps"}}},
-        {{"no-hetero"}, Excludes, {{"hetero"}, {"ions"}}},
-        {{"epsilon"},
+        {"min-wall", Needs, {"print-scale"}},
+        {"steps", Excludes, {"max-steps"}},
+        {"no-hetero", Excludes, {"hetero", "ions"}},
+        {"epsilon",
          Excludes,
-         {{"resolution"}},
+         {"resolution"},
          ": a resolution for all atoms says how smooth it is, too",
          unlessAll},
-        {{"match-volume"}, IsFor, {{"resolution"}}},
-        {{"probe"},
+        {"match-volume", IsFor, {"resolution"}},
+        {"probe",
          IsFor,
          {},
          "--surface variational, ses or sas",
@@ -148,22 +127,20 @@ std::vector<Pair> surfacePairs()
              return call.builds([](SurfaceKind kind) { return rowOf(kind).hasProbe; }) ||
                     hasField(call.options.fields, "sas");
          }},
-        {{"legend"}, IsFor, {{"color"}}, "", [](const Call& call) { return call.verb == Convert; }},
-        {{"range"},
+        {"legend", IsFor, {"color"}, "", [](const Call& call) { return call.verb == Convert; }},
+        {"range",
          IsFor,
          {},
          "--color by a value, as bfactor",
          [](const Call& call) { return call.atoms.valueBy.has_value(); }},
-        {{"crisp"},
+        {"crisp",
          IsFor,
          {},
          "--color chain, group, element or residue",
          [](const Call& call) { return kindOf(call.options.color).hasBorders != nullptr; }},
-        {{"crisp"},
-         IsFor,
-         {},
-         "one surface, without --split and --surface-of",
-         [](const Call& call) { return !call.options.split && call.options.surfaceOf.empty(); }}};
+        {"crisp", IsFor, {}, "one surface, without --split and --surface-of", [](const Call& call) {
+             return !call.options.split && call.options.surfaceOf.empty();
+         }}};
 }
 
 /// What frames, files and the run have to do with each other.
@@ -172,50 +149,40 @@ std::vector<Pair> runPairs()
     const auto fromModels = [](const Call& call) { return !call.trajectory.empty(); };
     const auto ofPlan = [](const Call& call) { return call.verb == BricksPlan; };
     const auto notBuild = [](const Call& call) { return call.verb != Build; };
-    const std::vector<Thing> notOfFrames = {
-        {"memory"}, {"dry-run"}, {"turntable"}, {"output", "-"}};
+    const std::vector<Thing> notOfFrames = {"memory", "dry-run", "turntable", "output=-"};
     return {
-        {{"quiet"}, Excludes, {{"verbose"}}},
-        {{"bricks"}, Excludes, {{"memory"}}},
-        {{"frames"}, Excludes, notOfFrames},
-        {{"trajectory"}, Excludes, notOfFrames},
-        {{"model"}, Excludes, {{"frames"}}, ": frames are models [hint: --trajectory]", fromModels},
-        {{"start"}, IsFor, {{"frames"}, {"trajectory"}}, "--frames"},
-        {{"fields", "v"},
-         Needs,
-         {{"frames"}, {"trajectory"}},
-         ": it is the way between frames",
-         notBuild},
-        {file(FrameRows),
-         Needs,
-         {{"frames"}, {"trajectory"}},
-         " [hint: -o FILE.residues.csv for areas]"},
-        {{"turntable"}, Excludes, {{"output", "-"}}},
-        {{"format"}, Needs, {{"output", "-"}}, ": the extension of a file says what it is"},
-        {{"output", "-"}, Needs, {{"format"}}, " [hint: --format ply, for example]", ofPlan},
-        {file(Grids),
-         Needs,
-         {{"color"}},
-         ": without it the file would be a copy",
-         [](const Call& call) { return call.verb != Convert; }}};
+        {"quiet", Excludes, {"verbose"}},
+        {"bricks", Excludes, {"memory"}},
+        {"frames", Excludes, notOfFrames},
+        {"trajectory", Excludes, notOfFrames},
+        {"model", Excludes, {"frames"}, ": frames are models [hint: --trajectory]", fromModels},
+        {"start", IsFor, {"frames", "trajectory"}, "--frames"},
+        {"fields=v", Needs, {"frames", "trajectory"}, ": it is the way between frames", notBuild},
+        {{FrameRows}, Needs, {"frames", "trajectory"}, " [hint: -o FILE.residues.csv for areas]"},
+        {"turntable", Excludes, {"output=-"}},
+        {"format", Needs, {"output=-"}, ": the extension of a file says what it is"},
+        {"output=-", Needs, {"format"}, " [hint: --format ply, for example]", ofPlan},
+        {{Grids}, Needs, {"color"}, ": without it the file would be a copy", [](const Call& call) {
+             return call.verb != Convert;
+         }}};
 }
 
-/// An option with its value, as it is typed.
-std::string typed(const Thing& thing, const std::string& value)
+/// An option, and its value if there is one, as they are typed.
+std::string typed(std::string words)
 {
-    const bool output = thing.option == std::string("output");
-    return (output ? "-o" : "--" + std::string(thing.option)) + (value.empty() ? "" : " " + value);
+    const std::size_t equals = words.find('=');
+    if (equals != std::string::npos) words[equals] = ' ';
+    return words.rfind("output", 0) == 0 ? "-o" + words.substr(6) : "--" + words;
 }
 
-/// Whether a value of an option is the one that a thing has, or one of its list.
-bool isValue(const std::string& given, const Thing& thing)
+/// Whether a value of an option is the one that is looked for, or one of its list.
+bool isValue(const std::string& given, const std::string& wanted)
 {
-    const std::string value = lowered(given), wanted = thing.value;
+    const std::string value = lowered(given);
     if (wanted.empty()) return value != "none";
     if (value == wanted || value.rfind(wanted + "=", 0) == 0) return true;
     const std::vector<std::string> words = splitWords(value);
-    return thing.option != std::string("output") &&
-           std::count(words.begin(), words.end(), wanted) > 0;
+    return wanted != "-" && std::count(words.begin(), words.end(), wanted) > 0;
 }
 
 /// How a call has a thing; none: it has not.
@@ -225,28 +192,30 @@ std::optional<std::string> found(const Call& call, const Thing& thing)
     if (thing.holds) {
         const auto file = std::find_if(call.outputs.begin(), call.outputs.end(), [&](auto& o) {
             return o.beside.empty() && o.holds(thing.holds) &&
-                   (!*thing.value || std::string(thing.value) == o.format->table);
+                   (!*thing.words || std::string(thing.words) == o.format->table);
         });
         if (file == call.outputs.end()) return std::nullopt;
-        text = typed(thing, file->path);
+        text = "-o " + file->path;
     } else {
-        const auto given = call.given.find(thing.option); // a switch has no values
+        const std::string words = thing.words;
+        const std::size_t equals = std::min(words.find('='), words.size());
+        const std::string wanted = words.substr(std::min(equals + 1, words.size()));
+        const auto given = call.given.find(words.substr(0, equals)); // a switch has no values
         if (given == call.given.end() ||
             (!given->second.empty() &&
              std::none_of(given->second.begin(), given->second.end(),
-                          [&](const std::string& value) { return isValue(value, thing); })))
+                          [&](const std::string& value) { return isValue(value, wanted); })))
             return std::nullopt;
-        text = typed(thing, thing.value);
+        text = typed(words);
     }
     return thing.title ? std::string(thing.title) + " (" + text + ")" : text;
 }
 
-/// "--a, --b or --c".
+/// "--a or --b".
 std::string anyOf(const std::vector<Thing>& things)
 {
     std::string text;
-    for (const Thing& thing : things)
-        text += (text.empty() ? "" : " or ") + typed(thing, thing.value);
+    for (const Thing& thing : things) text += (text.empty() ? "" : " or ") + typed(thing.words);
     return text;
 }
 

@@ -14,11 +14,18 @@ namespace molsurf::tool
 
 /// What a call may have: an option, one value of an option, or a file of some formats.
 struct Thing {
-    const char* option; ///< "color", "output"
-    const char* value =
-        "";             ///< "copy"; empty: any but none. Of a file the table of areas that it has.
-    unsigned holds = 0; ///< of an output what it holds, as a set of Holds; 0: anything
-    const char* title = nullptr; ///< what messages call it beside what was typed; null: nothing
+    /// @param[in] typed  "color", or with a value "color=copy"
+    Thing(const char* typed, const char* title = nullptr) : words(typed), title(title) {}
+    /// @param[in] holds  what the file holds, as a set of Holds
+    /// @param[in] table  the table of areas that it has; "": any or none
+    Thing(Holds holds, const char* table = "", const char* title = nullptr)
+        : words(table), title(title), holds(holds)
+    {
+    }
+
+    const char* words;
+    const char* title; ///< what messages call it beside what was typed; null: nothing
+    unsigned holds = 0;
 };
 
 /// How the first thing of a row goes with the others.

@@ -20,6 +20,13 @@
 namespace molsurf
 {
 
+/// Gives the variable of a target: MOLSURF_OF(options.voxel).
+#define MOLSURF_OF(variable)                                                                       \
+    [](auto& target) -> auto&                                                                      \
+    {                                                                                              \
+        return target.variable;                                                                    \
+    }
+
 /// The name of an option as errors have it: "max-input" is `maxInput`.
 std::string memberName(const std::string& option);
 

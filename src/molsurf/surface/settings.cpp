@@ -21,12 +21,8 @@ namespace
 
 using Values = std::vector<std::string>;
 
-// Rows by the type of their value. `of` gives the variable that the row sets: OF(options.voxel).
-#define OF(variable)                                                                               \
-    [](auto& settings) -> auto&                                                                    \
-    {                                                                                              \
-        return settings.variable;                                                                  \
-    }
+// Rows by the type of their value. `of` gives the variable that the row sets:
+// MOLSURF_OF(options.voxel).
 
 template<typename Of>
 Setting number(const char* name, const char* value, std::string text, const Of& of)
@@ -307,20 +303,21 @@ Setting fieldSetting()
 
 std::vector<Setting> surfaceSettings()
 {
-    return {word("surface", "KIND", kindText(), OF(options.kind), surfaceKinds()),
-            within(minVoxel, maxVoxel,
-                   number("voxel", "H", "edge of a voxel [Å], 0.05 to 10", OF(options.voxel))),
-            within(0.0, 100.0, number("probe", "R", "probe radius [Å]", OF(options.probe))),
-            onlyOf(SurfaceKind::Gaussian,
-                   within(0.1, 100.0,
-                          number("blobbiness", "D", "decay of the Gaussians of `surface` gaussian",
-                                 OF(options.blobbiness)))),
-            flag("fill-cavities", "drop the inner walls", OF(options.fillCavities)),
-            fieldSetting(),
-            flag("vdb-half", "floats of the .vdb in 16 bits, within 0.05 %: half the size",
-                 OF(options.halfFloats)),
-            flag("curvature-totals", "integrate curvature over the surface, for the report",
-                 OF(options.curvatureTotals))};
+    return {
+        word("surface", "KIND", kindText(), MOLSURF_OF(options.kind), surfaceKinds()),
+        within(minVoxel, maxVoxel,
+               number("voxel", "H", "edge of a voxel [Å], 0.05 to 10", MOLSURF_OF(options.voxel))),
+        within(0.0, 100.0, number("probe", "R", "probe radius [Å]", MOLSURF_OF(options.probe))),
+        onlyOf(SurfaceKind::Gaussian,
+               within(0.1, 100.0,
+                      number("blobbiness", "D", "decay of the Gaussians of `surface` gaussian",
+                             MOLSURF_OF(options.blobbiness)))),
+        flag("fill-cavities", "drop the inner walls", MOLSURF_OF(options.fillCavities)),
+        fieldSetting(),
+        flag("vdb-half", "floats of the .vdb in 16 bits, within 0.05 %: half the size",
+             MOLSURF_OF(options.halfFloats)),
+        flag("curvature-totals", "integrate curvature over the surface, for the report",
+             MOLSURF_OF(options.curvatureTotals))};
 }
 
 std::vector<Setting> resolutionSettings()
@@ -361,10 +358,10 @@ std::vector<Setting> resolutionSettings()
     return {onlyOf(smooth, within(0.01, 10.0,
                                   number("epsilon", "E",
                                          "tolerance of the Gaussian sum [Å]; larger is smoother",
-                                         OF(options.epsilon)))),
+                                         MOLSURF_OF(options.epsilon)))),
             onlyOf(smooth, resolution), coarse,
             onlyOf(smooth, flag("match-volume", "resolutions keep the volume of the fine surface",
-                                OF(options.matchVolume)))};
+                                MOLSURF_OF(options.matchVolume)))};
 }
 
 /// The words of groups that are made to be coloured.
@@ -489,14 +486,14 @@ std::vector<Setting> groupSettings()
     Setting groupBy =
         parsed("group-by", "WORD",
                "groups by chain, entity, class (a chain's copies),\ncopy or residues:N instead", "",
-               OF(atoms.groupBy), parseGroupBy);
+               MOLSURF_OF(atoms.groupBy), parseGroupBy);
     groupBy.words = {"chain", "entity", "class", "copy"};
     groupBy.ofAtoms = range.ofAtoms = true;
     return {groupBy,
             split,
             surfaceOf,
             changed(flag("interfaces", "buried areas between groups, for the report",
-                         OF(options.interfaces)),
+                         MOLSURF_OF(options.interfaces)),
                     [](Setting& row) { row.get = nullptr; }),
             colorSetting(),
             range};
@@ -535,14 +532,12 @@ std::vector<Setting> flowSettings()
     for (Setting& row : rows) row.kinds = {SurfaceKind::Variational};
     rows.push_back(
         changed(count("spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2", "0",
-                      {0, 2}, OF(options.splineLevel)),
+                      {0, 2}, MOLSURF_OF(options.splineLevel)),
                 [](Setting& row) {
                     row.get = [](const Settings& s) { return std::int64_t(s.options.splineLevel); };
                 }));
     return rows;
 }
-
-#undef OF
 
 } // namespace
 
