@@ -200,10 +200,7 @@ SurfaceOptions optionsOf(const Given& given, const std::vector<std::string>& ext
         if (name == "atom_areas") options.ballAreas = true;
         if (name == "no_grid") options.grid = false;
     }
-    for (const SurfaceKind kind :
-         {SurfaceKind::Variational, SurfaceKind::SolventExcluded, SurfaceKind::SolventAccessible,
-          SurfaceKind::VanDerWaals, SurfaceKind::Gaussian})
-        if (areasOf == nameOf(kind)) options.areasOf = kind;
+    if (!areasOf.empty()) options.areasOf = settingsOf({{"surface", {areasOf}}}).options.kind;
     return options;
 }
 

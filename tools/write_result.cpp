@@ -118,7 +118,7 @@ std::string stemOf(const std::string& path)
     return path == "-" ? "surface" : std::filesystem::path(path).stem().string();
 }
 
-// What the colours can mean; the first one is what they do mean, if they were asked for.
+// Legends to offer; the one that was asked for is the first.
 std::vector<Legend> legendsOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
                               const Progress& progress)
 {

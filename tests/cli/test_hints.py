@@ -112,6 +112,8 @@ CASES = {
         ("did you mean residue?", "vdb_molsurf 1crn.pdb --color resdiue -o a.ply",
          f"vdb_molsurf 1crn.pdb --color residue {FAST} -o a.ply")],
     "surface/settings.cpp": [
+        ("--color plain=red", f"vdb_molsurf one.xyzr {FAST} --color red -o a.ply",
+         f"vdb_molsurf one.xyzr {FAST} --color plain=red -o a.ply"),
         ("all, or some of", "vdb_molsurf 1crn.pdb --fields qqqqqq -o a.vdb",
          "vdb_molsurf 1crn.pdb --fields all --voxel 1 -o a.vdb")],
     "structure/structure_list.cpp": [

@@ -412,7 +412,8 @@ void setColor(Settings& s, const Values& values)
         return;
     }
     const Values all = colorWords();
-    wrongValue("color", joinWords(all, ", "), values.back(), didYouMean(word, all));
+    wrongValue("color", joinWords(all, ", "), values.back(),
+               parseColor(word) ? " [hint: `color` plain=" + word + "]" : didYouMean(word, all));
 }
 
 Setting colorSetting()
