@@ -43,8 +43,8 @@ namespace
 
 using Values = std::vector<std::string>;
 
-// Rows by the type of their value. `of` gives the variable of a call that the option sets:
-// MOLSURF_OF(options.voxel).
+// Rows by the type of their value, which files do not have. `of` gives the variable of a call that
+// the option sets: MOLSURF_OF(options.voxel).
 
 openvdb::Metadata::Ptr stored(const std::string& text)
 {
@@ -105,19 +105,14 @@ Option flag(const char* name, std::string text, unsigned verbs, const Of& of, bo
 {
     Option o{name, 0, nullptr, std::move(text), "", verbs};
     o.set = [=](Call& call, const Values&) { of(call) = on; };
-    o.stored = [=](const Call& call) { return openvdb::BoolMetadata(of(call) == on).copy(); };
     return o;
 }
 
-/// @param[in] none  what an empty text means
 template<typename Of>
-Option text(const char* name, const char* value, std::string help, const char* none, unsigned verbs,
-            const Of& of)
+Option text(const char* name, const char* value, std::string help, unsigned verbs, const Of& of)
 {
-    const Call preset;
-    Option o{name, 0, value, std::move(help), of(preset).empty() ? none : of(preset), verbs};
+    Option o{name, 0, value, std::move(help), "", verbs};
     o.set = [=](Call& call, const Values& v) { of(call) = v.back(); };
-    o.stored = [=](const Call& call) { return stored(of(call).empty() ? none : of(call)); };
     return o;
 }
 
@@ -130,15 +125,7 @@ Option word(const char* name, const char* value, std::string help, unsigned verb
     Option o{name, 0, value, std::move(help), nameOf(of(preset)), verbs};
     for (const Enum choice : choices) o.words.push_back(nameOf(choice));
     o.set = wordSetter(name, choices, of);
-    o.stored = [=](const Call& call) { return stored(nameOf(of(call))); };
     return o;
-}
-
-template<typename Of, typename Enum>
-Option word(const char* name, const char* value, std::string help, unsigned verbs, const Of& of,
-            std::initializer_list<Enum> choices)
-{
-    return word(name, value, std::move(help), verbs, of, std::vector<Enum>(choices));
 }
 
 /// A choice of two words, the second one the default.
@@ -155,8 +142,6 @@ Option either(const char* name, std::string help, const char* on, const char* of
     };
     return o;
 }
-
-constexpr auto contactLevels = {ContactLevel::Atom, ContactLevel::Residue, ContactLevel::Chain};
 
 void setView(Call& call, const Values& values)
 {
@@ -198,6 +183,21 @@ void setScene(Call& call, const Values& values)
 std::size_t wholeValue(const std::string&)
 {
     return 0;
+}
+
+/// The option of a file that is read, whose path is its value.
+Option ofFile(Option option)
+{
+    option.file = wholeValue;
+    return option;
+}
+
+/// The option of a switch that files have.
+template<typename Of>
+Option kept(const Of& of, Option option)
+{
+    option.stored = [=](const Call& call) { return openvdb::BoolMetadata(of(call)).copy(); };
+    return option;
 }
 
 /// The option with more than its type says.
@@ -255,9 +255,7 @@ OptionGroup outputOptions()
         return o;
     };
     const auto force = [](unsigned verbs, const char* text) {
-        Option o = flag("force", text, verbs, MOLSURF_OF(force));
-        o.stored = nullptr;
-        return o;
+        return flag("force", text, verbs, MOLSURF_OF(force));
     };
     Option folder{"folder", 'O',  "DIR", "where the files go, with the names of the structures",
                   "",       Batch};
@@ -289,39 +287,34 @@ OptionGroup outputOptions()
 
 OptionGroup atomOptions()
 {
-    return {"Atoms",
-            {setting("select", structures), setting("model", structures),
-             setting("assembly", structures), setting("instances", Build),
-             setting("by-symmetry", Build),
-             shownIn(Triangles,
-                     flag("weld", "with --by-symmetry: units share the vertices of their borders",
-                          Build, MOLSURF_OF(weld))),
-             setting("copies", structures), setting("altloc", structures),
-             setting("no-hydrogens", structures), setting("ions", structures),
-             setting("hetero", structures), setting("no-hetero", structures),
-             setting("waters", structures), setting("radii", structures),
-             setting("probe", structures), setting("max-input", structures | Info)}};
+    return {
+        "Atoms",
+        {setting("select", structures), setting("model", structures),
+         setting("assembly", structures), setting("instances", Build),
+         setting("by-symmetry", Build),
+         shownIn(Triangles,
+                 kept(MOLSURF_OF(weld),
+                      flag("weld", "with --by-symmetry: units share the vertices of their borders",
+                           Build, MOLSURF_OF(weld)))),
+         setting("copies", structures), setting("altloc", structures),
+         setting("no-hydrogens", structures), setting("ions", structures),
+         setting("hetero", structures), setting("no-hetero", structures),
+         setting("waters", structures), setting("radii", structures), setting("probe", structures),
+         setting("max-input", structures | Info)}};
 }
 
 OptionGroup frameOptions()
 {
-    const auto quiet = [](Option& o) { o.stored = nullptr; };
-    const auto trajectory = [](Option& o) {
-        o.stored = nullptr;
-        o.file = wholeValue;
-    };
     return {
         "Frames",
-        {with(text("frames", "A-B:S",
-                   "a surface for every S-th frame from A to B: models of\n"
-                   "INPUT by their numbers, or frames of --trajectory; also\n"
-                   "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
-                   "name.csv: a table of all",
-                   "", Build, MOLSURF_OF(frames)),
-              quiet),
-         with(text("trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
-                   "", Build, MOLSURF_OF(trajectory)),
-              trajectory),
+        {text("frames", "A-B:S",
+              "a surface for every S-th frame from A to B: models of\n"
+              "INPUT by their numbers, or frames of --trajectory; also\n"
+              "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
+              "name.csv: a table of all",
+              Build, MOLSURF_OF(frames)),
+         ofFile(text("trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
+                     Build, MOLSURF_OF(trajectory))),
          either("start",
                 "cold: each frame as a run of its own; warm: its flow\n"
                 "begins at the surface of the one before",
@@ -374,7 +367,7 @@ OptionGroup resolutionOptions()
 OptionGroup groupOptions()
 {
     const Option groups =
-        with(text("groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]", "",
+        with(text("groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]",
                   surfaces, MOLSURF_OF(groupsFile)),
              [](Option& o) {
                  o.stored = [](const Call& c) {
@@ -391,15 +384,13 @@ OptionGroup groupOptions()
                                    "mean-curvature, gaussian-curvature; those of Cd unless given",
                                    Convert, MOLSURF_OF(options.color), completeColors()),
                               [](Option& o) { o.preset = ""; });
-    return {
-        "Groups",
-        {groups, setting("group-by", surfaces), setting("split", wholes),
-         setting("surface-of", wholes), setting("interfaces", wholes), setting("color", surfaces),
-         setting("range", surfaces),
-         shownIn(CutBorders, with(flag("crisp", "mesh files: triangles are cut where colours meet",
-                                       Build, MOLSURF_OF(crisp)),
-                                  [](Option& o) { o.stored = nullptr; })),
-         shown}};
+    return {"Groups",
+            {groups, setting("group-by", surfaces), setting("split", wholes),
+             setting("surface-of", wholes), setting("interfaces", wholes),
+             setting("color", surfaces), setting("range", surfaces),
+             shownIn(CutBorders, flag("crisp", "mesh files: triangles are cut where colours meet",
+                                      Build, MOLSURF_OF(crisp))),
+             shown}};
 }
 
 OptionGroup areaOptions()
@@ -418,10 +409,10 @@ OptionGroup areaOptions()
     };
     return {"Areas",
             {shownIn(Numbers, areas),
-             with(word("contacts", "LEVEL",
-                       "contact areas between atoms, residues or chains: atom,\nresidue, chain",
-                       wholes, MOLSURF_OF(contacts), contactLevels),
-                  [](Option& o) { o.stored = nullptr; })}};
+             word("contacts", "LEVEL",
+                  "contact areas between atoms, residues or chains: atom,\nresidue, chain", wholes,
+                  MOLSURF_OF(contacts),
+                  std::vector{ContactLevel::Atom, ContactLevel::Residue, ContactLevel::Chain})}};
 }
 
 OptionGroup sceneOptions()
@@ -440,8 +431,8 @@ OptionGroup sceneOptions()
     return {
         "Scene",
         {shownIn(SceneUnits, host),
-         flag("center", "the middle of the surface comes to the origin", wholes,
-              MOLSURF_OF(center)),
+         kept(MOLSURF_OF(center), flag("center", "the middle of the surface comes to the origin",
+                                       wholes, MOLSURF_OF(center))),
          shownIn(Millimetres, number("print-scale", "S", ".stl, .obj, .3mf in mm, S of them per Å",
                                      "", wholes | Convert, 1e-6, 1e6, "mm per Å, from 1e-6 to 1e6",
                                      MOLSURF_OF(printScale))),
@@ -483,15 +474,14 @@ OptionGroup pictureOptions()
          shownIn(Pixels, count("size", "N", "width in pixels; the height follows the shape", "1200",
                                draw, 16, 16384, MOLSURF_OF(picture.width))),
          shownIn(Pixels, background), shownIn(PlainColor, plain),
-         shownIn(Pixels, with(flag("depth-cue", "distant parts fade to the background", draw,
-                                   MOLSURF_OF(picture.depthCue)),
-                              [](Option& o) { o.stored = nullptr; })),
-         shownIn(Pixels, with(word("legend", "WORD",
-                                   "on or off; auto: beside colours, if 600 pixels wide\n"
-                                   "or more",
-                                   draw, MOLSURF_OF(legend),
-                                   {LegendChoice::Auto, LegendChoice::On, LegendChoice::Off}),
-                              [](Option& o) { o.stored = nullptr; })),
+         shownIn(Pixels, flag("depth-cue", "distant parts fade to the background", draw,
+                              MOLSURF_OF(picture.depthCue))),
+         shownIn(Pixels,
+                 word("legend", "WORD",
+                      "on or off; auto: beside colours, if 600 pixels wide\n"
+                      "or more",
+                      draw, MOLSURF_OF(legend),
+                      std::vector{LegendChoice::Auto, LegendChoice::On, LegendChoice::Off})),
          shownIn(Pixels, count("turntable", "N", "N pictures round the upright: name.0001.png, ...",
                                "", draw, 2, 9999, MOLSURF_OF(turntable)))}};
 }
@@ -522,7 +512,6 @@ OptionGroup runOptions()
                            const auto& of, bool on = true) {
         Option o = flag(name, text, verbs, of, on);
         o.letter = letter;
-        o.stored = nullptr;
         return o;
     };
     return {
@@ -543,12 +532,8 @@ OptionGroup runOptions()
          flagOf("verbose", 'v', "print the time of every stage",
                 Build | Batch | Compare | Convert | BricksMerge, MOLSURF_OF(verbose)),
          flagOf("no-progress", 0, "no progress bar", runs, MOLSURF_OF(progress), false),
-         with(text("config", "FILE", "options as lines \"name = value\"; the command line wins", "",
-                   structures | Convert, MOLSURF_OF(config)),
-              [](Option& o) {
-                  o.stored = nullptr;
-                  o.file = wholeValue;
-              })}};
+         ofFile(text("config", "FILE", "options as lines \"name = value\"; the command line wins",
+                     structures | Convert, MOLSURF_OF(config)))}};
 }
 
 } // namespace
