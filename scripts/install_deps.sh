@@ -15,7 +15,7 @@ packages=(
   nlohmann-json3-dev libpng-dev libfreetype-dev fonts-dejavu-core zlib1g-dev libssl-dev libembree-dev
   lib3mf-dev
 )
-test=(libgtest-dev libcgal-dev python3 python3-openvdb python3-numpy python3-biopython libopenvdb-tools)
+test=(libgtest-dev libcgal-dev pkg-config python3 python3-openvdb python3-numpy python3-biopython libopenvdb-tools)
 check=(clang-format libbenchmark-dev universal-ctags)
 optional=(blender chromium freesasa groff snakemake strace) # 1.4 GB
 # Node.js may be there from elsewhere, whose packages do not go together with Debian's.

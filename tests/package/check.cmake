@@ -1,6 +1,6 @@
 # Installs the library into an empty folder, builds the consumer against it, and runs it and the
 # installed tool.
-#     cmake -DBUILD=<build folder> -DSOURCE=<this folder> -DWORK=<folder to use> -DPYTHON=<Python> -P check.cmake
+#     cmake -DBUILD=<build folder> -DSOURCE=<this folder> -DWORK=<folder to use> -DPYTHON=<Python> -DCXX=<compiler> -P check.cmake
 # Then looks for what README.md says is installed, and for files that the installed pages name.
 set(prefix ${WORK}/prefix)
 set(consumer ${WORK}/consumer)
@@ -19,6 +19,15 @@ set(crambin ${SOURCE}/../data/1crn.pdb)
 run(${consumer}/coloured ${crambin} ${WORK}/crambin.glb ${WORK}/crambin.vdb)
 run(${consumer}/residues ${crambin})
 run(${consumer}/compared ${crambin} ${WORK}/crambin.json)
+# The same object, linked as pkg-config says.
+file(GLOB_RECURSE object ${consumer}/*consumer.cpp.o)
+file(GLOB_RECURSE pc ${prefix}/lib/*molsurf.pc)
+cmake_path(GET pc PARENT_PATH pc)
+run(sh -c "PKG_CONFIG_PATH='${pc}' pkg-config --cflags --libs --static 'molsurf >= 0.1' > '${WORK}/flags'")
+file(READ ${WORK}/flags flags)
+separate_arguments(flags UNIX_COMMAND "${flags}")
+run(${CXX} ${object} -o ${WORK}/by_pkg_config ${flags})
+run(${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${pc}/.. ${WORK}/by_pkg_config ${WORK}/two_atoms.ply)
 run(${prefix}/bin/vdb_molsurf --version)
 run(${prefix}/bin/vdb_molsurf_msms --version)
 run(${PYTHON} -B ${SOURCE}/../../scripts/check_docs.py --installed ${prefix}/share/doc/vdb_molsurf)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include <molsurf/molsurf.h>
+#include <molsurf/version.h>
 
 #include <cstdio>
 
@@ -13,8 +14,8 @@ int main(int argc, char** argv)
     const molsurf::MolecularSurface surface = molsurf::makeSurface(balls);
     molsurf::writeMesh(surface.mesh, argv[1]);
     const molsurf::Comparison same = molsurf::compare(surface.mesh, molsurf::readMesh(argv[1]));
-    std::printf("area %.2f, %zu triangles\n", surface.report.surface.area,
-                surface.mesh.triangles.size());
+    std::printf("molsurf %s: area %.2f, %zu triangles\n", MOLSURF_VERSION_TEXT,
+                surface.report.surface.area, surface.mesh.triangles.size());
     try {
         molsurf::makeSurface(std::vector<molsurf::Ball>());
     } catch (const molsurf::Error& error) {
