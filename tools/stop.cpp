@@ -94,14 +94,12 @@ void handle(int signal, void (*handler)(int))
     sigaction(signal, &action, nullptr);
 }
 
-/// Libraries start threads before main(): what they throw for want of memory is to be said, too.
+} // namespace
+
 void handleEarly()
 {
     std::set_terminate(onTerminate);
 }
-__attribute__((section(".preinit_array"), used)) void (*const early)() = handleEarly;
-
-} // namespace
 
 void holdStandardStreams()
 {

@@ -30,6 +30,10 @@ std::string unforeseenText(const std::exception& e);
 /// @param[in] temporaries  the files to remove
 void handleSignals(const std::vector<std::string>& temporaries);
 
+/// Says of exceptions that nobody can catch what handleSignals() says. To be called before main(),
+/// since libraries start threads there that may lack memory.
+void handleEarly();
+
 /// True once a signal has come.
 bool stopRequested();
 
