@@ -1,11 +1,11 @@
 #!/bin/bash
 # Runs commands on a fresh machine: a bare Debian 12, with a clone of this repository and nothing else, in a folder
 # whose path has a space, without HOME, with LANG=C:
-#     scripts/fresh_machine.sh [--user] [--commit COMMIT] [--then COMMAND]... [COMMAND]...
+#     scripts/fresh_machine.sh [--user] [--commit COMMIT] [--share FOLDER] [--then COMMAND]... [COMMAND]...
 #     scripts/fresh_machine.sh --list
 # Without a COMMAND it runs the two of README.md, as they stand there (--list prints them). --then adds one that runs
 # after them. --user runs them as a user who has sudo, and otherwise they run as root, without sudo. COMMIT is HEAD
-# unless it is named.
+# unless it is named. FOLDER of this machine is /srv/shared there.
 #
 # It ends with the minutes of each command, and with status 1 at the first one that fails. It needs root (or sudo),
 # 8 GB of free memory and debootstrap, which it installs. The system is in memory, in a mount and a process namespace
@@ -71,14 +71,15 @@ make_base() {
 
 # Inside the namespaces, as process 1.
 inside() {
-  local as_user=$1 commit=$2 began=$SECONDS command status=0 report=() variables=(PATH="$path" LANG=C)
-  shift 2
+  local as_user=$1 commit=$2 share=$3 began=$SECONDS command status=0 report=() variables=(PATH="$path" LANG=C)
+  shift 3
   mount -t tmpfs -o mode=755,size=80% fresh "$root" || fail "a file system in memory cannot be mounted"
   make_base
   copy_settings
   mount -t proc proc "$root/proc"
   mount --rbind /sys "$root/sys"
   mount --rbind /dev "$root/dev"
+  [[ -z $share ]] || { mkdir "$root/srv/shared" && mount --bind "$share" "$root/srv/shared"; }
   # Git refuses the repositories of other users; a user would have cloned as himself.
   printf '[safe]\n\tdirectory = *\n' > "$root/etc/fresh-gitconfig"
   mkdir -p "$root${place%/*}"
@@ -124,12 +125,13 @@ if [[ ${1:-} == --inside ]]; then
   exit
 fi
 
-as_user=no commit=HEAD commands=() after=()
+as_user=no commit=HEAD share= commands=() after=()
 while [[ $# -gt 0 ]]; do
   case $1 in
     --list) readme_commands; exit ;;
     --user) as_user=yes ;;
     --commit) commit=${2:?--commit needs a commit} && shift ;;
+    --share) share=$(realpath "${2:?--share needs a folder}") && shift ;;
     --then) after+=("${2:?--then needs a command}") && shift ;;
     -*) echo "fresh_machine.sh: unknown option $1" >&2; exit 2 ;;
     *) commands+=("$1") ;;
@@ -155,7 +157,7 @@ mkdir -p build-fresh/root
 
 # Whoever ends this script ends everything in the namespaces, and with that their mounts.
 "${as_root[@]}" setpriv --pdeathsig KILL unshare --mount --pid --fork --kill-child \
-  /bin/bash scripts/fresh_machine.sh --inside "$as_user" "$commit" "${commands[@]}" "${after[@]}" &
+  /bin/bash scripts/fresh_machine.sh --inside "$as_user" "$commit" "$share" "${commands[@]}" "${after[@]}" &
 machine=$!
 trap '"${as_root[@]}" kill -KILL $machine; exit 130' INT TERM HUP
 wait $machine

@@ -10,6 +10,7 @@
 #     calls       tests/surfaces/random_calls.py: 20,000 calls with mutated files and options, under sanitizers
 #     figures     scripts/check_docs.py --figures: the numbers of the pages, some of structures that are in FOLDER
 #     wheel       scripts/wheel.sh: the Python module, its wheel and its tests
+#     package     scripts/package.sh: Debian's packages, built and tried in bare systems
 #     site        scripts/docs.sh: the pages as a site
 # All of it takes some hours on 2 cores, in some 6 GB. What a step prints is in build-nightly/NAME.log. The exit
 # status is 1 if one fails; the others still run.
@@ -40,6 +41,7 @@ figures() {
     scripts/check_docs.py --figures "${structures[@]}"
 }
 wheel() { scripts/wheel.sh; }
+package() { scripts/package.sh; }
 site() { scripts/docs.sh; }
 
 seconds=60 structures=() steps=()
@@ -47,12 +49,12 @@ while [[ $# -gt 0 ]]; do
   case $1 in
     --fuzz) seconds=${2:?--fuzz needs seconds} && shift ;;
     --structures) structures=(--structures "${2:?--structures needs a folder}") && shift ;;
-    headers | mutations | fuzzing | asan | tsan | surfaces | calls | figures | wheel | site) steps+=("$1") ;;
+    headers | mutations | fuzzing | asan | tsan | surfaces | calls | figures | wheel | package | site) steps+=("$1") ;;
     *) echo "nightly.sh: expected a step or an option, got $1 [hint: see the first lines of this script]" >&2; exit 2 ;;
   esac
   shift
 done
-[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces calls figures wheel site)
+[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces calls figures wheel package site)
 
 scripts/install_deps.sh --test --check clang dpkg-dev
 mkdir -p build-nightly
