@@ -1,0 +1,17 @@
+# Installs the libraries that the programs need beside them, but for those of the compiler and the C library, with what
+# Debian's packages say of their licences: the tarball (docs/packages.md) runs where none of them is.
+set(programs $<TARGET_FILE:vdb_molsurf> $<TARGET_FILE:vdb_molsurf_msms>)
+install(CODE "set(programs ${programs})
+  set(libraries_folder ${CMAKE_INSTALL_LIBDIR})
+  set(licences \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/licenses/vdb_molsurf)")
+install(CODE [[
+  file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${programs} RESOLVED_DEPENDENCIES_VAR libraries
+       PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+)\\.so")
+  foreach(library IN LISTS libraries)
+    file(INSTALL ${library} DESTINATION ${CMAKE_INSTALL_PREFIX}/${libraries_folder} TYPE SHARED_LIBRARY FOLLOW_SYMLINK_CHAIN)
+    file(REAL_PATH ${library} library)
+    cmake_path(GET library FILENAME name)
+    execute_process(COMMAND dpkg-query -S "*/${name}" OUTPUT_VARIABLE package COMMAND_ERROR_IS_FATAL ANY)
+    string(REGEX REPLACE ":.*" "" package "${package}")
+    file(INSTALL /usr/share/doc/${package}/copyright DESTINATION ${licences} RENAME ${package})
+  endforeach()]])
