@@ -16,7 +16,7 @@ FOLDERS = ["core", "grid", "balls", "structure", "selection", "spline", "levelse
            "picture", "surface", "bricks", "tools"]
 # The headers of the face, src/molsurf/*.h, include each other alone; each is for its folder and those behind it.
 FACE = {"error.h": "core", "progress.h": "core", "ball.h": "balls", "atoms.h": "selection", "options.h": "flow",
-        "report.h": "flow", "mesh.h": "mesh", "surface.h": "surface", "files.h": "tools", "compare.h": "mesh",
+        "report.h": "levelset", "mesh.h": "mesh", "surface.h": "surface", "files.h": "tools", "compare.h": "mesh",
         "bricks.h": "bricks", "distance.h": "surface", "settings.h": "surface", "tables.h": "surface", "molsurf.h": "tools"}
 # Folders that know less than their place allows.
 ONLY = {

@@ -100,6 +100,14 @@ struct SurfaceReport {
     std::optional<SurfaceIntegrals> integrals; ///< of the curvature, if they were asked for
 };
 
+/// How the gaps of a molecule were decided: cavities, tunnels and slits that are open or closed by
+/// a little.
+struct GapReport {
+    std::size_t found = 0;  ///< number of those about which it was asked
+    std::size_t closed = 0; ///< number of those that tension closes though no atom fills them
+    double nearest = 0.0;   ///< how near to the decision the nearest one is, as a value of psi
+};
+
 /// The history of the flow. Its interface is that of the evolving level set, near the
 /// solvent-accessible surface. Energy, area and volume have an entry for the initial interface and
 /// one for each step; the displacement and the speed have one for each step.
@@ -122,6 +130,11 @@ struct EvolutionReport {
     double finalEnergy = std::numeric_limits<double>::quiet_NaN();
     /// Number of voxels at gaps of the final interface that are too narrow for the grid.
     std::size_t unresolvedGapVoxels = 0;
+    /// Number of steps that the last fronts made alone, after those of the whole, and number of
+    /// blocks of 8^3 voxels where one still moved at the end.
+    int frontSteps = 0;
+    std::size_t restlessFronts = 0;
+    std::optional<GapReport> gaps{}; ///< none where voxels and fronts decide
 };
 
 /// A group of atoms and its share of the surface.

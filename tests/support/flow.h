@@ -30,7 +30,7 @@ inline Evolved evolveBalls(const std::vector<Ball>& balls, double epsilon, doubl
     gaussian.epsilon = epsilon;
     gaussian.voxelSize = voxel;
     gaussian.reach = (bandWidthVox + 1.5) * voxel;
-    const GaussianSum field(balls, gaussian);
+    GaussianSum field(balls, gaussian);
     Progress progress;
     Evolved out;
     if (startsOnCoarserVoxels(options, voxel)) {

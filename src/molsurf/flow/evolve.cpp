@@ -4,6 +4,7 @@
 #include "molsurf/error.h"
 #include "molsurf/flow/newton_step.h"
 #include "molsurf/flow/paper_step.h"
+#include "molsurf/flow/settle.h"
 #include "molsurf/levelset/reinitialize.h"
 
 #include <algorithm>
@@ -95,6 +96,20 @@ double rmsFactor(const EvolutionReport& report)
     return report.steps > 1 ? 1.0 : 4.0;
 }
 
+/// Lets the fronts that a flow has left move to rest.
+void settleFronts(NarrowBand& band, const PsiSource& source, const NewtonOptions& steps,
+                  const NewtonSteps& newton, EvolutionReport& report, Progress& progress)
+{
+    constexpr float calm = 0.3f, eager = 0.2f; // of a voxel: so far voxels go to and fro in gaps
+    const float limit = (steps.eager ? eager : calm) * float(coarseness(band.phi.voxelSize));
+    std::vector<float> largest(band.phi.table.size(), 0.0f);
+    for (std::size_t n = 0; n < newton.table().size(); ++n)
+        largest[std::size_t(band.phi.table.find(newton.table().origin(n)))] = newton.largest()[n];
+    const Settling settling = settle(band, source, steps, std::move(largest), limit, progress);
+    report.frontSteps = settling.steps;
+    report.restlessFronts = settling.awake;
+}
+
 } // namespace
 
 Weights weightsOf(const EvolveOptions& options)
@@ -107,6 +122,11 @@ Weights weightsOf(const EvolveOptions& options)
 bool makesNewtonSteps(const EvolveOptions& options)
 {
     return options.flow == Flow::Newton && options.steps != 0 && options.maxSteps != 0;
+}
+
+bool decidesGaps(const EvolveOptions& options)
+{
+    return makesNewtonSteps(options) && !hasFronts(options);
 }
 
 bool startsOnCoarserVoxels(const EvolveOptions& options, double voxelSize)
@@ -136,8 +156,9 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
     const bool mayGiveUp = !options.maxSteps; // who asks for steps gets them
     const bool eager = hasFronts(options);
     const int reinitializations = eager ? 2 : 1; // long steps spoil the distance
-    NewtonSteps newton(weightsOf(options), sweepsFor(options, h), eager);
-    newton.setSplineLevel(options.splineLevel);
+    const NewtonOptions steps{weightsOf(options), sweepsFor(options, h), eager,
+                              options.splineLevel};
+    NewtonSteps newton(steps);
 
     EvolutionReport report;
     LeafField next(band.phi.table.size());
@@ -159,9 +180,10 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
         if (last) *last = moves;
         rms.push_back(report.displacementRms);
         tails.push_back(report.displacementTail);
-        const bool rests = report.converged && !stillCloses(report, h);
-        if (!fixed && (rests || (mayGiveUp && stalled(rms, tails, report)))) break;
+        if (!fixed && (report.converged || (mayGiveUp && stalled(rms, tails, report)))) break;
     }
+    if (!fixed && region.whole() && report.converged)
+        settleFronts(band, source, steps, newton, report, progress);
     record(newton.sums(band, region, progress), region.whole(), report);
     return report;
 }
@@ -182,15 +204,6 @@ bool stalled(const std::vector<double>& rms, const std::vector<double>& tails,
         return *high - *low > change * *high;
     };
     return !falls(rms) && !falls(tails) && !changes(report.area) && !changes(report.volume);
-}
-
-bool stillCloses(const EvolutionReport& report, double voxelSize)
-{
-    const double few = 1.6e-3 * voxelSize * voxelSize, change = 6e-4 * voxelSize;
-    const std::vector<double>& A = report.area;
-    const std::size_t n = A.size();
-    return report.unsettledShare > few &&
-           (n < 3 || std::abs(A[n - 1] - A[n - 3]) > change * A[n - 1]);
 }
 
 void judge(const Displacements& last, const EvolveOptions& options, double voxelSize,

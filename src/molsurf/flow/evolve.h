@@ -39,6 +39,9 @@ bool makesNewtonSteps(const EvolveOptions& options);
 /// it is voxels.
 bool startsOnCoarserVoxels(const EvolveOptions& options, double voxelSize);
 
+/// Whether the flow leaves gaps as psi decides them: it is so but where fronts move far.
+bool decidesGaps(const EvolveOptions& options);
+
 /// The options of the flow on coarser voxels, which goes nearer to rest than those ask for.
 /// @param[in] voxelSize  edge of those voxels [Å]
 EvolveOptions coarseFlow(const EvolveOptions& options, double voxelSize);
@@ -53,8 +56,7 @@ EvolveOptions coarseFlow(const EvolveOptions& options, double voxelSize);
 /// interface is below eight times this; or
 /// after options.maxSteps; or, if these are not given, when in eight steps neither of the two has
 /// fallen by a tenth, nor the area and the volume have changed; with options.steps after just so
-/// many. A tunnel that closes
-/// later is foretold by nothing local.
+/// many. Where it stops by itself, the fronts that still move go on to rest alone: see settle().
 ///
 /// @param[in,out] band    as initialSurface() or refined() make it
 /// @param[in]     source  psi for leaves that are added
@@ -76,10 +78,6 @@ double toleranceOf(const EvolutionReport& report, double voxelSize);
 /// @param[in] rms, tails  of the steps so far
 bool stalled(const std::vector<double>& rms, const std::vector<double>& tails,
              const EvolutionReport& report);
-
-/// Whether tunnels or gaps still close: a little of the interface moves far, and the area changes
-/// in two steps. What moves far while that does not is what the voxels do not resolve.
-bool stillCloses(const EvolutionReport& report, double voxelSize);
 
 /// Finds whether the displacements of a step meet the stopping rule.
 /// @param[in]     voxelSize  edge h of a voxel [Å]

@@ -254,9 +254,9 @@ void NewtonSteps::fit(const LeafTable& table, const Progress& progress)
 void NewtonSteps::sweep(const LeafTable& table, LeafField& scratch, const Progress& progress)
 {
     constexpr double lessening = 10.0;
-    const double rho = 1.0 / std::cosh(std::acosh(lessening) / sweeps_);
+    const double rho = 1.0 / std::cosh(std::acosh(lessening) / options_.sweeps);
     double omega = 1.0;
-    for (int i = 1; i < sweeps_; ++i) {
+    for (int i = 1; i < options_.sweeps; ++i) {
         omega = 1.0 / (1.0 - rho * rho * (i == 1 ? 0.5 : 0.25 * omega));
         parallelFor(table.size(), progress, [&](std::size_t n) {
             if (!acting_[n].any()) {
@@ -280,7 +280,7 @@ InterfaceSums NewtonSteps::sums(const NarrowBand& band, const Region& region,
     const double h = band.phi.voxelSize;
     const openvdb::Coord first = sumOrigin(table, region);
     Spline coarse;
-    if (splineLevel_ > 0) coarse = splineOf(band.phi, splineLevel_, progress);
+    if (options_.splineLevel > 0) coarse = splineOf(band.phi, options_.splineLevel, progress);
     return parallelSum<InterfaceSums>(table.size(), progress, [&](std::size_t n) {
         acting_[n] = table.active(n) & within(band.phi.leaf(n), float(newtonWidthVox * h));
         if (!acting_[n].any()) {
@@ -292,9 +292,9 @@ InterfaceSums NewtonSteps::sums(const NarrowBand& band, const Region& region,
         psi.gather(table, band.psi, n);
         LeafCurvature shape;
         curvature(phi, acting_[n], float(h), shape);
-        if (splineLevel_ > 0) takeCurvature(coarse, table.origin(n), h, acting_[n], shape);
+        if (options_.splineLevel > 0) takeCurvature(coarse, table.origin(n), h, acting_[n], shape);
         InterfaceRows rows;
-        coefficientRows(phi.values, psi.values, shape, acting_[n], float(h), weights_, rows,
+        coefficientRows(phi.values, psi.values, shape, acting_[n], float(h), options_.weights, rows,
                         system_.leaf(n), u_.leaf(n));
         return region.owned.isInside(table.origin(n))
                    ? rows.total((table.origin(n) - first).asVec3d() * h)
@@ -309,8 +309,10 @@ InterfaceSums NewtonSteps::step(const NarrowBand& band, const Region& region, Le
     const double h = band.phi.voxelSize;
     const InterfaceSums before = sums(band, region, progress);
     sweep(table, next, progress);
-    const float from = eager_ ? eagerFrom : calmFrom, longFrom = eager_ ? eagerLong : calmLong;
+    const float from = options_.eager ? eagerFrom : calmFrom,
+                longFrom = options_.eager ? eagerLong : calmLong;
     tbb::enumerable_thread_specific<Displacements> parts;
+    largest_.assign(table.size(), 0.0f);
     parallelFor(table.size(), progress, [&](std::size_t n) {
         const LeafMask& active = table.active(n);
         if (!active.any()) {
@@ -335,6 +337,7 @@ InterfaceSums NewtonSteps::step(const NarrowBand& band, const Region& region, Le
         moveRows(band.phi.leaf(n), slope, step, active, down_[n], made_ ? 1.0f : 0.0f, float(h),
                  next.leaf(n), size);
         down_[n] = down;
+        largest_[n] = *std::max_element(size, size + leafSize);
         if (!region.owned.isInside(table.origin(n))) return;
         Displacements& part = parts.local();
         for (int v = 0; v < leafSize; ++v)

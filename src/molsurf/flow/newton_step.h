@@ -52,6 +52,15 @@ MOLSURF_INLINE float extendedStep(float u, float lastU, float lastStep, float h,
     return clamped(factor * u, -longestStep * h, longestStep * h);
 }
 
+/// How Newton steps are made.
+struct NewtonOptions {
+    Weights weights;
+    int sweeps = 1;      ///< for each step, >= 1
+    bool eager = false;  ///< whether shorter steps are extended, too
+    int splineLevel = 0; ///< curvatures come from a spline on voxels of edge 2^level h; 0: from
+                         ///< differences
+};
+
 /// Semi-implicit steps, one after another. The displacement u along the inward normal solves
 ///
 ///     (P - w Laplace) u = F,
@@ -62,12 +71,7 @@ MOLSURF_INLINE float extendedStep(float u, float lastU, float lastStep, float h,
 class NewtonSteps
 {
 public:
-    /// @param[in] sweeps  for each step, >= 1
-    /// @param[in] eager   whether shorter steps are extended, too
-    NewtonSteps(const Weights& weights, int sweeps, bool eager)
-        : weights_(weights), sweeps_(sweeps), eager_(eager)
-    {
-    }
+    explicit NewtonSteps(const NewtonOptions& options) : options_(options) {}
 
     /// Makes a step.
     /// @param[in]     region  whose own voxels are summed
@@ -80,17 +84,17 @@ public:
     /// The sums of a band, without a step.
     InterfaceSums sums(const NarrowBand& band, const Region& region, const Progress& progress);
 
-    /// Curvatures are taken from a spline on voxels of edge 2^level h. 0: from differences.
-    void setSplineLevel(int level) { splineLevel_ = level; }
+    /// The largest displacements of the interface in the leaves of table(), in the last step
+    /// [voxel].
+    const std::vector<float>& largest() const { return largest_; }
+    const LeafTable& table() const { return known_; }
 
 private:
     void fit(const LeafTable& table, const Progress& progress);
     void sweep(const LeafTable& table, LeafField& scratch, const Progress& progress);
 
-    Weights weights_;
-    int sweeps_;
-    bool eager_;
-    int splineLevel_ = 0;
+    NewtonOptions options_;
+    std::vector<float> largest_;
     LeafArray<std::uint32_t> system_;                   // its coefficients, two in a word
     LeafField u_;                                       // its solution
     std::vector<LeafMask> acting_;                      // the voxels that it is solved in

@@ -65,6 +65,12 @@ Json surfaceJson(const SurfaceReport& surface)
             {"unresolved_area", total(&SurfaceIntegrals::unresolvedArea)}};
 }
 
+Json gapsJson(const std::optional<GapReport>& gaps)
+{
+    if (!gaps) return {};
+    return {{"found", gaps->found}, {"closed", gaps->closed}, {"nearest", gaps->nearest}};
+}
+
 Json evolutionJson(const EvolutionReport& evolution)
 {
     return {{"steps", evolution.steps},
@@ -77,6 +83,9 @@ Json evolutionJson(const EvolutionReport& evolution)
             {"displacement_tail", evolution.displacementTail},
             {"unsettled_share", evolution.unsettledShare},
             {"crevice_voxels", evolution.unresolvedGapVoxels},
+            {"front_steps", evolution.frontSteps},
+            {"restless_fronts", evolution.restlessFronts},
+            {"gaps", gapsJson(evolution.gaps)},
             {"area", evolution.area},
             {"volume", evolution.volume}};
 }

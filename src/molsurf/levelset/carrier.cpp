@@ -116,7 +116,7 @@ MOLSURF_KERNEL void carry(const float* __restrict levels, const float* __restric
                           float* __restrict out)
 {
     constexpr int rim = 3;
-    constexpr float leastShare = 0.2f; // of the distance
+    constexpr float leastShare = 0.6f; // of the distance
     for (int row = 0; row < 64; ++row) {
         const int first = (row / 8 + rim) * Block::strideX + (row % 8 + rim) * Block::strideY + rim;
         for (int z = 0; z < 8; ++z) {

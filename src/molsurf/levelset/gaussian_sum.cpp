@@ -2,6 +2,8 @@
 #include "molsurf/levelset/gaussian_sum.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/grid/leaf_block.h"
+#include "molsurf/levelset/stencil.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -81,7 +83,7 @@ GaussianSum::GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& 
                          const std::vector<Decay>& decays)
     : options_(options),
       extent_(options.extent ? *options.extent : extentOf(balls, options, decays)),
-      index_(balls, {1.25, options.probe, 2.0, extent_.maxRadius})
+      index_(balls, {1.25, options.probe, 2.0, extent_.maxRadius}), bumps_(options.voxelSize)
 {
     const double h = options.voxelSize;
     lists_.resize(index_.size());
@@ -134,6 +136,39 @@ const GaussianTerms& GaussianSum::termsAt(const Coord& origin, double reach) con
 void GaussianSum::evaluate(const Coord& origin, double reach, float* psi) const
 {
     leafAt(origin, reach).sum(psi);
+    bumps_.addTo(origin, psi);
+}
+
+PsiJet GaussianSum::jet(const Vec3d& x) const
+{
+    constexpr double least = -16.0;
+    const double h2 = options_.voxelSize * options_.voxelSize;
+    double sum = 0.0;
+    Vec3d first(0.0);
+    openvdb::Mat3d second = openvdb::Mat3d::zero();
+    const auto add = [&](std::size_t i) {
+        const Vec3d d = x - Vec3d(lists_.x[i], lists_.y[i], lists_.z[i]);
+        const double C = double(lists_.decay[i]) / h2;
+        const double t = double(lists_.level[i]) - C * d.lengthSqr();
+        if (t < least) return;
+        const double e = std::exp(t);
+        sum += e;
+        first -= 2.0 * C * e * d;
+        for (int a = 0; a < 3; ++a) {
+            for (int b = 0; b < 3; ++b) second(a, b) += 4.0 * C * C * e * d[a] * d[b];
+            second(a, a) -= 2.0 * C * e;
+        }
+    };
+    index_.forEachRun(x, x, extent_.cutoff(0.0) - extent_.maxRadius,
+                      [&](std::int32_t begin, std::int32_t end) {
+                          for (std::int32_t i = begin; i < end; ++i) add(std::size_t(i));
+                      });
+    if (sum == 0.0) return {double(lowestPsi), Vec3d(0.0), openvdb::Mat3d::zero()};
+    const Vec3d gradient = first / sum;
+    openvdb::Mat3d hessian = second * (1.0 / sum);
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) hessian(a, b) -= gradient[a] * gradient[b];
+    return {std::log(sum), gradient, hessian};
 }
 
 std::size_t GaussianSum::productCount(const Coord& origin, double reach) const
@@ -155,8 +190,8 @@ SparseField GaussianSum::evaluate(LeafTable table, const Progress& progress) con
     return psi;
 }
 
-SparseField GaussianSum::band(int steps, const Progress& progress,
-                              const openvdb::CoordBBox& box) const
+GaussianSum::Candidates GaussianSum::candidates(const Progress& progress,
+                                                const openvdb::CoordBBox& box) const
 {
     // Leaves that may hold a voxel with psi >= 0: those near a ball. In a table whose voxels stand
     // for leaves, they are the leaves of the centres, dilated. Where k terms meet, psi = 0 lies at
@@ -171,32 +206,87 @@ SparseField GaussianSum::band(int steps, const Progress& progress,
     origins.erase(std::remove_if(origins.begin(), origins.end(),
                                  [&](const Coord& origin) { return !box.isInside(origin); }),
                   origins.end());
-    LeafTable table(std::move(origins));
+    Candidates out;
+    out.table = LeafTable(std::move(origins));
 
     // The sums of leaves that their bounds do not decide are kept: the band has most of them.
-    std::vector<LeafMask> inside(table.size());
-    LeafField sums(table.size());
-    constexpr std::int32_t none = -1;
-    std::vector<std::int32_t> places(table.size(), none); // of the sums
+    const LeafTable& table = out.table;
+    out.inside.resize(table.size());
+    out.sums = LeafField(table.size());
+    out.places.assign(table.size(), -1);
     std::atomic<std::int32_t> summed{0};
     parallelFor(table.size(), progress, [&](std::size_t n) {
         Leaf& leaf = leafAt(table.origin(n), options_.reach);
         constexpr float rounding = 1e-3f;
         if (leaf.bounds.most(leaf.terms.count) < -rounding) return;
         if (leaf.bounds.least() > rounding) {
-            inside[n] = ~LeafMask();
+            out.inside[n] = ~LeafMask();
             return;
         }
-        places[n] = summed++;
-        float* psi = sums.leaf(std::size_t(places[n]));
+        out.places[n] = summed++;
+        float* psi = out.sums.leaf(std::size_t(out.places[n]));
         leaf.sum(psi);
-        inside[n] = ~lessThan(psi, 0.0f);
+        out.inside[n] = ~lessThan(psi, 0.0f);
     });
+    return out;
+}
+
+void GaussianSum::decideGaps(Candidates& leaves, const Progress& progress)
+{
+    const double h = options_.voxelSize, reach = std::max(1.5 * h, 0.75);
+    const float nearest = float(std::max(1.2 * h, 0.6)), limit = float(farthestGap) + 0.8f;
+    std::vector<Coord> origins;
+    for (std::size_t n = 0; n < leaves.table.size(); ++n)
+        if (leaves.places[n] >= 0) origins.push_back(leaves.table.origin(n));
+    SparseField psi{LeafTable(std::move(origins)), LeafField(), h};
+    psi.values = LeafField(psi.table.size());
+    const auto placeOf = [&](std::size_t n) {
+        return std::size_t(leaves.places[std::size_t(leaves.table.find(psi.table.origin(n)))]);
+    };
+    parallelFor(psi.table.size(), progress, [&](std::size_t n) {
+        std::copy_n(leaves.sums.leaf(placeOf(n)), leafSize, psi.leaf(n));
+    });
+    const PsiJetAt at = [this](const Vec3d& x) { return jet(x); };
+    std::vector<std::vector<Gap>> found(psi.table.size());
+    parallelFor(psi.table.size(), progress, [&](std::size_t n) {
+        LeafBlock<float, 1> block;
+        block.gather(psi, n);
+        within(psi.leaf(n), limit).forEach([&](int v) {
+            const float* p = block.at(v >> 6, v >> 3 & 7, v & 7);
+            const Derivatives d = derivatives<1>(p, float(1.0 / h));
+            const openvdb::Mat3s hessian(d.xx, d.xy, d.xz, d.xy, d.yy, d.yz, d.xz, d.yz, d.zz);
+            if (std::abs(hessian.det()) < 1e-3f) return;
+            if ((hessian.inverse() * openvdb::Vec3s(d.x, d.y, d.z)).length() > nearest) return;
+            const Coord voxel = psi.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+            if (const auto gap = gapNear(at, voxel.asVec3d() * h, reach)) found[n].push_back(*gap);
+        });
+    });
+    std::vector<Gap> gaps;
+    for (const auto& some : found) gaps.insert(gaps.end(), some.begin(), some.end());
+    decisions_ = molsurf::decideGaps(at, std::move(gaps), *options_.gaps, h, bumps_);
+    auto summed = std::int32_t(psi.table.size());
+    for (std::size_t n = 0; n < leaves.table.size(); ++n) {
+        const Coord& origin = leaves.table.origin(n);
+        if (!bumps_.reach(origin)) continue;
+        std::int32_t& place = leaves.places[n];
+        const bool known = place >= 0;
+        if (!known) place = summed++;
+        float* values = leaves.sums.leaf(std::size_t(place));
+        known ? bumps_.addTo(origin, values) : evaluate(origin, options_.reach, values);
+        leaves.inside[n] = ~lessThan(values, 0.0f);
+    }
+}
+
+SparseField GaussianSum::band(int steps, const Progress& progress, const openvdb::CoordBBox& box)
+{
+    Candidates leaves = candidates(progress, box);
+    if (options_.gaps) decideGaps(leaves, progress);
     // The inner voxels that have an outer one among their 26 neighbours.
+    LeafTable& table = leaves.table;
     std::vector<LeafMask> outside(table.size());
-    for (std::size_t n = 0; n < table.size(); ++n) outside[n] = ~inside[n];
+    for (std::size_t n = 0; n < table.size(); ++n) outside[n] = ~leaves.inside[n];
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        table.active(n) = inside[n] & dilatedMask(table, outside, n, true);
+        table.active(n) = leaves.inside[n] & dilatedMask(table, outside, n, true);
     });
 
     SparseField psi{clipped(dilated(pruned(table), steps, Spread::Ball, progress), box),
@@ -205,11 +295,11 @@ SparseField GaussianSum::band(int steps, const Progress& progress,
     parallelFor(psi.table.size(), progress, [&](std::size_t n) {
         const Coord& origin = psi.table.origin(n);
         const std::int32_t m = table.find(origin);
-        const std::int32_t place = m == noLeaf ? none : places[std::size_t(m)];
-        if (place == none) {
+        const std::int32_t place = m == noLeaf ? -1 : leaves.places[std::size_t(m)];
+        if (place < 0) {
             evaluate(origin, options_.reach, psi.leaf(n));
         } else {
-            std::copy_n(sums.leaf(std::size_t(place)), leafSize, psi.leaf(n));
+            std::copy_n(leaves.sums.leaf(std::size_t(place)), leafSize, psi.leaf(n));
         }
     });
     return psi;

@@ -11,6 +11,7 @@
 #include "molsurf/ball.h"
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/grid/sparse_field.h"
+#include "molsurf/levelset/gaps.h"
 #include "molsurf/levelset/gaussian_terms.h"
 #include "molsurf/progress.h"
 
@@ -43,6 +44,8 @@ struct GaussianOptions {
     double reach = 3.0;      ///< how far outside the balls of radius R_i psi is wanted [Å]
     /// Of all balls, where the sum is made of some: near these it is then the same.
     std::optional<GaussianExtent> extent{};
+    /// How band() decides which gaps are open; none: by the voxels.
+    std::optional<GapRule> gaps{};
 
     /// C of a ball of radius R_i without a rate of its own [1/Å^2].
     double rate(double R) const
@@ -69,11 +72,19 @@ public:
     double tolerance() const { return extent_.maxTolerance; }
 
     /// psi on the voxels within `steps` voxels (see dilated()) of those next to psi = 0, with the
-    /// reach of the options.
+    /// reach of the options. Decides gaps first, if the options say so; psi has their bumps from
+    /// there on.
     /// @param[in] box  of whole leaves: no others are looked at
     /// @return no leaves if psi is negative at all voxels
     SparseField band(int steps, const Progress& progress,
-                     const openvdb::CoordBBox& box = openvdb::CoordBBox::inf()) const;
+                     const openvdb::CoordBBox& box = openvdb::CoordBBox::inf());
+
+    /// How band() decided gaps, and what it has added to psi for them.
+    const std::optional<GapReport>& gaps() const { return decisions_; }
+    const Bumps& bumps() const { return bumps_; }
+
+    /// psi is that of the balls and of these.
+    void setBumps(const Bumps& bumps) { bumps_ = bumps; }
 
     /// psi at all voxels of a leaf. In each octant of it the balls are left out whose terms are
     /// below e^-12 of the sum throughout, and those that are farther than R_i + reach + 2 eps from
@@ -98,8 +109,12 @@ public:
         const GaussianTerms& terms = termsAt(origin, h);
         std::vector<float> scratch;
         for (std::size_t i = 0; i < points.size(); ++i) {
-            const PsiSample s = sampleTerms(terms, points[i].x, points[i].y, points[i].z, scratch);
-            f(i, s.psi, s.slope2 / float(h * h));
+            const Point& p = points[i];
+            const PsiSample s = sampleTerms(terms, p.x, p.y, p.z, scratch);
+            openvdb::Vec3d gradient = openvdb::Vec3d(s.x, s.y, s.z) / h;
+            const openvdb::Vec3d x = (origin.asVec3d() + openvdb::Vec3d(p.x, p.y, p.z)) * h;
+            const double added = bumps_.at(x, &gradient);
+            f(i, s.psi + float(added), float(gradient.lengthSqr()));
         }
     }
 
@@ -109,7 +124,20 @@ public:
     /// Evaluates psi at all voxels of all leaves, with the reach of the options.
     SparseField evaluate(LeafTable table, const Progress& progress) const;
 
+    /// psi at a point with its derivatives, without bumps.
+    PsiJet jet(const openvdb::Vec3d& x) const;
+
 private:
+    /// The leaves that may hold a voxel with psi >= 0, and psi on those that bounds do not decide.
+    struct Candidates {
+        LeafTable table;
+        std::vector<LeafMask> inside;     ///< where psi >= 0
+        std::vector<std::int32_t> places; ///< in the sums, or -1
+        LeafField sums;
+    };
+    Candidates candidates(const Progress& progress, const openvdb::CoordBBox& box) const;
+    void decideGaps(Candidates& leaves, const Progress& progress);
+
     struct Leaf;
     Leaf& leafAt(const openvdb::Coord& origin, double reach) const;
     const GaussianTerms& termsAt(const openvdb::Coord& origin, double reach) const;
@@ -118,6 +146,8 @@ private:
     GaussianExtent extent_; // of all balls
     BallIndex index_;
     GaussianLists lists_; // of the balls in the order of the index
+    std::optional<GapReport> decisions_;
+    Bumps bumps_;
 };
 
 } // namespace molsurf

@@ -318,7 +318,7 @@ MOLSURF_KERNEL PsiSample sampleTerms(const GaussianTerms& terms, float x, float 
         gy += sumY[l];
         gz += sumZ[l];
     }
-    return {largest + fastLog(all), (gx * gx + gy * gy + gz * gz) / (all * all)};
+    return {largest + fastLog(all), gx / all, gy / all, gz / all};
 }
 
 } // namespace molsurf

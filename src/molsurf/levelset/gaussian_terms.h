@@ -83,7 +83,7 @@ void sumTerms(const GaussianTerms& terms, const GaussianBounds& bounds, Gaussian
 /// psi at a point, and the square of its gradient.
 struct PsiSample {
     float psi;
-    float slope2; ///< [1/voxel^2]
+    float x, y, z; ///< its gradient [1/voxel]
 };
 
 /// psi between voxels, of the terms alone and not of voxels: exact.

@@ -33,7 +33,7 @@ std::vector<double> slopesOf(const std::vector<Ball>& balls, const GaussianOptio
 /// the slopes as factors, less psi.
 LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
                      const std::optional<GaussianExtent>& extent, const NarrowBand& band,
-                     const Progress& progress)
+                     const Bumps& bumps, const Progress& progress)
 {
     GaussianOptions gaussian = gaussianOptions(options);
     std::vector<Decay> decays = hasFlow(options.kind) ? atoms.decays : std::vector<Decay>();
@@ -51,8 +51,9 @@ LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
     decays.resize(atoms.balls.size());
     for (std::size_t i = 0; i < slopes.size(); ++i)
         decays[i].level += float(std::log(slopes[i] / most));
-    const SparseField weighted =
-        GaussianSum(atoms.balls, gaussian, decays).evaluate(table, progress);
+    GaussianSum sum(atoms.balls, gaussian, decays);
+    sum.setBumps(bumps);
+    const SparseField weighted = sum.evaluate(table, progress);
     parallelFor(table.size(), progress, [&](std::size_t n) {
         const float *w = weighted.leaf(n), *psi = band.psi.leaf(n);
         for (int v = 0; v < leafSize; ++v)
@@ -66,9 +67,9 @@ LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
 
 SparseField carrierOf(const BallSet& atoms, const SurfaceOptions& options,
                       const std::optional<GaussianExtent>& extent, const NarrowBand& band,
-                      const Progress& progress)
+                      const Bumps& bumps, const Progress& progress)
 {
-    const LeafField slope = slopeField(atoms, options, extent, band, progress);
+    const LeafField slope = slopeField(atoms, options, extent, band, bumps, progress);
     const EvolveOptions& evolution = options.evolution;
     const bool valley = hasFlow(options.kind) && evolution.regularizer == Regularizer::Gradient;
     return smoothCarrier(band.phi,

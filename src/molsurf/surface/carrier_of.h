@@ -19,6 +19,6 @@ namespace molsurf
 /// @param[in] band    the interface, and psi
 SparseField carrierOf(const BallSet& atoms, const SurfaceOptions& options,
                       const std::optional<GaussianExtent>& extent, const NarrowBand& band,
-                      const Progress& progress);
+                      const Bumps& bumps, const Progress& progress);
 
 } // namespace molsurf

@@ -45,7 +45,7 @@ SurfaceRun::SurfaceRun(const BallSet& atoms, const SurfaceOptions& options, cons
                        Progress& progress)
     : atoms_(atoms), options_(options), scope_(scope), progress_(progress),
       influence_(scope.extent ? Influence(*scope.extent, options) : Influence(atoms, options)),
-      watch_(result_.report)
+      watch_(result_.report), bumps_(options.voxel)
 {
     band_.phi.voxelSize = S_.phi.voxelSize = options.voxel;
 }
@@ -69,12 +69,17 @@ void SurfaceRun::density()
     const bool evolves = hasFlow(options_.kind);
     GaussianOptions gaussian = gaussianOptions(options_);
     gaussian.extent = influence_.extent();
+    if (evolves && decidesGaps(options_.evolution)) {
+        const Weights weights = weightsOf(options_.evolution);
+        gaussian.gaps = GapRule{weights.gradient, weights.area};
+    }
     sum_.emplace(atoms_.balls, gaussian, evolves ? atoms_.decays : std::vector<Decay>());
     if (evolves && startsOnCoarserVoxels(flowOptions(options_), options_.voxel)) {
         refineCoarseRest();
         return;
     }
     SparseField psi = sum_->band(bandWidthVox, progress_, scope_.region.grown(scope_.flowHalo));
+    bumps_ = sum_->bumps();
     if (psi.table.size() == 0 && scope_.region.whole()) {
         failIfTooCoarse("density: no voxel lies inside the surface", atoms_.balls, options_);
         failNothingLeft("density", options_.kind);
@@ -135,6 +140,7 @@ void SurfaceRun::flow(WarmStart* warm)
         const EvolveOptions evolution = flowOptions(options_);
         result_.report.evolution = evolve(band_, source, evolution, progress_, scope_.region,
                                           scope_.flowHalo, &displacements_);
+        if (scope_.region.whole()) result_.report.evolution->gaps = sum_->gaps();
         if (warm) *warm = correctionOf(cold, band_.phi, progress_);
         watch_.stop("evolve");
     }
@@ -171,7 +177,7 @@ void SurfaceRun::distance()
         S_ = distanceToBalls();
     } else {
         const openvdb::CoordBBox near = scope_.region.grown(scope_.distanceHalo);
-        SparseField carrier = carrierOf(atoms_, options_, scope_.extent, band_, progress_);
+        SparseField carrier = carrierOf(atoms_, options_, scope_.extent, band_, bumps_, progress_);
         if (options_.energy && sum_ && result_.report.evolution) {
             result_.report.evolution->finalEnergy = interfaceEnergy(
                 carrier, *sum_, weightsOf(options_.evolution), scope_.region, progress_);

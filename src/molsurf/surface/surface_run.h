@@ -171,6 +171,7 @@ private:
     MolecularSurface result_;
     Stopwatch watch_;
     std::optional<GaussianSum> sum_;
+    Bumps bumps_;     ///< that it adds to psi
     NarrowBand band_; ///< the level set that a smooth surface is offset from
     Displacements displacements_;
     DistanceBand S_;

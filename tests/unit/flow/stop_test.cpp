@@ -129,25 +129,6 @@ TEST(Stop, GivesUpOnlyIfAllStandsStill)
     EXPECT_FALSE(gaveUp({20, 1, 1, 1, 1.002}));
 }
 
-// What closes is a share of the surface above 0.0016 h^2 that moves, and a change of the area above
-// 0.0006 h; of voxels that flicker the area is the same every other step.
-TEST(Stop, WaitsForWhatMovesAndChangesTheArea)
-{
-    const auto closes = [](double share, std::vector<double> area, double h) {
-        EvolutionReport report;
-        report.unsettledShare = share;
-        report.area = std::move(area);
-        return stillCloses(report, h);
-    };
-    EXPECT_TRUE(closes(0.002, {100.0, 99.97, 99.93}, 1.0));
-    EXPECT_FALSE(closes(0.001, {100.0, 99.97, 99.93}, 1.0));
-    EXPECT_TRUE(closes(0.001, {100.0, 99.97, 99.93}, 0.5));
-    EXPECT_FALSE(closes(0.002, {100.0, 99.97, 99.95}, 1.0));
-    EXPECT_TRUE(closes(0.002, {100.0, 99.97, 99.95}, 0.5));
-    EXPECT_FALSE(closes(0.002, {80.0, 100.0, 99.0, 100.0}, 1.0));
-    EXPECT_TRUE(closes(0.002, {100.0, 100.0}, 1.0)); // two areas do not tell
-}
-
 TEST(Stop, OnCoarserVoxelsComesNearerToRest)
 {
     EvolveOptions options;

@@ -32,7 +32,7 @@ Fields fieldsOf(const std::vector<Ball>& balls, double voxel,
     GaussianOptions options;
     options.voxelSize = voxel;
     options.reach = (width + 1.5) * voxel;
-    const GaussianSum sum(balls, options);
+    GaussianSum sum(balls, options);
     Fields f;
     f.psi = sum.band(width, Progress());
     f.phi = initialSurface(f.psi, width * voxel, {}, Progress());

@@ -46,7 +46,7 @@ GaussianOptions optionsFor(double epsilon, double voxel)
 /// psi = 0.
 double errorNearZero(const std::vector<Ball>& balls, const GaussianOptions& options)
 {
-    const GaussianSum sum(balls, options);
+    GaussianSum sum(balls, options);
     const SparseField psi = sum.band(2, Progress());
     const LeafTable& table = psi.table;
     const double length = options.epsilon / (2.0 * M_LN2);
@@ -99,7 +99,7 @@ TEST(GaussianSum, IsFiniteAndNegativeFarOutsideAndDeepInsideIsPositive)
 {
     const std::vector<Ball> balls = test::randomBalls(60, 6.0, Vec3d(0.0), 1);
     for (const double epsilon : {2.0, 0.5, 0.05, 0.01}) {
-        const GaussianSum sum(balls, optionsFor(epsilon, 0.5));
+        GaussianSum sum(balls, optionsFor(epsilon, 0.5));
         alignas(64) float psi[leafSize];
         for (const Coord& origin : {Coord(800, 0, 0), Coord(16, 16, 16), Coord(0), Coord(-8)}) {
             sum.evaluate(origin, 3.0, psi);
@@ -116,7 +116,7 @@ TEST(GaussianSum, OfOneBallIsQuadratic)
 {
     const std::vector<Ball> balls = {{openvdb::Vec3f(0.31f, -0.77f, 1.23f), 1.7f, 0}};
     const GaussianOptions options = optionsFor(0.5, 0.25);
-    const GaussianSum sum(balls, options);
+    GaussianSum sum(balls, options);
     alignas(64) float psi[leafSize];
     double worst = 0.0;
     for (const Coord& origin : {Coord(-8), Coord(0), Coord(8, 0, -8)}) {
@@ -196,7 +196,7 @@ TEST(Band, HasThePsiOfEvaluate)
     const std::vector<Ball> balls = test::randomBalls(60, 30.0, Vec3d(1.3, -2.1, 0.4), 7);
     for (const double voxel : {0.5, 1.1}) {
         const GaussianOptions options = optionsFor(0.5, voxel);
-        const GaussianSum sum(balls, options);
+        GaussianSum sum(balls, options);
         const SparseField psi = sum.band(4, Progress());
         ASSERT_GT(psi.table.size(), 20u);
         std::vector<float> alone(leafSize);
@@ -282,7 +282,7 @@ TEST(GaussianSum, AgreesWithTheDefinitionWhereProductsUnderflow)
     const std::vector<Ball> balls = test::randomBalls(40, 12.0, Vec3d(0.7, -1.1, 0.3), 5);
     GaussianOptions options = optionsFor(0.05, 1.0);
     options.reach = 8.0;
-    const GaussianSum sum(balls, options);
+    GaussianSum sum(balls, options);
     const SparseField psi = sum.band(2, Progress());
     const LeafTable& table = psi.table;
     std::size_t low = 0;

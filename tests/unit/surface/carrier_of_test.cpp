@@ -28,7 +28,7 @@ TEST(CarrierOf, BallsOfAnySizeHaveTheirOwnSlopes)
     SparseField psi =
         GaussianSum(atoms.balls, gaussianOptions(options)).band(bandWidthVox, Progress());
     const NarrowBand band{initialSurface(psi, width, {}, Progress()), std::move(psi.values)};
-    const SparseField carrier = carrierOf(atoms, options, {}, band, Progress());
+    const SparseField carrier = carrierOf(atoms, options, {}, band, Bumps(h), Progress());
     std::size_t seen[2] = {};
     test::forEachActive(carrier.table, h, [&](std::size_t n, int v, const Vec3d& x) {
         const std::size_t i = x.x() > 10.0;

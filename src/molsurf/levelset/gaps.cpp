@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/gaps.h"
+
+#include <openvdb/math/Mat3.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+
+namespace
+{
+
+/// To a power of two, so that what is computed about it has the same bits from wherever it was
+/// found.
+double rounded(double x)
+{
+    return std::round(x * 0x1p16) * 0x1p-16;
+}
+
+/// One of each, in ascending order of places.
+std::vector<Gap> distinct(std::vector<Gap> gaps)
+{
+    constexpr double same = 1e-3; // [Å]
+    std::sort(gaps.begin(), gaps.end(),
+              [](const Gap& a, const Gap& b) { return a.place < b.place; });
+    std::vector<Gap> out;
+    for (const Gap& gap : gaps) {
+        const bool known = [&] {
+            for (auto o = out.rbegin(); o != out.rend(); ++o) {
+                if (gap.place.x() - o->place.x() > same) return false;
+                if ((gap.place - o->place).length() < same) return true;
+            }
+            return false;
+        }();
+        if (!known) out.push_back(gap);
+    }
+    return out;
+}
+
+/// The bump at a gap with which psi is `least` at it, and within `reach` of it along its thin axis
+/// not of the other sign.
+/// @param[in] solid  whether the gap is closed: psi is positive there
+/// @param[in] psi    with the bumps so far
+Bump bumpAt(const Gap& gap, bool solid, double reach, double rate,
+            const std::function<double(const Vec3d&)>& psi)
+{
+    constexpr double least = 0.15, slowest = 0.3;
+    const double side = solid ? 1.0 : -1.0, here = side * psi(gap.place);
+    // A pocket that closes is to be covered as far as it reaches.
+    for (int i = 0; i < 3 && here < 0.0; ++i) {
+        const double rise = side * gap.curvatures[i];
+        if (rise > 0.0) rate = std::clamp(-0.5 * rise / here, slowest, rate);
+    }
+    double amplitude = least - here;
+    const double thin = solid ? -gap.curvatures[0] : gap.curvatures[2];
+    const Vec3d way = reach * gap.axes[solid ? 0 : 1];
+    if (thin > 0.0) {
+        for (const double sign : {-1.0, 1.0}) {
+            const double lacks = least - side * psi(gap.place + sign * way);
+            amplitude = std::max(amplitude, lacks * std::exp(rate * reach * reach));
+        }
+    }
+    return {gap.place, side * rounded(amplitude), rate};
+}
+
+} // namespace
+
+double Gap::closedAbove(double gradient, double area) const
+{
+    // Between slits, cylinders and balls, for which psi quadratic gives it in closed form: with m
+    // the curvature across, at 1, 3.93 and 7.46 lambda m. Real gaps close at twice that: their
+    // walls are straighter than parabolas.
+    constexpr double walls = 2.0, most = 1.5;
+    double m[3];
+    for (int i = 0; i < 3; ++i) m[i] = std::max(curvatures[2 - i], 0.0);
+    double level = gradient * (m[0] + 2.93 * m[1] + 3.53 * m[2]);
+    if (m[0] > 0.0) level += std::sqrt(area * (1.25 * m[1] + 1.75 * m[2]) / m[0]);
+    return -std::min(walls * level, most);
+}
+
+std::optional<Gap> gapNear(const PsiJetAt& jet, const Vec3d& from, double reach)
+{
+    constexpr double longest = 0.3, there = 1e-9; // [Å]
+    constexpr int steps = 20;
+    Vec3d x = from;
+    PsiJet at = jet(x);
+    for (int i = 0; i < steps; ++i) {
+        if (std::abs(at.hessian.det()) < 1e-6) return {};
+        Vec3d step = at.hessian.inverse() * at.gradient;
+        const double length = step.length();
+        if (length < there) break;
+        if (length > longest) step *= longest / length;
+        x -= step;
+        if ((x - from).length() > reach) return {};
+        at = jet(x);
+    }
+    if (at.gradient.length() > 1e-6 || std::abs(at.psi) > farthestGap) return {};
+    for (int a = 0; a < 3; ++a) x[a] = rounded(x[a]);
+    at = jet(x);
+    openvdb::Mat3d axes;
+    Vec3d values;
+    if (!openvdb::math::diagonalizeSymmetricMatrix(at.hessian, axes, values)) return {};
+    int order[3] = {0, 1, 2};
+    std::sort(order, order + 3, [&](int a, int b) { return values[a] < values[b]; });
+    return Gap{x,
+               at.psi,
+               Vec3d(values[order[0]], values[order[1]], values[order[2]]),
+               {axes.col(order[0]), axes.col(order[2])}};
+}
+
+GapReport decideGaps(const PsiJetAt& jet, std::vector<Gap> gaps, const GapRule& rule,
+                     double voxelSize, Bumps& bumps)
+{
+    constexpr double held = 0.7;     // half a gap that voxels hold [voxel]
+    constexpr double widest = 0.5;   // [Å]
+    constexpr double sharpest = 1.4; // [1/Å^2]
+    const double reach = std::min(held * voxelSize, widest);
+    const double rate = std::min(sharpest, 0.7 / (voxelSize * voxelSize));
+    const auto psi = [&](const Vec3d& x) { return jet(x).psi + bumps.at(x); };
+    gaps = distinct(std::move(gaps));
+    GapReport done;
+    done.found = gaps.size();
+    done.nearest = farthestGap;
+    for (const Gap& gap : gaps) {
+        const double level = gap.closedAbove(rule.gradient, rule.area);
+        done.closed += gap.psi < 0.0 && gap.psi > level;
+        done.nearest = std::min(done.nearest, std::abs(gap.psi - level));
+    }
+    for (int pass = 0; pass < 2; ++pass) { // what is done for one may undo what was for another
+        for (const Gap& gap : gaps) {
+            const bool solid = gap.psi > gap.closedAbove(rule.gradient, rule.area);
+            const Bump bump = bumpAt(gap, solid, reach, rate, psi);
+            if (bump.amplitude * (solid ? 1.0 : -1.0) > 1e-6) bumps.add(bump);
+        }
+    }
+    return done;
+}
+
+} // namespace molsurf

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Which gaps of a molecule are open. The topology of psi = 0 changes at critical points of psi
+/// alone. Where one lies near the level, a grid, its place and the steps of a flow would decide;
+/// here it is decided by psi, and psi is changed there such that voxels hold what was decided.
+/// docs/math.md, section 2.
+
+#include "molsurf/levelset/bumps.h"
+#include "molsurf/report.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace molsurf
+{
+
+/// psi, its gradient and its Hessian at a point.
+struct PsiJet {
+    double psi;
+    openvdb::Vec3d gradient; ///< [1/Å]
+    openvdb::Mat3d hessian;  ///< [1/Å^2]
+};
+using PsiJetAt = std::function<PsiJet(const openvdb::Vec3d&)>;
+
+/// A critical point of psi near its zero: the middle of a cavity, the narrowest place of a tunnel,
+/// or that of a slit between two bodies.
+struct Gap {
+    openvdb::Vec3d place;      ///< [Å], to 2^-16
+    double psi;                ///< there
+    openvdb::Vec3d curvatures; ///< eigenvalues of the Hessian there, ascending [1/Å^2]
+    openvdb::Vec3d axes[2];    ///< directions of the first and of the last of them
+
+    /// The value above which tension closes it: from there on the cavity, tunnel or slit has no
+    /// rest of its own, by the energies of the level sets about it.
+    /// @param[in] gradient,area  lambda of the regularisers, one of them 0
+    double closedAbove(double gradient, double area) const;
+};
+
+/// What decides gaps.
+struct GapRule {
+    double gradient = 0.0; ///< lambda of the gradient regulariser [Å^2]
+    double area = 0.0;     ///< lambda of the area regulariser
+};
+
+/// The gaps farther than this from psi = 0 are none.
+constexpr double farthestGap = 1.6;
+
+/// The gap that Newton's method leads to from a point, if it does not lead farther than `reach`
+/// [Å], and if there is one.
+std::optional<Gap> gapNear(const PsiJetAt& jet, const openvdb::Vec3d& from, double reach);
+
+/// Decides gaps. Where one is closed, psi becomes positive about it, and where it is open it
+/// becomes at least as wide as voxels hold.
+/// @param[in]     gaps   in any order, and more than once
+/// @param[in,out] bumps  those that do so are added
+GapReport decideGaps(const PsiJetAt& jet, std::vector<Gap> gaps, const GapRule& rule,
+                     double voxelSize, Bumps& bumps);
+
+} // namespace molsurf

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/gaussian_sum.h"
+
+#include "support/fields.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Coord;
+using openvdb::Mat3d;
+using openvdb::Vec3d;
+
+constexpr double tolerance = 0.5, tension = 0.01, R = 3.1; // radius with the probe
+
+GaussianOptions optionsWith(double voxel, double gradient, double area = 0.0)
+{
+    GaussianOptions options;
+    options.epsilon = tolerance;
+    options.voxelSize = voxel;
+    options.reach = 4.5 * voxel;
+    options.gaps = GapRule{gradient, area};
+    return options;
+}
+
+/// A turn and a shift by less than an Å, drawn at random.
+struct Pose {
+    Mat3d turn;
+    Vec3d shift;
+    explicit Pose(std::mt19937& random)
+    {
+        std::normal_distribution<double> normal;
+        const openvdb::math::Quat<double> q(normal(random), normal(random), normal(random),
+                                            normal(random));
+        turn = Mat3d(q.unit());
+        shift = Vec3d(normal(random), normal(random), normal(random)) * 0.5;
+    }
+    Vec3d of(const Vec3d& x) const { return turn * x + shift; }
+};
+
+/// Six atoms on the axes: psi in the middle is `level`, and they leave no tunnel.
+std::vector<Ball> cage(double level, const Pose& pose)
+{
+    const double C = M_LN2 / (tolerance * R), r = std::sqrt(R * R + (std::log(6.0) - level) / C);
+    std::vector<Ball> balls;
+    for (int a = 0; a < 3; ++a) {
+        for (const double side : {-r, r}) {
+            Vec3d x(0.0);
+            x[a] = side;
+            balls.push_back({pose.of(x), R - 1.4, 0});
+        }
+    }
+    return balls;
+}
+
+/// Number of voxels outside within so many Å of a place.
+int outsideNear(const SparseField& psi, const Vec3d& x, double reach)
+{
+    int count = 0;
+    test::forEachActive(psi.table, psi.voxelSize, [&](std::size_t n, int v, const Vec3d& y) {
+        count += (y - x).length() < reach && psi.leaf(n)[v] < 0.0f;
+    });
+    return count;
+}
+
+TEST(Gaps, JetsAreDerivativesOfPsi)
+{
+    std::mt19937 random(3);
+    const std::vector<Ball> balls = cage(-0.3, Pose(random));
+    const GaussianSum sum(balls, optionsWith(0.5, tension));
+    constexpr double step = 1e-4;
+    const Vec3d x = balls[0].center * 0.3 + balls[2].center * 0.2 + balls[5].center * 0.1;
+    const PsiJet jet = sum.jet(x);
+    for (int a = 0; a < 3; ++a) {
+        Vec3d way(0.0);
+        way[a] = step;
+        const PsiJet up = sum.jet(x + way), down = sum.jet(x - way);
+        EXPECT_NEAR(jet.gradient[a], (up.psi - down.psi) / (2.0 * step), 1e-6);
+        for (int b = 0; b < 3; ++b)
+            EXPECT_NEAR(jet.hessian(a, b), (up.gradient[b] - down.gradient[b]) / (2.0 * step),
+                        1e-5);
+    }
+}
+
+TEST(Gaps, TheMiddleOfACageIsFoundFromWhereverItIsNear)
+{
+    std::mt19937 random(4);
+    const Pose pose(random);
+    const GaussianSum sum(cage(-0.4, pose), optionsWith(0.5, tension));
+    const PsiJetAt jet = [&](const Vec3d& x) { return sum.jet(x); };
+    std::uniform_real_distribution<double> near(-0.2, 0.2);
+    for (int i = 0; i < 20; ++i) {
+        const Vec3d from = pose.shift + Vec3d(near(random), near(random), near(random));
+        const auto gap = gapNear(jet, from, 0.75);
+        ASSERT_TRUE(gap);
+        EXPECT_LT((gap->place - pose.shift).length(), 4e-5);
+        EXPECT_NEAR(gap->psi, -0.4, 1e-6);
+        EXPECT_GT(gap->curvatures[0], 0.0); // a cavity
+    }
+    EXPECT_FALSE(gapNear(jet, pose.of({1.5, 1.0, 0.5}), 0.75));
+}
+
+/// The largest depth d at which no level set about a quadratic psi = -d + m r^2/2 rests: with r^n
+/// the area of a slit, a cylinder or a ball, r^n w has no minimum but 0.
+double depthWithoutRest(int n, double m, double gradient, double area)
+{
+    const auto rests = [&](double d) {
+        const double widest = std::sqrt(2.0 * d / m);
+        const auto energy = [&](double r) {
+            const double psi = 0.5 * m * r * r - d, slope = m * r;
+            return std::pow(r, n) * (psi * psi + gradient * slope * slope + area);
+        };
+        constexpr int steps = 4000;
+        for (int i = 1; i < 2 * steps; ++i) {
+            const double h = widest / steps, r = i * h;
+            if (energy(r) < energy(r + h) && energy(r) < (i == 1 ? energy(1e-9) : energy(r - h)))
+                return true;
+        }
+        return false;
+    };
+    double low = 0.0, high = 3.0;
+    for (int i = 0; i < 40; ++i) {
+        const double d = 0.5 * (low + high);
+        (rests(d) ? high : low) = d;
+    }
+    return high;
+}
+
+TEST(Gaps, CloseWhereNoLevelSetRests)
+{
+    constexpr double walls = 2.0; // of real gaps, see docs/math.md
+    for (const double m : {1.0, 4.0}) {
+        for (int n = 0; n < 3; ++n) {
+            Gap gap{};
+            for (int i = 0; i < 3; ++i) gap.curvatures[2 - i] = i <= n ? m : -0.5;
+            EXPECT_NEAR(-gap.closedAbove(tension, 0.0) / walls,
+                        depthWithoutRest(n, m, tension, 0.0), 0.03 * tension * m * (1 + 3 * n))
+                << n << " " << m;
+            if (n > 0) {
+                EXPECT_NEAR(-gap.closedAbove(0.0, tension) / walls,
+                            depthWithoutRest(n, m, 0.0, tension), 0.01)
+                    << n << " " << m;
+            }
+        }
+    }
+}
+
+// On voxels of any size and in any pose, a cavity is there or not by its depth alone.
+TEST(Gaps, OfACageAreOpenOrClosedInAllPoses)
+{
+    std::mt19937 random(5);
+    for (const double lambda : {0.003, tension}) {
+        for (const double voxel : {0.75, 0.5, 0.25}) {
+            for (int i = 0; i < 24; ++i) {
+                const bool open = i % 2;
+                const Pose pose(random);
+                // The curvature at the middle of a cage is the same all round.
+                const GaussianSum about(cage(-0.3, pose), optionsWith(voxel, lambda));
+                Gap middle{};
+                middle.curvatures = Vec3d(about.jet(pose.shift).hessian(0, 0));
+                const double edge = middle.closedAbove(lambda, 0.0);
+                GaussianSum sum(cage((open ? 1.15 : 0.85) * edge, pose),
+                                optionsWith(voxel, lambda));
+                const SparseField psi = sum.band(3, Progress());
+                EXPECT_EQ(outsideNear(psi, pose.shift, 1.2) > 0, open)
+                    << lambda << " " << voxel << " " << i;
+                ASSERT_TRUE(sum.gaps());
+                EXPECT_EQ(sum.gaps()->closed, open ? 0u : 1u);
+                EXPECT_NEAR(sum.gaps()->nearest, 0.15 * -edge, 0.02);
+            }
+        }
+    }
+}
+
+// Without the rule the voxels decide: the test above is one.
+TEST(Gaps, AreLeftToTheVoxelsWithoutARule)
+{
+    std::mt19937 random(6);
+    int open = 0;
+    for (int i = 0; i < 30; ++i) {
+        const Pose pose(random);
+        GaussianOptions options = optionsWith(0.75, tension);
+        options.gaps.reset();
+        GaussianSum sum(cage(-0.2, pose), options);
+        open += outsideNear(sum.band(3, Progress()), pose.shift, 1.2) > 0;
+        EXPECT_FALSE(sum.gaps());
+    }
+    EXPECT_GT(open, 2);
+    EXPECT_LT(open, 28);
+}
+
+// psi with bumps is one field, however it is asked for.
+TEST(Gaps, BumpsAreInAllSamples)
+{
+    std::mt19937 random(7);
+    const Pose pose(random);
+    GaussianSum sum(cage(-0.1, pose), optionsWith(0.5, tension));
+    sum.band(3, Progress());
+    ASSERT_GT(sum.bumps().size(), 0u);
+    const Coord origin = Coord::floor(pose.shift / 0.5) & ~7;
+    float psi[leafSize];
+    sum.evaluate(origin, 2.25, psi);
+    std::vector<GaussianSum::Point> points;
+    for (int v = 0; v < leafSize; ++v)
+        points.push_back({float(v >> 6), float(v >> 3 & 7), float(v & 7)});
+    float largest = 0.0f;
+    sum.sample(origin, points, [&](std::size_t i, float value, float slope2) {
+        const Vec3d x = origin.offsetBy(int(i) >> 6, int(i) >> 3 & 7, int(i) & 7).asVec3d() * 0.5;
+        Vec3d gradient = sum.jet(x).gradient;
+        const double added = sum.bumps().at(x, &gradient);
+        largest = std::max(largest, std::abs(float(added)));
+        if (std::abs(value) > 3.0f) return;
+        EXPECT_NEAR(value, psi[i], 1e-3);
+        EXPECT_NEAR(value, sum.jet(x).psi + added, 1e-3);
+        EXPECT_NEAR(slope2, gradient.lengthSqr(), 1e-2);
+    });
+    EXPECT_GT(largest, 0.1f);
+}
+
+} // namespace
+} // namespace molsurf
