@@ -186,7 +186,7 @@ MOLSURF_MEMBERS(SurfaceReport, v.kind, v.area, v.volume, v.eulerCharacteristic,
                 v.cavities, v.outerArea, v.outerVolume, v.vertices, v.triangles, v.closed,
                 v.manifold, v.degenerateTriangles, v.maxResidual, v.gradientShare, v.kinkShare,
                 v.cuspLength, v.meanCurvature, v.gaussianCurvature, v.integrals)
-MOLSURF_MEMBERS(GapReport, v.found, v.closed, v.nearest)
+MOLSURF_MEMBERS(EvolutionReport::Gaps, v.found, v.closed, v.nearest)
 MOLSURF_MEMBERS(EvolutionReport, v.steps, v.converged, v.energy, v.area, v.volume,
                 v.meanDisplacement, v.maxSpeed, v.displacementRms, v.displacementTail,
                 v.unsettledShare, v.finalEnergy, v.unresolvedGapVoxels, v.frontSteps,

@@ -100,18 +100,18 @@ struct SurfaceReport {
     std::optional<SurfaceIntegrals> integrals; ///< of the curvature, if they were asked for
 };
 
-/// How the gaps of a molecule were decided: cavities, tunnels and slits that are open or closed by
-/// a little.
-struct GapReport {
-    std::size_t found = 0;  ///< number of those about which it was asked
-    std::size_t closed = 0; ///< number of those that tension closes though no atom fills them
-    double nearest = 0.0;   ///< how near to the decision the nearest one is, as a value of psi
-};
-
 /// The history of the flow. Its interface is that of the evolving level set, near the
 /// solvent-accessible surface. Energy, area and volume have an entry for the initial interface and
 /// one for each step; the displacement and the speed have one for each step.
 struct EvolutionReport {
+    /// How the gaps of a molecule were decided: cavities, tunnels and slits that are open or closed
+    /// by a little.
+    struct Gaps {
+        std::size_t found = 0;  ///< number of those about which it was asked
+        std::size_t closed = 0; ///< number of those that tension closes though no atom fills them
+        double nearest = 0.0;   ///< how near to the decision the nearest one is, as a value of psi
+    };
+
     int steps = 0;              ///< number of steps made
     bool converged = false;     ///< whether the interface is at rest: the stopping rule of
                                 ///< EvolveOptions::tolerance is met
@@ -134,7 +134,7 @@ struct EvolutionReport {
     /// blocks of 8^3 voxels where one still moved at the end.
     int frontSteps = 0;
     std::size_t restlessFronts = 0;
-    std::optional<GapReport> gaps{}; ///< none where voxels and fronts decide
+    std::optional<Gaps> gaps{}; ///< none where voxels and fronts decide
 };
 
 /// A group of atoms and its share of the surface.

@@ -65,7 +65,7 @@ Json surfaceJson(const SurfaceReport& surface)
             {"unresolved_area", total(&SurfaceIntegrals::unresolvedArea)}};
 }
 
-Json gapsJson(const std::optional<GapReport>& gaps)
+Json gapsJson(const std::optional<EvolutionReport::Gaps>& gaps)
 {
     if (!gaps) return {};
     return {{"found", gaps->found}, {"closed", gaps->closed}, {"nearest", gaps->nearest}};

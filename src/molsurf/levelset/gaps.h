@@ -52,6 +52,8 @@ constexpr double farthestGap = 1.6;
 /// [Å], and if there is one.
 std::optional<Gap> gapNear(const PsiJetAt& jet, const openvdb::Vec3d& from, double reach);
 
+using GapReport = EvolutionReport::Gaps;
+
 /// Decides gaps. Where one is closed, psi becomes positive about it, and where it is open it
 /// becomes at least as wide as voxels hold.
 /// @param[in]     gaps   in any order, and more than once
