@@ -106,6 +106,14 @@ void settleFronts(NarrowBand& band, const PsiSource& source, const NewtonOptions
     for (std::size_t n = 0; n < newton.table().size(); ++n)
         largest[std::size_t(band.phi.table.find(newton.table().origin(n)))] = newton.largest()[n];
     const Settling settling = settle(band, source, steps, std::move(largest), limit, progress);
+    if (settling.steps > 0) { // the rims of what moved fit what stood beside it
+        LeafField next(band.phi.table.size());
+        for (int i = 0; i < 2; ++i) {
+            reinitialize(band.phi, bandWidthVox * band.phi.voxelSize, 1, progress, next,
+                         Repair::Errors);
+            updateBand(band, source, openvdb::CoordBBox::inf(), next, progress);
+        }
+    }
     report.frontSteps = settling.steps;
     report.restlessFronts = settling.awake;
 }
