@@ -150,20 +150,6 @@ TEST(CrispBorders, LieOnTheArcs)
     }
 }
 
-// Beside the border of owners that are far away only the nearer one is known.
-TEST(CrispBorders, OfOwnersFarAwayAreTheirPlane)
-{
-    const Mesh mesh = surfaceOf({{Vec3f(0.0f), 3.0f, 0}}, SurfaceKind::VanDerWaals);
-    std::vector<Ball> balls = around(2);
-    for (Ball& ball : balls) ball.center = axis + 4.0 * (ball.center - axis);
-    const Mesh crisp = withCrispBorders(mesh, balls, {red, blue}, 0.0, "", Progress());
-    const Vec3d across = (balls[0].center - axis).unit();
-    const auto borders = bordersOf(crisp);
-    EXPECT_GT(borders.size(), 15u);
-    for (const auto& [x, colors] : borders)
-        EXPECT_NEAR((Vec3d(x) - axis).dot(across), 0.0, 1e-3); // [Å]
-}
-
 // A point where three owners meet may lie just outside of the triangle that has all of them.
 TEST(CrispBorders, MeetWhereTheirOwnersDo)
 {
