@@ -19,6 +19,7 @@ namespace
 /// A part of a band: the leaves that move, and those about them.
 struct Part {
     NarrowBand band;
+    LeafTable table;         ///< its leaves before any is added
     std::vector<bool> moves; ///< whether a leaf moves, or only stands beside those that do
 };
 
@@ -57,6 +58,7 @@ Part partOf(const NarrowBand& band, const std::vector<bool>& moves, const Progre
         std::copy_n(band.phi.leaf(m), leafSize, part.band.phi.leaf(n));
         std::copy_n(band.psi.leaf(m), leafSize, part.band.psi.leaf(n));
     });
+    part.table = own;
     return part;
 }
 
@@ -103,20 +105,20 @@ void addLeaves(const NarrowBand& part, NarrowBand& band, std::vector<float>& lar
 }
 
 /// Puts the leaves of a part that moved back.
-/// @param[in]     before   the part as it was taken out
 /// @param[in,out] largest  how far the leaves of the band moved
-void putBack(const Part& before, const NarrowBand& part, NarrowBand& band,
-             std::vector<float>& largest, const Progress& progress)
+void putBack(const Part& part, NarrowBand& band, std::vector<float>& largest,
+             const Progress& progress)
 {
-    addLeaves(part, band, largest, progress);
-    for (std::size_t n = 0; n < before.moves.size(); ++n) {
-        if (!before.moves[n]) continue;
-        const Coord& origin = before.band.phi.table.origin(n);
-        const auto from = std::size_t(part.phi.table.find(origin));
+    const SparseField& phi = part.band.phi;
+    addLeaves(part.band, band, largest, progress);
+    for (std::size_t n = 0; n < part.moves.size(); ++n) {
+        if (!part.moves[n]) continue;
+        const Coord& origin = part.table.origin(n);
+        const auto from = std::size_t(phi.table.find(origin));
         const auto to = std::size_t(band.phi.table.find(origin));
-        largest[to] = wayOf(band.phi.leaf(to), part.phi.leaf(from), band.phi.voxelSize);
-        std::copy_n(part.phi.leaf(from), leafSize, band.phi.leaf(to));
-        band.phi.table.active(to) = part.phi.table.active(from);
+        largest[to] = wayOf(band.phi.leaf(to), phi.leaf(from), band.phi.voxelSize);
+        std::copy_n(phi.leaf(from), leafSize, band.phi.leaf(to));
+        band.phi.table.active(to) = phi.table.active(from);
     }
 }
 
@@ -152,10 +154,9 @@ Settling settle(NarrowBand& band, const PsiSource& source, const NewtonOptions& 
         }
         if (done.awake == 0 || done.steps == most) return done;
         std::fill(largest.begin(), largest.end(), 0.0f);
-        const Part before = partOf(band, widened(band.phi.table, awake), progress);
-        NarrowBand part{copied(before.band.phi), copied(before.band.psi)};
-        move(part, source, options, round, progress);
-        putBack(before, part, band, largest, progress);
+        Part part = partOf(band, widened(band.phi.table, awake), progress);
+        move(part.band, source, options, round, progress);
+        putBack(part, band, largest, progress);
         done.steps += round;
     }
 }
