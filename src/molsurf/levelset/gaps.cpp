@@ -125,16 +125,17 @@ GapReport decideGaps(const PsiJetAt& jet, std::vector<Gap> gaps, const GapRule& 
     GapReport done;
     done.found = gaps.size();
     done.nearest = farthestGap;
+    std::vector<bool> solid;
     for (const Gap& gap : gaps) {
         const double level = gap.closedAbove(rule.gradient, rule.area);
-        done.closed += gap.psi < 0.0 && gap.psi > level;
+        solid.push_back(gap.psi > level);
+        done.closed += gap.psi < 0.0 && solid.back();
         done.nearest = std::min(done.nearest, std::abs(gap.psi - level));
     }
     for (int pass = 0; pass < 2; ++pass) { // what is done for one may undo what was for another
-        for (const Gap& gap : gaps) {
-            const bool solid = gap.psi > gap.closedAbove(rule.gradient, rule.area);
-            const Bump bump = bumpAt(gap, solid, reach, rate, psi);
-            if (bump.amplitude * (solid ? 1.0 : -1.0) > 1e-6) bumps.add(bump);
+        for (std::size_t i = 0; i < gaps.size(); ++i) {
+            const Bump bump = bumpAt(gaps[i], solid[i], reach, rate, psi);
+            if (bump.amplitude * (solid[i] ? 1.0 : -1.0) > 1e-6) bumps.add(bump);
         }
     }
     return done;

@@ -80,7 +80,7 @@ struct GaussianTables {
 void sumTerms(const GaussianTerms& terms, const GaussianBounds& bounds, GaussianTables& tables,
               float* psi);
 
-/// psi at a point, and the square of its gradient.
+/// psi at a point, and its gradient.
 struct PsiSample {
     float psi;
     float x, y, z; ///< its gradient [1/voxel]
