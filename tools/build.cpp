@@ -77,6 +77,8 @@ RunLimits limitsOf(const Call& call)
     if (call.verb == BricksRun) limits.hint = " [hint: a plan of more bricks";
     if (call.verb == Convert) limits.hint = " [hint: a surface of a larger `voxel`";
     limits.bricks = goesInBricks(call);
+    if (call.verb != Convert && call.writes(Pixels))
+        limits.besides = costOfPicture(0, call.picture.width);
     return limits;
 }
 
@@ -170,8 +172,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
 {
     stopIfAsked();
     if (call.options.grid) {
-        double seconds = checkCost(balls, call.options, limitsOf(call), terminal);
-        if (call.writes(Pixels)) seconds += costOfPicture(0, call.picture.width).seconds;
+        const double seconds = checkCost(balls, call.options, limitsOf(call), terminal);
         constexpr double any = std::numeric_limits<double>::infinity();
         terminal.limitTo(isEstimated(call.options) ? seconds : any, call.hours);
     }

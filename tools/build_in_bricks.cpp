@@ -122,13 +122,13 @@ int buildInBricks(const Call& call, Clock::time_point start)
                                           " [hint: --memory " +
                                           std::to_string(reading / 1000000 * 12 / 10) + "M]");
     if (call.memory == 0) checkBalls(atoms.balls, call.options, Pieces::One, availableMemory());
-    const BrickPlan one = planWhole(atoms, call.options, terminal);
+    BrickPlan one = planWhole(atoms, call.options, terminal);
+    RunLimits limits = limitsOf(call);
+    limits.memory = std::numeric_limits<std::size_t>::max(); // bricks take less
+    if (!call.dryRun) checkCost(one.bricks[0], limits);
+    one.bricks[0].bytes += limits.besides.bytes;
+    one.bricks[0].seconds += limits.besides.seconds;
     const std::size_t whole = one.bricks[0].bytes;
-    if (!call.dryRun) {
-        RunLimits limits = limitsOf(call);
-        limits.memory = std::numeric_limits<std::size_t>::max(); // bricks take less
-        checkCost(one.bricks[0], limits);
-    }
     if (call.memory == 0 || memoryFor(one.bricks[0]) <= call.memory) {
         if (!call.dryRun) return endOf(buildSurface(call, atoms, report, terminal, start));
         terminal.erase();

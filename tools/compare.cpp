@@ -7,6 +7,8 @@
 #include "sha256.h"
 #include "terminal.h"
 
+#include "molsurf/bricks/plan_bricks.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/read_mesh.h"
 #include "molsurf/io/read_vdb.h"
@@ -16,6 +18,7 @@
 #include "molsurf/surface/compare.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 
 namespace molsurf::tool
@@ -24,9 +27,10 @@ namespace molsurf::tool
 namespace
 {
 
-/// One of the two files, read.
+/// One of the two files, read; of a dry run its cost alone.
 struct Read {
     std::string path;
+    PlannedBrick cost;
     Operand operand;
     bool converged = true;
 };
@@ -56,22 +60,32 @@ void refuseScene(const std::string& path, const openvdb::MetaMap& metadata)
                                          "[hint: write a plain .vdb]");
 }
 
+/// @param[in] first  the other one, if that was read before
 Read readOne(const Call& call, const std::string& path, Terminal& terminal,
-             std::vector<std::string>& said)
+             std::vector<std::string>& said, const Read* first = nullptr)
 {
     Read read;
     read.path = path;
+    const auto costs = [&](const PlannedBrick& cost) {
+        read.cost = cost;
+        if (!call.dryRun)
+            checkCost(first ? costOfComparison(first->cost, cost) : cost, limitsOf(call));
+        return !call.dryRun;
+    };
     terminal.update("read", 0.0);
     if (isVdbFile(path)) {
-        const VdbFile file = readVdb(path, [&](const VdbContent& content) {
-            checkCost(costOfStored(content), limitsOf(call));
-            return true;
-        });
+        const VdbFile file =
+            readVdb(path, [&](const VdbContent& content) { return costs(costOfStored(content)); });
+        if (call.dryRun) return read;
         stopIfAsked();
         refuseScene(path, file.metadata);
         terminal.update("surface", 0.0);
         read.operand = naming(path, [&] { return operandOf(file.grids, terminal); });
     } else if (isMeshName(path)) {
+        std::error_code none; // a stream has no size
+        const auto bytes = std::filesystem::file_size(path, none);
+        const bool flat = lowered(std::filesystem::path(path).extension().string()) == ".ply";
+        if (!costs(costOfMesh(none ? 0 : bytes, flat))) return read;
         Mesh mesh = readMesh(path, call.atoms.maxInput);
         stopIfAsked();
         read.operand = operandOf(std::move(mesh), terminal);
@@ -80,7 +94,8 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
         said.push_back(description);
         SurfaceOptions options = call.options;
         options.fields = {"spline"};
-        checkCost(selection, options, limitsOf(call), terminal);
+        if (!call.dryRun) checkCost(selection, options, limitsOf(call), terminal);
+        if (!costs(planWhole(selection, options, terminal).bricks[0])) return read;
         MolecularSurface result = makeSurface(selection, options, &terminal);
         read.converged = !result.report.evolution || result.report.evolution->converged;
         read.operand = operandOf(std::move(result));
@@ -213,7 +228,12 @@ int compare(const Call& call, Clock::time_point start)
     };
     std::vector<std::string> said;
     const Read a = readOne(call, call.inputs[0], terminal, said);
-    const Read b = readOne(call, call.inputs[1], terminal, said);
+    const Read b = readOne(call, call.inputs[1], terminal, said, &a);
+    if (call.dryRun) {
+        terminal.erase();
+        say(costText(costOfComparison(a.cost, b.cost)));
+        return 0;
+    }
     lap("surfaces");
     for (const std::string& warning : warningsOf(call, a, b))
         report.warnings.push_back(withOptionNames(warning));

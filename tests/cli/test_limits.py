@@ -15,6 +15,11 @@ LITTLE = 110e6  # bytes, of which the program itself takes 40 MB
 SOON = 1.0  # seconds of all processors
 
 
+def estimate_of(said):
+    """The bytes that a dry run tells."""
+    return 2**30 * float(said.split(" GiB")[0].split()[-1])
+
+
 class Limits(ToolTest):
     def refuse(self, *words, says):
         """Returns how many bytes were read; 0 where only root may know."""
@@ -110,7 +115,7 @@ class Limits(ToolTest):
         (self.folder / "far.xyzr").write_text(
             "".join(f"{rng.uniform(0, 9e5)} {rng.uniform(0, 9e5)} {rng.uniform(0, 9e5)} 1.7\n" for _ in range(300)))
         said = self.check(0, "far.xyzr", "--surface", "sas", "--dry-run").stderr.decode()
-        estimate = 2**30 * float(said.split(" GiB")[0].split()[-1])
+        estimate = estimate_of(said)
         self.check(0, "far.xyzr", "--surface", "sas", "-o", "a.ply", "-o", "a.json")
         peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
         self.assertTrue(0.7 < estimate / peak < 1.5, (estimate, peak))
@@ -120,7 +125,7 @@ class Limits(ToolTest):
             self.check(0, DATA / "4at1.ent.gz", *words, "-o", "a.vdb", "--force")
             said = self.check(0, "convert", "a.vdb", "--dry-run", "-o", "b.json").stderr.decode()
             self.assertNotIn("b.json", self.names())
-            estimate = 2**30 * float(said.split(" GiB")[0].split()[-1])
+            estimate = estimate_of(said)
             self.check(0, "convert", "a.vdb", "-o", "a.json", "--force")
             peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
             self.assertTrue(0.7 < estimate / peak < 2, (estimate, peak))
@@ -131,10 +136,30 @@ class Limits(ToolTest):
         for width in (600, 2400):
             words = ("convert", "a.vdb", "-o", "a.png", "-o", "a.json", "--size", width)
             said = self.check(0, *words, "--force", "--dry-run").stderr.decode()
-            estimate = 2**30 * float(said.split(" GiB")[0].split()[-1])
+            estimate = estimate_of(said)
             self.check(0, *words, "--force")
             peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
             self.assertTrue(0.7 < estimate / peak < 1.5, (width, estimate, peak))
+
+    def test_a_dry_run_knows_of_drawing(self):
+        words = (CRAMBIN, *FAST, "-o", "a.png", "-o", "a.json", "--size", "1200")
+        said = self.check(0, *words, "--dry-run").stderr.decode()
+        self.check(0, *words)
+        peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
+        self.assertTrue(0.7 < estimate_of(said) / peak < 1.5, (said, peak))
+        self.check(1, *words, "--force", "--max-hours", "1e-4", says="hours")
+
+    def test_compare_says_what_it_takes(self):
+        """Of both surfaces at once."""
+        large = DATA / "4at1.ent.gz"
+        self.check(0, large, "--surface", "sas", *FAST, "-o", "a.vdb", "-o", "a.ply", "-o", "a.obj")
+        for words in ((large, large, "--surface", "sas", *FAST), ("a.vdb", "a.vdb"), ("a.ply", "a.ply"), ("a.obj", "a.obj")):
+            said = self.check(0, "compare", *words, "--dry-run", "-o", "b.json").stderr.decode()
+            self.assertNotIn("b.json", self.names())
+            self.check(0, "compare", *words, "-o", "a.json", "--force")
+            peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
+            self.assertTrue(0.7 < estimate_of(said) / peak < 1.5, (words, said, peak))
+            self.refuse("compare", *words, "--max-hours", "1e-5", says=["hours", "--max-hours"])
 
     def test_compare_refuses_what_is_too_large(self):
         self.check(1, "compare", CRAMBIN, CRAMBIN, "--voxel", "0.05", "--epsilon", "10", "--probe", "90",

@@ -52,6 +52,8 @@ constexpr double secondsPerBoundaryBall = 15e-6;
 // was measured, the memory 0.9 to 1.4 times.
 constexpr double secondsOfStart = 0.03, secondsPerSplineLeaf = 0.05e-3;
 constexpr double secondsPerFittedLeaf = 0.15e-3, bytesPerFittedLeaf = 25e3; // without its spline
+constexpr double bytesOfPlyPerVoxel = 12.0, bytesPerReadVoxel = 53.0;       // of a mesh
+constexpr double secondsPerComparedVoxel = 0.6e-6;                          // more from afar
 constexpr double bytesPerPixel = 33.0, secondsPerPixel = 1.2e-6;            // of a square picture
 constexpr double bytesPerDrawnVoxel = 118.0, secondsPerDrawnVoxel = 0.5e-6; // rays find triangles
 constexpr double bytesToMerge =
@@ -557,8 +559,11 @@ std::size_t memoryFor(const PlannedBrick& brick)
     return std::size_t(processBytes + margin * (double(brick.bytes) - processBytes));
 }
 
-void checkCost(const PlannedBrick& cost, const RunLimits& limits)
+void checkCost(const PlannedBrick& surface, const RunLimits& limits)
 {
+    PlannedBrick cost = surface;
+    cost.bytes += limits.besides.bytes;
+    cost.seconds += limits.besides.seconds;
     char text[200];
     if (cost.bytes > limits.memory) {
         std::snprintf(
@@ -592,15 +597,17 @@ double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunL
         leavesAtMost(atoms.balls, options.voxel, Influence(atoms, options).ofSurface());
     const double balls = double(atoms.balls.size());
     const double bytes =
-        processBytes + (bytesPerAtom + bytesPerNear + bytesPerBoundaryBall) * balls +
+        processBytes + double(limits.besides.bytes) +
+        (bytesPerAtom + bytesPerNear + bytesPerBoundaryBall) * balls +
         (4.0 * bytesPerUnionLeaf + bytesPerValueOfLeaf * valuesAlong(options)) * leaves;
-    const double seconds =
-        2.0 * (secondsPerLeaf + secondsPerFlowLeaf) * leaves + secondsPerBoundaryBall * balls;
+    const double seconds = limits.besides.seconds +
+                           2.0 * (secondsPerLeaf + secondsPerFlowLeaf) * leaves +
+                           secondsPerBoundaryBall * balls;
     if (bytes < double(limits.memory) && seconds < 3600.0 * limits.hours * limits.threads)
         return seconds;
     const PlannedBrick cost = planWhole(atoms, options, progress).bricks[0];
     checkCost(cost, limits);
-    return cost.seconds;
+    return cost.seconds + limits.besides.seconds;
 }
 
 PlannedBrick costOfStored(const VdbContent& content)
@@ -612,6 +619,24 @@ PlannedBrick costOfStored(const VdbContent& content)
                              (content.spline ? bytesPerMeshLeaf : bytesPerFittedLeaf) * leaves);
     cost.seconds =
         secondsOfStart + (content.spline ? secondsPerSplineLeaf : secondsPerFittedLeaf) * leaves;
+    return cost;
+}
+
+PlannedBrick costOfMesh(std::size_t bytes, bool flat)
+{
+    PlannedBrick cost;
+    cost.voxels = std::size_t(double(bytes) * (flat ? 1.0 : 0.5) / bytesOfPlyPerVoxel);
+    cost.bytes = std::size_t(processBytes + bytesPerReadVoxel * double(cost.voxels));
+    cost.seconds = secondsOfStart;
+    return cost;
+}
+
+PlannedBrick costOfComparison(const PlannedBrick& a, const PlannedBrick& b)
+{
+    PlannedBrick cost;
+    cost.voxels = a.voxels + b.voxels;
+    cost.bytes = a.bytes + b.bytes - std::size_t(processBytes);
+    cost.seconds = a.seconds + b.seconds + secondsPerComparedVoxel * double(cost.voxels);
     return cost;
 }
 

@@ -29,9 +29,10 @@ struct RunLimits {
     int threads;                                   ///< that it has
     const char* hint = " [hint: a larger `voxel`"; ///< what takes less; more may follow
     bool bricks = false;                           ///< whether `memory` makes bricks
+    PlannedBrick besides = {};                     ///< what comes on top of a surface
 };
 
-/// Refuses what is estimated to take more than it may.
+/// Refuses what is estimated to take more than it may, with what comes on top of it.
 /// @throws Error(ErrorKind::Input) with both numbers
 void checkCost(const PlannedBrick& cost, const RunLimits& limits);
 
@@ -42,6 +43,13 @@ double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunL
 
 /// What it takes to read, mesh and measure a surface that is stored.
 PlannedBrick costOfStored(const VdbContent& content);
+
+/// What it takes to read a mesh of a file of so many bytes.
+/// @param[in] flat  whether it has each vertex once, as numbers: .ply
+PlannedBrick costOfMesh(std::size_t bytes, bool flat);
+
+/// What it takes to compare two surfaces, both of which are there at once.
+PlannedBrick costOfComparison(const PlannedBrick& a, const PlannedBrick& b);
 
 /// What drawing a surface takes beside making it.
 /// @param[in] voxels  of the surface
