@@ -244,6 +244,12 @@ class Commit(ToolTest):
         self.check(1, *words, env=faulty(without="renameat2"), says="it exists already")
 
     @needs("preload")
+    def test_a_disk_that_does_not_take_what_was_written(self):
+        self.begin()
+        self.check(1, *self.WORDS, env=faulty(without="fsync"), says="cannot write a.obj: Input/output error")
+        self.assertEqual(self.result(), "old")
+
+    @needs("preload")
     def test_files_of_a_process_at_work_stay(self):
         """Also where there are no locks to tell that it is."""
         process = subprocess.Popen([TOOL, CRAMBIN, "--voxel", "0.15", "-q", "--force", "-o", "a.json", "-o", "a.obj"],

@@ -3,7 +3,7 @@
 /// A library for LD_PRELOAD that plays file systems which lack something, or fail. The environment
 /// tells which:
 ///
-///     FAULTY_WITHOUT  words of: flock (ENOSYS), renameat2 (EINVAL), link (EPERM)
+///     FAULTY_WITHOUT  words of: flock (ENOSYS), renameat2 (EINVAL), link (EPERM), fsync (EIO)
 ///     FAULTY_EIO      "3": the third renaming fails; "3-": it and all behind it
 ///     FAULTY_KILL     the number of the change of a name before which the process is killed
 ///     FAULTY_LOG      a file that gets a line "sync PATH" or "rename PATH" for each
@@ -109,6 +109,6 @@ int fsync(int file)
     std::snprintf(link, sizeof link, "/proc/self/fd/%d", file);
     const ssize_t size = readlink(link, path, sizeof path - 1);
     if (size > 0) note("sync", path);
-    return original("fsync", fsync)(file);
+    return without("fsync") ? fail(EIO) : original("fsync", fsync)(file);
 }
 }

@@ -38,6 +38,17 @@ TEST(PowerOwners, TheLowerOfTwoOwnersHasWhatIsBetween)
     }
 }
 
+// Of two owners of which one is too far to be looked at, the near one has the point.
+TEST(PowerOwners, TheOneThatIsThereHasThePoint)
+{
+    const PowerOwners owners({{Vec3f(0, 0, 0), 1.0f, 0}, {Vec3f(40, 0, 0), 1.0f, 1}}, {0, 1});
+    std::vector<OwnersPower> near;
+    EXPECT_EQ(owners.excess({1.0, 0.0, 0.0}, 0, 1, near).value, -16.0);
+    EXPECT_EQ(owners.excess({1.0, 0.0, 0.0}, 1, 0, near).value, 16.0);
+    EXPECT_EQ(owners.excess({1.0, 0.0, 0.0}, 0, -1, near).other, -1);
+    EXPECT_NEAR(owners.excess({20.5, 0.0, 0.0}, 1, 0, near).value, 19.5 * 19.5 - 20.5 * 20.5, 1e-9);
+}
+
 // However large other balls are, and however far the point is from all.
 TEST(PowerOwners, TellsAllOwnersWithinTheSlack)
 {

@@ -65,16 +65,17 @@ void replaceAll(const Names& paths)
     commit(all);
 }
 
-/// Kills the writing of three files at every system call, and recovers.
-/// @param[in] second  the folder that the third file lies in, seen from that of the others
-/// @param[in] order   of the folders that are recovered
-void killEverywhere(const std::string& second, const Names& order)
+/// Kills the writing of files at every system call, and recovers.
+/// @param[in] files  in a folder, and in "other" in it
+/// @param[in] order  of the folders that are recovered
+void killEverywhere(const Names& files, const Names& order)
 {
     int kills = 0, allNew = 0;
     for (bool killed = true; killed; ++kills) {
         const Folder folder;
         std::filesystem::create_directory(folder / "other");
-        const Names paths = {folder / "a", folder / "b", folder / second + "/c"};
+        Names paths;
+        for (const std::string& file : files) paths.push_back(folder / file);
         for (const std::string& path : paths) std::ofstream(path) << "old";
         killed = killedAt(kills + 1, [&] { replaceAll(paths); });
         for (const std::string& place : order) recover(folder / place);
@@ -82,11 +83,8 @@ void killEverywhere(const std::string& second, const Names& order)
         EXPECT_TRUE(content == "old" || content == "new") << content;
         for (const std::string& path : paths)
             EXPECT_EQ(contentOf(path), content) << path << " after " << kills << " system calls";
-        Names names = {"a", "b", "other"};
-        if (second == ".") names.insert(names.begin() + 2, "c");
-        EXPECT_EQ(folder.names(), names) << kills;
-        const auto inOther = std::filesystem::directory_iterator(folder / "other");
-        EXPECT_EQ(std::distance(begin(inOther), end(inOther)), second == "." ? 0 : 1) << kills;
+        const auto all = std::filesystem::recursive_directory_iterator(folder / ".");
+        EXPECT_EQ(std::distance(begin(all), end(all)), std::ptrdiff_t(files.size()) + 1) << kills;
         allNew += content == "new";
     }
     if (kills == 1) GTEST_SKIP() << "processes cannot be traced here";
@@ -98,13 +96,14 @@ void killEverywhere(const std::string& second, const Names& order)
 
 TEST(Commit, IsWholeWheneverItIsKilled)
 {
-    killEverywhere(".", {"."});
+    killEverywhere({"a", "b", "c"}, {"."});
+    killEverywhere({"a", "b"}, {"."});
 }
 
 TEST(Commit, IsWholeInTwoFolders)
 {
-    killEverywhere("other", {".", "other"});
-    killEverywhere("other", {"other", "."});
+    killEverywhere({"a", "b", "other/c"}, {".", "other"});
+    killEverywhere({"a", "b", "other/c"}, {"other", "."});
 }
 
 TEST(Commit, PlacesNoFileIfOneIsThereAlready)
@@ -224,6 +223,20 @@ TEST(Recover, WritesNowhereElse)
     EXPECT_EQ(contentOf(folder / "in/a"), "new");
     EXPECT_FALSE(std::filesystem::exists(folder / "a"));
     EXPECT_FALSE(std::filesystem::exists(folder / "other/a"));
+}
+
+TEST(Recover, DoesAllThatTheFirstRecordDecides)
+{
+    using namespace std::string_literals;
+    const Folder folder;
+    std::filesystem::create_directory(folder / "b");
+    writeRecord(folder / record, "&b\0=a\0"s);
+    writeRecord(folder / ("b/" + record), "@..\0=c\0"s);
+    for (const char* name : {"a", "b/c"}) leaveComplete(folder / name);
+    recover(folder / ".");
+    EXPECT_EQ(folder.names(), (Names{"a", "b"}));
+    EXPECT_FALSE(std::filesystem::exists(folder / ("b/" + record)));
+    for (const char* name : {"a", "b/c"}) EXPECT_EQ(contentOf(folder / name), "new");
 }
 
 TEST(Recover, NamesTheRecordThatItCannotFollow)

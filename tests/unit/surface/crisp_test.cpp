@@ -47,6 +47,21 @@ double areaOf(const Mesh& mesh)
     return sum;
 }
 
+/// The area of triangles that turn away from the normals of their corners [Å^2].
+double turnedAreaOf(const Mesh& mesh)
+{
+    double sum = 0.0;
+    for (const auto& t : mesh.triangles) {
+        const Vec3d a(mesh.positions[t[0]]);
+        const Vec3d twice =
+            (Vec3d(mesh.positions[t[1]]) - a).cross(Vec3d(mesh.positions[t[2]]) - a);
+        Vec3d normal(0.0);
+        for (const std::uint32_t v : t) normal += Vec3d(mesh.normals[v]);
+        if (twice.dot(normal) < 0.0) sum += 0.5 * twice.length();
+    }
+    return sum;
+}
+
 TEST(CrispBorders, TwoBallsMeetInACircle)
 {
     const std::vector<Ball> balls = {{Vec3f(0.3f, 0.1f, 0.2f), 2.5f, 0},
@@ -70,6 +85,7 @@ TEST(CrispBorders, TwoBallsMeetInACircle)
         EXPECT_EQ(crisp.colors[t[0]], crisp.colors[t[2]]);
     }
     EXPECT_NEAR(areaOf(crisp), areaOf(mesh), 5e-3 * areaOf(mesh));
+    EXPECT_LT(turnedAreaOf(crisp), 1e-3 * areaOf(mesh));
 }
 
 TEST(CrispBorders, ThreeBallsMeetInPoints)
@@ -95,6 +111,7 @@ TEST(CrispBorders, ThreeBallsMeetInPoints)
     }
     EXPECT_EQ(meetings, 2u); // above and below the plane of the centres
     EXPECT_NEAR(areaOf(crisp), areaOf(mesh), 5e-3 * areaOf(mesh));
+    EXPECT_LT(turnedAreaOf(crisp), 1e-3 * areaOf(mesh));
 }
 
 TEST(CrispBorders, KeepWhatVerticesHave)
