@@ -246,7 +246,7 @@ class Commit(ToolTest):
     @needs("preload")
     def test_a_disk_that_does_not_take_what_was_written(self):
         self.begin()
-        self.check(1, *self.WORDS, env=faulty(without="fsync"), says="cannot write a.obj: Input/output error")
+        self.check(1, *self.WORDS, env=faulty(without="fsync"), says=["cannot write a.", ": Input/output error"])
         self.assertEqual(self.result(), "old")
 
     @needs("preload")
