@@ -47,6 +47,7 @@ constexpr double bytesPerValueOfLeaf = 2.5e3; // of a grid that goes along with 
 // On one core of a Xeon of 2.6 GHz: on 6ZU5 and 1K4R at 0.5 and 1 Å, both kinds, these give 0.75 to
 // 1.2 times what was measured.
 constexpr double secondsPerLeaf = 0.09e-3, secondsPerFlowLeaf = 0.11e-3;
+constexpr double timesOfFronts = 3.5; // of the flow, where fronts move far: 2.5, seldom 6
 constexpr double secondsPerBoundaryBall = 15e-6;
 // Of surfaces that are stored, 1UBQ to 4V5A at 0.2 to 1 Å: the seconds are 0.6 to 1.6 times what
 // was measured, the memory 0.9 to 1.4 times.
@@ -256,6 +257,14 @@ int valuesAlong(const SurfaceOptions& options)
     return values;
 }
 
+/// @param[in] leaves  within the halo of the flow
+double secondsOfFlow(const SurfaceOptions& options, double leaves)
+{
+    const EvolveOptions& flow = options.evolution;
+    const bool fronts = hasFlow(options.kind) && makesNewtonSteps(flow) && !decidesGaps(flow);
+    return (fronts ? timesOfFronts : 1.0) * secondsPerFlowLeaf * leaves;
+}
+
 /// Whether bricks start from the rest of the whole on coarser voxels.
 bool startsCoarse(const SurfaceOptions& options)
 {
@@ -333,7 +342,7 @@ public:
             bytesPerValueOfLeaf * valuesAlong(options_) * own);
         brick.seconds = filled * secondsPerLeaf * inSpline +
                         (isUnion(options_.kind) ? secondsPerBoundaryBall * double(balls)
-                                                : secondsPerFlowLeaf * inFlow);
+                                                : secondsOfFlow(options_, inFlow));
         return brick;
     }
 
@@ -601,7 +610,7 @@ double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunL
         (bytesPerAtom + bytesPerNear + bytesPerBoundaryBall) * balls +
         (4.0 * bytesPerUnionLeaf + bytesPerValueOfLeaf * valuesAlong(options)) * leaves;
     const double seconds = limits.besides.seconds +
-                           2.0 * (secondsPerLeaf + secondsPerFlowLeaf) * leaves +
+                           2.0 * (secondsPerLeaf * leaves + secondsOfFlow(options, leaves)) +
                            secondsPerBoundaryBall * balls;
     if (bytes < double(limits.memory) && seconds < 3600.0 * limits.hours * limits.threads)
         return seconds;

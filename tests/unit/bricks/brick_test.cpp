@@ -287,6 +287,24 @@ TEST_F(Bricks, AreEstimatedFromASampleOfFarAtoms)
     EXPECT_NEAR(sampled.seconds / all.seconds, 3.0, 0.03);
 }
 
+// Fronts that move far take several times the steps.
+TEST_F(Bricks, ALargeLambdaIsEstimatedToTakeLonger)
+{
+    BallSet atoms;
+    atoms.balls = chain();
+    Progress progress;
+    const auto secondsOf = [&](SurfaceKind kind, double lambda) {
+        SurfaceOptions options;
+        options.kind = kind;
+        options.evolution.lambda = lambda;
+        return planWhole(atoms, options, progress).bricks[0].seconds;
+    };
+    const double calm = secondsOf(SurfaceKind::Variational, 0.01);
+    EXPECT_EQ(secondsOf(SurfaceKind::Variational, 0.03), calm);
+    EXPECT_GT(secondsOf(SurfaceKind::Variational, 0.1), 1.8 * calm);
+    EXPECT_EQ(secondsOf(SurfaceKind::Gaussian, 0.1), secondsOf(SurfaceKind::Gaussian, 0.01));
+}
+
 TEST_F(Bricks, FitTheMemoryOrSayWhatWould)
 {
     BallSet atoms;
