@@ -81,6 +81,10 @@ TEST(BoundaryCheck, TellsWhatDisagrees)
     lost.measure.pieces[0].volume *= -1.0;
     EXPECT_NE(lost.verdict().find("hang together"), std::string::npos);
 
+    Checked joined = right;
+    --joined.boundary.estimate->components;
+    EXPECT_NE(joined.verdict().find("hang together"), std::string::npos);
+
     Checked euler = right;
     ++euler.measure.pieces[0].eulerCharacteristic;
     EXPECT_NE(euler.verdict().find("Euler"), std::string::npos);
