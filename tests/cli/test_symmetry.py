@@ -137,6 +137,8 @@ class Symmetry(ToolTest):
             self.assertRegex(text, rf"\n    {line}\n")
         self.write("atom.pdb", ATOM)
         self.assertRegex(self.check(0, "info", "atom.pdb").stdout.decode(), r"assemblies +none\n")
+        self.write("nameless.pdb", ATOM.replace(" A ", "   "))
+        self.assertRegex(self.check(0, "info", "nameless.pdb").stdout.decode(), r"chains +1 \(_\)\n")
         self.check(1, "info", CRAMBIN, "none.pdb", says="none.pdb")
         with CRAMBIN.open("rb") as file:
             self.assertIn(b"327", self.check(0, "info", "-", stdin=file).stdout)

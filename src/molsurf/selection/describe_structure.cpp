@@ -70,17 +70,26 @@ std::string ranges(const std::vector<std::size_t>& indices)
     return joined(words);
 }
 
+/// The names of chains; "_" for one without, as in tables.
+std::string namesOf(const Structure& structure, const std::set<std::int32_t>& chains)
+{
+    std::vector<std::string> names;
+    for (const std::int32_t chain : chains) {
+        const std::string& name = structure.chains[std::size_t(chain)];
+        names.push_back(name.empty() ? "_" : name);
+    }
+    return joined(names);
+}
+
 /// The chains of a part, by the names that the list of all has.
-std::vector<std::string> authorsNames(const Structure& structure, const AssemblyPart& part)
+std::string authorsNames(const Structure& structure, const AssemblyPart& part)
 {
     const std::set<std::string> listed(part.chains.begin(), part.chains.end());
     std::set<std::int32_t> chains;
     for (const Residue& residue : structure.residues)
         if (listed.empty() || listed.count(structure.asyms[std::size_t(residue.asym)]) > 0)
             chains.insert(residue.chain);
-    std::vector<std::string> names;
-    for (const std::int32_t chain : chains) names.push_back(structure.chains[std::size_t(chain)]);
-    return names;
+    return namesOf(structure, chains);
 }
 
 std::string describe(const Structure& structure, const Assembly& assembly)
@@ -94,7 +103,7 @@ std::string describe(const Structure& structure, const Assembly& assembly)
         atoms += of.count * part.operators.size();
         if (of.count > 0) centroids.push_back(of.centroid);
         out += infoLine("copies", std::to_string(part.operators.size()) + " of chains " +
-                                      joined(authorsNames(structure, part)));
+                                      authorsNames(structure, part));
     }
     out += infoLine("atoms", std::to_string(atoms));
     const std::vector<Operator> operators = operatorsOf(assembly);
@@ -150,9 +159,7 @@ std::string describeStructure(const std::string& path, std::size_t maxInput)
         hydrogen += structure.atoms[i].element == 1;
         used.insert(residue.chain);
     }
-    std::vector<std::string> chains;
-    for (const std::int32_t i : used) chains.push_back(structure.chains[std::size_t(i)]);
-    out += infoLine("chains", std::to_string(chains.size()) + " (" + joined(chains) + ")");
+    out += infoLine("chains", std::to_string(used.size()) + " (" + namesOf(structure, used) + ")");
     out += infoLine("atoms", std::to_string(first.end - first.begin) + " (" +
                                  std::to_string(water) + " water, " + std::to_string(hetero) +
                                  " ligand or ion, " + std::to_string(hydrogen) + " hydrogen" +
