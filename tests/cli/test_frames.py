@@ -4,6 +4,7 @@
 import csv
 import gzip
 import json
+import re
 import struct
 import unittest
 
@@ -79,6 +80,16 @@ class Frames(ToolTest):
             report = json.loads((self.folder / "b.json").read_text())["surface"]
             self.assertAlmostEqual(float(row["volume"]) / report["volume"], 1, delta=0.001)
             self.assertAlmostEqual(float(row["area"]) / report["area"], 1, delta=0.003)
+
+    def test_changes_of_the_topology_are_named(self):
+        """By the number that each frame's line and row tell, which for sas is exact and not that of the mesh."""
+        said = self.check(0, NMR, "--surface", "sas", "--voxel", "2", "--frames", "all", "-o", "a.ply",
+                          "-o", "a.csv").stderr.decode()
+        numbers = [int(row["euler_characteristic"]) for row in self.table()]
+        self.assertEqual([int(n) for n in re.findall(r"frame \d+: .* Euler (-?\d+)", said)], numbers)
+        self.assertEqual(numbers[0], numbers[1])
+        changed = [str(i + 1) for i in range(1, 10) if numbers[i] != numbers[i - 1]]
+        self.assertIn(f"another than that before in frames {', '.join(changed)}\n", said)
 
     def test_warm_is_cold(self):
         """The surfaces are within 0.02 voxel on the mean, the volumes within 0.1 %."""

@@ -127,6 +127,14 @@ TEST(SelectBalls, DropsDummiesAndZeroRadii)
     EXPECT_EQ(dropsOf(selectBalls(membrane, {})), (Drops{{"dummy", 2}}));
     const Structure balls = readText("a.xyzr", "0 0 0 1.5\n1 0 0 0\n2 0 0 0.0\n");
     EXPECT_EQ(dropsOf(selectBalls(balls, {})), (Drops{{"zero radius", 2}}));
+    SelectOptions withHydrogens;
+    withHydrogens.radii = "protor";
+    const Structure amine = readText(
+        "a.pdb",
+        "ATOM      1  N   GLY A   1       1.000   2.000   3.000  1.00  0.00           N\n"
+        "ATOM      2  H   GLY A   1       1.000   2.000   4.000  1.00  0.00           H\n");
+    EXPECT_EQ(dropsOf(selectBalls(amine, withHydrogens)),
+              (Drops{{"hydrogen in radii of heavy atoms", 1}}));
     const Structure none = readText("a.xyzr", "0 0 0 0\n");
     EXPECT_HAS(errorOf(ErrorKind::Input, [&] { selectBalls(none, {}); }), "1 zero radius");
 }
