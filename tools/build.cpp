@@ -86,8 +86,9 @@ std::string summary(const Report& report)
 {
     char text[128];
     const SurfaceReport& surface = report.surface;
-    std::snprintf(text, sizeof text, "%s: area %.1f Å^2, volume %.1f Å^3, ", surface.kind.c_str(),
-                  surface.area, surface.volume);
+    const bool byMesh = surface.kind == "ses" && surface.triangles > 0 && !surface.meshArea;
+    std::snprintf(text, sizeof text, "%s%s: area %.1f Å^2, volume %.1f Å^3, ", surface.kind.c_str(),
+                  byMesh ? " by its mesh" : "", surface.area, surface.volume);
     std::string line = text;
     if (surface.piecesKnown) {
         line += counted(std::size_t(surface.components), "component", "components") + ", ";

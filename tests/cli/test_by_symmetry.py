@@ -59,7 +59,7 @@ class BySymmetry(ToolTest):
         self.shell()
         done = self.check(0, "shell.pdb", *ASSEMBLY, "--surface", "ses", "--by-symmetry", "-o",
                           "a.json", "-o", "a.glb", "-o", "a.png", "--color", "copy", "--size", "300",
-                          says=["used 120 atoms (1 copy) in each of 60 units", "(I)"])
+                          says=["used 120 atoms (1 copy) in each of 60 units", "(I)", "ses by its mesh: area"])
         self.check(0, "shell.pdb", *ASSEMBLY, "--surface", "ses", "-o", "b.json", "-o", "b.ply")
         unit, whole = self.report("a.json"), self.report("b.json")
         symmetry = unit["symmetry"]

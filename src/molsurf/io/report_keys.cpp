@@ -24,7 +24,9 @@ constexpr ReportKey keyTable[] = {
      "moved"},
     {"surface", "", "The measures of the surface"},
     {"surface.kind", "", "variational, ses, sas, vdw, gaussian; mixed, of parts of several kinds"},
-    {"surface.area", "Å²", "The area of all walls, those of cavities included"},
+    {"surface.area", "Å²",
+     "The area of all walls, those of cavities included. Of ses by symmetry, in bricks and with "
+     "filled cavities that of the mesh, which lacks what is narrower than a voxel"},
     {"surface.volume", "Å³", "The volume inside, cavities left out"},
     {"surface.euler_characteristic", "",
      "The Euler number of all walls: twice their number less twice the tunnels. Of ses, sas "
