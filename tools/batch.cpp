@@ -7,13 +7,13 @@
 #include "sha256.h"
 #include "terminal.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/batch_summary.h"
 #include "molsurf/io/temporary_file.h"
 #include "molsurf/structure/structure_list.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <new>
@@ -183,10 +183,8 @@ void takeOver(const BatchSummary& before, const std::vector<Task>& tasks, Entrie
 std::string describe(const BatchEntry& entry)
 {
     if (entry.status == "failed") return "failed: " + entry.message;
-    char text[160];
-    std::snprintf(text, sizeof text, "%s, area %.1f Å^2, volume %.1f Å^3, %.2f s",
-                  entry.status.c_str(), entry.area, entry.volume, entry.seconds);
-    return text;
+    return formatted("%s, area %.1f Å^2, volume %.1f Å^3, %.2f s", entry.status.c_str(), entry.area,
+                     entry.volume, entry.seconds);
 }
 
 // All that the surfaces depend on, as a line for the summary.

@@ -10,10 +10,10 @@
 #include "molsurf/bricks/brick_file.h"
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/bricks/plan_file.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 namespace molsurf::tool
@@ -119,11 +119,9 @@ int brick(const Call& call)
     terminal.erase();
     if (!call.quiet) {
         const PlannedBrick& planned = manifest.plan.bricks[call.brick - 1];
-        char text[160];
-        std::snprintf(text, sizeof text, ": %.2f s, %.3f GiB of memory (%.3f planned)",
-                      secondsSince(start), double(peakMemory()) / double(1 << 30),
-                      double(planned.bytes) / double(1 << 30));
-        say(path + text);
+        say(path + formatted(": %.2f s, %.3f GiB of memory (%.3f planned)", secondsSince(start),
+                             double(peakMemory()) / double(1 << 30),
+                             double(planned.bytes) / double(1 << 30)));
     }
     return 0;
 }

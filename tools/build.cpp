@@ -9,6 +9,7 @@
 #include "write_result.h"
 
 #include "molsurf/bricks/plan_bricks.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface.h"
@@ -84,19 +85,16 @@ RunLimits limitsOf(const Call& call)
 
 std::string summary(const Report& report)
 {
-    char text[128];
     const SurfaceReport& surface = report.surface;
     const bool byMesh = surface.kind == "ses" && surface.triangles > 0 && !surface.meshArea;
-    std::snprintf(text, sizeof text, "%s%s: area %.1f Å^2, volume %.1f Å^3, ", surface.kind.c_str(),
-                  byMesh ? " by its mesh" : "", surface.area, surface.volume);
-    std::string line = text;
+    std::string line = formatted("%s%s: area %.1f Å^2, volume %.1f Å^3, ", surface.kind.c_str(),
+                                 byMesh ? " by its mesh" : "", surface.area, surface.volume);
     if (surface.piecesKnown) {
         line += counted(std::size_t(surface.components), "component", "components") + ", ";
         line += counted(surface.cavities.size(), "cavity", "cavities") + ", ";
     }
     if (surface.triangles > 0) line += counted(surface.triangles, "triangle", "triangles") + ", ";
-    std::snprintf(text, sizeof text, "%.2f s", report.seconds.back().second);
-    line += text;
+    line += formatted("%.2f s", report.seconds.back().second);
     if (!report.areasOf.empty() && report.areasOf != surface.kind)
         line += "; areas of atoms and groups: " + report.areasOf + " [hint: --surface]";
     return line;
@@ -105,14 +103,10 @@ std::string summary(const Report& report)
 void sayTimes(const Report& report)
 {
     for (const auto& [stage, time] : report.seconds) {
-        char text[64];
-        std::snprintf(text, sizeof text, "%-10s %9.3f s", stage.c_str(), time);
-        say(text);
+        say(formatted("%-10s %9.3f s", stage.c_str(), time));
     }
-    char text[96];
-    std::snprintf(text, sizeof text, "%d threads, %.1f MB at most, %zu active voxels",
-                  report.threads, double(report.peakMemoryBytes) / 1e6, report.activeVoxels);
-    say(text);
+    say(formatted("%d threads, %.1f MB at most, %zu active voxels", report.threads,
+                  double(report.peakMemoryBytes) / 1e6, report.activeVoxels));
 }
 
 namespace

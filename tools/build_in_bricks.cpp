@@ -4,6 +4,7 @@
 #include "verbs.h"
 
 #include "molsurf/bricks/plan_bricks.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/grid/paged_array.h"
 #include "molsurf/io/commit.h"
@@ -14,7 +15,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -86,9 +86,7 @@ void checkOutputs(const Call& call)
 
 std::string sizeText(std::size_t bytes)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g GiB", double(bytes) / double(1 << 30));
-    return text;
+    return formatted("%.3g GiB", double(bytes) / double(1 << 30));
 }
 
 } // namespace
@@ -160,11 +158,8 @@ int buildInBricks(const Call& call, Clock::time_point start)
         if (!plan.keepsMemory) malloc_trim(0);
         if (!call.verbose) continue;
         terminal.erase();
-        char text[160];
-        std::snprintf(text, sizeof text, "brick %zu of %zu, %.2f s, %.3f GiB at most", k,
-                      plan.bricks.size(), secondsSince(start),
-                      double(peakMemory()) / double(1 << 30));
-        say(text);
+        say(formatted("brick %zu of %zu, %.2f s, %.3f GiB at most", k, plan.bricks.size(),
+                      secondsSince(start), double(peakMemory()) / double(1 << 30)));
     }
     atoms = BallSet();
     releasePages();

@@ -198,18 +198,13 @@ void sayResult(const Call& call, const ComparisonReport& report)
     if (call.outputs.empty()) std::cout << comparisonTable(report);
     if (call.verbose) {
         for (const auto& [stage, time] : report.seconds) {
-            char text[64];
-            std::snprintf(text, sizeof text, "%-11s %9.3f s", stage.c_str(), time);
-            say(text);
+            say(formatted("%-11s %9.3f s", stage.c_str(), time));
         }
     }
     if (call.quiet || call.outputs.empty()) return;
     const Comparison& both = report.distances;
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "mean distance %.4f Å there, %.4f Å back, Hausdorff %.4f Å, %.2f s",
-                  both.aToB.mean, both.bToA.mean, both.hausdorff, report.seconds.back().second);
-    say(text);
+    say(formatted("mean distance %.4f Å there, %.4f Å back, Hausdorff %.4f Å, %.2f s",
+                  both.aToB.mean, both.bToA.mean, both.hausdorff, report.seconds.back().second));
 }
 
 } // namespace

@@ -7,13 +7,13 @@
 #include "write_result.h"
 
 #include "molsurf/bricks/plan_bricks.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/surface/stored_surface.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace molsurf::tool
 {
@@ -114,11 +114,9 @@ int convert(const Call& asked, Clock::time_point start)
     terminal.erase();
     if (call.verbose) sayTimes(report);
     if (!call.quiet) {
-        char text[160];
-        std::snprintf(text, sizeof text, "area %.1f Å^2, volume %.1f Å^3, %zu triangles, %.2f s",
-                      report.surface.area, report.surface.volume, report.surface.triangles,
-                      report.seconds.back().second);
-        say(text);
+        say(formatted("area %.1f Å^2, volume %.1f Å^3, %zu triangles, %.2f s", report.surface.area,
+                      report.surface.volume, report.surface.triangles,
+                      report.seconds.back().second));
     }
     return 0;
 }

@@ -6,6 +6,7 @@
 #include "sidecar.h"
 #include "write_result.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/frame_table.h"
 #include "molsurf/io/read_vdb.h"
@@ -16,7 +17,6 @@
 #include "molsurf/surface/velocity.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 
@@ -33,8 +33,7 @@ Call callOf(const Call& call, std::size_t file, int frame)
     one.frame = frame;
     one.quiet = true;
     one.outputs.clear();
-    char number[24];
-    std::snprintf(number, sizeof number, ".%04zu", file);
+    const std::string number = formatted(".%04zu", file);
     const auto numbered = [&](const std::string& path) {
         const std::filesystem::path whole = path;
         return (whole.parent_path() / (whole.stem().string() + number)).string() +
@@ -103,15 +102,12 @@ openvdb::Vec3d centerOf(const std::vector<Ball>& balls)
 
 std::string describe(const FrameRow& row, const Report& report, bool warm)
 {
-    char text[200];
-    std::snprintf(text, sizeof text, "frame %d: area %.1f Å^2, volume %.1f Å^3, Euler %d",
-                  row.frame, report.surface.area, report.surface.volume, row.euler);
-    std::string line = text;
+    std::string line = formatted("frame %d: area %.1f Å^2, volume %.1f Å^3, Euler %d", row.frame,
+                                 report.surface.area, report.surface.volume, row.euler);
     if (report.evolution)
         line += ", " + counted(std::size_t(report.evolution->steps), "step", "steps") +
                 (warm ? " (warm)" : "") + (row.rests ? "" : ", not converged");
-    std::snprintf(text, sizeof text, ", %.2f s", report.seconds.back().second);
-    return line + text;
+    return line + formatted(", %.2f s", report.seconds.back().second);
 }
 
 void addVelocity(const Call& call, const BallSet& selection,
@@ -195,9 +191,7 @@ public:
         if (!call_.quiet) {
             if (!changes_.empty())
                 say("the topology is another than that before in frames " + changes_);
-            char text[32];
-            std::snprintf(text, sizeof text, ", %.2f s", secondsSince(start));
-            say(counted(size(), "frame", "frames") + text);
+            say(counted(size(), "frame", "frames") + formatted(", %.2f s", secondsSince(start)));
         }
         if (creeping_ == 0) return 0;
         say("not converged: " + counted(creeping_, "frame", "frames") +

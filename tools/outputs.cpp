@@ -5,6 +5,7 @@
 #include "sidecar.h"
 #include "stop.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/io/commit.h"
 #include "molsurf/io/temporary_file.h"
@@ -17,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <set>
 
@@ -69,24 +69,17 @@ void beginReport(const Call& call, Report& report)
 std::string unrestText(const EvolutionReport& evolution, double voxel)
 {
     const std::string steps = counted(std::size_t(evolution.steps), "step", "steps");
-    char text[320];
-    if (evolution.displacementTail == 0.0) { // the paper's flow solves for no displacement
-        std::snprintf(
-            text, sizeof text,
-            "not converged after %s: the paper's rule asks for no speed above 0.001 [hint: "
-            "--flow newton]",
-            steps.c_str());
-        return text;
-    }
+    if (evolution.displacementTail == 0.0) // the paper's flow solves for no displacement
+        return "not converged after " + steps +
+               ": the paper's rule asks for no speed above 0.001 [hint: --flow newton]";
     const double tolerance = toleranceOf(evolution, voxel);
     const double unit = std::pow(10.0, std::floor(std::log10(tolerance)) - 1.0);
-    std::snprintf(text, sizeof text,
-                  "not converged after %s: %.3g %% of the surface moved by more than %.2g Å in the "
-                  "last one; the files are written [hint: --tolerance %g accepts that, a smaller "
-                  "--voxel resolves it]",
-                  steps.c_str(), 100.0 * evolution.unsettledShare, 0.1 * voxel,
-                  unit * std::ceil(1.05 * tolerance / unit));
-    return text;
+    return formatted(
+        "not converged after %s: %.3g %% of the surface moved by more than %.2g Å in the "
+        "last one; the files are written [hint: --tolerance %g accepts that, a smaller "
+        "--voxel resolves it]",
+        steps.c_str(), 100.0 * evolution.unsettledShare, 0.1 * voxel,
+        unit * std::ceil(1.05 * tolerance / unit));
 }
 
 std::string counted(std::size_t count, const std::string& one, const std::string& many)

@@ -6,10 +6,10 @@
 
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/bricks/plan_file.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 namespace molsurf::tool
@@ -17,11 +17,8 @@ namespace molsurf::tool
 
 std::string costText(const PlannedBrick& cost)
 {
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "about %.3g voxels, %.3g GiB of memory at most, %.3g s on one core",
-                  double(cost.voxels), double(cost.bytes) / double(1 << 30), cost.seconds);
-    return text;
+    return formatted("about %.3g voxels, %.3g GiB of memory at most, %.3g s on one core",
+                     double(cost.voxels), double(cost.bytes) / double(1 << 30), cost.seconds);
 }
 
 std::vector<std::string> describePlan(const BrickPlan& plan)

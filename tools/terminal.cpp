@@ -5,6 +5,7 @@
 #include "stop.h"
 
 #include "molsurf/core/printable.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 
 #include <unistd.h>
@@ -26,14 +27,9 @@ constexpr std::chrono::milliseconds betweenDraws(100);
 std::string duration(double seconds)
 {
     const long s = std::lround(std::min(seconds, 3.6e6));
-    char text[32];
-    if (s < 60)
-        std::snprintf(text, sizeof text, "%ld s", s);
-    else if (s < 3600)
-        std::snprintf(text, sizeof text, "%ld:%02ld min", s / 60, s % 60);
-    else
-        std::snprintf(text, sizeof text, "%ld:%02ld h", s / 3600, s / 60 % 60);
-    return text;
+    if (s < 60) return formatted("%ld s", s);
+    return s < 3600 ? formatted("%ld:%02ld min", s / 60, s % 60)
+                    : formatted("%ld:%02ld h", s / 3600, s / 60 % 60);
 }
 
 } // namespace
@@ -93,9 +89,7 @@ void Terminal::update(const char* stage, double fraction)
     const int full = int(done * width);
     std::string line = "\r\033[K[" + std::string(std::size_t(full), '#') +
                        std::string(std::size_t(width - full), '.') + "]";
-    char text[64];
-    std::snprintf(text, sizeof text, " %3.0f %%  ", 100.0 * done);
-    line += text + printable(prefix_) + stage;
+    line += formatted(" %3.0f %%  ", 100.0 * done) + printable(prefix_) + stage;
     const double spent = std::chrono::duration<double>(now - stageStart_).count();
     if (done > 0.02 && done < 1.0 && spent > 0.5)
         line += ", " + duration(spent * (1.0 - done) / done) + " left";

@@ -8,6 +8,7 @@
 
 #include "molsurf/bricks/run_brick.h"
 #include "molsurf/color/color_table.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/selection/groups.h"
@@ -130,8 +131,7 @@ void addTurntable(Call& call)
             continue;
         }
         for (int n = 0; n < call.turntable; ++n) {
-            char number[16];
-            std::snprintf(number, sizeof number, ".%04d", n + 1);
+            const std::string number = formatted(".%04d", n + 1);
             Output frame = output;
             frame.path.insert(frame.path.size() - std::strlen(".png"), number);
             frame.turn = 360.0 * n / call.turntable;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "msms/call.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 #include <set>
 
@@ -35,10 +35,9 @@ double number(const char* option, Value text, double least, bool leastToo, doubl
     double value = 0.0;
     const bool read = parseNumber(text, value);
     if (read && (leastToo ? value >= least : value > least) && value <= most) return value;
-    char range[64];
-    std::snprintf(range, sizeof range, "a number %s %g, at most %g",
-                  leastToo ? "of at least" : "above", least, most);
-    fail(option, std::string("expected ") + range + ", got " + inQuotes(text));
+    fail(option, formatted("expected a number %s %g, at most %g",
+                           leastToo ? "of at least" : "above", least, most) +
+                     ", got " + inQuotes(text));
 }
 
 /// An option of MSMS that would give something else than this program can.
@@ -180,11 +179,9 @@ MsmsCall parseMsms(int argc, const char* const* argv)
     if (call.input.empty()) fail("if", "expected the file of spheres [hint: -h lists the options]");
     if (!call.totals && !call.areas.empty()) fail("no_area", "expected no -af with it");
     if (given.count("hdensity") && call.highDensity != call.density) {
-        char text[96];
-        std::snprintf(text, sizeof text,
-                      "-hdensity %g changes nothing: all of the surface has -density %g",
-                      call.highDensity, call.density);
-        call.warnings.push_back(text);
+        call.warnings.push_back(
+            formatted("-hdensity %g changes nothing: all of the surface has -density %g",
+                      call.highDensity, call.density));
     }
     return call;
 }

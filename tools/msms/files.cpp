@@ -2,6 +2,7 @@
 #include "msms/files.h"
 
 #include "molsurf/core/printable.h"
+#include "molsurf/core/words.h"
 #include "molsurf/io/output_buffer.h"
 
 #include <algorithm>
@@ -27,14 +28,6 @@ void print(OutputFile& file, Buffer& buffer, const std::string& name, const char
         file.write((" " + name).data(), name.size() + 1);
     }
     *buffer.take(1) = '\n';
-}
-
-template<typename... Values>
-std::string formatted(const char* format, Values... values)
-{
-    char text[200];
-    std::snprintf(text, sizeof text, format, values...);
-    return text;
 }
 
 const std::string& nameOf(const Spheres& spheres, std::size_t atom)

@@ -3,12 +3,12 @@
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 namespace molsurf
@@ -92,9 +92,7 @@ double uncoveredShare(const BallBoundary& boundary, const Patch& patch, std::siz
 
 [[noreturn]] void disagree(const char* what, double one, double other)
 {
-    char text[200];
-    std::snprintf(text, sizeof text, "%s: %.8g and %.8g disagree", what, one, other);
-    throw Error(ErrorKind::Check, text);
+    throw Error(ErrorKind::Check, formatted("%s: %.8g and %.8g disagree", what, one, other));
 }
 
 /// Areas from loops are wrong by multiples of a quarter of the sphere, if they are wrong.

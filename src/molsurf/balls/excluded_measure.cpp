@@ -5,13 +5,13 @@
 #include "molsurf/balls/sphere_region.h"
 #include "molsurf/core/disjoint_sets.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace molsurf
@@ -84,9 +84,8 @@ double areaOf(const Arc& arc, double probe, double from, double to)
 
 [[noreturn]] void failSurface(const char* what, double one, double other)
 {
-    char text[200];
-    std::snprintf(text, sizeof text, "surface: %s: %.8g and %.8g disagree", what, one, other);
-    throw Error(ErrorKind::Check, text);
+    throw Error(ErrorKind::Check,
+                formatted("surface: %s: %.8g and %.8g disagree", what, one, other));
 }
 
 /// The part of the torus between two angles f: the points

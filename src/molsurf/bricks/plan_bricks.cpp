@@ -3,6 +3,7 @@
 
 #include "molsurf/bricks/brick_file.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/spline/curvature.h"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace molsurf
@@ -436,13 +436,12 @@ public:
 
     [[noreturn]] static void tooLittle(const char* what, double bytes, std::size_t memory)
     {
-        char text[160];
-        std::snprintf(text, sizeof text,
-                      "`memory`: %s needs %.2f GiB, and there are %.2f [hint: `memory` %.1fG, or a "
+        throw Error(
+            ErrorKind::Input,
+            formatted("`memory`: %s needs %.2f GiB, and there are %.2f [hint: `memory` %.1fG, or a "
                       "larger `voxel`]",
                       what, bytes / double(1 << 30), double(memory) / double(1 << 30),
-                      std::ceil(11.0 * bytes / double(1 << 30)) / 10.0);
-        throw Error(ErrorKind::Input, text);
+                      std::ceil(11.0 * bytes / double(1 << 30)) / 10.0));
     }
 
 private:
@@ -573,17 +572,14 @@ void checkCost(const PlannedBrick& surface, const RunLimits& limits)
     PlannedBrick cost = surface;
     cost.bytes += limits.besides.bytes;
     cost.seconds += limits.besides.seconds;
-    char text[200];
     if (cost.bytes > limits.memory) {
-        std::snprintf(
-            text, sizeof text, "the surface takes about %.3g GiB of memory, and there are %.3g",
+        const std::string text = formatted(
+            "the surface takes about %.3g GiB of memory, and there are %.3g",
             double(cost.bytes) / double(1 << 30), double(limits.memory) / double(1 << 30));
         std::string hint = limits.hint;
         if (limits.bricks && bytesToMerge * double(cost.voxels) < 0.5 * double(limits.memory)) {
-            char size[64];
-            std::snprintf(size, sizeof size, ", or `memory` %.2gG, which makes it in bricks",
-                          0.8 * double(limits.memory) / (1 << 30));
-            hint += size;
+            hint += formatted(", or `memory` %.2gG, which makes it in bricks",
+                              0.8 * double(limits.memory) / (1 << 30));
         }
         throw Error(ErrorKind::Input, text + hint + "]");
     }
@@ -591,11 +587,11 @@ void checkCost(const PlannedBrick& surface, const RunLimits& limits)
     if (hours <= limits.hours) return;
     const std::string threads =
         std::to_string(limits.threads) + (limits.threads == 1 ? " thread" : " threads");
-    std::snprintf(text, sizeof text,
-                  "the surface takes about %.3g hours on %s, expected at most %g%s, or "
-                  "`maxHours` %.0f]",
-                  hours, threads.c_str(), limits.hours, limits.hint, std::ceil(1.1 * hours));
-    throw Error(ErrorKind::Input, text);
+    throw Error(ErrorKind::Input,
+                formatted("the surface takes about %.3g hours on %s, expected at most %g%s, or "
+                          "`maxHours` %.0f]",
+                          hours, threads.c_str(), limits.hours, limits.hint,
+                          std::ceil(1.1 * hours)));
 }
 
 double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLimits& limits,

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/color/color_map.h"
 
+#include "molsurf/core/words.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace molsurf
 {
@@ -24,9 +25,7 @@ openvdb::Vec3f linearLight(const Color& color)
 
 std::string hexOf(const Color& color)
 {
-    char text[8];
-    std::snprintf(text, sizeof text, "#%02x%02x%02x", color[0], color[1], color[2]);
-    return text;
+    return formatted("#%02x%02x%02x", color[0], color[1], color[2]);
 }
 
 Color ColorScale::at(double value) const

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdarg>
+#include <cstdio>
 #include <numeric>
 
 namespace molsurf
@@ -12,6 +14,18 @@ std::string shortest(double number)
 {
     char digits[32];
     return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
+std::string formatted(const char* form, ...)
+{
+    va_list values, again;
+    va_start(values, form);
+    va_copy(again, values);
+    std::string text(std::size_t(std::vsnprintf(nullptr, 0, form, values)), ' ');
+    std::vsnprintf(text.data(), text.size() + 1, form, again);
+    va_end(again);
+    va_end(values);
+    return text;
 }
 
 std::string lowered(std::string text)

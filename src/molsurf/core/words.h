@@ -31,6 +31,9 @@ std::string wrapped(const std::string& text, std::size_t width);
 /// A number with the fewest digits that give it back.
 std::string shortest(double number);
 
+/// Text by a form as of printf().
+__attribute__((format(printf, 1, 2))) std::string formatted(const char* form, ...);
+
 /// " [hint: did you mean WORD?]" for the word nearest to what was typed; empty if none is near.
 std::string didYouMean(const std::string& typed, const std::vector<std::string>& words);
 

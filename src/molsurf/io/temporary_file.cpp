@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/temporary_file.h"
 
+#include "molsurf/core/words.h"
+
 #include <fcntl.h>
 #include <stdio.h>
 #include <sys/file.h>
@@ -41,9 +43,7 @@ int makeLocked(const std::string& name, const Make& make)
 std::string tagOf(const std::string& text)
 {
     const unsigned long sum = crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size());
-    char digits[16];
-    std::snprintf(digits, sizeof digits, "%08lx", sum & 0xffffffff);
-    return digits;
+    return formatted("%08lx", sum & 0xffffffff);
 }
 
 std::string lineOf(const std::string& path)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_comparison.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/io/write_mesh.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 
 namespace molsurf
 {
@@ -69,9 +69,7 @@ Json colorJson(const ComparisonReport& report)
 std::string cell(std::optional<double> value, const char* form)
 {
     if (!value) return "-";
-    char text[64];
-    std::snprintf(text, sizeof text, form, *value);
-    return text;
+    return formatted(form, *value);
 }
 
 void row(std::string& table, const std::string& name, const std::vector<std::string>& cells)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/picture/draw_legend.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/picture/font.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace molsurf
 {
@@ -29,9 +29,8 @@ std::string numberText(double value)
 {
     if (value == 0.0) return "0";
     const int places = std::clamp(1 - int(std::floor(std::log10(std::abs(value)))), 0, 6);
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f", places, std::abs(value));
-    return (value < 0.0 ? "\xE2\x88\x92" : "") + std::string(text); // a minus sign
+    return (value < 0.0 ? "\xE2\x88\x92" : "") +
+           formatted("%.*f", places, std::abs(value)); // a minus sign
 }
 
 /// A name that is not too wide, with an ellipsis where it was cut.

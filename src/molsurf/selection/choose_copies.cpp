@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/choose_copies.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/symmetry.h"
 #include "molsurf/structure/text_fields.h"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <string_view>
@@ -167,10 +167,9 @@ std::string describeSymmetry(const Symmetry& symmetry)
     text =
         text.empty() ? "no rotation axis" : text + (symmetry.axes.size() == 1 ? " axis" : " axes");
     if (!symmetry.helix) return text;
-    char helix[80];
-    std::snprintf(helix, sizeof helix, "helical, rise %.2f Å, twist %.2f degrees",
-                  symmetry.helix->rise, symmetry.helix->twist * 180.0 / M_PI);
-    return helix + (", " + text);
+    return formatted("helical, rise %.2f Å, twist %.2f degrees", symmetry.helix->rise,
+                     symmetry.helix->twist * 180.0 / M_PI) +
+           (", " + text);
 }
 
 std::vector<std::size_t> chooseCopies(const Structure& structure, const Assembly& assembly,

@@ -2,6 +2,7 @@
 #include "molsurf/selection/describe_structure.h"
 
 #include "molsurf/core/info_line.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/structure/read_structure.h"
@@ -9,7 +10,6 @@
 #include "molsurf/structure/text_fields.h"
 
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 namespace molsurf
@@ -48,10 +48,8 @@ std::string vectorText(const openvdb::Vec3d& v, int decimals)
     const double unit = std::pow(10.0, -decimals);
     std::string all;
     for (int i = 0; i < 3; ++i) {
-        char number[32];
         const double shown = std::abs(v[i]) < 0.5 * unit ? 0.0 : v[i]; // no "-0.00"
-        std::snprintf(number, sizeof number, "%.*f", decimals, shown);
-        all += (i ? ", " : "(") + std::string(number);
+        all += (i ? ", " : "(") + formatted("%.*f", decimals, shown);
     }
     return all + ")";
 }

@@ -2,6 +2,7 @@
 #include "molsurf/selection/radii.h"
 
 #include "molsurf/atoms.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/select_balls.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <limits>
@@ -288,9 +288,8 @@ std::string describe(const RadiiSet& set, const char* source)
     int column = 0;
     for (std::size_t z = 1; z < set.elements.size(); ++z) {
         if (set.elements[z] == 0) continue;
-        char entry[16];
-        std::snprintf(entry, sizeof entry, "%2s %.2f", elementSymbol(static_cast<std::uint8_t>(z)),
-                      static_cast<double>(set.elements[z]));
+        const std::string entry = formatted("%2s %.2f", elementSymbol(static_cast<std::uint8_t>(z)),
+                                            static_cast<double>(set.elements[z]));
         text += (column++ % perLine == 0 ? "\n  " : "  ");
         text += entry;
     }
@@ -308,12 +307,11 @@ std::string describe(const UnitedAtoms& united, const char* source)
 
 std::string describe(const Martini& martini, const char* source)
 {
-    char text[80];
-    std::snprintf(text, sizeof text, "\n  regular %.2f  small %.2f  tiny %.2f\n",
-                  static_cast<double>(beadRadius(martini, 'R')),
-                  static_cast<double>(beadRadius(martini, 'S')),
-                  static_cast<double>(beadRadius(martini, 'T')));
-    return std::string(martini.name) + ": " + source + text;
+    return std::string(martini.name) + ": " + source +
+           formatted("\n  regular %.2f  small %.2f  tiny %.2f\n",
+                     static_cast<double>(beadRadius(martini, 'R')),
+                     static_cast<double>(beadRadius(martini, 'S')),
+                     static_cast<double>(beadRadius(martini, 'T')));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/select_balls.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/ball_values.h"
@@ -162,10 +163,7 @@ std::string describeBeads(BeadKind beads, const std::string& set, const std::vec
     if (beads == BeadKind::Martini3) text = "the file has beads of Martini 3, not atoms";
     text += ": radii " + set + " were used:";
     for (const auto& [radius, count] : counts) {
-        char part[64];
-        std::snprintf(part, sizeof part, "%s %zu of %.2f Å", text.back() == ':' ? "" : ",", count,
-                      radius);
-        text += part;
+        text += formatted("%s %zu of %.2f Å", text.back() == ':' ? "" : ",", count, radius);
     }
     return text;
 }
@@ -333,13 +331,10 @@ void warnOfRounding(const std::vector<Ball>& balls, std::vector<std::string>& wa
             farthest = std::max(farthest, std::abs(ball.center[axis]));
     }
     if (farthest < far) return;
-    char text[160];
-    std::snprintf(
-        text, sizeof text,
+    warnings.push_back(formatted(
         "atoms lie up to %.3g Å from the origin, where vertices are rounded to %.1g Å [hint: "
         "move the molecule to the origin]",
-        farthest, farthest * digit);
-    warnings.push_back(text);
+        farthest, farthest * digit));
 }
 
 std::string describeDrops(const std::vector<Excluded>& drops)

@@ -2,6 +2,7 @@
 #include "molsurf/selection/symmetric_unit.h"
 
 #include "molsurf/balls/ball_index.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/expand_assembly.h"
 #include "molsurf/structure/text_fields.h"
@@ -9,7 +10,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <map>
 
@@ -120,12 +120,10 @@ UnitBalls unitBalls(const Structure& structure, const std::string& name,
     }
     constexpr double largest = 1.0; // [Å]
     if (out.deviation > largest) {
-        char text[160];
-        std::snprintf(text, sizeof text,
-                      "by symmetry: its copies lie up to %.3g Å from where its rotations bring "
-                      "them, expected at most %g Å [hint: without `bySymmetry`]",
-                      out.deviation, largest);
-        fail(structure, name, text);
+        fail(structure, name,
+             formatted("by symmetry: its copies lie up to %.3g Å from where its rotations bring "
+                       "them, expected at most %g Å [hint: without `bySymmetry`]",
+                       out.deviation, largest));
     }
     return out;
 }

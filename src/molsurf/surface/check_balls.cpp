@@ -2,6 +2,7 @@
 #include "molsurf/surface/check_balls.h"
 
 #include "molsurf/balls/ball_index.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 
 #include <sys/resource.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <string>
 
@@ -32,9 +32,7 @@ namespace
 
 std::string placeText(const openvdb::Vec3d& x)
 {
-    char text[100];
-    std::snprintf(text, sizeof text, "(%g, %g, %g) Å", x[0], x[1], x[2]);
-    return text;
+    return formatted("(%g, %g, %g) Å", x[0], x[1], x[2]);
 }
 
 } // namespace
@@ -72,15 +70,12 @@ void checkBalls(const std::vector<Ball>& balls, const SurfaceOptions& options, P
     if (bytes <= share * double(memory)) return;
     constexpr double margin = 3.0; // what it takes above the least
     const double voxel = options.voxel * std::sqrt(margin * bytes / double(memory));
-    char text[240];
-    std::snprintf(
-        text, sizeof text,
+    const std::string text = formatted(
         "a ball of radius %.6g Å takes at least %.3g GiB at a voxel of %g Å, and there are "
         "%.3g GiB",
         radius, bytes / double(1 << 30), options.voxel, double(memory) / double(1 << 30));
-    char hint[80] = "";
-    if (voxel <= maxVoxel) std::snprintf(hint, sizeof hint, " [hint: `voxel` %.2g]", voxel + 0.05);
-    throw Error(ErrorKind::Input, std::string(text) + hint);
+    throw Error(ErrorKind::Input,
+                voxel <= maxVoxel ? text + formatted(" [hint: `voxel` %.2g]", voxel + 0.05) : text);
 }
 
 } // namespace molsurf

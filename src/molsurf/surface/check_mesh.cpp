@@ -2,13 +2,12 @@
 #include "molsurf/surface/check_mesh.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -20,14 +19,9 @@ using openvdb::Vec3d;
 namespace
 {
 
-[[noreturn]] __attribute__((format(printf, 1, 2))) void fail(const char* form, ...)
+[[noreturn]] void fail(const std::string& what)
 {
-    char text[240];
-    va_list values;
-    va_start(values, form);
-    std::vsnprintf(text, sizeof text, form, values);
-    va_end(values);
-    throw Error(ErrorKind::Check, text);
+    throw Error(ErrorKind::Check, "mesh: " + what);
 }
 
 /// The edges that do not have two triangles which run through them in opposite directions.
@@ -82,19 +76,20 @@ void checkMesh(const Mesh& mesh, const SurfaceReport& report, double voxel,
     if (mesh.triangles.empty()) return;
     if (!report.closed || !report.manifold) {
         const auto edges = badEdges(mesh);
-        if (edges.empty()) fail("mesh: it is no manifold at a vertex");
+        if (edges.empty()) fail("it is no manifold at a vertex");
         const openvdb::Vec3f& x = mesh.positions[edges[0][0]];
-        fail("mesh: expected two triangles at each edge, %zu edges have not, the first at (%.2f, "
-             "%.2f, %.2f) Å",
-             edges.size(), double(x[0]), double(x[1]), double(x[2]));
+        fail(formatted(
+            "expected two triangles at each edge, %zu edges have not, the first at (%.2f, "
+            "%.2f, %.2f) Å",
+            edges.size(), double(x[0]), double(x[1]), double(x[2])));
     }
     const int pieces = report.components + int(report.cavities.size());
     const int chi = report.meshEulerCharacteristic;
     if (chi % 2 != 0 || chi > 2 * pieces)
-        fail("mesh: its Euler number %d is that of no %d closed surfaces", chi, pieces);
+        fail(formatted("its Euler number %d is that of no %d closed surfaces", chi, pieces));
     if (report.maxResidual > largestResidual * voxel) // false for what is not known
-        fail("mesh: a vertex lies %.2g Å beside the surface, expected %.2g Å at most",
-             report.maxResidual, largestResidual * voxel);
+        fail(formatted("a vertex lies %.2g Å beside the surface, expected %.2g Å at most",
+                       report.maxResidual, largestResidual * voxel));
     constexpr double share = 0.1; // of a voxel, between chords and arcs
     const double flat = flatVolume(mesh, progress);
     if (std::abs(flat - report.volume) <= share * voxel * report.area) return;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/surface_kind.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/surface/whole_only.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 namespace molsurf
@@ -86,11 +86,11 @@ void failIfTooCoarse(const std::string& what, const std::vector<Ball>& balls,
     // Of random molecules those with voxels up to 0.7 radii come out whole.
     const double radius = double(largestRadius(balls));
     if (balls.empty() || options.voxel <= radius) return;
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  ": voxels of %.3g Å are too large for the balls [hint: a `voxel` of %.2g]",
-                  options.voxel, 0.5 * radius);
-    throw Error(ErrorKind::Numeric, what.substr(0, what.find(" [hint")) + text);
+    throw Error(
+        ErrorKind::Numeric,
+        what.substr(0, what.find(" [hint")) +
+            formatted(": voxels of %.3g Å are too large for the balls [hint: a `voxel` of %.2g]",
+                      options.voxel, 0.5 * radius));
 }
 
 GaussianOptions gaussianOptions(const SurfaceOptions& options)

@@ -4,6 +4,7 @@
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/balls/power_owners.h"
 #include "molsurf/core/disjoint_sets.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/mesh_instance.h"
@@ -18,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace molsurf
@@ -159,14 +159,13 @@ void checkFit(const BorderFit& fit, double area, const SurfaceReport& surface)
 {
     constexpr double most = 0.05; // of the area that triangles over holes may have
     if (surface.closed && surface.manifold && fit.filled <= most * area) return;
-    char text[240];
-    std::snprintf(
-        text, sizeof text,
-        "mesh: %zu edges of the unit's border fit none of its neighbours', expected holes "
-        "of at most %g %% of the area, got %.3g %% [hint: without `bySymmetry`, with "
-        "`memory` 8G where the whole is too large]",
-        fit.open, 100.0 * most, 100.0 * fit.filled / area);
-    throw Error(ErrorKind::Check, text);
+    throw Error(
+        ErrorKind::Check,
+        formatted(
+            "mesh: %zu edges of the unit's border fit none of its neighbours', expected holes "
+            "of at most %g %% of the area, got %.3g %% [hint: without `bySymmetry`, with "
+            "`memory` 8G where the whole is too large]",
+            fit.open, 100.0 * most, 100.0 * fit.filled / area));
 }
 
 } // namespace
