@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_3mf.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/part_ranges.h"
 
@@ -8,7 +9,6 @@
 #include <Model/COM/NMR_DLLInterfaces.h>
 
 #include <array>
-#include <cstdio>
 #include <memory>
 #include <vector>
 
@@ -20,84 +20,47 @@ namespace
 
 constexpr std::uint32_t opaque = 255;
 
-/// The functions of lib3mf that are used here.
-class Library
+/// The library, which stays loaded: unloading gains nothing.
+/// @throws Error(ErrorKind::Output) if it is not there
+void* library()
 {
-public:
-    /// @throws Error(ErrorKind::Output) if it is not there
-    Library() : handle_(dlopen("lib3MF.so.1", RTLD_NOW | RTLD_LOCAL))
-    {
-        if (handle_ == nullptr)
+    static void* const handle = [] {
+        void* const opened = dlopen("lib3MF.so.1", RTLD_NOW | RTLD_LOCAL);
+        if (opened == nullptr)
             throw Error(ErrorKind::Output, std::string("3MF: expected lib3mf, got: ") + dlerror() +
                                                " [hint: Debian's package is lib3mf1]");
-        load(createModel, "lib3mf_createmodel");
-        load(setUnit, "lib3mf_model_setunit");
-        load(setBuildId, "lib3mf_model_setbuilduuidutf8");
-        load(addMesh, "lib3mf_model_addmeshobject");
-        load(setGeometry, "lib3mf_meshobject_setgeometry");
-        load(setName, "lib3mf_object_setnameutf8");
-        load(setObjectId, "lib3mf_object_setuuidutf8");
-        load(colorsOf, "lib3mf_meshobject_createpropertyhandler");
-        load(setColors, "lib3mf_propertyhandler_setgradientcolorarray");
-        load(defaultColorOf, "lib3mf_object_createdefaultpropertyhandler");
-        load(setDefaultColor, "lib3mf_defaultpropertyhandler_setcolor");
-        load(addItem, "lib3mf_model_addbuilditem");
-        load(setItemId, "lib3mf_builditem_setuuidutf8");
-        load(queryWriter, "lib3mf_model_querywriter");
-        load(write, "lib3mf_writer_writetocallback");
-        load(release, "lib3mf_release");
-    }
-
-    decltype(&NMR::lib3mf_createmodel) createModel;
-    decltype(&NMR::lib3mf_model_setunit) setUnit;
-    decltype(&NMR::lib3mf_model_setbuilduuidutf8) setBuildId;
-    decltype(&NMR::lib3mf_model_addmeshobject) addMesh;
-    decltype(&NMR::lib3mf_meshobject_setgeometry) setGeometry;
-    decltype(&NMR::lib3mf_object_setnameutf8) setName;
-    decltype(&NMR::lib3mf_object_setuuidutf8) setObjectId;
-    decltype(&NMR::lib3mf_meshobject_createpropertyhandler) colorsOf;
-    decltype(&NMR::lib3mf_propertyhandler_setgradientcolorarray) setColors;
-    decltype(&NMR::lib3mf_object_createdefaultpropertyhandler) defaultColorOf;
-    decltype(&NMR::lib3mf_defaultpropertyhandler_setcolor) setDefaultColor;
-    decltype(&NMR::lib3mf_model_addbuilditem) addItem;
-    decltype(&NMR::lib3mf_builditem_setuuidutf8) setItemId;
-    decltype(&NMR::lib3mf_model_querywriter) queryWriter;
-    decltype(&NMR::lib3mf_writer_writetocallback) write;
-    decltype(&NMR::lib3mf_release) release;
-
-private:
-    template<typename Function>
-    void load(Function& function, const char* name)
-    {
-        function = reinterpret_cast<Function>(dlsym(handle_, name));
-        if (function == nullptr)
-            throw Error(ErrorKind::Output, std::string("3MF: expected lib3mf 1.8, got one "
-                                                       "without ") +
-                                               name);
-    }
-
-    void* handle_; ///< stays loaded: unloading gains nothing
-};
-
-const Library& library()
-{
-    static const Library loaded;
-    return loaded;
+        return opened;
+    }();
+    return handle;
 }
+
+/// A function of the library.
+/// @throws Error(ErrorKind::Output) if it is not there
+template<typename Function>
+Function* function(const char* name)
+{
+    void* const found = dlsym(library(), name);
+    if (found == nullptr)
+        throw Error(ErrorKind::Output,
+                    std::string("3MF: expected lib3mf 1.8, got one without ") + name);
+    return reinterpret_cast<Function*>(found);
+}
+
+/// lib3mf_NAME of the library, which is not linked.
+#define LIB3MF(name) function<decltype(NMR::lib3mf_##name)>("lib3mf_" #name)
 
 using Object = void*; // as lib3mf names them, pointers to pointers
 
 struct Release {
-    void operator()(Object* object) const { library().release(object); }
+    void operator()(Object* object) const { LIB3MF(release)(object); }
 };
 using Handle = std::unique_ptr<Object, Release>;
 
 void expect(LIB3MFRESULT result, const char* step)
 {
     if (result == 0) return;
-    char text[64];
-    std::snprintf(text, sizeof text, "%08x", unsigned(result));
-    throw Error(ErrorKind::Output, std::string("3MF: lib3mf refuses ") + step + ", error " + text);
+    throw Error(ErrorKind::Output, std::string("3MF: lib3mf refuses ") + step + ", error " +
+                                       formatted("%08x", unsigned(result)));
 }
 
 /// Identifiers of the things in a file, by its content.
@@ -118,12 +81,10 @@ public:
         add(&count_, sizeof count_);
         const std::uint64_t high = hash_;
         add(&count_, sizeof count_);
-        char text[40];
-        std::snprintf(text, sizeof text, "%08x-%04x-8%03x-%04x-%012llx", unsigned(high >> 32),
-                      unsigned(high >> 16 & 0xffff), unsigned(high & 0xfff),
-                      unsigned(0x8000 | (hash_ >> 48 & 0x3fff)),
-                      static_cast<unsigned long long>(hash_ & 0xffffffffffff));
-        return text;
+        return formatted("%08x-%04x-8%03x-%04x-%012llx", unsigned(high >> 32),
+                         unsigned(high >> 16 & 0xffff), unsigned(high & 0xfff),
+                         unsigned(0x8000 | (hash_ >> 48 & 0x3fff)),
+                         static_cast<unsigned long long>(hash_ & 0xffffffffffff));
     }
 
 private:
@@ -161,7 +122,6 @@ struct Content {
 void addPart(const Mesh& mesh, const PartRange& range, double scale, Object* model,
              Identifiers& identifiers)
 {
-    const Library& lib = library();
     std::vector<NMR::MODELMESHVERTEX> vertices(range.vertexEnd - range.firstVertex);
     for (std::size_t v = 0; v < vertices.size(); ++v)
         for (int a = 0; a < 3; ++a)
@@ -181,22 +141,24 @@ void addPart(const Mesh& mesh, const PartRange& range, double scale, Object* mod
         }
 
     Object* made = nullptr;
-    expect(lib.addMesh(model, &made), "an object");
+    expect(LIB3MF(model_addmeshobject)(model, &made), "an object");
     const Handle object(made);
-    expect(lib.setName(object.get(), range.name.c_str()), "the name of an object");
-    expect(lib.setObjectId(object.get(), identifiers.next().c_str()), "an identifier");
-    expect(lib.setGeometry(object.get(), vertices.data(), DWORD(vertices.size()), triangles.data(),
-                           DWORD(triangles.size())),
+    expect(LIB3MF(object_setnameutf8)(object.get(), range.name.c_str()), "the name of an object");
+    expect(LIB3MF(object_setuuidutf8)(object.get(), identifiers.next().c_str()), "an identifier");
+    expect(LIB3MF(meshobject_setgeometry)(object.get(), vertices.data(), DWORD(vertices.size()),
+                                          triangles.data(), DWORD(triangles.size())),
            "the triangles");
     if (colored) {
-        expect(lib.colorsOf(object.get(), &made), "colours");
-        expect(lib.setColors(Handle(made).get(), colors.data()), "colours");
-        expect(lib.defaultColorOf(object.get(), &made), "a colour");
+        expect(LIB3MF(meshobject_createpropertyhandler)(object.get(), &made), "colours");
+        expect(LIB3MF(propertyhandler_setgradientcolorarray)(Handle(made).get(), colors.data()),
+               "colours");
+        expect(LIB3MF(object_createdefaultpropertyhandler)(object.get(), &made), "a colour");
         NMR::MODELMESHCOLOR_SRGB first = colorOf(range.firstVertex);
-        expect(lib.setDefaultColor(Handle(made).get(), &first), "a colour");
+        expect(LIB3MF(defaultpropertyhandler_setcolor)(Handle(made).get(), &first), "a colour");
     }
-    expect(lib.addItem(model, object.get(), nullptr, &made), "an item to build");
-    expect(lib.setItemId(Handle(made).get(), identifiers.next().c_str()), "an identifier");
+    expect(LIB3MF(model_addbuilditem)(model, object.get(), nullptr, &made), "an item to build");
+    expect(LIB3MF(builditem_setuuidutf8)(Handle(made).get(), identifiers.next().c_str()),
+           "an identifier");
 }
 
 } // namespace
@@ -208,20 +170,20 @@ void load3mf()
 
 void write3mf(const Mesh& mesh, const std::string& name, double perAngstrom, OutputFile& file)
 {
-    const Library& lib = library();
     Object* made = nullptr;
-    expect(lib.createModel(&made), "a model");
+    expect(LIB3MF(createmodel)(&made), "a model");
     const Handle model(made);
-    expect(lib.setUnit(model.get(), NMR::MODELUNIT_MILLIMETER), "millimetres");
+    expect(LIB3MF(model_setunit)(model.get(), NMR::MODELUNIT_MILLIMETER), "millimetres");
     Identifiers identifiers(mesh);
-    expect(lib.setBuildId(model.get(), identifiers.next().c_str()), "an identifier");
+    expect(LIB3MF(model_setbuilduuidutf8)(model.get(), identifiers.next().c_str()),
+           "an identifier");
     for (const PartRange& range : partRanges(mesh, name))
         addPart(mesh, range, perAngstrom, model.get(), identifiers);
-    expect(lib.queryWriter(model.get(), "3mf", &made), "a writer");
+    expect(LIB3MF(model_querywriter)(model.get(), "3mf", &made), "a writer");
     const Handle writer(made);
     Content content;
-    expect(lib.write(writer.get(), reinterpret_cast<void*>(&Content::write),
-                     reinterpret_cast<void*>(&Content::seek), &content),
+    expect(LIB3MF(writer_writetocallback)(writer.get(), reinterpret_cast<void*>(&Content::write),
+                                          reinterpret_cast<void*>(&Content::seek), &content),
            "the mesh");
     file.write(content.bytes.data(), content.bytes.size());
 }
