@@ -6,7 +6,11 @@
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 namespace molsurf
 {
@@ -75,6 +79,20 @@ std::vector<std::vector<Ball>> ballsOfParts(const Structure& structure, const As
     return parts;
 }
 
+/// What two operators have in common if they are the same motion, to 1e-4 of a rotation and 1e-3 Å.
+using MotionKey = std::array<long, 12>;
+
+MotionKey keyOf(const Operator& op)
+{
+    MotionKey key;
+    for (std::size_t row = 0; row < 3; ++row) {
+        for (std::size_t column = 0; column < 3; ++column)
+            key[3 * row + column] = std::lround(1e4 * op.rotation[row][column]);
+        key[9 + row] = std::lround(1e3 * op.translation[int(row)]);
+    }
+    return key;
+}
+
 } // namespace
 
 void appendCopy(const Operator& op, const std::vector<Ball>& balls, std::vector<Ball>& out)
@@ -103,29 +121,29 @@ std::vector<int> findCopies(const Structure& structure, const std::string& name,
 }
 
 AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
-                        const CopyChoice& copies, const std::vector<Ball>& balls)
+                        const CopyChoice& copies, const std::vector<Ball>& balls, BallSet& out)
 {
     const Assembly& assembly = findAssembly(structure, name);
-    AssemblyCopies out;
+    AssemblyCopies found;
     std::vector<char> used(balls.size());
-    out.parts = ballsOfParts(structure, assembly, balls, used);
-    out.unused = std::size_t(std::count(used.begin(), used.end(), char{0}));
+    found.parts = ballsOfParts(structure, assembly, balls, used);
+    const auto unused = std::size_t(std::count(used.begin(), used.end(), char{0}));
+    if (unused > 0) out.drops.push_back({"not in the assembly", unused});
     const std::vector<Operator> operators = operatorsOf(assembly);
     const std::vector<std::size_t> partOf = partsOfCopies(assembly);
-    for (const std::size_t i : chooseCopies(structure, assembly, copies, centroidOf(out.parts))) {
-        if (out.parts[partOf[i]].empty()) continue;
+    for (const std::size_t i : chooseCopies(structure, assembly, copies, centroidOf(found.parts))) {
+        if (found.parts[partOf[i]].empty()) continue;
         const std::string problem = rotationProblem(operators[i]);
         if (!problem.empty()) fail(structure, name, problem);
-        out.copies.push_back({int(i) + 1, partOf[i], operators[i]});
+        found.copies.push_back({int(i) + 1, partOf[i], operators[i]});
     }
-    return out;
+    return found;
 }
 
-ExpandedBalls expandAssembly(const Structure& structure, const std::string& name,
-                             const CopyChoice& copies, const std::vector<Ball>& balls)
+void expandAssembly(const Structure& structure, const std::string& name, const CopyChoice& copies,
+                    const std::vector<Ball>& balls, BallSet& out)
 {
-    const AssemblyCopies assembly = copiesOf(structure, name, copies, balls);
-    ExpandedBalls out;
+    const AssemblyCopies assembly = copiesOf(structure, name, copies, balls, out);
     std::size_t total = 0;
     for (const auto& copy : assembly.copies) total += assembly.parts[copy.part].size();
     out.balls.reserve(total);
@@ -135,8 +153,47 @@ ExpandedBalls expandAssembly(const Structure& structure, const std::string& name
         appendCopy(copy.op, assembly.parts[copy.part], out.balls);
     }
     out.copyBegin.push_back(out.balls.size());
-    out.unused = assembly.unused;
-    return out;
+    out.copies = assembly.copies.size();
+}
+
+void instanceAssembly(const Structure& structure, const std::string& name, const CopyChoice& copies,
+                      const std::vector<Ball>& balls, BallSet& out)
+{
+    const AssemblyCopies assembly = copiesOf(structure, name, copies, balls, out);
+    // The parts that move together, motion by motion in the order of the file.
+    struct Motion {
+        const Operator* op;
+        std::vector<std::size_t> parts;
+    };
+    std::vector<Motion> motions;
+    std::map<MotionKey, std::size_t> motionOf;
+    for (const AssemblyCopy& copy : assembly.copies) {
+        const auto [found, isNew] = motionOf.emplace(keyOf(copy.op), motions.size());
+        if (isNew) motions.push_back({&copy.op, {}});
+        motions[found->second].parts.push_back(copy.part);
+    }
+
+    out.copyBegin = {0};
+    std::map<std::vector<std::size_t>, std::size_t> prototypeOf;
+    for (Motion& motion : motions) {
+        std::sort(motion.parts.begin(), motion.parts.end());
+        motion.parts.erase(std::unique(motion.parts.begin(), motion.parts.end()),
+                           motion.parts.end());
+        const auto [found, isNew] = prototypeOf.emplace(motion.parts, prototypeOf.size());
+        if (isNew) {
+            std::vector<char> taken(structure.atoms.size(), 0); // parts may share chains
+            for (const std::size_t part : motion.parts) {
+                for (const Ball& ball : assembly.parts[part])
+                    if (!std::exchange(taken[std::size_t(ball.atom)], char{1}))
+                        out.balls.push_back(ball);
+            }
+            out.copyBegin.push_back(out.balls.size());
+            out.copyNumbers.push_back(int(out.copyBegin.size()) - 1);
+        }
+        out.instances.push_back(
+            {found->second, motion.op->name, motion.op->rotation, motion.op->translation});
+    }
+    out.copies = prototypeOf.size();
 }
 
 } // namespace molsurf

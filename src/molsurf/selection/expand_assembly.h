@@ -2,7 +2,8 @@
 #pragma once
 
 /// @file
-/// The copies that make a biological assembly.
+/// The copies that make a biological assembly: all of them, or each distinct one once and where it
+/// is.
 
 #include "molsurf/atoms.h"
 #include "molsurf/ball.h"
@@ -15,14 +16,6 @@
 namespace molsurf
 {
 
-/// The balls of an assembly, copy by copy.
-struct ExpandedBalls {
-    std::vector<Ball> balls;
-    std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
-    std::vector<int> copyNumbers;       ///< of copy i in the whole assembly, from 1
-    std::size_t unused = 0;             ///< balls that no part of the assembly lists
-};
-
 /// One copy of a part of an assembly.
 struct AssemblyCopy {
     int number;       ///< in the whole assembly, from 1
@@ -34,15 +27,15 @@ struct AssemblyCopy {
 struct AssemblyCopies {
     std::vector<std::vector<Ball>> parts; ///< in the coordinates of the file
     std::vector<AssemblyCopy> copies;     ///< those whose part has balls
-    std::size_t unused = 0;               ///< balls that no part of the assembly lists
 };
 
 /// Finds the copies of an assembly.
-/// @param[in] copies  which copies
-/// @param[in] balls   in the coordinates of the file
+/// @param[in]     copies  which copies
+/// @param[in]     balls   in the coordinates of the file
+/// @param[in,out] out     gets the number of balls that no part of the assembly lists
 /// @throws Error as expandAssembly()
 AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
-                        const CopyChoice& copies, const std::vector<Ball>& balls);
+                        const CopyChoice& copies, const std::vector<Ball>& balls, BallSet& out);
 
 /// The numbers of some copies of an assembly.
 ///
@@ -60,11 +53,20 @@ void appendCopy(const Operator& op, const std::vector<Ball>& balls, std::vector<
 /// Centres of atoms are computed in double precision from the atoms' positions. A part of the
 /// assembly none of whose chains has a ball makes no copy.
 ///
-/// @param[in] copies  which copies
-/// @param[in] balls   in the coordinates of the file
+/// @param[in]     copies  which copies
+/// @param[in]     balls   in the coordinates of the file
+/// @param[in,out] out     gets the balls, copy by copy
 /// @throws Error(ErrorKind::Input) if the file describes no such assembly, if it cannot be built,
 ///         or if it has no such copies
-ExpandedBalls expandAssembly(const Structure& structure, const std::string& name,
-                             const CopyChoice& copies, const std::vector<Ball>& balls);
+void expandAssembly(const Structure& structure, const std::string& name, const CopyChoice& copies,
+                    const std::vector<Ball>& balls, BallSet& out);
+
+/// Takes the prototypes of an assembly once each, and lists their copies, in the order of the
+/// operators. Prototypes are the sets of chains that some operators move together; most assemblies
+/// have one.
+/// @param[in,out] out  gets the balls, prototype by prototype, in the coordinates of the file
+/// @throws Error as expandAssembly()
+void instanceAssembly(const Structure& structure, const std::string& name, const CopyChoice& copies,
+                      const std::vector<Ball>& balls, BallSet& out);
 
 } // namespace molsurf

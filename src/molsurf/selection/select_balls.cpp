@@ -10,7 +10,6 @@
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/selection/expand_assembly.h"
 #include "molsurf/selection/groups.h"
-#include "molsurf/selection/instance_assembly.h"
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/selection/molecule.h"
 #include "molsurf/selection/radii.h"
@@ -29,7 +28,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <numeric>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -508,50 +506,19 @@ std::vector<GroupRule> withCopies(const Structure& structure, const SelectOption
 /// @param[in] balls  in the coordinates of the file
 /// @return the rotations of a unit
 RotationGroup placeBalls(const Structure& structure, const SelectOptions& options,
-                         std::vector<Ball> balls, Filter& filter, BallSet& out)
+                         std::vector<Ball> balls, BallSet& out)
 {
-    RotationGroup group;
     if (!options.assembly) {
         out.balls = std::move(balls);
         out.copyBegin = {0, out.balls.size()};
         out.copyNumbers = {1};
-    } else if (options.bySymmetry) {
-        UnitBalls found = unitBalls(structure, *options.assembly, balls);
-        filter.note("not in the assembly", found.unused);
-        out.balls = std::move(found.balls);
-        out.copyBegin = std::move(found.copyBegin);
-        out.copyNumbers = std::move(found.copyNumbers);
-        group = std::move(found.group);
-        out.unit = SymmetricUnit{group.symmetry.pointGroup,
-                                 group.symmetry.centre,
-                                 out.copyNumbers.size(),
-                                 0,
-                                 found.deviation,
-                                 {},
-                                 group.product,
-                                 group.inverse};
-        for (const Operator& motion : group.motions)
-            out.instances.push_back({0, motion.name, motion.rotation, motion.translation});
-    } else if (options.instances) {
-        InstancedBalls instanced =
-            instanceAssembly(structure, *options.assembly, options.copies, balls);
-        filter.note("not in the assembly", instanced.unused);
-        out.balls = std::move(instanced.balls);
-        out.copyBegin = std::move(instanced.begin);
-        out.copies = out.copyBegin.size() - 1;
-        out.copyNumbers.resize(out.copies);
-        std::iota(out.copyNumbers.begin(), out.copyNumbers.end(), 1);
-        out.instances = std::move(instanced.instances);
-    } else {
-        ExpandedBalls expanded =
-            expandAssembly(structure, *options.assembly, options.copies, balls);
-        filter.note("not in the assembly", expanded.unused);
-        out.balls = std::move(expanded.balls);
-        out.copyBegin = std::move(expanded.copyBegin);
-        out.copyNumbers = std::move(expanded.copyNumbers);
-        out.copies = out.copyBegin.size() - 1;
+        return {};
     }
-    return group;
+    const std::string& name = *options.assembly;
+    if (options.bySymmetry) return chooseUnit(structure, name, balls, out);
+    (options.instances ? instanceAssembly : expandAssembly)(structure, name, options.copies, balls,
+                                                            out);
+    return {};
 }
 
 } // namespace
@@ -617,7 +584,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
         out.warnings.insert(out.warnings.end(), coarse.warnings.begin(), coarse.warnings.end());
     }
     const std::vector<GroupRule> groups = withCopies(structure, options, balls);
-    const RotationGroup group = placeBalls(structure, options, std::move(balls), filter, out);
+    const RotationGroup group = placeBalls(structure, options, std::move(balls), out);
     if (out.balls.empty()) {
         failInput(structure, "nothing is left of " + std::to_string(model.end - model.begin) +
                                  " atoms: dropped " + describeDrops(out.drops));

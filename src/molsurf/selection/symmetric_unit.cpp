@@ -47,53 +47,51 @@ double deviationOf(const Operator& motion, const Operator& unit, const Operator&
                 displayName(structure.source) + ": assembly " + inQuotes(name) + ": " + what);
 }
 
-} // namespace
-
-UnitBalls unitBalls(const Structure& structure, const std::string& name,
-                    const std::vector<Ball>& balls)
+/// The copies of an assembly that have balls.
+class Copies
 {
-    const AssemblyCopies assembly = copiesOf(structure, name, {}, balls);
-    // The copies that have balls, as an assembly of their own: the others have no symmetry.
-    Assembly used;
-    std::vector<std::size_t> copyOf; // of an operator
-    for (std::size_t part = 0; part < assembly.parts.size(); ++part) {
-        AssemblyPart& kept = used.parts.emplace_back();
-        for (std::size_t i = 0; i < assembly.copies.size(); ++i) {
-            if (assembly.copies[i].part != part) continue;
-            kept.operators.push_back(assembly.copies[i].op);
-            copyOf.push_back(i);
+public:
+    explicit Copies(const AssemblyCopies& assembly) : assembly_(assembly)
+    {
+        for (std::size_t part = 0; part < assembly.parts.size(); ++part) {
+            AssemblyPart& kept = used_.parts.emplace_back();
+            for (std::size_t i = 0; i < assembly.copies.size(); ++i) {
+                if (assembly.copies[i].part != part) continue;
+                kept.operators.push_back(assembly.copies[i].op);
+                copyOf_.push_back(i);
+            }
         }
+        for (const std::vector<Ball>& part : assembly.parts)
+            boxes_.push_back(boxOf(part.data(), part.data() + part.size()));
     }
-    UnitBalls out;
-    out.unused = assembly.unused;
-    out.copyBegin = {0};
-    if (assembly.copies.empty()) return out;
-    std::vector<openvdb::BBoxd> boxes;
-    for (const std::vector<Ball>& part : assembly.parts)
-        boxes.push_back(boxOf(part.data(), part.data() + part.size()));
-    const auto copyAt = [&](std::size_t i) -> const AssemblyCopy& {
-        return assembly.copies[copyOf[i]];
-    };
-    const auto middleOf = [&](std::size_t i) {
-        return moved(copyAt(i).op, boxes[copyAt(i).part].getCenter());
-    };
-    try {
-        out.group = findRotationGroup(used, boxes[copyAt(0).part].getCenter());
-    } catch (const Error& e) {
-        fail(structure, name,
-             std::string("by symmetry: ") + e.what() + " [hint: without `bySymmetry`]");
-    }
-    const RotationGroup& group = out.group;
+    /// An assembly of their own: the others have no symmetry.
+    const Assembly& used() const { return used_; }
+    std::size_t size() const { return copyOf_.size(); }
+    /// The copy that operator i of used() makes.
+    const AssemblyCopy& at(std::size_t i) const { return assembly_.copies[copyOf_[i]]; }
+    /// The box of its part, in the coordinates of the file.
+    const openvdb::BBoxd& box(std::size_t i) const { return boxes_[at(i).part]; }
+    Vec3d middle(std::size_t i) const { return moved(at(i).op, box(i).getCenter()); }
 
-    // The copies nearest to a point, one of each orbit; the point moves to their middle.
-    std::map<std::size_t, std::size_t> unit; // of orbits: the copy
-    Vec3d point = middleOf(0);
+private:
+    const AssemblyCopies& assembly_;
+    Assembly used_;
+    std::vector<std::size_t> copyOf_; // of an operator
+    std::vector<openvdb::BBoxd> boxes_;
+};
+
+/// The copies nearest to a point, one of each orbit; the point moves to their middle.
+/// @return by orbit
+std::map<std::size_t, std::size_t> nearestOfOrbits(const Copies& copies, const RotationGroup& group)
+{
+    std::map<std::size_t, std::size_t> unit;
+    Vec3d point = copies.middle(0);
     constexpr int rounds = 8;
     for (int round = 0; round < rounds; ++round) {
         std::map<std::size_t, std::pair<double, std::size_t>> nearest;
-        for (std::size_t i = 0; i < copyOf.size(); ++i) {
-            if (group.orbitOf[i] == copyOf.size()) continue; // it stands more than once
-            const double distance = (middleOf(i) - point).length();
+        for (std::size_t i = 0; i < copies.size(); ++i) {
+            if (group.orbitOf[i] == copies.size()) continue; // it stands more than once
+            const double distance = (copies.middle(i) - point).length();
             const auto [found, isNew] = nearest.emplace(group.orbitOf[i], std::pair(distance, i));
             if (!isNew && distance < found->second.first) found->second = {distance, i};
         }
@@ -101,31 +99,59 @@ UnitBalls unitBalls(const Structure& structure, const std::string& name,
         std::map<std::size_t, std::size_t> chosen;
         for (const auto& [orbit, best] : nearest) {
             chosen[orbit] = best.second;
-            middle += middleOf(best.second) / double(nearest.size());
+            middle += copies.middle(best.second) / double(nearest.size());
         }
         if (chosen == unit) break;
         unit = std::move(chosen);
         point = middle;
     }
+    return unit;
+}
 
-    for (const auto& [orbit, i] : unit) {
-        const AssemblyCopy& copy = copyAt(i);
+} // namespace
+
+RotationGroup chooseUnit(const Structure& structure, const std::string& name,
+                         const std::vector<Ball>& balls, BallSet& out)
+{
+    const AssemblyCopies assembly = copiesOf(structure, name, {}, balls, out);
+    out.copyBegin = {0};
+    if (assembly.copies.empty()) return {};
+    const Copies copies(assembly);
+    RotationGroup group;
+    try {
+        group = findRotationGroup(copies.used(), copies.box(0).getCenter());
+    } catch (const Error& e) {
+        fail(structure, name,
+             std::string("by symmetry: ") + e.what() + " [hint: without `bySymmetry`]");
+    }
+    double deviation = 0.0;
+    for (const auto& [orbit, i] : nearestOfOrbits(copies, group)) {
+        const AssemblyCopy& copy = copies.at(i);
         appendCopy(copy.op, assembly.parts[copy.part], out.balls);
         out.copyBegin.push_back(out.balls.size());
         out.copyNumbers.push_back(copy.number);
         for (std::size_t k = 0; k < group.motions.size(); ++k)
-            out.deviation = std::max(out.deviation,
-                                     deviationOf(group.motions[k], copy.op,
-                                                 copyAt(group.images[k][i]).op, boxes[copy.part]));
+            deviation =
+                std::max(deviation, deviationOf(group.motions[k], copy.op,
+                                                copies.at(group.images[k][i]).op, copies.box(i)));
     }
     constexpr double largest = 1.0; // [Å]
-    if (out.deviation > largest) {
+    if (deviation > largest)
         fail(structure, name,
              formatted("by symmetry: its copies lie up to %.3g Å from where its rotations bring "
                        "them, expected at most %g Å [hint: without `bySymmetry`]",
-                       out.deviation, largest));
-    }
-    return out;
+                       deviation, largest));
+    out.unit = SymmetricUnit{group.symmetry.pointGroup,
+                             group.symmetry.centre,
+                             out.copyNumbers.size(),
+                             0,
+                             deviation,
+                             {},
+                             group.product,
+                             group.inverse};
+    for (const Operator& motion : group.motions)
+        out.instances.push_back({0, motion.name, motion.rotation, motion.translation});
+    return group;
 }
 
 std::vector<std::int32_t> surround(const RotationGroup& group, double reach, BallSet& out)

@@ -15,24 +15,15 @@
 namespace molsurf
 {
 
-/// Copies of an assembly of which its rotations make every copy once: those nearest to a common
-/// point, so that they hang together.
-struct UnitBalls {
-    RotationGroup group;
-    double deviation = 0.0; ///< farthest that the corner of a copy's box lies from where a rotation
-                            ///< brings it from the unit [Å]
-    std::vector<Ball> balls;            ///< copy by copy
-    std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
-    std::vector<int> copyNumbers;       ///< of copy i in the whole assembly, from 1
-    std::size_t unused = 0;             ///< balls that no part of the assembly lists
-};
-
-/// Chooses a unit of an assembly.
-/// @param[in] balls  in the coordinates of the file
+/// Chooses a unit of an assembly: copies of which its rotations make every copy once, those nearest
+/// to a common point, so that they hang together.
+/// @param[in]     balls  in the coordinates of the file
+/// @param[in,out] out    gets the balls of the unit, copy by copy, and the motions
+/// @return the rotations
 /// @throws Error as expandAssembly() and findRotationGroup(), or if a copy lies farther than 1 Å
 ///         from where the rotations bring it
-UnitBalls unitBalls(const Structure& structure, const std::string& name,
-                    const std::vector<Ball>& balls);
+RotationGroup chooseUnit(const Structure& structure, const std::string& name,
+                         const std::vector<Ball>& balls, BallSet& out);
 
 /// Adds the images of a unit's balls that lie near it. Of image m of copy i the number is that of
 /// copy i.
