@@ -33,14 +33,6 @@ struct Task {
     std::vector<Output> outputs;
 };
 
-// The name without folder, .gz and extension.
-std::string stemOf(const std::string& input)
-{
-    fs::path name = fs::path(input).filename();
-    if (name.extension() == ".gz") name = name.stem();
-    return name.stem().string();
-}
-
 // The files that tell what was done.
 std::vector<std::string> summaryPaths(const Call& call)
 {
@@ -78,7 +70,7 @@ std::vector<Task> tasksOf(const Call& call)
     std::vector<Task> tasks;
     std::map<std::string, std::string> taken; // by stem
     for (const std::string& input : readStructureList(call.input, call.atoms.maxInput)) {
-        const std::string stem = stemOf(input);
+        const std::string stem = inputStem(input);
         const auto [other, fresh] = taken.emplace(stem, input);
         if (stem.empty() || !fresh) failTwice(call, input, other->second, stem + ".*");
         Task task{input, {}};

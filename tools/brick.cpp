@@ -106,8 +106,6 @@ int brick(const Call& call)
     build.quiet = call.quiet;
     build.inputs = {call.input};
     prepareOutputs(build);
-    openvdb::initialize();
-    limitThreads(call);
     Terminal terminal(call.progress);
     const Clock::time_point start = Clock::now();
     Report report;

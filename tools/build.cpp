@@ -36,13 +36,7 @@ void writeAll(const Call& call, const BallSet& atoms, MolecularSurface& result,
         [&](const Output& output, OutputFile& file) {
             writeOutput(call, atoms, result, output, terminal, file, shown);
         },
-        [&](double writeSeconds) {
-            auto& seconds = result.report.seconds;
-            seconds.emplace_back("write", writeSeconds);
-            seconds.emplace_back("total", secondsSince(programStart));
-            result.report.peakMemoryBytes = peakMemory();
-        },
-        true,
+        [&](double writeSeconds) { endReport(writeSeconds, programStart, result.report); }, true,
         [&](OutputFiles& files) {
             if (companions.add) companions.add(result.report, files);
         });
@@ -63,9 +57,7 @@ void completeReport(const Call& call, const BallSet& balls, const Report& read, 
         }
         copy.matrix[3] = {0.0, 0.0, 0.0, 1.0};
     }
-    report.warnings.insert(report.warnings.begin(), read.warnings.begin(), read.warnings.end());
-    report.seconds.insert(report.seconds.begin(), read.seconds.begin(), read.seconds.end());
-    for (std::string& warning : report.warnings) warning = withOptionNames(warning);
+    addReading(read, report);
 }
 
 } // namespace
@@ -218,8 +210,6 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
 Report buildSurface(const Call& call, Clock::time_point start, const Companions& companions)
 {
     prepareOutputs(call, companions.temporaries);
-    openvdb::initialize();
-    limitThreads(call);
     Terminal terminal(call.progress);
     Report read;
     const BallSet balls = readBalls(call, terminal, read);

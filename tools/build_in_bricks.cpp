@@ -107,8 +107,6 @@ bool goesInBricks(const Call& call)
 int buildInBricks(const Call& call, Clock::time_point start)
 {
     prepareOutputs(call);
-    openvdb::initialize();
-    limitThreads(call);
 
     Terminal terminal(call.progress);
     Report report;

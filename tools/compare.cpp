@@ -212,8 +212,6 @@ void sayResult(const Call& call, const ComparisonReport& report)
 int compare(const Call& call, Clock::time_point start)
 {
     prepareOutputs(call);
-    openvdb::initialize();
-    limitThreads(call);
     Terminal terminal(call.progress);
     ComparisonReport report;
     Clock::time_point lapStart = Clock::now();
@@ -261,11 +259,7 @@ int compare(const Call& call, Clock::time_point start)
             else
                 writeComparison(report, file);
         },
-        [&](double seconds) {
-            report.seconds.emplace_back("write", seconds);
-            report.seconds.emplace_back("total", secondsSince(start));
-            report.peakMemoryBytes = peakMemory();
-        });
+        [&](double seconds) { endReport(seconds, start, report); });
     terminal.erase();
     sayResult(call, report);
     for (const Read* read : {&a, &b})

@@ -58,8 +58,6 @@ void writeRecolored(const Call& call, const VdbFile& file, const StoredSurface& 
 int convert(const Call& asked, Clock::time_point start)
 {
     prepareOutputs(asked);
-    openvdb::initialize();
-    limitThreads(asked);
     Terminal terminal(asked.progress);
     Clock::time_point lapStart = Clock::now();
     terminal.update("read", 0.0);
@@ -106,11 +104,7 @@ int convert(const Call& asked, Clock::time_point start)
             else
                 writeOutput(call, surface.names, surface.result, output, terminal, out);
         },
-        [&](double seconds) {
-            report.seconds.emplace_back("write", seconds);
-            report.seconds.emplace_back("total", secondsSince(start));
-            report.peakMemoryBytes = peakMemory();
-        });
+        [&](double seconds) { endReport(seconds, start, report); });
     terminal.erase();
     if (call.verbose) sayTimes(report);
     if (!call.quiet) {

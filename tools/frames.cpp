@@ -261,8 +261,6 @@ private:
 
 int frames(const Call& call, Clock::time_point start)
 {
-    openvdb::initialize();
-    limitThreads(call);
     Terminal terminal(call.progress);
     terminal.update("read", 0.0);
     FrameRun run(call, terminal);

@@ -10,6 +10,9 @@
 #include "molsurf/error.h"
 #include "molsurf/progress.h"
 
+#include <openvdb/openvdb.h>
+#include <tbb/global_control.h>
+
 #include <cerrno>
 #include <cstring>
 #include <iostream>
@@ -31,6 +34,16 @@ void flushPrinted()
                                        std::strerror(errno != 0 ? errno : EIO));
 }
 
+/// Holds TBB to the threads of a call, if it has --threads.
+void limitThreads(const Call& call)
+{
+    // It is never taken back: TBB would start the other threads then, for the end of the program to
+    // stop.
+    if (call.threads > 0)
+        new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                std::size_t(call.threads));
+}
+
 int perform(int argc, char** argv)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -40,6 +53,8 @@ int perform(int argc, char** argv)
     flushPrinted();
     if (!parsed.call) return 0;
     recoverOutputs(*parsed.call);
+    openvdb::initialize();
+    limitThreads(*parsed.call);
     return infoOf(parsed.call->verb).perform(*parsed.call, start);
 }
 

@@ -11,6 +11,8 @@
 #include "molsurf/error.h"
 #include "molsurf/io/write_report.h"
 
+#include <utility>
+
 namespace molsurf::tool
 {
 
@@ -20,12 +22,8 @@ void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std:
 {
     terminal.update("merge", 0.0);
     const MergedBricks merged(paths, id, plan, call.options, meshed);
-    const auto said = std::move(report.warnings);
-    const auto seconds = std::move(report.seconds);
-    report = merged.report();
-    report.warnings.insert(report.warnings.begin(), said.begin(), said.end());
-    report.seconds.insert(report.seconds.begin(), seconds.begin(), seconds.end());
-    for (std::string& warning : report.warnings) warning = withOptionNames(warning);
+    const Report read = std::exchange(report, merged.report());
+    addReading(read, report);
     beginReport(call, report);
     writeOutputs(
         call, terminal,
@@ -38,12 +36,7 @@ void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std:
                 writeReport(report, file);
             }
         },
-        [&](double writeSeconds) {
-            report.seconds.emplace_back("write", writeSeconds);
-            report.seconds.emplace_back("total", secondsSince(start));
-            report.peakMemoryBytes = peakMemory();
-        },
-        false);
+        [&](double writeSeconds) { endReport(writeSeconds, start, report); }, false);
     terminal.erase();
 }
 
@@ -61,8 +54,6 @@ int merge(const Call& call, Clock::time_point start)
     build.inputs = paths;
     build.inputs.push_back(call.input);
     prepareOutputs(build);
-    openvdb::initialize();
-    limitThreads(call);
     Terminal terminal(call.progress);
     Report report;
     report.warnings = build.warnings;

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <set>
 
@@ -47,16 +48,6 @@ void stopIfAsked()
     if (stopRequested()) throw Cancelled();
 }
 
-void limitThreads(const Call& call)
-{
-    // It is never taken back: TBB would start the other threads then, for the end of the program to
-    // stop.
-    static tbb::global_control* limit = nullptr;
-    if (call.threads == 0 || limit) return;
-    limit = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                    std::size_t(call.threads));
-}
-
 void beginReport(const Call& call, Report& report)
 {
     report.version = MOLSURF_VERSION;
@@ -64,6 +55,13 @@ void beginReport(const Call& call, Report& report)
     report.input = call.input;
     report.threads =
         int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+void addReading(const Report& read, Report& report)
+{
+    report.warnings.insert(report.warnings.begin(), read.warnings.begin(), read.warnings.end());
+    report.seconds.insert(report.seconds.begin(), read.seconds.begin(), read.seconds.end());
+    for (std::string& warning : report.warnings) warning = withOptionNames(warning);
 }
 
 std::string unrestText(const EvolutionReport& evolution, double voxel)
@@ -80,6 +78,13 @@ std::string unrestText(const EvolutionReport& evolution, double voxel)
         "--voxel resolves it]",
         steps.c_str(), 100.0 * evolution.unsettledShare, 0.1 * voxel,
         unit * std::ceil(1.05 * tolerance / unit));
+}
+
+std::string inputStem(const std::string& input)
+{
+    std::filesystem::path name = std::filesystem::path(input).filename();
+    if (name.extension() == ".gz") name = name.stem();
+    return name.stem().string();
 }
 
 std::string counted(std::size_t count, const std::string& one, const std::string& many)

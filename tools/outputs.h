@@ -32,15 +32,30 @@ std::size_t peakMemory();
 /// @throws Cancelled after a signal
 void stopIfAsked();
 
-/// Holds TBB to the threads of a call from now on, if it has --threads.
-void limitThreads(const Call& call);
-
 /// Fills in what every report begins with: version, command, input and threads.
 void beginReport(const Call& call, Report& report);
+
+/// Fills in what every report ends with, when its files are written: their time, the total and the
+/// memory.
+/// @param[in] start  when the program began
+template<typename R>
+void endReport(double writeSeconds, Clock::time_point start, R& report)
+{
+    report.seconds.emplace_back("write", writeSeconds);
+    report.seconds.emplace_back("total", secondsSince(start));
+    report.peakMemoryBytes = peakMemory();
+}
+
+/// Puts the warnings and times of reading before those of the surface, with options as the command
+/// line calls them.
+void addReading(const Report& read, Report& report);
 
 /// One line on a flow that has not come to rest: where, how far, and what to do.
 /// @param[in] voxel  edge of a voxel [Å]
 std::string unrestText(const EvolutionReport& evolution, double voxel);
+
+/// The name of an input without folder, .gz and extension.
+std::string inputStem(const std::string& input);
 
 /// "1 step", "2 steps".
 std::string counted(std::size_t count, const std::string& one, const std::string& many);

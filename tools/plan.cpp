@@ -71,8 +71,6 @@ GivenOptions planned(const Call& call)
 int plan(const Call& call)
 {
     prepareOutputs(call);
-    openvdb::initialize();
-    limitThreads(call);
     Terminal terminal(call.progress);
     Report report;
     PlanManifest manifest;

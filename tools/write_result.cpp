@@ -2,6 +2,7 @@
 #include "write_result.h"
 
 #include "cli/option_table.h"
+#include "outputs.h"
 #include "sha256.h"
 #include "sidecar.h"
 
@@ -21,6 +22,7 @@
 #include "molsurf/picture/write_html.h"
 #include "molsurf/picture/write_png.h"
 #include "molsurf/selection/coarse_grain.h"
+#include "molsurf/structure/text_fields.h"
 #include "molsurf/surface/stored_surface.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/unit_mesh.h"
@@ -102,15 +104,6 @@ openvdb::GridCPtrVec gridsOf(const Call& call, const MolecularSurface& result)
 LengthUnit printUnit(const Call& call)
 {
     return call.printScale > 0.0 ? LengthUnit{call.printScale, "mm"} : LengthUnit{};
-}
-
-// The name of the input without folder, .gz and extension.
-std::string titleOf(const std::string& input)
-{
-    if (input == "-") return "standard input";
-    std::filesystem::path name = std::filesystem::path(input).filename();
-    if (name.extension() == ".gz") name = name.stem();
-    return name.stem().string();
 }
 
 std::string stemOf(const std::string& path)
@@ -294,7 +287,7 @@ void writePage(const Writing& w, OutputFile& file)
 {
     const DrawOptions view = pictureOf(w.call, w.atoms, w.mesh, true, w.progress);
     writeHtml(w.mesh,
-              {titleOf(w.call.input), legendsOf(w.call, w.atoms, w.mesh, w.progress),
+              {displayName(inputStem(w.call.input)), legendsOf(w.call, w.atoms, w.mesh, w.progress),
                w.call.picture.plain, viewAxes(w.mesh, view), view.instances, w.call.colorsCopies(),
                w.coarser},
               file);

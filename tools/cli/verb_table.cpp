@@ -86,7 +86,6 @@ const std::vector<VerbInfo>& verbTable()
          "fold the copies that --copies fold:N takes. The content says which it is, not the "
          "name.\n",
          "", completeInfo, [](const Call& call, auto) {
-             openvdb::initialize();
              for (const std::string& path : call.inputs)
                  std::cout << (isVdbFile(path) ? describeVdb(path)
                                                : describeStructure(path, call.atoms.maxInput));
