@@ -23,6 +23,13 @@ openvdb::Vec3f linearLight(const Color& color)
     return {light[color[0]], light[color[1]], light[color[2]]};
 }
 
+std::uint8_t fromLinearLight(double light)
+{
+    const double x = std::clamp(light, 0.0, 1.0);
+    const double srgb = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+    return std::uint8_t(std::lround(255.0 * srgb));
+}
+
 std::string hexOf(const Color& color)
 {
     return formatted("#%02x%02x%02x", color[0], color[1], color[2]);

@@ -20,6 +20,9 @@ using Color = std::array<std::uint8_t, 3>;
 /// Linear light of a colour (IEC 61966-2-1), which renderers compute in.
 openvdb::Vec3f linearLight(const Color& color);
 
+/// The part of a colour that has so much linear light, in [0, 1] or next to it.
+std::uint8_t fromLinearLight(double light);
+
 /// A colour as text, "#rrggbb".
 std::string hexOf(const Color& color);
 

@@ -3,6 +3,7 @@
 
 #include "molsurf/color/color_table.h"
 #include "molsurf/color/palette.h"
+#include "molsurf/grid/grid_like.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,12 +59,8 @@ void addCurvatureColors(ColorBy by, bool keep, const Mesh& mesh,
         const bool shown = whole.rfind(start, 0) == 0 && values;
         if (keep || !shown) kept.push_back(field);
         if (!shown) continue;
-        const openvdb::Vec3f background = linearLight(neutralColor);
-        auto grid = openvdb::Vec3SGrid::create(background);
-        grid->setTree(std::make_shared<openvdb::Vec3STree>(values->tree(), background,
-                                                           openvdb::TopologyCopy()));
-        grid->setTransform(values->transform().copy());
-        grid->setName("Cd" + whole.substr(start.size()));
+        auto grid = gridLike<openvdb::Vec3SGrid>(*values, "Cd" + whole.substr(start.size()),
+                                                 linearLight(neutralColor));
         auto to = grid->beginValueOn();
         for (auto from = values->cbeginValueOn(); from; ++from, ++to)
             to.setValue(linearLight(scale.at(*from)));

@@ -3,6 +3,7 @@
 
 #include "molsurf/color/palette.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/grid/grid_like.h"
 #include "molsurf/selection/scalar_map.h"
 
 #include <algorithm>
@@ -90,12 +91,7 @@ float valueAt(const BallValues& values, const openvdb::Vec3d& x, const openvdb::
 openvdb::GridBase::Ptr valueGrid(const openvdb::FloatGrid& surface, const BallValues& values,
                                  const Progress& progress)
 {
-    const openvdb::Vec3f background = linearLight(neutralColor);
-    auto grid = openvdb::Vec3SGrid::create(background);
-    grid->setTree(
-        std::make_shared<openvdb::Vec3STree>(surface.tree(), background, openvdb::TopologyCopy()));
-    grid->setTransform(surface.transform().copy());
-    grid->setName("Cd");
+    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "Cd", linearLight(neutralColor));
     const ColorScale scale = scaleOf(values);
     std::vector<openvdb::Vec3STree::LeafNodeType*> leaves;
     grid->tree().getNodes(leaves);

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Grids on the voxels of others.
+/// Grids on the voxels of others, and among others.
 
 #include <openvdb/openvdb.h>
 
@@ -24,6 +24,16 @@ typename GridT::Ptr gridLike(const SourceT& source, const std::string& name,
     grid->setTransform(source.transform().copy());
     grid->setName(name);
     return grid;
+}
+
+/// The first grid of a name and type; null without one.
+template<typename GridT>
+typename GridT::Ptr findGrid(const openvdb::GridPtrVec& grids, const std::string& name)
+{
+    for (const auto& grid : grids)
+        if (grid->getName() == name)
+            if (auto found = openvdb::gridPtrCast<GridT>(grid)) return found;
+    return nullptr;
 }
 
 } // namespace molsurf

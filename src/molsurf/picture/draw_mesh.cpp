@@ -177,13 +177,6 @@ struct Sample {
     float cover = 0.0f;    ///< share of the pixel
 };
 
-std::uint8_t encode(float value)
-{
-    const double x = std::clamp(double(value), 0.0, 1.0);
-    const double srgb = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-    return std::uint8_t(std::lround(255.0 * srgb));
-}
-
 /// A number in [0, 1) for a pixel, unlike that of its neighbours (Jimenez, 2014).
 double noise(int x, int y)
 {
@@ -448,7 +441,7 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
                 std::copy(options.background.begin(), options.background.end(), to);
                 continue;
             }
-            for (int c = 0; c < 3; ++c) to[c] = encode(color[c]);
+            for (int c = 0; c < 3; ++c) to[c] = fromLinearLight(double(color[c]));
         }
     });
     return picture;

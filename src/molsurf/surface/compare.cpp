@@ -3,6 +3,7 @@
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
+#include "molsurf/grid/grid_like.h"
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/mesh/extract.h"
 #include "molsurf/mesh/measure.h"
@@ -123,16 +124,6 @@ void checkValues(const FloatGrid& grid, Iterator it)
     }
 }
 
-FloatGrid::Ptr findSpline(const openvdb::GridPtrVec& grids)
-{
-    for (const auto& grid : grids) {
-        if (grid->getName() != "spline") continue;
-        const auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
-        if (floats && !floats->empty()) return floats;
-    }
-    return nullptr;
-}
-
 void sayIfOpen(Operand& operand)
 {
     if (operand.surface.closed) return;
@@ -179,8 +170,8 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
 
     Surface& surface = operand.surface;
     surface.pose = pose;
-    const FloatGrid::Ptr coefficients = findSpline(grids);
-    if (coefficients) {
+    const FloatGrid::Ptr coefficients = findGrid<FloatGrid>(grids, "spline");
+    if (coefficients && !coefficients->empty()) {
         const Pose other = poseOf(*coefficients);
         checkPlace(*coefficients);
         checkValues(*coefficients, coefficients->cbeginValueAll());
@@ -219,7 +210,7 @@ Operand operandOf(MolecularSurface&& result)
     operand.kind = "structure";
     operand.atoms = result.report.atoms;
     operand.voxel = result.report.voxel;
-    const FloatGrid::Ptr coefficients = findSpline(result.fields);
+    const FloatGrid::Ptr coefficients = findGrid<FloatGrid>(result.fields, "spline");
     if (!coefficients) throw std::logic_error("compare: a run without the field 'spline'");
     operand.surface.spline = Spline{fromGrid(*coefficients)};
     operand.surface.mesh = std::move(result.mesh);

@@ -6,6 +6,7 @@
 #include "molsurf/balls/boundary_point.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
+#include "molsurf/grid/grid_like.h"
 #include "molsurf/mesh/distance.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/surface/check_balls.h"
@@ -35,10 +36,8 @@ Vec3d unitOr(const Vec3d& v, const Vec3d& otherwise)
 /// The spline that the mesh was made of, if it is among the fields, or else one close to it.
 Spline splineOf(const MolecularSurface& from, const Progress& progress)
 {
-    for (const openvdb::GridBase::Ptr& field : from.fields)
-        if (const auto coefficients = openvdb::gridPtrCast<openvdb::FloatGrid>(field);
-            coefficients && field->getName() == "spline")
-            return Spline{fromGrid(*coefficients)};
+    if (const auto coefficients = findGrid<openvdb::FloatGrid>(from.fields, "spline"))
+        return Spline{fromGrid(*coefficients)};
     return splineThrough(*from.surface, progress);
 }
 

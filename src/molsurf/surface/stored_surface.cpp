@@ -32,15 +32,6 @@ using openvdb::Vec3SGrid;
 namespace
 {
 
-template<typename GridT>
-typename GridT::Ptr find(const openvdb::GridPtrVec& grids, const std::string& name)
-{
-    for (const auto& grid : grids)
-        if (grid->getName() == name)
-            if (auto found = openvdb::gridPtrCast<GridT>(grid)) return found;
-    return nullptr;
-}
-
 double numberOf(const openvdb::MetaMap& metadata, const char* name, double preset)
 {
     const auto found = metadata.getMetadata<openvdb::DoubleMetadata>(name);
@@ -91,18 +82,6 @@ openvdb::GridPtrVec inAngstrom(const openvdb::GridPtrVec& grids, const openvdb::
         out.push_back(local);
     }
     return out;
-}
-
-/// The colour that linearLight() came from.
-Color fromLinearLight(const Vec3f& light)
-{
-    Color color{};
-    for (int i = 0; i < 3; ++i) {
-        const double c = light[i];
-        const double s = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
-        color[std::size_t(i)] = std::uint8_t(std::lround(255.0 * std::clamp(s, 0.0, 1.0)));
-    }
-    return color;
 }
 
 /// The voxels nearest to the vertices.
@@ -177,16 +156,16 @@ struct Source {
 BallLabels addLabels(const Source& from, Mesh& mesh)
 {
     BallLabels names;
-    if (const auto ids = find<Int32Grid>(from.grids, "atom_id"))
+    if (const auto ids = findGrid<Int32Grid>(from.grids, "atom_id"))
         mesh.labels.push_back({"atom_id", valuesAt(*ids, from.voxels)});
-    if (const auto chains = find<Int32Grid>(from.grids, "chain_id")) {
+    if (const auto chains = findGrid<Int32Grid>(from.grids, "chain_id")) {
         mesh.labels.push_back({"chain_id", valuesAt(*chains, from.voxels)});
         for (const Group& chain : labelsOf(*chains, from.metadata)) {
             names.chains.push_back(chain.name);
             names.chainColors.push_back(*chain.color);
         }
     }
-    if (const auto groups = find<Int32Grid>(from.grids, "group_id")) {
+    if (const auto groups = findGrid<Int32Grid>(from.grids, "group_id")) {
         mesh.labels.push_back({"group_id", valuesAt(*groups, from.voxels)});
         names.groups = labelsOf(*groups, from.metadata);
     }
@@ -230,7 +209,7 @@ void colorByCurvature(const Source& from, ColorBy by, FloatGrid& levelSet, const
 /// The colours of the file, if these are colours that the program knows.
 ColorBy storedColors(const Source& from)
 {
-    if (!find<Vec3SGrid>(from.grids, "Cd")) return ColorBy::Nothing;
+    if (!findGrid<Vec3SGrid>(from.grids, "Cd")) return ColorBy::Nothing;
     for (const ColorKind& kind : colorTable())
         if (textOf(from.metadata, "option.color") == kind.word) return kind.by;
     return ColorBy::Nothing;
@@ -256,14 +235,15 @@ ColorBy storedColors(const Source& from)
 void addColors(const Source& from, bool kept, ColorBy by, SurfaceRun& run, Progress& progress)
 {
     MolecularSurface& result = run.result();
-    const auto colors = find<Vec3SGrid>(from.grids, "Cd");
-    const auto chains = find<Int32Grid>(from.grids, "chain_id");
-    const auto groups = find<Int32Grid>(from.grids, "group_id");
+    const auto colors = findGrid<Vec3SGrid>(from.grids, "Cd");
+    const auto chains = findGrid<Int32Grid>(from.grids, "chain_id");
+    const auto groups = findGrid<Int32Grid>(from.grids, "group_id");
     if (curvatureNameOf(by)) {
         colorByCurvature(from, by, *result.surface, run.currentSpline(), progress, result);
     } else if (colors && (kept || textOf(from.metadata, "option.color") == nameOf(by))) {
         for (const Vec3f& light : valuesAt(*colors, from.voxels))
-            result.mesh.colors.push_back(fromLinearLight(light));
+            result.mesh.colors.push_back(
+                {fromLinearLight(light[0]), fromLinearLight(light[1]), fromLinearLight(light[2])});
         addColorGrid(from, colors, result);
     } else if (by == ColorBy::Chain && chains) {
         colorByLabel(from, *chains, result);
@@ -305,7 +285,7 @@ StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::Met
     stored.scale = numberOf(metadata, "scene.units_per_angstrom", 1.0);
     progress.update("mesh", 0.0);
     Operand operand = operandOf(inAngstrom(grids, metadata), progress);
-    if (!find<FloatGrid>(grids, "spline"))
+    if (!findGrid<FloatGrid>(grids, "spline"))
         stored.warnings.push_back("no grid spline: it is fitted to the level set, close to the "
                                   "one that was [hint: `fields` spline when it is built]");
     for (const std::string& warning : operand.warnings) stored.warnings.push_back(warning);
