@@ -19,7 +19,6 @@
 #include "molsurf/surface/unit_run.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -362,9 +361,7 @@ void completeBrick(Call& call)
         misuse("bricks run: expected a plan and the number of a brick" + hint);
     call.input = call.inputs[0];
     const std::string& word = call.inputs[1];
-    const char* end = word.data() + word.size();
-    const auto [stop, problem] = std::from_chars(word.data(), end, call.brick);
-    if (problem != std::errc() || stop != end || call.brick == 0)
+    if (!parseWhole(word, call.brick) || call.brick == 0)
         misuse("bricks run: expected a number from 1 on, got '" + word + "'" + hint);
 }
 

@@ -40,11 +40,10 @@ void writeHeader(const MsmsCall& call, const Spheres& spheres, const char* what,
                  std::size_t size, OutputFile& file)
 {
     if (!call.header) return;
-    const std::string text = std::string("# MSMS solvent excluded surface ") + what + " for " +
-                             call.input + "\n" + count + " #sphere density probe_r\n" +
-                             formatted("%7zu %7zu %5.2f %5.2f\n", size,
-                                       spheres.structure.atoms.size(), call.density, call.probe);
-    file.write(text.data(), text.size());
+    file.write(std::string("# MSMS solvent excluded surface ") + what + " for " + call.input +
+               "\n" + count + " #sphere density probe_r\n" +
+               formatted("%7zu %7zu %5.2f %5.2f\n", size, spheres.structure.atoms.size(),
+                         call.density, call.probe));
 }
 
 } // namespace

@@ -179,7 +179,7 @@ void MergedMesh::writePly(OutputFile& file, const Progress& progress) const
     constexpr float farthest = 1e6f; // [Å], as readMesh() takes them
     const PlyLayout layout = commonLayout(bricks_);
     const std::string header = plyHeader(layout, vertices(), triangles());
-    file.write(header.data(), header.size());
+    file.write(header);
     for (const BrickFile& brick : bricks_) {
         inRuns(brick, brick.header().vertices, layout.vertexSize(),
                [&](const char* records, std::size_t count) {

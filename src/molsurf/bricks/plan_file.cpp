@@ -63,8 +63,7 @@ std::string manifestText(const PlanManifest& m)
 
 void writeManifest(const PlanManifest& manifest, OutputFile& file)
 {
-    const std::string text = manifestText(manifest);
-    file.write(text.data(), text.size());
+    file.write(manifestText(manifest));
     file.finish();
 }
 

@@ -4,8 +4,11 @@
 /// @file
 /// Words that people type: lists, numbers and near misses.
 
+#include <charconv>
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace molsurf
@@ -27,6 +30,16 @@ constexpr std::size_t helpWidth = 58;
 
 /// Text in lines of at most `width` letters; lines that it has already stay.
 std::string wrapped(const std::string& text, std::size_t width);
+
+/// Reads a number that is the whole of a text.
+/// @param[out] value  undefined if it is none
+template<typename T>
+bool parseWhole(std::string_view text, T& value)
+{
+    const char* end = text.data() + text.size();
+    const auto [stop, problem] = std::from_chars(text.data(), end, value);
+    return problem == std::errc() && stop == end;
+}
 
 /// A number with the fewest digits that give it back.
 std::string shortest(double number);

@@ -19,12 +19,6 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-void put(const std::string& text, OutputFile& file)
-{
-    file.write(text.data(), text.size());
-    file.finish();
-}
-
 } // namespace
 
 void writeSummaryJson(const BatchSummary& summary, OutputFile& file)
@@ -47,7 +41,8 @@ void writeSummaryJson(const BatchSummary& summary, OutputFile& file)
         structures.push_back(std::move(entry));
     }
     const Json json = {{"options", summary.options}, {"structures", std::move(structures)}};
-    put(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", file);
+    file.write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    file.finish();
 }
 
 void writeSummaryCsv(const BatchSummary& summary, OutputFile& file)
@@ -64,7 +59,8 @@ void writeSummaryCsv(const BatchSummary& summary, OutputFile& file)
                 (e.eulerCharacteristic ? digits(*e.eulerCharacteristic) : "") + "," +
                 digits(e.components) + "," + digits(e.cavities) + ",\n";
     }
-    put(text, file);
+    file.write(text);
+    file.finish();
 }
 
 std::optional<BatchSummary> readSummary(const std::string& path)

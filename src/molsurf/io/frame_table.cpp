@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/frame_table.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/write_table.h"
 
-#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <vector>
@@ -21,20 +21,11 @@ constexpr const char* title = "file,frame,start,converged,steps,atoms,area,volum
 // Parses one line; false if it is none of a table.
 bool parse(const std::string& line, FrameTable& table)
 {
-    std::vector<std::string> cells;
-    for (std::size_t begin = 0; begin <= line.size();) {
-        const std::size_t end = std::min(line.find(',', begin), line.size());
-        cells.push_back(line.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    const auto number = [](const std::string& text, auto& value) {
-        const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-        return problem == std::errc() && stop == text.data() + text.size();
-    };
+    const std::vector<std::string> cells = splitWords(line);
     std::size_t file = 0;
     FrameRow row;
-    if (cells.size() != 13 || !number(cells[0], file) || !number(cells[1], row.frame) ||
-        !number(cells[8], row.euler))
+    if (cells.size() != 13 || !parseWhole(cells[0], file) || !parseWhole(cells[1], row.frame) ||
+        !parseWhole(cells[8], row.euler))
         return false;
     row.rests = cells[3] != "no";
     row.options = cells[12];
@@ -79,7 +70,7 @@ void writeFrameTable(const FrameTable& table, OutputFile& file)
 {
     std::string text = std::string(title) + "\n";
     for (const auto& [file, row] : table) text += row.line + "\n";
-    file.write(text.data(), text.size());
+    file.write(text);
 }
 
 } // namespace molsurf

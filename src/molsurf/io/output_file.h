@@ -8,6 +8,7 @@
 
 #include <ostream>
 #include <string>
+#include <string_view>
 
 namespace molsurf
 {
@@ -44,9 +45,10 @@ public:
     /// finish() and write() turn it into an Error.
     std::ostream& stream();
 
-    /// Appends @a size bytes.
+    /// Appends @a size bytes, or a text.
     /// @throws Error(ErrorKind::Output) if they cannot be written
     void write(const void* bytes, std::size_t size);
+    void write(std::string_view text) { write(text.data(), text.size()); }
 
     /// Flushes, and waits until the content is on the disk. No-op if it was done before.
     /// @throws Error(ErrorKind::Output) if that fails, for example because the disk is full

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/read_mesh.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/mesh_text.h"
 #include "molsurf/mesh/distance.h"
@@ -21,10 +22,7 @@ namespace
 
 std::string extensionOf(const std::string& path)
 {
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& letter : extension)
-        if (letter >= 'A' && letter <= 'Z') letter = char(letter - 'A' + 'a');
-    return extension;
+    return lowered(std::filesystem::path(path).extension().string());
 }
 
 std::string contentOf(const std::string& path, std::size_t maxBytes)

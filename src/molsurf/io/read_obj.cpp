@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+#include "molsurf/core/words.h"
 #include "molsurf/io/mesh_text.h"
 #include "molsurf/io/read_mesh.h"
 
@@ -27,9 +28,7 @@ Mesh parseObj(std::string_view content)
                 const std::string_view word = text.word(); // v, v/vt, v//vn or v/vt/vn
                 const std::string_view digits = word.substr(0, word.find('/'));
                 std::int64_t index = 0;
-                const auto [stop, failure] =
-                    std::from_chars(digits.data(), digits.data() + digits.size(), index);
-                if (failure != std::errc() || stop != digits.data() + digits.size() || index == 0)
+                if (!parseWhole(digits, index) || index == 0)
                     text.fail("the number of a vertex", word);
                 if (index < 0)
                     index += std::int64_t(mesh.positions.size()) + 1; // from the last one

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/scene.h"
 
+#include "molsurf/core/words.h"
+
 #include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/ValueTransformer.h>
 
-#include <charconv>
 #include <cmath>
 
 namespace molsurf
@@ -20,10 +21,8 @@ std::optional<double> parseScale(const std::string& text)
     if (text == "mn-0.01") return 0.01;
     if (text == "mn-0.1" || text == "nm") return 0.1;
     double scale = 0.0;
-    const char* end = text.data() + text.size();
-    const auto [stop, problem] = std::from_chars(text.data(), end, scale);
     constexpr double least = 1e-12, most = 1e6; // so that floats hold what comes of it
-    if (problem != std::errc() || stop != end || !(scale >= least && scale <= most)) return {};
+    if (!parseWhole(text, scale) || !(scale >= least && scale <= most)) return {};
     return scale;
 }
 

@@ -115,8 +115,7 @@ std::string comparisonText(const ComparisonReport& report)
 
 void writeComparison(const ComparisonReport& report, OutputFile& file)
 {
-    const std::string text = comparisonText(report);
-    file.write(text.data(), text.size());
+    file.write(comparisonText(report));
     file.finish();
 }
 

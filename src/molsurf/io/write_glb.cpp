@@ -273,7 +273,7 @@ void writeGlb(const Mesh& mesh, const GlbOptions& options, OutputFile& file)
     word(std::uint32_t(size));
     word(std::uint32_t(header.size()));
     file.write("JSON", 4);
-    file.write(header.data(), header.size());
+    file.write(header);
     word(std::uint32_t(bytes.size()));
     file.write("BIN\0", 4);
     file.write(bytes.data(), bytes.size());

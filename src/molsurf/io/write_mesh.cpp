@@ -106,7 +106,7 @@ void writePly(const Mesh& mesh, OutputFile& file, const std::vector<std::string>
     const PlyLayout layout = layoutOf(mesh);
     const std::string header =
         plyHeader(layout, mesh.positions.size(), mesh.triangles.size(), comments);
-    file.write(header.data(), header.size());
+    file.write(header);
 
     Buffer buffer(file);
     const std::size_t size = layout.vertexSize();
@@ -183,7 +183,7 @@ void writeOff(const Mesh& mesh, OutputFile& file)
     const std::string header = std::string(mesh.colors.empty() ? "OFF" : "COFF") + "\n" +
                                std::to_string(mesh.positions.size()) + " " +
                                std::to_string(mesh.triangles.size()) + " 0\n";
-    file.write(header.data(), header.size());
+    file.write(header);
     Buffer buffer(file);
     for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
         Line line(buffer);

@@ -225,8 +225,7 @@ std::string reportText(const Report& report)
 
 void writeReport(const Report& report, OutputFile& file)
 {
-    const std::string text = reportText(report);
-    file.write(text.data(), text.size());
+    file.write(reportText(report));
     file.finish();
 }
 

@@ -51,10 +51,10 @@ void writeRows(const Table& table, const char* title, const std::string& lead, O
         }
         text += "\n";
         if (text.size() < enough) continue;
-        file.write(text.data(), text.size());
+        file.write(text);
         text.clear();
     }
-    file.write(text.data(), text.size());
+    file.write(text);
 }
 
 } // namespace

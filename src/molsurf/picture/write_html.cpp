@@ -246,22 +246,21 @@ void writeHtml(const Mesh& mesh, const HtmlPage& page, OutputFile& file)
 {
     Arrays arrays;
     const Json header = headerOf(mesh, page, arrays);
-    const auto put = [&](std::string_view text) { file.write(text.data(), text.size()); };
     const std::string headerText = header.dump(-1, ' ', false, Json::error_handler_t::replace);
 
     // The page with its four places filled in, in their order.
     std::string_view left = viewerPage;
     const auto fill = [&](std::string_view place, std::string_view text) {
         const std::size_t at = left.find(place);
-        put(left.substr(0, at));
-        put(text);
+        file.write(left.substr(0, at));
+        file.write(text);
         left.remove_prefix(at + place.size());
     };
     fill("%TITLE%", escaped(page.title, "&lt;", "&amp;"));
     fill("%HEADER%", escaped(headerText, "\\u003c", "&"));
     fill("%DATA%", arrays.packed());
     fill("%VIEWER%", viewerScript);
-    put(left);
+    file.write(left);
     file.finish();
 }
 

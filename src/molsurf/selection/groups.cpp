@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/groups.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/choose_copies.h"
@@ -210,11 +211,7 @@ const std::vector<std::string>& colorNames()
 
 std::optional<std::array<std::uint8_t, 3>> parseColor(const std::string& text)
 {
-    const auto lower = [](char letter) {
-        return letter >= 'A' && letter <= 'Z' ? char(letter - 'A' + 'a') : letter;
-    };
-    std::string word = text;
-    std::transform(word.begin(), word.end(), word.begin(), lower);
+    const std::string word = lowered(text);
     for (const NamedColor& color : namedColors)
         if (word == color.first) return color.second;
     const std::size_t digits = word.size() == 4 ? 1 : 2; // of each part
@@ -299,11 +296,9 @@ GroupBy parseGroupBy(const std::string& text)
     for (std::size_t k = 0; k < groupWords.size(); ++k)
         if (text == groupWords[k]) return {GroupBy::Kind(k)};
     GroupBy by{GroupBy::Kind::Residues};
-    const char* last = text.data() + text.size();
-    if (text.rfind("residues:", 0) == 0) {
-        const auto [end, problem] = std::from_chars(text.data() + 9, last, by.residues);
-        if (problem == std::errc() && end == last && by.residues >= 1) return by;
-    }
+    if (text.rfind("residues:", 0) == 0 &&
+        parseWhole(std::string_view(text).substr(9), by.residues) && by.residues >= 1)
+        return by;
     throw Error(ErrorKind::Usage,
                 "`groupBy`: expected chain, entity, class, copy or residues:N, got '" + text + "'");
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/scalar_map.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -15,18 +15,6 @@ namespace molsurf
 {
 
 using openvdb::Vec3d;
-
-namespace
-{
-
-template<typename T>
-bool parse(std::string_view text, T& value)
-{
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return problem == std::errc() && end == text.data() + text.size();
-}
-
-} // namespace
 
 float ScalarMap::at(const Vec3d& x) const
 {
@@ -69,7 +57,7 @@ ScalarMap readDx(const std::string& path, std::size_t maxBytes)
     const auto vectorOf = [&](const Fields& fields, std::size_t first) {
         Vec3d out(0.0);
         for (std::size_t a = 0; a < 3; ++a)
-            if (fields.size() != first + 3 || !parse(fields[first + a], out[int(a)]))
+            if (fields.size() != first + 3 || !parseWhole(fields[first + a], out[int(a)]))
                 fail("three numbers");
         return out;
     };
@@ -79,13 +67,14 @@ ScalarMap readDx(const std::string& path, std::size_t maxBytes)
         if (data) {
             if (out.values.size() == items) { // attributes of the field
                 double value = 0.0;
-                if (parse(fields[0], value))
+                if (parseWhole(fields[0], value))
                     fail("no more than " + std::to_string(items) + " values");
                 break;
             }
             for (const std::string_view field : fields) {
                 double value = 0.0;
-                if (!parse(field, value) || !std::isfinite(value) || out.values.size() == items)
+                if (!parseWhole(field, value) || !std::isfinite(value) ||
+                    out.values.size() == items)
                     fail("numbers");
                 out.values.push_back(float(value));
             }
@@ -93,7 +82,7 @@ ScalarMap readDx(const std::string& path, std::size_t maxBytes)
             items = 1;
             for (std::size_t a = 0; a < 3; ++a) {
                 constexpr std::size_t most = 100000;
-                if (!parse(fields[5 + a], out.counts[a]) || out.counts[a] < 2 ||
+                if (!parseWhole(fields[5 + a], out.counts[a]) || out.counts[a] < 2 ||
                     out.counts[a] > most)
                     fail("three counts from 2 to 100000");
                 items *= out.counts[a];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/text_fields.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 
 #include <cctype>
-#include <charconv>
 #include <cstring>
 
 namespace molsurf
@@ -22,11 +22,9 @@ bool parse(std::string_view field, Number& value)
 {
     if (!field.empty() && field.front() == '+') field.remove_prefix(1);
     Number number{};
-    const char* const end = field.data() + field.size();
-    const auto result = std::from_chars(field.data(), end, number);
-    if (result.ec != std::errc() || result.ptr != end) return false;
-    value = number;
-    return true;
+    const bool good = parseWhole(field, number);
+    if (good) value = number;
+    return good;
 }
 
 } // namespace

@@ -40,9 +40,7 @@ template<typename T>
 T parsedValue(const std::string& option, const std::string& expected, const std::string& word)
 {
     T value{};
-    const char* end = word.data() + word.size();
-    const auto [stop, failure] = std::from_chars(word.data(), end, value);
-    if (failure != std::errc() || stop != end || !std::isfinite(double(value)))
+    if (!parseWhole(word, value) || !std::isfinite(double(value)))
         wrongValue(option, expected, word);
     return value;
 }

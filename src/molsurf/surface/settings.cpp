@@ -157,9 +157,7 @@ ResolutionRule parseResolution(const std::string& text)
     const std::string digits = split == std::string::npos ? text : text.substr(split + 1);
     ResolutionRule rule;
     if (split != std::string::npos) rule.select = text.substr(0, split);
-    const char* end = digits.data() + digits.size();
-    const auto [stop, problem] = std::from_chars(digits.data(), end, rule.resolution);
-    if (problem != std::errc() || stop != end || split == 0 ||
+    if (!parseWhole(digits, rule.resolution) || split == 0 ||
         !(rule.resolution >= minResolution && rule.resolution <= maxResolution))
         wrongValue("resolution", "D or SELECTION=D with D from 1 to 50 Å", text);
     return rule;
