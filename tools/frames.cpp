@@ -14,7 +14,6 @@
 #include "molsurf/io/write_table.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/frame_source.h"
-#include "molsurf/surface/velocity.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -2,7 +2,6 @@
 #include "sidecar.h"
 
 #include "molsurf/error.h"
-#include "molsurf/io/usda_sequence.h"
 #include "molsurf/io/usda_text.h"
 
 #include <algorithm>

@@ -2,8 +2,9 @@
 #pragma once
 
 /// @file
-/// Names and texts out of files, for a terminal.
+/// Names and texts out of files, for a terminal, and lines that describe a file.
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -35,6 +36,20 @@ inline std::string printable(const std::string& text)
         }
     }
     return out;
+}
+
+/// "    name            value\n", values below each other.
+inline std::string infoLine(const std::string& name, const std::string& value)
+{
+    std::string text = "    " + printable(name);
+    text.resize(std::max<std::size_t>(text.size() + 1, 20), ' ');
+    return text + printable(value) + "\n";
+}
+
+/// The title above such lines.
+inline std::string infoTitle(const std::string& title)
+{
+    return printable(title) + "\n";
 }
 
 } // namespace molsurf

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/describe_vdb.h"
 
-#include "molsurf/core/info_line.h"
+#include "molsurf/core/printable.h"
 #include "molsurf/io/read_vdb.h"
 
 #include <openvdb/tools/LevelSetMeasure.h>

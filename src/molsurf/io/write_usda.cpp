@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_usda.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/io/usda_text.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <string_view>
+#include <system_error>
 
 namespace molsurf
 {
+
+namespace fs = std::filesystem;
 
 namespace
 {
@@ -120,8 +127,7 @@ std::string usdaText(const openvdb::GridCPtrVec& grids, const UsdVolume& volume)
 
 void writeUsda(const openvdb::GridCPtrVec& grids, const UsdVolume& volume, OutputFile& file)
 {
-    const std::string text = usdaText(grids, volume);
-    file.write(text.data(), text.size());
+    file.write(usdaText(grids, volume));
     file.finish();
 }
 
@@ -133,6 +139,35 @@ bool isOwnUsda(const std::string& path)
     for (int n = 0; n < 3 && std::getline(file, line); ++n)
         if (line == creator) return true;
     return false;
+}
+
+FrameName frameName(const std::string& path)
+{
+    const std::string stem = fs::path(path).stem().string();
+    const std::size_t dot = stem.rfind('.');
+    if (dot == std::string::npos || dot == 0) return {stem, {}};
+    int frame = 0;
+    if (!parseWhole(std::string_view(stem).substr(dot + 1), frame) || frame < 0) return {stem, {}};
+    return {stem.substr(0, dot), frame};
+}
+
+UsdVolume usdVolumeOf(const std::string& vdb, bool sequence, double metersPerUnit)
+{
+    const fs::path path = vdb;
+    const FrameName own = frameName(vdb);
+    UsdVolume volume{own.stem, metersPerUnit, path.filename().string(), {}};
+    if (!sequence || !own.frame) return volume;
+    volume.frames.emplace_back(*own.frame, volume.file);
+    std::error_code ignored;
+    const fs::path folder = path.parent_path().empty() ? "." : path.parent_path();
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+        const FrameName other = frameName(entry.path().string());
+        if (entry.path().extension() == path.extension() && other.stem == own.stem && other.frame &&
+            *other.frame != *own.frame)
+            volume.frames.emplace_back(*other.frame, entry.path().filename().string());
+    }
+    std::sort(volume.frames.begin(), volume.frames.end());
+    return volume;
 }
 
 } // namespace molsurf

@@ -8,6 +8,7 @@
 
 #include <openvdb/openvdb.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,5 +34,19 @@ void writeUsda(const openvdb::GridCPtrVec& grids, const UsdVolume& volume, Outpu
 
 /// Whether a file is one that writeUsda() has made.
 bool isOwnUsda(const std::string& path);
+
+/// The name of a .vdb without folder and extension: "name.0001.vdb" is frame 1 of "name".
+struct FrameName {
+    std::string stem;
+    std::optional<int> frame;
+};
+FrameName frameName(const std::string& path);
+
+/// What the .usda beside a .vdb says.
+///
+/// @param[in] vdb         the file; of a frame, the other frames in its folder are in the .usda too
+/// @param[in] sequence    whether it may be a frame
+/// @param[in] metersPerUnit  length of a unit of the scene [m]
+UsdVolume usdVolumeOf(const std::string& vdb, bool sequence, double metersPerUnit);
 
 } // namespace molsurf

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/describe_structure.h"
 
-#include "molsurf/core/info_line.h"
+#include "molsurf/core/printable.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/choose_copies.h"

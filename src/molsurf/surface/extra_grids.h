@@ -4,7 +4,8 @@
 /// @file
 /// The optional grids beside `surface`.
 
-#include "molsurf/ball.h"
+#include "molsurf/atoms.h"
+#include "molsurf/options.h"
 #include "molsurf/progress.h"
 #include "molsurf/spline/spline.h"
 
@@ -43,5 +44,14 @@ std::vector<openvdb::GridBase::Ptr> curvatureGrids(const openvdb::FloatGrid& sur
                                                    const Spline& spline,
                                                    const std::vector<std::string>& names,
                                                    const Progress& progress);
+
+/// The grid `v`: at each active voxel of a surface the displacement of the ball that it belongs to,
+/// as in labelSurface(); 0 elsewhere. Vectors that are relative and turn with the grid
+/// (openvdb::VEC_CONTRAVARIANT_RELATIVE).
+///
+/// @param[in] displacement  one a ball [Å per frame, or in the units of the scene]
+openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const BallSet& atoms,
+                                     const std::vector<openvdb::Vec3f>& displacement,
+                                     const SurfaceOptions& options, const Progress& progress);
 
 } // namespace molsurf
