@@ -15,9 +15,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 LINES, PARAMETERS = 70, 6
 
-LONGER = {"withCrispBorders": 85,
-          "cutBrick": 79, "msmsSurface": 74,
-          "verbTable": 71}  # the last is a table
+LONGER = {}
 WIDER = {"candidates": 10, "number": 9, "computeBrick": 9, "mergeBricks": 8, "count": 8, "surfaceOf": 8,
          "ballValues": 8, "writeOutput": 7, "writeAll": 7, "moveToSurface": 7, "evolve": 7, "makePlan": 7,
          "addArc": 7,

@@ -194,6 +194,33 @@ Shares sharesOf(const Mesh& mesh, const std::vector<BoundaryPoint>& points, cons
     return out;
 }
 
+/// The vertices and triangles of each component.
+/// @param[in] balls      that vertices are nearest to
+/// @param[out] pointsOf  of the vertices of each component
+std::vector<Component> componentsOf(const Mesh& mesh, const std::vector<BoundaryPoint>& points,
+                                    const std::vector<std::int32_t>& balls, const Shares& shares,
+                                    std::vector<std::vector<BoundaryPoint>>& pointsOf)
+{
+    std::vector<Component> components(shares.count);
+    std::vector<std::uint32_t> number(points.size(), none);
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        const std::uint32_t share = shares.ofVertex[v];
+        if (share == none) continue;
+        Component& component = components[share];
+        number[v] = std::uint32_t(component.mesh.positions.size());
+        component.mesh.positions.push_back(mesh.positions[v]);
+        component.mesh.normals.push_back(mesh.normals[v]);
+        component.balls.push_back(balls[v]);
+        pointsOf[share].push_back(points[v]);
+    }
+    for (const auto& t : mesh.triangles) {
+        if (number[t[0]] == none) continue;
+        components[shares.ofVertex[t[0]]].mesh.triangles.push_back(
+            {number[t[0]], number[t[1]], number[t[2]]});
+    }
+    return components;
+}
+
 /// The area of a ball.
 struct BallArea {
     std::int32_t ball;
@@ -288,25 +315,8 @@ MsmsSurface msmsSurface(const std::vector<Ball>& balls, double probe, double den
     const std::vector<std::int32_t> nearest =
         nearestBalls(balls, mesh.positions, probe + 1.0, progress);
 
-    // The vertices and triangles of each component.
-    std::vector<Component> components(shares.count);
-    std::vector<std::vector<BoundaryPoint>> pointsOf(components.size());
-    std::vector<std::uint32_t> number(points.size(), none);
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        const std::uint32_t share = shares.ofVertex[v];
-        if (share == none) continue;
-        Component& component = components[share];
-        number[v] = std::uint32_t(component.mesh.positions.size());
-        component.mesh.positions.push_back(mesh.positions[v]);
-        component.mesh.normals.push_back(mesh.normals[v]);
-        component.balls.push_back(nearest[v]);
-        pointsOf[share].push_back(points[v]);
-    }
-    for (const auto& t : mesh.triangles) {
-        if (number[t[0]] == none) continue;
-        components[shares.ofVertex[t[0]]].mesh.triangles.push_back(
-            {number[t[0]], number[t[1]], number[t[2]]});
-    }
+    std::vector<std::vector<BoundaryPoint>> pointsOf(shares.count);
+    std::vector<Component> components = componentsOf(mesh, points, nearest, shares, pointsOf);
     mesh = Mesh();
 
     std::vector<char> outer(components.size(), 0);

@@ -52,6 +52,52 @@ std::vector<VertexKey> keysOf(const std::vector<Coord>& cells, const CoordBBox& 
     return keys;
 }
 
+/// Gives a brick the triangles whose highest cell lies in its box, and the areas of the vertices
+/// that it owns.
+/// @param[in,out] mesh  about the brick; its triangles are freed
+/// @param[out] place    of each vertex in the brick, or none
+/// @return the vertices of the brick; those that it owns come first
+std::vector<std::uint32_t> takeTriangles(Mesh& mesh, const std::vector<Coord>& cells,
+                                         const CoordBBox& box, BrickMesh& out,
+                                         std::vector<std::uint32_t>& place,
+                                         const Progress& progress)
+{
+    auto indices =
+        parallelCollect<std::uint32_t>(cells.size(), progress, [&](std::size_t v, auto& mine) {
+            if (box.isInside(cells[v])) mine.push_back(std::uint32_t(v));
+        });
+    out.owned = indices.size();
+    place.assign(cells.size(), none);
+    parallelFor(indices.size(), progress,
+                [&](std::size_t i) { place[indices[i]] = std::uint32_t(i); });
+    out.areas = chosen(vertexAreas(mesh, progress), indices, out.owned, progress);
+
+    using Triangle = std::array<std::uint32_t, 3>;
+    auto& triangles = out.mesh.triangles;
+    triangles =
+        parallelCollect<Triangle>(mesh.triangles.size(), progress, [&](std::size_t i, auto& mine) {
+            const Triangle& t = mesh.triangles[i];
+            const Coord highest =
+                Coord::maxComponent(cells[t[0]], Coord::maxComponent(cells[t[1]], cells[t[2]]));
+            if (box.isInside(highest)) mine.push_back(t);
+        });
+    mesh.triangles = {};
+    const auto foreign =
+        parallelCollect<std::uint32_t>(triangles.size(), progress, [&](std::size_t i, auto& some) {
+            for (const std::uint32_t v : triangles[i])
+                if (place[v] == none) some.push_back(v);
+        });
+    for (const std::uint32_t v : foreign) {
+        if (place[v] != none) continue;
+        place[v] = std::uint32_t(indices.size());
+        indices.push_back(v);
+    }
+    parallelFor(triangles.size(), progress, [&](std::size_t i) {
+        for (std::uint32_t& v : triangles[i]) v = place[v];
+    });
+    return indices;
+}
+
 } // namespace
 
 std::vector<OpenEdge> openEdges(const Mesh& mesh, const std::vector<char>& isBorder,
@@ -100,39 +146,8 @@ BrickMesh cutBrick(Mesh mesh, std::vector<Coord> cells, const CoordBBox& box, co
     out.closed = topology.closed;
     out.manifold = topology.manifold && topology.oriented;
 
-    auto indices =
-        parallelCollect<std::uint32_t>(cells.size(), progress, [&](std::size_t v, auto& mine) {
-            if (box.isInside(cells[v])) mine.push_back(std::uint32_t(v));
-        });
-    out.owned = indices.size();
-    std::vector<std::uint32_t> place(cells.size(), none);
-    parallelFor(indices.size(), progress,
-                [&](std::size_t i) { place[indices[i]] = std::uint32_t(i); });
-    out.areas = chosen(vertexAreas(mesh, progress), indices, out.owned, progress);
-
-    using Triangle = std::array<std::uint32_t, 3>;
-    auto& triangles = out.mesh.triangles;
-    triangles =
-        parallelCollect<Triangle>(mesh.triangles.size(), progress, [&](std::size_t i, auto& mine) {
-            const Triangle& t = mesh.triangles[i];
-            const Coord highest =
-                Coord::maxComponent(cells[t[0]], Coord::maxComponent(cells[t[1]], cells[t[2]]));
-            if (box.isInside(highest)) mine.push_back(t);
-        });
-    mesh.triangles = {};
-    const auto foreign =
-        parallelCollect<std::uint32_t>(triangles.size(), progress, [&](std::size_t i, auto& some) {
-            for (const std::uint32_t v : triangles[i])
-                if (place[v] == none) some.push_back(v);
-        });
-    for (const std::uint32_t v : foreign) {
-        if (place[v] != none) continue;
-        place[v] = std::uint32_t(indices.size());
-        indices.push_back(v);
-    }
-    parallelFor(triangles.size(), progress, [&](std::size_t i) {
-        for (std::uint32_t& v : triangles[i]) v = place[v];
-    });
+    std::vector<std::uint32_t> place;
+    std::vector<std::uint32_t> indices = takeTriangles(mesh, cells, box, out, place, progress);
     const std::size_t count = indices.size();
     out.mesh.positions = chosen(std::move(mesh.positions), indices, count, progress);
     out.mesh.normals = chosen(std::move(mesh.normals), indices, count, progress);

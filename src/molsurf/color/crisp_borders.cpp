@@ -134,19 +134,83 @@ private:
     std::vector<OwnersPower> near_;
 };
 
-/// The mesh as it grows.
+/// An edge that a border crosses, with its lower vertex first.
+struct CrossedEdge {
+    std::array<std::uint32_t, 2> ends;
+    double crossing = 0.0; ///< the share of the way at which it is
+    Vec3d place{0.0};
+};
+
+std::uint64_t keyOf(std::uint32_t a, std::uint32_t b)
+{
+    return std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
+}
+
+/// The mesh as it grows: a crossed edge gets two vertices, one for each side.
 class Builder
 {
 public:
-    Builder(const Mesh& mesh, const std::string& stepwise)
-        : from_(mesh), to_(mesh), stepwise_(stepwise)
+    Builder(const Mesh& mesh, const std::vector<std::int32_t>& owner,
+            const std::vector<Color>& colors, const std::string& stepwise)
+        : from_(mesh), to_(mesh), owner_(owner), colors_(colors), stepwise_(stepwise)
     {
         to_.triangles.clear();
+        to_.colors.clear();
+        for (const std::int32_t k : owner) to_.colors.push_back(colors[std::size_t(k)]);
     }
 
+    /// The edges that borders cross, in the order of the triangles; their places are to be found.
+    std::vector<CrossedEdge> crossedEdges()
+    {
+        std::vector<CrossedEdge> edges;
+        for (const Triangle& t : from_.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+                if (owner_[a] != owner_[b] && edgeOf_.emplace(keyOf(a, b), edges.size()).second)
+                    edges.push_back({{std::min(a, b), std::max(a, b)}});
+            }
+        }
+        return edges;
+    }
+
+    /// Adds the vertices of the next crossed edge.
+    void add(const CrossedEdge& edge)
+    {
+        const auto [a, b] = edge.ends;
+        const double t = edge.crossing;
+        for (const std::uint32_t side : {a, b}) add(edge.place, {a, b, b}, {1.0 - t, t, 0.0}, side);
+    }
+
+    /// Adds a triangle, cut if borders cross it.
+    void add(const Triangle& t, Cutter& cutter)
+    {
+        const std::array<std::int32_t, 3> o = {owner_[t[0]], owner_[t[1]], owner_[t[2]]};
+        if (o[0] == o[1] && o[1] == o[2]) {
+            to_.triangles.push_back(t);
+        } else if (o[0] != o[1] && o[1] != o[2] && o[2] != o[0]) {
+            const Vec3d w = cutter.meeting(t, o);
+            const Vec3d x = onPatch(from_, t, w);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+                const std::uint32_t middle = add(x, t, w, a);
+                to_.triangles.push_back({a, onEdge(a, b), middle});
+                to_.triangles.push_back({a, middle, onEdge(a, c)});
+            }
+        } else {
+            std::size_t k = 0; // the corner that is unlike the others
+            while (o[(k + 1) % 3] != o[(k + 2) % 3]) ++k;
+            const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+            to_.triangles.push_back({a, onEdge(a, b), onEdge(a, c)});
+            to_.triangles.push_back({b, c, onEdge(b, a)});
+            to_.triangles.push_back({c, onEdge(c, a), onEdge(b, a)});
+        }
+    }
+
+    Mesh& mesh() { return to_; }
+
+private:
     /// A vertex between others, on the side of one of them.
-    std::uint32_t add(const Vec3d& x, const Triangle& between, const Vec3d& w, std::uint32_t side,
-                      const Color& color)
+    std::uint32_t add(const Vec3d& x, const Triangle& between, const Vec3d& w, std::uint32_t side)
     {
         const auto v = std::uint32_t(to_.positions.size());
         to_.positions.push_back(Vec3f(x));
@@ -163,21 +227,22 @@ public:
         }
         for (std::size_t a = 0; a < to_.labels.size(); ++a)
             to_.labels[a].values.push_back(from_.labels[a].values[side]);
-        to_.colors.push_back(color);
+        to_.colors.push_back(colors_[std::size_t(owner_[side])]);
         return v;
     }
 
-    void add(std::uint32_t a, std::uint32_t b, std::uint32_t c)
+    /// The vertex on a crossed edge, on the side of its end `a`.
+    std::uint32_t onEdge(std::uint32_t a, std::uint32_t b) const
     {
-        to_.triangles.push_back({a, b, c});
+        return std::uint32_t(owner_.size() + 2 * edgeOf_.at(keyOf(a, b)) + (a > b));
     }
 
-    Mesh& mesh() { return to_; }
-
-private:
     const Mesh& from_;
     Mesh to_;
+    const std::vector<std::int32_t>& owner_; ///< of the vertices of the first mesh
+    const std::vector<Color>& colors_;       ///< of the owners
     const std::string& stepwise_;
+    std::unordered_map<std::uint64_t, std::size_t> edgeOf_;
 };
 
 } // namespace
@@ -195,76 +260,25 @@ Mesh withCrispBorders(const Mesh& mesh, const std::vector<Ball>& balls,
         ownerOf.push_back(found->second);
     }
     const PowerOwners owners(balls, ownerOf);
-    const std::size_t vertices = mesh.positions.size();
+    const std::vector<std::int32_t> owner =
+        colors.size() > 1 ? owners.ownersOf(mesh.positions, progress)
+                          : std::vector<std::int32_t>(mesh.positions.size(), 0);
+
+    Builder out(mesh, owner, colors, stepwise);
+    std::vector<CrossedEdge> edges = out.crossedEdges();
     constexpr std::size_t chunk = 256;
-    const std::vector<std::int32_t> owner = colors.size() > 1
-                                                ? owners.ownersOf(mesh.positions, progress)
-                                                : std::vector<std::int32_t>(vertices, 0);
-
-    Builder out(mesh, stepwise);
-    out.mesh().colors.clear();
-    for (const std::int32_t k : owner) out.mesh().colors.push_back(colors[std::size_t(k)]);
-
-    // The edges that a border crosses, with two vertices each.
-    std::vector<std::array<std::uint32_t, 2>> edges;
-    std::unordered_map<std::uint64_t, std::size_t> edgeOf;
-    const auto keyOf = [](std::uint32_t a, std::uint32_t b) {
-        return std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
-    };
-    for (const Triangle& t : mesh.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-            if (owner[a] != owner[b] && edgeOf.emplace(keyOf(a, b), edges.size()).second)
-                edges.push_back({std::min(a, b), std::max(a, b)});
-        }
-    }
-    std::vector<double> crossings(edges.size());
-    std::vector<Vec3d> places(edges.size());
     parallelFor((edges.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
         Cutter cutter(mesh, owners);
         for (std::size_t e = c * chunk; e < std::min(edges.size(), (c + 1) * chunk); ++e) {
-            const auto [a, b] = edges[e];
-            crossings[e] = cutter.crossing(a, b, owner[a], owner[b]);
-            places[e] = onArc(mesh, a, b, crossings[e]);
-            if (crease > 0.0) cutter.snap(places[e], owner[a], owner[b], crease);
+            const auto [a, b] = edges[e].ends;
+            edges[e].crossing = cutter.crossing(a, b, owner[a], owner[b]);
+            edges[e].place = onArc(mesh, a, b, edges[e].crossing);
+            if (crease > 0.0) cutter.snap(edges[e].place, owner[a], owner[b], crease);
         }
     });
-    const auto first = std::uint32_t(vertices);
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-        const auto [a, b] = edges[e];
-        const double t = crossings[e];
-        const Vec3d& x = places[e];
-        for (const std::uint32_t side : {a, b})
-            out.add(x, {a, b, b}, {1.0 - t, t, 0.0}, side, colors[std::size_t(owner[side])]);
-    }
-    // The vertex on an edge, on the side of its end `a`.
-    const auto onEdge = [&](std::uint32_t a, std::uint32_t b) {
-        return first + std::uint32_t(2 * edgeOf.at(keyOf(a, b)) + (a > b));
-    };
-
+    for (const CrossedEdge& edge : edges) out.add(edge);
     Cutter cutter(mesh, owners);
-    for (const Triangle& t : mesh.triangles) {
-        const std::array<std::int32_t, 3> o = {owner[t[0]], owner[t[1]], owner[t[2]]};
-        if (o[0] == o[1] && o[1] == o[2]) {
-            out.add(t[0], t[1], t[2]);
-        } else if (o[0] != o[1] && o[1] != o[2] && o[2] != o[0]) {
-            const Vec3d w = cutter.meeting(t, o);
-            const Vec3d x = onPatch(mesh, t, w);
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
-                const std::uint32_t middle = out.add(x, t, w, a, colors[std::size_t(o[k])]);
-                out.add(a, onEdge(a, b), middle);
-                out.add(a, middle, onEdge(a, c));
-            }
-        } else {
-            std::size_t k = 0; // the corner that is unlike the others
-            while (o[(k + 1) % 3] != o[(k + 2) % 3]) ++k;
-            const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
-            out.add(a, onEdge(a, b), onEdge(a, c));
-            out.add(b, c, onEdge(b, a));
-            out.add(c, onEdge(c, a), onEdge(b, a));
-        }
-    }
+    for (const Triangle& t : mesh.triangles) out.add(t, cutter);
     return std::move(out.mesh());
 }
 
