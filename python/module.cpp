@@ -551,6 +551,15 @@ void addSurface(nb::module_& m)
 void addFunctions(nb::module_& m)
 {
     m.def("settings", describeSettings);
+    // Whether a colour needs what read() takes from a file; what is no colour does not.
+    m.def("is_of_file", [](const std::string& color) {
+        try {
+            const Settings s = settingsOf({{"color", {color}}});
+            return s.colorGroups || s.atoms.valueBy || s.atoms.plainColor;
+        } catch (const Error&) {
+            return false;
+        }
+    });
     m.def("read",
           [](const std::string& name, const std::optional<nb::bytes>& content, const Given& given,
              const std::vector<std::pair<std::string, std::string>>& groups, Listener progress,

@@ -10,11 +10,6 @@ from . import _arrays, _core, _options
 from ._surface import Surface, _called, _made, _split
 
 
-# Colours by what read() always takes.
-_ANYWAY = ("none", "chain", "group", "element", "residue", "residue-type", "nucleotide", "illustrative",
-           "mean-curvature", "gaussian-curvature")
-
-
 class Molecule:
     """Atoms of a file, or of an assembly of it, as arrays: what read() makes.
 
@@ -119,7 +114,7 @@ class Molecule:
         pairs = _options.given(options, "surface", _options.MORE)
         color = dict(self._given).get("color")
         for name, values in pairs:
-            if name == "color" and values != color and _options.of_file(values[0], _ANYWAY):
+            if name == "color" and values != color and _core.is_of_file(values[0]):
                 raise ValueError(f"color: '{values[0][:40]}' needs what read() has to take from the file "
                                  f"[hint: read(..., color=...)]")
         named = {name for name, _ in pairs}

@@ -266,7 +266,7 @@ class Surface:
         return Voxels(*self._core.voxels())
 
     def save(self, path, *, replace=True):
-        """Writes a file; its extension says what: .ply .obj .stl .off .wrl .glb .3mf .vdb .json .png."""
+        """Writes a file; its extension says what: that of a mesh (.ply, .obj, .stl, ...), .vdb, .json or .png."""
         self._core.save(os.fspath(path), bool(replace), 1200)
 
     def picture(self, path, width=1200, *, replace=True):

@@ -116,8 +116,7 @@ double probeOf(const SurfaceOptions& options);
 /// Returns the word of the command line for a kind: variational, ses, sas, vdw, gaussian.
 const char* nameOf(SurfaceKind kind);
 
-/// Returns the word of the command line for a property: none, chain, group, element, residue,
-/// nucleotide, illustrative, plain, mean-curvature, gaussian-curvature, value.
+/// Returns the word of the command line for a property: chain, element, mean-curvature.
 const char* nameOf(ColorBy color);
 
 /// Returns the word of the command line for a regulariser: gradient, area.

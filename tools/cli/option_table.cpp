@@ -378,12 +378,15 @@ OptionGroup groupOptions()
                  };
                  o.file = wholeValue;
              });
-    const Option shown = with(word("color", "WORD",
-                                   "chain, group (of grids chain_id, group_id), element,\n"
-                                   "residue, nucleotide, illustrative (of Cd so coloured),\n"
-                                   "mean-curvature, gaussian-curvature; those of Cd unless given",
-                                   Convert, MOLSURF_OF(options.color), completeColors()),
-                              [](Option& o) { o.preset = ""; });
+    const Option shown =
+        with(word("color", "WORD",
+                  wrapped(joinWords(colorHelp(), ", ") +
+                              "; chain and group are of grids chain_id and group_id, "
+                              "the others of Cd so coloured or of the mesh; those of "
+                              "Cd unless given",
+                          helpWidth),
+                  Convert, MOLSURF_OF(options.color), completeColors()),
+             [](Option& o) { o.preset = ""; });
     return {"Groups",
             {groups, setting("group-by", surfaces), setting("split", wholes),
              setting("surface-of", wholes), setting("interfaces", wholes),

@@ -154,9 +154,10 @@ ColorKind byLabels(ColorBy by, const char* word, const char* title, const char* 
 /// A row of the kinds of residues, by the names and colours of a list.
 /// @tparam sorted  whether the legend is sorted by name; else entries are in the order of the balls
 template<const auto& rows, bool sorted>
-ColorKind byClass(ColorBy by, const char* word, const char* title)
+ColorKind byClass(ColorBy by, const char* word, const char* title, const char* help = "")
 {
     ColorKind kind = byLabels(by, word, title);
+    kind.help = help;
     kind.ofBalls = [](const BallSet& atoms, const Progress&) {
         return eachOf(atoms.labels->residueClassOf,
                       [](ResidueClass c) { return rowOf(rows, c).color; });
@@ -226,6 +227,7 @@ ColorKind illustrative()
     ColorKind kind = byChain();
     kind.by = ColorBy::Illustrative;
     kind.word = "illustrative";
+    kind.help = "chain, carbon lighter";
     kind.attribute = ""; // a chain has two colours
     kind.offered = false;
     kind.ofBalls = [](const BallSet& atoms, const Progress& progress) {
@@ -294,7 +296,7 @@ const std::vector<ColorKind>& colorTable()
         byChain(),
         byGroup(),
         byElement(),
-        byClass<classColors, false>(ColorBy::Residue, "residue", "Residue"),
+        byClass<classColors, false>(ColorBy::Residue, "residue", "Residue", "or residue-type"),
         byClass<baseColors, true>(ColorBy::Nucleotide, "nucleotide", "Nucleotide"),
         illustrative(),
         byCurvature(ColorBy::MeanCurvature, "mean-curvature", "Mean curvature", "mean_curvature",

@@ -23,6 +23,7 @@ struct ColorKind {
     const char* title = "";                      ///< of the legend
     const char* attribute = "";                  ///< of the mesh, that the legend is of
     const char* unit = "";                       ///< of the legend's scale
+    const char* help = "";                       ///< what a help text adds to the word
     bool ofCurvature = false;                    ///< whether vertices have it, and not balls
     bool complete = true;                        ///< whether its word alone asks for it
     bool offered = false;                        ///< whether pages offer it without being asked

@@ -42,6 +42,15 @@ std::vector<ColorBy> completeColors()
     return out;
 }
 
+std::vector<std::string> colorHelp()
+{
+    std::vector<std::string> out;
+    for (const ColorKind& kind : colorTable())
+        if (kind.complete && kind.by != ColorBy::Nothing)
+            out.push_back(kind.word + (*kind.help ? " (" + std::string(kind.help) + ")" : ""));
+    return out;
+}
+
 std::size_t sizeValue(const std::string& option, const std::string& text)
 {
     const std::string expected = "a size such as 500M or 4G";

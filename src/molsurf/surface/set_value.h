@@ -54,6 +54,9 @@ std::array<std::uint8_t, 3> colorValue(const std::string& option, const std::str
 /// The colours whose word alone asks for them.
 std::vector<ColorBy> completeColors();
 
+/// Their words for a help text, but that of none, with what it adds to them.
+std::vector<std::string> colorHelp();
+
 /// "4G", "500M": bytes. K, M, G and T are powers of 1024.
 /// @throws Error(ErrorKind::Usage) if the text is no size
 std::size_t sizeValue(const std::string& option, const std::string& text);

@@ -416,18 +416,15 @@ void setColor(Settings& s, const Values& values)
 
 Setting colorSetting()
 {
-    Setting color{"color",
-                  SettingType::Text,
-                  "WORD",
-                  "colours of the mesh and the grid Cd: chain, entity, class,\n"
-                  "copy, group, element, residue (or residue-type),\n"
-                  "nucleotide, illustrative (chain, carbon lighter),\n"
-                  "plain=#RRGGBB, mean-curvature, gaussian-curvature;\n"
-                  "by value: bfactor, occupancy, charge, hydrophobicity,\n"
-                  "rainbow, radius, table=FILE, potential=FILE.dx,\n"
-                  "potential-out=FILE.dx (a probe out)",
-                  "none",
-                  colorWords()};
+    Values words = colorHelp(),
+           values(valueWords().begin(), valueWords().begin() + valuesWithoutFile);
+    words.insert(words.end(), coloredGroups.begin(), coloredGroups.end());
+    for (const std::string& start : colorFiles()) values.push_back(start + "FILE");
+    const std::string text = "colours of the mesh and the grid Cd: " + joinWords(words, ", ") +
+                             ", plain=#RRGGBB; by value: " + joinWords(values, ", ") +
+                             "; potentials are .dx, potential-out is a probe out";
+    Setting color{"color", SettingType::Text, "WORD", wrapped(text, helpWidth),
+                  "none",  colorWords()};
     color.set = setColor;
     color.get = [](const Settings& s) -> std::string {
         if (s.colorGroups) return textOf(*s.colorGroups);
