@@ -34,8 +34,9 @@ enum class ColorBy {
     Plain,      ///< one that all balls have
     MeanCurvature,
     GaussianCurvature,
-    Value,       ///< values of the balls
-    Illustrative ///< the chain, lighter at carbon
+    Value,        ///< values of the balls
+    Illustrative, ///< the chain, lighter at carbon
+    Hetero        ///< the chain at carbon, else the element
 };
 
 /// The term h that lambda weighs in the energy density w = g^2 + lambda h; section 2 of the paper

@@ -29,6 +29,7 @@ constexpr ElementColor elementColors[] = {
     {29, {200, 128, 51}},  {30, {125, 128, 176}}, {34, {255, 161, 0}},   {35, {166, 41, 41}},
     {53, {148, 0, 148}}};
 constexpr Color otherElement = {255, 20, 147};
+constexpr std::uint8_t carbon = 6;
 
 /// Of Okabe and Ito's colours.
 struct ClassColor {
@@ -232,11 +233,37 @@ ColorKind illustrative()
     kind.offered = false;
     kind.ofBalls = [](const BallSet& atoms, const Progress& progress) {
         std::vector<Color> out = spread(chainColors(atoms, progress), atoms.labels->chainOf);
-        constexpr int carbon = 6;
         for (std::size_t i = 0; i < out.size(); ++i)
             if (atoms.labels->elementOf[i] == carbon)
                 for (std::uint8_t& c : out[i]) c = std::uint8_t(c + (255 - c) / 2);
         return out;
+    };
+    return kind;
+}
+
+/// Carbon in the colour of its chain, and the other elements in their own, as ChimeraX does it.
+ColorKind hetero()
+{
+    ColorKind kind = byChain();
+    kind.by = ColorBy::Hetero;
+    kind.word = "hetero";
+    kind.help = "carbon by chain, others by element";
+    kind.attribute = ""; // a chain has several colours
+    kind.offered = false;
+    kind.title = "Chain, element";
+    kind.ofBalls = [](const BallSet& atoms, const Progress& progress) {
+        std::vector<Color> out = spread(chainColors(atoms, progress), atoms.labels->chainOf);
+        for (std::size_t i = 0; i < out.size(); ++i)
+            if (const std::uint8_t element = atoms.labels->elementOf[i]; element != carbon)
+                out[i] = elementColor(element);
+        return out;
+    };
+    kind.describe = [](const BallSet& atoms, const Mesh& mesh, const Progress& progress,
+                       Legend& legend) {
+        byChain().describe(atoms, mesh, progress, legend);
+        std::vector<std::uint8_t> others = atoms.labels->elementOf;
+        others.erase(std::remove(others.begin(), others.end(), carbon), others.end());
+        addKinds(others, elementSymbol, elementColor, legend);
     };
     return kind;
 }
@@ -299,6 +326,7 @@ const std::vector<ColorKind>& colorTable()
         byClass<classColors, false>(ColorBy::Residue, "residue", "Residue", "or residue-type"),
         byClass<baseColors, true>(ColorBy::Nucleotide, "nucleotide", "Nucleotide"),
         illustrative(),
+        hetero(),
         byCurvature(ColorBy::MeanCurvature, "mean-curvature", "Mean curvature", "mean_curvature",
                     "1/Å"),
         byCurvature(ColorBy::GaussianCurvature, "gaussian-curvature", "Gaussian curvature",

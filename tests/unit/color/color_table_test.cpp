@@ -77,5 +77,21 @@ TEST(ColorTable, IllustrationsHaveLighterCarbon)
     EXPECT_EQ(legend->entries[1].color, chains[3]);
 }
 
+TEST(ColorTable, HeteroColoursChainsAtCarbonAlone)
+{
+    const BallSet atoms = twoChains();
+    const std::vector<Color> chains = ballColors(atoms, ColorBy::Chain, Progress()),
+                             elements = ballColors(atoms, ColorBy::Element, Progress()),
+                             found = ballColors(atoms, ColorBy::Hetero, Progress());
+    for (const std::size_t i : {0, 2}) EXPECT_EQ(found[i], chains[i]);
+    for (const std::size_t i : {1, 3}) EXPECT_EQ(found[i], elements[i]);
+    const auto legend = legendOf(ColorBy::Hetero, atoms, Mesh(), Progress());
+    ASSERT_TRUE(legend);
+    const std::vector<LegendEntry>& entries = legend->entries;
+    ASSERT_EQ(entries.size(), 3u);
+    EXPECT_EQ(entries[1].color, chains[2]);
+    EXPECT_EQ(entries[2].color, elements[1]);
+}
+
 } // namespace
 } // namespace molsurf
