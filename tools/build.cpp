@@ -18,7 +18,6 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 
 namespace molsurf::tool

@@ -17,7 +17,6 @@
 #include "molsurf/surface.h"
 #include "molsurf/surface/compare.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 

@@ -13,8 +13,6 @@
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/surface/stored_surface.h"
 
-#include <algorithm>
-
 namespace molsurf::tool
 {
 

@@ -28,7 +28,6 @@
 #include "molsurf/surface/unit_mesh.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 

@@ -19,7 +19,6 @@
 #include "molsurf/surface/unit_run.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>

@@ -6,7 +6,6 @@
 
 #include "cli/call.h"
 
-#include <string>
 #include <vector>
 
 namespace molsurf::tool

@@ -7,7 +7,6 @@
 #include "cli/call.h"
 
 #include <chrono>
-#include <string>
 #include <vector>
 
 namespace molsurf::tool

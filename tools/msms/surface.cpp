@@ -16,7 +16,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace molsurf::msms
 {

@@ -8,8 +8,6 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include <array>
-
 namespace molsurf
 {
 

@@ -9,7 +9,6 @@
 #include "molsurf/report.h"
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace molsurf

@@ -10,7 +10,6 @@
 #include "molsurf/progress.h"
 #include "molsurf/selection/select_balls.h"
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>

@@ -6,7 +6,6 @@
 #include "molsurf/balls/contacts.h"
 #include "molsurf/error.h"
 
-#include <algorithm>
 #include <numeric>
 #include <string>
 #include <tuple>

@@ -9,7 +9,6 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace molsurf
 {

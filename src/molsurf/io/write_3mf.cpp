@@ -8,7 +8,6 @@
 #include <dlfcn.h>
 #include <Model/COM/NMR_DLLInterfaces.h>
 
-#include <array>
 #include <memory>
 #include <vector>
 

@@ -11,7 +11,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <utility>

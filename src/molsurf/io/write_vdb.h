@@ -9,7 +9,6 @@
 #include <openvdb/openvdb.h>
 
 #include <cstdint>
-#include <vector>
 
 namespace molsurf
 {

@@ -11,7 +11,6 @@
 #include "molsurf/progress.h"
 #include "molsurf/spline/spline.h"
 
-#include <memory>
 #include <optional>
 
 namespace molsurf

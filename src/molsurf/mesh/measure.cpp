@@ -6,7 +6,6 @@
 #include "molsurf/mesh/topology.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace molsurf

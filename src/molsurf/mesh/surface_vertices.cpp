@@ -4,7 +4,6 @@
 #include "molsurf/spline/curvature.h"
 #include "molsurf/spline/spline_lanes.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace molsurf

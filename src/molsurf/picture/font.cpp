@@ -6,7 +6,6 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
-#include <cmath>
 #include <cstdint>
 
 // The file of the font as it is.

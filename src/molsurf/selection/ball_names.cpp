@@ -2,7 +2,6 @@
 #include "molsurf/selection/ball_names.h"
 
 #include <map>
-#include <utility>
 
 namespace molsurf
 {

@@ -9,14 +9,12 @@
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <map>
 #include <tuple>
-#include <utility>
 
 namespace molsurf
 {

@@ -7,7 +7,6 @@
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <map>
 #include <tuple>

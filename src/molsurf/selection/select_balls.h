@@ -7,12 +7,7 @@
 #include "molsurf/atoms.h"
 #include "molsurf/structure/structure.h"
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
 #include <string>
-#include <vector>
 
 namespace molsurf
 {

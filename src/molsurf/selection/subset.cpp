@@ -3,8 +3,6 @@
 
 #include "molsurf/balls/placed_ball.h"
 
-#include <utility>
-
 namespace molsurf
 {
 

@@ -8,7 +8,6 @@
 #include "molsurf/structure/rotation_group.h"
 #include "molsurf/structure/structure.h"
 
-#include <cstddef>
 #include <string>
 #include <vector>
 

@@ -5,7 +5,6 @@
 
 #include <openvdb/math/Mat3.h>
 
-#include <algorithm>
 #include <numeric>
 #include <utility>
 

@@ -10,10 +10,8 @@
 #include "molsurf/options.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
 #include <string>
 #include <vector>
 

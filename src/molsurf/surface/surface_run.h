@@ -16,7 +16,6 @@
 #include "molsurf/surface/surface_kind.h"
 
 #include <chrono>
-#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>

@@ -5,7 +5,6 @@
 #include "molsurf/mesh/mesh_instance.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <map>
 #include <unordered_map>

@@ -9,7 +9,6 @@
 #include "molsurf/progress.h"
 #include "molsurf/spline/spline.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -7,8 +7,6 @@
 #include "molsurf/mesh/topology.h"
 #include "molsurf/surface/unit_border.h"
 
-#include <algorithm>
-
 namespace molsurf
 {
 

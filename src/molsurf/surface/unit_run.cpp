@@ -18,7 +18,6 @@
 #include "molsurf/surface/whole_only.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace molsurf
