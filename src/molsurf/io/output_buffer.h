@@ -6,7 +6,10 @@
 
 #include "molsurf/io/output_file.h"
 
+#include <charconv>
 #include <cstddef>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace molsurf
@@ -41,6 +44,55 @@ private:
     OutputFile& file_;
     std::vector<char> bytes_;
     std::size_t used_ = 0;
+};
+
+/// Text into a file. Without finish() the last of it is lost.
+class TextOutput
+{
+public:
+    explicit TextOutput(OutputFile& file) : file_(file), buffer_(file) {}
+
+    TextOutput& operator<<(std::string_view text)
+    {
+        for (std::size_t at = 0; at < text.size(); at += piece) {
+            const std::string_view now = text.substr(at, piece);
+            now.copy(buffer_.take(now.size()), now.size());
+        }
+        return *this;
+    }
+
+    /// A number with the fewest digits that give it back.
+    template<typename Number, typename = std::enable_if_t<std::is_arithmetic_v<Number>>>
+    TextOutput& operator<<(Number number)
+    {
+        return put(number);
+    }
+
+    /// A number with so many digits behind the point.
+    TextOutput& fixed(double number, int digits)
+    {
+        return put(number, std::chars_format::fixed, digits);
+    }
+
+    void finish()
+    {
+        buffer_.flush();
+        file_.finish();
+    }
+
+private:
+    template<typename... Form>
+    TextOutput& put(Form... form)
+    {
+        char* to = buffer_.take(longest);
+        const char* end = std::to_chars(to, to + longest, form...).ptr;
+        buffer_.untake(std::size_t(to + longest - end));
+        return *this;
+    }
+
+    static constexpr std::size_t piece = 256, longest = 32;
+    OutputFile& file_;
+    Buffer buffer_;
 };
 
 } // namespace molsurf

@@ -7,9 +7,7 @@
 #include "molsurf/io/write_3mf.h"
 #include "molsurf/io/write_glb.h"
 
-#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -30,63 +28,45 @@ char* put(char* to, const T& value)
     return to + sizeof(T);
 }
 
-// Appends the letters of a line: "v 1.5 2 3\n", "f 1//1 2//2 3//3\n".
-class Line
-{
-public:
-    explicit Line(Buffer& buffer) : buffer_(buffer), begin_(buffer.take(longest)), end_(begin_) {}
-    ~Line() { buffer_.untake(std::size_t(begin_ + longest - end_)); }
-    Line(const Line&) = delete;
-    Line& operator=(const Line&) = delete;
-
-    Line& operator<<(const char* text)
-    {
-        while (*text) *end_++ = *text++;
-        return *this;
-    }
-
-    template<typename T>
-    Line& number(T value)
-    {
-        end_ = std::to_chars(end_, begin_ + longest, value).ptr;
-        return *this;
-    }
-
-private:
-    static constexpr std::ptrdiff_t longest = 128; // six floats of at most 15 letters; six indices
-    Buffer& buffer_;
-    char* begin_;
-    char* end_;
-};
-
-void putVectors(Buffer& buffer, const char* key, const std::vector<openvdb::Vec3f>& vectors,
+void putVectors(TextOutput& out, const char* key, const std::vector<openvdb::Vec3f>& vectors,
                 double scale = 1.0)
 {
     for (const openvdb::Vec3f& v : vectors) {
-        Line line(buffer);
-        line << key;
-        for (int i = 0; i < 3; ++i) (line << " ").number(float(scale * v[i]));
-        line << "\n";
+        out << key;
+        for (int i = 0; i < 3; ++i) out << " " << float(scale * v[i]);
+        out << "\n";
     }
 }
 
 /// " 0.5 0.25 1": a colour in [0, 1].
-void putColor(Line& line, const std::array<std::uint8_t, 3>& color)
+void putColor(TextOutput& out, const std::array<std::uint8_t, 3>& color)
 {
-    for (const std::uint8_t c : color)
-        (line << " ").number(float(std::round(c / 255.0 * 1e4) / 1e4));
+    for (const std::uint8_t c : color) out << " " << float(std::round(c / 255.0 * 1e4) / 1e4);
+}
+
+void putColors(TextOutput& out, const std::vector<std::array<std::uint8_t, 3>>& colors)
+{
+    for (const auto& color : colors) {
+        putColor(out, color);
+        out << "\n";
+    }
 }
 
 /// Positions, with colours behind them if there are any.
-void putVertices(Buffer& buffer, const Mesh& mesh, double scale)
+void putVertices(TextOutput& out, const Mesh& mesh, double scale)
 {
     for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
-        Line line(buffer);
-        line << "v";
-        for (int i = 0; i < 3; ++i) (line << " ").number(float(scale * mesh.positions[n][i]));
-        if (!mesh.colors.empty()) putColor(line, mesh.colors[n]);
-        line << "\n";
+        out << "v";
+        for (int i = 0; i < 3; ++i) out << " " << float(scale * mesh.positions[n][i]);
+        if (!mesh.colors.empty()) putColor(out, mesh.colors[n]);
+        out << "\n";
     }
+}
+
+/// "3 0 2 1": the number and the indices of the corners of each triangle.
+void putTriangles(TextOutput& out, const Mesh& mesh)
+{
+    for (const auto& [a, b, c] : mesh.triangles) out << "3 " << a << " " << b << " " << c << "\n";
 }
 
 std::string inOneWord(std::string name)
@@ -119,30 +99,21 @@ void writePly(const Mesh& mesh, OutputFile& file, const std::vector<std::string>
 
 void writeObj(const Mesh& mesh, OutputFile& file, const LengthUnit& unit)
 {
-    Buffer buffer(file);
-    if (unit.perAngstrom != 1.0) {
-        const std::string line = std::string("# lengths in ") + unit.name + "\n";
-        std::copy(line.begin(), line.end(), buffer.take(line.size()));
-    }
-    putVertices(buffer, mesh, unit.perAngstrom);
-    putVectors(buffer, "vn", mesh.normals);
+    TextOutput out(file);
+    if (unit.perAngstrom != 1.0) out << "# lengths in " << unit.name << "\n";
+    putVertices(out, mesh, unit.perAngstrom);
+    putVectors(out, "vn", mesh.normals);
     auto part = mesh.parts.begin();
     for (const auto& triangle : mesh.triangles) {
         const std::size_t number = std::size_t(&triangle - mesh.triangles.data());
-        for (; part != mesh.parts.end() && part->firstTriangle == number; ++part) {
-            const std::string line = "o " + inOneWord(part->name) + "\n";
-            std::copy(line.begin(), line.end(), buffer.take(line.size()));
-        }
-        Line line(buffer);
-        line << "f";
-        for (std::uint32_t corner : triangle) {
-            (line << " ").number(corner + 1ull); // counted from 1
-            (line << "//").number(corner + 1ull);
-        }
-        line << "\n";
+        for (; part != mesh.parts.end() && part->firstTriangle == number; ++part)
+            out << "o " << inOneWord(part->name) << "\n";
+        out << "f";
+        for (const std::uint32_t corner : triangle) // counted from 1
+            out << " " << corner + 1ull << "//" << corner + 1ull;
+        out << "\n";
     }
-    buffer.flush();
-    file.finish();
+    out.finish();
 }
 
 void writeStl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit)
@@ -180,63 +151,41 @@ void writeStl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit)
 
 void writeOff(const Mesh& mesh, OutputFile& file)
 {
-    const std::string header = std::string(mesh.colors.empty() ? "OFF" : "COFF") + "\n" +
-                               std::to_string(mesh.positions.size()) + " " +
-                               std::to_string(mesh.triangles.size()) + " 0\n";
-    file.write(header);
-    Buffer buffer(file);
+    TextOutput out(file);
+    out << (mesh.colors.empty() ? "OFF\n" : "COFF\n") << mesh.positions.size() << " "
+        << mesh.triangles.size() << " 0\n";
     for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
-        Line line(buffer);
         const openvdb::Vec3f& p = mesh.positions[n];
-        line.number(p[0]);
-        (line << " ").number(p[1]);
-        (line << " ").number(p[2]);
+        out << p[0] << " " << p[1] << " " << p[2];
         if (!mesh.colors.empty()) {
-            for (const std::uint8_t c : mesh.colors[n]) (line << " ").number(int(c));
-            line << " 255";
+            for (const std::uint8_t c : mesh.colors[n]) out << " " << int(c);
+            out << " 255";
         }
-        line << "\n";
+        out << "\n";
     }
-    for (const auto& triangle : mesh.triangles) {
-        Line line(buffer);
-        line << "3";
-        for (const std::uint32_t corner : triangle) (line << " ").number(corner);
-        line << "\n";
-    }
-    buffer.flush();
-    file.finish();
+    putTriangles(out, mesh);
+    out.finish();
 }
 
 void writeWrl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit)
 {
-    Buffer buffer(file);
-    const auto put = [&](const char* text) { Line(buffer) << text; };
-    put("#VRML V2.0 utf8\n# lengths in ");
-    put(unit.name);
-    put("\nShape {\nappearance Appearance { material Material { ambientIntensity 0.3 } }\n");
-    put("geometry IndexedFaceSet {\ncoord Coordinate { point [\n");
-    putVectors(buffer, "", mesh.positions, unit.perAngstrom);
-    put("] }\nnormal Normal { vector [\n");
-    putVectors(buffer, "", mesh.normals);
-    put("] }\n");
+    TextOutput out(file);
+    out << "#VRML V2.0 utf8\n# lengths in " << unit.name
+        << "\nShape {\nappearance Appearance { material Material { ambientIntensity 0.3 } }\n"
+        << "geometry IndexedFaceSet {\ncoord Coordinate { point [\n";
+    putVectors(out, "", mesh.positions, unit.perAngstrom);
+    out << "] }\nnormal Normal { vector [\n";
+    putVectors(out, "", mesh.normals);
+    out << "] }\n";
     if (!mesh.colors.empty()) {
-        put("color Color { color [\n");
-        for (const auto& color : mesh.colors) {
-            Line line(buffer);
-            putColor(line, color);
-            line << "\n";
-        }
-        put("] }\n");
+        out << "color Color { color [\n";
+        putColors(out, mesh.colors);
+        out << "] }\n";
     }
-    put("coordIndex [\n");
-    for (const auto& triangle : mesh.triangles) {
-        Line line(buffer);
-        for (const std::uint32_t corner : triangle) line.number(corner) << " ";
-        line << "-1\n";
-    }
-    put("]\n}\n}\n");
-    buffer.flush();
-    file.finish();
+    out << "coordIndex [\n";
+    for (const auto& [a, b, c] : mesh.triangles) out << a << " " << b << " " << c << " -1\n";
+    out << "]\n}\n}\n";
+    out.finish();
 }
 
 const std::vector<MeshFormat>& meshFormats()

@@ -8,7 +8,6 @@
 #include "molsurf/io/usda_text.h"
 
 #include <array>
-#include <charconv>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -26,62 +25,26 @@ constexpr int lengthDigits = 4;     // behind the point [Å]
 constexpr int directionDigits = 4;  // of normals and colours
 constexpr int quaternionDigits = 8; // single precision
 
-/// The text of the file.
-class Text
+/// (a, b, ...), with so many digits behind the point.
+template<typename Numbers>
+void putTuple(TextOutput& out, const Numbers& numbers, int size, int digits)
 {
-public:
-    explicit Text(OutputFile& file) : buffer_(file) {}
+    for (int i = 0; i < size; ++i)
+        (out << (i == 0 ? "(" : ", ")).fixed(double(numbers[std::size_t(i)]), digits);
+    out << ")";
+}
 
-    Text& operator<<(std::string_view text)
-    {
-        for (std::size_t at = 0; at < text.size(); at += piece) {
-            const std::string_view now = text.substr(at, piece);
-            now.copy(buffer_.take(now.size()), now.size());
-        }
-        return *this;
+/// name = [...], with one call of `put` for each element.
+template<typename Put>
+void putArray(TextOutput& out, std::string_view name, std::size_t count, const Put& put)
+{
+    out << name << " = [";
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i > 0) out << ", ";
+        put(i);
     }
-
-    Text& operator<<(std::size_t number)
-    {
-        char* to = buffer_.take(longest);
-        const auto end = std::to_chars(to, to + longest, number).ptr;
-        buffer_.untake(std::size_t(to + longest - end));
-        return *this;
-    }
-
-    /// (a, b, ...), with so many digits behind the point.
-    template<typename Numbers>
-    void tuple(const Numbers& numbers, int size, int digits)
-    {
-        for (int i = 0; i < size; ++i) {
-            *this << (i == 0 ? "(" : ", ");
-            char* to = buffer_.take(longest);
-            const auto end = std::to_chars(to, to + longest, double(numbers[std::size_t(i)]),
-                                           std::chars_format::fixed, digits)
-                                 .ptr;
-            buffer_.untake(std::size_t(to + longest - end));
-        }
-        *this << ")";
-    }
-
-    /// name = [...], with one call of `put` for each element.
-    template<typename Put>
-    void array(std::string_view name, std::size_t count, const Put& put)
-    {
-        *this << name << " = [";
-        for (std::size_t i = 0; i < count; ++i) {
-            if (i > 0) *this << ", ";
-            put(i);
-        }
-        *this << "]";
-    }
-
-    void flush() { buffer_.flush(); }
-
-private:
-    static constexpr std::size_t piece = 256, longest = 32;
-    Buffer buffer_;
-};
+    out << "]";
+}
 
 /// A part of the mesh in the colour of some of its copies.
 struct Prototype {
@@ -145,7 +108,7 @@ public:
             out_ << "    }\n";
         }
         out_ << "}\n";
-        out_.flush();
+        out_.finish();
     }
 
 private:
@@ -153,13 +116,9 @@ private:
 
     void writeHead()
     {
-        char unit[64];
-        const auto number = [&](double value) {
-            return std::string(unit, std::to_chars(unit, unit + sizeof unit, value).ptr);
-        };
         out_ << usdaFirstLine << "\n(\n    customLayerData = {\n"
              << "        string creator = \"vdb_molsurf, copies\"\n    }\n    defaultPrim = \""
-             << name_ << "\"\n    metersPerUnit = " << number(usdaMetersPerAngstrom / copies_.scale)
+             << name_ << "\"\n    metersPerUnit = " << usdaMetersPerAngstrom / copies_.scale
              << "\n    upAxis = \"Z\"\n)\n\ndef Xform \"" << name_
              << "\" (\n    kind = \"component\"\n";
         if (levels_.size() > 1)
@@ -167,7 +126,7 @@ private:
                  << "    prepend variantSets = \"lod\"\n";
         out_ << ")\n{\n";
         if (copies_.scale != 1.0) {
-            const std::string scale = number(copies_.scale);
+            const double scale = copies_.scale;
             out_ << "    double3 xformOp:scale = (" << scale << ", " << scale << ", " << scale
                  << ")\n    uniform token[] xformOpOrder = [\"xformOp:scale\"]\n\n";
         }
@@ -189,7 +148,7 @@ private:
             out_ << ".connect = " << path << number << "/color.outputs:result>";
         } else {
             out_ << " = ";
-            out_.tuple(linearLight(color), 3, directionDigits);
+            putTuple(out_, linearLight(color), 3, directionDigits);
         }
         out_ << "\n"
              << in << "    float inputs:roughness = 0.5\n"
@@ -217,28 +176,28 @@ private:
         const std::size_t triangles = range.triangleEnd - range.firstTriangle;
         const std::string in = "            ";
         out_ << "        def Mesh \"" << partName(number, part) << "\"\n        {\n" << in;
-        out_.array("float3[] extent", 2, [&](std::size_t i) {
-            out_.tuple((i == 0 ? box.min() : box.max()) - origin, 3, lengthDigits);
+        putArray(out_, "float3[] extent", 2, [&](std::size_t i) {
+            putTuple(out_, (i == 0 ? box.min() : box.max()) - origin, 3, lengthDigits);
         });
         out_ << "\n" << in;
-        out_.array("int[] faceVertexCounts", triangles, [&](std::size_t) { out_ << "3"; });
+        putArray(out_, "int[] faceVertexCounts", triangles, [&](std::size_t) { out_ << "3"; });
         out_ << "\n" << in;
-        out_.array("int[] faceVertexIndices", 3 * triangles, [&](std::size_t i) {
+        putArray(out_, "int[] faceVertexIndices", 3 * triangles, [&](std::size_t i) {
             out_ << mesh.triangles[range.firstTriangle + i / 3][i % 3] - range.firstVertex;
         });
         out_ << "\n" << in;
-        out_.array("point3f[] points", vertices, [&](std::size_t v) {
-            out_.tuple(Vec3d(mesh.positions[range.firstVertex + v]) - origin, 3, lengthDigits);
+        putArray(out_, "point3f[] points", vertices, [&](std::size_t v) {
+            putTuple(out_, Vec3d(mesh.positions[range.firstVertex + v]) - origin, 3, lengthDigits);
         });
         out_ << "\n" << in;
-        out_.array("normal3f[] normals", vertices, [&](std::size_t v) {
-            out_.tuple(mesh.normals[range.firstVertex + v], 3, directionDigits);
+        putArray(out_, "normal3f[] normals", vertices, [&](std::size_t v) {
+            putTuple(out_, mesh.normals[range.firstVertex + v], 3, directionDigits);
         });
         out_ << " (\n" << in << "    interpolation = \"vertex\"\n" << in << ")\n";
         if (!mesh.colors.empty()) {
             out_ << in;
-            out_.array("color3f[] primvars:displayColor", vertices, [&](std::size_t v) {
-                out_.tuple(linearLight(mesh.colors[range.firstVertex + v]), 3, directionDigits);
+            putArray(out_, "color3f[] primvars:displayColor", vertices, [&](std::size_t v) {
+                putTuple(out_, linearLight(mesh.colors[range.firstVertex + v]), 3, directionDigits);
             });
             out_ << " (\n" << in << "    interpolation = \"vertex\"\n" << in << ")\n";
         }
@@ -252,19 +211,19 @@ private:
         out_ << "    def PointInstancer \"copies\"\n    {\n";
         if (levels_.size() == 1) writeLevel(0, in);
         out_ << in;
-        out_.array("int64[] ids", all.size(), [&](std::size_t i) { out_ << i + 1; });
+        putArray(out_, "int64[] ids", all.size(), [&](std::size_t i) { out_ << i + 1; });
         out_ << "\n" << in;
-        out_.array("int[] protoIndices", all.size(),
-                   [&](std::size_t i) { out_ << prototypeOf_[i]; });
+        putArray(out_, "int[] protoIndices", all.size(),
+                 [&](std::size_t i) { out_ << prototypeOf_[i]; });
         out_ << "\n" << in;
-        out_.array("point3f[] positions", all.size(), [&](std::size_t i) {
-            out_.tuple(all[i].placed(middle(all[i].part)), 3, lengthDigits);
+        putArray(out_, "point3f[] positions", all.size(), [&](std::size_t i) {
+            putTuple(out_, all[i].placed(middle(all[i].part)), 3, lengthDigits);
         });
         for (const char* type : {"quath[] orientations", "quatf[] orientationsf"}) {
             out_ << "\n" << in;
-            out_.array(type, all.size(), [&](std::size_t i) {
+            putArray(out_, type, all.size(), [&](std::size_t i) {
                 const auto [x, y, z, w] = quaternionOf(all[i].rotation);
-                out_.tuple(std::array<double, 4>{w, x, y, z}, 4, quaternionDigits);
+                putTuple(out_, std::array<double, 4>{w, x, y, z}, 4, quaternionDigits);
             });
         }
         out_ << "\n\n" << in << "def Scope \"prototypes\"\n" << in << "{\n";
@@ -287,7 +246,7 @@ private:
              << ">\n";
         if (levels_[level].mesh->colors.empty()) {
             out_ << more << "color3f[] primvars:displayColor = [";
-            out_.tuple(linearLight(prototype.color), 3, directionDigits);
+            putTuple(out_, linearLight(prototype.color), 3, directionDigits);
             out_ << "]\n";
         }
         out_ << in << "}\n";
@@ -298,11 +257,11 @@ private:
     {
         out_ << in;
         const openvdb::BBoxd box = extentOf(levels_[number]);
-        out_.array("float3[] extent", 2, [&](std::size_t i) {
-            out_.tuple(i == 0 ? box.min() : box.max(), 3, lengthDigits);
+        putArray(out_, "float3[] extent", 2, [&](std::size_t i) {
+            putTuple(out_, i == 0 ? box.min() : box.max(), 3, lengthDigits);
         });
         out_ << "\n" << in;
-        out_.array("rel prototypes", prototypes_.size(), [&](std::size_t i) {
+        putArray(out_, "rel prototypes", prototypes_.size(), [&](std::size_t i) {
             out_ << "</" << name_ << "/copies/prototypes/" << prototypeName(number, prototypes_[i])
                  << ">";
         });
@@ -337,7 +296,7 @@ private:
 
     const UsdInstances& copies_;
     std::string name_;
-    Text out_;
+    TextOutput out_;
     std::vector<Level> levels_; // the finest first
     std::vector<Prototype> prototypes_;
     std::vector<std::size_t> prototypeOf_; // of each copy
@@ -349,7 +308,6 @@ private:
 void writeUsdaInstances(const Mesh& mesh, const UsdInstances& copies, OutputFile& file)
 {
     Stage(mesh, copies, file).write();
-    file.finish();
 }
 
 } // namespace molsurf
