@@ -329,6 +329,7 @@ const std::vector<Format>& formatTable()
         {"stl", meshed, Triangles | Millimetres, "mesh", "", writeMesh},
         {"off", meshed, Triangles | Colors | CutBorders, "mesh", "", writeMesh},
         {"wrl", meshed, printed, "mesh", "", writeMesh},
+        {"vtk", meshed, Triangles | Colors | CutBorders | VertexCurvatures, "mesh", "", writeMesh},
         {"glb", meshed,
          Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels, "mesh",
          "", writeGlb},

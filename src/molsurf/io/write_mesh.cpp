@@ -79,6 +79,32 @@ std::string inOneWord(std::string name)
     return name;
 }
 
+/// Writes a PolyData of VTK's legacy form, as text: positions [Å], triangles, and at the vertices
+/// normals, Mesh::scalars, Mesh::labels and, if there are any, colours.
+void writeVtk(const Mesh& mesh, const std::string& name, OutputFile& file)
+{
+    const std::size_t vertices = mesh.positions.size(), triangles = mesh.triangles.size();
+    TextOutput out(file);
+    const auto putNumbers = [&](const std::string& key, const auto& numbers) {
+        out << "SCALARS " << key << "\nLOOKUP_TABLE default\n";
+        for (const auto number : numbers) out << number << "\n";
+    };
+    out << "# vtk DataFile Version 3.0\n"
+        << inOneWord(name) << "\nASCII\nDATASET POLYDATA\n"
+        << "POINTS " << vertices << " float\n";
+    putVectors(out, "", mesh.positions);
+    out << "POLYGONS " << triangles << " " << 4 * triangles << "\n";
+    putTriangles(out, mesh);
+    out << "POINT_DATA " << vertices << "\n";
+    if (!mesh.normals.empty()) out << "NORMALS normal float\n";
+    putVectors(out, "", mesh.normals);
+    for (const auto& scalar : mesh.scalars) putNumbers(scalar.name + " float", scalar.values);
+    for (const auto& label : mesh.labels) putNumbers(label.name + " int", label.values);
+    if (!mesh.colors.empty()) out << "COLOR_SCALARS color 3\n";
+    putColors(out, mesh.colors);
+    out.finish();
+}
+
 } // namespace
 
 void writePly(const Mesh& mesh, OutputFile& file, const std::vector<std::string>& comments)
@@ -197,6 +223,7 @@ const std::vector<MeshFormat>& meshFormats()
         {"stl", [](const Mesh& m, const Title& t, OutputFile& f) { writeStl(m, f, t.unit); }},
         {"off", [](const Mesh& m, const Title&, OutputFile& f) { writeOff(m, f); }},
         {"wrl", [](const Mesh& m, const Title& t, OutputFile& f) { writeWrl(m, f, t.unit); }},
+        {"vtk", [](const Mesh& m, const Title& t, OutputFile& f) { writeVtk(m, t.name, f); }},
         {"glb", [](const Mesh& m, const Title& t, OutputFile& f) { writeGlb(m, {t.name}, f); }},
         {"3mf", [](const Mesh& m, const Title& t, OutputFile& f) {
              write3mf(m, t.name, t.unit.perAngstrom, f);

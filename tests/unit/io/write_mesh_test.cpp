@@ -222,5 +222,55 @@ TEST(WriteWrl, HasWhatTheMeshHas)
     }
 }
 
+/// The numbers behind some words of a text.
+std::vector<double> numbersBehind(const std::string& text, const std::string& words)
+{
+    const std::size_t begin = text.find(words);
+    if (begin == std::string::npos) return {};
+    std::istringstream rest(text.substr(begin + words.size()));
+    std::vector<double> out;
+    for (double number; rest >> number;) out.push_back(number);
+    return out;
+}
+
+TEST(WriteVtk, HasWhatTheMeshHas)
+{
+    Mesh mesh = tetrahedron();
+    const auto written = [&] {
+        return test::written([&](OutputFile& file) {
+            for (const MeshFormat& format : meshFormats())
+                if (std::string(format.word) == "vtk") format.write(mesh, {"a b\nc", {}}, file);
+        });
+    };
+    EXPECT_EQ(written().find("COLOR_SCALARS"), std::string::npos);
+    mesh.colors = {{255, 0, 51}, {0, 0, 0}, {102, 255, 255}, {1, 2, 3}};
+    const std::string text = written();
+    EXPECT_EQ(
+        text.rfind("# vtk DataFile Version 3.0\na_b_c\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n",
+                   0),
+        0u);
+    const std::string table = "\nLOOKUP_TABLE default\n";
+    const std::vector<double> points = numbersBehind(text, "POINTS 4 float"),
+                              corners = numbersBehind(text, "POLYGONS 4 16"),
+                              normals = numbersBehind(text, "POINT_DATA 4\nNORMALS normal float"),
+                              mean = numbersBehind(text, "SCALARS mean_curvature float" + table),
+                              atoms = numbersBehind(text, "SCALARS atom_id int" + table),
+                              colors = numbersBehind(text, "COLOR_SCALARS color 3");
+    EXPECT_EQ(points.size() + normals.size() + colors.size(), 36u);
+    ASSERT_EQ(corners.size(), 16u);
+    EXPECT_EQ(atoms, std::vector<double>({3, -1, 2000000000, 0}));
+    ASSERT_EQ(mean.size(), 4u);
+    for (std::size_t n = 0; n < 4; ++n) {
+        EXPECT_EQ(float(mean[n]), mesh.scalars[0].values[n]);
+        EXPECT_EQ(corners[4 * n], 3.0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(float(points[3 * n + k]), mesh.positions[n][int(k)]);
+            EXPECT_EQ(float(normals[3 * n + k]), mesh.normals[n][int(k)]);
+            EXPECT_NEAR(colors[3 * n + k], mesh.colors[n][k] / 255.0, 1e-4);
+            EXPECT_EQ(corners[4 * n + 1 + k], mesh.triangles[n][k]);
+        }
+    }
+}
+
 } // namespace
 } // namespace molsurf
