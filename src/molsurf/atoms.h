@@ -296,6 +296,13 @@ struct BallSet {
                        ///< structure's own
     int model = 0;     ///< number of the model that was used
     std::vector<std::string> warnings; ///< one line each, as of unknown elements
+
+    /// Returns the number of balls that the surface is of, which are the first ones: without those
+    /// around a unit.
+    std::size_t own() const { return unit ? unit->balls : balls.size(); }
+
+    /// Returns the number of balls of the whole that a unit stands for, or of these.
+    std::size_t whole() const { return unit ? unit->balls * instances.size() : balls.size(); }
 };
 
 /// Checks the options.

@@ -466,7 +466,7 @@ void addValues(const Structure& structure, const SelectOptions& options, double 
 /// copies.
 void countWhole(BallSet& out)
 {
-    const std::size_t own = out.unit->balls;
+    const std::size_t own = out.own();
     const auto count = [&](const std::vector<std::int32_t>& memberOf, auto& groups) {
         for (auto& group : groups) group.balls = 0;
         for (std::size_t i = 0; i < std::min(own, memberOf.size()); ++i)
@@ -595,9 +595,8 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
         out.unit->motionOf = surround(group, options.surroundings, out);
     }
     warnOfRounding(out.balls, out.warnings);
-    const std::size_t own = out.unit ? out.unit->balls : out.balls.size();
     const std::size_t times = out.unit ? out.instances.size() : 1;
-    for (std::size_t i = 0; i < own; ++i) {
+    for (std::size_t i = 0; i < out.own(); ++i) {
         const std::int32_t n = beadAtoms.empty() ? 0 : beadAtoms[std::size_t(out.balls[i].atom)];
         out.beads += times * (n > 0);
         out.beadAtoms += times * std::size_t(n);
@@ -638,8 +637,7 @@ std::string describeSelection(const Structure& structure, const BallSet& selecti
     std::string text = displayName(structure.source) + ": " + structure.format + ", " +
                        counted(structure.models.size(), "model") + ", " + counted(atoms, "atom");
     if (structure.models.size() > 1) text += " in model " + std::to_string(selection.model);
-    text += "; used " + counted(selection.unit ? selection.unit->balls : selection.balls.size(),
-                                selection.beads > 0 ? "ball" : "atom");
+    text += "; used " + counted(selection.own(), selection.beads > 0 ? "ball" : "atom");
     if (const auto& unit = selection.unit) {
         text += " (" + std::to_string(unit->copies) +
                 (unit->copies == 1 ? " copy) " : " copies) ") + "in each of " +

@@ -187,7 +187,7 @@ const char* nameOf(ContactLevel level)
 Table contactTable(const BallSet& atoms, ContactLevel level, const MolecularSurface& result)
 {
     const BallNames& names = namesOf(atoms);
-    const std::size_t own = atoms.unit ? atoms.unit->balls : atoms.balls.size();
+    const std::size_t own = atoms.own();
     std::map<std::string, std::int32_t> chains;
     Texts chainNames;
     std::vector<std::int32_t> chainOf; // of residues

@@ -98,8 +98,7 @@ void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Lab
         result.report.groups.push_back(
             {group.name, group.balls, area[g], volume[g], colors.empty() ? "" : hexOf(colors[g])});
     }
-    const std::size_t rest =
-        (atoms.unit ? atoms.unit->balls * atoms.instances.size() : atoms.balls.size()) - grouped;
+    const std::size_t rest = atoms.whole() - grouped;
     if (rest > 0 || area[other] > 0.0) {
         result.report.groups.push_back(
             {"other", rest, area[other], volume[other], colors.empty() ? "" : hexOf(neutralColor)});

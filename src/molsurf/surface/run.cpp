@@ -102,7 +102,7 @@ std::vector<double> areasApart(const BallSet& atoms, const SurfaceOptions& optio
         return makeSurface(atoms, options, &quiet).ballAreas;
     }
     std::vector<double> areas = measureClosedForm(atoms.balls, options, progress).ballAreas;
-    if (atoms.unit) areas.resize(atoms.unit->balls);
+    areas.resize(atoms.own());
     return areas;
 }
 
@@ -178,7 +178,7 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
     }
     if (shown) addCurvatureColors(options.color, !helps, result.mesh, result.fields);
     Report& report = result.report;
-    report.atoms = atoms.unit ? atoms.unit->balls * atoms.instances.size() : atoms.balls.size();
+    report.atoms = atoms.whole();
     report.voxel = options.voxel;
     if (atoms.beads > 0) report.coarse = CoarseReport{atoms.beads, atoms.beadAtoms};
     for (const ResolutionGroup& group : atoms.resolutions) {
