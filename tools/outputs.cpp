@@ -87,11 +87,6 @@ std::string inputStem(const std::string& input)
     return name.stem().string();
 }
 
-std::string counted(std::size_t count, const std::string& one, const std::string& many)
-{
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 void checkOutput(const Call& call, const Output& output)
 {
     InputFiles(call).refuse(output.path);

@@ -57,9 +57,6 @@ std::string unrestText(const EvolutionReport& evolution, double voxel);
 /// The name of an input without folder, .gz and extension.
 std::string inputStem(const std::string& input);
 
-/// "1 step", "2 steps".
-std::string counted(std::size_t count, const std::string& one, const std::string& many);
-
 /// Finds out whether an output can be written.
 /// @throws Error(ErrorKind::Output) as checkWritable(), if the call reads that file, or if a
 /// library

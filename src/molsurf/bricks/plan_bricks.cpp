@@ -585,8 +585,7 @@ void checkCost(const PlannedBrick& surface, const RunLimits& limits)
     }
     const double hours = cost.seconds / limits.threads / 3600.0;
     if (hours <= limits.hours) return;
-    const std::string threads =
-        std::to_string(limits.threads) + (limits.threads == 1 ? " thread" : " threads");
+    const std::string threads = counted(std::size_t(limits.threads), "thread", "threads");
     throw Error(ErrorKind::Input,
                 formatted("the surface takes about %.3g hours on %s, expected at most %g%s, or "
                           "`maxHours` %.0f]",

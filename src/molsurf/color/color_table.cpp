@@ -4,6 +4,7 @@
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/color/value_colors.h"
+#include "molsurf/core/words.h"
 #include "molsurf/structure/element.h"
 
 #include <algorithm>
@@ -137,8 +138,7 @@ void foldClasses(const BallSet& atoms, Legend& legend)
         atoms.labels->chains.size() * std::max<std::size_t>(atoms.instances.size(), 1);
     const std::size_t classes = legend.entries.size();
     if (chains <= classes) return;
-    legend.title = std::to_string(chains) + " chains in " + std::to_string(classes) +
-                   (classes == 1 ? " class" : " classes");
+    legend.title = std::to_string(chains) + " chains in " + counted(classes, "class", "classes");
     for (LegendEntry& entry : legend.entries) entry.name.erase(0, word.size());
 }
 

@@ -53,6 +53,11 @@ std::string joinWords(const std::vector<std::string>& words, const char* between
     return all;
 }
 
+std::string counted(std::size_t count, const std::string& one, const std::string& many)
+{
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
 std::string inLines(const std::vector<std::string>& words)
 {
     constexpr std::size_t width = 62;

@@ -44,6 +44,9 @@ bool parseWhole(std::string_view text, T& value)
 /// A number with the fewest digits that give it back.
 std::string shortest(double number);
 
+/// "1 atom", "2 atoms".
+std::string counted(std::size_t count, const std::string& one, const std::string& many);
+
 /// Text by a form as of printf().
 __attribute__((format(printf, 1, 2))) std::string formatted(const char* form, ...);
 

@@ -136,7 +136,7 @@ std::string describeCounts(const std::map<std::string, std::size_t>& counts)
 {
     std::vector<std::string> parts;
     for (const auto& [name, count] : counts) {
-        parts.push_back(name + " (" + std::to_string(count) + (count == 1 ? " atom)" : " atoms)"));
+        parts.push_back(name + " (" + counted(count, "atom", "atoms") + ")");
     }
     return joined(parts);
 }
@@ -294,7 +294,7 @@ void dropDuplicates(const Structure& structure, Filter& filter, BallSet& out)
     out.balls.resize(kept);
     filter.note("duplicate", count);
     out.warnings.push_back(
-        std::to_string(count) + (count == 1 ? " atom lies" : " atoms lie") +
+        counted(count, "atom lies", "atoms lie") +
         " exactly where another of the same radius lies: dropped; the first is " +
         describeAtom(structure, atom));
 }
@@ -624,8 +624,8 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
 
 std::string describeSelection(const Structure& structure, const BallSet& selection)
 {
-    auto counted = [](std::size_t n, const std::string& what) {
-        return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+    const auto some = [](std::size_t n, const std::string& what) {
+        return counted(n, what, what + "s");
     };
     std::size_t atoms = structure.atoms.size();
     for (const Model& model : structure.models) {
@@ -635,23 +635,22 @@ std::string describeSelection(const Structure& structure, const BallSet& selecti
         }
     }
     std::string text = displayName(structure.source) + ": " + structure.format + ", " +
-                       counted(structure.models.size(), "model") + ", " + counted(atoms, "atom");
+                       some(structure.models.size(), "model") + ", " + some(atoms, "atom");
     if (structure.models.size() > 1) text += " in model " + std::to_string(selection.model);
-    text += "; used " + counted(selection.own(), selection.beads > 0 ? "ball" : "atom");
+    text += "; used " + some(selection.own(), selection.beads > 0 ? "ball" : "atom");
     if (const auto& unit = selection.unit) {
-        text += " (" + std::to_string(unit->copies) +
-                (unit->copies == 1 ? " copy) " : " copies) ") + "in each of " +
+        text += " (" + counted(unit->copies, "copy", "copies") + ") in each of " +
                 std::to_string(selection.instances.size()) + " units that rotations make (" +
                 (unit->pointGroup.empty() ? "no point group" : unit->pointGroup) + "), and " +
                 std::to_string(selection.balls.size() - unit->balls) + " around one";
     } else if (!selection.instances.empty()) {
-        text += " of " + counted(selection.copies, "prototype") + " for " +
+        text += " of " + some(selection.copies, "prototype") + " for " +
                 std::to_string(selection.instances.size()) + " copies";
     } else if (selection.copies > 1)
         text += " (" + std::to_string(selection.copies) + " copies)";
     if (selection.beads > 0) {
-        text += ", of them " + counted(selection.beads, "bead") + " for " +
-                counted(selection.beadAtoms, "atom");
+        text += ", of them " + some(selection.beads, "bead") + " for " +
+                some(selection.beadAtoms, "atom");
     }
     if (selection.copies == 1 && selection.instances.empty()) {
         for (const Assembly& assembly : structure.assemblies) {
