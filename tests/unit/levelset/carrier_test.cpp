@@ -67,29 +67,32 @@ TEST(SmoothCarrier, IsPsiOverItsSlopeOnPsiZero)
 }
 
 // On a sphere that is not psi = 0 the level of psi is that at the feet of the voxels. One ball's
-// psi is quadratic, so the expansion of second order is exact.
+// psi is quadratic, so the expansion of second order is exact. Without a level, as where phi has no
+// clear normal, it would be 0.2 Å off.
 TEST(SmoothCarrier, HasTheLevelOfPsiAtTheFeet)
 {
     constexpr double voxel = 0.5, R = 3.1, radius = 3.3;
     const Vec3d centre(0.137, -0.291, 0.443);
     const Ball ball{openvdb::Vec3f(centre), 1.7f, 0};
-    const Fields f = fieldsOf({ball}, voxel, [&](Fields& fields) {
-        test::forEachActive(fields.table(), voxel, [&](std::size_t n, int v, const Vec3d& x) {
-            fields.phi.leaf(n)[v] = float((x - centre).length() - radius);
+    for (const auto& [steep, bound] : {std::pair(1.0, 0.0025), std::pair(0.85, 0.05)}) {
+        const Fields f = fieldsOf({ball}, voxel, [&, steep = steep](Fields& fields) {
+            test::forEachActive(fields.table(), voxel, [&](std::size_t n, int v, const Vec3d& x) {
+                fields.phi.leaf(n)[v] = float(steep * ((x - centre).length() - radius));
+            });
         });
-    });
-    const double decay = M_LN2 / (epsilon * R);
-    double worst = 0.0;
-    std::size_t near = 0;
-    test::forEachActive(f.table(), voxel, [&](std::size_t n, int v, const Vec3d& x) {
-        const double r = (x - centre).length();
-        if (std::abs(r - radius) > voxel) return;
-        ++near;
-        const double wanted = decay * (r * r - radius * radius) / slope;
-        worst = std::max(worst, std::abs(double(f.carrier.leaf(n)[v]) - wanted));
-    });
-    EXPECT_GT(near, 500u);
-    EXPECT_LT(worst, 0.0025); // [Å]
+        const double decay = M_LN2 / (epsilon * R);
+        double worst = 0.0;
+        std::size_t near = 0;
+        test::forEachActive(f.table(), voxel, [&](std::size_t n, int v, const Vec3d& x) {
+            const double r = (x - centre).length();
+            if (std::abs(r - radius) > voxel) return;
+            ++near;
+            const double wanted = decay * (r * r - radius * radius) / slope;
+            worst = std::max(worst, std::abs(double(f.carrier.leaf(n)[v]) - wanted));
+        });
+        EXPECT_GT(near, 500u);
+        EXPECT_LT(worst, bound); // [Å]
+    }
 }
 
 /// All voxels of the eight leaves about the origin.
