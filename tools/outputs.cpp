@@ -70,7 +70,7 @@ std::string unrestText(const EvolutionReport& evolution, double voxel)
     if (evolution.displacementTail == 0.0) // the paper's flow solves for no displacement
         return "not converged after " + steps +
                ": the paper's rule asks for no speed above 0.001 [hint: --flow newton]";
-    const double tolerance = toleranceOf(evolution, voxel);
+    const double tolerance = evolution.toleranceMet;
     const double unit = std::pow(10.0, std::floor(std::log10(tolerance)) - 1.0);
     return formatted(
         "not converged after %s: %.3g %% of the surface moved by more than %.2g Å in the "

@@ -65,9 +65,11 @@ struct EvolveOptions {
     /// L > 0: the flow takes curvatures from a spline on voxels of edge 2^L h. 0: it takes them
     /// from differences on voxels of edge h.
     int splineLevel = 0;
-    /// The flow has converged when the displacement that a step solves for has a root mean square
-    /// below this, and is below eight times this (or below 0.04) at 99.9 % of the interface
-    /// [voxel], > 0. On voxels above 0.5 Å it counts h/0.5 Å times.
+    /// The flow has converged when the way of the interface in a step has a root mean square below
+    /// this, and is below eight times this (or below 0.04) at 99.9 % of the interface [voxel], > 0.
+    /// In a first step it counts for a quarter, and for a third where fronts move, with
+    /// sqrt(lambda/2) above 0.15 Å. It is never meant for less than 0.001 voxel, (h/0.5 Å)^2 times
+    /// that above 0.5 Å.
     double tolerance = 0.01;
 };
 

@@ -118,12 +118,13 @@ struct EvolutionReport {
     std::vector<double> energy; ///< integral of w over the interface [Å^2]
     std::vector<double> area;   ///< area of the interface [Å^2]
     std::vector<double> volume; ///< volume inside the interface [Å^3]
-    std::vector<double> meanDisplacement; ///< mean of |displacement| in the step [Å]
+    std::vector<double> meanDisplacement; ///< mean way of the interface in the step [Å]
     std::vector<double> maxSpeed;         ///< largest |F| near the interface in the step [1/Å]
-    /// The displacement that the last step solved for, and made [Å]: its root mean square, and the
-    /// size that 99.9 % of the interface does not exceed. What is left to rest is some times that.
+    /// The way of the interface in the last step [Å]: its root mean square, and what 99.9 % of the
+    /// interface does not exceed.
     double displacementRms = 0.0, displacementTail = 0.0;
-    /// Share of the interface at which that displacement is above a tenth of a voxel.
+    double toleranceMet = 0.0; ///< the smallest EvolveOptions::tolerance that it meets [voxel]
+    /// Share of the interface at which it is above a tenth of a voxel.
     double unsettledShare = 0.0;
     /// Energy of the final interface, by a quadrature that does not depend on the voxels [Å^2]; not
     /// a number if it was not asked for.

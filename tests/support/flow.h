@@ -34,8 +34,7 @@ inline Evolved evolveBalls(const std::vector<Ball>& balls, double epsilon, doubl
     Progress progress;
     Evolved out;
     if (startsOnCoarserVoxels(options, voxel)) {
-        const Evolved coarse =
-            evolveBalls(balls, epsilon, 2.0 * voxel, coarseFlow(options, 2.0 * voxel));
+        const Evolved coarse = evolveBalls(balls, epsilon, 2.0 * voxel, coarseFlow(options));
         out.band.phi = refined(coarse.band.phi, openvdb::CoordBBox::inf(), progress);
         out.band.psi = field.evaluate(out.band.phi.table, progress).values;
     } else {

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// How far the voxels of the interface have to go: what the stopping rule of the flow looks at.
+/// How far a step moved the interface: what the stopping rule of the flow looks at.
 
 #include "molsurf/core/simd.h"
 
@@ -13,38 +13,37 @@
 namespace molsurf
 {
 
-/// The displacements that a step solves for at the voxels of the interface, in voxels. All sums are
-/// whole numbers: they have the same bits in any order.
+/// The ways of places of the interface in a step, in voxels. All sums are whole numbers: they have
+/// the same bits in any order.
 struct Displacements {
-    std::uint64_t count = 0;              ///< number of voxels
-    std::uint64_t moved = 0;              ///< sum of the steps, by `unit`
-    std::uint64_t square = 0;             ///< sum of the squared displacements, by `unit`
-    std::array<std::uint64_t, 96> bins{}; ///< numbers of voxels by the size of displacement
+    std::uint64_t count = 0;              ///< number of places
+    std::uint64_t moved = 0;              ///< sum of the ways, by `unit`
+    std::uint64_t square = 0;             ///< sum of the squared ways, by `unit`
+    std::array<std::uint64_t, 96> bins{}; ///< numbers of places by the size of their way
 
-    /// @param[in] size  of the displacement that would bring the voxel to rest [voxel]
-    /// @param[in] step  that is made [voxel]
-    void add(float size, float step)
+    /// @param[in] size  of a way [voxel]
+    void add(float size)
     {
         const float seen = smaller(size, clip);
         ++count;
-        moved += std::uint64_t(smaller(step, 1.0f) * unit);
+        moved += std::uint64_t(smaller(size, 1.0f) * unit);
         square += std::uint64_t(seen * seen * unit);
         ++bins[std::size_t(binOf(size))];
     }
 
     Displacements& operator+=(const Displacements& o);
 
-    /// Mean size of the steps that are made [voxel].
-    double meanStep() const { return count ? double(moved) / unit / double(count) : 0.0; }
+    /// Mean way, each taken for a voxel at most [voxel].
+    double mean() const { return count ? double(moved) / unit / double(count) : 0.0; }
 
-    /// Root of the mean squared displacement, each taken for a quarter of a voxel at most: the
+    /// Root of the mean squared way, each taken for a quarter of a voxel at most: the
     /// quantile sees those that are longer [voxel].
     double rms() const;
 
-    /// The size that a share of the voxels does not exceed, to an eighth [voxel].
+    /// The size that a share of the places does not exceed, to an eighth [voxel].
     double quantile(double share) const;
 
-    /// The share of the voxels whose displacement is longer than this [voxel], to an eighth of it.
+    /// The share of the places whose way is longer than this [voxel], to an eighth of it.
     double shareAbove(double size) const;
 
 private:

@@ -2,6 +2,7 @@
 #include "molsurf/flow/evolve.h"
 
 #include "molsurf/error.h"
+#include "molsurf/flow/interface_motion.h"
 #include "molsurf/flow/newton_step.h"
 #include "molsurf/flow/paper_step.h"
 #include "molsurf/flow/settle.h"
@@ -38,8 +39,8 @@ int sweepsFor(const EvolveOptions& options, double voxelSize)
     return int(std::min(sweeps, 8.0));
 }
 
-/// How many times the options' tolerance is meant [voxel]: above 0.5 Å the stencils' error of the
-/// curvature, which grows as h^2, moves the interface by a way that grows as h in voxels.
+/// How many times as coarse as half an Å voxels are, 1 at least: the stencils' error of the
+/// curvature grows as h^2, and moves the interface by a way that grows as h in voxels.
 double coarseness(double voxelSize)
 {
     constexpr double fine = 0.5; // [Å]
@@ -89,22 +90,48 @@ EvolutionReport evolveAsPaper(NarrowBand& band, const PsiSource& source,
     return report;
 }
 
-/// How many times the tolerance the displacements are to be below it: one step alone does not tell
-/// how fast they shrink.
-double rmsFactor(const EvolutionReport& report)
+/// The root mean square of the ways in a step and the way of 99.9 % of the interface at rest
+/// [voxel].
+struct Rest {
+    double rms, tail;
+};
+
+/// How many steps as long as the last one are allowed for in the options' tolerance: one step alone
+/// does not tell how fast they shrink, and fronts go on for some steps.
+double stepsToRest(const EvolveOptions& options, const EvolutionReport& report)
 {
-    return report.steps > 1 ? 1.0 : 4.0;
+    if (report.steps <= 1) return 4.0;
+    return hasFronts(options) ? 3.0 : 1.0;
 }
 
-/// Lets the fronts that a flow has left move to rest.
-void settleFronts(NarrowBand& band, const PsiSource& source, const NewtonOptions& steps,
-                  const NewtonSteps& newton, EvolutionReport& report, Progress& progress)
+/// What the last step of a report has to be below; no flow comes nearer to rest than the noise of
+/// its grid.
+Rest restOf(const EvolveOptions& options, double voxelSize, const EvolutionReport& report)
 {
-    constexpr float calm = 0.3f, eager = 0.2f; // of a voxel: so far voxels go to and fro in gaps
-    const float limit = (steps.eager ? eager : calm) * float(coarseness(band.phi.voxelSize));
+    constexpr double noise = 0.001; // [voxel]
+    const double coarse = coarseness(voxelSize);
+    const double rms =
+        std::max(options.tolerance / stepsToRest(options, report), noise * coarse * coarse);
+    return {rms, std::max(tailOfTolerance * rms, tailOfGrid * coarse)};
+}
+
+/// Fronts move alone once 99 % of the interface move by less than this in a step [voxel], and make
+/// so many steps in all, at most.
+constexpr double calmBulk = 0.08;
+constexpr int mostFrontSteps = 240;
+
+/// Lets the fronts that a flow has left move to rest.
+/// @param[in] table, ways  how far the last step moved the interface in which leaf [voxel]
+/// @return whether there were any
+bool settleFronts(NarrowBand& band, const PsiSource& source, const NewtonOptions& steps,
+                  const LeafTable& table, const std::vector<float>& ways, EvolutionReport& report,
+                  Progress& progress)
+{
+    constexpr float awake = 0.2f; // of a voxel
+    const float limit = awake * float(coarseness(band.phi.voxelSize));
     std::vector<float> largest(band.phi.table.size(), 0.0f);
-    for (std::size_t n = 0; n < newton.table().size(); ++n)
-        largest[std::size_t(band.phi.table.find(newton.table().origin(n)))] = newton.largest()[n];
+    for (std::size_t n = 0; n < table.size(); ++n)
+        largest[std::size_t(band.phi.table.find(table.origin(n)))] = ways[n];
     const Settling settling = settle(band, source, steps, std::move(largest), limit, progress);
     if (settling.steps > 0) { // the rims of what moved fit what stood beside it
         LeafField next(band.phi.table.size());
@@ -114,8 +141,9 @@ void settleFronts(NarrowBand& band, const PsiSource& source, const NewtonOptions
             updateBand(band, source, openvdb::CoordBBox::inf(), next, progress);
         }
     }
-    report.frontSteps = settling.steps;
+    report.frontSteps += settling.steps;
     report.restlessFronts = settling.awake;
+    return settling.steps > 0;
 }
 
 } // namespace
@@ -143,12 +171,12 @@ bool startsOnCoarserVoxels(const EvolveOptions& options, double voxelSize)
            options.splineLevel == 0;
 }
 
-EvolveOptions coarseFlow(const EvolveOptions& options, double voxelSize)
+EvolveOptions coarseFlow(const EvolveOptions& options)
 {
     constexpr double tolerance = 0.006; // what still moves there takes many steps of finer voxels
     constexpr int maxSteps = 100;
     EvolveOptions coarse = options;
-    coarse.tolerance = std::min(tolerance / coarseness(voxelSize), options.tolerance);
+    coarse.tolerance = std::min(tolerance, options.tolerance);
     coarse.steps.reset();
     coarse.maxSteps = maxSteps;
     return coarse;
@@ -162,9 +190,9 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
     const bool fixed = options.steps.has_value();
     const int maxSteps = options.steps.value_or(options.maxSteps.value_or(defaultSteps));
     const bool mayGiveUp = !options.maxSteps; // who asks for steps gets them
-    const bool eager = hasFronts(options);
-    const int reinitializations = eager ? 2 : 1; // long steps spoil the distance
-    const NewtonOptions steps{weightsOf(options), sweepsFor(options, h), eager,
+    const bool fronts = hasFronts(options);
+    const int reinitializations = fronts ? 2 : 1; // long steps spoil the distance
+    const NewtonOptions steps{weightsOf(options), sweepsFor(options, h), fronts,
                               options.splineLevel};
     NewtonSteps newton(steps);
 
@@ -172,26 +200,35 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
     LeafField next(band.phi.table.size());
     std::vector<double> rms, tails;
     while (report.steps < maxSteps) {
-        Displacements moves;
-        const InterfaceSums sums = newton.step(band, region, next, moves, progress);
+        const InterfaceSums sums = newton.step(band, region, next, progress);
         record(sums, region.whole(), report);
-        report.meanDisplacement.push_back(moves.meanStep() * h);
         report.maxSpeed.push_back(sums.maxSpeed);
         ++report.steps;
         progress.update("evolve", double(report.steps) / maxSteps);
         std::swap(band.phi.values, next);
-        reinitialize(band.phi, bandWidthVox * h, reinitializations, progress, next, Repair::Errors);
+        InterfaceMotion motion(newton.table(), region, h);
+        reinitialize(band.phi, bandWidthVox * h, reinitializations, progress, next, Repair::Errors,
+                     motion.watch());
         updateBand(band, source, region.grown(halo), next, progress);
 
-        // The step that was solved for is made.
-        judge(moves, options, h, report);
-        if (last) *last = moves;
+        const Displacements moved = motion.sum();
+        report.meanDisplacement.push_back(moved.mean() * h);
+        judge(moved, options, h, report);
+        if (last) *last = moved;
         rms.push_back(report.displacementRms);
         tails.push_back(report.displacementTail);
-        if (!fixed && (report.converged || (mayGiveUp && stalled(rms, tails, report)))) break;
+        if (fixed) continue;
+        if (fronts && region.whole() && report.frontSteps < mostFrontSteps &&
+            moved.quantile(0.99) < calmBulk &&
+            settleFronts(band, source, steps, newton.table(), motion.largest(), report, progress)) {
+            newton = NewtonSteps(steps);
+            next = LeafField(band.phi.table.size());
+            rms.clear();
+            tails.clear();
+            continue;
+        }
+        if (report.converged || (mayGiveUp && stalled(rms, tails, report))) break;
     }
-    if (!fixed && region.whole() && report.converged)
-        settleFronts(band, source, steps, newton, report, progress);
     record(newton.sums(band, region, progress), region.whole(), report);
     return report;
 }
@@ -220,16 +257,10 @@ void judge(const Displacements& last, const EvolveOptions& options, double voxel
     report.displacementRms = last.rms() * voxelSize;
     report.displacementTail = last.quantile(0.999) * voxelSize;
     report.unsettledShare = last.shareAbove(0.1);
-    const double tolerance = options.tolerance * coarseness(voxelSize);
-    report.converged = rmsFactor(report) * last.rms() < tolerance &&
-                       last.quantile(0.999) < std::max(tailOfTolerance * tolerance, tailOfGrid);
-}
-
-double toleranceOf(const EvolutionReport& report, double voxelSize)
-{
-    return std::max(rmsFactor(report) * report.displacementRms,
-                    report.displacementTail / tailOfTolerance) /
-           (voxelSize * coarseness(voxelSize));
+    const Rest rest = restOf(options, voxelSize, report);
+    report.converged = last.rms() < rest.rms && last.quantile(0.999) < rest.tail;
+    report.toleranceMet =
+        stepsToRest(options, report) * std::max(last.rms(), last.quantile(0.999) / tailOfTolerance);
 }
 
 } // namespace molsurf

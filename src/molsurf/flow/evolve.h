@@ -23,8 +23,8 @@ constexpr double coarseVoxel = 1.0;
 /// Largest numbers of steps, if the options do not say any: of the Newton flow, and of the paper's.
 constexpr int defaultSteps = 50, defaultPaperSteps = 200;
 
-/// The longest displacement that 99.9 % of the interface may still have at rest: so many times the
-/// tolerance, but no less than the grid's own noise [voxel].
+/// The longest way in a step that 99.9 % of the interface may still have at rest: so many times
+/// that of the root mean square, but no less than the grid's own noise [voxel].
 constexpr double tailOfTolerance = 8.0, tailOfGrid = 0.04;
 
 /// The weights that the options say.
@@ -43,45 +43,40 @@ bool startsOnCoarserVoxels(const EvolveOptions& options, double voxelSize);
 bool decidesGaps(const EvolveOptions& options);
 
 /// The options of the flow on coarser voxels, which goes nearer to rest than those ask for.
-/// @param[in] voxelSize  edge of those voxels [Å]
-EvolveOptions coarseFlow(const EvolveOptions& options, double voxelSize);
+EvolveOptions coarseFlow(const EvolveOptions& options);
 
 /// Evolves phi by  phi_t = |grad phi| (w kappa + n . grad w)  to rest (docs/math.md, section 4): by
 /// Newton steps, each solved for by sweeps over the interface, with speeds taken at the foot points
 /// of voxels. After each step the level set is made a distance again by reinitialize(); leaves are
 /// added as the interface moves, and none is dropped.
 ///
-/// Stops when the displacement that a step solves for, which is then made, has a root mean square
-/// below options.tolerance voxels, above 0.5 Å options.tolerance * h/0.5 Å, and at 99.9 % of the
-/// interface is below eight times this; or
-/// after options.maxSteps; or, if these are not given, when in eight steps neither of the two has
-/// fallen by a tenth, nor the area and the volume have changed; with options.steps after just so
-/// many. Where it stops by itself, the fronts that still move go on to rest alone: see settle().
+/// Stops when the way of the interface in a step has a root mean square below options.tolerance
+/// voxels, and at 99.9 % of the interface is below eight times this; or after options.maxSteps; or,
+/// if these are not given, when in eight steps neither of the two has fallen by a tenth, nor the
+/// area and the volume have changed; with options.steps after just so many. Where fronts move far,
+/// they go on alone as soon as all else is calm, see settle(), and steps of the whole follow.
 ///
 /// @param[in,out] band    as initialSurface() or refined() make it
 /// @param[in]     source  psi for leaves that are added
 /// @param[in]     region  where leaves may be added: those that the band has must lie there, too;
 ///                        the report's sums are of its own voxels only, and may be empty
 /// @param[in]     halo    of the region, in leaves
-/// @param[out]    last    null, or takes the displacements of the last step
+/// @param[out]    last    null, or takes the ways of the interface in the last step
 /// @throws Error(ErrorKind::Numeric) if a value is not finite, or if nothing is left of the surface
 EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOptions& options,
                        Progress& progress, const Region& region = {}, int halo = 0,
                        Displacements* last = nullptr);
 
-/// The smallest tolerance that the last step of a flow meets [voxel].
-double toleranceOf(const EvolutionReport& report, double voxelSize);
-
 /// Whether a flow has come as near to rest as its voxels let it: in eight steps neither the root
-/// mean square nor the quantile of its displacements has fallen by a tenth, nor have area and
+/// mean square nor the quantile of its ways has fallen by a tenth, nor have area and
 /// volume changed.
 /// @param[in] rms, tails  of the steps so far
 bool stalled(const std::vector<double>& rms, const std::vector<double>& tails,
              const EvolutionReport& report);
 
-/// Finds whether the displacements of a step meet the stopping rule.
+/// Finds whether the ways of the interface in a step meet the stopping rule.
 /// @param[in]     voxelSize  edge h of a voxel [Å]
-/// @param[in,out] report     converged and the last displacements are set
+/// @param[in,out] report     converged and the last ways are set
 void judge(const Displacements& last, const EvolveOptions& options, double voxelSize,
            EvolutionReport& report);
 

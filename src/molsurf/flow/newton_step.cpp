@@ -3,8 +3,6 @@
 
 #include "molsurf/core/parallel.h"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -23,12 +21,9 @@ constexpr int footReach = 4;     // rim of u that feet lie in [voxel]
 // 3 Å in a step.
 constexpr float leastStiffness = 0.1f;
 
-// From where on steps are extended and where they are long [voxel]: eagerly, and where that would
-// only make the grid's noise swing.
-constexpr float eagerFrom = 0.01f, eagerLong = 0.03f, calmFrom = 0.04f, calmLong = 0.06f;
-
-// What u is taken for, at most, where it alternates [voxel].
-constexpr float noise = 0.05f;
+// Where all displacements of a leaf are below this, they are the steps, and leave no history
+// [voxel].
+constexpr float noHistory = 0.04f, noHistoryOfFronts = 0.01f;
 
 /// Two positive or negative floats in one word, each to a relative 0.002 (bfloat16): enough for
 /// coefficients, since rest is where b is 0.
@@ -186,39 +181,31 @@ MOLSURF_KERNEL void feetRows(const float* __restrict phiBlock, const float* __re
 }
 
 /// The steps that are made of a leaf's displacements.
-/// @param[in]     from,longFrom  see extendedStep()
-/// @param[in,out] history        of the step before; then of this one
-MOLSURF_KERNEL void extend(const float* __restrict atFoot, float h, float from, float longFrom,
-                           StepHistory& __restrict history, float* __restrict step)
+/// @param[in,out] history  of the step before; then of this one
+MOLSURF_KERNEL void chooseSteps(const float* __restrict atFoot, float h, bool fronts,
+                                StepHistory& __restrict history, float* __restrict step)
 {
     for (int v = 0; v < leafSize; ++v) {
-        const float u = atFoot[v];
-        step[v] = extendedStep(u, history.u[v], history.step[v], h, from, longFrom);
+        const float u = atFoot[v], last = history.step[v];
+        const float share = shareOfStep(u, last, 1.0f - history.lost[v]);
+        const float whole = fronts ? extendedStep(u, history.u[v], last, h) : u;
+        step[v] = clamped(share * whole, -longestStep * h, longestStep * h);
         history.u[v] = u;
         history.step[v] = step[v];
+        history.lost[v] = 1.0f - share;
     }
 }
 
-/// phi after the step; in place of the displacements their sizes in voxels at the voxels next to
-/// the interface, which count for the stopping rule, else -1. Where u alternates rest lies between;
-/// what still does so at last is the grid's noise.
-/// @param[in] lastDown  where u was below 0 in the step before
-/// @param[in] second    0 in the first step: nothing alternates; else 1
+/// phi after the step.
 MOLSURF_KERNEL void moveRows(const float* __restrict phi, const float* __restrict slope,
                              const float* __restrict step, const LeafMask& active,
-                             const LeafMask& lastDown, float second, float h,
-                             float* __restrict next, float* __restrict size)
+                             float* __restrict next)
 {
     for (int row = 0; row < 64; ++row) {
-        const int bits = active.row(row), down = lastDown.row(row);
+        const int bits = active.row(row);
         for (int z = 0; z < 8; ++z) {
             const int v = 8 * row + z;
-            const float u = size[v], length = std::abs(u) / h;
-            const float before = down & rowBits[z] ? -second : second;
-            const float left = before * u < 0.0f ? smaller(0.5f * length, noise) : length;
             const float on = bits & rowBits[z] ? 1.0f : 0.0f;
-            const bool counts = (on > 0.0f) & (std::abs(phi[v]) < h) & (slope[v] > 0.6f);
-            size[v] = counts ? left : -1.0f;
             next[v] = phi[v] + on * smaller(slope[v], 1.0f) * step[v];
         }
     }
@@ -235,15 +222,12 @@ void NewtonSteps::fit(const LeafTable& table, const Progress& progress)
     u_ = LeafField(table.size());
     system_ = LeafArray<std::uint32_t>();
     system_ = LeafArray<std::uint32_t>(table.size());
-    std::vector<LeafMask> down(table.size());
     std::vector<std::unique_ptr<StepHistory>> history(table.size());
     parallelFor(table.size(), progress, [&](std::size_t n) {
         const std::int32_t m = known_.find(table.origin(n));
         if (m == noLeaf) return;
-        down[n] = down_[std::size_t(m)];
         history[n] = std::move(history_[std::size_t(m)]);
     });
-    down_ = std::move(down);
     history_ = std::move(history);
     known_ = table;
 }
@@ -303,16 +287,13 @@ InterfaceSums NewtonSteps::sums(const NarrowBand& band, const Region& region,
 }
 
 InterfaceSums NewtonSteps::step(const NarrowBand& band, const Region& region, LeafField& next,
-                                Displacements& moves, const Progress& progress)
+                                const Progress& progress)
 {
     const LeafTable& table = band.phi.table;
     const double h = band.phi.voxelSize;
     const InterfaceSums before = sums(band, region, progress);
     sweep(table, next, progress);
-    const float from = options_.eager ? eagerFrom : calmFrom,
-                longFrom = options_.eager ? eagerLong : calmLong;
-    tbb::enumerable_thread_specific<Displacements> parts;
-    largest_.assign(table.size(), 0.0f);
+    const float least = options_.fronts ? noHistoryOfFronts : noHistory;
     parallelFor(table.size(), progress, [&](std::size_t n) {
         const LeafMask& active = table.active(n);
         if (!active.any()) {
@@ -324,27 +305,17 @@ InterfaceSums NewtonSteps::step(const NarrowBand& band, const Region& region, Le
         LeafBlock<float, footReach> u;
         phi.gather(band.phi, n);
         u.gather(table, u_, n);
-        alignas(64) float size[leafSize], slope[leafSize], step[leafSize];
-        feetRows(phi.values, u.values, active, float(h), size, slope);
-        const LeafMask down = lessThan(size, 0.0f);
-        if (within(size, from * float(h)).count() == leafSize) {
+        alignas(64) float solved[leafSize], slope[leafSize], step[leafSize];
+        feetRows(phi.values, u.values, active, float(h), solved, slope);
+        if (within(solved, least * float(h)).count() == leafSize) {
             history_[n].reset();
-            std::copy_n(size, leafSize, step);
+            std::copy_n(solved, leafSize, step);
         } else {
             if (!history_[n]) history_[n] = std::make_unique<StepHistory>();
-            extend(size, float(h), from, longFrom, *history_[n], step);
+            chooseSteps(solved, float(h), options_.fronts, *history_[n], step);
         }
-        moveRows(band.phi.leaf(n), slope, step, active, down_[n], made_ ? 1.0f : 0.0f, float(h),
-                 next.leaf(n), size);
-        down_[n] = down;
-        largest_[n] = *std::max_element(size, size + leafSize);
-        if (!region.owned.isInside(table.origin(n))) return;
-        Displacements& part = parts.local();
-        for (int v = 0; v < leafSize; ++v)
-            if (size[v] >= 0.0f) part.add(size[v], std::abs(step[v]) / float(h));
+        moveRows(band.phi.leaf(n), slope, step, active, next.leaf(n));
     });
-    made_ = true;
-    for (const Displacements& part : parts) moves += part;
     return before;
 }
 

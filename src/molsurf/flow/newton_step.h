@@ -6,7 +6,6 @@
 /// docs/math.md, section 4.
 
 #include "molsurf/core/simd.h"
-#include "molsurf/flow/displacement.h"
 #include "molsurf/flow/front.h"
 #include "molsurf/flow/narrow_band.h"
 #include "molsurf/grid/region.h"
@@ -23,40 +22,52 @@ namespace molsurf
 /// phi is noise, which a Newton step would answer in full.
 constexpr double newtonWidthVox = 1.5;
 
-/// The displacements of the step before at the voxels of a leaf [Å].
+/// The step before at the voxels of a leaf.
 struct StepHistory {
-    alignas(64) float u[leafSize] = {};    ///< that it solved for
-    alignas(64) float step[leafSize] = {}; ///< that it made
+    alignas(64) float u[leafSize] = {};    ///< the displacement that it solved for [Å]
+    alignas(64) float step[leafSize] = {}; ///< the one that it made [Å]
+    alignas(64) float lost[leafSize] = {}; ///< the share of it that was not made, in [0, 1)
 };
 
-/// The longest step [voxel], and by how much steps are extended at most: where u is short, and
-/// where it is long.
+/// The longest step [voxel], and by how much steps of fronts are extended at most: where u is
+/// short, and where it is long.
 constexpr float longestStep = 0.8f, extension = 3.0f, longExtension = 5.0f;
 
-/// The step that is made of a displacement u [Å]: u itself, but where it falls by the same factor
+/// How much shorter a step becomes where displacements alternate, how fast it becomes whole again
+/// where they do not, and the least share that is made.
+constexpr float shorter = 0.5f, longer = 1.2f, leastShare = 0.1f;
+
+/// The share of a step that is made. Where u has another sign than the step before, which went too
+/// far, it is halved, and it grows from step to step where it has the same: so what goes to and fro
+/// in a gap comes to rest.
+/// @param[in] lastShare, lastStep  of the step before; 1 and 0: there was none
+MOLSURF_INLINE float shareOfStep(float u, float lastStep, float lastShare)
+{
+    return lastStep * u < 0.0f ? larger(shorter * lastShare, leastShare)
+                               : smaller(longer * lastShare, 1.0f);
+}
+
+/// The step of a front with the displacement u [Å]: u itself, but where it falls by the same factor
 /// in two steps, the way that is left. If u falls by theta times the step, that is u/theta.
 /// @param[in] lastU, lastStep  of the step before; 0: there was none
 /// @param[in] h                edge of a voxel [Å]
-/// @param[in] from             steps are extended above this, fully at twice that [voxel]
-/// @param[in] longFrom         the same of the larger factor
-MOLSURF_INLINE float extendedStep(float u, float lastU, float lastStep, float h, float from,
-                                  float longFrom)
+MOLSURF_INLINE float extendedStep(float u, float lastU, float lastStep, float h)
 {
+    constexpr float from = 0.01f, longFrom = 0.03f; // fully at twice that [voxel]
     const float length = std::abs(u) / h;
     const float far = clamped(length / longFrom - 1.0f, 0.0f, 1.0f);
     const float most = extension + (longExtension - extension) * far;
     const float theta =
         clamped(lastStep * (lastU - u) / (lastStep * lastStep + 1e-12f), 1.0f / most, 1.0f);
     const float trust = clamped(length / from - 1.0f, 0.0f, 1.0f);
-    const float factor = lastStep * u > 0.0f ? 1.0f + trust * (1.0f / theta - 1.0f) : 1.0f;
-    return clamped(factor * u, -longestStep * h, longestStep * h);
+    return lastStep * u > 0.0f ? u * (1.0f + trust * (1.0f / theta - 1.0f)) : u;
 }
 
 /// How Newton steps are made.
 struct NewtonOptions {
     Weights weights;
     int sweeps = 1;      ///< for each step, >= 1
-    bool eager = false;  ///< whether shorter steps are extended, too
+    bool fronts = false; ///< whether fronts move far: then steps are extended
     int splineLevel = 0; ///< curvatures come from a spline on voxels of edge 2^level h; 0: from
                          ///< differences
 };
@@ -67,26 +78,23 @@ struct NewtonOptions {
 ///
 /// P the stiffness of the metric's valley, in the voxels next to the interface with no flux through
 /// the rim, by a fixed number of Chebyshev-accelerated Jacobi sweeps. All of the band then moves by
-/// u at its feet; where u falls by the same factor in two steps, by what that would add up to.
+/// u at its feet; by less where u alternates, and by more in fronts.
 class NewtonSteps
 {
 public:
     explicit NewtonSteps(const NewtonOptions& options) : options_(options) {}
 
     /// Makes a step.
-    /// @param[in]     region  whose own voxels are summed
-    /// @param[out]    next    phi after the step, as many leaves as phi
-    /// @param[in,out] moves   the displacements are added
+    /// @param[in]  region  whose own voxels are summed
+    /// @param[out] next    phi after the step, as many leaves as phi
     /// @return sums before the step
     InterfaceSums step(const NarrowBand& band, const Region& region, LeafField& next,
-                       Displacements& moves, const Progress& progress);
+                       const Progress& progress);
 
     /// The sums of a band, without a step.
     InterfaceSums sums(const NarrowBand& band, const Region& region, const Progress& progress);
 
-    /// The largest displacements of the interface in the leaves of table(), in the last step
-    /// [voxel].
-    const std::vector<float>& largest() const { return largest_; }
+    /// The leaves of the last step.
     const LeafTable& table() const { return known_; }
 
 private:
@@ -94,14 +102,11 @@ private:
     void sweep(const LeafTable& table, LeafField& scratch, const Progress& progress);
 
     NewtonOptions options_;
-    std::vector<float> largest_;
     LeafArray<std::uint32_t> system_;                   // its coefficients, two in a word
     LeafField u_;                                       // its solution
     std::vector<LeafMask> acting_;                      // the voxels that it is solved in
-    bool made_ = false;                                 // whether there was a step before:
-    LeafTable known_;                                   // its leaves,
-    std::vector<LeafMask> down_;                        // where its u was below 0,
-    std::vector<std::unique_ptr<StepHistory>> history_; // and more where u was long
+    LeafTable known_;                                   // the leaves of the step before,
+    std::vector<std::unique_ptr<StepHistory>> history_; // and its displacements where one is long
 };
 
 } // namespace molsurf

@@ -129,10 +129,9 @@ void move(NarrowBand& part, const PsiSource& source, const NewtonOptions& option
     NewtonSteps newton(options);
     LeafField next(part.phi.table.size());
     for (int i = 0; i < steps; ++i) {
-        Displacements moves;
-        newton.step(part, {}, next, moves, progress);
+        newton.step(part, {}, next, progress);
         std::swap(part.phi.values, next);
-        reinitialize(part.phi, bandWidthVox * part.phi.voxelSize, options.eager ? 2 : 1, progress,
+        reinitialize(part.phi, bandWidthVox * part.phi.voxelSize, options.fronts ? 2 : 1, progress,
                      next, Repair::Errors);
         updateBand(part, source, openvdb::CoordBBox::inf(), next, progress);
     }

@@ -140,7 +140,7 @@ MOLSURF_KERNEL void taylorDistance(const float* __restrict block, const LeafMask
 } // namespace
 
 void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress,
-                  LeafField& scratch, Repair repair)
+                  LeafField& scratch, Repair repair, const InterfaceWatch& watch)
 {
     const LeafTable& table = phi.table;
     const float h = float(phi.voxelSize), w = float(width);
@@ -154,10 +154,14 @@ void reinitialize(SparseField& phi, double width, int iterations, const Progress
             block.gather(phi, n);
             scratch.prefetchAfter(n);
             LeafMask& fixed = interface[n];
+            float before[leafSize];
             if (i == 0) nextToInterface(block.values, table.active(n), fixed);
+            const bool watched = watch && i == 0 && fixed.any();
+            if (watched) std::copy_n(scratch.leaf(n), leafSize, before);
             eulerStep(block.values, table.active(n) & ~fixed, h, w, noise, scratch.leaf(n));
             if (i == 0 && fixed.any())
                 taylorDistance(block.values, fixed, 1.0f / h, scratch.leaf(n));
+            if (watched) watch(n, before, scratch.leaf(n), fixed);
         });
         std::swap(phi.values, scratch);
     }

@@ -8,6 +8,9 @@
 #include "molsurf/grid/sparse_field.h"
 #include "molsurf/progress.h"
 
+#include <cstddef>
+#include <functional>
+
 namespace molsurf
 {
 
@@ -16,6 +19,15 @@ enum class Repair {
     All,   ///< every deviation from a distance
     Errors ///< deviations beyond the error of the stencils: a field at rest then stays as it is
 };
+
+/// Sees a leaf that the interface crosses, once its voxels next to the interface have their last
+/// values. It is called from several threads.
+/// @param[in] leaf       its number
+/// @param[in] before     what scratch had in it
+/// @param[in] after      the level set now
+/// @param[in] interface  the voxels with a face neighbour of the other sign
+using InterfaceWatch = std::function<void(std::size_t leaf, const float* before, const float* after,
+                                          const LeafMask& interface)>;
 
 /// Iterates phi_t + sign(phi) (|grad phi| - 1) = 0 on the active voxels, by explicit Euler steps of
 /// half a voxel with second-order ENO differences and Godunov's flux (Sussman, Smereka and Osher, A
@@ -34,8 +46,10 @@ enum class Repair {
 /// @param[in]     width       half width of the band [Å]
 /// @param[in]     iterations  number of Euler steps
 /// @param         scratch     storage, to be kept from call to call; made to fit if it does not
+/// @param[in]     watch       null, or sees each leaf with interface
 void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress,
-                  LeafField& scratch, Repair repair = Repair::All);
+                  LeafField& scratch, Repair repair = Repair::All,
+                  const InterfaceWatch& watch = nullptr);
 
 /// As above, with storage of its own.
 void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress);

@@ -99,7 +99,7 @@ SparseField restOnCoarserVoxels(const BallSet& atoms, const SurfaceOptions& opti
 {
     SurfaceOptions wide = options;
     wide.voxel = 2.0 * options.voxel;
-    wide.evolution = coarseFlow(options.evolution, wide.voxel);
+    wide.evolution = coarseFlow(options.evolution);
     SurfaceRun run(atoms, wide, Scope(), progress);
     run.density();
     run.flow(nullptr);

@@ -16,7 +16,7 @@ constexpr float h = 0.5f;
 
 float extended(float u, float lastU, float lastStep)
 {
-    return extendedStep(u, lastU, lastStep, h, 0.02f, 0.2f);
+    return extendedStep(u, lastU, lastStep, h);
 }
 
 // What is solved for is a share of the way to rest, the same in every step: then the next step is
@@ -38,15 +38,31 @@ TEST(ExtendedStep, IsTheDisplacementWhereThatTurnsOrIsShort)
 {
     EXPECT_FLOAT_EQ(extended(-0.05f, 0.06f, 0.06f), -0.05f);
     EXPECT_FLOAT_EQ(extended(0.05f, 0.0f, 0.0f), 0.05f); // the first step
-    EXPECT_FLOAT_EQ(extended(0.01f, 0.02f, 0.02f), 0.01f);
+    EXPECT_FLOAT_EQ(extended(0.005f, 0.02f, 0.02f), 0.005f);
 }
 
 TEST(ExtendedStep, HasItsLimits)
 {
-    EXPECT_FLOAT_EQ(extended(0.05f, 0.051f, 0.05f), 3.0f * 0.05f);
-    EXPECT_FLOAT_EQ(extendedStep(0.05f, 0.051f, 0.05f, h, 0.02f, 0.04f), 5.0f * 0.05f);
-    EXPECT_FLOAT_EQ(extended(0.3f, 0.31f, 0.3f), 0.8f * h);
-    EXPECT_FLOAT_EQ(extended(-0.7f, 0.0f, 0.0f), -0.8f * h);
+    EXPECT_FLOAT_EQ(extended(0.013f, 0.0131f, 0.013f), 3.0f * 0.013f);
+    EXPECT_FLOAT_EQ(extended(0.05f, 0.051f, 0.05f), 5.0f * 0.05f);
+}
+
+// Rest lies between two places where displacements have opposite signs: steps become shorter until
+// they have one sign, and then longer again, but never longer than whole.
+TEST(ShareOfStep, FallsWhereDisplacementsAlternate)
+{
+    float share = 1.0f, step = 0.1f;
+    for (const float expected : {0.5f, 0.25f, 0.125f, 0.1f, 0.1f}) {
+        share = shareOfStep(-step, step, share);
+        EXPECT_FLOAT_EQ(share, expected);
+        step = -step;
+    }
+    for (const float expected : {0.12f, 0.144f}) {
+        share = shareOfStep(step, step, share);
+        EXPECT_FLOAT_EQ(share, expected);
+    }
+    EXPECT_FLOAT_EQ(shareOfStep(0.1f, 0.1f, 0.9f), 1.0f);
+    EXPECT_FLOAT_EQ(shareOfStep(0.1f, 0.0f, 1.0f), 1.0f); // the first step
 }
 
 /// A ball of the flow's field, and the sphere about it that the interface is.
