@@ -147,7 +147,7 @@ void redistancingPass(benchmark::State& state)
     SparseField phi = copied(shell().phi);
     LeafField scratch;
     Progress progress;
-    for (auto _ : state) reinitialize(phi, width, 1, progress, scratch);
+    for (auto _ : state) reinitialize(phi, {width, 1}, progress, scratch);
     const std::size_t n = shell().phi.table.size() / 2;
     within(phi.leaf(n), float(width - voxel)).forEach([&](int v) {
         require(std::abs(phi.leaf(n)[v] - Shell::at(shell().phi.table, n, v)) < 0.01, "distance");

@@ -189,7 +189,7 @@ MOLSURF_MEMBERS(SurfaceReport, v.kind, v.area, v.volume, v.eulerCharacteristic,
 MOLSURF_MEMBERS(EvolutionReport::Gaps, v.found, v.closed, v.nearest)
 MOLSURF_MEMBERS(EvolutionReport, v.steps, v.converged, v.energy, v.area, v.volume,
                 v.meanDisplacement, v.maxSpeed, v.displacementRms, v.displacementTail,
-                v.toleranceMet, v.unsettledShare, v.finalEnergy, v.unresolvedGapVoxels,
+                v.toleranceMet, v.areaError, v.unsettledShare, v.finalEnergy, v.unresolvedGapVoxels,
                 v.frontSteps, v.restlessFronts, v.gaps)
 MOLSURF_MEMBERS(GroupReport, v.name, v.atoms, v.area, v.volume, v.color, v.aloneArea)
 MOLSURF_MEMBERS(InterfaceReport, v.first, v.second, v.area, v.count, v.buried)

@@ -84,7 +84,7 @@ EvolutionReport evolveAsPaper(NarrowBand& band, const PsiSource& source,
         ++report.steps;
         progress.update("evolve", double(report.steps) / maxSteps);
         std::swap(band.phi.values, next);
-        reinitialize(band.phi, bandWidthVox * h, 1, progress, next);
+        reinitialize(band.phi, {bandWidthVox * h, 1}, progress, next);
         updateBand(band, source, openvdb::CoordBBox::inf(), next, progress);
     }
     return report;
@@ -121,23 +121,22 @@ constexpr double calmBulk = 0.08;
 constexpr int mostFrontSteps = 240;
 
 /// Lets the fronts that a flow has left move to rest.
-/// @param[in] table, ways  how far the last step moved the interface in which leaf [voxel]
+/// @param[in] motion  of the last step
 /// @return whether there were any
 bool settleFronts(NarrowBand& band, const PsiSource& source, const NewtonOptions& steps,
-                  const LeafTable& table, const std::vector<float>& ways, EvolutionReport& report,
-                  Progress& progress)
+                  const InterfaceMotion& motion, EvolutionReport& report, Progress& progress)
 {
     constexpr float awake = 0.2f; // of a voxel
     const float limit = awake * float(coarseness(band.phi.voxelSize));
     std::vector<float> largest(band.phi.table.size(), 0.0f);
-    for (std::size_t n = 0; n < table.size(); ++n)
-        largest[std::size_t(band.phi.table.find(table.origin(n)))] = ways[n];
+    for (std::size_t n = 0; n < motion.table().size(); ++n)
+        largest[std::size_t(band.phi.table.find(motion.table().origin(n)))] = motion.largest()[n];
     const Settling settling = settle(band, source, steps, std::move(largest), limit, progress);
     if (settling.steps > 0) { // the rims of what moved fit what stood beside it
         LeafField next(band.phi.table.size());
         for (int i = 0; i < 2; ++i) {
-            reinitialize(band.phi, bandWidthVox * band.phi.voxelSize, 1, progress, next,
-                         Repair::Errors);
+            reinitialize(band.phi, {bandWidthVox * band.phi.voxelSize, 1, Repair::Errors}, progress,
+                         next);
             updateBand(band, source, openvdb::CoordBBox::inf(), next, progress);
         }
     }
@@ -207,8 +206,9 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
         progress.update("evolve", double(report.steps) / maxSteps);
         std::swap(band.phi.values, next);
         InterfaceMotion motion(newton.table(), region, h);
-        reinitialize(band.phi, bandWidthVox * h, reinitializations, progress, next, Repair::Errors,
-                     motion.watch());
+        reinitialize(band.phi,
+                     {bandWidthVox * h, reinitializations, Repair::Errors, motion.watch()},
+                     progress, next);
         updateBand(band, source, region.grown(halo), next, progress);
 
         const Displacements moved = motion.sum();
@@ -220,7 +220,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
         if (fixed) continue;
         if (fronts && region.whole() && report.frontSteps < mostFrontSteps &&
             moved.quantile(0.99) < calmBulk &&
-            settleFronts(band, source, steps, newton.table(), motion.largest(), report, progress)) {
+            settleFronts(band, source, steps, motion, report, progress)) {
             newton = NewtonSteps(steps);
             next = LeafField(band.phi.table.size());
             rms.clear();
@@ -230,7 +230,20 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
         if (report.converged || (mayGiveUp && stalled(rms, tails, report))) break;
     }
     record(newton.sums(band, region, progress), region.whole(), report);
+    estimateAreaError(options, report);
     return report;
+}
+
+void estimateAreaError(const EvolveOptions& options, EvolutionReport& report)
+{
+    // The change of the area is the integral of curvature times way. Ways of opposite signs cancel
+    // in that of a step, and need not in those that follow.
+    constexpr double curvature = 0.5; // of the interface of a protein, its root mean square [1/Å]
+    const std::size_t n = report.area.size();
+    if (n < 2 || report.area[n - 1] == 0.0) return;
+    const double change = std::abs(1.0 - report.area[n - 2] / report.area[n - 1]);
+    report.areaError =
+        stepsToRest(options, report) * std::max(change, curvature * report.displacementRms);
 }
 
 bool stalled(const std::vector<double>& rms, const std::vector<double>& tails,

@@ -67,6 +67,10 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
                        Progress& progress, const Region& region = {}, int halo = 0,
                        Displacements* last = nullptr);
 
+/// Estimates how much the area will still change, from that of the last step and its ways.
+/// @param[in,out] report  judged, with all its sums; areaError is set
+void estimateAreaError(const EvolveOptions& options, EvolutionReport& report);
+
 /// Whether a flow has come as near to rest as its voxels let it: in eight steps neither the root
 /// mean square nor the quantile of its ways has fallen by a tenth, nor have area and
 /// volume changed.

@@ -39,6 +39,8 @@ public:
     /// All ways [voxel].
     Displacements sum() const;
 
+    const LeafTable& table() const { return table_; }
+
     /// The longest way in each leaf [voxel].
     const std::vector<float>& largest() const { return largest_; }
 

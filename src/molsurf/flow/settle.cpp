@@ -131,8 +131,9 @@ void move(NarrowBand& part, const PsiSource& source, const NewtonOptions& option
     for (int i = 0; i < steps; ++i) {
         newton.step(part, {}, next, progress);
         std::swap(part.phi.values, next);
-        reinitialize(part.phi, bandWidthVox * part.phi.voxelSize, options.fronts ? 2 : 1, progress,
-                     next, Repair::Errors);
+        reinitialize(part.phi,
+                     {bandWidthVox * part.phi.voxelSize, options.fronts ? 2 : 1, Repair::Errors},
+                     progress, next);
         updateBand(part, source, openvdb::CoordBBox::inf(), next, progress);
     }
 }

@@ -104,6 +104,8 @@ constexpr ReportKey keyTable[] = {
      "The root mean square of the way of the interface in the last step"},
     {"evolution.displacement_tail", "Å",
      "The way that 99.9 % of the interface do not exceed in it"},
+    {"evolution.area_error", "",
+     "How much the area may still change on the way to rest, estimated as a share of it"},
     {"evolution.unsettled_share", "", "The share of the interface at which it is above 0.1 voxel"},
     {"evolution.crevice_voxels", "",
      "The number of voxels at gaps that are too narrow for the grid"},

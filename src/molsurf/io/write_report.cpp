@@ -81,6 +81,7 @@ Json evolutionJson(const EvolutionReport& evolution)
             {"final_energy", evolution.finalEnergy},
             {"displacement_rms", evolution.displacementRms},
             {"displacement_tail", evolution.displacementTail},
+            {"area_error", evolution.areaError},
             {"unsettled_share", evolution.unsettledShare},
             {"crevice_voxels", evolution.unresolvedGapVoxels},
             {"front_steps", evolution.frontSteps},

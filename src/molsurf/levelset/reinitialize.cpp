@@ -139,15 +139,15 @@ MOLSURF_KERNEL void taylorDistance(const float* __restrict block, const LeafMask
 
 } // namespace
 
-void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress,
-                  LeafField& scratch, Repair repair, const InterfaceWatch& watch)
+void reinitialize(SparseField& phi, const Reinitialization& options, const Progress& progress,
+                  LeafField& scratch)
 {
     const LeafTable& table = phi.table;
-    const float h = float(phi.voxelSize), w = float(width);
-    const float noise = repair == Repair::Errors ? stencilError * h : 0.0f;
+    const float h = float(phi.voxelSize), w = float(options.width);
+    const float noise = options.repair == Repair::Errors ? stencilError * h : 0.0f;
     std::vector<LeafMask> interface(table.size());
     if (scratch.leafCount() != table.size()) scratch = LeafField(table.size());
-    for (int i = 0; i < iterations; ++i) {
+    for (int i = 0; i < options.iterations; ++i) {
         // scratch <- phi after one step; interface voxels keep the value that step 0 has given them
         parallelFor(table.size(), progress, [&](std::size_t n) {
             Block block;
@@ -156,12 +156,12 @@ void reinitialize(SparseField& phi, double width, int iterations, const Progress
             LeafMask& fixed = interface[n];
             float before[leafSize];
             if (i == 0) nextToInterface(block.values, table.active(n), fixed);
-            const bool watched = watch && i == 0 && fixed.any();
+            const bool watched = options.watch && i == 0 && fixed.any();
             if (watched) std::copy_n(scratch.leaf(n), leafSize, before);
             eulerStep(block.values, table.active(n) & ~fixed, h, w, noise, scratch.leaf(n));
             if (i == 0 && fixed.any())
                 taylorDistance(block.values, fixed, 1.0f / h, scratch.leaf(n));
-            if (watched) watch(n, before, scratch.leaf(n), fixed);
+            if (watched) options.watch(n, before, scratch.leaf(n), fixed);
         });
         std::swap(phi.values, scratch);
     }
@@ -170,7 +170,7 @@ void reinitialize(SparseField& phi, double width, int iterations, const Progress
 void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress)
 {
     LeafField scratch;
-    reinitialize(phi, width, iterations, progress, scratch);
+    reinitialize(phi, {width, iterations}, progress, scratch);
 }
 
 } // namespace molsurf

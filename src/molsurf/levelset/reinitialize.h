@@ -29,6 +29,14 @@ enum class Repair {
 using InterfaceWatch = std::function<void(std::size_t leaf, const float* before, const float* after,
                                           const LeafMask& interface)>;
 
+/// How reinitialize() goes about it.
+struct Reinitialization {
+    double width = 0.0; ///< half width of the band [Å]
+    int iterations = 1; ///< number of Euler steps
+    Repair repair = Repair::All;
+    InterfaceWatch watch{}; ///< none, or sees each leaf with interface
+};
+
 /// Iterates phi_t + sign(phi) (|grad phi| - 1) = 0 on the active voxels, by explicit Euler steps of
 /// half a voxel with second-order ENO differences and Godunov's flux (Sussman, Smereka and Osher, A
 /// level set approach for computing solutions to incompressible two-phase flow, J. Comput. Phys.
@@ -41,17 +49,13 @@ using InterfaceWatch = std::function<void(std::size_t leaf, const float* before,
 /// what plagues the plain iteration: Russo and Smereka, A remark on computing distance functions,
 /// J. Comput. Phys. 163:51-67, 2000). One iteration carries the distance half a voxel outward.
 ///
-/// @param[in,out] phi         level set [Å], iterated at its active voxels; afterwards within
-///                            [-width, width]
-/// @param[in]     width       half width of the band [Å]
-/// @param[in]     iterations  number of Euler steps
-/// @param         scratch     storage, to be kept from call to call; made to fit if it does not
-/// @param[in]     watch       null, or sees each leaf with interface
-void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress,
-                  LeafField& scratch, Repair repair = Repair::All,
-                  const InterfaceWatch& watch = nullptr);
+/// @param[in,out] phi      level set [Å], iterated at its active voxels; afterwards within
+///                         [-width, width]
+/// @param         scratch  storage, to be kept from call to call; made to fit if it does not
+void reinitialize(SparseField& phi, const Reinitialization& options, const Progress& progress,
+                  LeafField& scratch);
 
-/// As above, with storage of its own.
+/// As above, of every deviation, with storage of its own.
 void reinitialize(SparseField& phi, double width, int iterations, const Progress& progress);
 
 } // namespace molsurf

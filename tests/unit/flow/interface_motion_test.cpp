@@ -27,7 +27,7 @@ Displacements waysOf(double growth, const Region& region = {})
     LeafField before = std::move(test::filled(table, edge, ball(2.0)).values);
     SparseField after = test::filled(table, edge, ball(2.0 + growth));
     InterfaceMotion motion(table, region, edge);
-    reinitialize(after, width, 2, Progress(), before, Repair::Errors, motion.watch());
+    reinitialize(after, {width, 2, Repair::Errors, motion.watch()}, Progress(), before);
     float largest = 0.0f;
     for (const float way : motion.largest()) largest = std::max(largest, way);
     EXPECT_NEAR(largest, std::abs(growth) / edge, 0.1 * std::abs(growth) / edge + 1e-3);
@@ -56,7 +56,7 @@ TEST(InterfaceMotion, IsNoneWhereValuesAloneChange)
     SparseField after = test::filled(table, edge, ball(1.0));
     const Region everywhere;
     InterfaceMotion motion(table, everywhere, edge);
-    reinitialize(after, width, 1, Progress(), before, Repair::Errors, motion.watch());
+    reinitialize(after, {width, 1, Repair::Errors, motion.watch()}, Progress(), before);
     EXPECT_GT(motion.sum().count, 1000u);
     EXPECT_LT(motion.sum().rms(), 1e-3);
 }

@@ -96,8 +96,7 @@ void expectStep(const SphereCase& c)
     }
     NewtonSteps newton({Weights{0.0f, float(c.lambda)}, 1, false, 0});
     LeafField next(phi.table.size());
-    Displacements moves;
-    newton.step(band, {}, next, moves, progress);
+    newton.step(band, {}, next, progress);
 
     const double r = c.radius, C = M_LN2 / (0.5 * c.R), psi = C * (c.R * c.R - r * r);
     const double e = std::exp(psi), g = 1.0 - e, steep = 2.0 * C * r, w = g * g + c.lambda;

@@ -111,6 +111,35 @@ TEST(Stop, IsStricterWhereFrontsMove)
     EXPECT_NEAR(report.toleranceMet, 0.015, 1e-3);
 }
 
+// The estimate in numbers, and against a flow that goes on for long.
+TEST(Stop, EstimatesHowMuchTheAreaStillChanges)
+{
+    EvolutionReport report;
+    report.steps = 2;
+    report.area = {110.0, 101.0, 100.0};
+    report.displacementRms = 0.01;
+    estimateAreaError({}, report);
+    EXPECT_NEAR(report.areaError, 0.01, 1e-12);
+    report.displacementRms = 0.04;
+    estimateAreaError({}, report);
+    EXPECT_NEAR(report.areaError, 0.02, 1e-12);
+    EvolveOptions options;
+    options.lambda = 0.1;
+    estimateAreaError(options, report);
+    EXPECT_NEAR(report.areaError, 0.06, 1e-12);
+
+    const std::vector<Ball> balls = test::balls("1ubq.pdb");
+    for (const double lambda : {0.003, 0.01, 0.1}) {
+        options.lambda = lambda;
+        options.steps.reset();
+        const EvolutionReport found = test::evolveBalls(balls, 0.5, 0.5, options).report;
+        options.steps = found.steps + 10;
+        const EvolutionReport rest = test::evolveBalls(balls, 0.5, 0.5, options).report;
+        EXPECT_NEAR(found.area.back() / rest.area.back(), 1.0, found.areaError) << lambda;
+        EXPECT_LT(found.areaError, 0.01) << lambda;
+    }
+}
+
 // What counts are the crossings of edges, up to those between two leaves: three axes see a share of
 // the surface that is the mean of |n_x| + |n_y| + |n_z|, 3/2 on a ball.
 TEST(Stop, IsByTheCrossingsOfTheInterface)
