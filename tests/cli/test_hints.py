@@ -237,8 +237,8 @@ CASES = {
         ("another name, or --force", f"for v in 2 1; do vdb_molsurf 1d3z.pdb.gz --frames 1 --surface sas --voxel $v "
          "-o a.ply -o a.csv; done", f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o b.ply -o b.csv",
          f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o a.csv --force"),
-        ("a larger --tolerance or a smaller --voxel", "vdb_molsurf 1d3z.pdb.gz --frames 1 --max-steps 1 --voxel 2 -o a.ply",
-         "vdb_molsurf 1d3z.pdb.gz --frames 1 --max-steps 1 --voxel 2 --tolerance 9 -o b.ply")],
+        ("a larger --tolerance or a smaller --voxel", "vdb_molsurf 1d3z.pdb.gz --frames 1 --max-steps 1 --lambda 0.1 --voxel 1 -o a.ply",
+         "vdb_molsurf 1d3z.pdb.gz --frames 1 --max-steps 1 --lambda 0.1 --voxel 1 --tolerance 9 -o b.ply")],
     "tools/sidecar.cpp": [
         ("another name", f"vdb_molsurf moved.pdb --assembly 1 --instances --for usd {FAST} -o a.vdb -o a.usda",
          f"vdb_molsurf moved.pdb --assembly 1 --instances --for usd {FAST} -o a.vdb -o b.usda")],
@@ -273,9 +273,9 @@ CASES = {
         ("fewer --max-steps", "vdb_molsurf 1crn.pdb --flow paper --max-steps 1000000 --max-hours 0.0003 -o a.ply",
          "vdb_molsurf 1crn.pdb --flow paper --max-steps 5 --max-hours 0.0003 -o a.ply || test $? = 3"),
         ("a larger --voxel or --max-hours", # its threads make the estimate of hours smaller than it is
-         "vdb_molsurf 1crn.pdb --surface ses --voxel 0.2 -j 64 --max-hours 1e-5 -o a.ply",
+         "vdb_molsurf 1crn.pdb --surface ses --voxel 0.1 -j 64 --max-hours 1e-5 -o a.ply",
          "vdb_molsurf 1crn.pdb --surface ses --voxel 2 -j 64 --max-hours 1e-5 -o a.ply",
-         "vdb_molsurf 1crn.pdb --surface ses --voxel 0.2 -j 64 --max-hours 1 -o b.ply"),
+         "vdb_molsurf 1crn.pdb --surface ses --voxel 0.1 -j 64 --max-hours 1 -o b.ply"),
         ("--contacts atom", "vdb_molsurf residue.pdb --contacts residue -o a.contacts.csv",
          "vdb_molsurf residue.pdb --contacts atom -o b.contacts.csv")],
     "tools/convert.cpp": [
@@ -369,14 +369,14 @@ CASES = {
          f"vdb_molsurf two.xyzr {FAST} -o b.vdb && vdb_molsurf compare b.vdb two.xyzr {FAST}"),
         ("-o .ply", "vdb_molsurf compare open.ply solid.ply -o a.vdb",
          "vdb_molsurf compare open.ply solid.ply -o a.ply"),
-        ("a larger --tolerance or a smaller --voxel", "vdb_molsurf compare two.xyzr solid.ply --lambda 20 --regularizer area",
-         "vdb_molsurf compare two.xyzr solid.ply --lambda 20 --regularizer area --tolerance 0.06",
-         "vdb_molsurf compare two.xyzr solid.ply --lambda 20 --regularizer area --voxel 0.25")],
+        ("a larger --tolerance or a smaller --voxel", "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.07 --voxel 0.6",
+         "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.07 --voxel 0.6 --tolerance 0.03",
+         "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.07 --voxel 0.35")],
     "tools/outputs.cpp": [
-        ("--tolerance 0.053 accepts that, a smaller --voxel resolves it",
-         "vdb_molsurf two.xyzr --lambda 20 --regularizer area -o a.ply",
-         "vdb_molsurf two.xyzr --lambda 20 --regularizer area --tolerance 0.053 -o b.ply",
-         "vdb_molsurf two.xyzr --lambda 20 --regularizer area --voxel 0.25 -o c.ply"),
+        (" accepts that, a smaller --voxel resolves it", "vdb_molsurf 1crn.pdb --epsilon 0.07 --voxel 0.6 -o a.ply",
+         "vdb_molsurf 1crn.pdb --epsilon 0.07 --voxel 0.6 -o a.ply --force 2>&1 | sed -n 's/.*hint: \\(--tolerance [0-9.]*\\).*/\\1/p' > t; "
+         "vdb_molsurf 1crn.pdb --epsilon 0.07 --voxel 0.6 $(cat t) -o b.ply",
+         "vdb_molsurf 1crn.pdb --epsilon 0.07 --voxel 0.35 -o c.ply"),
         ("--flow newton", "vdb_molsurf 1crn.pdb --voxel 1 --flow paper --max-steps 5 -o a.ply",
          "vdb_molsurf 1crn.pdb --voxel 1 --flow newton -o b.ply")],
     "tools/msms/call.cpp": [

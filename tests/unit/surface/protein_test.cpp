@@ -61,20 +61,22 @@ TEST(PipelineSlow, DimerOf1A8OAgreesWithHalfTheVoxel)
     EXPECT_NEAR(fine.report.surface.volume, 19351.0, 3e-4 * 19351.0);
 }
 
-// At a lambda of 1 Å^2 the molecule nearly becomes its hull, and what is left of pockets is too
-// narrow for voxels of 1 Å: there the flow does not rest.
-TEST(Pipeline, TellsWhereVoxelsAreTooLargeForTheFlowToRest)
+// At a lambda of 1 Å^2 the molecule nearly becomes its hull. The pockets that close on the way
+// there are told of a flow that has to end too early.
+TEST(Pipeline, TellsHowMuchStillMovesWhereAFlowEndsEarly)
 {
     SurfaceOptions options;
     options.voxel = 1.0;
     options.evolution.lambda = 1.0;
-    options.evolution.maxSteps = 50;
+    options.evolution.maxSteps = 4;
     const MolecularSurface result = test::runOn(test::balls("1a8o.cif.gz", "1"), options);
     const EvolutionReport& flow = *result.report.evolution;
     EXPECT_FALSE(flow.converged);
     EXPECT_GT(flow.displacementTail, 0.08 * options.voxel);
     EXPECT_GT(flow.unsettledShare, 0.001);
-    EXPECT_LT(flow.unsettledShare, 0.1);
+    EXPECT_LT(flow.unsettledShare, 0.5);
+    options.evolution.maxSteps.reset();
+    EXPECT_TRUE(test::runOn(test::balls("1a8o.cif.gz", "1"), options).report.evolution->converged);
 }
 
 TEST(Pipeline, DimerOf1A8OWithALargeLambda)
@@ -85,7 +87,8 @@ TEST(Pipeline, DimerOf1A8OWithALargeLambda)
     say("1a8o lambda 0.1", result);
     EXPECT_TRUE(result.report.evolution->converged);
     EXPECT_LE(result.report.evolution->steps, 10);
-    EXPECT_NEAR(result.report.surface.volume, 21800.0, 0.003 * 21800.0);
+    // 21,757 and 21,772 on voxels of 0.25 and 0.125 Å.
+    EXPECT_NEAR(result.report.surface.volume, 21772.0, 0.003 * 21772.0);
 }
 
 // The jet of the spline from both sides of cell faces near the surface, some of them between
