@@ -25,12 +25,19 @@ double stiffLength(const EvolveOptions& options)
     return std::sqrt(0.5 * options.lambda);
 }
 
-/// Whether fronts move far: with a large lambda the surface gains energy by closing pockets and
-/// gaps from their ends, like a soap film.
+/// Whether the surface gains energy by closing pockets and gaps from their ends, like a soap film:
+/// fronts then move on when all else rests.
 bool hasFronts(const EvolveOptions& options)
 {
-    constexpr double noticeable = 0.15; // [Å]
+    constexpr double noticeable = 0.11; // [Å]
     return stiffLength(options) > noticeable;
+}
+
+/// Whether fronts move so far that they, and not gaps as psi decides them, make the topology.
+bool frontsDecide(const EvolveOptions& options)
+{
+    constexpr double far = 0.15; // [Å]
+    return stiffLength(options) > far;
 }
 
 int sweepsFor(const EvolveOptions& options, double voxelSize)
@@ -161,12 +168,12 @@ bool makesNewtonSteps(const EvolveOptions& options)
 
 bool decidesGaps(const EvolveOptions& options)
 {
-    return makesNewtonSteps(options) && !hasFronts(options);
+    return makesNewtonSteps(options) && !frontsDecide(options);
 }
 
 bool startsOnCoarserVoxels(const EvolveOptions& options, double voxelSize)
 {
-    return makesNewtonSteps(options) && hasFronts(options) && 2.0 * voxelSize <= coarseVoxel &&
+    return makesNewtonSteps(options) && frontsDecide(options) && 2.0 * voxelSize <= coarseVoxel &&
            options.splineLevel == 0;
 }
 
@@ -189,10 +196,9 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
     const bool fixed = options.steps.has_value();
     const int maxSteps = options.steps.value_or(options.maxSteps.value_or(defaultSteps));
     const bool mayGiveUp = !options.maxSteps; // who asks for steps gets them
-    const bool fronts = hasFronts(options);
-    const int reinitializations = fronts ? 2 : 1; // long steps spoil the distance
-    const NewtonOptions steps{weightsOf(options), sweepsFor(options, h), fronts,
-                              options.splineLevel};
+    const bool far = frontsDecide(options), fronts = hasFronts(options);
+    const int reinitializations = far ? 2 : 1; // long steps spoil the distance
+    const NewtonOptions steps{weightsOf(options), sweepsFor(options, h), far, options.splineLevel};
     NewtonSteps newton(steps);
 
     EvolutionReport report;
