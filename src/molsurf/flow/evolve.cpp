@@ -196,9 +196,9 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
     const bool fixed = options.steps.has_value();
     const int maxSteps = options.steps.value_or(options.maxSteps.value_or(defaultSteps));
     const bool mayGiveUp = !options.maxSteps; // who asks for steps gets them
-    const bool far = frontsDecide(options), fronts = hasFronts(options);
-    const int reinitializations = far ? 2 : 1; // long steps spoil the distance
-    const NewtonOptions steps{weightsOf(options), sweepsFor(options, h), far, options.splineLevel};
+    const bool fronts = hasFronts(options);
+    const NewtonOptions steps{weightsOf(options), sweepsFor(options, h), frontsDecide(options),
+                              options.splineLevel};
     NewtonSteps newton(steps);
 
     EvolutionReport report;
@@ -212,8 +212,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
         progress.update("evolve", double(report.steps) / maxSteps);
         std::swap(band.phi.values, next);
         InterfaceMotion motion(newton.table(), region, h);
-        reinitialize(band.phi,
-                     {bandWidthVox * h, reinitializations, Repair::Errors, motion.watch()},
+        reinitialize(band.phi, {bandWidthVox * h, steps.repairs(), Repair::Errors, motion.watch()},
                      progress, next);
         updateBand(band, source, region.grown(halo), next, progress);
 

@@ -23,7 +23,7 @@ constexpr float leastStiffness = 0.1f;
 
 // Where all displacements of a leaf are below this, they are the steps, and leave no history
 // [voxel].
-constexpr float noHistory = 0.04f, noHistoryOfFronts = 0.01f;
+constexpr float noHistory = 0.04f, noHistoryOfExtended = 0.01f;
 
 /// Two positive or negative floats in one word, each to a relative 0.002 (bfloat16): enough for
 /// coefficients, since rest is where b is 0.
@@ -182,13 +182,13 @@ MOLSURF_KERNEL void feetRows(const float* __restrict phiBlock, const float* __re
 
 /// The steps that are made of a leaf's displacements.
 /// @param[in,out] history  of the step before; then of this one
-MOLSURF_KERNEL void chooseSteps(const float* __restrict atFoot, float h, bool fronts,
+MOLSURF_KERNEL void chooseSteps(const float* __restrict atFoot, float h, bool extended,
                                 StepHistory& __restrict history, float* __restrict step)
 {
     for (int v = 0; v < leafSize; ++v) {
         const float u = atFoot[v], last = history.step[v];
         const float share = shareOfStep(u, last, 1.0f - history.lost[v]);
-        const float whole = fronts ? extendedStep(u, history.u[v], last, h) : u;
+        const float whole = extended ? extendedStep(u, history.u[v], last, h) : u;
         step[v] = clamped(share * whole, -longestStep * h, longestStep * h);
         history.u[v] = u;
         history.step[v] = step[v];
@@ -293,7 +293,7 @@ InterfaceSums NewtonSteps::step(const NarrowBand& band, const Region& region, Le
     const double h = band.phi.voxelSize;
     const InterfaceSums before = sums(band, region, progress);
     sweep(table, next, progress);
-    const float least = options_.fronts ? noHistoryOfFronts : noHistory;
+    const float least = options_.extended ? noHistoryOfExtended : noHistory;
     parallelFor(table.size(), progress, [&](std::size_t n) {
         const LeafMask& active = table.active(n);
         if (!active.any()) {
@@ -312,7 +312,7 @@ InterfaceSums NewtonSteps::step(const NarrowBand& band, const Region& region, Le
             std::copy_n(solved, leafSize, step);
         } else {
             if (!history_[n]) history_[n] = std::make_unique<StepHistory>();
-            chooseSteps(solved, float(h), options_.fronts, *history_[n], step);
+            chooseSteps(solved, float(h), options_.extended, *history_[n], step);
         }
         moveRows(band.phi.leaf(n), slope, step, active, next.leaf(n));
     });

@@ -66,10 +66,13 @@ MOLSURF_INLINE float extendedStep(float u, float lastU, float lastStep, float h)
 /// How Newton steps are made.
 struct NewtonOptions {
     Weights weights;
-    int sweeps = 1;      ///< for each step, >= 1
-    bool fronts = false; ///< whether fronts move far: then steps are extended
-    int splineLevel = 0; ///< curvatures come from a spline on voxels of edge 2^level h; 0: from
-                         ///< differences
+    int sweeps = 1;        ///< for each step, >= 1
+    bool extended = false; ///< whether steps are extended, since fronts move far
+    int splineLevel = 0;   ///< curvatures come from a spline on voxels of edge 2^level h; 0: from
+                           ///< differences
+
+    /// Iterations of reinitialize() after each step: extended ones spoil the distance more.
+    int repairs() const { return extended ? 2 : 1; }
 };
 
 /// Semi-implicit steps, one after another. The displacement u along the inward normal solves

@@ -132,7 +132,7 @@ void move(NarrowBand& part, const PsiSource& source, const NewtonOptions& option
         newton.step(part, {}, next, progress);
         std::swap(part.phi.values, next);
         reinitialize(part.phi,
-                     {bandWidthVox * part.phi.voxelSize, options.fronts ? 2 : 1, Repair::Errors},
+                     {bandWidthVox * part.phi.voxelSize, options.repairs(), Repair::Errors},
                      progress, next);
         updateBand(part, source, openvdb::CoordBBox::inf(), next, progress);
     }

@@ -522,8 +522,8 @@ std::vector<Setting> flowSettings()
               count("steps", "N", "so many steps, converged or not", "by the stopping rule", steps,
                     of(&EvolveOptions::steps))),
         number("tolerance", "T",
-               "converged when the way left is below T voxels (rms), and\n"
-               "below 8 T on 99.9 % of the surface",
+               "converged when a step moves the surface by less than T\n"
+               "voxels (rms), and by less than 8 T on 99.9 % of it",
                of(&EvolveOptions::tolerance))};
     for (Setting& row : rows) row.kinds = {SurfaceKind::Variational};
     rows.push_back(
