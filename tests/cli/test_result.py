@@ -4,6 +4,7 @@
 import collections
 import hashlib
 import json
+import math
 import re
 import shlex
 import subprocess
@@ -82,6 +83,23 @@ class Report(ToolTest):
         self.assertAlmostEqual(surface["integrated_volume"] / surface["volume"], 1, delta=0.005)
         self.assertGreater(surface["total_mean_curvature"], 0)
         self.assertGreater(surface["willmore_energy"], 12)
+
+    def test_averages_of_curvature_add_up(self):
+        self.check(0, CRAMBIN, "--curvature-totals", "-o", "a.json", "-o", "a.ply")
+        surface = json.loads((self.folder / "a.json").read_text())["surface"]
+        names, vertices, triangles = read_ply((self.folder / "a.ply").read_bytes())
+        area = [0.0] * len(vertices)
+        for corners in triangles:
+            p, q, r = (vertices[v][:3] for v in corners)
+            e, f = ([b - a for a, b in zip(p, other)] for other in (q, r))
+            normal = [e[i - 2] * f[i - 1] - e[i - 1] * f[i - 2] for i in range(3)]
+            for v in corners:
+                area[v] += math.hypot(*normal) / 6
+        for name in ("mean", "gaussian"):
+            column = names.index(f"{name}_curvature_average")
+            total = sum(a * v[column] for a, v in zip(area, vertices))
+            self.assertAlmostEqual(total / surface[f"total_{name}_curvature"], 1, delta=1e-4)
+        self.assertAlmostEqual(total / (2 * math.pi * surface["euler_characteristic"]), 1, delta=0.01)
 
     def test_warnings_are_kept(self):
         report = self.report("--voxel", "1.5")

@@ -5,7 +5,9 @@
 #include "molsurf/spline/curvature.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace molsurf
 {
@@ -30,9 +32,24 @@ constexpr int maxLevels = 6;         // of the refinement in parameters
 constexpr double transversality = 0.3;
 constexpr double residualVox = 1e-5; // |S|/|grad S| at a point of the surface [voxel]
 
-/// A point of the surface with its normal.
+/// A point of the surface with its normal, and its barycentric coordinates in the triangle of the
+/// mesh.
 struct Point {
-    Vec3d x, n;
+    Vec3d x, n, b;
+};
+
+/// The integrals over a triangle of the mesh, and those of the curvatures times each coordinate.
+struct TriangleIntegrals {
+    SurfaceIntegrals sums;
+    Vec3d meanCurvature{0.0}, gaussianCurvature{0.0};
+
+    TriangleIntegrals& operator+=(const TriangleIntegrals& o)
+    {
+        sums += o.sums;
+        meanCurvature += o.meanCurvature;
+        gaussianCurvature += o.gaussianCurvature;
+        return *this;
+    }
 };
 
 /// Barycentric coordinates of the corners of a part of a triangle.
@@ -111,7 +128,8 @@ public:
         }
     }
 
-    const SurfaceIntegrals& sums() const { return sums_; }
+    /// What was added since the last call.
+    TriangleIntegrals take() { return std::exchange(sums_, {}); }
 
 private:
     /// Moves a point along the gradient onto S = 0, by at most `reach`; else leaves it there.
@@ -131,14 +149,15 @@ private:
             if ((p.x - start).lengthSqr() > reach * reach) break;
             jet = sampler_.at(p.x);
         }
-        p = {start, normal};
+        p.x = start;
+        p.n = normal;
         return false;
     }
 
     /// The middle of an edge on the surface; the same from either end.
     Point middle(const Point& a, const Point& b)
     {
-        Point m{0.5 * (a.x + b.x) + 0.125 * rise(a, b), Vec3d(0.0)};
+        Point m{0.5 * (a.x + b.x) + 0.125 * rise(a, b), Vec3d(0.0), 0.5 * (a.b + b.b)};
         settle(m, (b.x - a.x).length());
         return m;
     }
@@ -148,29 +167,31 @@ private:
         patch_[0] = a;
         patch_[1] = b;
         patch_[2] = c;
-        SurfaceIntegrals sums;
+        TriangleIntegrals sums;
         if (integrate({{Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)}}, 0, sums)) {
             sums_ += sums;
             return;
         }
-        Point m{(a.x + b.x + c.x) / 3.0, Vec3d(0.0)};
+        Point m{(a.x + b.x + c.x) / 3.0, Vec3d(0.0), (a.b + b.b + c.b) / 3.0};
         if (splits < maxSplits && settle(m, (b.x - a.x).length())) {
             add(a, b, m, splits + 1);
             add(b, c, m, splits + 1);
             return add(c, a, m, splits + 1);
         }
         const Vec3d flat = 0.5 * (b.x - a.x).cross(c.x - a.x);
-        sums_.area += flat.length();
-        sums_.volume += (a.x - origin_).dot(flat) / 3.0;
-        sums_.gaussianCurvature += sphericalArea(a.n, b.n, c.n);
-        sums_.unresolvedArea += flat.length();
+        const double K = sphericalArea(a.n, b.n, c.n);
+        sums_.sums.area += flat.length();
+        sums_.sums.volume += (a.x - origin_).dot(flat) / 3.0;
+        sums_.sums.gaussianCurvature += K;
+        sums_.sums.unresolvedArea += flat.length();
+        sums_.gaussianCurvature += K * (a.b + b.b + c.b) / 3.0;
     }
 
     /// The integrals over a part of patch_, which is refined until the two rules agree.
     /// @return false if the patch is no graph along its normals
-    bool integrate(const Part& part, int level, SurfaceIntegrals& sums)
+    bool integrate(const Part& part, int level, TriangleIntegrals& sums)
     {
-        SurfaceIntegrals fine;
+        TriangleIntegrals fine;
         double difference = 0.0;
         if (!applyRules(part, fine, difference)) return false;
         if (difference <= tolerance_ || level == maxLevels) {
@@ -185,9 +206,10 @@ private:
 
     /// @param[out] sums        by the rule of degree 4
     /// @param[out] difference  of the two rules for the integral of K [sr]
-    bool applyRules(const Part& part, SurfaceIntegrals& sums, double& difference)
+    bool applyRules(const Part& part, TriangleIntegrals& out, double& difference)
     {
         const Point* P = patch_;
+        SurfaceIntegrals& sums = out.sums;
         const double half = 0.5 * part.share();
         double coarse = 0.0;
         for (const Orbit& orbit : orbits) {
@@ -213,6 +235,10 @@ private:
                 sums.meanCurvature += orbit.fine * area * H;
                 sums.gaussianCurvature += orbit.fine * area * K;
                 sums.squaredMeanCurvature += orbit.fine * area * H * H;
+                const Vec3d share =
+                    orbit.fine * area * (b[0] * P[0].b + b[1] * P[1].b + b[2] * P[2].b);
+                out.meanCurvature += H * share;
+                out.gaussianCurvature += K * share;
             }
         }
         difference = std::abs(sums.gaussianCurvature - coarse);
@@ -236,30 +262,47 @@ private:
     const double h_, tolerance_;
     const Vec3d origin_;
     Point patch_[3];
-    SurfaceIntegrals sums_;
+    TriangleIntegrals sums_;
 };
 
 } // namespace
 
-SurfaceIntegrals integrateSurface(const Mesh& mesh, const Spline& spline, double tolerance,
-                                  const Progress& progress)
+IntegratedSurface integrateSurface(const Mesh& mesh, const Spline& spline, double tolerance,
+                                   const Progress& progress)
 {
     if (mesh.triangles.empty()) return {};
     constexpr std::size_t chunk = 256;
     const std::size_t triangles = mesh.triangles.size();
     const Vec3d origin(mesh.positions[0]); // so that volumes do not cancel
-    return parallelSum<SurfaceIntegrals>((triangles + chunk - 1) / chunk, progress, [&](auto c) {
-        Integrator integrator(spline, tolerance / double(triangles), origin);
-        for (std::size_t i = c * chunk; i < std::min(triangles, (c + 1) * chunk); ++i) {
-            Point p[3];
-            for (int k = 0; k < 3; ++k) {
-                const std::uint32_t v = mesh.triangles[i][k];
-                p[k] = {Vec3d(mesh.positions[v]), Vec3d(mesh.normals[v])};
+    std::vector<std::array<Vec3d, 2>> shares(triangles);
+    IntegratedSurface result;
+    result.sums =
+        parallelSum<SurfaceIntegrals>((triangles + chunk - 1) / chunk, progress, [&](auto c) {
+            Integrator integrator(spline, tolerance / double(triangles), origin);
+            SurfaceIntegrals sums;
+            for (std::size_t i = c * chunk; i < std::min(triangles, (c + 1) * chunk); ++i) {
+                Point p[3];
+                for (int k = 0; k < 3; ++k) {
+                    const std::uint32_t v = mesh.triangles[i][k];
+                    p[k] = {Vec3d(mesh.positions[v]), Vec3d(mesh.normals[v]),
+                            Vec3d(k == 0, k == 1, k == 2)};
+                }
+                integrator.add(p[0], p[1], p[2]);
+                const TriangleIntegrals triangle = integrator.take();
+                sums += triangle.sums;
+                shares[i] = {triangle.meanCurvature, triangle.gaussianCurvature};
             }
-            integrator.add(p[0], p[1], p[2]);
+            return sums;
+        });
+    result.meanCurvature.resize(mesh.positions.size());
+    result.gaussianCurvature.resize(mesh.positions.size());
+    for (std::size_t i = 0; i < triangles; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            result.meanCurvature[mesh.triangles[i][k]] += shares[i][0][k];
+            result.gaussianCurvature[mesh.triangles[i][k]] += shares[i][1][k];
         }
-        return integrator.sums();
-    });
+    }
+    return result;
 }
 
 } // namespace molsurf

@@ -9,8 +9,18 @@
 #include "molsurf/report.h"
 #include "molsurf/spline/spline.h"
 
+#include <vector>
+
 namespace molsurf
 {
+
+/// What integrateSurface() returns.
+struct IntegratedSurface {
+    SurfaceIntegrals sums; ///< over the whole surface
+    /// Of each vertex the integrals of H [Å] and of K [sr] over its cell: those of the triangles
+    /// about it, times the barycentric coordinate that is 1 at the vertex. They add up to `sums`.
+    std::vector<double> meanCurvature, gaussianCurvature;
+};
 
 /// Integrates area, volume and curvatures over S = 0 by quadrature on the surface itself.
 ///
@@ -25,10 +35,11 @@ namespace molsurf
 /// @param[in] mesh       closed, its vertices on S = 0, with the normals of S
 /// @param[in] tolerance  what the differences of the two rules may add up to over the surface [sr],
 ///                       > 0; the integral of K was 20 to 1000 times more accurate on proteins
-/// @return SurfaceIntegrals::unresolvedArea > 0 where a triangle is no graph over the surface, as
+/// @return IntegratedSurface::sums has an unresolvedArea > 0 where a triangle is no graph over the
+/// surface, as
 ///         in crevices that the voxels do not resolve; such a triangle is taken flat, with the
 ///         spherical image of its three normals for the integral of K and 0 for those of H and H^2
-SurfaceIntegrals integrateSurface(const Mesh& mesh, const Spline& spline, double tolerance,
-                                  const Progress& progress);
+IntegratedSurface integrateSurface(const Mesh& mesh, const Spline& spline, double tolerance,
+                                   const Progress& progress);
 
 } // namespace molsurf

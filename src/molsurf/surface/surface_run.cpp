@@ -366,7 +366,20 @@ void SurfaceRun::integrateCurvature()
     SurfaceReport& surface = result_.report.surface;
     constexpr double tolerance = 5.0; // for each unit of the Euler characteristic [sr]
     const int chi = std::max(std::abs(surface.eulerCharacteristic.value_or(0)), 2);
-    surface.integrals = integrateSurface(result_.mesh, spline_, tolerance * chi, progress_);
+    Mesh& mesh = result_.mesh;
+    const IntegratedSurface integrated =
+        integrateSurface(mesh, spline_, tolerance * chi, progress_);
+    surface.integrals = integrated.sums;
+
+    const std::vector<float> areas = vertexAreas(mesh, progress_);
+    const auto average = [&](const std::vector<double>& integrals) {
+        std::vector<float> values(areas.size());
+        for (std::size_t v = 0; v < areas.size(); ++v)
+            values[v] = areas[v] > 0.0f ? float(integrals[v] / areas[v]) : 0.0f;
+        return values;
+    };
+    mesh.scalars.push_back({"mean_curvature_average", average(integrated.meanCurvature)});
+    mesh.scalars.push_back({"gaussian_curvature_average", average(integrated.gaussianCurvature)});
 }
 
 void describePieces(const ClosedForm& exact, bool fillCavities, SurfaceReport& s)

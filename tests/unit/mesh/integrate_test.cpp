@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/mesh/integrate.h"
 
+#include "molsurf/mesh/statistics.h"
 #include "support/surfaces.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ Sampled sampled(const test::Function& f, const Vec3d& centre, double extent, dou
 SurfaceIntegrals integralsOf(const test::Shape& shape, double voxel, double tolerance = 0.05)
 {
     const Sampled s = sampled(shape.distance, shape.centre, shape.extent, voxel);
-    return integrateSurface(s.mesh, s.spline, tolerance, Progress());
+    return integrateSurface(s.mesh, s.spline, tolerance, Progress()).sums;
 }
 
 // S is of fourth order; the rest is rounding and tolerances. Curvatures of S have errors of second
@@ -68,7 +69,7 @@ TEST(IntegrateSurface, SignsInACavity)
     const test::Shape ball = test::sphere(2.3);
     const auto inverse = [&](const Vec3d& x) { return -ball.distance(x); };
     const Sampled s = sampled(inverse, ball.centre, ball.extent, 0.25);
-    const SurfaceIntegrals sums = integrateSurface(s.mesh, s.spline, 0.05, Progress());
+    const SurfaceIntegrals sums = integrateSurface(s.mesh, s.spline, 0.05, Progress()).sums;
     EXPECT_NEAR(sums.volume, -ball.volume, 1e-4 * ball.volume);
     EXPECT_NEAR(sums.meanCurvature, -4.0 * M_PI * 2.3, 0.02);
     EXPECT_NEAR(sums.gaussianCurvature, 4.0 * M_PI, 0.004);
@@ -84,7 +85,7 @@ TEST(IntegrateSurface, ResolvesACrease)
     double worstAtVertices = 0.0;
     for (const double voxel : {0.5, 0.35, 0.25}) {
         const Sampled s = sampled(f, pose.centre, 2.8, voxel);
-        const SurfaceIntegrals sums = integrateSurface(s.mesh, s.spline, 1.0, Progress());
+        const SurfaceIntegrals sums = integrateSurface(s.mesh, s.spline, 1.0, Progress()).sums;
         EXPECT_EQ(sums.unresolvedArea, 0.0);
         EXPECT_NEAR(sums.gaussianCurvature, 4.0 * M_PI, 0.02) << "h " << voxel;
         double atVertices = 0.0;
@@ -97,6 +98,35 @@ TEST(IntegrateSurface, ResolvesACrease)
         worstAtVertices = std::max(worstAtVertices, std::abs(atVertices - 4.0 * M_PI));
     }
     EXPECT_GT(worstAtVertices, 0.2); // else this test shows nothing
+}
+
+// Cells of vertices share the surface out: their integrals add up, and a cell's mean of H and K is
+// that of the torus at its vertex to first order, since cells are not symmetric about their
+// vertices.
+TEST(IntegrateSurface, IsSharedOutAmongTheVertices)
+{
+    const test::Shape ring = test::torus(3.4, 1.5);
+    double previous = 0.0;
+    for (const double voxel : {0.5, 0.25}) {
+        const Sampled s = sampled(ring.distance, ring.centre, ring.extent, voxel);
+        const IntegratedSurface all = integrateSurface(s.mesh, s.spline, 0.05, Progress());
+        const std::vector<float> areas = vertexAreas(s.mesh, Progress());
+        double mean = 0.0, gaussian = 0.0, largest = 0.0;
+        for (std::size_t v = 0; v < areas.size(); ++v) {
+            mean += all.meanCurvature[v];
+            gaussian += all.gaussianCurvature[v];
+            largest = std::max(
+                {largest, std::abs(all.meanCurvature[v] / areas[v] - s.mesh.scalars[0].values[v]),
+                 std::abs(all.gaussianCurvature[v] / areas[v] - s.mesh.scalars[1].values[v])});
+        }
+        EXPECT_NEAR(mean, all.sums.meanCurvature, 1e-9 * mean);
+        EXPECT_NEAR(gaussian, all.sums.gaussianCurvature, 1e-9);
+        if (previous > 0.0) {
+            EXPECT_LT(largest, 0.65 * previous);
+        }
+        previous = largest;
+    }
+    EXPECT_LT(previous, 0.02);
 }
 
 TEST(IntegrateSurface, HasTheSameBitsForAnyNumberOfThreads)
@@ -113,7 +143,7 @@ TEST(IntegrateSurface, HasTheSameBitsForAnyNumberOfThreads)
 
 TEST(IntegrateSurface, OfNothingIsZero)
 {
-    EXPECT_EQ(integrateSurface(Mesh(), Spline(), 0.1, Progress()).area, 0.0);
+    EXPECT_EQ(integrateSurface(Mesh(), Spline(), 0.1, Progress()).sums.area, 0.0);
 }
 
 // A mesh too coarse for the surface: no triangle is a graph over it. They count as flat then, with
@@ -129,7 +159,7 @@ TEST(IntegrateSurface, OfWhatIsNotResolvedIsTheImageOfTheNormals)
         s.mesh.normals.emplace_back(corner.unit());
     }
     s.mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
-    const SurfaceIntegrals sums = integrateSurface(s.mesh, s.spline, 0.05, Progress());
+    const SurfaceIntegrals sums = integrateSurface(s.mesh, s.spline, 0.05, Progress()).sums;
     EXPECT_GT(sums.unresolvedArea, 0.2 * sums.area);
     EXPECT_NEAR(sums.gaussianCurvature, 4.0 * M_PI, 1e-3);
 }
