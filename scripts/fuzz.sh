@@ -18,7 +18,7 @@ cmake --preset fuzz > /dev/null
 cmake --build --preset fuzz
 targets=("$@")
 if [[ ${#targets[@]} -eq 0 ]]; then
-  mapfile -t targets < <(sed -n 's/^molsurf_fuzz(\([a-z]*\) .*/\1/p' tests/fuzz/CMakeLists.txt)
+  mapfile -t targets < <(sed -n 's/^molsurf_fuzz(\([a-z0-9]*\) .*/\1/p' tests/fuzz/CMakeLists.txt)
 fi
 
 run() {

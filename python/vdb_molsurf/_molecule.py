@@ -128,7 +128,7 @@ Molecule.surface.__doc__ = Molecule.surface.__doc__.rstrip() + "\n" + _options.d
 
 
 def read(source, *, groups=None, progress=None, threads=0, **options):
-    """Atoms of a file: PDB, mmCIF, PQR, xyzr or xyzrn, also gzipped.
+    """Atoms of a file: PDB, mmCIF, BinaryCIF, gro, sdf, mol2, PQR, xyzr or xyzrn, also gzipped.
 
     source: a path, the text of a file (with a line feed in it), its bytes, or something that has read().
     Keywords of surface() are taken, too, and are the defaults of Molecule.surface().

@@ -309,8 +309,8 @@ struct BallSet {
 /// @throws Error(ErrorKind::Usage) if one of them is wrong whatever the file holds
 void checkOptions(const SelectOptions& options);
 
-/// Reads atoms from a file of the format PDB, mmCIF, PQR, xyzr or xyzrn, which may be compressed by
-/// gzip. The content tells the format; the name does not matter.
+/// Reads atoms from a file of the format PDB, mmCIF, BinaryCIF, gro, sdf, mol2, PQR, xyzr or xyzrn,
+/// which may be compressed by gzip. The content tells the format; the name does not matter.
 ///
 /// @param[in] path      the path of the file, or "-" for standard input
 /// @param[in] options   which atoms are used and how large they are

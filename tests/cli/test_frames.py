@@ -240,6 +240,12 @@ class Frames(ToolTest):
         self.check(1, "few.pdb", *FAST, "--frames", "3-4", *out, says="frame 4: expected 1230")
         self.assertLessEqual(set(self.names()), {"hole.pdb", "few.pdb", "a.0001.vdb"})
 
+    def test_a_run_that_ended_early(self):
+        (self.folder / "t.dcd").write_bytes(dcd(self.moved(3), promised=5))
+        self.check(0, CRAMBIN, *FAST, "--trajectory", "t.dcd", "-o", "a.csv",
+                   says="t.dcd: its header tells of 5 frames, 3 are there")
+        self.assertEqual(len(self.table()), 3)
+
     def test_bad_trajectories(self):
         def refuse(data, says, *words):
             (self.folder / "t.dcd").write_bytes(data)
@@ -248,7 +254,7 @@ class Frames(ToolTest):
 
         whole = dcd(self.moved(3))
         refuse(whole[:-100], "cut short: its header tells of 3 frames, 2 are whole")
-        refuse(dcd(self.moved(3), promised=5), "cut short")
+        refuse(dcd(self.moved(3), promised=5)[:-100], "cut short: its header tells of 5 frames, 2 are whole")
         refuse(whole[:50], "cut short")
         refuse(b"nothing", "DCD")
         refuse(b"", "DCD")

@@ -53,13 +53,13 @@ struct TriangleIntegrals {
 };
 
 /// Barycentric coordinates of the corners of a part of a triangle.
-struct Part {
+struct TrianglePart {
     Vec3d b[3];
 
-    Part child(int k) const
+    TrianglePart child(int k) const
     {
         const Vec3d p = 0.5 * (b[0] + b[1]), q = 0.5 * (b[1] + b[2]), r = 0.5 * (b[2] + b[0]);
-        const Part parts[4] = {{{b[0], p, r}}, {{p, b[1], q}}, {{r, q, b[2]}}, {{p, q, r}}};
+        const TrianglePart parts[4] = {{{b[0], p, r}}, {{p, b[1], q}}, {{r, q, b[2]}}, {{p, q, r}}};
         return parts[k];
     }
 
@@ -189,7 +189,7 @@ private:
 
     /// The integrals over a part of patch_, which is refined until the two rules agree.
     /// @return false if the patch is no graph along its normals
-    bool integrate(const Part& part, int level, TriangleIntegrals& sums)
+    bool integrate(const TrianglePart& part, int level, TriangleIntegrals& sums)
     {
         TriangleIntegrals fine;
         double difference = 0.0;
@@ -206,7 +206,7 @@ private:
 
     /// @param[out] sums        by the rule of degree 4
     /// @param[out] difference  of the two rules for the integral of K [sr]
-    bool applyRules(const Part& part, TriangleIntegrals& out, double& difference)
+    bool applyRules(const TrianglePart& part, TriangleIntegrals& out, double& difference)
     {
         const Point* P = patch_;
         SurfaceIntegrals& sums = out.sums;

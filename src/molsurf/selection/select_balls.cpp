@@ -184,6 +184,10 @@ std::vector<double> findRadii(const Structure& structure, const SelectOptions& o
     std::map<std::string, std::size_t> uncovered, unknown;
     for (const std::int32_t i : atoms) {
         const Atom& atom = structure.atoms[std::size_t(i)];
+        if (atom.radius >= 0.0) { // a sphere of an integrative model
+            radii.push_back(atom.radius);
+            continue;
+        }
         const std::string& residue = residueOf(structure, atom).name;
         double radius = set.find(residue, atom.name, atom.element);
         if (radius < 0) {
@@ -560,6 +564,9 @@ BallSet readAtoms(FileContent file, const SelectOptions& options, double probe,
 BallSet selectBalls(const Structure& structure, const SelectOptions& options, double probe,
                     const Progress& progress)
 {
+    if (!structure.placed)
+        failInput(structure, "has no coordinates, expected them from a trajectory beside it "
+                             "[hint: `trajectory` FILE.dcd or FILE.xtc, with `frames`]");
     if (structure.hasRadii && options.radii != "bondi") {
         throw Error(ErrorKind::Usage, "radii " + inQuotes(options.radii) +
                                           ": expected none, since " +

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/detect_format.h"
 
-#include "molsurf/error.h"
+#include "molsurf/structure/binary_cif.h"
+#include "molsurf/structure/read_ball_list.h"
+#include "molsurf/structure/read_ligand.h"
+#include "molsurf/structure/read_macromolecule.h"
+#include "molsurf/structure/read_simulation.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
@@ -27,19 +31,6 @@ std::string lowerExtension(const std::string& path)
     std::string extension = lower(name.extension().string());
     if (extension == ".gz") extension = lower(name.stem().extension().string());
     return extension;
-}
-
-void refuseBinary(const std::string& path, const std::string& text)
-{
-    const string_view head = string_view(text).substr(0, 4096);
-    if (head.find('\0') == string_view::npos && head.substr(0, 1) != "\x83") return;
-    if (head.substr(0, 4) == " BDV") {
-        failAt(path, "is an OpenVDB file, expected a structure (PDB, mmCIF, PQR, xyzr or xyzrn)");
-    }
-    if (head.find("encoder") != string_view::npos || head.find("dataBlocks") != string_view::npos) {
-        failAt(path, "is BinaryCIF, which is not supported [use the .cif.gz of the same entry]");
-    }
-    failAt(path, "is a binary file, expected a structure (PDB, mmCIF, PQR, xyzr or xyzrn)");
 }
 
 bool startsWithNoCase(string_view text, string_view lowerPrefix)
@@ -123,42 +114,199 @@ bool looksLikeNamedBall(string_view line)
 
 } // namespace
 
-const char* formatName(StructureFormat format)
+/// What formats are told by.
+struct StructureSample {
+    StructureSample(const std::string& path, const std::string& all)
+        : text(all), extension(lowerExtension(path)), binary(isBinary(all))
+    {
+        if (binary) return;
+        for (LineReader lines(text); first.empty() && lines.next();) {
+            const Fields fields = splitFields(lines.line());
+            if (fields.empty() || fields[0][0] == '#') continue;
+            first = lines.line();
+            word = fields[0];
+        }
+        hasRecords = isPdbRecord(first) || hasAtomRecord(text);
+    }
+
+    static bool isBinary(string_view text)
+    {
+        return text.substr(0, 4096).find('\0') != string_view::npos;
+    }
+
+    const std::string& text;
+    std::string extension;
+    bool binary;             ///< the rest is found of texts alone
+    string_view first;       ///< line that is neither blank nor a comment
+    string_view word;        ///< the first one in it
+    bool hasRecords = false; ///< whether there is a record of a PDB file
+
+    bool ends(string_view with) const { return extension == with; }
+};
+
+namespace
 {
-    static constexpr std::array<const char*, 5> names{"PDB", "mmCIF", "PQR", "xyzr", "xyzrn"};
-    return names[std::size_t(format)];
+
+using Sample = StructureSample;
+
+bool isMmcif(const Sample& sample)
+{
+    return startsWithNoCase(sample.word, "data_") || startsWithNoCase(sample.word, "global_") ||
+           startsWithNoCase(sample.word, "loop_") || sample.word.substr(0, 1) == "_";
+}
+
+/// True if the fourth line is one of counts.
+bool isSdf(const Sample& sample)
+{
+    LineReader lines(sample.text);
+    while (lines.number() < 4 && lines.next()) {
+    }
+    const string_view line = lines.line();
+    int atoms = 0;
+    return lines.number() == 4 &&
+           (line.find("V2000") != string_view::npos || line.find("V3000") != string_view::npos ||
+            ((sample.ends(".sdf") || sample.ends(".mol")) &&
+             parseInteger(trimmed(line.substr(0, 3)), atoms)));
+}
+
+/// True if the second line is a number alone, and the third one an atom in columns or, of no atoms,
+/// a box.
+bool isGro(const Sample& sample)
+{
+    LineReader lines(sample.text);
+    int atoms = 0, residue = 0;
+    if (!lines.next() || !lines.next() || !parseInteger(trimmed(lines.line()), atoms)) return false;
+    if (sample.ends(".gro") || !lines.next()) return sample.ends(".gro");
+    const string_view line = lines.line();
+    return line.size() > 40 && parseInteger(trimmed(line.substr(0, 5)), residue) &&
+           parseInteger(trimmed(line.substr(15, 5)), residue) &&
+           line.substr(20).find('.') != string_view::npos;
+}
+
+bool isPdb(const Sample& sample)
+{
+    return sample.hasRecords;
+}
+
+bool isPqr(const Sample& sample)
+{
+    return sample.hasRecords && !sample.ends(".pdb") && !sample.ends(".ent") &&
+           (sample.ends(".pqr") || looksLikePqr(sample.text));
+}
+
+/// What people have and this program does not read, and what to do instead.
+struct Refusal {
+    const char *name, *hint;
+    bool (*matches)(const Sample& sample);
+};
+
+bool has(const Sample& sample, string_view word)
+{
+    return string_view(sample.text).substr(0, 4096).find(word) != string_view::npos;
+}
+
+const Refusal refusals[] = {
+    {"an OpenVDB file", "", [](const Sample& s) { return s.text.substr(0, 4) == " BDV"; }},
+    {"MMTF, which the Protein Data Bank no longer has", " [hint: take .bcif.gz of the same entry]",
+     [](const Sample& s) { return s.ends(".mmtf") || has(s, "mmtfVersion"); }},
+    {"a session of PyMOL", " [hint: in PyMOL, save FILE.cif]",
+     [](const Sample& s) { return s.ends(".pse") || s.ends(".psw"); }},
+    {"a run input of GROMACS", " [hint: gmx editconf writes FILE.gro of it]",
+     [](const Sample& s) { return s.ends(".tpr"); }},
+    {"a topology of Amber, which has no coordinates",
+     " [hint: cpptraj or ambpdb makes FILE.pdb or FILE.pqr of it and of its coordinates]",
+     [](const Sample& s) { return s.ends(".prmtop") || s.ends(".parm7") || s.word == "%VERSION"; }},
+    {"JSON", " [use .cif or .pdb]", [](const Sample& s) { return s.word.substr(0, 1) == "{"; }},
+    {"a binary file", "", [](const Sample& s) { return s.binary; }}};
+
+/// A reader that does not keep the text.
+template<Structure read(const std::string& text, const std::string& path)>
+Structure readText(std::string text, const std::string& path)
+{
+    return read(text, path);
+}
+
+} // namespace
+
+const std::vector<StructureFormatRow>& structureFormats()
+{
+    using F = StructureFormat;
+    static const std::vector<StructureFormatRow> table = {
+        {F::BinaryCif,
+         "BinaryCIF",
+         {".bcif"},
+         [](const Sample& s) { return isBinaryCif(s.text); },
+         readBinaryCif},
+        {F::Mol2,
+         "mol2",
+         {".mol2"},
+         [](const Sample& s) { return s.word.substr(0, 9) == "@<TRIPOS>"; },
+         readText<readMol2>},
+        {F::Sdf, "sdf", {".sdf", ".mol"}, isSdf, readText<readSdf>},
+        {F::Psf,
+         "psf",
+         {".psf"},
+         [](const Sample& s) { return s.word == "PSF"; },
+         readText<readPsf>},
+        {F::Gro, "gro", {".gro"}, isGro, readText<readGro>},
+        {F::Mmcif, "mmCIF", {".cif", ".mmcif"}, isMmcif, readMmcif},
+        {F::Pqr, "PQR", {".pqr"}, isPqr, readText<readPqr>},
+        {F::Pdb, "PDB", {".pdb", ".ent"}, isPdb, readPdb},
+        {F::Xyzrn,
+         "xyzrn",
+         {".xyzrn"},
+         [](const Sample& s) { return s.ends(".xyzrn") || looksLikeNamedBall(s.first); },
+         readText<readXyzrn>},
+        {F::Xyzr,
+         "xyzr",
+         {".xyzr"},
+         [](const Sample& s) { return looksLikeBall(s.first); },
+         readText<readXyzr>}};
+    return table;
+}
+
+const StructureFormatRow& rowOf(StructureFormat format)
+{
+    const auto& rows = structureFormats();
+    return *std::find_if(rows.begin(), rows.end(),
+                         [=](const StructureFormatRow& row) { return row.format == format; });
+}
+
+std::string structureFormatNames()
+{
+    std::string all;
+    for (const StructureFormatRow& row : structureFormats()) {
+        const bool last = &row == &structureFormats().back();
+        all += (all.empty() ? "" : last ? " or " : ", ") + std::string(row.name);
+    }
+    return all;
+}
+
+bool hasStructureEnding(const std::string& path)
+{
+    const std::string extension = lowerExtension(path);
+    const auto& rows = structureFormats();
+    return std::any_of(rows.begin(), rows.end(), [&](const StructureFormatRow& row) {
+        return std::find(row.endings.begin(), row.endings.end(), extension) != row.endings.end();
+    });
 }
 
 StructureFormat detectFormat(const std::string& path, const std::string& text)
 {
-    refuseBinary(path, text);
-    string_view first; // line that is neither blank nor a comment
-    for (LineReader lines(text); first.empty() && lines.next();) {
-        const Fields fields = splitFields(lines.line());
-        if (!fields.empty() && fields[0][0] != '#') first = lines.line();
-    }
-    const string_view word = splitFields(first).empty() ? first : splitFields(first)[0];
-    const std::string extension = lowerExtension(path);
-    if (startsWithNoCase(word, "data_") || startsWithNoCase(word, "global_") ||
-        startsWithNoCase(word, "loop_") || word.substr(0, 1) == "_") {
-        return StructureFormat::Mmcif;
-    }
-    if (word.substr(0, 1) == "{")
-        failAt(path, "is JSON, which is not supported [use .cif or .pdb]");
-    if (isPdbRecord(first) || hasAtomRecord(text)) {
-        if (extension == ".pdb" || extension == ".ent") return StructureFormat::Pdb;
-        const bool pqr = extension == ".pqr" || looksLikePqr(text);
-        return pqr ? StructureFormat::Pqr : StructureFormat::Pdb;
-    }
-    if (extension == ".xyzrn" || looksLikeNamedBall(first)) return StructureFormat::Xyzrn;
-    if (looksLikeBall(first)) return StructureFormat::Xyzr;
-    if (extension == ".pdb" || extension == ".ent") return StructureFormat::Pdb;
-    if (extension == ".cif" || extension == ".mmcif") return StructureFormat::Mmcif;
-    if (extension == ".pqr") return StructureFormat::Pqr;
-    if (extension == ".xyzr") return StructureFormat::Xyzr;
+    const Sample sample(path, text);
+    for (const StructureFormatRow& row : structureFormats())
+        if ((!sample.binary || row.format == StructureFormat::BinaryCif) && row.matches(sample))
+            return row.format;
+    for (const Refusal& refusal : refusals)
+        if (refusal.matches(sample))
+            failAt(path, std::string("is ") + refusal.name + ", expected a structure (" +
+                             structureFormatNames() + ")" + refusal.hint);
+    for (const StructureFormatRow& row : structureFormats())
+        for (const std::string& ending : row.endings)
+            if (sample.ends(ending)) return row.format;
     const std::string what =
-        extension == ".vdb" ? "is not a .vdb file of OpenVDB, and no structure" : "is no structure";
-    failAt(path, what + ": expected PDB, mmCIF, PQR, xyzr or xyzrn, got " + inQuotes(first));
+        sample.ends(".vdb") ? "is not a .vdb file of OpenVDB, and no structure" : "is no structure";
+    failAt(path, what + ": expected " + structureFormatNames() + ", got " + inQuotes(sample.first));
 }
 
 } // namespace molsurf

@@ -4,16 +4,39 @@
 /// @file
 /// Detects the format of a text.
 
+#include "molsurf/structure/structure.h"
+
 #include <string>
+#include <vector>
 
 namespace molsurf
 {
 
 /// The formats of readStructure().
-enum class StructureFormat { Pdb, Mmcif, Pqr, Xyzr, Xyzrn };
+enum class StructureFormat { Mmcif, BinaryCif, Mol2, Sdf, Psf, Gro, Pqr, Pdb, Xyzrn, Xyzr };
 
-/// "PDB", "mmCIF", "PQR", "xyzr" or "xyzrn".
-const char* formatName(StructureFormat format);
+struct StructureSample;
+
+/// A format of files of atoms.
+struct StructureFormatRow {
+    StructureFormat format;
+    const char* name;                 ///< "PDB"
+    std::vector<std::string> endings; ///< of names of files: ".pdb", ".ent"
+    /// Whether a text is of this format and not of one of those behind it.
+    bool (*matches)(const StructureSample& sample);
+    Structure (*read)(std::string text, const std::string& path);
+};
+
+/// All of them, in the order in which a text is held against them.
+const std::vector<StructureFormatRow>& structureFormats();
+
+const StructureFormatRow& rowOf(StructureFormat format);
+
+/// "PDB, mmCIF, ... or xyzrn", for messages.
+std::string structureFormatNames();
+
+/// Whether a name, which may have a further ".gz", ends as those of files of atoms do.
+bool hasStructureEnding(const std::string& path);
 
 /// Finds the format of a text from its first lines; the extension of `path` (a ".gz" left out)
 /// decides where they leave a choice.

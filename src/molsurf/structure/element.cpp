@@ -30,6 +30,14 @@ std::uint8_t guessElement(const std::string& atomName, const std::string& residu
         if (std::isalpha(static_cast<unsigned char>(c))) letters += c;
     }
     if (letters.empty()) return 0;
+    struct Ion {
+        const char *name, *symbol;
+    };
+    constexpr Ion ions[] = {{"SOD", "Na"}, {"CLA", "Cl"}, {"POT", "K"},
+                            {"CAL", "Ca"}, {"CES", "Cs"}, {"LIT", "Li"},
+                            {"RUB", "Rb"}, {"CAD", "Cd"}, {"BAR", "Ba"}};
+    for (const Ion& ion : ions)
+        if (atomName == residueName && atomName == ion.name) return elementNumber(ion.symbol);
     if (letters.size() == 2 && residueName.compare(0, 2, letters) == 0) {
         const std::uint8_t ion = elementNumber(letters);
         if (ion != 0 && (residueName.size() == 2 ||

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/read_ball_list.h"
 
-#include "molsurf/error.h"
 #include "molsurf/structure/element.h"
 #include "molsurf/structure/name_table.h"
 #include "molsurf/structure/residue_kind.h"
@@ -27,8 +26,7 @@ struct Place {
 
 [[noreturn]] void fail(const Place& place, const std::string& what)
 {
-    throw Error(ErrorKind::Input, displayName(place.path) + ": line " +
-                                      std::to_string(place.lines.number()) + ": " + what);
+    failAtLine(place.path, place.lines, what);
 }
 
 bool isDigitOrPoint(char c)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/read_dcd.h"
 
+#include "molsurf/core/words.h"
+
 #include <cstring>
 
 namespace molsurf
@@ -82,9 +84,10 @@ void DcdFile::readHeader()
     const std::uint64_t rest = size_ - begin_, one = frameSize(true), more = frameSize(false);
     frames_ = rest < one ? 0 : std::size_t(1 + (rest - one) / more);
     const bool whole = rest == 0 || (rest >= one && (rest - one) % more == 0);
-    if (!whole || frames_ < promised)
-        fail("cut short: its header tells of " + std::to_string(promised) + " frames, " +
-             std::to_string(frames_) + " are whole");
+    const std::string told = "its header tells of " + std::to_string(promised) + " frames, ";
+    if (!whole) fail("cut short: " + told + std::to_string(frames_) + " are whole");
+    if (frames_ < promised) // as headers of runs that ended early do
+        warning_ = told + counted(frames_, "is there", "are there");
     if (frames_ == 0) fail("it has no frame");
 }
 

@@ -15,8 +15,8 @@ class DcdFile : public Trajectory
 {
 public:
     /// Reads the header.
-    /// @throws Error(ErrorKind::Input) if the file cannot be opened or is no such file, or if it is
-    ///         cut short: it ends within a frame, or holds fewer than its header says
+    /// @throws Error(ErrorKind::Input) if the file cannot be opened or is no such file, or if it
+    ///         ends within a frame. That it holds fewer than its header says is a warning.
     explicit DcdFile(const std::string& path);
 
     std::size_t frames() const override { return frames_; }

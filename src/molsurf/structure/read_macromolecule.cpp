@@ -3,10 +3,10 @@
 
 #include "molsurf/error.h"
 #include "molsurf/structure/assembly_operators.h"
-#include "molsurf/structure/element.h"
-#include "molsurf/structure/name_table.h"
+#include "molsurf/structure/atom_tree.h"
+#include "molsurf/structure/binary_cif.h"
+#include "molsurf/structure/ihm_spheres.h"
 #include "molsurf/structure/pdb_text.h"
-#include "molsurf/structure/residue_kind.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <gemmi/cif.hpp>
@@ -37,105 +37,6 @@ std::string oneLine(const std::exception& error, const std::string& path)
         text.find_first_not_of(' ') == std::string::npos ? 0 : text.find_first_not_of(' '));
 }
 
-bool isStandard(const gemmi::Residue& residue)
-{
-    const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(residue.name);
-    return (info.is_amino_acid() || info.is_nucleic_acid()) && info.is_standard();
-}
-
-/// True if two residues are bonded as neighbours in a protein or a nucleic acid.
-bool areBonded(const gemmi::Residue& first, const gemmi::Residue& second)
-{
-    return gemmi::are_connected(first, second, gemmi::PolymerType::PeptideL) ||
-           gemmi::are_connected(first, second, gemmi::PolymerType::Rna);
-}
-
-/// True if a residue belongs to a polymer. Where the file names no entities, gemmi guesses, and we
-/// add what its guess leaves out: caps, and residues that follow a modified one or a stray TER.
-bool isInPolymer(const gemmi::Chain& chain, std::size_t index, bool entitiesKnown)
-{
-    const gemmi::Residue& residue = chain.residues[index];
-    if (residue.entity_type == gemmi::EntityType::Polymer) return true;
-    if (entitiesKnown) return false;
-    if (residue.het_flag != 'H' && isStandard(residue)) return true;
-    const bool toPrevious = index > 0 && areBonded(chain.residues[index - 1], residue);
-    return toPrevious ||
-           (index + 1 < chain.residues.size() && areBonded(residue, chain.residues[index + 1]));
-}
-
-/// Atomic number; corrects names such as CA that stand one column too far left in a file without
-/// elements, where they read as calcium.
-std::uint8_t elementOf(const gemmi::Atom& atom, bool standardResidue)
-{
-    const int number = atom.element.atomic_number();
-    const bool usual = number == 1 || number == 6 || number == 7 || number == 8 || number == 15 ||
-                       number == 16 || number == 34;
-    if (usual || !standardResidue) return static_cast<std::uint8_t>(number);
-    for (const char c : atom.name) {
-        if (std::isalpha(static_cast<unsigned char>(c))) {
-            return elementNumber(std::string(1, c));
-        }
-    }
-    return static_cast<std::uint8_t>(number);
-}
-
-/// Copies gemmi's tree into our tables.
-class Converter
-{
-public:
-    Converter(Structure& out, bool pdb, bool entitiesKnown)
-        : out_(out), pdb_(pdb), entitiesKnown_(entitiesKnown)
-    {
-    }
-
-    void add(const gemmi::Model& model, int number)
-    {
-        const std::size_t begin = out_.atoms.size();
-        for (const gemmi::Chain& chain : model.chains) {
-            for (std::size_t i = 0; i < chain.residues.size(); ++i) add(chain, i);
-        }
-        if (out_.atoms.size() > begin) out_.models.push_back({number, begin, out_.atoms.size()});
-    }
-
-private:
-    void add(const gemmi::Chain& chain, std::size_t index)
-    {
-        const gemmi::Residue& from = chain.residues[index];
-        Residue residue{};
-        residue.name = from.name;
-        residue.chain = chains_.index(chain.name, out_.chains);
-        residue.asym = asyms_.index(pdb_ ? chain.name : from.subchain, out_.asyms);
-        residue.number = from.seqid.num ? *from.seqid.num : 0;
-        residue.insertionCode = from.seqid.icode;
-        residue.water = isWaterName(from.name) || from.entity_type == gemmi::EntityType::Water;
-        residue.hetatm = from.het_flag == 'H';
-        residue.hetero = !residue.water && !isInPolymer(chain, index, entitiesKnown_);
-        const auto residueIndex = static_cast<std::int32_t>(out_.residues.size());
-        out_.residues.push_back(std::move(residue));
-        const bool standard = isStandard(from);
-        for (const gemmi::Atom& atom : from.atoms) {
-            out_.atoms.push_back({openvdb::Vec3d(atom.pos.x, atom.pos.y, atom.pos.z), atom.name,
-                                  residueIndex, elementOf(atom, standard), atom.altloc, atom.occ,
-                                  atom.b_iso, -1.0});
-        }
-    }
-
-    Structure& out_;
-    bool pdb_, entitiesKnown_;
-    NameTable chains_, asyms_;
-};
-
-std::size_t countAtoms(const gemmi::Structure& structure)
-{
-    std::size_t atoms = 0;
-    for (const gemmi::Model& model : structure.models) {
-        for (const gemmi::Chain& chain : model.chains) {
-            for (const gemmi::Residue& residue : chain.residues) atoms += residue.atoms.size();
-        }
-    }
-    return atoms;
-}
-
 using gemmi::cif::Block;
 
 /// First data block that has atoms.
@@ -144,7 +45,7 @@ Block& blockWithAtoms(gemmi::cif::Document& document, const std::string& path, S
     Block* chosen = nullptr;
     std::size_t further = 0;
     for (Block& block : document.blocks) {
-        if (!block.has_tag("_atom_site.Cartn_x")) continue;
+        if (!block.has_tag("_atom_site.Cartn_x") && !hasSpheres(block)) continue;
         if (chosen)
             ++further;
         else
@@ -303,6 +204,52 @@ void keepOnlyAtoms(Block& block)
     items.erase(std::remove_if(items.begin(), items.end(), std::not_fn(isNeeded)), items.end());
 }
 
+/// The atoms of a block, with what gemmi reads of it.
+void addAtoms(Block& block, const std::string& path, Structure& out)
+{
+    completeAtomSite(block, path);
+    const bool entitiesKnown = block.has_tag("_entity.type");
+    keepOnlyAtoms(block);
+    gemmi::Structure tree = gemmi::make_structure_from_block(block);
+    if (!entitiesKnown) gemmi::add_entity_types(tree, true);
+    std::vector<int> numbers;
+    for (const gemmi::Model& model : tree.models) {
+        if (model.chains.empty()) continue;
+        numbers.push_back(numbers.empty() ? 1 : numbers.back() + 1);
+        parseInteger(model.name, numbers.back());
+    }
+    copyTree(tree, numbers, true, entitiesKnown, out);
+}
+
+Structure structureOf(gemmi::cif::Document& document, const std::string& path)
+{
+    Structure out;
+    Block& block = blockWithAtoms(document, path, out);
+    out.assemblies = readAssemblies(block);
+    Block spheres("");
+    if (hasSpheres(block)) spheres.items = block.items;
+    if (block.has_tag("_atom_site.Cartn_x")) addAtoms(block, path, out);
+    if (hasSpheres(spheres)) addSpheres(spheres, path, out);
+    return out;
+}
+
+/// The categories that structureOf() reads.
+bool isRead(const std::string& category)
+{
+    constexpr std::array<const char*, 10> read{"_atom_site",
+                                               "_entity",
+                                               "_struct_asym",
+                                               "_pdbx_struct_oper_list",
+                                               "_pdbx_struct_assembly_gen",
+                                               "_struct_ncs_oper",
+                                               "_ihm_sphere_obj_site",
+                                               "_entity_poly_seq",
+                                               "_chem_comp_atom",
+                                               "_atom_site_label"};
+    return std::any_of(read.begin(), read.end(),
+                       [&](const char* name) { return gemmi::iequal(category, name); });
+}
+
 } // namespace
 
 Structure readPdb(std::string text, const std::string& path)
@@ -318,13 +265,7 @@ Structure readPdb(std::string text, const std::string& path)
     }
     std::string().swap(text);
     Structure out;
-    out.atoms.reserve(countAtoms(parsed));
-    Converter converter(out, true, false);
-    std::size_t withAtoms = 0;
-    for (const gemmi::Model& model : parsed.models) {
-        if (model.chains.empty()) continue;
-        converter.add(model, records.models.at(withAtoms++));
-    }
+    copyTree(parsed, records.models, false, false, out);
     out.assemblies = std::move(records.assemblies);
     out.warnings = std::move(records.warnings);
     return out;
@@ -332,34 +273,29 @@ Structure readPdb(std::string text, const std::string& path)
 
 Structure readMmcif(std::string text, const std::string& path)
 {
-    Structure out;
-    gemmi::Structure parsed;
-    bool entitiesKnown = false;
     try {
         gemmi::cif::Document document =
             gemmi::cif::read_memory(text.data(), text.size(), path.c_str());
         std::string().swap(text);
-        Block& block = blockWithAtoms(document, path, out);
-        completeAtomSite(block, path);
-        out.assemblies = readAssemblies(block);
-        entitiesKnown = block.has_tag("_entity.type");
-        keepOnlyAtoms(block);
-        parsed = gemmi::make_structure_from_block(block);
-        if (!entitiesKnown) gemmi::add_entity_types(parsed, true);
+        return structureOf(document, path);
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
         failAt(path, oneLine(error, path));
     }
-    out.atoms.reserve(countAtoms(parsed));
-    Converter converter(out, false, entitiesKnown);
-    int number = 0;
-    for (const gemmi::Model& model : parsed.models) {
-        ++number;
-        parseInteger(model.name, number);
-        converter.add(model, number);
+}
+
+Structure readBinaryCif(std::string bytes, const std::string& path)
+{
+    try {
+        gemmi::cif::Document document = decodeBinaryCif(bytes, path, isRead);
+        std::string().swap(bytes);
+        return structureOf(document, path);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        failAt(path, oneLine(error, path));
     }
-    return out;
 }
 
 } // namespace molsurf

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// PDB and mmCIF by way of gemmi.
+/// PDB, mmCIF and BinaryCIF by way of gemmi.
 
 #include "molsurf/structure/structure.h"
 
@@ -16,9 +16,13 @@ namespace molsurf
 /// @throws Error(ErrorKind::Input) if it cannot be read; a text without atoms gives none
 Structure readPdb(std::string text, const std::string& path);
 
-/// Reads the text of an mmCIF file: the first data block that has atoms.
+/// Reads the text of an mmCIF file: the first data block that has atoms, or spheres of an
+/// integrative model.
 /// @param[in] text  consumed, to save memory
 /// @throws Error(ErrorKind::Input) if it cannot be read, or if no data block has atoms
 Structure readMmcif(std::string text, const std::string& path);
+
+/// The same of a BinaryCIF file.
+Structure readBinaryCif(std::string bytes, const std::string& path);
 
 } // namespace molsurf

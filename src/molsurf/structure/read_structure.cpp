@@ -5,8 +5,6 @@
 #include "molsurf/structure/beads.h"
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/load_text.h"
-#include "molsurf/structure/read_ball_list.h"
-#include "molsurf/structure/read_macromolecule.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <cmath>
@@ -32,28 +30,12 @@ void checkCoordinates(const Structure& structure, const std::string& path)
     }
 }
 
-Structure parse(StructureFormat format, std::string text, const std::string& path)
-{
-    switch (format) {
-    case StructureFormat::Pdb:
-        return readPdb(std::move(text), path);
-    case StructureFormat::Mmcif:
-        return readMmcif(std::move(text), path);
-    case StructureFormat::Pqr:
-        return readPqr(text, path);
-    case StructureFormat::Xyzr:
-        return readXyzr(text, path);
-    case StructureFormat::Xyzrn:
-        break;
-    }
-    return readXyzrn(text, path);
-}
-
 Structure parseAndCheck(StructureFormat format, std::string text, const std::string& path)
 {
-    Structure structure = parse(format, std::move(text), path);
+    const StructureFormatRow& row = rowOf(format);
+    Structure structure = row.read(std::move(text), path);
     structure.source = path == "-" ? path : std::filesystem::path(path).filename().string();
-    structure.format = formatName(format);
+    structure.format = row.name;
     if (structure.atoms.empty()) {
         const bool records = format == StructureFormat::Pdb || format == StructureFormat::Pqr;
         throw Error(ErrorKind::Input,

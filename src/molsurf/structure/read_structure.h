@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Reads .pdb .ent .cif .mmcif .pqr .xyzr .xyzrn, each also .gz, and standard input.
+/// Reads the files of structureFormats(), each also .gz, and standard input.
 
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/structure.h"
@@ -30,6 +30,9 @@ namespace molsurf
 /// - xyzrn: the first four columns are x y z r, the last one of five or six is the name. A name of
 ///   the form N_ALA_1 or N_ALA_1_A (atom, residue, number, chain) or A_1_x_ALA_N_Blue (chain,
 ///   number, insertion code or x, residue, atom, anything) gives these; other names are kept only.
+///
+/// - Integrative models: see addSpheres(). Atoms beside the spheres have no radii of their own.
+/// - .gro, .psf, .sdf, .mol and .mol2: see their readers.
 ///
 /// @param[in] maxBytes  that the text may have; see loadText()
 /// @throws Error(ErrorKind::Input) if the file does not exist, is a folder, is empty, too large or

@@ -37,7 +37,7 @@ struct Atom {
     char altloc;             ///< '\0' if the atom has no alternate location
     float occupancy;         ///< in [0, 1]
     float bFactor;           ///< [Å^2]
-    double radius;           ///< from .pqr, .xyzr and .xyzrn [Å]; < 0 if the file gives none
+    double radius;           ///< the file's own [Å]; < 0 if it gives none
 };
 
 /// A rigid motion  x -> rotation x + translation  [Å].
@@ -78,7 +78,7 @@ enum class BeadKind : std::uint8_t {
 /// A file's content.
 struct Structure {
     std::string source; ///< file name without folder, or "-" for standard input
-    std::string format; ///< "PDB", "mmCIF", "PQR", "xyzr", "xyzrn"
+    std::string format; ///< as formatName() has it: "PDB"
     std::vector<Model> models;
     std::vector<Atom> atoms;
     std::vector<Residue> residues;
@@ -86,10 +86,12 @@ struct Structure {
     std::vector<std::string> asyms;  ///< label_asym_id in mmCIF; elsewhere the same as chains
     std::vector<Assembly> assemblies;
     BeadKind beads = BeadKind::None;
-    std::vector<float> charges;        ///< of the atoms of a PQR file [e]; else empty
+    std::vector<float> charges;        ///< of the atoms of a PQR or .mol2 file [e]; else empty
     std::vector<std::string> labels;   ///< of the atoms of an xyzrn file: the last column as it
                                        ///< stands there; else empty
     bool hasRadii = false;             ///< true if every atom has the file's own radius
+    bool placed = true;                ///< false if the atoms have no places yet, which then are
+                                       ///< all 0
     std::vector<std::string> warnings; ///< one line each: parts of the file that were ignored
 };
 

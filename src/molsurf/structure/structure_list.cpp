@@ -2,11 +2,11 @@
 #include "molsurf/structure/structure_list.h"
 
 #include "molsurf/error.h"
+#include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/load_text.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <sstream>
 
 namespace molsurf
@@ -15,23 +15,13 @@ namespace molsurf
 namespace
 {
 
-/// Whether a file is a structure, by its name.
-bool isStructure(const std::filesystem::path& path)
-{
-    const std::filesystem::path name = path.extension() == ".gz" ? path.stem() : path.filename();
-    const std::string extension = name.extension().string();
-    const char* const known[] = {".pdb", ".ent", ".cif", ".mmcif", ".pqr", ".xyzr", ".xyzrn"};
-    return std::any_of(std::begin(known), std::end(known),
-                       [&](const char* word) { return extension == word; });
-}
-
 /// The structures of a folder, by name.
 std::vector<std::string> structuresIn(const std::string& folder)
 {
     std::vector<std::string> inputs;
     for (const std::filesystem::directory_entry& entry :
          std::filesystem::directory_iterator(folder)) {
-        if (entry.is_regular_file() && isStructure(entry.path()))
+        if (entry.is_regular_file() && hasStructureEnding(entry.path()))
             inputs.push_back(entry.path().string());
     }
     std::sort(inputs.begin(), inputs.end());
@@ -46,7 +36,7 @@ std::vector<std::string> readStructureList(const std::string& path, std::size_t 
     std::error_code ignored;
     if (path != "-") {
         if (std::filesystem::is_directory(path, ignored)) return structuresIn(path);
-        if (isStructure(path))
+        if (hasStructureEnding(path))
             throw Error(
                 ErrorKind::Input,
                 path +

@@ -117,4 +117,9 @@ void failAt(const std::string& path, const std::string& what)
     throw Error(ErrorKind::Input, displayName(path) + ": " + what);
 }
 
+void failAtLine(const std::string& path, const LineReader& lines, const std::string& what)
+{
+    failAt(path, "line " + std::to_string(lines.number()) + ": " + what);
+}
+
 } // namespace molsurf

@@ -63,4 +63,8 @@ std::string displayName(const std::string& path);
 /// @throws Error(ErrorKind::Input) that says what is wrong with a file
 [[noreturn]] void failAt(const std::string& path, const std::string& what);
 
+/// The same with the number of the current line.
+[[noreturn]] void failAtLine(const std::string& path, const LineReader& lines,
+                             const std::string& what);
+
 } // namespace molsurf

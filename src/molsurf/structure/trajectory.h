@@ -27,6 +27,9 @@ public:
     std::size_t atoms() const { return atoms_; }
     virtual std::size_t frames() const = 0;
 
+    /// One line on what is odd about the file; empty if nothing is.
+    const std::string& warning() const { return warning_; }
+
     /// The coordinates of all atoms in a frame [Å].
     /// @param[in] frame  from 0, below frames()
     /// @throws Error(ErrorKind::Input) if it cannot be read, or if a coordinate is no number or
@@ -47,6 +50,7 @@ protected:
     std::ifstream file_;
     std::uint64_t size_ = 0; ///< of the file [byte]
     std::size_t atoms_ = 0;
+    std::string warning_;
 
 private:
     std::string path_;

@@ -61,6 +61,8 @@ FrameSource::FrameSource(const std::string& input, const std::string& trajectory
             throw Error(ErrorKind::Input, input + ": has no model " + std::to_string(wanted));
         model_ = std::size_t(model - models.begin());
         trajectory_ = openTrajectory(trajectory);
+        if (!trajectory_->warning().empty())
+            structure_.warnings.push_back(trajectory + ": " + trajectory_->warning());
         const std::size_t count = model->end - model->begin;
         if (trajectory_->atoms() != count)
             throw Error(ErrorKind::Input,
@@ -129,6 +131,7 @@ BallSet FrameSource::load(std::size_t i)
         const std::vector<openvdb::Vec3f> positions = trajectory_->read(std::size_t(number(i)) - 1);
         for (std::size_t a = 0; a < positions.size(); ++a)
             structure_.atoms[model.begin + a].position = openvdb::Vec3d(positions[a]);
+        structure_.placed = true;
         options.model = model.number;
     } else {
         options.model = number(i);

@@ -49,13 +49,25 @@ TEST(DetectFormat, NamesWhatItRefuses)
         return errorOf(ErrorKind::Input, [&] { detectFormat("-", text); });
     };
     EXPECT_HAS(message(std::string(" BDV\0\0\0\0", 8)), "is an OpenVDB file");
-    EXPECT_HAS(message(std::string("\x83\xa7"
-                                   "encoder\0",
-                                   10)),
-               "BinaryCIF");
     EXPECT_HAS(message(std::string("ab\0cd", 5)), "is a binary file");
     EXPECT_HAS(message("{\"data_1ABC\": {}}"), "JSON");
     EXPECT_HAS(message("Dear Sir,\n"), "standard input: is no structure");
+}
+
+TEST(DetectFormat, KnowsFormatsByWhatTheyBeginWith)
+{
+    EXPECT_EQ(detectFormat("-", std::string("\x83\xa7"
+                                            "encoder\0",
+                                            10)),
+              StructureFormat::BinaryCif);
+    EXPECT_EQ(detectFormat("-", "# c\n@<TRIPOS>MOLECULE\n"), StructureFormat::Mol2);
+    EXPECT_EQ(detectFormat("-", "PSF EXT\n"), StructureFormat::Psf);
+    const std::string counts = "  1  0  0  0  0  0            999 V2000\n";
+    EXPECT_EQ(detectFormat("-", "data_name\n\n\n" + counts), StructureFormat::Sdf);
+    const std::string atom = "    1ALA      N    1   1.234  -0.500   2.000\n";
+    EXPECT_EQ(detectFormat("-", "ATOM of a title\n    1\n" + atom), StructureFormat::Gro);
+    EXPECT_EQ(detectFormat("a.gro", "no atoms\n 0\n 1.0 1.0 1.0\n"), StructureFormat::Gro);
+    EXPECT_EQ(detectFormat("-", "title\n3\n" + pdbAtom), StructureFormat::Pdb);
 }
 
 } // namespace

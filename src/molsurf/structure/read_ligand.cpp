@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/structure/read_ligand.h"
+
+#include "molsurf/structure/atom_tree.h"
+#include "molsurf/structure/element.h"
+#include "molsurf/structure/text_fields.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace molsurf
+{
+namespace
+{
+
+using std::string_view;
+
+/// Reads the molecules of an .sdf file, one after the other.
+class SdfReader
+{
+public:
+    SdfReader(const std::string& text, const std::string& path) : lines_(text), path_(path) {}
+
+    Structure read()
+    {
+        for (int model = 1; lines_.next(); ++model) {
+            if (model > 1 && restIsBlank()) break;
+            tree_.startModel(model);
+            readMolecule();
+            while (trimmed(lines_.line()) != "$$$$" && lines_.next()) {
+            }
+        }
+        return tree_.finish();
+    }
+
+private:
+    /// Whether nothing but blank lines is left. Goes on to the next line that is not.
+    bool restIsBlank()
+    {
+        LineReader ahead = lines_;
+        do {
+            if (!trimmed(ahead.line()).empty()) return false;
+        } while (ahead.next());
+        return true;
+    }
+
+    void next(const char* expected)
+    {
+        if (!lines_.next())
+            failAt(path_, "is cut short after line " + std::to_string(lines_.number()) +
+                              ": expected " + expected);
+    }
+
+    [[noreturn]] void fail(const std::string& expected) const
+    {
+        failAtLine(path_, lines_, "expected " + expected + ", got " + inQuotes(lines_.line()));
+    }
+
+    /// Reads from the title, which is the current line, to the last atom.
+    void readMolecule()
+    {
+        serials_.clear();
+        atoms_ = 0;
+        next("the line of the program");
+        drawn_ = lines_.line().size() >= 22 && lines_.line().substr(20, 2) == "2D";
+        next("the comment");
+        next("the numbers of atoms and bonds");
+        const string_view counts = lines_.line();
+        const std::size_t line = lines_.number();
+        flat_ = true;
+        if (counts.find("V3000") != string_view::npos) {
+            readV3000();
+        } else {
+            int atoms = 0;
+            if (!parseInteger(trimmed(counts.substr(0, 3)), atoms) || atoms < 0)
+                fail("the number of atoms in columns 1-3");
+            for (int i = 0; i < atoms; ++i) {
+                next("an atom");
+                readV2000Atom();
+            }
+        }
+        if (drawn_ && flat_ && atoms_ > 1)
+            failAt(path_, "line " + std::to_string(line) +
+                              ": the molecule is drawn in two dimensions, expected three [hint: "
+                              "Open Babel (gen3d) and RDKit (EmbedMolecule) make conformers]");
+    }
+
+    void readV2000Atom()
+    {
+        const string_view line = lines_.line();
+        constexpr std::size_t width = 10, symbol = 31;
+        openvdb::Vec3d position;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            double value = 0.0;
+            const std::size_t begin = std::min(axis * width, line.size());
+            if (!parseNumber(trimmed(line.substr(begin, width)), value))
+                fail(std::string(1, "xyz"[axis]) + " in columns " + std::to_string(begin + 1) +
+                     "-" + std::to_string(begin + width));
+            position[int(axis)] = value;
+        }
+        if (line.size() <= symbol) fail("the symbol of an element in columns 32-34");
+        add(trimmed(line.substr(symbol, 3)), position);
+    }
+
+    /// A line of V3000 without "M  V30 ", with what follows it if it ends in "-".
+    std::string line3000()
+    {
+        constexpr string_view begin = "M  V30 ";
+        std::string out;
+        for (bool more = true; more;) {
+            next("M  V30 END ATOM");
+            if (lines_.line().substr(0, begin.size()) != begin) fail("a line that begins M  V30");
+            out += lines_.line().substr(begin.size());
+            more = !out.empty() && out.back() == '-';
+            if (more) out.pop_back();
+        }
+        return out;
+    }
+
+    void readV3000()
+    {
+        std::string line;
+        do line = line3000();
+        while (line.substr(0, 10) != "BEGIN ATOM");
+        while ((line = line3000()).substr(0, 8) != "END ATOM") {
+            const Fields fields = splitFields(line);
+            openvdb::Vec3d position;
+            for (int axis = 0; axis < 3; ++axis) {
+                double value = 0.0;
+                if (fields.size() < 5 || !parseNumber(fields[std::size_t(2 + axis)], value))
+                    fail("number, symbol, x, y and z");
+                position[axis] = value;
+            }
+            add(fields[1], position);
+        }
+    }
+
+    void add(string_view symbol, const openvdb::Vec3d& position)
+    {
+        ++atoms_;
+        flat_ = flat_ && position.z() == 0.0;
+        AtomLine atom;
+        atom.element = elementNumber(std::string(symbol));
+        const std::string name = std::string(symbol) + std::to_string(++serials_[atom.element]);
+        atom.residue = "UNL"; // as the Protein Data Bank calls an unknown ligand
+        atom.name = name;
+        atom.number = 1;
+        atom.hetatm = true;
+        atom.position = position;
+        tree_.add(atom);
+    }
+
+    LineReader lines_;
+    const std::string& path_;
+    AtomTree tree_;
+    std::map<int, int> serials_; ///< atoms of each element up to now
+    std::size_t atoms_ = 0;      ///< of the molecule up to now
+    bool drawn_ = false, flat_ = true;
+};
+
+/// A substructure of a .mol2 file: "ALA12" is residue ALA 12.
+struct Substructure {
+    std::string name;
+    int number = 0;
+    char insertionCode = ' ';
+};
+
+Substructure substructureOf(string_view id, string_view name)
+{
+    Substructure out;
+    parseInteger(id, out.number);
+    std::size_t end = name.size();
+    const bool code = end > 2 && std::isalpha(static_cast<unsigned char>(name[end - 1])) &&
+                      std::isdigit(static_cast<unsigned char>(name[end - 2]));
+    std::size_t digits = end -= code;
+    while (digits > 0 && std::isdigit(static_cast<unsigned char>(name[digits - 1]))) --digits;
+    if (digits > 0 && name[digits - 1] == '-') --digits; // ALA-5
+    int number = 0;
+    if (digits > 0 && digits < end && parseInteger(name.substr(digits, end - digits), number)) {
+        out.number = number;
+        if (code) out.insertionCode = name[end];
+        name = name.substr(0, digits);
+    }
+    out.name = name;
+    return out;
+}
+
+/// Reads the sections of a .mol2 file.
+class Mol2Reader
+{
+public:
+    Mol2Reader(const std::string& text, const std::string& path) : text_(text), path_(path) {}
+
+    Structure read()
+    {
+        readChains();
+        std::string section;
+        int model = 0;
+        for (LineReader lines(text_); lines.next();) {
+            const string_view line = trimmed(lines.line());
+            if (line.empty() || line[0] == '#') continue;
+            if (line[0] == '@') {
+                section = line;
+                if (section == "@<TRIPOS>MOLECULE") tree_.startModel(++model);
+            } else if (section == "@<TRIPOS>ATOM") {
+                add(lines, model);
+            }
+        }
+        Structure out = tree_.finish();
+        if (charges_.size() == out.atoms.size()) out.charges = std::move(charges_);
+        return out;
+    }
+
+private:
+    /// Finds the chains of substructures, which come after the atoms.
+    void readChains()
+    {
+        std::string section;
+        int model = 0;
+        for (LineReader lines(text_); lines.next();) {
+            const string_view line = trimmed(lines.line());
+            if (line.substr(0, 1) == "@") {
+                section = line;
+                model += section == "@<TRIPOS>MOLECULE";
+                continue;
+            }
+            constexpr std::size_t chain = 5; // id name root_atom type dictionary chain
+            if (section != "@<TRIPOS>SUBSTRUCTURE") continue;
+            const Fields fields = splitFields(line);
+            if (fields.size() > chain && fields[chain] != "****")
+                chains_[{model, std::string(fields[0])}] = fields[chain];
+        }
+    }
+
+    void add(const LineReader& lines, int model)
+    {
+        enum Column { Id, Name, X, Y, Z, Type, SubstId, SubstName, Charge };
+        const Fields fields = splitFields(lines.line());
+        AtomLine atom;
+        bool good = fields.size() > Type;
+        for (int axis = 0; good && axis < 3; ++axis) {
+            double value = 0.0;
+            good = parseNumber(fields[std::size_t(X + axis)], value);
+            atom.position[axis] = value;
+        }
+        if (!good)
+            failAtLine(path_, lines,
+                       "expected number, name, x, y, z and type, got " + inQuotes(lines.line()));
+        const string_view type = fields[Type].substr(0, fields[Type].find('.'));
+        if (type == "LP") return; // a lone pair
+        Substructure residue;
+        if (fields.size() > SubstName) residue = substructureOf(fields[SubstId], fields[SubstName]);
+        std::string chain;
+        if (fields.size() > SubstId) {
+            const auto known = chains_.find({model, std::string(fields[SubstId])});
+            if (known != chains_.end()) chain = known->second;
+        }
+        double charge = 0.0;
+        if (fields.size() > Charge && parseNumber(fields[Charge], charge))
+            charges_.push_back(float(charge));
+        atom.chain = chain;
+        atom.residue = residue.name;
+        atom.name = fields[Name];
+        atom.number = residue.number;
+        atom.insertionCode = residue.insertionCode;
+        atom.hetatm = !isStandardResidue(residue.name);
+        atom.element = elementNumber(std::string(type));
+        tree_.add(atom);
+    }
+
+    const std::string &text_, &path_;
+    AtomTree tree_;
+    std::map<std::pair<int, std::string>, std::string> chains_; ///< by model and substructure
+    std::vector<float> charges_;
+};
+
+} // namespace
+
+Structure readSdf(const std::string& text, const std::string& path)
+{
+    return SdfReader(text, path).read();
+}
+
+Structure readMol2(const std::string& text, const std::string& path)
+{
+    return Mol2Reader(text, path).read();
+}
+
+} // namespace molsurf

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/structure/read_structure.h"
+#include "unit/structure/temp_file.h"
+
+namespace molsurf::test
+{
+namespace
+{
+
+Structure readLigand(const std::string& text, const std::string& name = "a.txt")
+{
+    return readStructure(TempFile(name, text).path());
+}
+
+std::string ligandError(const std::string& text, const std::string& name = "a.sdf")
+{
+    return errorOf(ErrorKind::Input, [&] { readLigand(text, name); });
+}
+
+const std::string head = "a title\n     program        3D\na comment\n";
+const std::string v2000 = head + "  3  2  0  0  0  0            999 V2000\n"
+                                 "    1.2500   -0.5000    2.0000 C   0  0\n"
+                                 "   -3.0000    0.0000    0.1250 Cl  0  0\n"
+                                 "    0.0000    4.5000    0.0000 D   0  0\n"
+                                 "  1  2  1  0\n  1  3  1  0\nM  END\n";
+const std::string v3000 = head + "  0  0  0     0  0            999 V3000\n"
+                                 "M  V30 BEGIN CTAB\nM  V30 COUNTS 3 2 0 0 0\nM  V30 BEGIN ATOM\n"
+                                 "M  V30 1 C 1.25 -0.5 2 0\n"
+                                 "M  V30 7 Cl -3 0 -\nM  V30 0.125 0 CHG=-1\n"
+                                 "M  V30 3 D 0 4.5 0 0\n"
+                                 "M  V30 END ATOM\nM  V30 END CTAB\nM  END\n";
+const std::string mol2 = "# made by hand\n@<TRIPOS>MOLECULE\na name\n 4 2 2 0 0\nSMALL\nUSER\n\n"
+                         "@<TRIPOS>ATOM\n"
+                         "  1 CA   1.25 -0.5 2.0  C.3  1 ALA-5A 0.25\n"
+                         "  2 CL1 -3.0   0.0 0.125 Cl  2 ATP501 -1.0\n"
+                         "  3 D1   0.0   4.5 0.0  D    2 ATP501 0.75\n"
+                         "  4 LP1  0.0   4.5 9.0  LP   2 ATP501 0.00\n"
+                         "@<TRIPOS>BOND\n 1 1 2 1\n"
+                         "@<TRIPOS>SUBSTRUCTURE\n 1 ALA-5A 1 RESIDUE 1 B ALA\n";
+
+void expectAtoms(const Structure& s)
+{
+    const std::vector<openvdb::Vec3d> positions{{1.25, -0.5, 2.0}, {-3.0, 0.0, 0.125}, {0, 4.5, 0}};
+    const std::vector<int> elements{6, 17, 1};
+    ASSERT_EQ(s.atoms.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(s.atoms[i].position, positions[i]) << i;
+        EXPECT_EQ(s.atoms[i].element, elements[i]) << i;
+    }
+}
+
+TEST(ReadSdf, ReadsBothVersions)
+{
+    for (const std::string& text : {v2000, v3000}) {
+        const Structure s = readLigand(text);
+        EXPECT_EQ(s.format, "sdf");
+        expectAtoms(s);
+        EXPECT_EQ(s.atoms[1].name, "Cl1");
+        ASSERT_EQ(s.residues.size(), 1u);
+        EXPECT_TRUE(s.residues[0].hetero);
+    }
+}
+
+TEST(ReadSdf, MoleculesAreModels)
+{
+    const std::string data = "> <score>\n-7.5\n\n$$$$\n";
+    const Structure s = readLigand(v2000 + data + v3000 + data + "\n");
+    ASSERT_EQ(s.models.size(), 2u);
+    EXPECT_EQ(s.models[1].number, 2);
+    EXPECT_EQ(s.models[1].begin, 3u);
+    EXPECT_EQ(s.models[1].end, 6u);
+    EXPECT_EQ(s.atoms[3].name, "C1");
+}
+
+TEST(ReadSdf, RefusesDrawings)
+{
+    std::string flat = v2000;
+    flat.replace(flat.find("3D"), 2, "2D");
+    expectAtoms(readLigand(flat)); // whatever it says
+    for (const char* z : {"2.0000 C", "0.1250 Cl"}) flat.replace(flat.find(z), 6, "0.0000");
+    EXPECT_HAS(ligandError(flat), "line 4: the molecule is drawn in two dimensions");
+}
+
+TEST(ReadSdf, NamesTheLineThatIsWrong)
+{
+    const auto cutAt = [](const std::string& text, const std::string& word) {
+        return text.substr(0, text.find(word));
+    };
+    std::string letter = v2000;
+    letter.replace(letter.find("4.5000"), 6, "4.50x0");
+    EXPECT_HAS(ligandError(letter), "line 7: expected y in columns 11-20");
+    EXPECT_HAS(ligandError(cutAt(v2000, "   -3.0000")), "cut short after line 5: expected an atom");
+    EXPECT_HAS(ligandError(cutAt(v3000, "M  V30 3")), "cut short after line 10");
+    EXPECT_HAS(ligandError(head + "abc  0  0     0  0            999 V2000\n"),
+               "line 4: expected the number of atoms");
+    std::string lost = v3000;
+    lost.replace(lost.find("M  V30 0.125"), 6, "M  V20");
+    EXPECT_HAS(ligandError(lost), "line 10: expected a line that begins M  V30");
+    EXPECT_HAS(ligandError("title\n\n\n"), "cut short after line 3");
+}
+
+TEST(ReadMol2, ReadsAtomsResiduesChainsAndCharges)
+{
+    const Structure s = readLigand(mol2);
+    EXPECT_EQ(s.format, "mol2");
+    expectAtoms(s);
+    EXPECT_EQ(s.atoms[0].name, "CA");
+    ASSERT_EQ(s.residues.size(), 2u);
+    EXPECT_EQ(s.residues[0].name, "ALA");
+    EXPECT_EQ(s.residues[0].number, -5);
+    EXPECT_EQ(s.residues[0].insertionCode, 'A');
+    EXPECT_FALSE(s.residues[0].hetero);
+    EXPECT_EQ(s.residues[1].name, "ATP");
+    EXPECT_EQ(s.residues[1].number, 501);
+    EXPECT_TRUE(s.residues[1].hetero);
+    EXPECT_EQ(s.chains, (std::vector<std::string>{"B", ""}));
+    EXPECT_EQ(s.charges, (std::vector<float>{0.25f, -1.0f, 0.75f}));
+}
+
+TEST(ReadMol2, MoleculesAreModelsAndWrongLinesAreNamed)
+{
+    EXPECT_EQ(readLigand(mol2 + mol2).models.size(), 2u);
+    std::string letter = mol2;
+    letter.replace(letter.find("0.125"), 5, "0,125");
+    EXPECT_HAS(ligandError(letter, "a.mol2"), "line 10: expected number, name, x, y, z and type");
+    EXPECT_HAS(ligandError("@<TRIPOS>MOLECULE\nname\n", "a.mol2"), "no atoms");
+}
+
+} // namespace
+} // namespace molsurf::test
