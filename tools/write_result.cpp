@@ -18,6 +18,8 @@
 #include "molsurf/io/write_usda.h"
 #include "molsurf/io/write_usda_instances.h"
 #include "molsurf/io/write_vdb.h"
+#include "molsurf/io/write_view_script.h"
+#include "molsurf/io/write_volume.h"
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/write_html.h"
 #include "molsurf/picture/write_png.h"
@@ -299,6 +301,23 @@ void writeMesh(const Writing& w, OutputFile& file)
             format.write(w.whole, {stemOf(w.output.path), printUnit(w.call)}, file);
 }
 
+template<void write(const openvdb::FloatGrid&, const openvdb::Vec3d&, OutputFile&)>
+void writeVolume(const Writing& w, OutputFile& file)
+{
+    write(*w.result.surface, originOf(w.call), file);
+}
+
+template<void write(const std::string&, const std::optional<Legend>&, OutputFile&)>
+void writeScript(const Writing& w, OutputFile& file)
+{
+    const auto& files = w.call.outputs;
+    const auto mesh = std::find_if(files.begin(), files.end(), [&](const Output& output) {
+        return output.format->word == std::string(w.output.format->opens);
+    });
+    write(std::filesystem::path(mesh->path).filename().string(),
+          legendOf(w.call.options.color, w.atoms, w.mesh, w.progress), file);
+}
+
 void writeAreaTable(const Writing& w, OutputFile& file)
 {
     writeCsv(areaTable(w.output.format->table, w.call, w.atoms, w.result), file);
@@ -334,6 +353,14 @@ const std::vector<Format>& formatTable()
          Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels, "mesh",
          "", writeGlb},
         {"3mf", meshed, printed, "mesh", "", writeMesh},
+        {"vert", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
+        {"face", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
+        {"mrc", meshed, Volume, "level set in a box", "", writeVolume<writeMrc>},
+        {"dx", meshed, Volume, "level set in a box", "", writeVolume<writeDx>},
+        {"cxc", meshed, Script | Colors | Copies, "script that opens the .glb", "",
+         writeScript<writeChimeraXScript>, "glb"},
+        {"pml", meshed, Script | Colors, "script that opens the .ply", "",
+         writeScript<writePymolScript>, "ply"},
         {"html", meshed, Colors | ColorChoices | PlainColor | Copies | Levels | Views,
          "page that shows it", "", writePage},
         {"json", all, Numbers | Copies, "report", "",

@@ -140,9 +140,23 @@ void addTurntable(Call& call)
     call.picture.turnable = true;
 }
 
+// Scripts open a file that the same run writes.
+void checkScripts(const Call& call)
+{
+    for (const Output& script : call.outputs) {
+        const std::string opens = script.format->opens;
+        if (!opens.empty() &&
+            std::none_of(call.outputs.begin(), call.outputs.end(),
+                         [&](const Output& output) { return opens == output.format->word; }))
+            misuse("-o " + script.path + ": expected -o FILE." + opens +
+                   " too, which the script opens");
+    }
+}
+
 // Says what none of the files can hold.
 void warnOfLosses(Call& call)
 {
+    checkScripts(call);
     warnOfPairs(call);
     if (call.outputs.empty()) return;
     for (const OptionGroup& group : optionTable())

@@ -35,7 +35,9 @@ enum Holds : unsigned {
     Copies = 1 << 13,           ///< all copies of an assembly
     Levels = 1 << 14,           ///< levels of detail
     Views = 1 << 15,            ///< the surface as seen from somewhere, with crisp borders
-    Pixels = 1 << 16            ///< a picture
+    Pixels = 1 << 16,           ///< a picture
+    Volume = 1 << 18,           ///< the level set on all points of a box
+    Script = 1 << 19            ///< what opens another file of the run
 };
 
 /// What a file is written of, and how.
@@ -49,6 +51,7 @@ struct Format {
     const char* help;  ///< what a file is, for help texts; of two in turn with the same said once
     const char* table; ///< the table of areas that it has, one of areaTables(); "" if none
     void (*write)(const Writing& what, OutputFile& file); ///< null: a verb does so by itself
+    const char* opens = ""; ///< of a Script: the format of the file that it opens
 };
 
 /// All of them, in the order of help texts.

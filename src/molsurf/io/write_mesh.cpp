@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_mesh.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/output_buffer.h"
 #include "molsurf/io/ply_layout.h"
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <vector>
 
 namespace molsurf
@@ -69,6 +71,15 @@ void putTriangles(TextOutput& out, const Mesh& mesh)
     for (const auto& [a, b, c] : mesh.triangles) out << "3 " << a << " " << b << " " << c << "\n";
 }
 
+/// The number of the atom nearest to each vertex; empty if the mesh does not say it.
+const std::vector<std::int32_t>& vertexAtoms(const Mesh& mesh)
+{
+    static const std::vector<std::int32_t> none;
+    for (const auto& label : mesh.labels)
+        if (label.name == "atom_id") return label.values;
+    return none;
+}
+
 std::string inOneWord(std::string name)
 {
     constexpr std::size_t longest = 200;
@@ -77,6 +88,43 @@ std::string inOneWord(std::string name)
         if (letter == ' ' || letter == '\t' || letter == '\n' || letter == '\r') letter = '_';
     }
     return name;
+}
+
+/// The three lines that the files of MSMS begin with: the third one has the number of rows, that of
+/// the atoms that are met, and no density and no probe.
+void putMsmsHeader(TextOutput& out, const char* what, std::size_t rows, const Mesh& mesh)
+{
+    const auto& atoms = vertexAtoms(mesh);
+    const std::size_t spheres = std::set<std::int32_t>(atoms.begin(), atoms.end()).size();
+    out << "# vdb_molsurf: " << what << " as MSMS writes them\n#count #sphere density probe_r\n"
+        << formatted("%7zu %7zu  0.00  0.00\n", rows, spheres);
+}
+
+/// Writes a .vert file of MSMS: position [Å], normal, and of face, sphere and kind the sphere
+/// alone, counted from 1; the others are 0.
+void writeVert(const Mesh& mesh, OutputFile& file)
+{
+    TextOutput out(file);
+    putMsmsHeader(out, "vertices", mesh.positions.size(), mesh);
+    const auto& atoms = vertexAtoms(mesh);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const openvdb::Vec3f x = mesh.positions[v];
+        const openvdb::Vec3f n = mesh.normals.empty() ? openvdb::Vec3f(0.0f) : mesh.normals[v];
+        out << formatted("%9.3f %9.3f %9.3f %9.3f %9.3f %9.3f %7d %7d %2d\n", double(x[0]),
+                         double(x[1]), double(x[2]), double(n[0]), double(n[1]), double(n[2]), 0,
+                         atoms.empty() ? 0 : atoms[v] + 1, 0);
+    }
+    out.finish();
+}
+
+/// Writes a .face file of MSMS: three vertices counted from 1, and kind and face, which are 1.
+void writeFace(const Mesh& mesh, OutputFile& file)
+{
+    TextOutput out(file);
+    putMsmsHeader(out, "faces", mesh.triangles.size(), mesh);
+    for (const auto& [a, b, c] : mesh.triangles)
+        out << formatted("%6u %6u %6u %2d %6d\n", a + 1, b + 1, c + 1, 1, 1);
+    out.finish();
 }
 
 /// Writes a PolyData of VTK's legacy form, as text: positions [Å], triangles, and at the vertices
@@ -224,6 +272,8 @@ const std::vector<MeshFormat>& meshFormats()
         {"off", [](const Mesh& m, const Title&, OutputFile& f) { writeOff(m, f); }},
         {"wrl", [](const Mesh& m, const Title& t, OutputFile& f) { writeWrl(m, f, t.unit); }},
         {"vtk", [](const Mesh& m, const Title& t, OutputFile& f) { writeVtk(m, t.name, f); }},
+        {"vert", [](const Mesh& m, const Title&, OutputFile& f) { writeVert(m, f); }},
+        {"face", [](const Mesh& m, const Title&, OutputFile& f) { writeFace(m, f); }},
         {"glb", [](const Mesh& m, const Title& t, OutputFile& f) { writeGlb(m, {t.name}, f); }},
         {"3mf", [](const Mesh& m, const Title& t, OutputFile& f) {
              write3mf(m, t.name, t.unit.perAngstrom, f);
