@@ -96,6 +96,8 @@ FILES = {
                     head=biomt((0, 0, 0), (1, 0, 0), (0, 400, 0), (1, -400, 1.5))),
     "groups.json": '{"groups": [{"name": "a", "select": "A", "colour": "#d55e00"}]}',
     "copies.json": '{"groups": [{"name": "a", "select": "A", "copies": "1"}]}',
+    "own.prm": "XYZR_FileName = exposed.xyz\n", "fine.prm": "XYZR_FileName = ball.xyzr\nGrid_scale = 9\n",
+    "coarse.prm": "XYZR_FileName = ball.xyzr\nGrid_scale = 1\n", "few.prm": "XYZR_FileName = two.xyzr\nGrid_scale = 9\n",
     "list.txt": "one.xyzr\n", "junk.csv": "junk\n",
 }
 FAST = "--voxel 1 --surface sas"
@@ -393,6 +395,9 @@ CASES = {
     "tools/msms/main.cpp": [
         ("another name after -of or -af", "cp two.xyzr a.area; vdb_molsurf_msms -if a.area -af a",
          "vdb_molsurf_msms -if a.area -af b")],
+    "tools/nanoshaper/main.cpp": [
+        ("another Root_FileName", "cp two.xyzr exposed.xyz; vdb_molsurf_nanoshaper own.prm",
+         "cp two.xyzr exposed.xyz; echo 'Root_FileName = b' >> own.prm; vdb_molsurf_nanoshaper own.prm")],
 }
 
 # Hints that no case follows, by a part of their text, and why.
@@ -422,6 +427,8 @@ UNTRIED = {
     "tools/main.cpp": {"a larger --voxel": "what has memory by the estimate seldom ends so"},
     "tools/msms/main.cpp": {"error: not enough": "what has memory by the estimate seldom ends so",
                             " [hint: a smaller -density, or fewer spheres": "cli.hints.memory follows it"},
+    "tools/nanoshaper/main.cpp": {"error: not enough": "what has memory by the estimate seldom ends so",
+                                  " [hint: a smaller Grid_scale, or fewer spheres": "cli.hints.memory follows it"},
 }
 
 
@@ -504,6 +511,10 @@ class Hints(Followed):
                     "ulimit -v 800000; vdb_molsurf_msms -if ball.xyzr -of a -density 100",
                     "ulimit -v 800000; vdb_molsurf_msms -if ball.xyzr -of a -density 0.3",
                     "ulimit -v 800000; vdb_molsurf_msms -if two.xyzr -of a -density 100")
+        self.follow("tools/nanoshaper/main.cpp", "a smaller Grid_scale, or fewer spheres",
+                    "ulimit -v 800000; vdb_molsurf_nanoshaper fine.prm",
+                    "ulimit -v 800000; vdb_molsurf_nanoshaper coarse.prm",
+                    "ulimit -v 800000; vdb_molsurf_nanoshaper few.prm")
         self.follow("surface/check_balls.cpp", "--voxel 0.5",
                     "ulimit -v 500000; vdb_molsurf ball.xyzr --surface sas --voxel 0.05 -o a.ply",
                     "ulimit -v 500000; vdb_molsurf ball.xyzr --surface sas --voxel 0.5 -o a.ply")

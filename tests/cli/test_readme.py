@@ -18,7 +18,7 @@ README = ROOT / "README.md"
 DOCS = ROOT / "docs"
 PAGES = [README, *sorted(DOCS.rglob("*.md"))]
 # These have commands to run. Others may, too: every page with a block of shell is run.
-GUIDES = ("README", "accuracy", "artists", "compare", "complexes", "formats", "msms", "performance", "pipelines",
+GUIDES = ("README", "accuracy", "artists", "compare", "complexes", "formats", "msms", "nanoshaper", "performance", "pipelines",
           "settings", "structural_biology", "trajectories")
 
 
@@ -46,7 +46,7 @@ class Readme(ToolTest):
         super().setUp()
         (self.folder / "tests").symlink_to(ROOT / "tests")
         (self.folder / "bin").mkdir()
-        for name in ("vdb_molsurf", "vdb_molsurf_msms"):
+        for name in ("vdb_molsurf", "vdb_molsurf_msms", "vdb_molsurf_nanoshaper"):
             (self.folder / "bin" / name).symlink_to(pathlib.Path(TOOL).resolve().parent / name)
 
     def test_numbers_of_the_biologists_guide(self):
@@ -107,7 +107,7 @@ class Readme(ToolTest):
         path = f"{self.folder / 'bin'}:{os.environ['PATH']}"
         for block in commands:
             with self.subTest(block):
-                self.assertRegex(block, r"\bvdb_molsurf(_msms)? ")
+                self.assertRegex(block, r"\bvdb_molsurf(_msms|_nanoshaper)? ")
                 done = subprocess.run(["bash", "-e", "-o", "pipefail", "-c", block],
                                       cwd=self.folder, env={**os.environ, "PATH": path},
                                       capture_output=True, text=True, timeout=300)

@@ -8,42 +8,26 @@
 #include "msms/files.h"
 #include "msms/surface.h"
 #include "program.h"
-#include "stop.h"
+#include "stand_in.h"
 #include "terminal.h"
 
 #include "molsurf/error.h"
-#include "molsurf/io/commit.h"
-#include "molsurf/io/temporary_file.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 #include "molsurf/surface/check_balls.h"
 
 #include <openvdb/openvdb.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <iostream>
-#include <malloc.h>
-#include <memory>
-#include <set>
 #include <thread>
 
 using namespace molsurf;
 using namespace molsurf::msms;
+using tool::printed;
 using tool::say;
 
 namespace
 {
-
-void printed(const std::string& text)
-{
-    errno = 0;
-    if (std::cout << text << std::flush) return;
-    throw Error(ErrorKind::Output, std::string("cannot write standard output: ") +
-                                       std::strerror(errno != 0 ? errno : EIO));
-}
 
 /// The files of a surface of so many components.
 std::vector<std::string> outputsOf(const MsmsCall& call, std::size_t components)
@@ -57,19 +41,9 @@ std::vector<std::string> outputsOf(const MsmsCall& call, std::size_t components)
     return paths;
 }
 
-/// Finds out whether the files can be written, and has them cleaned up after a signal.
 void prepare(const MsmsCall& call, const std::vector<std::string>& paths)
 {
-    std::vector<std::string> temporaries;
-    for (const std::string& path : paths) {
-        std::error_code absent;
-        if (std::filesystem::equivalent(path, call.input, absent))
-            throw Error(ErrorKind::Output, path + ": it is the file of spheres itself [hint: "
-                                                  "another name after -of or -af]");
-        checkWritable(path, true);
-        temporaries.push_back(temporaryName(path));
-    }
-    tool::handleSignals(temporaries);
+    tool::prepareFiles(paths, call.input, " [hint: another name after -of or -af]");
 }
 
 Structure readSpheres(const MsmsCall& call)
@@ -110,9 +84,7 @@ MsmsSurface surfaceOf(const MsmsCall& call, const std::vector<Ball>& balls,
 void perform(const MsmsCall& call)
 {
     openvdb::initialize();
-    std::set<std::string> folders;
-    for (const std::string& path : outputsOf(call, 1)) folders.insert(folderOf(path));
-    for (const std::string& folder : folders) recover(folder);
+    tool::recoverFolders(outputsOf(call, 1));
     prepare(call, outputsOf(call, 1));
 
     tool::Terminal terminal(false);
@@ -136,12 +108,7 @@ void perform(const MsmsCall& call)
         throw Error(ErrorKind::Numeric, call.input + ": the spheres have no outer surface");
     const std::vector<std::string> paths = outputsOf(call, surface.components.size());
     prepare(call, paths);
-    std::vector<std::unique_ptr<OutputFile>> files;
-    std::vector<OutputFile*> pointers;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        files.push_back(std::make_unique<OutputFile>(paths[i], true));
-        OutputFile& file = *files.back();
-        pointers.push_back(&file);
+    const auto write = [&](std::size_t i, OutputFile& file) {
         const std::size_t n = i / 2;
         if (call.surface.empty() || n >= surface.components.size())
             writeAreas(spheres, surface, file);
@@ -149,18 +116,9 @@ void perform(const MsmsCall& call)
             writeVertices(call, spheres, surface.components[n], file);
         else
             writeFaces(call, spheres, surface.components[n], file);
-        file.finish();
-        if (tool::stopRequested()) throw Cancelled();
-    }
-    printed(resultText(call, surface));
-    tool::ignoreSignals();
-    commit(pointers);
+    };
+    tool::writeFiles(paths, write, [&] { printed(resultText(call, surface)); });
     printed("MSMS terminated normally\n");
-}
-
-int statusOf(ErrorKind kind)
-{
-    return kind == ErrorKind::Usage ? 2 : kind == ErrorKind::Check ? 3 : 1;
 }
 
 } // namespace
@@ -171,12 +129,7 @@ const char* const tool::noMemoryText =
 
 int main(int argc, char** argv)
 {
-    tool::holdStandardStreams();
-    std::ios_base::sync_with_stdio(false);
-    // As vdb_molsurf: fields of many megabytes come and go.
-    mallopt(M_MMAP_MAX, 0);
-    mallopt(M_TRIM_THRESHOLD, 1 << 30);
-    try {
+    return tool::runStandIn([&] {
         const MsmsCall call = parseMsms(argc, argv);
         if (call.help)
             printed(msmsHelp());
@@ -186,22 +139,5 @@ int main(int argc, char** argv)
             printed(std::string("vdb_molsurf_msms ") + MOLSURF_VERSION + "\n");
         else
             perform(call);
-        return 0;
-    } catch (const Error& e) {
-        std::string text = e.what();
-        const std::size_t hint = text.find(" [hint:");
-        // Those of the library name its own options.
-        if (hint != std::string::npos && text.find('`', hint) != std::string::npos)
-            text.erase(hint);
-        say("error: " + text);
-        return statusOf(e.kind());
-    } catch (const Cancelled&) {
-        say("interrupted");
-        return tool::interruptedStatus;
-    } catch (const std::bad_alloc&) {
-        say(tool::noMemoryText);
-    } catch (const std::exception& e) {
-        say(tool::unforeseenText(e));
-    }
-    return 1;
+    });
 }
