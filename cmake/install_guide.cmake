@@ -35,7 +35,7 @@ endforeach()
 
 file(COPY ${SOURCE}/LICENSE DESTINATION ${TO})
 file(COPY ${SOURCE}/docs/pictures DESTINATION ${TO}/docs)
-file(COPY ${SOURCE}/scripts/blender ${SOURCE}/scripts/houdini ${SOURCE}/scripts/workflow DESTINATION ${TO}/scripts
+file(COPY ${SOURCE}/scripts/blender ${SOURCE}/scripts/houdini ${SOURCE}/scripts/pymol ${SOURCE}/scripts/workflow DESTINATION ${TO}/scripts
      PATTERN __pycache__ EXCLUDE)
 file(COPY ${SOURCE}/tests/data DESTINATION ${TO}/tests)
 file(COPY ${SOURCE}/tests/package/CMakeLists.txt ${SOURCE}/tests/package/consumer.cpp DESTINATION ${TO}/tests/package)

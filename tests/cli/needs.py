@@ -10,12 +10,14 @@ import pathlib
 import resource
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 NODE = shutil.which("node")
+BPY_PYTHON = os.environ.get("BPY_PYTHON", sys.executable)  # a Python that has the module bpy
 # Where scripts/install_deps.sh puts packages of npm, and where npm does with --global.
 NODE_ENVIRONMENT = {**os.environ, "NODE_PATH": os.pathsep.join(filter(None, [
     os.environ.get("NODE_PATH"), str(ROOT / "build-tools" / "node_modules"),
@@ -68,6 +70,7 @@ NEEDS = {
     "biopython": (lambda: all(map(importlib.util.find_spec, ("numpy", "Bio"))),
                   "scripts/install_deps.sh python3-biopython"),
     "blender": (program("blender"), "scripts/install_deps.sh blender"),
+    "bpy": (lambda: runs(BPY_PYTHON, "-c", "import bpy"), "pip install bpy, and BPY_PYTHON=<that Python>"),
     "chromium": (lambda: CHROMIUM, "scripts/install_deps.sh chromium"),
     "freesasa": (program("freesasa"), "scripts/install_deps.sh freesasa"),
     "gltf-validator": (
@@ -78,6 +81,7 @@ NEEDS = {
                 "scripts/install_deps.sh python3-openvdb python3-numpy"),
     "preload": (lambda: runs(os.environ["VDB_MOLSURF"], "--version", env=faulty()),
                 "the tests as ctest runs them, without sanitizers, which want to be loaded first"),
+    "pymol": (program("pymol"), "scripts/install_deps.sh pymol"),
     "readelf": (program("readelf"), "scripts/install_deps.sh binutils"),
     "snakemake": (program("snakemake"), "scripts/install_deps.sh snakemake"),
     "strace": (lambda: runs("strace", "-qq", "-o", "/dev/null", "-e", "inject=all:delay_exit=1:when=1", "true"),
