@@ -84,23 +84,27 @@ double Gap::closedAbove(double gradient, double area) const
 
 std::optional<Gap> gapNear(const PsiJetAt& jet, const Vec3d& from, double reach)
 {
-    constexpr double longest = 0.3, there = 1e-9; // [Å]
-    constexpr int steps = 20;
-    Vec3d x = from;
-    PsiJet at = jet(x);
+    constexpr double longest = 0.3, near = 0.05, there = 1e-5; // [Å]
+    constexpr int steps = 12;
+    Vec3d x = from, last(0.0);
     for (int i = 0; i < steps; ++i) {
+        const PsiJet at = jet(x);
         if (std::abs(at.hessian.det()) < 1e-6) return {};
         Vec3d step = at.hessian.inverse() * at.gradient;
         const double length = step.length();
-        if (length < there) break;
+        // From here the method leads straight to a place where psi has this value.
+        if (length < near && std::abs(at.psi - 0.5 * step.dot(at.gradient)) > farthestGap + near)
+            return {};
         if (length > longest) step *= longest / length;
+        if (step.dot(last) < -0.9 * last.lengthSqr()) return {}; // to and fro, for ever
+        last = step;
         x -= step;
         if ((x - from).length() > reach) return {};
-        at = jet(x);
+        if (length < there) break;
     }
-    if (at.gradient.length() > 1e-6 || std::abs(at.psi) > farthestGap) return {};
     for (int a = 0; a < 3; ++a) x[a] = rounded(x[a]);
-    at = jet(x);
+    const PsiJet at = jet(x);
+    if (at.gradient.length() > 1e-3 || std::abs(at.psi) > farthestGap) return {};
     openvdb::Mat3d axes;
     Vec3d values;
     if (!openvdb::math::diagonalizeSymmetricMatrix(at.hessian, axes, values)) return {};

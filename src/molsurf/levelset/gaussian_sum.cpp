@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace molsurf
@@ -142,22 +143,26 @@ void GaussianSum::evaluate(const Coord& origin, double reach, float* psi) const
 PsiJet GaussianSum::jet(const Vec3d& x) const
 {
     constexpr double least = -16.0;
-    const double h2 = options_.voxelSize * options_.voxelSize;
+    const double scale = 1.0 / (options_.voxelSize * options_.voxelSize);
     double sum = 0.0;
     Vec3d first(0.0);
-    openvdb::Mat3d second = openvdb::Mat3d::zero();
+    double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0, rates = 0.0;
     const auto add = [&](std::size_t i) {
         const Vec3d d = x - Vec3d(lists_.x[i], lists_.y[i], lists_.z[i]);
-        const double C = double(lists_.decay[i]) / h2;
+        const double C = scale * double(lists_.decay[i]);
         const double t = double(lists_.level[i]) - C * d.lengthSqr();
         if (t < least) return;
         const double e = std::exp(t);
+        const Vec3d f = 2.0 * C * d, ef = e * f;
         sum += e;
-        first -= 2.0 * C * e * d;
-        for (int a = 0; a < 3; ++a) {
-            for (int b = 0; b < 3; ++b) second(a, b) += 4.0 * C * C * e * d[a] * d[b];
-            second(a, a) -= 2.0 * C * e;
-        }
+        rates += 2.0 * C * e;
+        first -= ef;
+        xx += ef.x() * f.x();
+        xy += ef.x() * f.y();
+        xz += ef.x() * f.z();
+        yy += ef.y() * f.y();
+        yz += ef.y() * f.z();
+        zz += ef.z() * f.z();
     };
     index_.forEachRun(x, x, extent_.cutoff(0.0) - extent_.maxRadius,
                       [&](std::int32_t begin, std::int32_t end) {
@@ -165,7 +170,8 @@ PsiJet GaussianSum::jet(const Vec3d& x) const
                       });
     if (sum == 0.0) return {double(lowestPsi), Vec3d(0.0), openvdb::Mat3d::zero()};
     const Vec3d gradient = first / sum;
-    openvdb::Mat3d hessian = second * (1.0 / sum);
+    openvdb::Mat3d hessian(xx - rates, xy, xz, xy, yy - rates, yz, xz, yz, zz - rates);
+    hessian *= 1.0 / sum;
     for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) hessian(a, b) -= gradient[a] * gradient[b];
     return {std::log(sum), gradient, hessian};
@@ -234,6 +240,7 @@ GaussianSum::Candidates GaussianSum::candidates(const Progress& progress,
 void GaussianSum::decideGaps(Candidates& leaves, const Progress& progress)
 {
     const double h = options_.voxelSize, reach = std::max(1.5 * h, 0.75);
+    const double cell = 0.5 * h;
     const float nearest = float(std::max(1.2 * h, 0.6)), limit = float(farthestGap) + 0.8f;
     std::vector<Coord> origins;
     for (std::size_t n = 0; n < leaves.table.size(); ++n)
@@ -248,18 +255,40 @@ void GaussianSum::decideGaps(Candidates& leaves, const Progress& progress)
     });
     const PsiJetAt at = [this](const Vec3d& x) { return jet(x); };
     std::vector<std::vector<Gap>> found(psi.table.size());
+    // Voxels from which Newton's method leads to the same cell lead to the same point: of these the
+    // nearest is taken.
+    struct Start {
+        Coord cell;
+        float length;
+        int voxel;
+        bool operator<(const Start& o) const
+        {
+            return std::tie(cell, length, voxel) < std::tie(o.cell, o.length, o.voxel);
+        }
+    };
     parallelFor(psi.table.size(), progress, [&](std::size_t n) {
         LeafBlock<float, 1> block;
         block.gather(psi, n);
+        std::vector<Start> starts;
         within(psi.leaf(n), limit).forEach([&](int v) {
             const float* p = block.at(v >> 6, v >> 3 & 7, v & 7);
             const Derivatives d = derivatives<1>(p, float(1.0 / h));
             const openvdb::Mat3s hessian(d.xx, d.xy, d.xz, d.xy, d.yy, d.yz, d.xz, d.yz, d.zz);
             if (std::abs(hessian.det()) < 1e-3f) return;
-            if ((hessian.inverse() * openvdb::Vec3s(d.x, d.y, d.z)).length() > nearest) return;
+            const openvdb::Vec3s step = hessian.inverse() * openvdb::Vec3s(d.x, d.y, d.z);
+            if (step.length() > nearest) return;
+            const float rise = 0.5f * step.dot(openvdb::Vec3s(d.x, d.y, d.z));
+            if (std::abs(*p - rise) > limit) return;
+            const Vec3d at = Vec3d(v >> 6, v >> 3 & 7, v & 7) * h - Vec3d(step);
+            starts.push_back({Coord::floor(at / cell), step.length(), v});
+        });
+        std::sort(starts.begin(), starts.end());
+        for (std::size_t i = 0; i < starts.size(); ++i) {
+            if (i > 0 && starts[i].cell == starts[i - 1].cell) continue;
+            const int v = starts[i].voxel;
             const Coord voxel = psi.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
             if (const auto gap = gapNear(at, voxel.asVec3d() * h, reach)) found[n].push_back(*gap);
-        });
+        }
     });
     std::vector<Gap> gaps;
     for (const auto& some : found) gaps.insert(gaps.end(), some.begin(), some.end());
