@@ -295,7 +295,7 @@ void describeEdges(const std::vector<RimArc>& arcs, const CornerScratch& s, doub
 
 /// The part of a probe's sphere at a corner that is a face of the surface.
 ConcavePart concavePart(const BallBoundary& boundary, const ProbeCorners& corners, std::size_t c,
-                        double probe, CornerScratch& s)
+                        double probe, bool shares, CornerScratch& s)
 {
     ConcavePart part;
     const ProbeCorner& corner = corners[c];
@@ -314,6 +314,7 @@ ConcavePart concavePart(const BallBoundary& boundary, const ProbeCorners& corner
         part.faces.push_back(out);
     }
     describeEdges(s.region.arcs, s, probe, part);
+    if (!shares) return part;
     findTouched(corners, c, s);
     shareRegion(boundary, corner.position, probe, cone.axis, s, part);
     return part;
@@ -343,7 +344,7 @@ void addContacts(const BallBoundary& boundary, const BoundaryMeasure& measure, d
             part.place = patch.centre;
             part.flux = r * part.area;
             part.euler = face.characteristic;
-            out.areas[std::size_t(patch.ball)] += part.area;
+            if (!out.areas.empty()) out.areas[std::size_t(patch.ball)] += part.area;
             out.contactArea += part.area;
         }
         all.parts.push_back(part);
@@ -372,8 +373,12 @@ void addTori(const BallBoundary& boundary, const BoundaryMeasure& measure, doubl
             low = toricPart(arc, probe, tube.low, tube.high);
         }
         out.toricArea += low.area + high.area;
-        out.areas[std::size_t(arc.balls[0])] += shareOf(arc, tube, probe, tube.low, tube.middle);
-        out.areas[std::size_t(arc.balls[1])] += shareOf(arc, tube, probe, tube.middle, tube.high);
+        if (!out.areas.empty()) {
+            out.areas[std::size_t(arc.balls[0])] +=
+                shareOf(arc, tube, probe, tube.low, tube.middle);
+            out.areas[std::size_t(arc.balls[1])] +=
+                shareOf(arc, tube, probe, tube.middle, tube.high);
+        }
         if (!open) continue;
         for (const std::uint32_t face : measure.arcFaces[a])
             all.parts[face].euler += 0.25 - 0.5; // an edge, and its points on the ball
@@ -399,8 +404,9 @@ void addConcave(const BallBoundary& boundary, const ProbeCorners& corners, doubl
 {
     all.corners.resize(corners.size());
     tbb::enumerable_thread_specific<CornerScratch> scratches;
+    const bool shares = !out.areas.empty();
     parallelFor(corners.size(), progress, [&](std::size_t c) {
-        all.corners[c] = concavePart(boundary, corners, c, probe, scratches.local());
+        all.corners[c] = concavePart(boundary, corners, c, probe, shares, scratches.local());
     });
     for (std::size_t c = 0; c < corners.size(); ++c) {
         const ConcavePart& part = all.corners[c];
@@ -417,9 +423,11 @@ void addConcave(const BallBoundary& boundary, const ProbeCorners& corners, doubl
             shared += share;
         }
         constexpr double wrong = 1e-6; // of a probe's surface
-        if (!(std::abs(area - shared) <= wrong * probe * probe) ||
-            !(area >= -wrong * probe * probe) || !(area <= (2.0 * M_PI + wrong) * probe * probe))
+        if (shares && !(std::abs(area - shared) <= wrong * probe * probe))
             failSurface("area of a concave face and of its parts", area, shared);
+        if (!(area >= -wrong * probe * probe) || !(area <= (2.0 * M_PI + wrong) * probe * probe))
+            failSurface("area of a concave face and half a sphere", area,
+                        2.0 * M_PI * probe * probe);
         out.concaveArea += area;
     }
     all.concave.push_back(std::uint32_t(all.parts.size()));
@@ -530,10 +538,10 @@ bool addUp(const Parts& all, DisjointSets& joined, std::vector<BoundaryPiece>& p
 } // namespace
 
 ExcludedMeasure measureExcluded(const BallBoundary& boundary, const BoundaryMeasure& measure,
-                                double probe, const Progress& progress)
+                                double probe, bool shares, const Progress& progress)
 {
     ExcludedMeasure out;
-    out.areas.assign(boundary.balls.size(), 0.0);
+    if (shares) out.areas.assign(boundary.balls.size(), 0.0);
     if (measure.pieces.empty()) return out;
     const ProbeCorners corners(boundary, measure, progress);
     Parts all;

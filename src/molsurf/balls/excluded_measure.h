@@ -21,7 +21,7 @@ struct ExcludedMeasure {
     double toricArea = 0.0;    ///< of parts that a probe makes which touches two balls [Å^2]
     double concaveArea = 0.0;  ///< of parts that a probe makes which touches three balls [Å^2]
     double creaseLength = 0.0; ///< of the edges where concave faces meet [Å]
-    std::vector<double> areas; ///< the share of each of BallBoundary::balls [Å^2]
+    std::vector<double> areas; ///< the share of each of BallBoundary::balls [Å^2], if asked for
     /// Whether all faces, edges and vertices fit together. They may not where four and more probes
     /// touch each other in one point to within rounding, as in molecules with many symmetries. Area
     /// and volume are right all the same, but the Euler number of a piece may be wrong by 2.
@@ -45,10 +45,11 @@ struct ExcludedMeasure {
 /// @param[in] boundary  of the balls of radius r_i + probe
 /// @param[in] measure   of this boundary. Cavities that it leaves out are so here
 /// @param[in] probe     [Å]
+/// @param[in] shares    whether to find the areas of balls, which takes half as long again
 /// @return exact but for rounding and the moves of placedBalls()
 /// @throws Error(ErrorKind::Check) if the parts do not fit together
 ExcludedMeasure measureExcluded(const BallBoundary& boundary, const BoundaryMeasure& measure,
-                                double probe, const Progress& progress);
+                                double probe, bool shares, const Progress& progress);
 
 /// The area of every ball [Å^2], in the order of the caller's balls.
 /// @param[in] count  of those balls

@@ -28,19 +28,19 @@ MeshTolerance excludedTolerance(const BallBoundary& boundary, const BoundaryMeas
 } // namespace
 
 ClosedForm measureClosedForm(const BallBoundary& boundary, const SurfaceOptions& options,
-                             std::size_t count, const Progress& progress)
+                             std::size_t areasOf, const Progress& progress)
 {
     BoundaryMeasure measure = checkedMeasure(boundary, progress);
     ClosedForm out;
     const double probe = offsetOf(options);
     if (probe == 0.0) {
-        out.ballAreas = areasOfBalls(boundary, measure, count);
+        if (areasOf > 0) out.ballAreas = areasOfBalls(boundary, measure, areasOf);
         out.tolerance = meshTolerance(boundary, measure, options.voxel);
         out.pieces = std::move(measure.pieces);
         return out;
     }
-    ExcludedMeasure excluded = measureExcluded(boundary, measure, probe, progress);
-    out.ballAreas = areasOfBalls(boundary, excluded, count);
+    ExcludedMeasure excluded = measureExcluded(boundary, measure, probe, areasOf > 0, progress);
+    if (areasOf > 0) out.ballAreas = areasOfBalls(boundary, excluded, areasOf);
     out.cuspLength = cuspLengthOf(boundary, probe);
     out.tolerance = excludedTolerance(boundary, measure, excluded, probe, options.voxel);
     out.pieces = std::move(excluded.pieces);

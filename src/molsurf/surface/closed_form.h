@@ -19,19 +19,19 @@ namespace molsurf
 struct ClosedForm {
     std::vector<BoundaryPiece> pieces;
     bool topologyKnown = true;        ///< ExcludedMeasure::topologyKnown
-    std::vector<double> ballAreas;    ///< in the order of the caller's balls [Å^2]
+    std::vector<double> ballAreas;    ///< in the order of the caller's balls [Å^2], if asked for
     std::optional<double> cuspLength; ///< SurfaceReport::cuspLength
     MeshTolerance tolerance;          ///< of a mesh
 };
 
 /// Measures a surface and checks the measures.
 /// @param[in] boundary  of the balls grown by probeOf()
-/// @param[in] count     of the caller's balls
+/// @param[in] areasOf   how many balls the caller has, if ClosedForm::ballAreas is to be made; or 0
 /// @throws Error(ErrorKind::Check) if two ways to the same number disagree
 ClosedForm measureClosedForm(const BallBoundary& boundary, const SurfaceOptions& options,
-                             std::size_t count, const Progress& progress);
+                             std::size_t areasOf, const Progress& progress);
 
-/// Finds the boundary of the balls, too.
+/// Finds the boundary of the balls, too, and their areas.
 /// @param[in] balls  every one finite
 ClosedForm measureClosedForm(const std::vector<Ball>& balls, const SurfaceOptions& options,
                              const Progress& progress);

@@ -160,10 +160,11 @@ DistanceBand SurfaceRun::distanceToBalls()
     // What a mesh holds for a cavity may be open to the outside where probes touch each other.
     const bool filled = options_.fillCavities && probe > 0.0;
     if (scope_.region.whole() && isClosedForm(options_) && !filled && !atoms_.unit) {
-        exact_ = measureClosedForm(set.boundary, options_, atoms_.balls.size(), progress_);
         const bool grouped = atoms_.labels && !atoms_.labels->groups.empty();
-        if ((options_.ballAreas || grouped) && !options_.fillCavities)
-            result_.ballAreas = exact_->ballAreas;
+        const bool areas = (options_.ballAreas || grouped) && !options_.fillCavities;
+        exact_ =
+            measureClosedForm(set.boundary, options_, areas ? atoms_.balls.size() : 0, progress_);
+        result_.ballAreas = exact_->ballAreas;
     }
     return distanceToUnion(std::move(set), options_.voxel, widthsOf(options_), progress_,
                            scope_.region.grown(scope_.splineHalo));

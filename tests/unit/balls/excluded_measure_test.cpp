@@ -49,7 +49,7 @@ struct Excluded {
     explicit Excluded(const std::vector<Ball>& balls, double probe = excludedProbe)
         : boundary(ballBoundary(balls, probe, Progress())),
           grown(measureBoundary(boundary, Progress())),
-          measure(measureExcluded(boundary, grown, probe, Progress())),
+          measure(measureExcluded(boundary, grown, probe, true, Progress())),
           all(totalsOf(measure.pieces))
     {
     }
@@ -427,7 +427,7 @@ double shellByAreas(const Excluded& surface, double probe, int panels)
             const double node = (n < 0 ? -1.0 : 1.0) * nodes[std::abs(n)];
             const double depth = probe * (k + 0.5 + 0.5 * node) / panels;
             const ExcludedMeasure at =
-                measureExcluded(surface.boundary, surface.grown, depth, Progress());
+                measureExcluded(surface.boundary, surface.grown, depth, false, Progress());
             sum += 0.5 * probe / panels * weights[std::abs(n)] * totalsOf(at.pieces).area;
         }
     }
@@ -568,10 +568,10 @@ TEST(ExcludedMeasure, PartsThatDoNotFitAreNotMeasured)
     std::size_t open = 0;
     while (wrong.arcs[open].ends[0] < 0) ++open;
     wrong.arcs[open].half *= 0.9;
-    EXPECT_THROW(measureExcluded(wrong, right.grown, excludedProbe, Progress()), Error);
+    EXPECT_THROW(measureExcluded(wrong, right.grown, excludedProbe, true, Progress()), Error);
     wrong = right.boundary;
     std::swap(wrong.arcs[open].ends[0], wrong.arcs[open].ends[1]); // no such corners
-    EXPECT_THROW(measureExcluded(wrong, right.grown, excludedProbe, Progress()), Error);
+    EXPECT_THROW(measureExcluded(wrong, right.grown, excludedProbe, true, Progress()), Error);
 }
 
 } // namespace
