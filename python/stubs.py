@@ -12,7 +12,7 @@ from vdb_molsurf import _options
 HEAD = '''\
 # SPDX-License-Identifier: MPL-2.0
 # python/stubs.py makes this file out of the table of settings.
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
 from types import ModuleType
 from typing import Any, BinaryIO, Literal, NamedTuple, TextIO, Union
@@ -56,6 +56,10 @@ class Samples(NamedTuple):
     normals: NDArray[np.float64]
     faces: NDArray[np.int32]
 
+class Shard(NamedTuple):
+    number: int
+    items: list[Any]
+
 class Comparison(NamedTuple):
     hausdorff: float
     a_to_b: dict[str, Any]
@@ -92,6 +96,11 @@ def contacts(positions: ArrayLike, radii: ArrayLike, probe: float = 1.4, *,
              progress: Callable[[str, float], object] | bool | None = None, threads: int = 0) -> Contacts: ...
 def compare(a: MeshLike, b: MeshLike, *, progress: Callable[[str, float], object] | bool | None = None,
             threads: int = 0) -> Comparison: ...
+def shards(sources: object, size: int = 100) -> Iterator[Shard]: ...
+def measure(shard: Shard | tuple[int, list[Any]], function: Callable[[Surface], Mapping[str, Any]] | None = None,
+            folder: Path | None = None, **options: Any) -> list[dict[str, Any]]: ...
+def map(sources: object, function: Callable[[Surface], Mapping[str, Any]] | None = None, workers: int | None = None,
+        size: int = 100, folder: Path | None = None, **options: Any) -> Iterator[dict[str, Any]]: ...
 def radii(names: Sequence[str] | NDArray[Any], residues: Sequence[str] | NDArray[Any] | None = None,
           elements: Sequence[str] | NDArray[Any] | None = None, set: str = "bondi") -> NDArray[np.float64]: ...
 '''

@@ -3,7 +3,7 @@
 #     scripts/wheel.sh [FOLDER]
 # The wheel goes to FOLDER, build-python/wheel unless it is named. PYTHON names another Python than Debian's. The
 # packages that are needed come from PyPI into environments in build-python/; what is built there is kept. It is tested with
-# NumPy 1 and with NumPy 2, and with MDAnalysis, MDTraj and Biopython.
+# NumPy 1 and with NumPy 2, and with MDAnalysis, MDTraj, Biopython, PyArrow and Dask.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -44,5 +44,5 @@ PATH=$work/tools/bin:$PATH "$work/tools/bin/auditwheel" show "$work"/plain/*.whl
 PATH=$work/tools/bin:$PATH "$work/tools/bin/auditwheel" repair --wheel-dir "$wheels" "$work"/plain/*.whl > "$work/auditwheel.log" 2>&1 || { cat "$work/auditwheel.log"; exit 1; }
 ls -l "$wheels"
 echo "== 4 of 4: its tests in empty environments"
-try numpy2 "numpy>=2" MDAnalysis mdtraj biopython
+try numpy2 "numpy>=2" MDAnalysis mdtraj biopython pyarrow "dask[distributed]"
 try numpy1 "numpy<2"

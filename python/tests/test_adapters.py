@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vdb_molsurf as ms
-from conftest import DATA
+from conftest import DATA, ROOT
 
 
 def test_no_package_is_imported_unless_it_is_used():
@@ -116,3 +116,28 @@ def test_biopython_refuses_what_it_cannot(structure):
             call()
     ms.biopython.compute(chain, "C")
     assert chain.sasa > 0 and not hasattr(structure, "sasa")
+
+
+def test_depth_of_one_atom_is_its_radius(structure):
+    chain = structure[0]["A"].copy()
+    for residue in list(chain)[1:]:
+        chain.detach_child(residue.id)
+    for atom in list(chain[1])[1:]:
+        chain[1].detach_child(atom.id)
+    [(residue, of_ca)] = ms.biopython.residue_depth(chain, radii=1.7).values()
+    assert residue == pytest.approx(1.7, abs=0.002) and of_ca is None
+
+
+def test_depths_are_those_of_biopython_with_msms(structure):
+    from Bio.PDB.ResidueDepth import ResidueDepth, _get_atom_radius
+    msms = next(ROOT.glob("build*/tools/vdb_molsurf_msms"), None)
+    if msms is None:
+        pytest.skip("without vdb_molsurf_msms in a build folder")
+    theirs = ResidueDepth(structure[0], msms_exec=str(msms)).property_dict
+    radii = [_get_atom_radius(atom) for atom in structure[0].get_atoms()]
+    ours = ms.biopython.residue_depth(structure, probe_radius=1.5, radii=radii)
+    assert {key[0:2] for key in theirs} == set(ours)
+    # They take the nearest vertex, which is farther than the surface.
+    over = np.array([[theirs[key][k] - ours[key][k] for k in (0, 1)] for key in ours])
+    assert np.abs(over[:, 0]).max() < 0.2 and np.abs(over[:, 1]).max() < 0.3
+    assert 0 < over.mean() < 0.1

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MPL-2.0
-"""Solvent-accessible areas of Biopython's entities."""
+"""Solvent-accessible areas of Biopython's entities, and depths of their residues."""
 
 import numpy as np
 
 from . import _adapters
+from ._surface import surface
 
 LEVELS = ("A", "R", "C", "M", "S")
 
@@ -50,3 +51,31 @@ def _up(atom, level):
     while part.get_parent() is not None and LEVELS.index(part.level) < LEVELS.index(level):
         part = part.get_parent()
     return part
+
+
+def residue_depth(entity, probe_radius=1.4, radii="bondi", voxel=0.5):
+    """How deep residues lie below the solvent-excluded surface [Å], as Bio.PDB.ResidueDepth tells, without MSMS.
+
+    Returns a dict: (chain, residue.id) -> (mean over the atoms, that of CA; None without one). Atoms that have no
+    radius are left out. Depths are to the surface itself, and not to the nearest of its vertices, and negative where an
+    atom's centre lies outside. Of a structure the first model is taken.
+
+    radii: as of compute(). voxel: of the surface [Å].
+    """
+    model = next(iter(entity)) if getattr(entity, "level", "") == "S" else entity
+    if not hasattr(model, "get_atoms"):
+        raise TypeError(f"entity: expected one of Bio.PDB, got {type(entity).__name__}")
+    atoms = list(model.get_atoms())
+    known = _adapters.radii_of(radii, [atom.get_name() for atom in atoms],
+                               [atom.get_parent().get_resname().strip() for atom in atoms],
+                               [atom.element or "" for atom in atoms])
+    kept = np.flatnonzero(known > 0)
+    if not len(kept):
+        raise ValueError("entity: expected at least one atom with a radius, got none")
+    positions = np.array([atoms[i].get_coord() for i in kept], dtype=np.float64)
+    made = surface(positions, known[kept], kind="ses", probe=probe_radius, voxel=voxel)
+    depths = {}
+    for i, depth in zip(kept, -made.distance(positions).distance):
+        depths.setdefault(atoms[i].get_parent(), {})[atoms[i].get_name()] = float(depth)
+    return {(residue.get_parent().id, residue.id): (float(np.mean(list(depth.values()))), depth.get("CA"))
+            for residue, depth in depths.items()}
