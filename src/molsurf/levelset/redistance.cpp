@@ -279,18 +279,6 @@ public:
         return out;
     }
 
-    /// The inner voxels of a leaf that the given level set lacks, and that no interface can cross:
-    /// all or none, as most of its closest points say. (Where the given leaves have a sign it
-    /// stands: voxels do not change sides.)
-    LeafMask side(const std::int32_t* index) const
-    {
-        double sum = 0.0;
-        for (int v = 0; v < leafSize; ++v) {
-            if (index[v] != noSeed) sum += seeds_[index[v]].n.dot(offset(index[v], v));
-        }
-        return sum < 0.0 ? ~LeafMask() : LeafMask();
-    }
-
     /// Distances without sign; those within `sharp` of the level by points that are moved to be the
     /// closest.
     /// @param[in]  index   the seed of each voxel of the leaf
@@ -540,21 +528,78 @@ LeafPoints pointsOf(const LeafTable& table, const PagedArray<Seed>& seeds,
     return points;
 }
 
+/// The voxels of a leaf that touch the next one on a way of leaves.
+LeafMask touching(const Coord& way)
+{
+    LeafMask out;
+    for (int v = 0; v < leafSize; ++v) {
+        const int place[3] = {v >> 6, v >> 3 & 7, v & 7};
+        bool on = true;
+        for (int a = 0; a < 3; ++a) on = on && (way[a] == 0 || place[a] == (way[a] > 0 ? 7 : 0));
+        out.set(v, on);
+    }
+    return out;
+}
+
+/// Tells which leaves of a domain that a level set lacks lie inside: no interface crosses them, so
+/// they are on the side of the leaves about them.
+/// @param[in] inner  whether voxels of the level set's leaves are inside
+std::vector<bool> innerLeaves(const LeafTable& domain, const LeafTable& table,
+                              const std::vector<LeafMask>& inner)
+{
+    struct Neighbour {
+        Coord offset; // to there
+        LeafMask own; // of its voxels, those that touch
+    };
+    std::vector<Neighbour> about;
+    for (int k = 0; k < 27; ++k) {
+        const Coord way(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
+        if (k == 13) continue;
+        about.push_back({Coord(way.x() * leafDim, way.y() * leafDim, way.z() * leafDim),
+                         touching(Coord(-way.x(), -way.y(), -way.z()))});
+    }
+    std::vector<bool> out(domain.size()), known(domain.size());
+    std::vector<std::size_t> found;
+    for (std::size_t n = 0; n < domain.size(); ++n) {
+        if (table.find(domain.origin(n)) != noLeaf) continue;
+        int sum = 0;
+        for (const Neighbour& next : about) {
+            const std::int32_t m = table.find(domain.origin(n) + next.offset);
+            if (m == noLeaf) continue;
+            sum += 2 * (inner[std::size_t(m)] & next.own).count() - next.own.count();
+        }
+        out[n] = sum > 0;
+        if (sum == 0) continue;
+        known[n] = true;
+        found.push_back(n);
+    }
+    for (std::size_t i = 0; i < found.size(); ++i) { // those farther away, step by step
+        for (const Neighbour& next : about) {
+            const std::int32_t m = domain.find(domain.origin(found[i]) + next.offset);
+            if (m == noLeaf || known[std::size_t(m)] ||
+                table.find(domain.origin(std::size_t(m))) != noLeaf)
+                continue;
+            out[std::size_t(m)] = out[found[i]];
+            known[std::size_t(m)] = true;
+            found.push_back(std::size_t(m));
+        }
+    }
+    return out;
+}
+
 /// Replaces the nearest seed of each voxel of a leaf by its signed distance; makes voxels of the
 /// band active.
-/// @param[in]     inner  whether voxels of the given level set's leaf are inside; null: there is no
-///                       such leaf
+/// @param[in]     negative  the voxels inside
 /// @param[in]     level  that gets the best distances [Å]
 /// @param[in,out] band   the leaf's active voxels and kinks are set, and its values: bytes of the
 ///                       seeds' indices before
-void takeDistances(LeafDistances leaf, const LeafMask* inner, const BandWidths& width, double level,
-                   std::size_t n, DistanceBand& band)
+void takeDistances(LeafDistances leaf, const LeafMask& negative, const BandWidths& width,
+                   double level, std::size_t n, DistanceBand& band)
 {
     const float h = float(band.phi.voxelSize);
     float* phi = band.phi.leaf(n);
     std::int32_t own[leafSize];
     std::memcpy(own, phi, sizeof own);
-    const LeafMask negative = inner ? *inner : leaf.side(own);
     LeafMask reached;
     for (int v = 0; v < leafSize; ++v) {
         phi[v] = negative.on(v) ? float(-width.inside) : float(width.outside);
@@ -623,10 +668,14 @@ DistanceBand redistance(SparseField phi, const BandWidths& width, double level,
         band.kinks.active(n) = LeafDistances(coefficients, seeds, domain.origin(n)).kinks(block);
     });
     band.phi.values = std::move(index).reused<float>();
+    const std::vector<bool> innerLeaf = innerLeaves(domain, table, inner);
     parallelFor(domain.size(), progress, [&](std::size_t n) {
         const std::int32_t m = table.find(domain.origin(n));
         takeDistances(LeafDistances(coefficients, seeds, domain.origin(n)),
-                      m != noLeaf ? &inner[std::size_t(m)] : nullptr, width, level, n, band);
+                      m != noLeaf    ? inner[std::size_t(m)]
+                      : innerLeaf[n] ? ~LeafMask()
+                                     : LeafMask(),
+                      width, level, n, band);
     });
     return band;
 }

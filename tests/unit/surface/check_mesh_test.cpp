@@ -81,5 +81,31 @@ TEST(CheckMesh, AllowsVolumesATenthOfAVoxel)
     EXPECT_THROW(checkMesh(made.mesh, report, voxel, Progress()), Error);
 }
 
+// Atoms of rhodopsin (1U19) about a place where psi is flat beside the interface: normals of the
+// carrier mean nothing there, and a leaf behind it lies on the side of the leaves about it
+// nevertheless.
+TEST(CheckMesh, HoldsWhereTheCarrierIsFlat)
+{
+    const std::vector<Ball> balls = {
+        {{77.448, 6.675, -3.616}, 1.7, 0},  {{77.255, 5.929, -2.456}, 1.7, 1},
+        {{77.373, 4.543, -2.503}, 1.7, 2},  {{77.168, 3.782, -1.366}, 1.52, 3},
+        {{82.942, 7.752, -1.706}, 1.7, 4},  {{82.111, 7.856, -0.793}, 1.52, 5},
+        {{82.31, 10.099, -2.399}, 1.7, 6},  {{82.27, 9.141, 2.772}, 1.7, 7},
+        {{81.857, 9.059, 1.604}, 1.52, 8},  {{82.222, 11.879, 1.576}, 1.7, 9},
+        {{81.316, 11.635, 3.852}, 1.7, 10}, {{81.903, 8.3, 3.741}, 1.55, 11},
+        {{80.916, 7.239, 3.517}, 1.7, 12},  {{79.69, 7.62, 4.319}, 1.7, 13},
+        {{79.493, 8.81, 4.61}, 1.52, 14},   {{81.408, 5.872, 4.019}, 1.7, 15},
+        {{78.88, 6.629, 4.691}, 1.55, 16},  {{77.682, 6.901, 5.482}, 1.7, 17},
+        {{76.735, 5.679, 5.502}, 1.7, 18},  {{76.012, 5.378, 4.158}, 1.7, 19},
+        {{74.088, 6.583, 3.329}, 1.52, 20}, {{77.762, 13.179, 1.179}, 1.7, 21},
+        {{77.994, 11.995, 0.269}, 1.7, 22}, {{74.714, 8.996, -1.218}, 1.7, 23},
+        {{75.548, 8.111, -0.337}, 1.7, 24}};
+    SurfaceOptions options;
+    options.voxel = 0.25;
+    const SurfaceReport report = makeSurface(balls, options).report.surface;
+    EXPECT_EQ(report.meshEulerCharacteristic, 2 * report.components);
+    EXPECT_TRUE(report.cavities.empty());
+}
+
 } // namespace
 } // namespace molsurf::test
