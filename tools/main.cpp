@@ -39,9 +39,10 @@ void limitThreads(const Call& call)
 {
     // It is never taken back: TBB would start the other threads then, for the end of the program to
     // stop.
-    if (call.threads > 0)
-        new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                std::size_t(call.threads));
+    if (call.threads == 0) return;
+    static const auto* const held = new tbb::global_control(
+        tbb::global_control::max_allowed_parallelism, std::size_t(call.threads));
+    static_cast<void>(held);
 }
 
 int perform(int argc, char** argv)
