@@ -77,6 +77,8 @@ NEEDS = {
         lambda: NODE and runs(NODE, "-e", "require('gltf-validator')", env=NODE_ENVIRONMENT),
         "npm install --prefix build-tools gltf-validator"),
     "groff": (program("groff", "preconv"), "scripts/install_deps.sh groff"),
+    "maps": (lambda: all(map(importlib.util.find_spec, ("mrcfile", "gridData", "skimage"))),
+             "scripts/install_deps.sh python3-mrcfile python3-griddataformats python3-skimage"),
     "openvdb": (lambda: all(map(importlib.util.find_spec, ("numpy", "pyopenvdb"))),
                 "scripts/install_deps.sh python3-openvdb python3-numpy"),
     "preload": (lambda: runs(os.environ["VDB_MOLSURF"], "--version", env=faulty()),

@@ -11,6 +11,7 @@ import sys
 import types
 import unittest
 
+from needs import needs
 from test_frames import dcd
 from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply
 
@@ -196,6 +197,30 @@ class Formats(ToolTest):
                         self.assertGreater(value * distance, 0.0)
                 self.assertGreater(near, 1000)
         self.check(2, "ball.xyzr", *FAST, "--by-symmetry", "--assembly", "1", "-o", "b.mrc", says="b.mrc")
+
+    @needs("maps")
+    def test_other_readers_find_the_surface_where_it_is(self):
+        """mrcfile and GridDataFormats: the contour at 0 has the area of the surface, and its box."""
+        import gridData
+        import mrcfile
+        import numpy
+        from skimage.measure import marching_cubes, mesh_surface_area
+        self.check(0, CRAMBIN, "--surface", "ses", "--voxel", "0.3", "-o", "a.mrc", "-o", "a.dx", "-o", "a.ply", "-o", "a.json")
+        area = json.loads((self.folder / "a.json").read_text())["surface"]["area"]
+        _, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+        places = numpy.array(vertices)[:, :3]
+        self.assertTrue(mrcfile.validate(self.folder / "a.mrc"))
+        with mrcfile.open(self.folder / "a.mrc") as file:
+            size, origin = file.voxel_size, file.header.origin
+            grids = {"mrcfile": (file.data.transpose(2, 1, 0), [float(size[a]) for a in "xyz"], [float(origin[a]) for a in "xyz"])}
+        for name in ("a.mrc", "a.dx"):
+            grid = gridData.Grid(str(self.folder / name))
+            grids["gridData " + name] = grid.grid, grid.delta, grid.origin
+        for name, (values, step, first) in grids.items():
+            corners, faces, _, _ = marching_cubes(numpy.ascontiguousarray(values), 0.0, spacing=tuple(step))
+            self.assertAlmostEqual(mesh_surface_area(corners, faces) / area, 1.0, delta=0.01, msg=name)
+            for low, high in ((corners.min(0), places.min(0)), (corners.max(0), places.max(0))):
+                self.assertLess(numpy.abs(low + first - high).max(), 0.05, name)
 
     def test_msms_files(self):
         self.check(0, CRAMBIN, *PLAIN, "-o", "a.vert", "-o", "a.face", "-o", "a.ply")
