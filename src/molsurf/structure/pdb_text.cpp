@@ -16,6 +16,8 @@ namespace
 
 using std::string_view;
 
+constexpr std::size_t lastColumn = 80;
+
 void checkCoordinates(string_view line, std::size_t number, const std::string& path)
 {
     constexpr std::size_t firstColumn = 30, width = 8;
@@ -78,6 +80,8 @@ PdbRecords preparePdb(std::string& text, const std::string& path)
         const string_view line = lines.line();
         char* const begin = &text[std::size_t(line.data() - text.data())];
         const string_view record = line.substr(0, 6);
+        // Behind column 120 gemmi takes what follows a byte beyond ASCII for another line.
+        if (line.size() > lastColumn) std::fill(begin + lastColumn, begin + line.size(), ' ');
         if (isAtomRecord(line)) {
             if (ended) {
                 records.warnings.push_back("the atoms after END in line " +

@@ -22,6 +22,7 @@ struct PdbRecords {
 /// Checks and simplifies the text of a PDB file in place; its length does not change.
 ///
 /// - Columns 31-54 of every atom must hold three numbers.
+/// - What stands behind column 80 is blanked.
 /// - Columns 73-80 that hold no segment, element and charge are blanked (entry name and line
 ///   number before 1992, "4AT1  83").
 /// - MODEL becomes ENDMDL, so that any model number is allowed, also twice.

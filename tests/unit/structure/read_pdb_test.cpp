@@ -250,5 +250,16 @@ TEST(ReadPdb, ANameThatEndsInVdbMeansNothing)
     EXPECT_EQ(s.atoms.size(), 327u);
 }
 
+// A line may be of any length, and hold what would be a record by itself.
+TEST(ReadPdb, TakesNoPartOfALongLineForALine)
+{
+    const std::string atom =
+        "HETATM    1  C1  LIG A   1       1.000   2.000   3.000  1.00  0.00           C  ";
+    for (std::size_t size = 70; size < 300; ++size) {
+        const std::string text = atom + "\nENDMDL" + std::string(size, '\xbb') + atom + "\nEND\n";
+        EXPECT_EQ(readStructure(TempFile("a.pdb", text).path()).atoms.size(), 1u) << size;
+    }
+}
+
 } // namespace
 } // namespace molsurf::test
