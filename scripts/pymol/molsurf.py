@@ -8,7 +8,7 @@
 The first word is a selection, `name` the object that is made, `state` the state of the atoms (-1: the present one), and
 `color=atom` (the default) gives each place the colour of its nearest atom in PyMOL. All others are options of vdb_molsurf
 without their dashes, with "_" for "-" in between: `color=chain`, `radii=alvarez`, `fill_cavities=1`. The program is the
-one that the environment variable VDB_MOLSURF names, or vdb_molsurf of the PATH. Tried in PyMOL 3.2.
+one that the environment variable VDB_MOLSURF names, or vdb_molsurf of the PATH. Tried in PyMOL 2.5 and 3.2.
 """
 
 import csv

@@ -264,6 +264,11 @@ Structure readPdb(std::string text, const std::string& path)
         failAt(path, oneLine(error, path));
     }
     std::string().swap(text);
+    const auto found =
+        std::count_if(parsed.models.begin(), parsed.models.end(),
+                      [](const gemmi::Model& model) { return !model.chains.empty(); });
+    if (std::size_t(found) > records.models.size())
+        failAt(path, "is damaged: it has atoms in lines that are no records of them");
     Structure out;
     copyTree(parsed, records.models, false, false, out);
     out.assemblies = std::move(records.assemblies);
