@@ -166,8 +166,9 @@ MOLSURF_MEMBERS(Instance, v.prototype, v.name, v.rotation, v.translation)
 MOLSURF_MEMBERS(SymmetricUnit, v.pointGroup, v.centre, v.copies, v.balls, v.deviation, v.motionOf,
                 v.product, v.inverse)
 MOLSURF_MEMBERS(Group, v.name, v.balls, v.color)
-MOLSURF_MEMBERS(BallValues, v.name, v.title, v.unit, v.map, v.low, v.high, v.centre, v.outward,
-                v.valueOf)
+MOLSURF_MEMBERS(BallValues, v.name, v.title, v.unit, v.palette, v.low, v.high, v.centre, v.valueOf,
+                v.flat)
+MOLSURF_MEMBERS(SelectOptions::Coloring, v.range, v.palette, v.byResidue, v.flat, v.outward)
 MOLSURF_MEMBERS(BallLabels, v.chainOf, v.chains, v.groupOf, v.groups, v.elementOf, v.residueClassOf,
                 v.values, v.warnings, v.chainColors)
 MOLSURF_MEMBERS(BallNames::Residue, v.chain, v.labelChain, v.name, v.number, v.insertionCode,
@@ -176,7 +177,7 @@ MOLSURF_MEMBERS(BallNames::Atom, v.name, v.altloc, v.element, v.occupancy)
 MOLSURF_MEMBERS(BallNames, v.residues, v.residueOf, v.atoms)
 MOLSURF_MEMBERS(BallSet, v.balls, v.decays, v.resolutions, v.resolutionOf, v.drops, v.copies,
                 v.copyBegin, v.copyNumbers, v.instances, v.unit, v.beads, v.beadAtoms, v.labels,
-                v.names, v.colors, v.radii, v.model, v.warnings)
+                v.names, v.colors, v.coloring, v.radii, v.model, v.warnings)
 MOLSURF_MEMBERS(Attribute<float>, v.name, v.values)
 MOLSURF_MEMBERS(Attribute<std::int32_t>, v.name, v.values)
 MOLSURF_MEMBERS(MeshPart, v.name, v.firstTriangle)

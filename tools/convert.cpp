@@ -22,7 +22,8 @@ namespace
 StoredSurface restore(const Call& call, const VdbFile& file, Terminal& terminal)
 {
     try {
-        return storedSurface(file.grids, file.metadata, call.options, terminal);
+        return storedSurface(file.grids, file.metadata, call.options, call.atoms.coloring,
+                             terminal);
     } catch (const Cancelled&) {
         terminal.failIfOverdue(" [hint: a surface of a larger --voxel, or a larger --max-hours]");
         throw;

@@ -73,14 +73,13 @@ struct ValueBy {
         Rainbow,        ///< the place of the residue in its chain
         Radius,         ///< the distance from the centre
         Table,          ///< of a file: chain, residue number, perhaps the atom, value
-        Potential,      ///< of a map in the format OpenDX, on the surface
-        PotentialOut    ///< the same a probe radius outside of it
+        Potential       ///< of a map in the format OpenDX
     };
     Kind kind = Kind::BFactor;
-    std::string file{}; ///< its path, for the last three
+    std::string file{}; ///< its path, for the last two
 
-    /// Whether points have values of their own, and not those of the nearest ball.
-    bool byPoint() const { return kind == Kind::Radius || kind >= Kind::Potential; }
+    /// Whether points have values of their own, and not those of balls.
+    bool byPoint() const { return kind == Kind::Radius || kind == Kind::Potential; }
 };
 
 /// A group of balls that was found.
@@ -111,20 +110,18 @@ struct ScalarMap;
 
 /// A value of every ball, and how colours show it.
 struct BallValues {
-    /// Colours: of a quantity from nothing up, of one with a sign, of a charge (red below 0), of
-    /// the confidence of a predicted model in four steps, of a place along a chain.
-    enum class Map { Magnitude, Signed, Charge, Confidence, Rainbow };
-    std::string name;  ///< of the vertex attribute: "bfactor"
-    std::string title; ///< for people: "B factor"
-    std::string unit;  ///< empty: none
-    Map map = Map::Magnitude;
-    double low = 0.0, high = 1.0;         ///< values at the ends of the colours
+    std::string name;                     ///< of the vertex attribute: "bfactor"
+    std::string title;                    ///< for people: "B factor"
+    std::string unit;                     ///< or the name of the scale; empty: none
+    std::string palette = "viridis";      ///< colours, low values first
+    double low = 0.0, high = 1.0;         ///< values at the ends of the colours; if they are equal
+                                          ///< all values are, and there is nothing to show
     std::optional<openvdb::Vec3d> centre; ///< the value of a point is its distance from here [Å]
-    std::shared_ptr<const ScalarMap> field{}; ///< the value of a point is taken from here,
-    double outward = 0.0;                     ///< so far outside of the surface [Å]
+    std::shared_ptr<const ScalarMap> field{}; ///< the value of a point is taken from here
     std::vector<float> valueOf{};             ///< one a ball; not a number: it has none
+    bool flat = false; ///< whether a point has the value of one ball, and not a blend
 
-    /// Whether points have values of their own, and not those of the nearest ball.
+    /// Whether points have values of their own, and not those of balls.
     bool byPoint() const { return centre || field; }
 };
 
@@ -191,6 +188,18 @@ enum class Hetero {
 
 /// Options that say which atoms are used and how large they are.
 struct SelectOptions {
+    /// How values and curvatures are shown as colours.
+    struct Coloring {
+        std::optional<std::array<double, 2>> range; ///< values at the ends of the colours; none:
+                                                    ///< most of the values lie between them
+        std::string palette;    ///< "viridis", for example; empty: that of the kind of values
+        bool byResidue = false; ///< whether a residue's atoms have the mean of their values
+        bool flat = false;      ///< whether a point has the value of one atom, and not a blend
+        std::optional<double> outward; ///< how far outside of the surface a potential is taken [Å];
+                                       ///< none: the probe radius, of a surface that is a probe
+                                       ///< radius out itself 0
+    };
+
     /// The atoms to use: gemmi selections joined by '|', as "A" or "A/10-20|B"; empty: all.
     std::string select;
     int model = 0; ///< number of the model in the file; 0: the one that `select` names, or the
@@ -216,8 +225,7 @@ struct SelectOptions {
     std::vector<GroupRule> groups;           ///< groups; the later rule wins
     std::optional<GroupBy> groupBy;          ///< makes the groups instead of `groups`
     std::optional<ValueBy> valueBy;          ///< the values that ColorBy::Value shows
-    std::optional<std::array<double, 2>>
-        valueRange; ///< BallValues::low and high, if they are given
+    Coloring coloring;                       ///< how values and curvatures are shown
     std::optional<std::array<std::uint8_t, 3>>
         plainColor;         ///< red, green, blue (sRGB) that all balls get, if it is given
     bool instances = false; ///< whether the balls are those of each prototype of the assembly once,
@@ -292,6 +300,7 @@ struct BallSet {
     std::optional<BallNames> names;     ///< the same
     std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue (sRGB), one a ball; empty
                                                      ///< if the caller chose none
+    SelectOptions::Coloring coloring;                ///< as SelectOptions::coloring
     std::string radii; ///< the name of the set, or of the file, that the radii are from; empty: the
                        ///< structure's own
     int model = 0;     ///< number of the model that was used

@@ -76,7 +76,7 @@ class Files(ToolTest):
         for name in ("v.residues.csv", "hard.residues.csv", "link.residues.csv"):
             self.check(1, CRAMBIN, *words, "--color", "TABLE=v.residues.csv", "-o", name, says=[name, read])
         (self.folder / "link.residues.csv").unlink()
-        for value in ("potential=d.ply", "potential-out=./d.ply"):
+        for value in ("potential=d.ply", "table=./d.ply"):
             self.check(1, CRAMBIN, *words, "--color", value, "-o", "d.ply", says=["d.ply", read])
         self.check(1, DATA / "1d3z.pdb.gz", *words, "--trajectory", "x.csv", "-o", "x.csv", says=["x.csv", read])
         # Names of meshes are refused as inputs; the content of a .vdb decides.

@@ -209,18 +209,18 @@ class Values(ToolTest):
     def test_a_potential(self):
         self.apart(["ALA", "ALA"])
         self.dx("phi.dx", lambda x, y, z: 0.5 * x - 0.25 * y + z)
-        self.colored("potential=phi.dx")
+        self.colored("potential=phi.dx", "--outward", "0")
         for (x, y, z), value, _ in self.vertices("a.ply", "potential"):
             self.assertAlmostEqual(value, 0.5 * x - 0.25 * y + z, 3)
         # The distance from the first atom, a probe radius out.
         self.dx("r.dx", lambda x, y, z: x)
-        self.colored("potential-out=r.dx", "--probe", "2")
+        self.colored("potential=r.dx", "--probe", "2")
         for (x, _, _), value, _ in self.vertices("a.ply", "potential"):
             middle = 0.0 if x < 5 else 10.0
             self.assertAlmostEqual(value, x + 2 * (x - middle) / 1.7, 0)
         # Outside of the map there is no value.
         self.dx("small.dx", lambda x, y, z: x, points=6)
-        self.colored("potential=small.dx", "--range=-2,2", "-o", "a.vdb", "--fields", "Cd")
+        self.colored("potential=small.dx", "--outward", "0", "--range=-2,2", "-o", "a.vdb", "--fields", "Cd")
         found = self.vertices("a.ply", "potential")
         self.assertEqual(self.at(found, 10.0)[1], {GREY})
         self.assertNotIn(GREY, self.at(found, 0.0)[1])
@@ -230,6 +230,43 @@ class Values(ToolTest):
         self.write("short.dx", text[:len(text) // 2])
         self.check(1, "a.pdb", "--color", "potential=short.dx", "-o", "b.ply", says="216")
         self.check(1, "a.pdb", "--color", "potential=a.pdb", "-o", "b.ply", says="OpenDX")
+
+    def test_values_run_smoothly_between_atoms(self):
+        self.write("a.pdb", "".join(atom(i + 1, "ALA", 1.5 * i, b=10.0 * i) for i in range(5)))
+        def jumps(*words):
+            self.colored("bfactor", "--range", "0,40", *words)
+            names, vertices, faces = read_ply((self.folder / "a.ply").read_bytes())
+            red = names.index("red")
+            return max(abs(vertices[a][red + k] - vertices[b][red + k]) / max(math.dist(vertices[a][:3], vertices[b][:3]), 0.1)
+                       for f in faces for a, b in zip(f, f[1:] + f[:1]) for k in range(3))
+        # Of 255, per Å.
+        self.assertLess(jumps(), 100)
+        self.assertGreater(jumps("--flat-values"), 150)
+
+    def test_residues_palettes_and_constants(self):
+        self.write("a.pdb", "".join(atom(i + 1, "ALA", 10.0 * i, b=20.0 * i).replace(f"A{i + 1:4}", f"A{i // 2 + 1:4}")
+                                    for i in range(4)))
+        self.colored("bfactor", "--value-of", "residue", "--range", "10,50", "--palette", "cividis")
+        found = self.vertices("a.ply", "bfactor")
+        self.assertEqual(self.at(found, 10.0), ({10.0}, {(0, 34, 78)}))
+        self.assertEqual(self.at(found, 20.0), ({50.0}, {(254, 232, 56)}))
+        self.check(2, "a.pdb", "--color", "bfactor", "--palette", "viridi", "-o", "b.ply", says="viridis")
+        self.check(2, "a.pdb", "--color", "bfactor", "--value-of", "chain", "-o", "b.ply", says="atom or residue")
+        self.apart(["ALA", "ALA"], b=[3.0, 3.0])
+        self.check(0, "a.pdb", *FAST, "--color", "bfactor", "-o", "b.ply", "-o", "b.png", "-o", "b.html",
+                   says="B factor: all atoms have 3, which is grey [hint: --range]")
+        self.assertEqual(self.at(self.vertices("b.ply", "bfactor"), 0.0), ({3.0}, {GREY}))
+
+    def test_a_range_of_curvatures(self):
+        self.apart(["ALA"])
+        for low, high, color in ((0.0, 1.0, (31, 158, 137)), (-5.0, 0.1, (253, 231, 37))):
+            self.colored("mean-curvature", f"--range={low},{high}", "--palette", "viridis")
+            _, curvature, seen = self.vertices("a.ply", "mean_curvature")[0]
+            self.assertAlmostEqual(curvature, 1 / 1.7, 1)
+            self.assertLessEqual(max(abs(a - b) for a, b in zip(seen, color)), 25)
+        self.check(0, CRAMBIN, "--voxel", "0.7", "-o", "c.vdb", "--fields", "spline")
+        self.check(0, "convert", "c.vdb", "--color", "mean-curvature", "--range=-9,-8", "--palette", "viridis", "-o", "c.ply")
+        self.assertEqual({v[2] for v in self.vertices("c.ply", "mean_curvature")}, {(253, 231, 37)})
 
     def test_the_legend_has_the_colours_of_the_scale(self):
         self.check(0, DATA / "1ubq.pdb" if (DATA / "1ubq.pdb").exists() else CRAMBIN, *FAST,

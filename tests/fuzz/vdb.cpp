@@ -18,7 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const VdbFile file = readVdb(path);
         describeVdb(path);
         Progress progress;
-        storedSurface(file.grids, file.metadata, SurfaceOptions(), progress);
+        storedSurface(file.grids, file.metadata, SurfaceOptions(), SelectOptions::Coloring(),
+                      progress);
     });
     return 0;
 }

@@ -390,7 +390,9 @@ OptionGroup groupOptions()
     return {"Groups",
             {groups, setting("group-by", surfaces), setting("split", wholes),
              setting("surface-of", wholes), setting("interfaces", wholes),
-             setting("color", surfaces), setting("range", surfaces),
+             setting("color", surfaces), setting("range", surfaces | Convert),
+             setting("palette", surfaces | Convert), setting("value-of", surfaces),
+             setting("flat-values", surfaces), setting("outward", surfaces),
              shownIn(CutBorders, flag("crisp", "mesh files: triangles are cut where colours meet",
                                       Build, MOLSURF_OF(crisp))),
              shown}};

@@ -58,11 +58,10 @@ std::vector<Pair> assemblyPairs()
             {"instances",
              Excludes,
              {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center",
-              "color=radius", "color=potential", "color=potential-out"}},
+              "color=radius", "color=potential"}},
             {"by-symmetry",
              Excludes,
-             {"frames", "trajectory", "memory", "dry-run", "center", "color=potential",
-              "color=potential-out"}},
+             {"frames", "trajectory", "memory", "dry-run", "center", "color=potential"}},
             {Holds(Grids | Volume),
              Excludes,
              {"by-symmetry"},
@@ -109,6 +108,16 @@ std::vector<Pair> surfacePairs()
         return std::none_of(rules.begin(), rules.end(),
                             [](const ResolutionRule& rule) { return rule.select.empty(); });
     };
+    const auto ofValues = [](const char* option) {
+        return Pair{option, IsFor, {}, "--color by a value or a curvature", [](const Call& call) {
+                        const ColorBy by = call.options.color;
+                        return call.atoms.valueBy || kindOf(by).ofCurvature ||
+                               (call.verb == Convert && by == ColorBy::Nothing);
+                    }};
+    };
+    const auto ofAtomValues = [](const Call& call) {
+        return call.atoms.valueBy && !call.atoms.valueBy->byPoint();
+    };
     return {
         {"min-wall", Needs, {"print-scale"}},
         {"steps", Excludes, {"max-steps"}},
@@ -128,16 +137,19 @@ std::vector<Pair> surfacePairs()
                     hasField(call.options.fields, "sas");
          }},
         {"legend", IsFor, {"color"}, "", [](const Call& call) { return call.verb == Convert; }},
-        {"range",
-         IsFor,
-         {},
-         "--color by a value, as bfactor",
-         [](const Call& call) { return call.atoms.valueBy.has_value(); }},
+        ofValues("range"),
+        ofValues("palette"),
+        {"value-of", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
+        {"flat-values", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
+        {"outward", IsFor, {"color=potential"}},
         {"crisp",
          IsFor,
          {},
          "--color chain, group, element or residue",
-         [](const Call& call) { return kindOf(call.options.color).hasBorders != nullptr; }},
+         [](const Call& call) {
+             const bool blended = call.options.color == ColorBy::Value && !call.atoms.coloring.flat;
+             return !blended && kindOf(call.options.color).hasBorders != nullptr;
+         }},
         {"crisp", IsFor, {}, "one surface, without --split and --surface-of", [](const Call& call) {
              return !call.options.split && call.options.surfaceOf.empty();
          }}};

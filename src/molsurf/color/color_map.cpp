@@ -49,37 +49,117 @@ Color ColorScale::at(double value) const
     return color;
 }
 
-ColorScale magnitudeScale(double high)
+namespace
 {
-    return {"viridis",
-            0.0,
-            high,
-            {{68, 1, 84},
-             {72, 40, 120},
-             {62, 74, 137},
-             {49, 104, 142},
-             {38, 130, 142},
-             {31, 158, 137},
-             {53, 183, 121},
-             {109, 205, 89},
-             {180, 222, 44},
-             {253, 231, 37}}};
+
+/// From dark to light.
+std::vector<Palette> rising()
+{
+    return {{"viridis",
+             {{68, 1, 84},
+              {72, 40, 120},
+              {62, 74, 137},
+              {49, 104, 142},
+              {38, 130, 142},
+              {31, 158, 137},
+              {53, 183, 121},
+              {109, 205, 89},
+              {180, 222, 44},
+              {253, 231, 37}}},
+            {"cividis",
+             {{0, 34, 78},
+              {18, 53, 112},
+              {59, 73, 108},
+              {87, 93, 109},
+              {112, 113, 115},
+              {138, 134, 120},
+              {165, 156, 116},
+              {195, 179, 105},
+              {225, 204, 85},
+              {254, 232, 56}}},
+            {"batlow",
+             {{1, 25, 89},
+              {16, 63, 96},
+              {27, 89, 98},
+              {60, 109, 86},
+              {104, 123, 62},
+              {157, 137, 43},
+              {210, 147, 67},
+              {248, 162, 126},
+              {253, 183, 188},
+              {250, 204, 250}}}};
 }
 
-ColorScale signedScale(double high)
+/// Through white, and turbo.
+std::vector<Palette> others()
 {
-    return {"RdBu",
-            -high,
-            high,
-            {{33, 102, 172},
-             {67, 147, 195},
-             {146, 197, 222},
-             {209, 229, 240},
-             {247, 247, 247},
-             {253, 219, 199},
-             {244, 165, 130},
-             {214, 96, 77},
-             {178, 24, 43}}};
+    return {{"RdBu",
+             {{33, 102, 172},
+              {67, 147, 195},
+              {146, 197, 222},
+              {209, 229, 240},
+              {247, 247, 247},
+              {253, 219, 199},
+              {244, 165, 130},
+              {214, 96, 77},
+              {178, 24, 43}}},
+            {"OrPu",
+             {{179, 88, 6},
+              {224, 130, 20},
+              {253, 184, 99},
+              {254, 224, 182},
+              {247, 247, 247},
+              {216, 218, 235},
+              {178, 171, 210},
+              {128, 115, 172},
+              {84, 39, 136}}},
+            {"turbo",
+             {{48, 18, 59},
+              {70, 107, 227},
+              {40, 187, 236},
+              {49, 242, 153},
+              {162, 252, 60},
+              {237, 208, 58},
+              {251, 128, 34},
+              {210, 49, 5},
+              {122, 4, 3}}}};
+}
+
+} // namespace
+
+const std::vector<Palette>& paletteTable()
+{
+    static const std::vector<Palette> all = [] {
+        std::vector<Palette> rows = rising(), more = others();
+        rows.insert(rows.end(), more.begin(), more.end());
+        Palette turned = more[0];
+        turned.word = "BuRd";
+        std::reverse(turned.stops.begin(), turned.stops.end());
+        rows.insert(rows.begin() + 4, turned);
+        rows.push_back({"plddt", {}, true});
+        // Its edges are a hundredth of the range wide.
+        for (int i = 0; i <= 100; ++i)
+            rows.back().stops.push_back(i >= 90   ? Color{0, 83, 214}
+                                        : i >= 70 ? Color{101, 203, 243}
+                                        : i >= 50 ? Color{255, 219, 19}
+                                                  : Color{255, 125, 69});
+        return rows;
+    }();
+    return all;
+}
+
+const Palette* findPalette(const std::string& word)
+{
+    const std::string wanted = lowered(word);
+    for (const Palette& palette : paletteTable())
+        if (lowered(palette.word) == wanted) return &palette;
+    return nullptr;
+}
+
+ColorScale scaleOf(const std::string& palette, double low, double high)
+{
+    const Palette& row = *findPalette(palette);
+    return {row.word, low, high, row.stops};
 }
 
 } // namespace molsurf

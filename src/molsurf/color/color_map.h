@@ -26,9 +26,25 @@ std::uint8_t fromLinearLight(double light);
 /// A colour as text, "#rrggbb".
 std::string hexOf(const Color& color);
 
+/// Colours that values run through.
+struct Palette {
+    const char* word;         ///< of the command line: "viridis"
+    std::vector<Color> stops; ///< evenly spaced, at least two; linear in sRGB between them
+    bool steps = false;       ///< whether these are few colours with sharp edges
+};
+
+/// All of them. Lightness rises evenly along viridis and cividis (matplotlib; CC0) and batlow
+/// (Crameri, doi:10.5281/zenodo.1243862), so equal steps look equal, also in grey. Those that run
+/// through white to both sides darken alike away from it (Brewer, colorbrewer2.org). The
+/// colour-blind can read all but turbo (Mikhailov, 2019). plddt is that of the AlphaFold database.
+const std::vector<Palette>& paletteTable();
+
+/// The row of a word, in any case; null: there is none.
+const Palette* findPalette(const std::string& word);
+
 /// A range of values and the colours that it runs through.
 struct ColorScale {
-    std::string map;          ///< "viridis" or "RdBu"
+    std::string map;          ///< the word of its palette
     double low, high;         ///< values at the ends of the map; beyond them its end colours hold
     std::vector<Color> stops; ///< evenly spaced, at least two; linear in sRGB between them
 
@@ -41,12 +57,7 @@ struct ColorScale {
     }
 };
 
-/// From 0 to @a high by viridis: its lightness rises evenly, so equal steps look equal, also in
-/// grey and to the colour-blind (van der Walt and Smith, matplotlib, 2015; CC0).
-ColorScale magnitudeScale(double high);
-
-/// From -high (blue) through white to high (red) by RdBu, turned round (Brewer, colorbrewer2.org):
-/// both halves darken alike away from 0, and it is safe for the colour-blind.
-ColorScale signedScale(double high);
+/// The scale of a palette that there is.
+ColorScale scaleOf(const std::string& palette, double low, double high);
 
 } // namespace molsurf

@@ -8,6 +8,7 @@
 #include "molsurf/structure/element.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -177,7 +178,7 @@ ColorKind byClass(ColorBy by, const char* word, const char* title, const char* h
 ColorKind byChain()
 {
     ColorKind kind = byLabels(ColorBy::Chain, "chain", "Chain", "chain_id");
-    kind.offered = true;
+    kind.offered = kind.ofChains = true;
     kind.ofBalls = [](const BallSet& atoms, const Progress& progress) {
         return spread(chainColors(atoms, progress), atoms.labels->chainOf);
     };
@@ -284,9 +285,10 @@ ColorKind byCurvature(ColorBy by, const char* word, const char* title, const cha
 {
     ColorKind kind{by, word, title, attribute, unit};
     kind.ofCurvature = kind.offered = true;
-    kind.describe = [](const BallSet&, const Mesh& mesh, const Progress&, Legend& legend) {
+    kind.describe = [](const BallSet& atoms, const Mesh& mesh, const Progress&, Legend& legend) {
         for (const auto& scalar : mesh.scalars)
-            if (scalar.name == legend.attribute) legend.scale = curvatureScale(scalar.values);
+            if (scalar.name == legend.attribute)
+                legend.scale = curvatureScale(scalar.values, atoms.coloring);
     };
     return kind;
 }
@@ -301,15 +303,25 @@ ColorKind byValue()
     kind.ofBalls = [](const BallSet& atoms, const Progress&) {
         return valueColors(*atoms.labels->values);
     };
-    kind.describe = [](const BallSet& atoms, const Mesh&, const Progress&, Legend& legend) {
+    kind.describe = [](const BallSet& atoms, const Mesh& mesh, const Progress&, Legend& legend) {
         const BallValues& values = *atoms.labels->values;
         legend.title = values.title;
         legend.attribute = values.name;
         legend.unit = values.unit;
+        if (values.low == values.high) {
+            legend.entries = {{formatted("all %.6g", values.low), neutralColor}};
+            return;
+        }
         legend.scale = scaleOf(values);
+        for (const auto& scalar : mesh.scalars)
+            if (scalar.name == values.name &&
+                std::any_of(scalar.values.begin(), scalar.values.end(),
+                            [](float v) { return !std::isfinite(v); }))
+                legend.entries = {{"no value", neutralColor}};
     };
     kind.hasBorders = [](const BallSet& atoms) {
-        return hasValues(atoms) && !atoms.labels->values->byPoint();
+        return hasValues(atoms) && !atoms.labels->values->byPoint() &&
+               isFlat(*atoms.labels->values);
     };
     return kind;
 }

@@ -25,6 +25,7 @@ struct ColorKind {
     const char* unit = "";                       ///< of the legend's scale
     const char* help = "";                       ///< what a help text adds to the word
     bool ofCurvature = false;                    ///< whether vertices have it, and not balls
+    bool ofChains = false;                       ///< whether each chain has a colour of its own
     bool complete = true;                        ///< whether its word alone asks for it
     bool offered = false;                        ///< whether pages offer it without being asked
     const char* needs = nullptr;                 ///< what balls need for it, in words

@@ -18,39 +18,43 @@ const char* curvatureNameOf(ColorBy by)
     return kind.ofCurvature ? kind.attribute : nullptr;
 }
 
-ColorScale curvatureScale(const std::vector<float>& curvature)
+ColorScale curvatureScale(const std::vector<float>& curvature,
+                          const SelectOptions::Coloring& options)
 {
     constexpr double least = 1e-6; // of a plane
-    if (curvature.empty()) return signedScale(least);
+    const std::string palette = options.palette.empty() ? "RdBu" : options.palette;
+    if (options.range) return scaleOf(palette, (*options.range)[0], (*options.range)[1]);
+    if (curvature.empty()) return scaleOf(palette, -least, least);
     std::vector<float> sizes;
     sizes.reserve(curvature.size());
     for (const float c : curvature) sizes.push_back(std::abs(c));
     const std::size_t place = sizes.size() * 95 / 100;
     std::nth_element(sizes.begin(), sizes.begin() + std::ptrdiff_t(place), sizes.end());
-    return signedScale(std::max(double(sizes[place]), least));
+    const double high = std::max(double(sizes[place]), least);
+    return scaleOf(palette, -high, high);
 }
 
-void colorByCurvature(ColorBy by, Mesh& mesh)
+void colorByCurvature(ColorBy by, const SelectOptions::Coloring& options, Mesh& mesh)
 {
     const char* name = curvatureNameOf(by);
     if (!name) return;
     for (const auto& scalar : mesh.scalars) {
         if (scalar.name != name) continue;
-        const ColorScale scale = curvatureScale(scalar.values);
+        const ColorScale scale = curvatureScale(scalar.values, options);
         mesh.colors.clear();
         for (const float c : scalar.values) mesh.colors.push_back(scale.at(c));
     }
 }
 
-void addCurvatureColors(ColorBy by, bool keep, const Mesh& mesh,
-                        std::vector<openvdb::GridBase::Ptr>& fields)
+void addCurvatureColors(ColorBy by, const SelectOptions::Coloring& options, bool keep,
+                        const Mesh& mesh, std::vector<openvdb::GridBase::Ptr>& fields)
 {
     const char* name = curvatureNameOf(by);
     if (!name) return;
     const auto scalar = std::find_if(mesh.scalars.begin(), mesh.scalars.end(),
                                      [&](const auto& s) { return s.name == name; });
     if (scalar == mesh.scalars.end()) return;
-    const ColorScale scale = curvatureScale(scalar->values);
+    const ColorScale scale = curvatureScale(scalar->values, options);
     const std::string start = name;
     std::vector<openvdb::GridBase::Ptr> kept, colors;
     for (const auto& field : fields) {

@@ -4,6 +4,7 @@
 /// @file
 /// Colours by curvature: of the mesh and of the grid Cd, by one scale.
 
+#include "molsurf/atoms.h"
 #include "molsurf/color/color_map.h"
 #include "molsurf/mesh.h"
 #include "molsurf/options.h"
@@ -18,16 +19,18 @@ namespace molsurf
 /// The vertex attribute and grid that the colours show, or null: not a curvature.
 const char* curvatureNameOf(ColorBy by);
 
-/// Red where it is positive, blue where it is negative, full at the 95th percentile of its size.
-ColorScale curvatureScale(const std::vector<float>& curvature);
+/// Red where it is positive, blue where it is negative, full at the 95th percentile of its size,
+/// where the options do not say otherwise.
+ColorScale curvatureScale(const std::vector<float>& curvature,
+                          const SelectOptions::Coloring& options);
 
 /// Colours a mesh by one of its curvatures, if `by` is one.
-void colorByCurvature(ColorBy by, Mesh& mesh);
+void colorByCurvature(ColorBy by, const SelectOptions::Coloring& options, Mesh& mesh);
 
 /// Adds to some grids a grid Cd for each curvature grid of the name that `by` stands for, by the
 /// scale of the mesh: "Cd", or with parts "Cd_NAME".
 /// @param[in] keep  false: takes the curvature grids away
-void addCurvatureColors(ColorBy by, bool keep, const Mesh& mesh,
-                        std::vector<openvdb::GridBase::Ptr>& fields);
+void addCurvatureColors(ColorBy by, const SelectOptions::Coloring& options, bool keep,
+                        const Mesh& mesh, std::vector<openvdb::GridBase::Ptr>& fields);
 
 } // namespace molsurf

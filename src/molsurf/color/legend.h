@@ -30,7 +30,8 @@ struct Legend {
     std::string attribute;           ///< vertex attribute that is shown; empty: none in the mesh
     std::string unit;                ///< of the scale: "1/Å"
     std::optional<ColorScale> scale; ///< of a legend of values
-    /// Else of names: entry i is that of the attribute's value i; of value -1 the last one.
+    /// Beside a scale what has no value on it. Else of names: entry i is that of the attribute's
+    /// value i; of value -1 the last one.
     std::vector<LegendEntry> entries;
 };
 

@@ -19,47 +19,60 @@ namespace
 /// A gap between balls across which surfaces still look as if they touched [Å].
 constexpr double visibleGap = 1.0;
 
-constexpr Color base[] = {{86, 180, 233}, {230, 159, 0}, {0, 158, 115}, {204, 121, 167},
-                          {240, 228, 66}, {0, 114, 178}, {213, 94, 0},  {153, 153, 153}};
-constexpr std::size_t shades = 3;
-
-/// Of the palette with its shades: the eight, then lighter, then darker ones.
-Color paletteColor(std::size_t i)
-{
-    Color color = base[i % std::size(base)];
-    const std::size_t shade = i / std::size(base) % shades;
-    for (std::uint8_t& c : color) {
-        if (shade == 1) c = std::uint8_t(c + (255 - c) / 2);
-        if (shade == 2) c = std::uint8_t(c * 6 / 10);
-    }
-    return color;
-}
+/// Okabe and Ito's eight, then those of a lattice of colours of some chroma that lie farthest from
+/// all before them, from black, white and the neutral one.
+constexpr Color paletteColors[mostDistinct] = {
+    {86, 180, 233},  {230, 159, 0},   {0, 158, 115},   {204, 121, 167}, {240, 228, 66},
+    {0, 114, 178},   {213, 94, 0},    {153, 153, 153}, {120, 16, 168},  {104, 96, 0},
+    {160, 8, 48},    {0, 248, 240},   {80, 248, 120},  {0, 88, 80},     {112, 56, 8},
+    {248, 160, 144}, {128, 160, 16},  {144, 128, 248}, {120, 88, 112},  {0, 112, 24},
+    {248, 48, 72},   {248, 208, 248}, {48, 64, 112},   {64, 136, 144},  {176, 200, 152},
+    {200, 0, 136},   {144, 112, 88},  {248, 208, 168}, {120, 128, 96},  {176, 192, 248},
+    {120, 184, 176}, {176, 232, 248}, {88, 88, 208},   {56, 72, 32},    {136, 128, 160},
+    {192, 32, 0},    {176, 72, 216},  {160, 128, 40},  {224, 152, 248}, {120, 32, 80}};
+constexpr std::size_t shared = 8; // of them, if there are more things than colours
 
 } // namespace
 
 std::vector<Color> distinctColors(const std::vector<std::vector<std::int32_t>>& neighbours)
 {
-    constexpr std::size_t count = std::size(base) * shades;
-    std::vector<std::size_t> chosen(neighbours.size()), uses(count, 0);
+    if (neighbours.size() <= mostDistinct)
+        return {paletteColors, paletteColors + neighbours.size()};
+    std::vector<std::size_t> chosen(neighbours.size()), uses(mostDistinct, 0);
     std::vector<Color> out;
     for (std::size_t i = 0; i < neighbours.size(); ++i) {
-        std::vector<std::size_t> taken(count, 0); // by neighbours
+        std::vector<std::size_t> taken(mostDistinct, 0); // by neighbours
         for (const std::int32_t n : neighbours[i]) {
             if (std::size_t(n) < i) ++taken[chosen[std::size_t(n)]];
         }
         std::size_t best = 0;
         const auto cost = [&](std::size_t k) {
-            // A neighbour of the same colour is worst, then a shade, then a colour used often.
-            return std::make_tuple(taken[k], k / std::size(base), uses[k]);
+            // A neighbour of the same colour is worst, then a further one, then one used often.
+            return std::make_tuple(taken[k], k / shared, uses[k]);
         };
-        for (std::size_t k = 1; k < count; ++k) {
+        for (std::size_t k = 1; k < mostDistinct; ++k) {
             if (cost(k) < cost(best)) best = k;
         }
         chosen[i] = best;
         ++uses[best];
-        out.push_back(paletteColor(best));
+        out.push_back(paletteColors[best]);
     }
     return out;
+}
+
+std::vector<std::string> colorWarnings(const BallSet& atoms, ColorBy by)
+{
+    if (!atoms.labels || !atoms.colors.empty()) return {};
+    const ColorKind& kind = kindOf(by);
+    const BallLabels& labels = *atoms.labels;
+    const bool ofGroups = kind.attribute == std::string("group_id");
+    const std::size_t count = ofGroups        ? labels.groups.size()
+                              : kind.ofChains ? labels.chains.size()
+                                              : 0;
+    if (count <= mostDistinct) return {};
+    return {"`color` " + std::string(kind.word) + ": " + std::to_string(count) +
+            (ofGroups ? " groups" : " chains") + " share the colours of " +
+            std::to_string(mostDistinct) + " [hint: `color` entity, for example]"};
 }
 
 std::vector<Color> chainColors(const BallSet& atoms, const Progress& progress)

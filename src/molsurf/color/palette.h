@@ -9,6 +9,7 @@
 #include "molsurf/progress.h"
 #include "molsurf/selection/select_balls.h"
 
+#include <string>
 #include <vector>
 
 namespace molsurf
@@ -17,9 +18,14 @@ namespace molsurf
 /// The colour of what has no label.
 constexpr Color neutralColor = {190, 190, 190};
 
-/// Colours for things that touch each other: of those on a palette of eight that the colour-blind
-/// can tell apart (Okabe and Ito, Color universal design, 2008) and their lighter and darker
-/// shades, each takes the first that no neighbour of lower index has, the least used of them.
+/// As many things as this can have colours of their own.
+constexpr std::size_t mostDistinct = 40;
+
+/// Colours for things that touch each other. Up to mostDistinct of them have colours of their own,
+/// any two of which differ by 10 or more (CIEDE2000), also from the neutral one; the first eight
+/// are those that the colour-blind can tell apart (Okabe and Ito, Color universal design, 2008).
+/// More things share these eight: each takes the first that no neighbour of lower index has, the
+/// least used of them, and one of the others if neighbours have all.
 ///
 /// @param[in] neighbours  for each thing those that it touches
 std::vector<Color> distinctColors(const std::vector<std::vector<std::int32_t>>& neighbours);
@@ -34,6 +40,9 @@ void checkColors(const BallSet& atoms, ColorBy by);
 /// @param[in] by  Chain, Group, Element or Residue
 /// @return one colour a ball; all neutral without labels
 std::vector<Color> ballColors(const BallSet& atoms, ColorBy by, const Progress& progress);
+
+/// What is to be known of the colours of names, as that chains share some: a line each.
+std::vector<std::string> colorWarnings(const BallSet& atoms, ColorBy by);
 
 /// The colours of the chains themselves, as ballColors() gives them.
 std::vector<Color> chainColors(const BallSet& atoms, const Progress& progress);

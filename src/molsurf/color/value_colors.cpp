@@ -6,6 +6,8 @@
 #include "molsurf/grid/grid_like.h"
 #include "molsurf/selection/scalar_map.h"
 
+#include <openvdb/tools/LevelSetUtil.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,64 +15,42 @@
 namespace molsurf
 {
 
+using openvdb::Vec3d;
+
 namespace
 {
 
-/// Four steps, with edges a hundredth of the range wide.
-ColorScale confidenceScale()
+constexpr double softness = 3.0;             // s of the weights [Å^2]
+constexpr double farthestE = 8.0 * softness; // balls beyond this weigh nothing [Å^2]
+constexpr float missing = std::numeric_limits<float>::quiet_NaN();
+
+Color colorOn(const ColorScale& scale, float value)
 {
-    ColorScale out{"pLDDT", 0.0, 100.0, {}};
-    for (int i = 0; i <= 100; ++i)
-        out.stops.push_back(i >= 90   ? Color{0, 83, 214}
-                            : i >= 70 ? Color{101, 203, 243}
-                            : i >= 50 ? Color{255, 219, 19}
-                                      : Color{255, 125, 69});
-    return out;
+    return std::isfinite(value) && scale.high > scale.low ? scale.at(double(value)) : neutralColor;
 }
 
-Color colorOf(const ColorScale& scale, float value)
+double powerOf(const Ball& ball, const Vec3d& x)
 {
-    return std::isfinite(value) ? scale.at(double(value)) : neutralColor;
+    return (x - Vec3d(ball.center)).lengthSqr() - ball.radius * ball.radius;
+}
+
+/// How far outside of the surface a potential is taken [Å].
+double outwardOf(const SelectOptions::Coloring& coloring, const SurfaceOptions& options)
+{
+    const bool out = options.kind == SurfaceKind::SolventAccessible; // already
+    return coloring.outward.value_or(out ? 0.0 : options.probe);
 }
 
 } // namespace
 
 ColorScale scaleOf(const BallValues& values)
 {
-    ColorScale out;
-    switch (values.map) {
-    case BallValues::Map::Magnitude:
-        out = magnitudeScale(1.0);
-        break;
-    case BallValues::Map::Signed:
-        out = signedScale(1.0);
-        break;
-    case BallValues::Map::Charge:
-        out = signedScale(1.0);
-        out.map = "BuRd";
-        std::reverse(out.stops.begin(), out.stops.end());
-        break;
-    case BallValues::Map::Confidence:
-        out = confidenceScale();
-        break;
-    case BallValues::Map::Rainbow:
-        out = {"turbo",
-               0.0,
-               1.0,
-               {{48, 18, 59},
-                {70, 107, 227},
-                {40, 187, 236},
-                {49, 242, 153},
-                {162, 252, 60},
-                {237, 208, 58},
-                {251, 128, 34},
-                {210, 49, 5},
-                {122, 4, 3}}};
-        break;
-    }
-    out.low = values.low;
-    out.high = values.high;
-    return out;
+    return scaleOf(values.palette, values.low, values.high);
+}
+
+bool isFlat(const BallValues& values)
+{
+    return values.flat || findPalette(values.palette)->steps;
 }
 
 std::vector<Color> valueColors(const BallValues& values)
@@ -78,21 +58,76 @@ std::vector<Color> valueColors(const BallValues& values)
     const ColorScale scale = scaleOf(values);
     std::vector<Color> out;
     out.reserve(values.valueOf.size());
-    for (const float v : values.valueOf) out.push_back(colorOf(scale, v));
+    for (const float v : values.valueOf) out.push_back(colorOn(scale, v));
     return out;
 }
 
-float valueAt(const BallValues& values, const openvdb::Vec3d& x, const openvdb::Vec3d& normal)
+PointValues::PointValues(const BallSet& atoms, const SurfaceOptions& options)
+    : values_(*atoms.labels->values), index_(atoms.balls, {0.5, 0.0, 2.0}),
+      scale_(scaleOf(values_)), smallest_(std::numeric_limits<double>::max()),
+      outward_(outwardOf(atoms.coloring, options))
 {
-    if (values.field) return values.field->at(x + values.outward * normal);
-    return float((x - *values.centre).length());
+    for (const Ball& ball : atoms.balls) smallest_ = std::min(smallest_, ball.radius);
 }
 
-openvdb::GridBase::Ptr valueGrid(const openvdb::FloatGrid& surface, const BallValues& values,
-                                 const Progress& progress)
+PointValue PointValues::at(const Vec3d& x, const Vec3d& normal, double reach) const
+{
+    if (!values_.byPoint()) return blended(x, reach);
+    const float value = values_.field ? values_.field->at(x + outward_ * normal)
+                                      : float((x - *values_.centre).length());
+    return {value, std::isfinite(value) ? 1.0f : 0.0f};
+}
+
+PointValue PointValues::blended(const Vec3d& x, double reach) const
+{
+    // The least power, from the balls that are near enough to have it.
+    double least = std::numeric_limits<double>::max();
+    for (double within = 0.5; least == std::numeric_limits<double>::max(); within *= 2.0) {
+        index_.forEachNear(x, x, within, [&](const Ball& ball, std::int32_t) {
+            least = std::min(least, powerOf(ball, x));
+        });
+        if (within >= reach) break;
+    }
+    if (least == std::numeric_limits<double>::max()) return {missing, 0.0f};
+    // Balls whose power is within farthestE of it: (r + gap)^2 - r^2 is that.
+    const double power = std::max(least, 0.0) + farthestE;
+    const double gap = std::sqrt(smallest_ * smallest_ + power) - smallest_;
+    index_.forEachNear(x, x, gap, [&](const Ball& ball, std::int32_t) {
+        least = std::min(least, powerOf(ball, x));
+    });
+    const double none = std::exp(-farthestE / softness);
+    double all = 0.0, known = 0.0, sum = 0.0;
+    index_.forEachNear(x, x, gap, [&](const Ball& ball, std::int32_t i) {
+        const double e = powerOf(ball, x) - least;
+        if (e >= farthestE) return;
+        const double weight = std::exp(-e / softness) - none;
+        const float value = values_.valueOf[std::size_t(i)];
+        all += weight;
+        if (!std::isfinite(value)) return;
+        known += weight;
+        sum += weight * double(value);
+    });
+    if (known == 0.0) return {missing, 0.0f};
+    return {float(sum / known), float(known / all)};
+}
+
+Color PointValues::colorOf(const PointValue& value) const
+{
+    Color out = colorOn(scale_, value.value);
+    for (std::size_t c = 0; c < out.size(); ++c)
+        out[c] = std::uint8_t(std::lround(value.share * float(out[c]) +
+                                          (1.0f - value.share) * float(neutralColor[c])));
+    return out;
+}
+
+openvdb::GridBase::Ptr valueGrid(const openvdb::FloatGrid& surface, bool inside,
+                                 const PointValues& values, double reach, const Progress& progress)
 {
     auto grid = gridLike<openvdb::Vec3SGrid>(surface, "Cd", linearLight(neutralColor));
-    const ColorScale scale = scaleOf(values);
+    if (inside) {
+        grid->tree().topologyUnion(openvdb::tools::sdfInteriorMask(surface)->tree());
+        grid->tree().voxelizeActiveTiles();
+    }
     std::vector<openvdb::Vec3STree::LeafNodeType*> leaves;
     grid->tree().getNodes(leaves);
     const double h = surface.voxelSize()[0];
@@ -100,39 +135,44 @@ openvdb::GridBase::Ptr valueGrid(const openvdb::FloatGrid& surface, const BallVa
         const auto from = surface.getConstAccessor();
         for (auto voxel = leaves[n]->beginValueOn(); voxel; ++voxel) {
             const openvdb::Coord at = voxel.getCoord();
-            openvdb::Vec3d normal(0.0); // by differences of the distance
+            Vec3d normal(0.0); // by differences of the distance
             for (int a = 0; a < 3; ++a) {
                 openvdb::Coord step(0);
                 step[a] = 1;
                 normal[a] = double(from.getValue(at + step)) - double(from.getValue(at - step));
             }
             if (normal.lengthSqr() > 0.0) normal.normalize();
-            // From the voxel to the surface.
-            const openvdb::Vec3d x = at.asVec3d() * h - double(from.getValue(at)) * normal;
-            voxel.setValue(linearLight(colorOf(scale, valueAt(values, x, normal))));
+            // From the voxel to the surface, beside which it lies.
+            const Vec3d x = at.asVec3d() * h - double(from.getValue(at)) * normal;
+            voxel.setValue(linearLight(values.colorOf(values.at(x, normal, reach))));
         }
     });
     return grid;
 }
 
-void addValues(const BallValues& values, const Labels& nearest, Mesh& mesh)
+void addValues(const BallSet& atoms, const SurfaceOptions& options, const Labels& nearest,
+               double reach, const Progress& progress, Mesh& mesh)
 {
+    const BallValues& values = *atoms.labels->values;
+    const bool flat = isFlat(values) && !values.byPoint();
+    const PointValues points(atoms, options);
     Attribute<float>& out = mesh.scalars.emplace_back();
     out.name = values.name;
-    out.values.reserve(nearest.size());
-    for (std::size_t v = 0; v < nearest.size(); ++v) {
-        const std::int32_t ball = nearest[v];
-        float value = std::numeric_limits<float>::quiet_NaN();
-        if (values.byPoint())
-            value =
-                valueAt(values, openvdb::Vec3d(mesh.positions[v]), openvdb::Vec3d(mesh.normals[v]));
-        else if (ball >= 0)
-            value = values.valueOf[std::size_t(ball)];
-        out.values.push_back(value);
-    }
-    if (!values.byPoint()) return;
-    const ColorScale scale = scaleOf(values);
-    for (std::size_t v = 0; v < nearest.size(); ++v) mesh.colors[v] = colorOf(scale, out.values[v]);
+    out.values.resize(mesh.positions.size(), missing);
+    constexpr std::size_t chunk = 64;
+    parallelFor((mesh.positions.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
+        const std::size_t end = std::min(mesh.positions.size(), (c + 1) * chunk);
+        for (std::size_t v = c * chunk; v < end; ++v) {
+            if (flat) {
+                if (nearest[v] >= 0) out.values[v] = values.valueOf[std::size_t(nearest[v])];
+                continue;
+            }
+            const PointValue value =
+                points.at(Vec3d(mesh.positions[v]), Vec3d(mesh.normals[v]), reach);
+            if (value.share >= 0.5f) out.values[v] = value.value;
+            mesh.colors[v] = points.colorOf(value);
+        }
+    });
 }
 
 } // namespace molsurf

@@ -5,34 +5,70 @@
 /// Colours by the values of balls.
 
 #include "molsurf/atoms.h"
+#include "molsurf/balls/ball_index.h"
 #include "molsurf/color/color_map.h"
 #include "molsurf/color/label.h"
 #include "molsurf/mesh.h"
+#include "molsurf/options.h"
 
 #include <vector>
 
 namespace molsurf
 {
 
-/// The colours of values: viridis, RdBu (turned round for charges: red is negative), the four of
-/// the AlphaFold database for pLDDT (above 90, 70, 50 and below), turbo (Mikhailov, 2019) along a
-/// chain. All but the last are safe for the colour-blind.
+/// The colours of values.
 ColorScale scaleOf(const BallValues& values);
+
+/// Whether a point has the value of one ball: it was asked for, or the colours have steps.
+bool isFlat(const BallValues& values);
 
 /// The colour of every ball, neutral where it has no value.
 std::vector<Color> valueColors(const BallValues& values);
 
-/// The value of a point, where points have values of their own (BallValues::byPoint()).
-/// @param[in] normal  of the surface there, outward
-float valueAt(const BallValues& values, const openvdb::Vec3d& x, const openvdb::Vec3d& normal);
+/// The value of a point, and how much of it there is.
+struct PointValue {
+    float value = 0.0f; ///< the mean of what there is; not a number, if share is 0
+    float share = 0.0f; ///< of the weights that balls with a value have, in [0, 1]
+};
+
+/// The values of points of a surface: its distance from the centre, that of the map, or a mean over
+/// the balls near it, with the weights exp(-e/s). Here e is how far the power distance
+/// |x - c|^2 - r^2 of a ball is above the least one, and s is 3 Å^2: between balls that are a bond
+/// apart the value goes from one to the other within some 2 Å, smoothly.
+///
+/// Safe to use from all threads. Balls and values must live as long.
+class PointValues
+{
+public:
+    /// @param[in] options  of the surface, for how far outside of it a potential is taken
+    PointValues(const BallSet& atoms, const SurfaceOptions& options);
+
+    /// @param[in] normal  of the surface there, outward
+    /// @param[in] reach   no point that has a value is farther than this from its ball [Å]
+    PointValue at(const openvdb::Vec3d& x, const openvdb::Vec3d& normal, double reach) const;
+
+    /// The colour of such a value, mixed with the neutral one as far as balls have none.
+    Color colorOf(const PointValue& value) const;
+
+private:
+    PointValue blended(const openvdb::Vec3d& x, double reach) const;
+
+    const BallValues& values_;
+    BallIndex index_;
+    ColorScale scale_;
+    double smallest_; ///< radius of a ball [Å]
+    double outward_;  ///< [Å]
+};
 
 /// A grid Cd of such values on the active voxels of a level set; linear light.
-openvdb::GridBase::Ptr valueGrid(const openvdb::FloatGrid& surface, const BallValues& values,
-                                 const Progress& progress);
+/// @param[in] inside  whether all of the inside has colours, too
+openvdb::GridBase::Ptr valueGrid(const openvdb::FloatGrid& surface, bool inside,
+                                 const PointValues& values, double reach, const Progress& progress);
 
-/// Adds the values to the vertices of a mesh as a scalar, and colours them by it where points have
-/// values of their own.
+/// Adds the values to the vertices of a mesh as a scalar, which is not a number where less than
+/// half of the weights have one, and colours them by it unless they are flat.
 /// @param[in] nearest  ball of each vertex
-void addValues(const BallValues& values, const Labels& nearest, Mesh& mesh);
+void addValues(const BallSet& atoms, const SurfaceOptions& options, const Labels& nearest,
+               double reach, const Progress& progress, Mesh& mesh);
 
 } // namespace molsurf

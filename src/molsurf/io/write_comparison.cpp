@@ -183,7 +183,7 @@ void chooseColors(bool bySign, double range, ComparisonReport& report)
 {
     const double end = range > 0.0 ? range : usualRange(report.distances.aToB.distance);
     report.shown = bySign ? "signed_distance" : "distance";
-    report.color = bySign ? signedScale(end) : magnitudeScale(end);
+    report.color = bySign ? scaleOf("RdBu", -end, end) : scaleOf("viridis", 0.0, end);
 }
 
 void writeComparisonMesh(const Mesh& a, const ComparisonReport& report, OutputFile& file)

@@ -53,6 +53,11 @@ std::vector<std::string> tickTexts(const ColorScale& scale)
             numberText(scale.low)};
 }
 
+std::string unitText(const Legend& legend)
+{
+    return "[" + legend.unit + "]";
+}
+
 /// The line for entries without room: as short as that, since it must not be cut off.
 std::string restText(std::size_t count)
 {
@@ -147,12 +152,13 @@ int legendWidth(const Legend& legend, int width)
     if (legend.scale) {
         for (const std::string& tick : tickTexts(*legend.scale))
             widest = std::max(widest, sizes.bar + sizes.gap + font.width(tick));
+        if (!legend.unit.empty()) widest = std::max(widest, font.width(unitText(legend)));
     } else {
-        for (const LegendEntry& entry : legend.entries)
-            widest = std::max(widest, sizes.patch + sizes.gap +
-                                          font.width(shortened(entry.name, font, width)));
         widest = std::max(widest, font.width(restText(legend.entries.size())));
     }
+    for (const LegendEntry& entry : legend.entries)
+        widest = std::max(widest,
+                          sizes.patch + sizes.gap + font.width(shortened(entry.name, font, width)));
     return widest + 3 * sizes.gap;
 }
 
@@ -161,7 +167,9 @@ Picture withLegend(const Picture& picture, const Legend& legend, int width, cons
     const Sizes sizes(width);
     const Font font(sizes.letters);
     const int line = font.lineHeight(), barHeight = 9 * line;
-    const int fixed = legend.scale ? 2 * line + sizes.gap + barHeight + line : line + sizes.gap;
+    const int below = legend.scale ? int(legend.entries.size()) * line : 0;
+    const int fixed =
+        legend.scale ? 2 * line + sizes.gap + barHeight + line + below : line + sizes.gap;
 
     Picture out;
     out.width = width;
@@ -184,9 +192,11 @@ Picture withLegend(const Picture& picture, const Legend& legend, int width, cons
     if (legend.scale) {
         Column column(sizes, font, left, (out.height - fixed) / 2, ink, out);
         column.text(legend.title);
-        if (!legend.unit.empty()) column.text("[" + legend.unit + "]");
+        if (!legend.unit.empty()) column.text(unitText(legend));
         column.skip(sizes.gap + line / 2);
         column.bar(*legend.scale, barHeight);
+        column.skip(line / 2);
+        for (const LegendEntry& entry : legend.entries) column.entry(entry, true);
         return out;
     }
     const int room = (out.height - 2 * sizes.gap - fixed) / line;

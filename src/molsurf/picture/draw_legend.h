@@ -14,9 +14,9 @@ namespace molsurf
 /// @param[in] width  of the whole picture, which decides the size of the letters
 int legendWidth(const Legend& legend, int width);
 
-/// The picture with a legend in a column on its right: a bar with its range and unit, or names and
-/// their colours; of more names than have room, the first ones and "+" how many more there are.
-/// Letters are black on a light background and white on a dark one.
+/// The picture with a legend in a column on its right: a bar with its range and unit and what has
+/// no value, or names and their colours; of more names than have room, the first ones and "+" how
+/// many more there are. Letters are black on a light background and white on a dark one.
 ///
 /// @param[in] width  of the whole: picture.width + legendWidth()
 Picture withLegend(const Picture& picture, const Legend& legend, int width,

@@ -41,6 +41,8 @@ void spread(BallValues& out)
     const std::size_t last = sorted.size() - 1;
     out.low = double(sorted[last / 50]);
     out.high = double(sorted[last - last / 50]);
+    if (out.high <= out.low) out.high = double(sorted.back());
+    if (out.high <= out.low) out.low = double(sorted.front());
     if (out.high <= out.low) out.high = out.low + 1.0;
 }
 
@@ -71,12 +73,12 @@ bool arePredicted(const Structure& structure)
 /// @param[in] asGiven  whether they are taken for B factors in any case
 BallValues bFactors(const Structure& structure, bool asGiven, std::vector<std::string>& warnings)
 {
-    BallValues out{"bfactor", "B factor", "Å²", BallValues::Map::Magnitude, 0.0, 1.0, {}};
+    BallValues out{"bfactor", "B factor", "Å²", "viridis", 0.0, 1.0, {}};
     if (asGiven || !arePredicted(structure)) return out;
     warnings.push_back("B factors are the same within every residue and from 0 to 100: taken as "
                        "the pLDDT of a predicted model [hint: with `range` they are B "
                        "factors]");
-    return {"plddt", "pLDDT", "", BallValues::Map::Confidence, 0.0, 100.0, {}};
+    return {"plddt", "pLDDT", "", "plddt", 0.0, 100.0, {}};
 }
 
 float hydrophobicityOf(const std::string& residue)
@@ -199,7 +201,7 @@ const std::vector<std::string>& valueWords()
 {
     static const std::vector<std::string> words = {"bfactor",        "occupancy", "charge",
                                                    "hydrophobicity", "rainbow",   "radius",
-                                                   "table",          "potential", "potential-out"};
+                                                   "table",          "potential"};
     return words;
 }
 
@@ -226,11 +228,108 @@ std::string textOf(const ValueBy& by)
     return by.file.empty() ? word : word + "=" + by.file;
 }
 
-BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls, const ValueBy& by,
-                      bool ranged, const Vec3d& centre, double probe, std::size_t maxBytes,
-                      std::vector<std::string>& warnings)
+namespace
 {
-    using Map = BallValues::Map;
+
+/// For each atom of the structure the heavy atom of its residue that is nearest to it, if it is a
+/// hydrogen; else itself.
+std::vector<std::int32_t> heavyAtoms(const Structure& structure)
+{
+    constexpr std::uint8_t hydrogen = 1;
+    std::vector<std::int32_t> out(structure.atoms.size());
+    const auto count = std::int32_t(out.size());
+    for (std::int32_t i = 0, begin = 0; i < count; ++i) {
+        const Atom& atom = structure.atoms[std::size_t(i)];
+        if (atom.residue != structure.atoms[std::size_t(begin)].residue) begin = i;
+        out[std::size_t(i)] = i;
+        double least = std::numeric_limits<double>::max();
+        if (atom.element != hydrogen) continue;
+        for (std::int32_t k = begin; k < count; ++k) {
+            const Atom& other = structure.atoms[std::size_t(k)];
+            if (other.residue != atom.residue) break;
+            const double d = (Vec3d(other.position) - Vec3d(atom.position)).lengthSqr();
+            if (other.element == hydrogen || d >= least) continue;
+            least = d;
+            out[std::size_t(i)] = k;
+        }
+    }
+    return out;
+}
+
+/// Gives hydrogens without a value of their own that of their heavy atom.
+/// @param[in] zeroIsNone  whether 0 is no value of a hydrogen
+void lendToHydrogens(const Structure& structure, const std::vector<Ball>& balls, bool zeroIsNone,
+                     BallValues& values)
+{
+    const std::vector<std::int32_t> heavy = heavyAtoms(structure);
+    std::vector<float> ofAtom(structure.atoms.size(), missing);
+    for (std::size_t i = 0; i < balls.size(); ++i)
+        ofAtom[std::size_t(balls[i].atom)] = values.valueOf[i];
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        const auto atom = std::size_t(balls[i].atom);
+        float& value = values.valueOf[i];
+        if (heavy[atom] == balls[i].atom) continue;
+        if (!std::isfinite(value) || (zeroIsNone && value == 0.0f))
+            value = ofAtom[std::size_t(heavy[atom])];
+    }
+}
+
+/// Gives the balls of a residue the mean of their values.
+void averageResidues(const Structure& structure, const std::vector<Ball>& balls, BallValues& values)
+{
+    std::vector<double> sums(structure.residues.size(), 0.0), counts(sums);
+    const auto residue = [&](std::size_t i) {
+        return std::size_t(structure.atoms[std::size_t(balls[i].atom)].residue);
+    };
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+        if (!std::isfinite(values.valueOf[i])) continue;
+        sums[residue(i)] += double(values.valueOf[i]);
+        counts[residue(i)] += 1.0;
+    }
+    for (std::size_t i = 0; i < balls.size(); ++i)
+        if (counts[residue(i)] > 0.0)
+            values.valueOf[i] = float(sums[residue(i)] / counts[residue(i)]);
+}
+
+/// Sets the range of values that have none of their own, and says what they cannot show.
+void judge(const SelectOptions::Coloring& coloring, bool spreads, bool signedRange,
+           BallValues& values, std::vector<std::string>& warnings)
+{
+    std::size_t none = 0;
+    float low = std::numeric_limits<float>::max(), high = -low;
+    for (const float v : values.valueOf) {
+        none += !std::isfinite(v);
+        if (!std::isfinite(v)) continue;
+        low = std::min(low, v);
+        high = std::max(high, v);
+    }
+    if (values.byPoint() && !spreads) return;
+    if (none > 0 && none < values.valueOf.size())
+        warnings.push_back(values.title + ": " + std::to_string(none) + " of " +
+                           std::to_string(values.valueOf.size()) + " atoms have none and are grey");
+    if (coloring.range) {
+        values.low = (*coloring.range)[0];
+        values.high = (*coloring.range)[1];
+        return;
+    }
+    const bool varies = high > low || values.byPoint();
+    if (!spreads) return;
+    if (varies) {
+        spread(values);
+        if (signedRange) balance(values);
+    } else if (none < values.valueOf.size()) {
+        values.low = values.high = double(low);
+        warnings.push_back(values.title + ": all atoms have " + formatted("%.6g", double(low)) +
+                           ", which is grey [hint: `range`]");
+    }
+}
+
+} // namespace
+
+BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls, const ValueBy& by,
+                      const SelectOptions::Coloring& coloring, const Vec3d& centre,
+                      std::size_t maxBytes, std::vector<std::string>& warnings)
+{
     const auto filled = [&](BallValues out, const auto& value) {
         for (const Ball& ball : balls) out.valueOf.push_back(value(ball));
         return out;
@@ -241,50 +340,53 @@ BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls
     using Kind = ValueBy::Kind;
     const std::string& word = valueWords()[std::size_t(by.kind)];
     BallValues out;
+    bool spreads = true; // the range over the values
     if ((by.kind == Kind::BFactor || by.kind == Kind::Occupancy) && structure.hasRadii)
         throw Error(ErrorKind::Input, displayName(structure.source) + ": it has no " +
                                           (by.kind == Kind::BFactor ? "B factors" : "occupancies") +
                                           ", which a PDB or mmCIF file has");
     if (by.kind == Kind::BFactor) {
-        out = filled(bFactors(structure, ranged, warnings),
+        out = filled(bFactors(structure, coloring.range.has_value(), warnings),
                      [&](const Ball& ball) { return atomOf(ball).bFactor; });
-        if (out.map == Map::Magnitude) spread(out);
+        spreads = out.name == word;
     } else if (by.kind == Kind::Occupancy) {
-        out = filled({word, "Occupancy", "", Map::Magnitude, 0.0, 1.0, {}},
+        out = filled({word, "Occupancy", "", "viridis", 0.0, 1.0, {}},
                      [&](const Ball& ball) { return atomOf(ball).occupancy; });
     } else if (by.kind == Kind::Charge) {
         if (structure.charges.empty())
             throw Error(ErrorKind::Input, displayName(structure.source) +
                                               ": it has no charges, which a PQR file has");
-        out = filled({word, "Charge", "e", Map::Charge, -1.0, 1.0, {}},
+        out = filled({word, "Charge", "e", "BuRd", -1.0, 1.0, {}},
                      [&](const Ball& ball) { return structure.charges[std::size_t(ball.atom)]; });
-        spread(out);
-        balance(out);
     } else if (by.kind == Kind::Hydrophobicity) {
-        out =
-            filled({word, "Hydrophobicity", "", Map::Signed, -4.5, 4.5, {}}, [&](const Ball& ball) {
-                return hydrophobicityOf(residueOf(structure, ball).name);
-            });
+        out = filled(
+            {word, "Hydrophobicity", "Kyte-Doolittle", "RdBu", -4.5, 4.5, {}},
+            [&](const Ball& ball) { return hydrophobicityOf(residueOf(structure, ball).name); });
+        spreads = false;
     } else if (by.kind == Kind::Rainbow) {
         const std::vector<float> places = placesInChains(structure);
-        out = filled({word, "N to C", "", Map::Rainbow, 0.0, 1.0, {}},
+        out = filled({word, "N to C", "", "turbo", 0.0, 1.0, {}},
                      [&](const Ball& ball) { return places[std::size_t(atomOf(ball).residue)]; });
+        spreads = false;
     } else if (by.kind == Kind::Radius) {
-        out =
-            filled({word, "Radius", "Å", Map::Magnitude, 0.0, 1.0, centre},
-                   [&](const Ball& ball) { return float((Vec3d(ball.center) - centre).length()); });
-        spread(out);
+        out = filled({word, "Radius", "Å", "viridis", 0.0, 1.0, centre}, [&](const Ball& ball) {
+            return float((Vec3d(ball.center) - centre).length());
+        });
     } else if (by.kind == Kind::Table) {
-        out = {"value", "Value", "", Map::Magnitude, 0.0, 1.0, {}};
+        out = {"value", "Value", "", "viridis", 0.0, 1.0, {}};
         fillFromTable(structure, balls, by.file, maxBytes, out, warnings);
-        spread(out);
     } else {
-        out = {"potential", "Potential", "kT/e", Map::Charge, -5.0, 5.0, {}};
+        out = {"potential", "Potential", "kT/e", "BuRd", -5.0, 5.0, {}};
         const auto field = std::make_shared<ScalarMap>(readDx(by.file, maxBytes));
         out.field = field;
-        out.outward = by.kind == Kind::PotentialOut ? probe : 0.0;
+        spreads = false;
         for (const Ball& ball : balls) out.valueOf.push_back(field->at(Vec3d(ball.center)));
     }
+    if (!out.byPoint()) lendToHydrogens(structure, balls, by.kind == Kind::BFactor, out);
+    if (!out.byPoint() && coloring.byResidue) averageResidues(structure, balls, out);
+    judge(coloring, spreads, by.kind == Kind::Charge, out, warnings);
+    if (!coloring.palette.empty()) out.palette = coloring.palette;
+    out.flat = coloring.flat;
     return out;
 }
 

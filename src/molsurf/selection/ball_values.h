@@ -39,18 +39,21 @@ std::string textOf(const ValueBy& by);
 /// - radius: the distance from the centre [Å].
 /// - table: lines of chain, residue number, perhaps the atom's name, and the value, parted by
 ///   commas or white space; what starts with # and a first line without a number are skipped.
-/// - potential: of a map in the format OpenDX, as APBS writes it [kT/e], on the surface;
-///   potential-out: a probe radius outside of it.
+/// - potential: of a map in the format OpenDX, as APBS writes it [kT/e].
 ///
-/// @param[in]     ranged    whether the ends of the colours are given: B factors are then no pLDDT
-/// @param[in]     probe     radius [Å]
+/// A hydrogen without a value has that of the nearest heavy atom of its residue, and so has one
+/// with a B factor of 0 beside heavy atoms with others. B factors, occupancies, charges and values
+/// of a table that are all the same show nothing, if no range is given.
+///
+/// @param[in]     coloring  range: B factors are then no pLDDT
 /// @param[in]     centre    that radii are taken from [Å]
 /// @param[in]     maxBytes  that a file may have; see loadText()
-/// @param[in,out] warnings  of residues in the table that the structure does not have
+/// @param[in,out] warnings  of residues in the table that the structure does not have, of balls
+///                          without a value, of values that are all the same
 /// @throws Error(ErrorKind::Input) if the file has no such values, or the table cannot be read or
 ///         fits no atom
 BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls, const ValueBy& by,
-                      bool ranged, const openvdb::Vec3d& centre, double probe, std::size_t maxBytes,
-                      std::vector<std::string>& warnings);
+                      const SelectOptions::Coloring& coloring, const openvdb::Vec3d& centre,
+                      std::size_t maxBytes, std::vector<std::string>& warnings);
 
 } // namespace molsurf

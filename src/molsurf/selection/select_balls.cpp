@@ -446,19 +446,14 @@ void applyResolutions(const Structure& structure, const SelectOptions& options, 
 }
 
 /// Adds the values that a surface is coloured by.
-void addValues(const Structure& structure, const SelectOptions& options, double probe, BallSet& out)
+void addValues(const Structure& structure, const SelectOptions& options, BallSet& out)
 {
     openvdb::Vec3d centre(0.0);
     for (const Ball& ball : out.balls)
         centre += openvdb::Vec3d(ball.center) / double(out.balls.size());
     if (out.unit) centre = out.unit->centre;
-    BallValues values =
-        ballValues(structure, out.balls, *options.valueBy, options.valueRange.has_value(), centre,
-                   probe, options.maxInput, out.warnings);
-    if (options.valueRange) {
-        values.low = (*options.valueRange)[0];
-        values.high = (*options.valueRange)[1];
-    }
+    BallValues values = ballValues(structure, out.balls, *options.valueBy, options.coloring, centre,
+                                   options.maxInput, out.warnings);
     const std::size_t none = std::size_t(std::count_if(values.valueOf.begin(), values.valueOf.end(),
                                                        [](float v) { return !std::isfinite(v); }));
     if (none == values.valueOf.size() && !values.byPoint())
@@ -622,7 +617,8 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
         out.warnings.insert(out.warnings.end(), out.labels->warnings.begin(),
                             out.labels->warnings.end());
     }
-    if (options.valueBy) addValues(structure, options, probe, out);
+    out.coloring = options.coloring;
+    if (options.valueBy) addValues(structure, options, out);
     if (options.plainColor) out.colors.assign(out.balls.size(), *options.plainColor);
     if (options.names) out.names = ballNames(structure, out.balls, out.copyBegin, out.copyNumbers);
     if (out.unit) countWhole(out);

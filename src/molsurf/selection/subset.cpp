@@ -41,6 +41,7 @@ BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which, Coun
     out.resolutions = atoms.resolutions;
     out.resolutionOf = gather(atoms.resolutionOf, which);
     out.colors = gather(atoms.colors, which);
+    out.coloring = atoms.coloring;
     out.copyBegin = {0, out.balls.size()};
     out.model = atoms.model;
     out.instances = atoms.instances;

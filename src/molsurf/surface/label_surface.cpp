@@ -105,6 +105,14 @@ void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Lab
     }
 }
 
+/// Whether points have values that nearby balls may share.
+bool hasPoints(const BallSet& atoms)
+{
+    if (!atoms.labels || !atoms.labels->values) return false;
+    const BallValues& values = *atoms.labels->values;
+    return values.byPoint() || !isFlat(values);
+}
+
 /// Labels and colours. @return the ball of each vertex, if anything depends on it
 Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, Progress& progress,
              MolecularSurface& result)
@@ -112,7 +120,7 @@ Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, 
     Mesh& mesh = result.mesh;
     const auto has = [&](const char* name) { return hasField(options.fields, name); };
     const bool grouped = atoms.labels && !atoms.labels->groups.empty();
-    colorByCurvature(options.color, mesh);
+    colorByCurvature(options.color, atoms.coloring, mesh);
     const bool colored = options.color != ColorBy::Nothing && mesh.colors.empty();
     Labels nearest;
     const bool areas = options.ballAreas && result.ballAreas.empty();
@@ -133,23 +141,26 @@ Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, 
     const std::vector<Color> ballColor =
         atoms.colors.empty() ? ballColors(atoms, options.color, progress) : atoms.colors;
     mesh.colors = colorsOf(nearest, ballColor);
+    for (std::string& warning : colorWarnings(atoms, options.color))
+        result.report.warnings.push_back(std::move(warning));
     if (options.color == ColorBy::Value && atoms.labels && atoms.labels->values) {
-        addValues(*atoms.labels->values, nearest, mesh);
+        addValues(atoms, options, nearest, reach, progress, mesh);
         const std::vector<float>& values = mesh.scalars.back().values;
         if (std::none_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }))
             result.report.warnings.push_back(atoms.labels->values->title +
                                              ": no point of the surface has one, all is grey");
-        if (options.ballAreas)
-            result.ballValues =
-                meansOf(mesh.scalars.back().values, nearest, mesh, atoms.balls.size());
+        const BallValues& own = *atoms.labels->values;
+        if (options.ballAreas && own.byPoint())
+            result.ballValues = meansOf(values, nearest, mesh, atoms.balls.size());
+        else if (options.ballAreas)
+            result.ballValues.assign(own.valueOf.begin(), own.valueOf.end());
     }
     if (has("Cd")) {
-        const bool byPoint = options.color == ColorBy::Value && atoms.labels &&
-                             atoms.labels->values && atoms.labels->values->byPoint();
-        result.fields.push_back(byPoint
-                                    ? valueGrid(*result.surface, *atoms.labels->values, progress)
-                                    : colorGrid(*result.surface, has("density"), atoms.balls,
-                                                ballColor, reach, progress));
+        const bool inside = has("density");
+        result.fields.push_back(
+            options.color == ColorBy::Value && hasPoints(atoms)
+                ? valueGrid(*result.surface, inside, PointValues(atoms, options), reach, progress)
+                : colorGrid(*result.surface, inside, atoms.balls, ballColor, reach, progress));
     }
     return nearest;
 }

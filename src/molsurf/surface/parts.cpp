@@ -231,7 +231,7 @@ MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, P
         append(whole.mesh, result.mesh, part.name);
         add(whole.report, result.report, part.name);
     }
-    colorByCurvature(options.color, whole.mesh);
+    colorByCurvature(options.color, atoms.coloring, whole.mesh);
     std::vector<Cavity>& cavities = whole.report.surface.cavities;
     std::stable_sort(cavities.begin(), cavities.end(),
                      [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });

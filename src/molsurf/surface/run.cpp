@@ -176,7 +176,8 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
     } else {
         result = runParts(atoms, wanted, progress);
     }
-    if (shown) addCurvatureColors(options.color, !helps, result.mesh, result.fields);
+    if (shown)
+        addCurvatureColors(options.color, atoms.coloring, !helps, result.mesh, result.fields);
     Report& report = result.report;
     report.atoms = atoms.whole();
     report.voxel = options.voxel;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/settings.h"
 
+#include "molsurf/color/color_map.h"
 #include "molsurf/selection/ball_values.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/coarse_grain.h"
@@ -422,7 +423,7 @@ Setting colorSetting()
     for (const std::string& start : colorFiles()) values.push_back(start + "FILE");
     const std::string text = "colours of the mesh and the grid Cd: " + joinWords(words, ", ") +
                              ", plain=#RRGGBB; by value: " + joinWords(values, ", ") +
-                             "; potentials are .dx, potential-out is a probe out";
+                             "; potentials are .dx";
     Setting color{"color", SettingType::Text, "WORD", wrapped(text, helpWidth),
                   "none",  colorWords()};
     color.set = setColor;
@@ -446,7 +447,72 @@ void setRange(Settings& s, const Values& values)
     const double low = parsedValue<double>("range", expected, words[0]);
     const double high = parsedValue<double>("range", expected, words[1]);
     if (!(low < high)) wrongValue("range", expected, values.back());
-    s.atoms.valueRange = {low, high};
+    s.atoms.coloring.range = {low, high};
+}
+
+/// The rows of how values and curvatures are shown.
+std::vector<Setting> coloringSettings()
+{
+    Setting range{"range", SettingType::List, "LOW,HIGH", "values at the ends of the colours", ""};
+    range.set = setRange;
+    range.get = [](const Settings& s) {
+        const auto& r = s.atoms.coloring.range;
+        return r ? shortest((*r)[0]) + "," + shortest((*r)[1]) : "auto";
+    };
+    Values palettes;
+    for (const Palette& row : paletteTable()) palettes.push_back(row.word);
+    Setting palette{
+        "palette",
+        SettingType::Word,
+        "WORD",
+        wrapped("colours of values and curvatures, low ones first: " + joinWords(palettes, ", "),
+                helpWidth),
+        "that of the values",
+        palettes};
+    palette.set = [=](Settings& s, const Values& values) {
+        const Palette* row = findPalette(values.back());
+        if (!row)
+            wrongValue("palette", joinWords(palettes, ", "), values.back(),
+                       didYouMean(values.back(), palettes));
+        s.atoms.coloring.palette = row->word;
+    };
+    palette.get = [](const Settings& s) {
+        return s.atoms.coloring.palette.empty() ? "auto" : s.atoms.coloring.palette;
+    };
+    Setting valueOf{"value-of", SettingType::Word,
+                    "WORD",     "whose values: atom, or residue (the mean of its atoms)",
+                    "atom",     {"atom", "residue"}};
+    valueOf.set = [](Settings& s, const Values& values) {
+        const std::string word = lowered(values.back());
+        if (word != "atom" && word != "residue") wrongValue("value-of", "atom or residue", word);
+        s.atoms.coloring.byResidue = word == "residue";
+    };
+    valueOf.get = [](const Settings& s) {
+        return std::string(s.atoms.coloring.byResidue ? "residue" : "atom");
+    };
+    Setting outward{"outward", SettingType::Number, "A",
+                    "potentials are taken so far outside of the surface [Å]",
+                    "probe radius; sas: 0"};
+    outward.low = 0.0;
+    outward.high = 100.0;
+    outward.set = [](Settings& s, const Values& values) {
+        const double length = parsedValue<double>("outward", "a number", values.back());
+        if (!(length >= 0.0 && length <= 100.0))
+            wrongValue("outward", "a number of Å from 0 to 100", values.back());
+        s.atoms.coloring.outward = length;
+    };
+    outward.get = [](const Settings& s) -> SettingValue {
+        const auto& length = s.atoms.coloring.outward;
+        if (length) return *length;
+        return std::string("auto");
+    };
+    std::vector<Setting> rows = {
+        range, palette, valueOf,
+        flag("flat-values", "a point has the value of one atom, not a blend of nearby ones",
+             MOLSURF_OF(atoms.coloring.flat)),
+        outward};
+    for (Setting& row : rows) row.ofAtoms = true;
+    return rows;
 }
 
 std::vector<Setting> groupSettings()
@@ -473,26 +539,17 @@ std::vector<Setting> groupSettings()
         s.options.split = true;
     };
     split.get = [](const Settings& s) { return std::string(s.options.split ? "group" : "none"); };
-    Setting range{"range", SettingType::List, "LOW,HIGH", "values at the ends of the colours", ""};
-    range.set = setRange;
-    range.get = [](const Settings& s) {
-        const auto& r = s.atoms.valueRange;
-        return r ? shortest((*r)[0]) + "," + shortest((*r)[1]) : "auto";
-    };
     Setting groupBy =
         parsed("group-by", "WORD",
                "groups by chain, entity, class (a chain's copies),\ncopy or residues:N instead", "",
                MOLSURF_OF(atoms.groupBy), parseGroupBy);
     groupBy.words = {"chain", "entity", "class", "copy"};
-    groupBy.ofAtoms = range.ofAtoms = true;
-    return {groupBy,
-            split,
-            surfaceOf,
+    groupBy.ofAtoms = true;
+    return {groupBy, split, surfaceOf,
             changed(flag("interfaces", "buried areas between groups, for the report",
                          MOLSURF_OF(options.interfaces)),
                     [](Setting& row) { row.get = nullptr; }),
-            colorSetting(),
-            range};
+            colorSetting()};
 }
 
 std::vector<Setting> flowSettings()
@@ -542,7 +599,8 @@ const std::vector<Setting>& settingTable()
     static const std::vector<Setting> all = [] {
         std::vector<Setting> rows = atomSettings();
         for (Setting& row : rows) row.ofAtoms = true;
-        for (auto* more : {surfaceSettings, resolutionSettings, groupSettings, flowSettings})
+        for (auto* more :
+             {surfaceSettings, resolutionSettings, groupSettings, coloringSettings, flowSettings})
             for (Setting& row : more()) rows.push_back(std::move(row));
         return rows;
     }();

@@ -149,6 +149,7 @@ struct Source {
     const openvdb::GridPtrVec& grids;
     const openvdb::MetaMap& metadata;
     std::vector<Coord> voxels; ///< those nearest to the vertices
+    const SelectOptions::Coloring& coloring;
 };
 
 /// Adds the identities that the grids hold to the mesh.
@@ -197,12 +198,12 @@ void colorByLabel(const Source& from, const Int32Grid& ids, MolecularSurface& re
 void colorByCurvature(const Source& from, ColorBy by, FloatGrid& levelSet, const Spline& spline,
                       Progress& progress, MolecularSurface& result)
 {
-    colorByCurvature(by, result.mesh);
+    colorByCurvature(by, from.coloring, result.mesh);
     const auto local = levelSet.copy();
     local->setTransform(openvdb::math::Transform::createLinearTransform(levelSet.voxelSize()[0]));
     std::vector<openvdb::GridBase::Ptr> curvatures =
         curvatureGrids(*local, spline, {curvatureNameOf(by)}, progress);
-    addCurvatureColors(by, false, result.mesh, curvatures);
+    addCurvatureColors(by, from.coloring, false, result.mesh, curvatures);
     addColorGrid(from, openvdb::gridPtrCast<Vec3SGrid>(curvatures.at(0)), result);
 }
 
@@ -279,9 +280,11 @@ void addLabelMetadata(const BallSet& atoms, const std::vector<std::string>& fiel
 }
 
 StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::MetaMap& metadata,
-                            const SurfaceOptions& options, Progress& progress)
+                            const SurfaceOptions& options, const SelectOptions::Coloring& coloring,
+                            Progress& progress)
 {
     StoredSurface stored;
+    stored.names.coloring = coloring;
     stored.scale = numberOf(metadata, "scene.units_per_angstrom", 1.0);
     progress.update("mesh", 0.0);
     Operand operand = operandOf(inAngstrom(grids, metadata), progress);
@@ -289,7 +292,7 @@ StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::Met
         stored.warnings.push_back("no grid spline: it is fitted to the level set, close to the "
                                   "one that was [hint: `fields` spline when it is built]");
     for (const std::string& warning : operand.warnings) stored.warnings.push_back(warning);
-    const Source from{grids, metadata, voxelsOf(operand.surface, operand.voxel)};
+    const Source from{grids, metadata, voxelsOf(operand.surface, operand.voxel), coloring};
 
     SurfaceRun run(stored.names, options, Scope(), progress);
     const Pose pose = operand.surface.pose;

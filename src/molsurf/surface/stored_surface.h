@@ -39,9 +39,11 @@ void addLabelMetadata(const BallSet& atoms, const std::vector<std::string>& fiel
 ///
 /// @param[in] options  color: Nothing takes the colours of the file, if it has any; fields:
 ///                     curvatures for the mesh
+/// @param[in] coloring  of curvatures
 /// @throws Error(ErrorKind::Input) if there is no such surface, or if the file cannot give the
 ///         colours; says which fields they need
 StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::MetaMap& metadata,
-                            const SurfaceOptions& options, Progress& progress);
+                            const SurfaceOptions& options, const SelectOptions::Coloring& coloring,
+                            Progress& progress);
 
 } // namespace molsurf

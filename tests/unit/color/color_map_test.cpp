@@ -24,14 +24,14 @@ TEST(LinearLight, IsThatOfTheStandardOfSrgb)
 
 TEST(ColorScale, EndsMiddleAndBeyond)
 {
-    const ColorScale plain = magnitudeScale(2.0);
+    const ColorScale plain = scaleOf("viridis", 0.0, 2.0);
     EXPECT_EQ(plain.at(0.0), (Color{68, 1, 84}));
     EXPECT_EQ(plain.at(2.0), (Color{253, 231, 37}));
     EXPECT_EQ(plain.at(5.0), plain.at(2.0));
     EXPECT_EQ(plain.at(-1.0), plain.at(0.0));
     EXPECT_EQ(plain.at(std::nan("")), plain.at(0.0));
     EXPECT_EQ(plain.at(2.0 / 9.0), plain.stops[1]);
-    const ColorScale both = signedScale(2.0);
+    const ColorScale both = scaleOf("RdBu", -2.0, 2.0);
     EXPECT_EQ(both.at(0.0), (Color{247, 247, 247}));
     EXPECT_GT(both.at(2.0)[0], both.at(2.0)[2]);   // red outside
     EXPECT_GT(both.at(-2.0)[2], both.at(-2.0)[0]); // blue inside

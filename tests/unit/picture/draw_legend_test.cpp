@@ -95,7 +95,7 @@ TEST(DrawLegend, BarRunsFromHighToLow)
     Legend legend;
     legend.title = "Mean curvature";
     legend.unit = "1/\xC3\x85";
-    legend.scale = signedScale(0.123);
+    legend.scale = scaleOf("RdBu", -0.123, 0.123);
     const Picture picture = drawn(legend, 800, 500);
     const auto row = [&](const Color& color) {
         for (int y = 0; y < picture.height; ++y) {

@@ -12,8 +12,6 @@ namespace molsurf::test
 namespace
 {
 
-using Map = BallValues::Map;
-
 /// Residues of as many atoms each, all of chain A.
 Structure residuesOf(int residues, int atoms, const std::function<float(int)>& bFactor)
 {
@@ -35,13 +33,69 @@ Structure residuesOf(int residues, int atoms, const std::function<float(int)>& b
     return s;
 }
 
-BallValues valuesOf(const Structure& s, const std::string& by)
+BallValues valuesOf(const Structure& s, const std::string& by,
+                    const SelectOptions::Coloring& coloring, std::vector<std::string>& warnings)
 {
     std::vector<Ball> balls;
     for (std::size_t i = 0; i < s.atoms.size(); ++i)
         balls.push_back({s.atoms[i].position, 1.7, std::int32_t(i)});
+    return ballValues(s, balls, *parseValueBy(by), coloring, openvdb::Vec3d(0.0), 0, warnings);
+}
+
+BallValues valuesOf(const Structure& s, const std::string& by)
+{
     std::vector<std::string> warnings;
-    return ballValues(s, balls, *parseValueBy(by), false, openvdb::Vec3d(0.0), 1.4, 0, warnings);
+    return valuesOf(s, by, SelectOptions::Coloring(), warnings);
+}
+
+/// Residues of three atoms, the last of which is a hydrogen beside the second.
+Structure withHydrogens(float ofHydrogen)
+{
+    Structure s =
+        residuesOf(2, 3, [&](int i) { return i % 3 == 2 ? ofHydrogen : 10.0f * float(i + 1); });
+    for (int i = 0; i < 6; ++i) {
+        const double along[] = {0.0, 1.5, 2.5};
+        Atom& atom = s.atoms[std::size_t(i)];
+        atom.position = {along[i % 3] + 20.0 * (i / 3), 0.0, 0.0};
+        atom.element = i % 3 == 2 ? 1 : 6;
+    }
+    return s;
+}
+
+TEST(BallValues, HydrogensWithoutOneTakeThatOfTheirAtom)
+{
+    EXPECT_EQ(valuesOf(withHydrogens(0.0f), "bfactor").valueOf,
+              (std::vector<float>{10, 20, 20, 40, 50, 50}));
+    EXPECT_EQ(valuesOf(withHydrogens(7.0f), "bfactor").valueOf,
+              (std::vector<float>{10, 20, 7, 40, 50, 7}));
+}
+
+TEST(BallValues, OfResiduesAreMeans)
+{
+    SelectOptions::Coloring coloring;
+    coloring.byResidue = true;
+    std::vector<std::string> warnings;
+    EXPECT_EQ(valuesOf(withHydrogens(30.0f), "bfactor", coloring, warnings).valueOf,
+              (std::vector<float>{20, 20, 20, 40, 40, 40}));
+    EXPECT_TRUE(warnings.empty());
+}
+
+TEST(BallValues, ThatAreAllTheSameShowNothing)
+{
+    SelectOptions::Coloring coloring;
+    std::vector<std::string> warnings;
+    const Structure s = residuesOf(3, 1, [](int) { return 12.5f; });
+    const BallValues same = valuesOf(s, "bfactor", coloring, warnings);
+    EXPECT_EQ(same.low, 12.5);
+    EXPECT_EQ(same.high, 12.5);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0], "B factor: all atoms have 12.5, which is grey [hint: `range`]");
+    coloring.range = {{0.0, 50.0}};
+    EXPECT_EQ(valuesOf(s, "bfactor", coloring, warnings).high, 50.0);
+    EXPECT_EQ(warnings.size(), 1u);
+    // One atom that differs has a colour, though it is fewer than two of a hundred.
+    const Structure one = residuesOf(101, 1, [](int i) { return i == 5 ? 3.0f : 2.0f; });
+    EXPECT_EQ(valuesOf(one, "bfactor").high, 3.0);
 }
 
 TEST(BallValues, RangeLeavesOutTwoOfAHundredAtEachEnd)
@@ -56,13 +110,13 @@ TEST(BallValues, RangeLeavesOutTwoOfAHundredAtEachEnd)
 
 TEST(BallValues, APredictionHasOneValueAResidueAndMoreThanOneInAll)
 {
-    EXPECT_EQ(valuesOf(residuesOf(3, 2, [](int i) { return 20.0f * float(i / 2); }), "bfactor").map,
-              Map::Confidence);
-    EXPECT_EQ(valuesOf(residuesOf(3, 2, [](int) { return 20.0f; }), "bfactor").map, Map::Magnitude);
-    EXPECT_EQ(valuesOf(residuesOf(3, 2, [](int i) { return float(i); }), "bfactor").map,
-              Map::Magnitude);
-    EXPECT_EQ(valuesOf(residuesOf(3, 2, [](int i) { return 60.0f * float(i / 2); }), "bfactor").map,
-              Map::Magnitude); // above 100
+    const auto paletteOf = [](const std::function<float(int)>& bFactor) {
+        return valuesOf(residuesOf(3, 2, bFactor), "bfactor").palette;
+    };
+    EXPECT_EQ(paletteOf([](int i) { return 20.0f * float(i / 2); }), "plddt");
+    EXPECT_EQ(paletteOf([](int) { return 20.0f; }), "viridis");
+    EXPECT_EQ(paletteOf([](int i) { return float(i); }), "viridis");
+    EXPECT_EQ(paletteOf([](int i) { return 60.0f * float(i / 2); }), "viridis"); // above 100
 }
 
 TEST(BallValues, ChargesAreColouredAlikeToBothSides)
