@@ -10,6 +10,7 @@
 #include "molsurf/color/crisp_borders.h"
 #include "molsurf/color/legend.h"
 #include "molsurf/color/palette.h"
+#include "molsurf/color/value_colors.h"
 #include "molsurf/io/write_glb.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_report.h"
@@ -31,6 +32,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 
 namespace molsurf::tool
@@ -145,6 +148,43 @@ std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, co
     return out;
 }
 
+/// The owners of colours that meet along exact lines, or null: these run smoothly, or are of
+/// vertices.
+std::shared_ptr<const ColorOwners> bordersOf(const Call& call, const BallSet& atoms,
+                                             const Mesh& mesh, const Progress& progress)
+{
+    const ColorBy by = call.options.color;
+    const ColorKind& colors = kindOf(by);
+    if (!colors.hasBorders || !colors.hasBorders(atoms)) return nullptr;
+    if (atoms.balls.empty() || !mesh.parts.empty()) return nullptr;
+    const KindRow& kind = rowOf(call.options.kind);
+    std::vector<Ball> balls = atoms.balls;
+    for (Ball& ball : balls)
+        if (kind.isUnion) ball.radius += probeOf(call.options);
+    return std::make_shared<ColorOwners>(
+        colorOwners(balls, atoms.colors.empty() ? ballColors(atoms, by, progress) : atoms.colors));
+}
+
+/// The colours of points inside.
+std::function<Color(const openvdb::Vec3d&)>
+insideOf(const Call& call, const BallSet& atoms, const std::shared_ptr<const ColorOwners>& borders)
+{
+    constexpr double farthest = 30.0; // from a ball [Å]
+    if (borders)
+        return [borders](const openvdb::Vec3d& x) {
+            std::vector<OwnersPower> near;
+            borders->owners.at(x, 0.0, near);
+            return near.empty() ? neutralColor : borders->colors[std::size_t(near[0].owner)];
+        };
+    if (call.options.color == ColorBy::Nothing) return nullptr;
+    if (call.options.color != ColorBy::Value || atoms.balls.empty())
+        return [](const openvdb::Vec3d&) { return neutralColor; };
+    const auto values = std::make_shared<PointValues>(atoms, call.options);
+    return [values](const openvdb::Vec3d& x) {
+        return values->colorOf(values->at(x, openvdb::Vec3d(0.0), farthest));
+    };
+}
+
 /// The options of a picture of a surface, whose automatic view comes from the atoms: it is the same
 /// for every voxel.
 DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, bool coloredCopies,
@@ -170,6 +210,8 @@ void writePicture(const Call& call, const BallSet& atoms, const Mesh& mesh, doub
 {
     DrawOptions options = pictureOf(call, atoms, mesh, call.colorsCopies(), progress);
     options.turn += turn;
+    options.borders = bordersOf(call, atoms, mesh, progress);
+    if (options.clip) options.inside = insideOf(call, atoms, options.borders);
     const auto legend = call.drawsLegend() ? legendOf(call.options.color, atoms, mesh, progress)
                                            : std::optional<Legend>();
     if (!legend) {
@@ -216,29 +258,23 @@ std::string optionsDigest(const Call& call)
     return sha256OfText(all).substr(0, 16);
 }
 
-/// Whether a file shows borders between colours that are cut.
+/// Whether a file shows borders between colours that are cut: pictures find them by themselves.
 bool isCrisp(const Call& call, const Output& output)
 {
-    return call.crisp || output.holds(Views);
+    return output.holds(ColorChoices) || (call.crisp && !output.holds(Pixels));
 }
 
 std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh& mesh,
                               const Progress& progress)
 {
-    const ColorBy by = call.options.color;
-    const ColorKind& colors = kindOf(by);
-    const bool named = colors.hasBorders && colors.hasBorders(atoms);
     const bool shown = std::any_of(call.outputs.begin(), call.outputs.end(),
                                    [&](const Output& o) { return isCrisp(call, o); });
-    if (!named || !shown || !mesh.parts.empty()) return std::nullopt;
+    const auto borders = shown ? bordersOf(call, atoms, mesh, progress) : nullptr;
+    if (!borders) return std::nullopt;
     const KindRow& kind = rowOf(call.options.kind);
-    std::vector<Ball> balls = atoms.balls;
-    for (Ball& ball : balls)
-        if (kind.isUnion) ball.radius += probeOf(call.options);
-    return withCrispBorders(mesh, balls,
-                            atoms.colors.empty() ? ballColors(atoms, by, progress) : atoms.colors,
-                            kind.isUnion && !kind.hasOffset ? call.options.voxel : 0.0,
-                            by == ColorBy::Value ? atoms.labels->values->name : "", progress);
+    return withCrispBorders(
+        mesh, *borders, kind.isUnion && !kind.hasOffset ? call.options.voxel : 0.0,
+        call.options.color == ColorBy::Value ? atoms.labels->values->name : "", progress);
 }
 
 struct Writing {

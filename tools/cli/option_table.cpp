@@ -6,6 +6,7 @@
 
 #include "molsurf/bricks.h"
 #include "molsurf/error.h"
+#include "molsurf/picture/style.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/settings.h"
 #include "molsurf/surface/set_value.h"
@@ -450,6 +451,15 @@ OptionGroup sceneOptions()
               })}};
 }
 
+/// The words of styles and what they mean.
+std::string styleText()
+{
+    Values all;
+    for (const PictureStyle& row : styleTable())
+        all.push_back(row.word + (*row.help ? std::string(": ") + row.help : ""));
+    return wrapped(joinWords(all, "; "), helpWidth);
+}
+
 OptionGroup pictureOptions()
 {
     constexpr unsigned draw = wholes | Convert;
@@ -471,6 +481,14 @@ OptionGroup pictureOptions()
     plain.set = [](Call& call, const Values& values) {
         call.picture.plain = colorValue("plain-color", "", values.back());
     };
+    Option style{"style", 0, "WORD", styleText(), styleTable().front().word, draw};
+    for (const PictureStyle& row : styleTable()) style.words.push_back(row.word);
+    style.set = [words = style.words](Call& call, const Values& values) {
+        call.picture.style = findStyle(values.back());
+        if (!call.picture.style)
+            wrongValue("style", joinWords(words, ", "), values.back(),
+                       didYouMean(values.back(), words));
+    };
     return {
         "Picture",
         {shownIn(Views, view),
@@ -478,7 +496,13 @@ OptionGroup pictureOptions()
                                draw, -1e9, 1e9, "a number of degrees", MOLSURF_OF(picture.turn))),
          shownIn(Pixels, count("size", "N", "width in pixels; the height follows the shape", "1200",
                                draw, 16, 16384, MOLSURF_OF(picture.width))),
-         shownIn(Pixels, background), shownIn(PlainColor, plain),
+         shownIn(Pixels, background), shownIn(PlainColor, plain), shownIn(Pixels, style),
+         shownIn(Pixels, number("opacity", "O", "of the surface, seen from the front", "1", draw,
+                                0.01, 1.0, "a number from 0.01 to 1", MOLSURF_OF(picture.opacity))),
+         shownIn(Pixels, number("clip", "D",
+                                "cuts away what is nearer to the eye than the middle\n"
+                                "by more than D Å, and shows the inside",
+                                "", draw, -1e6, 1e6, "a number of Å", MOLSURF_OF(picture.clip))),
          shownIn(Pixels, flag("depth-cue", "distant parts fade to the background", draw,
                               MOLSURF_OF(picture.depthCue))),
          shownIn(Pixels,

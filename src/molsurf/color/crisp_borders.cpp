@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/color/crisp_borders.h"
 
-#include "molsurf/balls/power_owners.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/zero_between.h"
 
@@ -11,6 +10,7 @@
 #include <map>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 namespace molsurf
 {
@@ -247,9 +247,7 @@ private:
 
 } // namespace
 
-Mesh withCrispBorders(const Mesh& mesh, const std::vector<Ball>& balls,
-                      const std::vector<Color>& ballColor, double crease,
-                      const std::string& stepwise, const Progress& progress)
+ColorOwners colorOwners(const std::vector<Ball>& balls, const std::vector<Color>& ballColor)
 {
     std::map<Color, std::int32_t> number;
     std::vector<Color> colors;
@@ -259,7 +257,13 @@ Mesh withCrispBorders(const Mesh& mesh, const std::vector<Ball>& balls,
         if (isNew) colors.push_back(color);
         ownerOf.push_back(found->second);
     }
-    const PowerOwners owners(balls, ownerOf);
+    return {std::move(colors), PowerOwners(balls, std::move(ownerOf))};
+}
+
+Mesh withCrispBorders(const Mesh& mesh, const ColorOwners& of, double crease,
+                      const std::string& stepwise, const Progress& progress)
+{
+    const auto& [colors, owners] = of;
     const std::vector<std::int32_t> owner =
         colors.size() > 1 ? owners.ownersOf(mesh.positions, progress)
                           : std::vector<std::int32_t>(mesh.positions.size(), 0);
@@ -267,7 +271,7 @@ Mesh withCrispBorders(const Mesh& mesh, const std::vector<Ball>& balls,
     Builder out(mesh, owner, colors, stepwise);
     std::vector<CrossedEdge> edges = out.crossedEdges();
     constexpr std::size_t chunk = 256;
-    parallelFor((edges.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
+    parallelFor((edges.size() + chunk - 1) / chunk, progress, [&, &owners = owners](std::size_t c) {
         Cutter cutter(mesh, owners);
         for (std::size_t e = c * chunk; e < std::min(edges.size(), (c + 1) * chunk); ++e) {
             const auto [a, b] = edges[e].ends;

@@ -5,6 +5,7 @@
 /// Meshes whose colours meet along exact lines.
 
 #include "molsurf/ball.h"
+#include "molsurf/balls/power_owners.h"
 #include "molsurf/color/color_map.h"
 #include "molsurf/mesh.h"
 #include "molsurf/progress.h"
@@ -15,22 +16,30 @@
 namespace molsurf
 {
 
-/// Cuts triangles along the borders between colours, so that each triangle has one. A point has the
-/// colour of the ball whose power distance |x - c|^2 - r^2 to it is the least: the border of two
-/// balls is the circle in which their spheres meet.
+/// The colours of balls, and who has which part of space: a point has the colour of the ball whose
+/// power distance |x - c|^2 - r^2 to it is the least.
+struct ColorOwners {
+    std::vector<Color> colors; ///< of the owners, all different
+    PowerOwners owners;
+};
+
+/// @param[in] balls      that the surface is of
+/// @param[in] ballColor  one a ball
+ColorOwners colorOwners(const std::vector<Ball>& balls, const std::vector<Color>& ballColor);
+
+/// Cuts triangles along the borders between colours, so that each triangle has one. The border of
+/// two balls is the circle in which their spheres meet.
 ///
 /// New vertices lie on the cubic arcs that the normals imply (see measure()); there is one for each
 /// colour, with the labels of its side and means of the scalars. The vertices of the mesh keep
 /// their indices and come first.
 ///
 /// @param[in] mesh       with normals and without parts, near the balls (within 30 Å)
-/// @param[in] balls      that it is the surface of
-/// @param[in] ballColor  one a ball
+/// @param[in] owners     of the balls that it is the surface of
 /// @param[in] crease     how far from the circle of two spheres the mesh cuts off the crease there,
 ///                       at most [Å]; 0: it is not that of their union
 /// @param[in] stepwise   name of a scalar that belongs to a side, as labels do; may be none's
-Mesh withCrispBorders(const Mesh& mesh, const std::vector<Ball>& balls,
-                      const std::vector<Color>& ballColor, double crease,
+Mesh withCrispBorders(const Mesh& mesh, const ColorOwners& owners, double crease,
                       const std::string& stepwise, const Progress& progress);
 
 } // namespace molsurf

@@ -2,446 +2,259 @@
 #include "molsurf/picture/draw_mesh.h"
 
 #include "molsurf/core/parallel.h"
-#include "molsurf/io/part_ranges.h"
-#include "molsurf/mesh/ray_scene.h"
-
-#include <openvdb/math/Mat3.h>
+#include "molsurf/picture/layer.h"
+#include "molsurf/picture/outline.h"
+#include "molsurf/picture/style.h"
+#include "molsurf/picture/view.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <utility>
 #include <vector>
 
 namespace molsurf
 {
 
-using openvdb::Vec3d;
 using openvdb::Vec3f;
 
 namespace
 {
 
-constexpr std::size_t subpixels = 2; // a pixel is the mean of 2 x 2 rays
-constexpr std::size_t eyeRays = subpixels * subpixels;
-constexpr std::size_t occlusionRays = 12; // a pixel; at most 16
-constexpr int smoothing = 2;              // occlusion is averaged over so many pixels to each side
-constexpr double nearby = 60.0;           // what half of the occlusion looks at [Å]
-constexpr double farthestFade = 0.22;     // of a depth cue
-constexpr double border = 1.04;           // width of the picture over that of the molecule
-constexpr double outlinePixels = 8;       // least jump in depth that gets an outline, in pixels,
-constexpr double outlineLength = 2;       // and in Å
-constexpr float nothing = -std::numeric_limits<float>::infinity();
+constexpr float farthestFade = 0.22f; // of a depth cue
+constexpr double outlinePixels = 8;   // least jump in depth that gets an outline, in pixels,
+constexpr double outlineLength = 2;   // and in Å
+constexpr float creaseCosine = 0.6f;  // of the normals at a crease, at most
+constexpr int mostLayers = 12;        // of things that let light through
+constexpr float inkLight = 0.004f;    // of black lines
+constexpr float faint = 1e-3f;        // share of light that is not followed any more
 
-/// The frame of the picture: unit vectors, right-handed.
-struct View {
-    Vec3d center, right, up, toEye;
-    double pixel = 0.0;        ///< edge [Å]
-    double low = 0.0, far = 0; ///< of the mesh along toEye, from the center [Å]
-    int width = 0, height = 0; ///< [pixel]
+enum Edge : std::uint8_t { None, Jump, Crease };
 
-    Vec3d at(double x, double y) const
+/// fromLinearLight() of a table.
+std::uint8_t byteOf(float light)
+{
+    constexpr int last = 1 << 15;
+    static const std::vector<std::uint8_t> bytes = [] {
+        std::vector<std::uint8_t> all;
+        for (int i = 0; i <= last; ++i) all.push_back(fromLinearLight(double(i) / last));
+        return all;
+    }();
+    return bytes[std::size_t(std::clamp(light, 0.0f, 1.0f) * float(last) + 0.5f)];
+}
+
+/// Light and how much of what is behind it hides, as it comes from a pixel.
+struct Light {
+    Vec3f light{0.0f};
+    float cover = 0.0f;
+
+    void addBehind(const Light& other)
     {
-        return center + (x - 0.5 * width) * pixel * right + (0.5 * height - y) * pixel * up;
+        light += (1.0f - cover) * other.light;
+        cover += (1.0f - cover) * other.cover;
     }
 };
 
-/// The vertices of a part that lie farthest out in some direction of a few hundred.
-std::vector<Vec3d> outermost(const Mesh& mesh, const PartRange& part)
-{
-    constexpr int directions = 400;
-    std::vector<Vec3d> out;
-    for (int k = 0; k < directions; ++k) { // by a golden spiral
-        const double z = 1.0 - (2.0 * k + 1.0) / directions, r = std::sqrt(1.0 - z * z);
-        const double angle = 2.0 * M_PI * 0.6180339887498949 * k;
-        const Vec3f way(float(r * std::cos(angle)), float(r * std::sin(angle)), float(z));
-        std::size_t farthest = part.firstVertex;
-        for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v) {
-            if (mesh.positions[v].dot(way) > mesh.positions[farthest].dot(way)) farthest = v;
-        }
-        out.push_back(Vec3d(mesh.positions[farthest]));
-    }
-    return out;
-}
-
-/// Points that span what is shown: the vertices, or of copies the outermost ones.
-std::vector<Vec3d> spanOf(const Mesh& mesh, const std::vector<MeshInstance>& instances)
-{
-    std::vector<Vec3d> out;
-    if (instances.empty()) {
-        for (const Vec3f& p : mesh.positions) out.push_back(Vec3d(p));
-        return out;
-    }
-    std::vector<std::vector<Vec3d>> outer;
-    for (const PartRange& part : partRanges(mesh, "")) outer.push_back(outermost(mesh, part));
-    for (const MeshInstance& instance : instances) {
-        for (const Vec3d& x : outer[instance.part]) out.push_back(instance.placed(x));
-    }
-    return out;
-}
-
-/// Principal axes of points, the longest first.
-std::array<Vec3d, 3> principalAxes(const std::vector<Vec3d>& points)
-{
-    Vec3d mean(0.0);
-    for (const Vec3d& p : points) mean += p;
-    mean /= double(points.size());
-    openvdb::Mat3d covariance = openvdb::Mat3d::zero();
-    for (const Vec3d& p : points) {
-        const Vec3d d = p - mean;
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) covariance(i, j) += d[i] * d[j];
-        }
-    }
-    openvdb::Mat3d vectors;
-    Vec3d values;
-    std::array<Vec3d, 3> axes = {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)};
-    if (!openvdb::math::diagonalizeSymmetricMatrix(covariance, vectors, values)) return axes;
-    std::array<int, 3> order = {0, 1, 2};
-    std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return values[a] > values[b]; });
-    for (std::size_t k = 0; k < 3; ++k) {
-        Vec3d axis;
-        for (int i = 0; i < 3; ++i) axis[i] = vectors(i, order[k]);
-        axis.normalize();
-        const Vec3d size(std::abs(axis[0]), std::abs(axis[1]), std::abs(axis[2]));
-        const int largest = size[0] >= size[1] && size[0] >= size[2] ? 0
-                            : size[1] >= size[2]                     ? 1
-                                                                     : 2;
-        axes[k] = axis[largest] < 0.0 ? -axis : axis;
-    }
-    return axes;
-}
-
-/// viewAxes() of points.
-std::array<Vec3d, 3> axesOf(const std::vector<Vec3d>& points, const DrawOptions& options)
-{
-    Vec3d right, toEye;
-    if (options.toEye.lengthSqr() > 0.0) {
-        toEye = options.toEye.unit();
-        right = options.up.cross(toEye).unit();
-    } else {
-        const auto axes = principalAxes(points);
-        right = axes[0];
-        toEye = axes[0].cross(axes[1]);
-    }
-    const Vec3d up = toEye.cross(right);
-    const double angle = options.turn * M_PI / 180.0;
-    return {std::cos(angle) * right - std::sin(angle) * toEye, up,
-            std::cos(angle) * toEye + std::sin(angle) * right};
-}
-
-View chooseView(const Mesh& mesh, const DrawOptions& options)
-{
-    View view;
-    const std::vector<Vec3d> points = spanOf(mesh, options.instances);
-    const std::array<Vec3d, 3> axes =
-        axesOf(options.about.empty() ? points : options.about, options);
-    view.right = axes[0];
-    view.up = axes[1];
-    view.toEye = axes[2];
-
-    // A turn must not change the scale, so the extent across is that of all turns.
-    Vec3d low(std::numeric_limits<double>::max()), high(-low);
-    double reach = 0.0;
-    for (const Vec3d& x : points) {
-        const Vec3d seen(x.dot(view.right), x.dot(view.up), x.dot(view.toEye));
-        low = openvdb::math::minComponent(low, seen);
-        high = openvdb::math::maxComponent(high, seen);
-    }
-    const Vec3d mid = 0.5 * (low + high), extent = high - low;
-    view.center = mid[0] * view.right + mid[1] * view.up + mid[2] * view.toEye;
-    if (options.turn != 0.0 || options.turnable) {
-        for (const Vec3d& p : points) {
-            const Vec3d d = p - view.center;
-            reach = std::max(reach, std::hypot(d.dot(view.right), d.dot(view.toEye)));
-        }
-    }
-    const double across = std::max(extent[0], 2.0 * reach), upward = extent[1];
-    view.width = options.width;
-    view.pixel = border * across / view.width;
-    const double shape = std::clamp(upward * border / (across * border), 0.2, 4.0);
-    view.height = std::max(1, int(std::lround(view.width * shape)));
-    view.low = -0.5 * extent[2];
-    view.far = 0.5 * extent[2];
-    return view;
-}
-
-/// The surface as one pixel sees it.
-struct Sample {
-    Vec3f color{0.0f}; ///< linear, lit by the lamp and the sky, not shadowed
-    Vec3f normal{0.0f};
-    float depth = nothing; ///< along toEye, from the center [Å]
-    float open = 1.0f;     ///< share of the sky that is seen
-    float cover = 0.0f;    ///< share of the pixel
-};
-
-/// A number in [0, 1) for a pixel, unlike that of its neighbours (Jimenez, 2014).
-double noise(int x, int y)
-{
-    const double u = 0.06711056 * x + 0.00583715 * y;
-    const double v = 52.9829189 * (u - std::floor(u));
-    return v - std::floor(v);
-}
-
-/// The rays of a pixel go in packets of 4 and of 16, a quarter faster than one by one.
-class Tracer
+/// Turns layers into light.
+class Painter
 {
 public:
-    Tracer(const Mesh& mesh, const View& view, const DrawOptions& options)
-        : mesh_(mesh), view_(view), plain_(linearLight(options.plain)),
-          instances_(options.instances), parts_(trianglesOf(mesh)),
-          scene_(instances_.empty() ? RayScene(mesh) : RayScene(mesh, parts_, instances_)),
-          lamp_((view.toEye - 0.35 * view.right + 0.55 * view.up).unit())
+    Painter(const View& view, const PictureStyle& style, const DrawOptions& options)
+        : view_(view), style_(style), options_(options),
+          background_(linearLight(options.background))
     {
+        const Vec3f lamp = Tracer::lamp();
+        half_ = (lamp + Vec3f(0.0f, 0.0f, 1.0f)).unit();
     }
 
-    Sample trace(int x, int y) const
+    /// Adds a layer behind those before.
+    void add(const Layer& layer, const Progress& progress, std::vector<Light>& lights) const
     {
-        Sample out;
-        Vec3d at(0.0);
-        int hits = 0;
-        std::array<Vec3d, eyeRays> from;
-        alignas(16) RTCRayHit4 rays{};
-        for (std::size_t s = 0; s < eyeRays; ++s) {
-            const double dx = (double(s % subpixels) + 0.5) / subpixels;
-            const double dy = (double(s / subpixels) + 0.5) / subpixels;
-            from[s] = view_.at(x + dx, y + dy) + (view_.far + 1.0) * view_.toEye;
-            set(rays.ray, s, from[s], -view_.toEye, view_.far - view_.low + 2.0);
-            rays.hit.geomID[s] = rays.hit.instID[0][s] = RTC_INVALID_GEOMETRY_ID;
-        }
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        alignas(16) constexpr std::array<int, eyeRays> all = {-1, -1, -1, -1};
-        rtcIntersect4(all.data(), scene_.get(), &context, &rays);
-        for (std::size_t s = 0; s < eyeRays; ++s) {
-            if (rays.hit.geomID[s] == RTC_INVALID_GEOMETRY_ID) continue;
-            ++hits;
-            const MeshInstance* instance = nullptr;
-            std::size_t first = 0;
-            if (!instances_.empty()) {
-                instance = &instances_[rays.hit.instID[0][s]];
-                first = parts_[instance->part].first;
-            }
-            const auto& t = mesh_.triangles[first + rays.hit.primID[s]];
-            const float u = rays.hit.u[s], v = rays.hit.v[s], w = 1.0f - u - v;
-            Vec3f normal =
-                w * mesh_.normals[t[0]] + u * mesh_.normals[t[1]] + v * mesh_.normals[t[2]];
-            if (instance) normal = Vec3f(instance->turned(Vec3d(normal)));
-            normal.normalize();
-            if (normal.dot(Vec3f(view_.toEye)) < 0.0f) normal = -normal;
-            Vec3f color = mesh_.colors.empty() ? plain_
-                                               : w * linearLight(mesh_.colors[t[0]]) +
-                                                     u * linearLight(mesh_.colors[t[1]]) +
-                                                     v * linearLight(mesh_.colors[t[2]]);
-            if (instance)
-                color = linearLight(instance->color) * (mesh_.colors.empty() ? Vec3f(1.0f) : color);
-            out.color += lit(color, normal);
-            out.normal += normal;
-            const float depth = float(view_.far + 1.0) - rays.ray.tfar[s];
-            if (depth > out.depth) {
-                out.depth = depth;
-                at = from[s] - double(rays.ray.tfar[s]) * view_.toEye;
-            }
-        }
-        if (hits == 0) return out;
-        out.color /= float(hits);
-        out.normal.normalize();
-        out.cover = float(hits) / eyeRays;
-        out.open = openness(at, Vec3d(out.normal), noise(x, y));
-        return out;
+        const std::vector<std::uint8_t> ink = linesOf(layer, progress);
+        parallelFor(std::size_t(view_.height), progress, [&](std::size_t y) {
+            for (int x = 0; x < view_.width; ++x)
+                lights[placeOf(x, int(y))].addBehind(pixelOf(layer, ink, x, int(y)));
+        });
     }
 
 private:
-    /// Triangles [first, end) of each part.
-    static std::vector<std::pair<std::size_t, std::size_t>> trianglesOf(const Mesh& mesh)
+    std::size_t placeOf(int x, int y) const
     {
-        std::vector<std::pair<std::size_t, std::size_t>> out;
-        for (const PartRange& part : partRanges(mesh, ""))
-            out.emplace_back(part.firstTriangle, part.triangleEnd);
+        return std::size_t(y) * std::size_t(view_.width) + std::size_t(x);
+    }
+
+    std::size_t columns() const { return subpixels * std::size_t(view_.width); }
+
+    Light pixelOf(const Layer& layer, const std::vector<std::uint8_t>& ink, int x, int y) const
+    {
+        Light out;
+        const PixelLight shared = smoothed(layer, x, y);
+        for (std::size_t s = 0; s < eyeRays; ++s) {
+            const std::size_t n = (subpixels * std::size_t(y) + s / subpixels) * columns() +
+                                  subpixels * std::size_t(x) + s % subpixels;
+            const Seen& seen = layer.seen[n];
+            const float drawn = ink.empty() ? 0.0f : style_.ink * float(ink[n]) / 255.0f;
+            if (!seen.any() && drawn == 0.0f) continue;
+            Light one;
+            if (seen.any()) {
+                one.cover = opacityOf(seen);
+                one.light = one.cover * colorOf(seen, shared);
+            }
+            one.light = (1.0f - drawn) * one.light + Vec3f(drawn * inkLight);
+            one.cover = 1.0f - (1.0f - one.cover) * (1.0f - drawn);
+            out.light += one.light / float(eyeRays);
+            out.cover += one.cover / float(eyeRays);
+        }
         return out;
     }
 
-    template<typename Rays>
-    static void set(Rays& rays, std::size_t k, const Vec3d& from, const Vec3d& way, double length)
+    /// More light is held back by what is seen from the side, as of a thin skin.
+    float opacityOf(const Seen& seen) const
     {
-        rays.org_x[k] = float(from[0]);
-        rays.org_y[k] = float(from[1]);
-        rays.org_z[k] = float(from[2]);
-        rays.dir_x[k] = float(way[0]);
-        rays.dir_y[k] = float(way[1]);
-        rays.dir_z[k] = float(way[2]);
-        rays.tnear[k] = 0.0f;
-        rays.tfar[k] = float(length);
-        rays.mask[k] = ~0u;
+        if (options_.opacity >= 1.0 || seen.piece == Seen::cut) return 1.0f;
+        const float facing = std::max(seen.normal()[2], 0.05f);
+        return 1.0f - std::pow(1.0f - float(options_.opacity), 1.0f / facing);
     }
 
-    Vec3f lit(const Vec3f& color, const Vec3f& normal) const
+    Vec3f colorOf(const Seen& seen, const PixelLight& shared) const
     {
-        const float lamp = std::max(0.0f, normal.dot(Vec3f(lamp_)));
-        return (0.66f + 0.42f * lamp) * color;
-    }
-
-    /// Share of the sky over a point, weighted by the cosine: rays by a golden spiral. To every
-    /// other ray only what is near hides the sky, so that the insides of shells are not all dark.
-    float openness(const Vec3d& at, const Vec3d& normal, double turn) const
-    {
-        const Vec3d side = std::abs(normal[0]) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
-        const Vec3d u = normal.cross(side).unit(), v = normal.cross(u);
-        const Vec3d from = at + 1.5 * view_.pixel * normal + 1e-3 * view_.toEye;
-        alignas(64) RTCRay16 rays{};
-        alignas(64) std::array<int, 16> valid{};
-        for (std::size_t k = 0; k < occlusionRays; ++k) {
-            const double r = std::sqrt((double(k) + 0.5) / occlusionRays);
-            const double angle = 2.0 * M_PI * (double(k) * 0.6180339887498949 + turn);
-            const Vec3d way =
-                r * std::cos(angle) * u + r * std::sin(angle) * v + std::sqrt(1.0 - r * r) * normal;
-            set(rays, k, from, way, k % 2 ? nearby : std::numeric_limits<double>::infinity());
-            valid[k] = -1;
+        Vec3f color = linearLight(seen.color);
+        if (style_.sky > 0.0f) {
+            const Vec3f normal = seen.normal();
+            const Vec3f fill = Vec3f(0.75f, 0.1f, 0.65f);
+            const float seenLamp = 1.0f - style_.shadow * (1.0f - shared.lit);
+            const float key = std::max(0.0f, normal.dot(Tracer::lamp())) * seenLamp;
+            const float light = style_.sky * (0.08f + 0.92f * shared.open) + style_.key * key +
+                                style_.fill * std::max(0.0f, normal.dot(fill));
+            const float mirrored = style_.highlight * seenLamp * shared.open *
+                                   std::pow(std::max(0.0f, normal.dot(half_)), style_.gloss);
+            color = light * color + Vec3f(mirrored);
         }
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcOccluded16(valid.data(), scene_.get(), &context, &rays);
-        int open = 0;
-        for (std::size_t k = 0; k < occlusionRays; ++k) open += rays.tfar[k] >= 0.0f;
-        return float(open) / occlusionRays;
+        if (!options_.depthCue) return color;
+        const double behind = (view_.far - double(seen.depth)) / (view_.far - view_.low);
+        const float haze = farthestFade * float(std::clamp(behind, 0.0, 1.0));
+        return (1.0f - haze) * color + haze * background_;
     }
 
-    const Mesh& mesh_;
-    const View& view_;
-    Vec3f plain_;
-    const std::vector<MeshInstance>& instances_;
-    std::vector<std::pair<std::size_t, std::size_t>> parts_;
-    RayScene scene_;
-    Vec3d lamp_;
-};
-
-/// The samples, and what is made of them.
-class Canvas
-{
-public:
-    Canvas(const View& view, bool depthCue, std::vector<Sample> samples)
-        : view_(view), fade_(depthCue ? farthestFade : 0.0), samples_(std::move(samples))
+    /// The light of a pixel, as the mean of those about it on the same piece of surface: with these
+    /// weights all sixteen patterns of rays count alike.
+    PixelLight smoothed(const Layer& layer, int x, int y) const
     {
-    }
-
-    float cover(int x, int y) const { return at(x, y).cover; }
-
-    /// Of the surface alone, where there is any of it in a pixel.
-    Vec3f color(int x, int y, const Vec3f& background) const
-    {
-        const Sample& s = at(x, y);
-        if (s.cover <= 0.0f) return background;
-        const float shade = 0.12f + 0.88f * smoothOpen(x, y);
-        const double behind = (view_.far - double(s.depth)) / (view_.far - view_.low);
-        const float haze = float(fade_ * std::clamp(behind, 0.0, 1.0));
-        Vec3f lit = (1.0f - haze) * shade * s.color + haze * background;
-        return lit * (1.0f - 0.75f * outline(x, y));
-    }
-
-private:
-    const Sample& at(int x, int y) const
-    {
-        return samples_[std::size_t(y) * std::size_t(view_.width) + std::size_t(x)];
-    }
-
-    bool inside(int x, int y) const
-    {
-        return x >= 0 && y >= 0 && x < view_.width && y < view_.height;
-    }
-
-    /// Mean openness of the pixels about, of those on the same piece of surface.
-    float smoothOpen(int x, int y) const
-    {
-        const Sample& here = at(x, y);
-        const float reach = float(4.0 * smoothing * view_.pixel);
-        float sum = 0.0f, weights = 0.0f;
-        for (int j = y - smoothing; j <= y + smoothing; ++j) {
-            for (int i = x - smoothing; i <= x + smoothing; ++i) {
-                if (!inside(i, j) || at(i, j).cover <= 0.0f) continue;
-                const Sample& s = at(i, j);
-                if (std::abs(s.depth - here.depth) > reach) continue;
-                const float alike = std::max(0.0f, s.normal.dot(here.normal));
-                const float weight = alike * alike * alike * alike;
-                sum += weight * s.open;
+        PixelLight here = layer.lights[placeOf(x, y)];
+        if (here.depth == Seen::nothing || style_.sky == 0.0f) return here;
+        constexpr int reach = 2;
+        const float deepest = float(4.0 * reach * view_.pixel);
+        float open = 0.0f, lit = 0.0f, weights = 0.0f;
+        for (int j = std::max(y - reach, 0); j <= std::min(y + reach, view_.height - 1); ++j) {
+            for (int i = std::max(x - reach, 0); i <= std::min(x + reach, view_.width - 1); ++i) {
+                const PixelLight& other = layer.lights[placeOf(i, j)];
+                if (!(std::abs(other.depth - here.depth) < deepest)) continue;
+                const float alike = other.normal.dot(here.normal);
+                float weight = std::clamp(2.5f * (alike - 0.5f), 0.0f, 1.0f);
+                for (const int d : {i - x, j - y})
+                    if (d == reach || d == -reach) weight *= 0.5f;
+                open += weight * other.open;
+                lit += weight * other.lit;
                 weights += weight;
             }
         }
-        return weights > 0.0f ? sum / weights : here.open;
+        here.open = open / weights;
+        here.lit = lit / weights;
+        return here;
     }
 
-    /// 1 on the near side of a jump in depth.
-    float outline(int x, int y) const
+    /// What edge lies between two neighbours, the first of which is not farther away.
+    Edge edgeOf(const Seen& near, const Seen& far, float jump) const
     {
+        if (!far.any() || near.depth - far.depth > jump) return Jump;
+        if ((near.piece == Seen::cut) != (far.piece == Seen::cut)) return Jump;
+        if (style_.crease == 0.0f) return None;
+        if (near.piece != far.piece || near.normal().dot(far.normal()) < creaseCosine)
+            return Crease;
+        return options_.borders && near.color != far.color ? Crease : None;
+    }
+
+    /// The ink of lines along the near side of edges.
+    std::vector<std::uint8_t> linesOf(const Layer& layer, const Progress& progress) const
+    {
+        const float scale = 0.5f * float(subpixels) * float(view_.width) / 1000.0f;
+        const std::vector<float> radii = {0.0f, scale * style_.outline, scale * style_.crease};
+        if (radii[Jump] == 0.0f && radii[Crease] == 0.0f) return {};
         const float jump = float(std::max(outlinePixels * view_.pixel, outlineLength));
-        const float depth = at(x, y).depth;
-        float strongest = 0.0f;
-        for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
-            if (!inside(x + dx, y + dy)) continue;
-            const float there = at(x + dx, y + dy).depth;
-            const float drop = there == nothing ? 2.0f * jump : depth - there;
-            strongest = std::max(strongest, std::clamp(drop / jump - 1.0f, 0.0f, 1.0f));
-        }
-        return strongest;
+        std::vector<std::uint8_t> edges(layer.seen.size(), None);
+        const std::size_t width = columns(), height = layer.seen.size() / width;
+        parallelFor(height, progress, [&](std::size_t y) {
+            for (std::size_t x = 0; x < width; ++x) {
+                const std::size_t n = y * width + x;
+                const Seen& here = layer.seen[n];
+                if (!here.any()) continue;
+                const auto look = [&](bool there, std::size_t other) {
+                    if (!there || edges[n] == Jump) return;
+                    const Seen& seen = layer.seen[other];
+                    if (seen.depth > here.depth) return;
+                    const Edge edge = edgeOf(here, seen, jump);
+                    if (edge == Jump || edges[n] == None) edges[n] = edge;
+                };
+                look(x > 0, n - 1);
+                look(x + 1 < width, n + 1);
+                look(y > 0, n - width);
+                look(y + 1 < height, n + width);
+            }
+        });
+        return inkOf(width, edges, radii, progress);
     }
 
     const View& view_;
-    double fade_; // of the most distant parts
-    std::vector<Sample> samples_;
+    const PictureStyle& style_;
+    const DrawOptions& options_;
+    Vec3f background_, half_;
 };
+
+/// A picture without anything in it.
+Picture blank(const DrawOptions& options, int height)
+{
+    Picture picture;
+    picture.width = options.width;
+    picture.height = height;
+    const auto pixels = std::size_t(options.width) * std::size_t(height);
+    picture.rgb.reserve(3 * pixels);
+    for (std::size_t n = 0; n < pixels; ++n)
+        picture.rgb.insert(picture.rgb.end(), options.background.begin(), options.background.end());
+    if (options.transparent) picture.alpha.resize(pixels, 0);
+    return picture;
+}
 
 } // namespace
 
-std::array<Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options)
-{
-    return axesOf(options.about.empty() ? spanOf(mesh, options.instances) : options.about, options);
-}
-
 Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& progress)
 {
-    Picture picture;
-    if (mesh.triangles.empty()) {
-        picture.width = picture.height = options.width;
-        for (int n = 0; n < options.width * options.width; ++n) {
-            picture.rgb.insert(picture.rgb.end(), options.background.begin(),
-                               options.background.end());
-        }
-        if (options.transparent) picture.alpha.resize(picture.rgb.size() / 3, 0);
-        return picture;
-    }
+    if (mesh.triangles.empty()) return blank(options, options.width);
     const View view = chooseView(mesh, options);
-    const auto width = std::size_t(view.width), height = std::size_t(view.height);
-    std::vector<Sample> samples(width * height);
+    const PictureStyle& style = options.style ? *options.style : styleTable().front();
+    std::vector<Light> lights(std::size_t(view.width) * std::size_t(view.height));
     {
-        const Tracer tracer(mesh, view, options);
-        parallelFor(height, progress, [&](std::size_t y) {
-            for (std::size_t x = 0; x < width; ++x) {
-                samples[y * width + x] = tracer.trace(int(x), int(y));
-            }
-        });
+        const Tracer tracer(mesh, view, style, options);
+        const Painter painter(view, style, options);
+        Layer layer = tracer.first(progress);
+        painter.add(layer, progress, lights);
+        for (int n = 1; n < mostLayers && options.opacity < 1.0 && !layer.empty; ++n) {
+            layer = tracer.behind(layer, progress);
+            painter.add(layer, progress, lights);
+        }
     }
-    const Canvas canvas(view, options.depthCue, std::move(samples));
     const Vec3f background = linearLight(options.background);
-    picture.width = view.width;
-    picture.height = view.height;
-    picture.rgb.resize(3 * width * height);
-    if (options.transparent) picture.alpha.resize(width * height);
-    parallelFor(height, progress, [&](std::size_t y) {
-        for (std::size_t x = 0; x < width; ++x) {
-            const float cover = canvas.cover(int(x), int(y));
-            Vec3f color = canvas.color(int(x), int(y), background);
-            if (options.transparent)
-                picture.alpha[y * width + x] = std::uint8_t(std::lround(255.0f * cover));
-            else if (cover > 0.0f)
-                color = cover * color + (1.0f - cover) * background;
-            std::uint8_t* to = &picture.rgb[3 * (y * width + x)];
-            if (color == background) { // most of them, and exact
-                std::copy(options.background.begin(), options.background.end(), to);
-                continue;
+    Picture picture = blank(options, view.height);
+    parallelFor(std::size_t(view.height), progress, [&](std::size_t y) {
+        for (std::size_t n = y * std::size_t(view.width); n < (y + 1) * std::size_t(view.width);
+             ++n) {
+            const Light& light = lights[n];
+            if (light.cover < faint) continue;
+            Vec3f color = light.light;
+            if (options.transparent) {
+                color /= light.cover;
+                picture.alpha[n] = std::uint8_t(std::lround(255.0f * std::min(light.cover, 1.0f)));
+            } else {
+                color += (1.0f - light.cover) * background;
             }
-            for (int c = 0; c < 3; ++c) to[c] = fromLinearLight(double(color[c]));
+            for (std::size_t c = 0; c < 3; ++c) picture.rgb[3 * n + c] = byteOf(color[int(c)]);
         }
     });
     return picture;

@@ -11,10 +11,16 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace molsurf
 {
+
+struct ColorOwners;
+struct PictureStyle;
 
 /// Pixels in rows from top to bottom, three bytes (red, green, blue; sRGB) each.
 struct Picture {
@@ -35,9 +41,18 @@ struct DrawOptions {
     /// them; empty: the vertices.
     std::vector<openvdb::Vec3d> about{};
     Color background = {255, 255, 255};
-    bool depthCue = false;         ///< whether distant parts fade to the background
-    bool transparent = false;      ///< there is nothing behind the surface
-    Color plain = {140, 181, 222}; ///< of a mesh without colours
+    bool depthCue = false;               ///< whether distant parts fade to the background
+    bool transparent = false;            ///< there is nothing behind the surface
+    Color plain = {140, 181, 222};       ///< of a mesh without colours
+    const PictureStyle* style = nullptr; ///< null: the first of styleTable()
+    double opacity = 1.0; ///< of a surface seen from the front, in (0, 1]; what is seen aslant is
+                          ///< more opaque
+    std::optional<double> clip; ///< what is nearer to the eye than the middle by more than this is
+                                ///< cut away [Å], and the inside is seen there
+    /// Who has which point, for colours that meet along exact lines; else those of vertices.
+    std::shared_ptr<const ColorOwners> borders{};
+    /// The colour of a point inside, where it is cut; null: `plain`.
+    std::function<Color(const openvdb::Vec3d& x)> inside{};
     /// The copies of parts that are shown in the place of the mesh; empty: the mesh.
     std::vector<MeshInstance> instances{};
 };
@@ -46,8 +61,8 @@ struct DrawOptions {
 /// @param[in] mesh  with at least one vertex; those of copies are left to a few hundred outermost
 std::array<openvdb::Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options);
 
-/// Draws a mesh: orthographic, shaded by ambient occlusion and a lamp over the eye's shoulder, with
-/// dark outlines where one part stands before another. Rays by Embree.
+/// Draws a mesh: orthographic, lit by the sky and a lamp over the eye's left shoulder as far as the
+/// surface sees them, with lines where one part stands before another. Rays by Embree.
 /// The picture does not depend on the number of threads.
 ///
 /// @param[in] mesh  with normals; one without triangles gives a blank picture

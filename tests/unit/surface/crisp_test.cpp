@@ -67,7 +67,7 @@ TEST(CrispBorders, TwoBallsMeetInACircle)
     const std::vector<Ball> balls = {{Vec3f(0.3f, 0.1f, 0.2f), 2.5f, 0},
                                      {Vec3f(2.3f, 1.1f, 0.7f), 1.9f, 1}};
     const Mesh mesh = surfaceOf(balls, SurfaceKind::VanDerWaals);
-    const Mesh crisp = withCrispBorders(mesh, balls, {red, blue}, 1.0, "", Progress());
+    const Mesh crisp = withCrispBorders(mesh, colorOwners(balls, {red, blue}), 1.0, "", Progress());
     const Vec3d a(balls[0].center), axis = (Vec3d(balls[1].center) - a).unit();
     const double d = (Vec3d(balls[1].center) - a).length();
     const double along = (d * d + 2.5 * 2.5 - 1.9 * 1.9) / (2.0 * d);
@@ -93,7 +93,8 @@ TEST(CrispBorders, ThreeBallsMeetInPoints)
     const std::vector<Ball> balls = {
         {Vec3f(0, 0, 0), 2.2f, 0}, {Vec3f(2.4f, 0, 0), 2.0f, 1}, {Vec3f(1.1f, 2.1f, 0), 1.8f, 2}};
     const Mesh mesh = surfaceOf(balls, SurfaceKind::SolventExcluded);
-    const Mesh crisp = withCrispBorders(mesh, balls, {red, green, blue}, 0.0, "", Progress());
+    const Mesh crisp =
+        withCrispBorders(mesh, colorOwners(balls, {red, green, blue}), 0.0, "", Progress());
     std::size_t meetings = 0;
     for (const auto& [x, colors] : bordersOf(crisp)) {
         std::map<double, Color> powers;
@@ -118,10 +119,10 @@ TEST(CrispBorders, KeepWhatVerticesHave)
 {
     const std::vector<Ball> balls = {{Vec3f(0, 0, 0), 2.0f, 0}, {Vec3f(2.5f, 0, 0), 2.0f, 1}};
     const Mesh mesh = surfaceOf(balls, SurfaceKind::SolventExcluded);
-    const Mesh one = withCrispBorders(mesh, balls, {red, red}, 0.0, "", Progress());
+    const Mesh one = withCrispBorders(mesh, colorOwners(balls, {red, red}), 0.0, "", Progress());
     EXPECT_EQ(one.triangles, mesh.triangles);
     EXPECT_EQ(one.colors, std::vector<Color>(mesh.positions.size(), red));
-    const Mesh two = withCrispBorders(mesh, balls, {red, blue}, 0.0, "", Progress());
+    const Mesh two = withCrispBorders(mesh, colorOwners(balls, {red, blue}), 0.0, "", Progress());
     ASSERT_EQ(two.labels.size(), mesh.labels.size());
     for (std::size_t v = 0; v < two.positions.size(); ++v) {
         if (v < mesh.positions.size()) {
@@ -151,8 +152,8 @@ TEST(CrispBorders, LieOnTheArcs)
     const Mesh mesh = surfaceOf({{Vec3f(0.0f), 3.0f, 0}}, SurfaceKind::VanDerWaals);
     const Color all[] = {red, green, blue};
     for (const int owners : {2, 3}) {
-        const Mesh crisp =
-            withCrispBorders(mesh, around(owners), {all, all + owners}, 0.0, "", Progress());
+        const Mesh crisp = withCrispBorders(mesh, colorOwners(around(owners), {all, all + owners}),
+                                            0.0, "", Progress());
         std::size_t meetings = 0;
         for (const auto& [x, colors] : bordersOf(crisp)) {
             EXPECT_NEAR(x.length(), 3.0, 0.01);
@@ -177,7 +178,8 @@ TEST(CrispBorders, MeetWhereTheirOwnersDo)
         const Vec3d shift(0.013 * n, 0.007 * (n % 10), 0.0);
         std::vector<Ball> balls = around(3);
         for (Ball& ball : balls) ball.center += shift;
-        const Mesh crisp = withCrispBorders(mesh, balls, {red, green, blue}, 0.0, "", Progress());
+        const Mesh crisp =
+            withCrispBorders(mesh, colorOwners(balls, {red, green, blue}), 0.0, "", Progress());
         for (const auto& [x, colors] : bordersOf(crisp)) {
             if (colors.size() < 3) continue;
             const Vec3d off = Vec3d(x) - axis - shift;
@@ -196,13 +198,15 @@ TEST(CrispBorders, HaveMeansOfNormalsAndScalarsButStepsOfWhatBelongsToASide)
     Mesh mesh = surfaceOf({{Vec3f(0.0f), 3.0f, 0}}, SurfaceKind::VanDerWaals);
     const std::vector<Ball> balls = around(3);
     mesh.scalars = {{"height", {}}, {"side", {}}};
-    const auto colored = withCrispBorders(mesh, balls, {red, green, blue}, 0.0, "", Progress());
+    const auto colored =
+        withCrispBorders(mesh, colorOwners(balls, {red, green, blue}), 0.0, "", Progress());
     const auto sideOf = [](const Color& c) { return c == red ? 1.0f : c == green ? 2.0f : 5.0f; };
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         mesh.scalars[0].values.push_back(mesh.positions[v].z());
         mesh.scalars[1].values.push_back(sideOf(colored.colors[v]));
     }
-    const Mesh crisp = withCrispBorders(mesh, balls, {red, green, blue}, 0.0, "side", Progress());
+    const Mesh crisp =
+        withCrispBorders(mesh, colorOwners(balls, {red, green, blue}), 0.0, "side", Progress());
     EXPECT_GT(crisp.positions.size(), mesh.positions.size() + 30);
     for (std::size_t v = 0; v < crisp.positions.size(); ++v) {
         EXPECT_EQ(crisp.scalars[1].values[v], sideOf(crisp.colors[v]));
@@ -217,7 +221,8 @@ TEST(CrispBorders, StayWhereNoCreaseIsNear)
     const std::vector<Ball> balls = {{Vec3f(0, 0, 0), 2.0f, 0}, {Vec3f(2.5f, 0, 0), 2.0f, 1}};
     const Mesh mesh = surfaceOf(balls, SurfaceKind::SolventExcluded);
     const auto cut = [&](double crease) {
-        return withCrispBorders(mesh, balls, {red, blue}, crease, "", Progress()).positions;
+        return withCrispBorders(mesh, colorOwners(balls, {red, blue}), crease, "", Progress())
+            .positions;
     };
     EXPECT_EQ(cut(0.02), cut(0.0));
     EXPECT_NE(cut(1.0), cut(0.0));

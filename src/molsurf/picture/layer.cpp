@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/picture/layer.h"
+
+#include "molsurf/core/parallel.h"
+#include "molsurf/io/part_ranges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+namespace
+{
+
+constexpr std::size_t skyRays = 16, lampRays = 4; // a pixel
+constexpr double nearby = 60.0;                   // what half of the sky's rays look at [Å]
+constexpr std::int32_t unknown = -2;
+constexpr double golden = 0.6180339887498949;
+
+/// Numbers of the pixels of a square of 4 x 4, whose rays complement each other: any such square of
+/// pixels has all of them.
+int patternOf(int x, int y)
+{
+    constexpr std::array<int, 16> order = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+    return order[std::size_t((y & 3) * 4 + (x & 3))];
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> trianglesOf(const Mesh& mesh)
+{
+    std::vector<std::pair<std::size_t, std::size_t>> out;
+    for (const PartRange& part : partRanges(mesh, ""))
+        out.emplace_back(part.firstTriangle, part.triangleEnd);
+    return out;
+}
+
+template<typename Rays>
+void setRay(Rays& rays, std::size_t k, const Vec3d& from, const Vec3d& way, double length)
+{
+    rays.org_x[k] = float(from[0]);
+    rays.org_y[k] = float(from[1]);
+    rays.org_z[k] = float(from[2]);
+    rays.dir_x[k] = float(way[0]);
+    rays.dir_y[k] = float(way[1]);
+    rays.dir_z[k] = float(way[2]);
+    rays.tnear[k] = 0.0f;
+    rays.tfar[k] = float(length);
+    rays.mask[k] = ~0u;
+}
+
+/// Two directions at right angles to one, and to each other.
+std::pair<Vec3d, Vec3d> across(const Vec3d& way)
+{
+    const Vec3d side = std::abs(way[0]) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
+    const Vec3d u = way.cross(side).unit();
+    return {u, way.cross(u)};
+}
+
+Color mixed(const Color& a, const Color& b, const Color& c, const Vec3f& w)
+{
+    Color out;
+    for (std::size_t k = 0; k < out.size(); ++k)
+        out[k] = std::uint8_t(w[0] * float(a[k]) + w[1] * float(b[k]) + w[2] * float(c[k]) + 0.5f);
+    return out;
+}
+
+Color multiplied(const Color& a, const Color& b)
+{
+    Color out;
+    for (std::size_t k = 0; k < out.size(); ++k)
+        out[k] = std::uint8_t((int(a[k]) * int(b[k]) + 127) / 255);
+    return out;
+}
+
+/// The point of the mesh that a copy has brought to x.
+Vec3d broughtBack(const MeshInstance& copy, const Vec3d& x)
+{
+    const Vec3d d = x - copy.translation;
+    const auto& r = copy.rotation;
+    return {r[0][0] * d[0] + r[1][0] * d[1] + r[2][0] * d[2],
+            r[0][1] * d[0] + r[1][1] * d[1] + r[2][1] * d[2],
+            r[0][2] * d[0] + r[1][2] * d[1] + r[2][2] * d[2]};
+}
+
+} // namespace
+
+Vec3f Seen::normal() const
+{
+    const float x = float(nx) / 32767.0f, y = float(ny) / 32767.0f;
+    return {x, y, std::sqrt(std::max(0.0f, 1.0f - x * x - y * y))};
+}
+
+Vec3f Tracer::lamp()
+{
+    return Vec3f(-0.5f, 0.62f, 0.75f).unit();
+}
+
+Tracer::Tracer(const Mesh& mesh, const View& view, const PictureStyle& style,
+               const DrawOptions& options)
+    : mesh_(mesh), view_(view), style_(style), options_(options), parts_(trianglesOf(mesh)),
+      scene_(options.instances.empty() ? RayScene(mesh)
+                                       : RayScene(mesh, parts_, options.instances)),
+      top_(std::min(view.far + 1.0, options.clip.value_or(view.far + 1.0))),
+      clips_(top_ < view.far + 1.0),
+      lamp_(double(lamp()[0]) * view.right + double(lamp()[1]) * view.up +
+            double(lamp()[2]) * view.toEye),
+      owners_(options.borders ? mesh.positions.size() : 0)
+{
+    for (auto& owner : owners_) owner.store(unknown, std::memory_order_relaxed);
+}
+
+Layer Tracer::first(const Progress& progress) const
+{
+    return trace(nullptr, progress);
+}
+
+Layer Tracer::behind(const Layer& front, const Progress& progress) const
+{
+    return trace(&front, progress);
+}
+
+Layer Tracer::trace(const Layer* front, const Progress& progress) const
+{
+    const auto width = std::size_t(view_.width), height = std::size_t(view_.height);
+    Layer layer;
+    layer.seen.resize(eyeRays * width * height);
+    layer.lights.resize(width * height);
+    std::atomic<bool> any{false};
+    parallelFor(height, progress, [&](std::size_t y) {
+        for (std::size_t x = 0; x < width; ++x) tracePixel(int(x), int(y), front, layer);
+        for (std::size_t x = 0; x < width; ++x)
+            if (layer.lights[y * width + x].depth > Seen::nothing) any = true;
+    });
+    layer.empty = !any;
+    return layer;
+}
+
+void Tracer::tracePixel(int x, int y, const Layer* front, Layer& layer) const
+{
+    const auto columns = subpixels * std::size_t(view_.width);
+    const auto placeOf = [&](std::size_t s) {
+        return (subpixels * std::size_t(y) + s / subpixels) * columns + subpixels * std::size_t(x) +
+               s % subpixels;
+    };
+    std::array<Vec3d, eyeRays> from;
+    alignas(16) std::array<int, eyeRays> valid;
+    alignas(16) RTCRayHit4 rays{};
+    for (std::size_t s = 0; s < eyeRays; ++s) {
+        const double dx = (double(s % subpixels) + 0.5) / subpixels;
+        const double dy = (double(s / subpixels) + 0.5) / subpixels;
+        const float above = front ? front->seen[placeOf(s)].depth - 1e-3f : float(top_);
+        valid[s] = above > Seen::nothing ? -1 : 0;
+        from[s] = view_.at(x + dx, y + dy) + (valid[s] ? double(above) : 0.0) * view_.toEye;
+        setRay(rays.ray, s, from[s], -view_.toEye, view_.far - view_.low + 2.0);
+        rays.hit.geomID[s] = rays.hit.instID[0][s] = RTC_INVALID_GEOMETRY_ID;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect4(valid.data(), scene_.get(), &context, &rays);
+    PixelLight light;
+    Vec3d at(0.0);
+    for (std::size_t s = 0; s < eyeRays; ++s) {
+        if (rays.hit.geomID[s] == RTC_INVALID_GEOMETRY_ID) continue;
+        Seen& seen = layer.seen[placeOf(s)];
+        seen = hitOf(rays, s, from[s]);
+        light.normal += seen.normal();
+        if (seen.depth <= light.depth) continue;
+        light.depth = seen.depth;
+        const double onPlane = from[s].dot(view_.toEye) - view_.center.dot(view_.toEye);
+        at = from[s] + (double(seen.depth) - onPlane) * view_.toEye;
+    }
+    if (light.depth > Seen::nothing) {
+        light.normal.normalize();
+        const Vec3d normal = double(light.normal[0]) * view_.right +
+                             double(light.normal[1]) * view_.up +
+                             double(light.normal[2]) * view_.toEye;
+        const int pattern = patternOf(x, y);
+        if (style_.sky > 0.0f) light.open = openness(at, normal, pattern);
+        if (style_.shadow > 0.0f) light.lit = lampShare(at, normal, pattern);
+    }
+    layer.lights[std::size_t(y) * std::size_t(view_.width) + std::size_t(x)] = light;
+}
+
+Seen Tracer::hitOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) const
+{
+    const MeshInstance* copy = nullptr;
+    std::size_t first = 0;
+    Seen out;
+    if (!options_.instances.empty()) {
+        copy = &options_.instances[rays.hit.instID[0][s]];
+        first = parts_[copy->part].first;
+        out.piece = std::uint8_t(rays.hit.instID[0][s] % Seen::cut);
+    }
+    const auto& t = mesh_.triangles[first + rays.hit.primID[s]];
+    const Vec3f weights(1.0f - rays.hit.u[s] - rays.hit.v[s], rays.hit.u[s], rays.hit.v[s]);
+    const Vec3f side = (mesh_.positions[t[1]] - mesh_.positions[t[0]])
+                           .cross(mesh_.positions[t[2]] - mesh_.positions[t[0]]);
+    const auto placed = [&](const Vec3f& way) {
+        return copy ? copy->turned(Vec3d(way)) : Vec3d(way);
+    };
+    const double length = double(rays.ray.tfar[s]);
+    const double start = from.dot(view_.toEye) - view_.center.dot(view_.toEye);
+    if (clips_ && start >= top_ - 1e-6 && placed(side).dot(view_.toEye) < 0.0) {
+        out.depth = float(top_); // it begins inside
+        out.piece = Seen::cut;
+        const Vec3d x = copy ? broughtBack(*copy, from) : from;
+        out.color = options_.inside ? options_.inside(x) : options_.plain;
+        return out;
+    }
+    out.depth = float(start - length);
+    Vec3d normal = placed(weights[0] * mesh_.normals[t[0]] + weights[1] * mesh_.normals[t[1]] +
+                          weights[2] * mesh_.normals[t[2]]);
+    normal.normalize();
+    if (normal.dot(view_.toEye) < 0.0) normal = -normal;
+    out.nx = std::int16_t(std::lround(32767.0 * normal.dot(view_.right)));
+    out.ny = std::int16_t(std::lround(32767.0 * normal.dot(view_.up)));
+    const Vec3d x = from - length * view_.toEye;
+    out.color = colorAt(t.data(), weights, copy ? broughtBack(*copy, x) : x);
+    if (copy) out.color = mesh_.colors.empty() ? copy->color : multiplied(out.color, copy->color);
+    return out;
+}
+
+Color Tracer::colorAt(const std::uint32_t* corners, const Vec3f& weights, const Vec3d& x) const
+{
+    if (mesh_.colors.empty()) return options_.plain;
+    if (options_.borders) return borderColor(corners, weights, x);
+    return mixed(mesh_.colors[corners[0]], mesh_.colors[corners[1]], mesh_.colors[corners[2]],
+                 weights);
+}
+
+/// Where the corners of a triangle have one owner it has all of it; elsewhere it is asked for.
+Color Tracer::borderColor(const std::uint32_t* corners, const Vec3f&, const Vec3d& x) const
+{
+    thread_local std::vector<OwnersPower> near;
+    const ColorOwners& borders = *options_.borders;
+    const auto ownerAt = [&](const Vec3d& at) {
+        borders.owners.at(at, 0.0, near);
+        return near.empty() ? -1 : near[0].owner;
+    };
+    std::array<std::int32_t, 3> owner;
+    for (std::size_t k = 0; k < 3; ++k) {
+        auto& known = owners_[corners[k]]; // the same, whoever finds it
+        owner[k] = known.load(std::memory_order_relaxed);
+        if (owner[k] != unknown) continue;
+        owner[k] = ownerAt(Vec3d(mesh_.positions[corners[k]]));
+        known.store(owner[k], std::memory_order_relaxed);
+    }
+    const bool same = owner[0] == owner[1] && owner[1] == owner[2];
+    const std::int32_t own = same ? owner[0] : ownerAt(x);
+    return own < 0 ? options_.plain : borders.colors[std::size_t(own)];
+}
+
+/// How far a ray goes before it leaves what is drawn.
+double Tracer::lengthTo(double length, const Vec3d& from, const Vec3d& way) const
+{
+    const double rise = way.dot(view_.toEye);
+    if (!clips_ || rise <= 0.0) return length;
+    const double left = top_ - (from - view_.center).dot(view_.toEye);
+    return std::max(0.0, std::min(length, left / rise));
+}
+
+/// Share of the sky over a point, weighted by the cosine: rays by a golden spiral. To every other
+/// ray only what is near hides the sky, so that the insides of shells are not all dark.
+float Tracer::openness(const Vec3d& at, const Vec3d& normal, int pattern) const
+{
+    const auto [u, v] = across(normal);
+    const Vec3d from = at + 1.5 * view_.pixel * normal + 1e-3 * view_.toEye;
+    alignas(64) RTCRay16 rays{};
+    alignas(64) std::array<int, 16> valid;
+    const double share = (double(pattern) + 0.5) / 16.0;
+    for (std::size_t k = 0; k < skyRays; ++k) {
+        const double r = std::sqrt((double(k) + share) / skyRays);
+        const double angle = 2.0 * M_PI * (double(k) * golden + double(pattern * 7 % 16) / 16.0);
+        const Vec3d way =
+            r * std::cos(angle) * u + r * std::sin(angle) * v + std::sqrt(1.0 - r * r) * normal;
+        const double length = k % 2 ? nearby : std::numeric_limits<double>::infinity();
+        setRay(rays, k, from, way, lengthTo(length, from, way));
+        valid[k] = -1;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded16(valid.data(), scene_.get(), &context, &rays);
+    int open = 0;
+    for (std::size_t k = 0; k < skyRays; ++k) open += rays.tfar[k] >= 0.0f;
+    return float(open) / skyRays;
+}
+
+/// Share of the lamp, a disc, that is seen.
+float Tracer::lampShare(const Vec3d& at, const Vec3d& normal, int pattern) const
+{
+    if (normal.dot(lamp_) <= 0.0) return 0.0f;
+    const auto [u, v] = across(lamp_);
+    const Vec3d from = at + 1.5 * view_.pixel * normal + 1e-3 * view_.toEye;
+    alignas(16) RTCRay4 rays{};
+    alignas(16) std::array<int, 4> valid;
+    for (std::size_t k = 0; k < lampRays; ++k) {
+        const double share = (double(k) + (double(pattern) + 0.5) / 16.0) / lampRays;
+        const double r = double(style_.lampSize) * std::sqrt(share);
+        const double angle =
+            2.0 * M_PI * (double(k) / lampRays + double(pattern * 7 % 16) / 16.0 * golden);
+        const Vec3d way = (lamp_ + r * std::cos(angle) * u + r * std::sin(angle) * v).unit();
+        setRay(rays, k, from, way, lengthTo(std::numeric_limits<double>::infinity(), from, way));
+        valid[k] = -1;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded4(valid.data(), scene_.get(), &context, &rays);
+    int open = 0;
+    for (std::size_t k = 0; k < lampRays; ++k) open += rays.tfar[k] >= 0.0f;
+    return float(open) / lampRays;
+}
+
+} // namespace molsurf

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/picture/style.h"
+
+#include "molsurf/core/words.h"
+
+namespace molsurf
+{
+
+const std::vector<PictureStyle>& styleTable()
+{
+    static const std::vector<PictureStyle> all = {
+        {"soft", "", 0.62f, 0.48f, 0.06f, 0.75f, 0.12f, 0.04f, 12.0f, 1.6f, 0.0f, 0.8f},
+        {"glossy", "with highlights", 0.46f, 0.58f, 0.08f, 0.9f, 0.05f, 0.32f, 48.0f, 0.0f, 0.0f,
+         0.0f},
+        {"outline", "as drawn with a pen", 0.86f, 0.16f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 3.2f, 2.0f,
+         0.95f},
+        {"flat", "the colours as they are", 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 1.6f, 0.0f,
+         0.8f}};
+    return all;
+}
+
+const PictureStyle* findStyle(const std::string& word)
+{
+    for (const PictureStyle& style : styleTable())
+        if (lowered(word) == style.word) return &style;
+    return nullptr;
+}
+
+} // namespace molsurf

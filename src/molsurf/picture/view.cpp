@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/picture/view.h"
+
+#include "molsurf/io/part_ranges.h"
+
+#include <openvdb/math/Mat3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+namespace
+{
+
+constexpr double border = 1.04; // width of the picture over that of the molecule
+
+/// The vertices of a part that lie farthest out in some direction of a few hundred.
+std::vector<Vec3d> outermost(const Mesh& mesh, const PartRange& part)
+{
+    constexpr int directions = 400;
+    std::vector<Vec3d> out;
+    for (int k = 0; k < directions; ++k) { // by a golden spiral
+        const double z = 1.0 - (2.0 * k + 1.0) / directions, r = std::sqrt(1.0 - z * z);
+        const double angle = 2.0 * M_PI * 0.6180339887498949 * k;
+        const Vec3f way(float(r * std::cos(angle)), float(r * std::sin(angle)), float(z));
+        std::size_t farthest = part.firstVertex;
+        for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v) {
+            if (mesh.positions[v].dot(way) > mesh.positions[farthest].dot(way)) farthest = v;
+        }
+        out.push_back(Vec3d(mesh.positions[farthest]));
+    }
+    return out;
+}
+
+/// Points that span what is shown: the vertices, or of copies the outermost ones.
+std::vector<Vec3d> spanOf(const Mesh& mesh, const std::vector<MeshInstance>& instances)
+{
+    std::vector<Vec3d> out;
+    if (instances.empty()) {
+        for (const Vec3f& p : mesh.positions) out.push_back(Vec3d(p));
+        return out;
+    }
+    std::vector<std::vector<Vec3d>> outer;
+    for (const PartRange& part : partRanges(mesh, "")) outer.push_back(outermost(mesh, part));
+    for (const MeshInstance& instance : instances) {
+        for (const Vec3d& x : outer[instance.part]) out.push_back(instance.placed(x));
+    }
+    return out;
+}
+
+/// Principal axes of points, the longest first.
+std::array<Vec3d, 3> principalAxes(const std::vector<Vec3d>& points)
+{
+    Vec3d mean(0.0);
+    for (const Vec3d& p : points) mean += p;
+    mean /= double(points.size());
+    openvdb::Mat3d covariance = openvdb::Mat3d::zero();
+    for (const Vec3d& p : points) {
+        const Vec3d d = p - mean;
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) covariance(i, j) += d[i] * d[j];
+        }
+    }
+    openvdb::Mat3d vectors;
+    Vec3d values;
+    std::array<Vec3d, 3> axes = {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)};
+    if (!openvdb::math::diagonalizeSymmetricMatrix(covariance, vectors, values)) return axes;
+    std::array<int, 3> order = {0, 1, 2};
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return values[a] > values[b]; });
+    for (std::size_t k = 0; k < 3; ++k) {
+        Vec3d axis;
+        for (int i = 0; i < 3; ++i) axis[i] = vectors(i, order[k]);
+        axis.normalize();
+        const Vec3d size(std::abs(axis[0]), std::abs(axis[1]), std::abs(axis[2]));
+        const int largest = size[0] >= size[1] && size[0] >= size[2] ? 0
+                            : size[1] >= size[2]                     ? 1
+                                                                     : 2;
+        axes[k] = axis[largest] < 0.0 ? -axis : axis;
+    }
+    return axes;
+}
+
+/// viewAxes() of points.
+std::array<Vec3d, 3> axesOf(const std::vector<Vec3d>& points, const DrawOptions& options)
+{
+    Vec3d right, toEye;
+    if (options.toEye.lengthSqr() > 0.0) {
+        toEye = options.toEye.unit();
+        right = options.up.cross(toEye).unit();
+    } else {
+        const auto axes = principalAxes(points);
+        right = axes[0];
+        toEye = axes[0].cross(axes[1]);
+    }
+    const Vec3d up = toEye.cross(right);
+    const double angle = options.turn * M_PI / 180.0;
+    return {std::cos(angle) * right - std::sin(angle) * toEye, up,
+            std::cos(angle) * toEye + std::sin(angle) * right};
+}
+
+} // namespace
+
+View chooseView(const Mesh& mesh, const DrawOptions& options)
+{
+    View view;
+    const std::vector<Vec3d> points = spanOf(mesh, options.instances);
+    const std::array<Vec3d, 3> axes =
+        axesOf(options.about.empty() ? points : options.about, options);
+    view.right = axes[0];
+    view.up = axes[1];
+    view.toEye = axes[2];
+
+    // A turn must not change the scale, so the extent across is that of all turns.
+    Vec3d low(std::numeric_limits<double>::max()), high(-low);
+    double reach = 0.0;
+    for (const Vec3d& x : points) {
+        const Vec3d seen(x.dot(view.right), x.dot(view.up), x.dot(view.toEye));
+        low = openvdb::math::minComponent(low, seen);
+        high = openvdb::math::maxComponent(high, seen);
+    }
+    const Vec3d mid = 0.5 * (low + high), extent = high - low;
+    view.center = mid[0] * view.right + mid[1] * view.up + mid[2] * view.toEye;
+    if (options.turn != 0.0 || options.turnable) {
+        for (const Vec3d& p : points) {
+            const Vec3d d = p - view.center;
+            reach = std::max(reach, std::hypot(d.dot(view.right), d.dot(view.toEye)));
+        }
+    }
+    const double across = std::max(extent[0], 2.0 * reach), upward = extent[1];
+    view.width = options.width;
+    view.pixel = border * across / view.width;
+    const double shape = std::clamp(upward * border / (across * border), 0.2, 4.0);
+    view.height = std::max(1, int(std::lround(view.width * shape)));
+    view.low = -0.5 * extent[2];
+    view.far = 0.5 * extent[2];
+    return view;
+}
+
+std::array<Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options)
+{
+    return axesOf(options.about.empty() ? spanOf(mesh, options.instances) : options.about, options);
+}
+
+} // namespace molsurf
