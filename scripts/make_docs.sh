@@ -21,6 +21,7 @@ done
 scripts/install_deps.sh blender chromium python3-pil python3-numpy fonts-dejavu-core gemmi pdb2pqr apbs-data
 
 scripts/make_pictures.py "$program" docs/pictures
+scripts/gallery.py "$program"
 scripts/artist_pictures.sh "$program"
 [[ -z $structures ]] || scripts/complex_pictures.sh "$program" "$structures"
 

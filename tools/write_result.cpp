@@ -6,6 +6,7 @@
 #include "sha256.h"
 #include "sidecar.h"
 
+#include "molsurf/balls/nearest_ball.h"
 #include "molsurf/color/color_table.h"
 #include "molsurf/color/crisp_borders.h"
 #include "molsurf/color/legend.h"
@@ -323,11 +324,19 @@ void writeGlb(const Writing& w, OutputFile& file)
 void writePage(const Writing& w, OutputFile& file)
 {
     const DrawOptions view = pictureOf(w.call, w.atoms, w.mesh, true, w.progress);
-    writeHtml(w.mesh,
-              {displayName(inputStem(w.call.input)), legendsOf(w.call, w.atoms, w.mesh, w.progress),
-               w.call.picture.plain, viewAxes(w.mesh, view), view.instances, w.call.colorsCopies(),
-               w.coarser},
-              file);
+    HtmlPage page{displayName(inputStem(w.call.input)),
+                  legendsOf(w.call, w.atoms, w.mesh, w.progress),
+                  w.call.picture.plain,
+                  viewAxes(w.mesh, view),
+                  view.instances,
+                  w.call.colorsCopies(),
+                  w.coarser};
+    if (w.atoms.names) {
+        constexpr double farthest = 30.0; // from a ball [Å]
+        page.names = &*w.atoms.names;
+        page.ballOf = nearestBalls(w.atoms.balls, w.mesh.positions, farthest, w.progress);
+    }
+    writeHtml(w.mesh, page, file);
 }
 
 void writeMesh(const Writing& w, OutputFile& file)

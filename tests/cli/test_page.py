@@ -8,6 +8,7 @@ import subprocess
 import unittest
 import zlib
 
+from browser import Browser
 from needs import CHROMIUM, needs
 from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply, read_png
 
@@ -109,6 +110,110 @@ class Page(ToolTest):
                 self.assertGreater(shown, 0.15)
                 for color in colors:  # shaded: the hue counts
                     self.assertGreater(sum(alike(pixel, color) for pixel in pixels), 500, color)
+
+    def opened(self, size):
+        return Browser(f"file://{self.folder}/a.html", self.folder, size)
+
+    def ready(self, page):
+        page.wait("document.body.dataset.state === 'ready' && document.body.dataset.drawn > 0")
+
+    def shown(self, page):
+        """The pixels of the surface, as columns of each row, in a picture of the page."""
+        page.picture(self.folder / "p.png")
+        width, rows = read_png((self.folder / "p.png").read_bytes())
+        box = page.evaluate("(({left, top, right, bottom}) => [left, top, right, bottom])"
+                            "(document.getElementById('stage').getBoundingClientRect())")
+        left, top, right, bottom = map(int, box)
+        return box, {y: [x for x in range(left, right) if tuple(rows[y][3 * x:3 * x + 3]) != (255, 255, 255)]
+                     for y in range(top, bottom)}
+
+    @needs("chromium")
+    def test_the_mouse_learns_names(self):
+        """At the left end of the surface stands the atom that has the vertex farthest to the left."""
+        page = self.page(CRAMBIN, "--voxel", "0.7")
+        header = json.loads(element(page, "header"))
+        data = zlib.decompress(base64.b64decode(element(page, "data")))
+        arrays = {table["name"]: unpacked(data, table) for table in header["arrays"]}
+        right, _, toward = header["axes"]
+        across = [sum(a * b for a, b in zip(right, v)) for v in arrays["position"]]
+        farthest = min(range(len(across)), key=across.__getitem__)
+        atoms, residues = header["names"]["atoms"], header["names"]["residues"]
+        residue, atom = atoms[arrays["ball"][farthest][0]]
+        chain, name, number = residues[residue]
+        with self.opened((1000, 700)) as browser:
+            self.ready(browser)
+            _, rows = self.shown(browser)
+            y = min((row for row in rows if rows[row]), key=lambda row: rows[row][0])
+            x = rows[y][0] + 4
+            browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
+            browser.wait("!document.getElementById('tip').hidden")
+            tip = browser.evaluate("document.getElementById('tip').textContent")
+            self.assertTrue(tip.startswith(f"{chain} {name} {number} "), (tip, name, number, atom))
+            for kind in ("mousePressed", "mouseReleased"):
+                browser.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+            chosen = browser.evaluate("document.getElementById('chosen').textContent")
+            self.assertTrue(chosen.startswith(f"{chain} {name} {number},"), chosen)
+            # The areas of the list are parts of that of the surface.
+            areas = browser.evaluate("[...document.getElementById('residues').options]"
+                                     ".map((o) => Number(o.text.split(/ +/).pop()))")
+            self.check(0, CRAMBIN, "--voxel", "0.7", "-o", "r.json")
+            report = json.loads((self.folder / "r.json").read_text())
+            self.assertLess(abs(sum(areas) / report["surface"]["area"] - 1), 0.02)
+            self.assertEqual(browser.console, [])
+
+    @needs("chromium")
+    def test_the_panel_covers_nothing(self):
+        self.page(*DIMER, *FAST, "--color", "chain")
+        for size in ((1000, 700), (420, 750)):
+            with self.subTest(size), self.opened(size) as browser:
+                self.ready(browser)
+                (left, top, right, bottom), rows = self.shown(browser)
+                places = [x for row in rows.values() for x in row]
+                self.assertGreater(len(places), 0.15 * (right - left) * (bottom - top))
+                self.assertGreater(min(places), left)
+                self.assertLess(max(places), right - 1)
+                self.assertEqual((rows[int(top)], rows[int(bottom) - 1]), ([], []))
+                panel = browser.evaluate("(({left, top, right, bottom}) => [left, top, right, bottom])"
+                                         "(document.getElementById('panel').getBoundingClientRect())")
+                self.assertTrue(panel[2] <= left or panel[1] >= bottom, (panel, left, bottom))
+
+    @needs("chromium")
+    def test_every_control(self):
+        self.page(*DIMER, *FAST, "--color", "chain")
+        with self.opened((900, 600)) as browser:
+            self.ready(browser)
+
+            def after(expression):
+                drawn = browser.evaluate("document.body.dataset.drawn")
+                browser.evaluate(f"{{ {expression} }} 0")
+                browser.wait(f"document.body.dataset.drawn !== '{drawn}'")
+                return self.shown(browser)[1]
+
+            def slide(name, value):
+                return after(f"const e = document.getElementById('{name}'); e.value = {value}; "
+                             "e.dispatchEvent(new Event('input'));")
+
+            def key(name):
+                return after("document.getElementById('view').dispatchEvent("
+                             f"new KeyboardEvent('keydown', {{key: '{name}', bubbles: true}}));")
+            count = lambda rows: sum(map(len, rows.values()))
+            whole = self.shown(browser)[1]
+            self.assertLess(count(slide("clip", 0.8)), 0.9 * count(whole))
+            self.assertEqual(count(slide("clip", 0)), count(whole))
+            slide("opacity", 0.4)
+            self.assertEqual(browser.evaluate("document.getElementById('opacity').value"), "0.4")
+            slide("opacity", 1)
+            self.assertGreater(count(key("+")), 1.05 * count(whole))
+            self.assertNotEqual(key("ArrowLeft"), whole)
+            after("document.getElementById('reset').click();")
+            self.assertEqual(count(self.shown(browser)[1]), count(whole))
+            after("document.getElementById('mode').selectedIndex = 1;"
+                  "document.getElementById('mode').dispatchEvent(new Event('change'));")
+            browser.evaluate("document.getElementById('png').click(); 0")
+            self.assertGreater(int(browser.evaluate("document.body.dataset.png")), 5000)
+            dark = after("document.getElementById('dark').click();")
+            self.assertEqual(count(dark), 676 * 600)  # all of the stage
+            self.assertEqual(browser.console, [])
 
 
 def alike(pixel, color):

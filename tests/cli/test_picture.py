@@ -95,6 +95,31 @@ class Pictures(ToolTest):
                 self.assertEqual(max(pixel), pixel[share])
         self.check(2, CRAMBIN, "-o", "b.png", "--plain-color", "gren", says="did you mean green?")
 
+    def test_styles(self):
+        words = [CRAMBIN, *FAST, "--color", "chain", "--size", "300"]
+        seen = {style: self.picture(*words, "--style", style) for style in ("soft", "glossy", "outline", "flat")}
+        self.assertEqual(self.picture(*words), seen["soft"])
+        for i, a in enumerate(seen):
+            for b in list(seen)[:i]:
+                self.assertNotEqual(seen[a], seen[b])
+        flat = [pixel for row in seen["flat"][1] for pixel in row]
+        self.assertGreater(flat.count((86, 180, 233)), 0.4 * len(flat))
+        self.assertGreater(max(min(p) for row in seen["glossy"][1] for p in row if p != WHITE), 150)
+        self.check(2, CRAMBIN, "-o", "b.png", "--style", "sof", says="did you mean soft?")
+
+    def test_cut_and_opacity(self):
+        words = [CRAMBIN, *FAST, "--color", "element", "--size", "200", "--legend", "off", "--style", "flat"]
+        _, whole = self.picture(*words)
+        _, cut = self.picture(*words, "--clip", "0")
+        carbon = [sum(p == (144, 144, 144) for row in rows for p in row) for rows in (whole, cut)]
+        self.assertGreater(carbon[1], 1000)  # the inside by its atoms
+        self.assertNotEqual(whole, cut)
+        _, faint = self.picture(*words, "--opacity", "0.2")
+        mean = [sum(sum(p) for row in rows for p in row) / len(rows) for rows in (whole, faint)]
+        self.assertGreater(mean[1], 1.05 * mean[0])
+        self.check(2, CRAMBIN, "-o", "b.png", "--opacity", "0", says="0.01 to 1")
+        self.check(2, CRAMBIN, "-o", "b.png", "--clip", "near", says="a number of Å")
+
     def test_turntable(self):
         self.check(0, CRAMBIN, *FAST, "-o", "a.png", "-o", "a.ply", "--turntable", "4", "--size",
                    "120")

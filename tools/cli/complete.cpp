@@ -221,7 +221,7 @@ void completeAreas(Call& call)
         if (call.writesOnly(Areas)) call.options.kind = SurfaceKind::SolventAccessible;
     }
     call.options.grid = !asksForNumbers(call);
-    call.atoms.names = !tables.empty();
+    call.atoms.names = !tables.empty() || call.writes(ColorChoices);
     if (tables.empty()) return;
     SurfaceOptions& options = call.options;
     options.contacts = tables.count("contacts") > 0;

@@ -47,6 +47,7 @@ RayScene::RayScene(const Mesh& mesh, const std::vector<std::pair<std::size_t, st
 RTCScene RayScene::sceneOf(const Mesh& mesh, std::size_t first, std::size_t end)
 {
     const RTCScene scene = rtcNewScene(device_);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST); // no ray slips through between triangles
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     // Embree reads 16 bytes at the last vertex too, so it gets buffers of its own.
     void* positions =

@@ -122,8 +122,11 @@ private:
             const Vec3f fill = Vec3f(0.75f, 0.1f, 0.65f);
             const float seenLamp = 1.0f - style_.shadow * (1.0f - shared.lit);
             const float key = std::max(0.0f, normal.dot(Tracer::lamp())) * seenLamp;
-            const float light = style_.sky * (0.08f + 0.92f * shared.open) + style_.key * key +
-                                style_.fill * std::max(0.0f, normal.dot(fill));
+            // Where little of the sky is seen little comes from other walls either.
+            const float hollow = 0.4f + 0.6f * shared.open;
+            const float light =
+                style_.sky * (0.06f + 0.94f * shared.open) +
+                hollow * (style_.key * key + style_.fill * std::max(0.0f, normal.dot(fill)));
             const float mirrored = style_.highlight * seenLamp * shared.open *
                                    std::pow(std::max(0.0f, normal.dot(half_)), style_.gloss);
             color = light * color + Vec3f(mirrored);
@@ -148,7 +151,8 @@ private:
                 const PixelLight& other = layer.lights[placeOf(i, j)];
                 if (!(std::abs(other.depth - here.depth) < deepest)) continue;
                 const float alike = other.normal.dot(here.normal);
-                float weight = std::clamp(2.5f * (alike - 0.5f), 0.0f, 1.0f);
+                // Those that face elsewhere count a little, lest one alone be a speck.
+                float weight = std::clamp(2.5f * (alike - 0.5f), 0.1f, 1.0f);
                 for (const int d : {i - x, j - y})
                     if (d == reach || d == -reach) weight *= 0.5f;
                 open += weight * other.open;

@@ -17,8 +17,8 @@ using openvdb::Vec3f;
 namespace
 {
 
-constexpr std::size_t skyRays = 16, lampRays = 4; // a pixel
-constexpr double nearby = 60.0;                   // what half of the sky's rays look at [Å]
+constexpr std::size_t skyRays = 8, lampRays = 4; // a pixel
+constexpr double nearby = 60.0;                  // what half of the sky's rays look at [Å]
 constexpr std::int32_t unknown = -2;
 constexpr double golden = 0.6180339887498949;
 
@@ -168,14 +168,13 @@ void Tracer::tracePixel(int x, int y, const Layer* front, Layer& layer) const
         if (rays.hit.geomID[s] == RTC_INVALID_GEOMETRY_ID) continue;
         Seen& seen = layer.seen[placeOf(s)];
         seen = hitOf(rays, s, from[s]);
-        light.normal += seen.normal();
         if (seen.depth <= light.depth) continue;
         light.depth = seen.depth;
+        light.normal = seen.normal();
         const double onPlane = from[s].dot(view_.toEye) - view_.center.dot(view_.toEye);
         at = from[s] + (double(seen.depth) - onPlane) * view_.toEye;
     }
     if (light.depth > Seen::nothing) {
-        light.normal.normalize();
         const Vec3d normal = double(light.normal[0]) * view_.right +
                              double(light.normal[1]) * view_.up +
                              double(light.normal[2]) * view_.toEye;
@@ -203,9 +202,10 @@ Seen Tracer::hitOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) con
     const auto placed = [&](const Vec3f& way) {
         return copy ? copy->turned(Vec3d(way)) : Vec3d(way);
     };
+    const bool fromBehind = placed(side).dot(view_.toEye) < 0.0;
     const double length = double(rays.ray.tfar[s]);
     const double start = from.dot(view_.toEye) - view_.center.dot(view_.toEye);
-    if (clips_ && start >= top_ - 1e-6 && placed(side).dot(view_.toEye) < 0.0) {
+    if (clips_ && start >= top_ - 1e-6 && fromBehind) {
         out.depth = float(top_); // it begins inside
         out.piece = Seen::cut;
         const Vec3d x = copy ? broughtBack(*copy, from) : from;
@@ -216,7 +216,10 @@ Seen Tracer::hitOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) con
     Vec3d normal = placed(weights[0] * mesh_.normals[t[0]] + weights[1] * mesh_.normals[t[1]] +
                           weights[2] * mesh_.normals[t[2]]);
     normal.normalize();
-    if (normal.dot(view_.toEye) < 0.0) normal = -normal;
+    if (fromBehind) normal = -normal;
+    // At a rim the mean of the normals may look past the eye.
+    normal -= std::min(0.0, normal.dot(view_.toEye)) * view_.toEye;
+    normal.normalize();
     out.nx = std::int16_t(std::lround(32767.0 * normal.dot(view_.right)));
     out.ny = std::int16_t(std::lround(32767.0 * normal.dot(view_.up)));
     const Vec3d x = from - length * view_.toEye;
@@ -270,8 +273,8 @@ float Tracer::openness(const Vec3d& at, const Vec3d& normal, int pattern) const
 {
     const auto [u, v] = across(normal);
     const Vec3d from = at + 1.5 * view_.pixel * normal + 1e-3 * view_.toEye;
-    alignas(64) RTCRay16 rays{};
-    alignas(64) std::array<int, 16> valid;
+    alignas(32) RTCRay8 rays{};
+    alignas(32) std::array<int, skyRays> valid;
     const double share = (double(pattern) + 0.5) / 16.0;
     for (std::size_t k = 0; k < skyRays; ++k) {
         const double r = std::sqrt((double(k) + share) / skyRays);
@@ -284,7 +287,7 @@ float Tracer::openness(const Vec3d& at, const Vec3d& normal, int pattern) const
     }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcOccluded16(valid.data(), scene_.get(), &context, &rays);
+    rtcOccluded8(valid.data(), scene_.get(), &context, &rays);
     int open = 0;
     for (std::size_t k = 0; k < skyRays; ++k) open += rays.tfar[k] >= 0.0f;
     return float(open) / skyRays;

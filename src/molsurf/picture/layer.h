@@ -37,10 +37,10 @@ struct Seen {
     openvdb::Vec3f normal() const; ///< to the right, up, toward the eye
 };
 
-/// The surface about the middle of a pixel.
+/// What is nearest in a pixel.
 struct PixelLight {
-    openvdb::Vec3f normal{0.0f}; ///< as Seen::normal()
-    float depth = Seen::nothing; ///< of the nearest [Å]
+    openvdb::Vec3f normal{0.0f}; ///< of what is nearest, as Seen::normal()
+    float depth = Seen::nothing; ///< of that [Å]
     float open = 1.0f;           ///< share of the sky that is seen
     float lit = 1.0f;            ///< share of the lamp that is seen
 };
@@ -52,7 +52,7 @@ struct Layer {
     bool empty = true;
 };
 
-/// Sends rays. They go in packets of 4 and of 16, a quarter faster than one by one.
+/// Sends rays. They go in packets of 4 and of 8, a quarter faster than one by one.
 class Tracer
 {
 public:

@@ -199,6 +199,40 @@ Json copiesOf(const std::vector<MeshInstance>& instances, const openvdb::Vec3d& 
     return copies;
 }
 
+/// Residues as chain, name and number; atoms as the index of their residue and their name. Only of
+/// balls that a vertex belongs to.
+Json namesOf(const HtmlPage& page, Arrays& arrays)
+{
+    const BallNames& names = *page.names;
+    std::vector<std::int32_t> placeOf(names.atoms.size(), -1);
+    for (const std::int32_t ball : page.ballOf)
+        if (ball >= 0) placeOf[std::size_t(ball)] = 0;
+    std::vector<std::int32_t> residueAt(names.residues.size(), -1);
+    for (std::size_t i = 0; i < placeOf.size(); ++i)
+        if (placeOf[i] == 0) residueAt[std::size_t(names.residueOf[i])] = 0;
+    Json residues = Json::array(), atoms = Json::array();
+    for (std::size_t r = 0; r < residueAt.size(); ++r) {
+        if (residueAt[r] < 0) continue;
+        residueAt[r] = std::int32_t(residues.size());
+        const BallNames::Residue& residue = names.residues[r];
+        std::string number = std::to_string(residue.number);
+        if (residue.insertionCode != ' ') number += residue.insertionCode;
+        residues.push_back(Json::array({residue.chain, residue.name, number}));
+    }
+    for (std::size_t i = 0; i < placeOf.size(); ++i) {
+        if (placeOf[i] < 0) continue;
+        placeOf[i] = std::int32_t(atoms.size());
+        atoms.push_back(
+            Json::array({residueAt[std::size_t(names.residueOf[i])], names.atoms[i].name}));
+    }
+    arrays.add("ball", page.ballOf.size(), 1, atoms.size() < 65536 ? 2 : 4,
+               [&](std::size_t i, int) {
+                   const std::int32_t ball = page.ballOf[i];
+                   return std::uint32_t(ball < 0 ? 0 : placeOf[std::size_t(ball)]);
+               });
+    return {{"residues", residues}, {"atoms", atoms}};
+}
+
 Json headerOf(const Mesh& mesh, const HtmlPage& page, Arrays& arrays)
 {
     const openvdb::Vec3d origin = boxOf(mesh).getCenter();
@@ -221,8 +255,14 @@ Json headerOf(const Mesh& mesh, const HtmlPage& page, Arrays& arrays)
     Json axes = Json::array();
     for (const openvdb::Vec3d& axis : page.axes)
         axes.push_back(Json::array({axis[0], axis[1], axis[2]}));
-    return {{"title", page.title}, {"levels", levels}, {"copies", copiesOf(page.instances, origin)},
-            {"axes", axes},        {"modes", modes},   {"arrays", arrays.table()}};
+    Json names = page.names && !page.ballOf.empty() ? namesOf(page, arrays) : Json();
+    return {{"title", page.title},
+            {"levels", levels},
+            {"copies", copiesOf(page.instances, origin)},
+            {"axes", axes},
+            {"modes", modes},
+            {"names", names},
+            {"arrays", arrays.table()}};
 }
 
 /// Text that may stand anywhere in HTML; in JSON the escape means the same letter.

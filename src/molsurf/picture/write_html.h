@@ -4,6 +4,7 @@
 /// @file
 /// A page that shows a mesh: one file that needs nothing else.
 
+#include "molsurf/atoms.h"
 #include "molsurf/color/legend.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/mesh.h"
@@ -30,6 +31,9 @@ struct HtmlPage {
     bool copiesFirst = false; ///< whether the colours of copies come before the legends
     /// With copies: the same parts at larger voxels, one mesh for each further level of detail.
     std::vector<const Mesh*> coarser{};
+    /// The names of balls, and the ball of each vertex; null: the page names no atoms.
+    const BallNames* names = nullptr;
+    std::vector<std::int32_t> ballOf{};
 };
 
 /// Writes a page of HTML with the mesh in it and a viewer (three.js, WebGL 2).
@@ -38,7 +42,8 @@ struct HtmlPage {
 /// 256 steps of their scale, names of chains and groups as numbers; differences from vertex to
 /// vertex, compressed by zlib, in base64. Copies have a matrix each; the page shows each by the
 /// coarsest level whose triangles are small on the screen, and while it is turned by a coarser one
-/// if it has to, which it makes itself. A legend without an attribute shows Mesh::colors.
+/// if it has to, which it makes itself. Each vertex knows its atom, so that the page can name what
+/// the mouse is over and sum up areas. A legend without an attribute shows Mesh::colors.
 ///
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeHtml(const Mesh& mesh, const HtmlPage& page, OutputFile& file);

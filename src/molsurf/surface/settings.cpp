@@ -491,7 +491,7 @@ std::vector<Setting> coloringSettings()
         return std::string(s.atoms.coloring.byResidue ? "residue" : "atom");
     };
     Setting outward{"outward", SettingType::Number, "A",
-                    "potentials are taken so far outside of the surface [Å]",
+                    "potentials are taken A outside of the surface [Å]",
                     "probe radius; sas: 0"};
     outward.low = 0.0;
     outward.high = 100.0;

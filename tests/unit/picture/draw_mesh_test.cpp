@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/picture/draw_mesh.h"
 
+#include "molsurf/color/crisp_borders.h"
+#include "molsurf/picture/style.h"
+
 #include <tbb/global_control.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace molsurf
 {
@@ -65,8 +70,8 @@ TEST(DrawMesh, ShowsABallInTheMiddle)
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < 100; ++x) covered += pixel(picture, x, y) != options.background;
     }
-    // Pixels on the rim count as a whole, which is half a pixel more of radius.
-    const double disc = M_PI * std::pow(50.0 / 1.04 + 0.5, 2);
+    // Pixels on the rim, and under the line about it, count as a whole.
+    const double disc = M_PI * std::pow(50.0 / 1.04 + 0.7, 2);
     EXPECT_NEAR(covered, disc, 0.03 * disc);
 }
 
@@ -140,6 +145,121 @@ TEST(DrawMesh, CrevicesAreDark)
     const Picture picture = drawMesh(mesh, options, Progress());
     EXPECT_LT(int(pixel(picture, 70, picture.height / 2)[0]) + 20,
               int(pixel(picture, 40, picture.height / 2)[0]));
+}
+
+/// Two balls, the smaller one above the middle of the larger, seen from there.
+struct TwoBalls : testing::Test {
+    Mesh mesh;
+    DrawOptions options;
+    TwoBalls()
+    {
+        addBall(mesh, {0.0f, 0.0f, 0.0f}, 10.0f, red);
+        addBall(mesh, {0.0f, 0.0f, 14.0f}, 2.0f, blue);
+        options.width = 208; // 0.1 Å a pixel
+        options.toEye = {0, 0, 1};
+        options.up = {0, 1, 0};
+    }
+    Picture drawn(const char* style)
+    {
+        options.style = findStyle(style);
+        return drawMesh(mesh, options, Progress());
+    }
+};
+
+TEST_F(TwoBalls, FlatColoursAreThoseOfTheMesh)
+{
+    const Picture picture = drawn("flat");
+    EXPECT_EQ(pixel(picture, 104, 104), blue);
+    EXPECT_EQ(pixel(picture, 30, 104), red);
+}
+
+// The lamp stands to the upper left: the small ball darkens what lies to its lower right.
+TEST_F(TwoBalls, CastShadows)
+{
+    const Picture picture = drawn("soft");
+    const auto sum = [&](int x, int y) {
+        const Color c = pixel(picture, x, y);
+        return int(c[0]) + int(c[1]) + int(c[2]);
+    };
+    // From the middle of the small ball along -lamp to the large one: (0, 0, 14) - t (-0.46, 0.57,
+    // 0.69) has length 10 at t = 6.1, (2.8, -3.5, 9.8) Å, 28 pixels to the right and 35 down.
+    EXPECT_GT(sum(104 - 28, 104 - 35), sum(104 + 28, 104 + 35) + 60);
+    EXPECT_GT(sum(104 + 35, 104 - 28), sum(104 + 28, 104 + 35) + 30);
+}
+
+TEST_F(TwoBalls, OpacityLetsThroughInTheRightOrder)
+{
+    options.opacity = 0.5;
+    const Picture picture = drawn("flat");
+    // Four walls in the middle, of which each, seen from the front, takes half.
+    const Vec3f b = linearLight(blue), r = linearLight(red);
+    const Vec3f expected = 0.5f * b + 0.25f * b + 0.125f * r + 0.0625f * r + Vec3f(0.0625f);
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(pixel(picture, 107, 101)[c], fromLinearLight(double(expected[int(c)])), 2);
+}
+
+TEST_F(TwoBalls, ACutShowsTheInside)
+{
+    options.clip = 3.0; // the middle in depth is at z = 3
+    options.inside = [](const openvdb::Vec3d& x) {
+        EXPECT_NEAR(x[2], 6.0, 1e-6);
+        return x.length() < 9.0 ? Color{10, 200, 10} : Color{200, 200, 10};
+    };
+    const Picture picture = drawn("flat");
+    EXPECT_EQ(pixel(picture, 110, 97), (Color{10, 200, 10})); // the blue ball is away
+    EXPECT_EQ(pixel(picture, 104 + 75, 104), (Color{200, 200, 10}));
+    EXPECT_EQ(pixel(picture, 104 + 85, 104), red); // the cut has a radius of 8 Å
+}
+
+TEST_F(TwoBalls, BordersAreFoundByThePixel)
+{
+    // By the plane x = 0.35, whatever the vertices have.
+    options.borders = std::make_shared<ColorOwners>(
+        colorOwners({{{-5.0f, 0, 0}, 6.0, 0}, {{5.7f, 0, 0}, 6.0, 1}}, {red, blue}));
+    options.style = findStyle("flat");
+    mesh.triangles.resize(mesh.triangles.size() / 2); // the larger ball
+    const Picture picture = drawMesh(mesh, options, Progress());
+    int wrong = 0;
+    for (int x = 20; x < 188; ++x) {
+        const double place = (x + 0.5 - 104.0) * 0.1;
+        if (std::abs(place - 0.35) < 0.06) continue;
+        wrong += pixel(picture, x, 100) != (place < 0.35 ? red : blue);
+    }
+    EXPECT_EQ(wrong, 0);
+}
+
+TEST_F(TwoBalls, LinesGrowWithThePicture)
+{
+    const auto inkAcross = [&](int width) {
+        options.width = width;
+        const Picture picture = drawn("flat");
+        double ink = 0.0; // along the beginning of the middle row, where the ball has its rim
+        for (int x = 0; x < width / 12; ++x)
+            ink += pixel(picture, x, picture.height / 2)[0] < 150 ? 1.0 : 0.0;
+        return ink;
+    };
+    EXPECT_NEAR(inkAcross(500), 0.8, 1.0);
+    EXPECT_NEAR(inkAcross(1500), 2.4, 1.1);
+}
+
+// Under a lid that hides half of the sky everywhere alike there is no pattern.
+TEST(DrawMesh, DarknessIsSmooth)
+{
+    Mesh mesh;
+    addBall(mesh, {0.0f, 0.0f, 0.0f}, 4.0f, red);
+    addBall(mesh, {7.0f, 0.0f, 0.0f}, 4.0f, red);
+    DrawOptions options;
+    options.width = 300;
+    options.toEye = {0, 0, 1};
+    options.up = {0, 1, 0};
+    const Picture picture = drawMesh(mesh, options, Progress());
+    int roughest = 0;
+    for (int y = picture.height / 2 - 30; y < picture.height / 2 + 30; ++y)
+        for (int x = 60; x < 120; ++x) {
+            const auto at = [&](int i, int j) { return int(pixel(picture, i, j)[0]); };
+            roughest = std::max(roughest, std::abs(at(x - 1, y) - 2 * at(x, y) + at(x + 1, y)));
+        }
+    EXPECT_LE(roughest, 4);
 }
 
 TEST(DrawMesh, SameForOneAndTwoThreads)

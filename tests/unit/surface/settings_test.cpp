@@ -109,7 +109,7 @@ TEST(Settings, RangesAreThoseThatAreChecked)
         EXPECT_FALSE(allows(setting, setting.low - beyond)) << setting.name;
         EXPECT_FALSE(allows(setting, setting.high + beyond)) << setting.name;
     }
-    EXPECT_EQ(ranges, 9);
+    EXPECT_EQ(ranges, 10);
 }
 
 TEST(Settings, NameTheMemberOfAWrongValue)

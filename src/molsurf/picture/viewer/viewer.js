@@ -3,9 +3,9 @@
 // viewer.min.js of this file and the parts of three.js that it uses.
 
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, DynamicDrawUsage, Frustum, Group,
-  InstancedMesh, Matrix4, Mesh, MeshStandardMaterial, PerspectiveCamera, Quaternion, SRGBColorSpace, Scene,
-  ShaderMaterial, Sphere, Vector3, WebGLRenderer,
+  AmbientLight, BackSide, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, DynamicDrawUsage,
+  FrontSide, Frustum, Group, InstancedMesh, Matrix4, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, Plane,
+  Quaternion, Raycaster, SRGBColorSpace, Scene, ShaderMaterial, Sphere, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { TrackballControls } from 'three/examples/jsm/controls/TrackballControls.js';
 
@@ -181,23 +181,77 @@ function showLegend(mode) {
     ends.className = 'ends';
     for (const value of [mode.low, (mode.low + mode.high) / 2, mode.high]) {
       const label = document.createElement('span');
-      label.textContent = value.toFixed(2).replace('-', '\u2212');
+      label.textContent = number(value, 2);
       ends.append(label);
     }
     const unit = document.createElement('div');
     unit.className = 'unit';
     unit.textContent = mode.unit;
     legend.append(bar, ends, unit);
-  } else if (mode.entries) {
-    for (const entry of mode.entries) {
-      const row = document.createElement('div');
-      row.className = 'entry';
-      const patch = document.createElement('i');
-      patch.style.background = css(entry.color);
-      row.append(patch, entry.name);
-      legend.append(row);
+  }
+  const missing = mode.missing ? [{ name: 'no value', color: mode.missing }] : [];
+  for (const entry of mode.entries ?? missing) {
+    const row = document.createElement('div');
+    row.className = 'entry';
+    const patch = document.createElement('i');
+    patch.style.background = css(entry.color);
+    row.append(patch, entry.name);
+    legend.append(row);
+  }
+}
+
+// ---- the atoms ------------------------------------------------------------------------------
+
+const marked = light([255, 214, 10]); // the residue that is chosen
+
+const number = (value, digits) => value.toFixed(digits).replace('-', '\u2212');
+
+// What the vertices belong to: the atoms and residues of the finest level, with their areas [Å²].
+class Owners {
+  constructor({ residues, atoms }, arrays, shapes) {
+    this.residues = residues.map(([chain, name, place]) => ({ chain, name, place, area: 0 }));
+    this.atoms = atoms.map(([residue, name]) => ({ residue: this.residues[residue], name, area: 0 }));
+    this.of = arrays.ball;
+    for (const { geometry, source } of shapes) {
+      const at = geometry.attributes.position.array, index = geometry.index.array;
+      const side = (i, j) => [0, 1, 2].map((c) => at[3 * j + c] - at[3 * i + c]);
+      for (let t = 0; t < index.length; t += 3) {
+        const [a, b, c] = index.subarray(t, t + 3);
+        const u = side(a, b), v = side(a, c);
+        const area = Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
+        for (const corner of [a, b, c]) {
+          const atom = this.atoms[this.of[source[corner]]];
+          atom.area += area / 3;
+          atom.residue.area += area / 3;
+        }
+      }
     }
   }
+
+  nameOf({ chain, name, place }) {
+    return `${chain} ${name} ${place}`;
+  }
+
+  // Paints the vertices of a residue.
+  mark({ geometry, source }, residue) {
+    const to = geometry.attributes.color.array;
+    source.forEach((from, i) => {
+      if (this.atoms[this.of[from]].residue !== residue) return;
+      for (let c = 0; c < 3; ++c) to[3 * i + c] = 0.25 * to[3 * i + c] + 0.75 * marked[c];
+    });
+    geometry.attributes.color.needsUpdate = true;
+  }
+}
+
+// What a legend says of a vertex.
+function valueText(mode, vertex, arrays) {
+  const value = arrays[mode.array]?.[vertex];
+  if (mode.kind === 'names') return mode.entries[value].name;
+  if (mode.kind !== 'scale') return '';
+  if (mode.missing && value === 255) return 'no value';
+  const low = mode.low, high = mode.high;
+  const digits = Math.max(0, 2 - Math.floor(Math.log10(high - low)));
+  return `${number(low + ((high - low) * value) / (mode.missing ? 254 : 255), digits)} ${mode.unit}`;
 }
 
 // ---- the copies -----------------------------------------------------------------------------
@@ -235,6 +289,8 @@ class Copies {
     this.group = new Group();
     this.material = material;
     this.quick = new ShaderMaterial(quickShader);
+    this.insides = new Group(); // what is seen through a cut, as flat as if it were filled
+    this.insides.visible = false;
     this.parts = header.levels[0].parts.map((_, part) => {
       const shapes = shapesOf(header, part, arrays);
       const count = list.filter((copy) => copy[0] === part).length;
@@ -245,7 +301,7 @@ class Copies {
         this.group.add(mesh);
         return mesh;
       });
-      return { shapes, meshes };
+      return { shapes, meshes, part };
     });
     this.list = list.map(([part, rows, color]) => {
       const matrix = new Matrix4().set(...rows, 0, 0, 0, 1);
@@ -293,6 +349,12 @@ class Copies {
       from.forEach((value, i) => { to.array[at++] = value * own[i % 3]; });
     }
     to.needsUpdate = true;
+  }
+
+  // Adds what is seen of a surface by itself where it is cut.
+  fill(material) {
+    for (const { shapes } of this.parts) this.insides.add(new Mesh(shapes[0].geometry, material));
+    this.group.add(this.insides);
   }
 
   // Shows the copies as one mesh, or those that choose() has made ready.
@@ -352,7 +414,9 @@ const manyCopies = 300; // too many to be drawn one by one without a graphics ca
 
 function start(header, arrays) {
   const several = header.copies.length > 1; // they get smooth edges when nothing moves
-  const renderer = new WebGLRenderer({ canvas: byId('view'), antialias: !several });
+  const renderer = new WebGLRenderer({ canvas: byId('view'), antialias: !several, preserveDrawingBuffer: true });
+  const canvas = renderer.domElement, stage = byId('stage');
+  renderer.localClippingEnabled = true;
   const ratio = Math.min(window.devicePixelRatio, 2);
   renderer.setPixelRatio(ratio);
 
@@ -381,7 +445,8 @@ function start(header, arrays) {
   const draw = (pixels, triangles, pixelRatio) => {
     if (renderer.getPixelRatio() !== pixelRatio) renderer.setPixelRatio(pixelRatio);
     scene.updateMatrixWorld();
-    size = copies.choose(camera, window.innerHeight * ratio, pixels, triangles);
+    size = copies.choose(camera, stage.clientHeight * ratio, pixels, triangles);
+    if (clipped()) cut.constant = cutAt();
     crowded = moved && slow && copies.seen > manyCopies;
     copies.show(moved && slow, crowded);
     renderer.render(scene, camera);
@@ -424,7 +489,7 @@ function start(header, arrays) {
   });
 
   const reset = () => {
-    const aspect = window.innerWidth / window.innerHeight;
+    const aspect = stage.clientWidth / stage.clientHeight;
     const angle = (Math.min(1, aspect) * Math.PI * 15) / 180;
     camera.up.set(0, 1, 0);
     camera.position.copy(middle).add(new Vector3(0, 0, radius / Math.sin(angle)));
@@ -437,19 +502,127 @@ function start(header, arrays) {
   };
 
   const setSize = () => {
-    camera.aspect = window.innerWidth / window.innerHeight;
+    if (stage.clientWidth === 0 || stage.clientHeight === 0) return;
+    camera.aspect = stage.clientWidth / stage.clientHeight;
     camera.updateProjectionMatrix();
-    renderer.setSize(window.innerWidth, window.innerHeight, false);
+    renderer.setSize(stage.clientWidth, stage.clientHeight, false);
     controls.handleResize();
     moved = true;
   };
-  const setMode = (number) => {
-    copies.paint(header.modes[number], arrays);
-    showLegend(header.modes[number]);
+  let mode = header.modes[0], chosen = null;
+  const repaint = () => {
+    copies.paint(mode, arrays);
+    if (chosen) for (const { shapes } of copies.parts) owners.mark(shapes[0], chosen);
     moved = true;
   };
+  const setMode = (place) => {
+    mode = header.modes[place];
+    showLegend(mode);
+    repaint();
+  };
+
+  // The atoms: what the mouse is over is named, what is clicked is chosen, in the list too.
+  const owners = header.names && new Owners(header.names, arrays, copies.parts.map(({ shapes }) => shapes[0]));
+  const ray = new Raycaster(), mouse = new Vector2(), tip = byId('tip'), list = byId('residues');
+  const vertexAt = (event) => {
+    const { left, top, width, height } = canvas.getBoundingClientRect();
+    mouse.set((2 * (event.clientX - left)) / width - 1, 1 - (2 * (event.clientY - top)) / height);
+    ray.setFromCamera(mouse, camera);
+    const shown = copies.parts.flatMap(({ shapes, meshes }) => (meshes[0].count > 0 ? [[meshes[0], shapes[0]]] : []));
+    let nearest = null;
+    for (const [mesh, shape] of shown) {
+      mesh.boundingSphere = null; // copies have moved
+      const hits = ray.intersectObject(mesh, false);
+      const hit = hits.find(({ point }) => !clipped() || cut.distanceToPoint(point) >= 0);
+      if (hit && !(nearest && nearest.hit.distance < hit.distance)) nearest = { hit, mesh, shape };
+    }
+    if (!nearest) return -1;
+    const { hit, mesh, shape } = nearest;
+    const point = mesh.worldToLocal(hit.point.clone()), corner = new Vector3();
+    const far = [hit.face.a, hit.face.b, hit.face.c].map((v) => [
+      corner.fromBufferAttribute(shape.geometry.attributes.position, v).distanceTo(point), v]);
+    return shape.source[far.sort((a, b) => a[0] - b[0])[0][1]];
+  };
+  const textOf = (vertex) => {
+    const { residue, name, area } = owners.atoms[owners.of[vertex]];
+    const value = valueText(mode, vertex, arrays);
+    return `${owners.nameOf(residue)} ${name}${value ? `, ${value}` : ''}, ${number(area, 1)} of ${number(residue.area, 1)} Å²`;
+  };
+  const choose = (residue) => {
+    chosen = residue;
+    list.value = residue ? owners.residues.indexOf(residue) : '';
+    byId('chosen').textContent = residue ? `${owners.nameOf(residue)}, ${number(residue.area, 1)} Å²` : '';
+    repaint();
+  };
+  if (owners) {
+    byId('atoms').hidden = false;
+    owners.residues.forEach((residue, i) => {
+      if (residue.area > 0) list.append(new Option(`${owners.nameOf(residue)}  ${number(residue.area, 1)}`, i));
+    });
+    list.addEventListener('change', () => choose(owners.residues[list.value]));
+    let waits = false, last = null, pressed = null;
+    const look = () => {
+      waits = false;
+      const vertex = last.buttons === 0 ? vertexAt(last) : -1;
+      tip.hidden = vertex < 0;
+      if (vertex < 0) return;
+      tip.textContent = textOf(vertex);
+      const { left, top, width, height } = stage.getBoundingClientRect();
+      const x = last.clientX - left, y = last.clientY - top;
+      tip.style.left = `${x > width / 2 ? x - tip.offsetWidth - 14 : x + 14}px`;
+      tip.style.top = `${y > height / 2 ? y - tip.offsetHeight - 10 : y + 14}px`;
+    };
+    canvas.addEventListener('pointermove', (event) => {
+      last = event;
+      if (!waits) requestAnimationFrame(look);
+      waits = true;
+    });
+    canvas.addEventListener('pointerleave', () => { tip.hidden = true; });
+    canvas.addEventListener('pointerdown', (event) => { pressed = event; });
+    canvas.addEventListener('pointerup', (event) => {
+      if (!pressed || Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) > 4) return;
+      const vertex = vertexAt(event);
+      choose(vertex < 0 ? null : owners.atoms[owners.of[vertex]].residue);
+    });
+  }
+
+  // A cut toward the eye, and light that goes through.
+  const cut = new Plane();
+  const clipped = () => Number(byId('clip').value) > 0;
+  const cutAt = () => {
+    const toEye = camera.position.clone().sub(controls.target).normalize();
+    cut.normal.copy(toEye).negate();
+    return toEye.dot(middle) + radius * (1 - 2 * Number(byId('clip').value));
+  };
+  const inside = new MeshBasicMaterial({ side: BackSide, clippingPlanes: [cut] });
+  if (!several) copies.fill(inside);
+  const setClip = () => {
+    material.clippingPlanes = clipped() ? [cut] : null;
+    material.side = material.transparent ? DoubleSide : FrontSide;
+    material.needsUpdate = true;
+    copies.insides.visible = clipped() && material.opacity === 1;
+    moved = true;
+  };
+  const setOpacity = () => {
+    material.opacity = Number(byId('opacity').value);
+    material.transparent = material.opacity < 1;
+    material.depthWrite = !material.transparent;
+    setClip();
+  };
+  byId('clip').addEventListener('input', setClip);
+  byId('opacity').addEventListener('input', setOpacity);
+  byId('png').addEventListener('click', () => {
+    draw(1, Infinity, ratio);
+    const link = document.createElement('a');
+    link.download = `${header.title.replace(/[^\w.-]+/g, '_') || 'surface'}.png`;
+    link.href = canvas.toDataURL('image/png');
+    document.body.dataset.png = link.href.length;
+    link.click();
+  });
   const setBackground = (dark) => {
+    byId('dark').checked = dark;
     document.body.classList.toggle('dark', dark);
+    inside.color.set(dark ? 0x8a8f98 : 0xb9bec6);
     scene.background = new Color(dark ? 0x14161a : 0xffffff);
     moved = true;
   };
@@ -462,10 +635,32 @@ function start(header, arrays) {
   choice.addEventListener('change', () => setMode(choice.value));
   byId('dark').addEventListener('change', (event) => setBackground(event.target.checked));
   byId('reset').addEventListener('click', reset);
-  window.addEventListener('resize', setSize);
+  new ResizeObserver(setSize).observe(stage);
+  canvas.addEventListener('webglcontextrestored', () => { moved = true; });
+  const rotate = (axis, angle) => {
+    const turn = new Quaternion().setFromAxisAngle(axis.clone().applyQuaternion(camera.quaternion), angle);
+    const arm = camera.position.clone().sub(controls.target).applyQuaternion(turn);
+    camera.position.copy(controls.target).add(arm);
+    camera.up.applyQuaternion(turn);
+    moved = true;
+  };
+  const zoom = (factor) => {
+    camera.position.sub(controls.target).multiplyScalar(factor).add(controls.target);
+    moved = true;
+  };
+  const keys = {
+    ArrowLeft: () => rotate(new Vector3(0, 1, 0), -0.1), ArrowRight: () => rotate(new Vector3(0, 1, 0), 0.1),
+    ArrowUp: () => rotate(new Vector3(1, 0, 0), -0.1), ArrowDown: () => rotate(new Vector3(1, 0, 0), 0.1),
+    '+': () => zoom(0.9), '-': () => zoom(1 / 0.9), r: reset, Escape: () => choose(null),
+  };
+  canvas.addEventListener('keydown', (event) => {
+    if (!keys[event.key] || event.ctrlKey || event.metaKey || event.altKey) return;
+    keys[event.key]();
+    event.preventDefault();
+  });
 
   byId('title').textContent = header.title;
-  setBackground(false);
+  setBackground(window.matchMedia('(prefers-color-scheme: dark)').matches);
   setSize();
   reset();
   setMode(choice.value);
