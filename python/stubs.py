@@ -118,7 +118,7 @@ def default_of(row):
     value = row["default"]
     if row["type"] == "switch":
         return "False"
-    if row["type"] == "number":
+    if row["type"] == "number" and isinstance(value, float):
         return repr(value)
     if row["type"] == "word" and value in row["words"]:
         return f'"{value}"'

@@ -14,8 +14,8 @@ from vdb_molsurf import _options
 # Options of `build` that set no member of the library's options: files, frames, pictures, the run.
 COMMAND_LINE = {"output", "format", "force", "weld", "frames", "trajectory", "start", "lod", "groups", "crisp", "areas",
                 "contacts", "for", "center", "print-scale", "min-wall", "view", "turn", "size", "background", "plain-color",
-                "depth-cue", "legend", "turntable", "memory", "max-hours", "dry-run", "threads", "quiet", "verbose",
-                "no-progress", "config", "help", "version", "list-radii"}
+                "depth-cue", "legend", "turntable", "style", "opacity", "clip", "memory", "max-hours", "dry-run", "threads",
+                "quiet", "verbose", "no-progress", "config", "help", "version", "list-radii"}
 
 
 def options_of_build():
@@ -86,7 +86,8 @@ def test_every_keyword_is_taken(crambin):
                 "flow": "newton", "surface_of": ["A=vdw"], "split": "group", "color": "element", "group_by": "chain",
                 "range": (0, 50), "resolution": 8, "coarse": "residue", "select": "A", "model": 1, "assembly": "none",
                 "altloc": "all", "radii": "protor", "max_input": "1G", "copies": None, "lambda_": 0.02, "tolerance": 0.02,
-                "voxel": 1.0, "probe": 1.2, "blobbiness": 2.0, "epsilon": 0.4}
+                "voxel": 1.0, "probe": 1.2, "blobbiness": 2.0, "epsilon": 0.4,
+                "palette": "cividis", "value_of": "residue", "outward": 2}
     for name, row in _options.KEYWORDS.items():
         value = True if row["type"] == "switch" else examples[name]
         if name in ("hetero", "no_hetero", "interfaces"):
