@@ -55,7 +55,7 @@ class Crisp(ToolTest):
 
         def side(p):
             # The first two colours of the palette: sky blue and orange.
-            return None if min(p) > 250 else p[2] > p[0]
+            return None if max(p) - min(p) < 40 else p[2] > p[0]  # neither white nor the line about it
         sides = [side(p) for p in pixels]
         inside = [i for i, s in enumerate(sides) if s is not None]
         change = next(i for i in inside if sides[i] != sides[inside[0]])

@@ -219,10 +219,10 @@ CASES = {
          f"vdb_molsurf moved.pdb --assembly 1 {FAST} -o b.ply")],
     "color/palette.cpp": [
         ("--color entity", f"vdb_molsurf 1crn.pdb --group-by residues:1 --color group {FAST} -o a.ply",
-         f"vdb_molsurf 1crn.pdb --color entity {FAST} -o a.ply")],
+         f"vdb_molsurf 1crn.pdb --color entity {FAST} -o b.ply")],
     "selection/ball_values.cpp": [
         ("--range", f"vdb_molsurf 1crn.pdb --color occupancy {FAST} -o a.ply",
-         f"vdb_molsurf 1crn.pdb --color occupancy --range 0,1 {FAST} -o a.ply"),
+         f"vdb_molsurf 1crn.pdb --color occupancy --range 0,1 {FAST} -o b.ply"),
         ("with --range they are B factors", f"vdb_molsurf predicted.pdb --color bfactor {FAST} -o a.ply",
          f"vdb_molsurf predicted.pdb --color bfactor --range 60,80 {FAST} -o b.ply")],
     "selection/symmetric_unit.cpp": [
