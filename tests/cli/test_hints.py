@@ -176,8 +176,8 @@ CASES = {
          "vdb_molsurf tiny.xyzr --probe 0.1 --voxel 0.15 -o a.ply"),
         ("a --voxel of 0.05", "vdb_molsurf dot.xyzr --surface vdw --voxel 2 -o a.ply",
          "vdb_molsurf dot.xyzr --surface vdw --voxel 0.05 -o a.ply"),
-        ("a --voxel of 1", "vdb_molsurf apart.xyzr --surface gaussian --voxel 2.23 -o a.ply",
-         "vdb_molsurf apart.xyzr --surface gaussian --voxel 1 -o a.ply"),
+        ("a --voxel of 1.1", "vdb_molsurf apart.xyzr --surface gaussian --voxel 2.25 -o a.ply",
+         "vdb_molsurf apart.xyzr --surface gaussian --voxel 1.1 -o a.ply"),
         ("a smaller --voxel", f"vdb_molsurf bricks plan dot.xyzr --surface vdw --voxel 2 --bricks 1 -o plan.json; "
          f"vdb_molsurf bricks run plan.json 1 -q; {MERGE}",
          "vdb_molsurf bricks plan dot.xyzr --surface vdw --voxel 0.05 --bricks 1 -o plan.json --force; "
