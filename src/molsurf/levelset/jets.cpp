@@ -91,17 +91,19 @@ void jetBeside(const SparseField& coefficients, std::int32_t leaf, const Vec3f& 
     Corners c;
     float t[3];
     int side[3][2];
+    bool about = true; // in the leaves about this one
     for (int a = 0; a < 3; ++a) {
-        const float cell = std::floor(y[a]);
+        const float cell = clamped(std::floor(y[a]), -64.0f, 64.0f);
         const int begin = int(cell) - 1;
-        t[a] = y[a] - cell;
+        t[a] = clamped(y[a] - cell, 0.0f, 1.0f);
         c.first[a] = begin & 7;
         side[a][0] = (begin >> 3) + 1;
         side[a][1] = ((begin + 3) >> 3) + 1;
+        about = about && side[a][0] >= 0 && side[a][1] <= 2;
     }
     for (int i = 0; i < 8; ++i) {
-        const std::int32_t m =
-            near[std::size_t(9 * side[0][i >> 2] + 3 * side[1][i >> 1 & 1] + side[2][i & 1])];
+        const int place = 9 * side[0][i >> 2] + 3 * side[1][i >> 1 & 1] + side[2][i & 1];
+        const std::int32_t m = about ? near[std::size_t(place)] : noLeaf;
         c.leaf[i >> 2][i >> 1 & 1][i & 1] = m == noLeaf ? none : coefficients.leaf(m);
     }
     evaluateAcross(c, t, float(1.0 / coefficients.voxelSize), lane, jets);

@@ -23,7 +23,8 @@ namespace molsurf
 void jetsIn(const LeafBlock<float, 3>& c, const FootPoints::Lanes* y, const bool* which,
             JetLanes& jets);
 
-/// The same spline at one point up to 6 voxels beside a leaf; absent coefficients are 0.
+/// The same spline at one point up to 6 voxels beside a leaf; absent coefficients are 0, and so is
+/// all of it farther away.
 /// @param[in]  coefficients  of phi [Å]
 /// @param[in]  lane          of `jets`, that is written
 void jetBeside(const SparseField& coefficients, std::int32_t leaf, const openvdb::Vec3f& y,

@@ -84,6 +84,17 @@ TEST_F(Jets, BesideALeafAreThoseOfTheSumOverAllCoefficients)
     }
 }
 
+// Where curvatures are sharp a step may lead anywhere.
+TEST_F(Jets, FartherAwayAreZero)
+{
+    for (const Vec3f& y : {Vec3f(30, 0, 0), Vec3f(0, -40, 3), Vec3f(3, 0, 17.5f), Vec3f(0, 1e9f, 0),
+                           Vec3f(-1e30f, 0, 0)}) {
+        JetLanes jets;
+        jetBeside(c, leaf, y, 0, jets);
+        expectSame(jets.at(0), Jet(), 1.0);
+    }
+}
+
 TEST_F(Jets, InABlockAreThoseOfTheChosenLanes)
 {
     for (int i = 0; i < 100; ++i) {
