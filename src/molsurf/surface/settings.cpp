@@ -491,8 +491,7 @@ std::vector<Setting> coloringSettings()
         return std::string(s.atoms.coloring.byResidue ? "residue" : "atom");
     };
     Setting outward{"outward", SettingType::Number, "A",
-                    "potentials are taken A outside of the surface [Å]",
-                    "probe radius; sas: 0"};
+                    "potentials are taken A outside of the surface [Å]", "probe radius; sas: 0"};
     outward.low = 0.0;
     outward.high = 100.0;
     outward.set = [](Settings& s, const Values& values) {
