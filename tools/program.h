@@ -2,19 +2,39 @@
 #pragma once
 
 /// @file
-/// What differs between the programs that share terminal.h and stop.h; each defines its own.
+/// What all programs do alike, and what differs between them.
+
+#include "molsurf/error.h"
+
+#include <functional>
+#include <string>
 
 namespace molsurf::tool
 {
 
-/// How messages begin.
+/// How messages begin. Each program defines its own.
 extern const char* const programName;
 
-/// What to say when memory runs out.
+/// What to say when memory runs out; the same.
 extern const char* const noMemoryText;
 
 /// Keeps a file that is opened from becoming standard output, if that is closed. What uses a closed
 /// stream fails as before.
 void holdStandardStreams();
+
+/// Prints a text on standard output at once, with what was printed before.
+/// @throws Error(ErrorKind::Output) if that cannot be
+void printed(const std::string& text);
+
+/// Holds TBB to a number of threads; 0 or less: to none. It is never taken back: TBB would start
+/// the other threads then, for the end of the program to stop.
+void limitThreads(int threads);
+
+/// What main() does: sets the program up, performs, and says what goes wrong in one line.
+/// @param[in] perform  returns the exit status where nothing goes wrong
+/// @param[in] textOf   what to say of an error
+/// @return the exit status
+int runProgram(const std::function<int()>& perform,
+               const std::function<std::string(const Error&)>& textOf);
 
 } // namespace molsurf::tool

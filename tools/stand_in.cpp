@@ -3,41 +3,18 @@
 
 #include "program.h"
 #include "stop.h"
-#include "terminal.h"
 
 #include "molsurf/error.h"
 #include "molsurf/io/commit.h"
 #include "molsurf/io/temporary_file.h"
 #include "molsurf/progress.h"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <iostream>
-#include <malloc.h>
 #include <memory>
 #include <set>
 
 namespace molsurf::tool
 {
-
-namespace
-{
-
-int statusOfStandIn(ErrorKind kind)
-{
-    return kind == ErrorKind::Usage ? 2 : kind == ErrorKind::Check ? 3 : 1;
-}
-
-} // namespace
-
-void printed(const std::string& text)
-{
-    errno = 0;
-    if (std::cout << text << std::flush) return;
-    throw Error(ErrorKind::Output, std::string("cannot write standard output: ") +
-                                       std::strerror(errno != 0 ? errno : EIO));
-}
 
 void prepareFiles(const std::vector<std::string>& paths, const std::string& input,
                   const std::string& hint)
@@ -80,31 +57,19 @@ void writeFiles(const std::vector<std::string>& paths,
 
 int runStandIn(const std::function<void()>& perform)
 {
-    holdStandardStreams();
-    std::ios_base::sync_with_stdio(false);
-    // As vdb_molsurf: fields of many megabytes come and go.
-    mallopt(M_MMAP_MAX, 0);
-    mallopt(M_TRIM_THRESHOLD, 1 << 30);
-    try {
-        perform();
-        return 0;
-    } catch (const Error& e) {
-        std::string text = e.what();
-        const std::size_t hint = text.find(" [hint:");
-        // Those of the library name its own options.
-        if (hint != std::string::npos && text.find('`', hint) != std::string::npos)
-            text.erase(hint);
-        say("error: " + text);
-        return statusOfStandIn(e.kind());
-    } catch (const Cancelled&) {
-        say("interrupted");
-        return interruptedStatus;
-    } catch (const std::bad_alloc&) {
-        say(noMemoryText);
-    } catch (const std::exception& e) {
-        say(unforeseenText(e));
-    }
-    return 1;
+    return runProgram(
+        [&] {
+            perform();
+            return 0;
+        },
+        [](const Error& e) {
+            std::string text = e.what();
+            const std::size_t hint = text.find(" [hint:");
+            // Those of the library name its own options.
+            if (hint != std::string::npos && text.find('`', hint) != std::string::npos)
+                text.erase(hint);
+            return text;
+        });
 }
 
 } // namespace molsurf::tool

@@ -13,10 +13,6 @@
 namespace molsurf::tool
 {
 
-/// Prints a text on standard output at once.
-/// @throws Error(ErrorKind::Output) if that cannot be
-void printed(const std::string& text);
-
 /// Finds out whether files can be written, which may replace others, and has them cleaned up after
 /// a signal. To be called before any work, and again where other files follow.
 /// @param[in] input  which none of them may be
@@ -37,7 +33,7 @@ void writeFiles(const std::vector<std::string>& paths,
                 const std::function<void(std::size_t, OutputFile&)>& write,
                 const std::function<void()>& complete);
 
-/// What main() does: sets the program up, performs, and says what goes wrong in one line.
+/// runProgram() without hints that name options of the library.
 /// @return the exit status
 int runStandIn(const std::function<void()>& perform);
 

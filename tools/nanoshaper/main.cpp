@@ -20,9 +20,7 @@
 #include "molsurf/surface/check_balls.h"
 
 #include <openvdb/openvdb.h>
-#include <tbb/global_control.h>
 
-#include <optional>
 #include <thread>
 
 using namespace molsurf;
@@ -198,12 +196,7 @@ void perform(const std::string& path)
 {
     openvdb::initialize();
     const Config config = readConfig(path);
-    const std::optional<tbb::global_control> limit =
-        config.threads > 0
-            ? std::optional<tbb::global_control>(std::in_place,
-                                                 tbb::global_control::max_allowed_parallelism,
-                                                 std::size_t(config.threads))
-            : std::nullopt;
+    tool::limitThreads(config.threads);
     Results results;
     const std::vector<ResultFile> files = filesOf(config, results);
     tool::recoverFolders(pathsOf(files));

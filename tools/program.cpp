@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "program.h"
+
+#include "stop.h"
+#include "terminal.h"
+#include "verbs.h"
+
+#include "molsurf/progress.h"
+
+#include <tbb/global_control.h>
+
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+#include <malloc.h>
+#include <new>
+
+namespace molsurf::tool
+{
+
+namespace
+{
+
+int statusOf(ErrorKind kind)
+{
+    return kind == ErrorKind::Usage ? 2 : kind == ErrorKind::Check ? failedCheckStatus : 1;
+}
+
+} // namespace
+
+void printed(const std::string& text)
+{
+    errno = 0;
+    if (std::cout << text << std::flush) return;
+    throw Error(ErrorKind::Output, std::string("cannot write standard output: ") +
+                                       std::strerror(errno != 0 ? errno : EIO));
+}
+
+void limitThreads(int threads)
+{
+    if (threads <= 0) return;
+    [[maybe_unused]] static const auto* const held =
+        new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+}
+
+int runProgram(const std::function<int()>& perform,
+               const std::function<std::string(const Error&)>& textOf)
+{
+    holdStandardStreams();
+    std::ios_base::sync_with_stdio(false);
+    // Fields of many megabytes come and go between the stages: kept by the allocator, their pages
+    // need not be mapped and cleared anew each time.
+    mallopt(M_MMAP_MAX, 0); // the threshold for mappings cannot be set above 32 MB
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    try {
+        const int status = perform();
+        printed("");
+        return status;
+    } catch (const Error& e) {
+        say("error: " + textOf(e));
+        return statusOf(e.kind());
+    } catch (const Cancelled&) {
+        say("interrupted");
+        return interruptedStatus;
+    } catch (const std::bad_alloc&) {
+        say(noMemoryText);
+    } catch (const std::exception& e) {
+        say(unforeseenText(e));
+    }
+    return 1;
+}
+
+} // namespace molsurf::tool
