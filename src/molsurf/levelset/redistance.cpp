@@ -554,7 +554,7 @@ std::vector<bool> innerLeaves(const LeafTable& domain, const LeafTable& table,
     std::vector<Neighbour> about;
     for (int k = 0; k < 27; ++k) {
         const Coord way(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
-        if (k == 13) continue;
+        if (k == centreNeighbour) continue;
         about.push_back({Coord(way.x() * leafDim, way.y() * leafDim, way.z() * leafDim),
                          touching(Coord(-way.x(), -way.y(), -way.z()))});
     }
@@ -574,8 +574,7 @@ std::vector<bool> innerLeaves(const LeafTable& domain, const LeafTable& table,
         found.push_back(n);
     }
     for (std::size_t i = 0; i < found.size(); ++i) { // those farther away, step by step
-        for (const Neighbour& next : about) {
-            const std::int32_t m = domain.find(domain.origin(found[i]) + next.offset);
+        for (const std::int32_t m : domain.neighbours(std::int32_t(found[i]))) {
             if (m == noLeaf || known[std::size_t(m)] ||
                 table.find(domain.origin(std::size_t(m))) != noLeaf)
                 continue;
