@@ -551,6 +551,7 @@ void addSurface(nb::module_& m)
 void addFunctions(nb::module_& m)
 {
     m.def("settings", describeSettings);
+    m.def("structure_endings", structureEndings);
     // Whether a colour needs what read() takes from a file; what is no colour does not.
     m.def("is_of_file", [](const std::string& color) {
         try {

@@ -70,6 +70,15 @@ def test_sources(folder):
     assert [row["area"] for row in packed] == [row["area"] for row in plain]
 
 
+def test_a_folder_has_every_format_that_is_read(tmp_path):
+    names = [f"a{ending}{packed}" for ending in (".bcif", ".cif", ".gro", ".mol2", ".pdb", ".sdf", ".xyzrn")
+             for packed in ("", ".gz")]
+    for name in [*names, "a.ply", "a.txt"]:
+        (tmp_path / name).touch()
+    [part] = ms.shards(tmp_path)
+    assert part.items == [str(tmp_path / name) for name in sorted(names)]
+
+
 def test_rows(folder):
     [part] = ms.shards(folder)
     rows = ms.measure(part, measure_names, **FAST)

@@ -14,7 +14,7 @@ from . import _core, _options
 from ._molecule import read
 from ._surface import surface
 
-ENDINGS = (".pdb", ".ent", ".cif", ".mmcif", ".pqr", ".xyzr", ".xyzrn")
+ENDINGS = tuple(_core.structure_endings())
 COLUMNS = ("input", "error", "atoms", "kind", "area", "volume", "components", "cavities")
 DIED = "the process ended: out of memory, or a fault"
 
@@ -56,7 +56,7 @@ def measure(shard, function=None, folder=None, **options):
     """
     shard = Shard(*shard)
     checked = _checked(options)
-    path = folder and os.path.join(os.fspath(folder), f"part-{shard.number:08d}.parquet")
+    path = folder and _part(folder, shard)
     made_of = _made_of(shard, function, options)
     if path and os.path.exists(path):
         return _read_part(path, made_of)
@@ -93,6 +93,18 @@ def map(sources, function=None, workers=None, size=100, folder=None, **options):
         pool.shutdown(wait=False, cancel_futures=True)
         for process in list((getattr(pool, "_processes", None) or {}).values()):
             process.terminate()
+
+
+def _name(item):
+    return item[0] if isinstance(item, tuple) else item
+
+
+def _part(folder, shard):
+    return os.path.join(os.fspath(folder), f"part-{shard.number:08d}.parquet")
+
+
+def _failed(item, error):
+    return {**dict.fromkeys(COLUMNS), "input": _name(item), "error": error}
 
 
 def _items(sources):
@@ -139,9 +151,7 @@ def _surface_of(item, options):
 
 
 def _row(item, function, options):
-    name = item[0] if isinstance(item, tuple) else item
-    row = dict.fromkeys(COLUMNS)
-    row["input"] = name
+    row = _failed(item, None)
     try:
         made = _surface_of(item, options)
         report = made.report["surface"]
@@ -152,12 +162,12 @@ def _row(item, function, options):
     except (KeyboardInterrupt, SystemExit):
         raise
     except Exception as error:  # noqa: BLE001: whatever it is, the other inputs go on
-        row = {**dict.fromkeys(COLUMNS), "input": name, "error": f"{type(error).__name__}: {error}".split("\n")[0]}
+        row = _failed(item, f"{type(error).__name__}: {error}".split("\n")[0])
     return row
 
 
 def _made_of(shard, function, options):
-    names = [item[0] if isinstance(item, tuple) else item for item in shard.items]
+    names = [_name(item) for item in shard.items]
     called = function and f"{function.__module__}.{getattr(function, '__qualname__', type(function).__qualname__)}"
     text = json.dumps([_core.__version__, names, called, sorted((name, repr(value)) for name, value in options.items()
                                                                 if name not in ("threads", "progress"))])
@@ -229,8 +239,7 @@ def _alone(shard, function, folder, options):
             try:
                 rows += pool.submit(measure, Shard(0, [item]), function, None, **options).result()
             except concurrent.futures.process.BrokenProcessPool:
-                rows.append({**dict.fromkeys(COLUMNS), "input": item[0] if isinstance(item, tuple) else item, "error": DIED})
+                rows.append(_failed(item, DIED))
     if folder is not None:
-        _write_part(os.path.join(os.fspath(folder), f"part-{shard.number:08d}.parquet"), rows,
-                    _made_of(shard, function, options))
+        _write_part(_part(folder, shard), rows, _made_of(shard, function, options))
     return rows

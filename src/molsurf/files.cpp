@@ -10,11 +10,20 @@
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/picture/draw_mesh.h"
 #include "molsurf/picture/write_png.h"
+#include "molsurf/structure/detect_format.h"
 
 #include <filesystem>
 
 namespace molsurf
 {
+
+std::vector<std::string> structureEndings()
+{
+    std::vector<std::string> all;
+    for (const StructureFormatRow& row : structureFormats())
+        all.insert(all.end(), row.endings.begin(), row.endings.end());
+    return all;
+}
 
 std::vector<std::string> meshEndings()
 {

@@ -15,6 +15,9 @@
 namespace molsurf
 {
 
+/// How the names of files of atoms end: ".pdb", ".cif", ... Each may have a further ".gz".
+std::vector<std::string> structureEndings();
+
 /// How the names of mesh files end: ".ply", ".obj", ...
 std::vector<std::string> meshEndings();
 

@@ -31,18 +31,6 @@ public:
     virtual bool cancelled() const { return false; }
 };
 
-/// Progress of a run within another run: nobody is told of it, but the outer one can stop it.
-class QuietProgress : public Progress
-{
-public:
-    /// @param[in] outer  the progress of the outer run; it must outlive this object
-    explicit QuietProgress(const Progress& outer) : outer_(outer) {}
-    bool cancelled() const override { return outer_.cancelled(); }
-
-private:
-    const Progress& outer_;
-};
-
 /// A stage throws this when Progress::cancelled() returns true. It is not an Error, since nothing
 /// went wrong.
 class Cancelled : public std::exception

@@ -2,6 +2,7 @@
 #include "molsurf/surface/interfaces.h"
 
 #include "molsurf/balls/contacts.h"
+#include "molsurf/core/quiet_progress.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/surface/closed_form.h"
 #include "molsurf/surface/influence.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/match_volume.h"
 
+#include "molsurf/core/quiet_progress.h"
 #include "molsurf/error.h"
 #include "molsurf/surface.h"
 

@@ -3,6 +3,7 @@
 
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/color/palette.h"
+#include "molsurf/core/quiet_progress.h"
 #include "molsurf/error.h"
 #include "molsurf/mesh/statistics.h"
 #include "molsurf/selection/subset.h"

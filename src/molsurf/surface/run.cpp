@@ -4,6 +4,7 @@
 #include "molsurf/balls/placed_ball.h"
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/color/palette.h"
+#include "molsurf/core/quiet_progress.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/surface/check_balls.h"
