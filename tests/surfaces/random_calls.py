@@ -66,7 +66,28 @@ def xyzrn(rng):
     return [f"{line} 1 CA_ALA_{i + 1}" for i, line in enumerate(xyzr(rng))]
 
 
-INPUTS = {"pdb": pdb, "cif": mmcif, "pqr": pqr, "xyzr": xyzr, "xyzrn": xyzrn}
+def gro(rng):
+    atoms = rng.choice((1, 5, 40))
+    return ["from crambin", f"{atoms:5d}"] + [
+        f"{i // 4 + 1:5d}{'ALA':5s}{name:>5s}{i + 1:5d}" + "".join(f"{rng.uniform(0, 0.8):8.3f}" for _ in range(3))
+        for i, name in zip(range(atoms), ("N", "CA", "C", "O") * 10)] + ["   1.00000   1.00000   1.00000"]
+
+
+def sdf(rng):
+    atoms = rng.choice((1, 6, 20))
+    return ["ligand", "  test", "", f"{atoms:3d}{atoms - 1:3d}  0  0  0  0  0  0  0  0999 V2000"] + [
+        "".join(f"{value:10.4f}" for value in (1.4 * i, rng.uniform(-1, 1), 0)) + f" {rng.choice('CNO')}   0  0"
+        for i in range(atoms)] + [f"{i + 1:3d}{i + 2:3d}  1  0" for i in range(atoms - 1)] + ["M  END", "$$$$"]
+
+
+def mol2(rng):
+    atoms = rng.choice((1, 6, 20))
+    return ["@<TRIPOS>MOLECULE", "ligand", f"{atoms} 0 1", "SMALL", "NO_CHARGES", "@<TRIPOS>ATOM"] + [
+        f"{i + 1} C{i + 1} {1.4 * i:.4f} {rng.uniform(-1, 1):.4f} 0.0 {rng.choice(('C.3', 'N.ar', 'O.2'))} 1 LIG 0.1"
+        for i in range(atoms)]
+
+
+INPUTS = {"pdb": pdb, "cif": mmcif, "pqr": pqr, "xyzr": xyzr, "xyzrn": xyzrn, "gro": gro, "sdf": sdf, "mol2": mol2}
 NUMBERS = ("0", "-0", "-1", "1e9", "1e-9", "nan", "inf", "999999", "0.0005", "99999999999999999999", "", "?", "1e400")
 
 
@@ -138,7 +159,15 @@ def surface_options(rng):
         lambda: ["--print-scale", "1", "--min-wall", rng.choice(("1", "5"))],
         lambda: ["--spline-level", rng.choice(("1", "2"))],
         lambda: ["--view", rng.choice(("1,0,0", "auto", "0,0,0"))],
-        lambda: ["--size", rng.choice(("16", "60"))])
+        lambda: ["--size", rng.choice(("16", "60"))],
+        lambda: ["--style", rng.choice(("soft", "glossy", "outline", "flat"))],
+        lambda: ["--opacity", number(rng, "0.2", "0.7", "1")],
+        lambda: ["--clip", number(rng, "0", "2", "-3")],
+        lambda: ["--color", rng.choice(("bfactor", "hydrophobicity", "charge")),
+                 "--value-of", rng.choice(("atom", "residue"))],
+        lambda: ["--color", rng.choice(("bfactor", "gaussian-curvature")),
+                 "--palette", rng.choice(("viridis", "cividis")), "--range", rng.choice(("0,10", "-1,1", "1,1", "nan,2"))],
+        lambda: ["--color", "bfactor", "--flat-values"])
     words = []
     for choice in rng.sample(choices, rng.choice((1, 2, 3, 4, 6))):
         words += choice()
@@ -155,9 +184,11 @@ def call(rng, folder):
     if rng.random() < 0.05:
         return ["info", name]
     endings = ("vdb", "ply", "obj", "stl", "off", "glb", "3mf", "html", "json", "png", "atoms.csv", "residues.csv",
-               "contacts.csv", "interfaces.csv", "pdb", "cif", "usda")
+               "contacts.csv", "interfaces.csv", "pdb", "cif", "usda", "mrc", "dx", "vert", "face", "cxc", "pml")
     outputs = [f"out.{ending}" for ending in rng.sample(endings, rng.choice((1, 1, 2, 3)))]
     words = [name, *surface_options(rng)]
+    if "out.png" in outputs and "--size" not in words:
+        words += ["--size", "100"]
     for output in outputs:
         words += ["-o", output]
     return words
