@@ -31,7 +31,7 @@ inline std::vector<Ball> randomBalls(int count, double edge, const openvdb::Vec3
     std::uniform_real_distribution<double> place(-0.5 * edge, 0.5 * edge), radius(1.2, 2.0);
     std::vector<Ball> out;
     for (int i = 0; i < count; ++i) {
-        const openvdb::Vec3d x(place(random), place(random), place(random));
+        const openvdb::Vec3d x{place(random), place(random), place(random)};
         out.push_back({openvdb::Vec3f(centre + x), float(radius(random)), i});
     }
     return out;

@@ -93,7 +93,7 @@ TEST(BoundaryPoint, AgreesWithAllBalls)
     std::uniform_real_distribution<double> place(-8.0, 8.0);
     int parts[3] = {0, 0, 0};
     for (int n = 0; n < 300; ++n) {
-        const Vec3d x = Vec3d(3.0) + Vec3d(place(random), place(random), place(random));
+        const Vec3d x = Vec3d(3.0) + Vec3d{place(random), place(random), place(random)};
         const BoundaryPoint point = points.nearest(x, 0.3);
         EXPECT_NEAR(point.distance, byAllBalls(balls, 1.4, x), 1e-5);
         EXPECT_NEAR(point.distance, (point.position - x).length(), 1e-12);

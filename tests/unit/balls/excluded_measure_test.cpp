@@ -403,7 +403,7 @@ TEST(ExcludedMeasure, AgreesWithSlices)
         // Quadrature of special positions needs them a little apart.
         std::mt19937 random(5);
         std::uniform_real_distribution<float> move(-1e-6f, 1e-6f);
-        for (Ball& b : balls) b.center += Vec3f(move(random), move(random), move(random));
+        for (Ball& b : balls) b.center += Vec3f{move(random), move(random), move(random)};
         const Sliced sliced(balls, probe);
         const std::size_t n = std::size_t(&balls - &molecules[0].first);
         const double errors[] = {exact.all.area / sliced.area - 1.0,

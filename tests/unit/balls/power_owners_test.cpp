@@ -73,14 +73,14 @@ TEST(PowerOwners, AgreesWithAllBalls)
     std::vector<std::int32_t> ownerOf;
     for (std::int32_t i = 0; i < 60; ++i) {
         balls.push_back(
-            {Vec3f(Vec3d(place(random), place(random), place(random))), float(radius(random)), i});
+            {Vec3f(Vec3d{place(random), place(random), place(random)}), float(radius(random)), i});
         ownerOf.push_back(i % 5);
     }
     const PowerOwners owners(balls, ownerOf);
     std::vector<OwnersPower> near;
     constexpr double slack = 10.0;
     for (int n = 0; n < 500; ++n) {
-        const Vec3d x(place(random), place(random), place(random));
+        const Vec3d x{place(random), place(random), place(random)};
         std::vector<double> least(5, 1e9);
         for (std::size_t i = 0; i < balls.size(); ++i) {
             const double r = double(balls[i].radius);

@@ -44,7 +44,7 @@ std::vector<Ball> chain()
     std::vector<Ball> balls;
     Vec3f at(-60.3f, 2.1f, -7.7f), way(1.0f, 0.0f, 0.0f);
     for (int i = 0; i < 1500; ++i) {
-        way += 0.7f * Vec3f(step(random) + 0.12f, step(random), step(random));
+        way += 0.7f * Vec3f{step(random) + 0.12f, step(random), step(random)};
         way -= 0.01f * Vec3f(0.0f, at.y(), at.z());
         way.normalize();
         at += 1.5f * way;

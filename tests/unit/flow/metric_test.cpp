@@ -45,7 +45,7 @@ TEST(MetricAtFoot, AgreesWithTheDefinitionAtTheFootPoint)
             q.b[k] = 1.5 * uniform(random);
             for (int l = 0; l <= k; ++l) q.A(k, l) = q.A(l, k) = 0.5 * uniform(random);
         }
-        Vec3d n(uniform(random), uniform(random), uniform(random));
+        Vec3d n{uniform(random), uniform(random), uniform(random)};
         n.normalize();
         const double phi = 0.7 * uniform(random);
         const Vec3d foot = -phi * n; // of the voxel at 0

@@ -41,7 +41,7 @@ struct Pose {
         const openvdb::math::Quat<double> q(normal(random), normal(random), normal(random),
                                             normal(random));
         turn = Mat3d(q.unit());
-        shift = Vec3d(normal(random), normal(random), normal(random)) * 0.5;
+        shift = Vec3d{normal(random), normal(random), normal(random)} * 0.5;
     }
     Vec3d of(const Vec3d& x) const { return turn * x + shift; }
 };
@@ -98,7 +98,7 @@ TEST(Gaps, TheMiddleOfACageIsFoundFromWhereverItIsNear)
     const PsiJetAt jet = [&](const Vec3d& x) { return sum.jet(x); };
     std::uniform_real_distribution<double> near(-0.2, 0.2);
     for (int i = 0; i < 20; ++i) {
-        const Vec3d from = pose.shift + Vec3d(near(random), near(random), near(random));
+        const Vec3d from = pose.shift + Vec3d{near(random), near(random), near(random)};
         const auto gap = gapNear(jet, from, 0.75);
         ASSERT_TRUE(gap);
         EXPECT_LT((gap->place - pose.shift).length(), 4e-5);

@@ -21,10 +21,10 @@ Mesh soup(int count, unsigned seed)
     std::uniform_real_distribution<float> place(-20.0f, 20.0f), shape(-1.0f, 1.0f);
     Mesh mesh;
     for (int i = 0; i < count; ++i) {
-        const Vec3f p(place(random) + 30.0f, place(random), place(random));
+        const Vec3f p{place(random) + 30.0f, place(random), place(random)};
         const float size = std::exp(3.0f * shape(random)) * 0.3f;
         const auto corner = [&] {
-            return p + size * Vec3f(shape(random), shape(random), shape(random));
+            return p + size * Vec3f{shape(random), shape(random), shape(random)};
         };
         const auto n = std::uint32_t(mesh.positions.size());
         mesh.positions.push_back(p);
@@ -60,7 +60,7 @@ TEST(ClosestPoint, IsThatOfASearchThroughAll)
     std::uniform_real_distribution<double> place(-25.0, 25.0);
     for (int i = 0; i < 300; ++i) {
         const double far = i % 10 == 0 ? 40.0 : 1.0; // some from far away
-        const Vec3d x = far * Vec3d(place(random) + 30.0, place(random), place(random));
+        const Vec3d x = far * Vec3d{place(random) + 30.0, place(random), place(random)};
         double best = 1e30;
         for (const auto& t : mesh.triangles)
             best = std::min(best,

@@ -36,7 +36,7 @@ std::vector<Vec3d> pointsAbout(const Vec3d& centre, double reach, int count)
     std::uniform_real_distribution<double> place(-reach, reach);
     std::vector<Vec3d> points;
     for (int i = 0; i < count; ++i)
-        points.push_back(centre + Vec3d(place(random), place(random), place(random)));
+        points.push_back(centre + Vec3d{place(random), place(random), place(random)});
     return points;
 }
 

@@ -56,7 +56,7 @@ TEST(MoveToSurface, OfManyPointsGoesTheWayOfOne)
     std::uniform_real_distribution<double> anywhere(-ring.extent, ring.extent);
     std::vector<openvdb::Vec3s> starts;
     while (starts.size() < 2000) {
-        const Vec3d x = ring.centre + Vec3d(anywhere(random), anywhere(random), anywhere(random));
+        const Vec3d x = ring.centre + Vec3d{anywhere(random), anywhere(random), anywhere(random)};
         if (std::abs(ring.distance(x)) < 0.9 * voxel) starts.emplace_back(x);
     }
     Mesh mesh;

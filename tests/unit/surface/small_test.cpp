@@ -128,7 +128,7 @@ TEST(SmallMolecules, NameAVoxelThatHoldsThem)
         Vec3f x = corner;
         for (int i = 0; i <= run % 7; ++i) {
             balls.push_back({x, radius(random), i});
-            x += Vec3f(step(random), step(random), step(random));
+            x += Vec3f{step(random), step(random), step(random)};
         }
         if (run == 0) { // its triangles enclose another volume than their arcs
             balls = {{{2.524f, -36.942f, -21.611f}, 1.19f, 0},

@@ -35,8 +35,8 @@ Motion randomMotion(std::mt19937& random)
 {
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> place(-3.0, 3.0);
-    Vec3d a(normal(random), normal(random), normal(random));
-    Vec3d b(normal(random), normal(random), normal(random));
+    Vec3d a{normal(random), normal(random), normal(random)};
+    Vec3d b{normal(random), normal(random), normal(random)};
     a.normalize();
     b -= b.dot(a) * a;
     b.normalize();
