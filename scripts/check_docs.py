@@ -9,7 +9,7 @@
 These have to exist: links and the headings they lead to; paths and file names in backticks, or written from a
 folder of the root; numbered sections such as "docs/math.md, section 7", and ADRs; in backticks names such as
 `Type::member`, `someFunction` and `function()` of the code, and the options of the program. Defaults beside options have to be
-those of the help, and docs/options.md and docs/cli-help.txt have to be what the program prints; --renew writes these two.
+those of the help, and the files that a program prints (PRINTED) have to be what it prints; --renew writes these.
 Prints one line for each fault, and exits with 1 if there is one.
 
 With --installed the pages below a folder are checked instead (cmake/install_guide.cmake installs them): they link to
@@ -36,6 +36,17 @@ FOREIGN = {"std", "openvdb", "tbb", "gemmi", "boost", "CGAL", "molsurf"}
 # Names in backticks that look like ours, and are another program's or a file's.
 FOREIGN_NAMES = {"readAll", "metersPerUnit", "levelSet", "fogVolume"}
 NUMBER = r"-?\d+(?:\.\d+)?(?:e-?\d+)?"
+
+# Files of the programs' own words: which program, beside that of --program, prints them, and by which option.
+PRINTED = {
+    "docs/options.md": ("vdb_molsurf", "--options-page"),
+    "docs/report.md": ("vdb_molsurf", "--report-page"),
+    "docs/cli-help.txt": ("vdb_molsurf", "--help"),
+    "docs/man/vdb_molsurf.1": ("vdb_molsurf", "--man"),
+    "docs/man/vdb_molsurf.bash": ("vdb_molsurf", "--bash-completion"),
+    "docs/man/vdb_molsurf_msms.1": ("vdb_molsurf_msms", "--man"),
+    "docs/man/vdb_molsurf_nanoshaper.1": ("vdb_molsurf_nanoshaper", "--man"),
+}
 
 
 class Tree:
@@ -102,10 +113,7 @@ class Program:
                 answer = text(*verb)
                 if answer not in ("", main) and (answer not in verbs.values() or len(verb) == 1):
                     verbs[" ".join(verb)] = answer
-        program = cls(main, verbs)
-        program.page, program.report = (subprocess.run([path, word], capture_output=True, text=True).stdout
-                                        for word in ("--options-page", "--report-page"))
-        return program
+        return cls(main, verbs)
 
 
 def plain(value):
@@ -240,7 +248,7 @@ def check_figures(words):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=ROOT / "build-release/tools/vdb_molsurf")
-    parser.add_argument("--renew", action="store_true", help="write docs/options.md and docs/cli-help.txt")
+    parser.add_argument("--renew", action="store_true", help="write the files that the programs print")
     parser.add_argument("--installed", metavar="FOLDER", type=pathlib.Path, help="check the pages that were installed")
     parser.add_argument("--figures", action="store_true", help="hold the numbers of the pages against new runs")
     parser.add_argument("--structures", metavar="FOLDER", help="of structures that are not part of the project")
@@ -258,8 +266,8 @@ def main():
         return check_figures(words)
     program = Program.ask(words.program)
     lines = []
-    for name, text in (("docs/options.md", program.page), ("docs/report.md", program.report),
-                       ("docs/cli-help.txt", program.main)):
+    for name, (of, option) in PRINTED.items():
+        text = subprocess.run([pathlib.Path(words.program).with_name(of), option], capture_output=True, text=True).stdout
         if words.renew:
             (ROOT / name).write_text(text)
         elif not (ROOT / name).exists() or (ROOT / name).read_text() != text:

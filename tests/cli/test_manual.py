@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MPL-2.0
-"""The manual page and the completion of bash, which the build makes, tell of every option."""
+"""The manual page and the completion of bash tell of every option."""
 
 import pathlib
 import re
@@ -7,10 +7,10 @@ import subprocess
 import unittest
 
 from needs import needs
-from tool import TOOL, ToolTest
+from tool import ToolTest
 
 VERBS = ["", "build", "batch", "compare", "bricks plan", "bricks run", "bricks merge", "convert"]
-BUILT = pathlib.Path(TOOL).resolve().parent
+MANUAL = pathlib.Path(__file__).resolve().parents[2] / "docs/man"
 
 
 class Manual(ToolTest):
@@ -22,14 +22,14 @@ class Manual(ToolTest):
         """What bash offers for the last word."""
         script = ("source \"$0\"; COMP_WORDS=(\"$@\"); "
                   "COMP_CWORD=$(($# - 1)); _vdb_molsurf; printf '%s\\n' \"${COMPREPLY[@]}\"")
-        done = subprocess.run(["bash", "-c", script, BUILT / "vdb_molsurf.bash", "vdb_molsurf", *words],
+        done = subprocess.run(["bash", "-c", script, MANUAL / "vdb_molsurf.bash", "vdb_molsurf", *words],
                               cwd=self.folder, capture_output=True, text=True, timeout=60)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return done.stdout.split()
 
     def test_page_has_every_option(self):
         page = self.check(0, "--man").stdout.decode()
-        self.assertEqual(page, (BUILT / "vdb_molsurf.1").read_text())
+        self.assertEqual(page, (MANUAL / "vdb_molsurf.1").read_text())
         plain = page.replace("\\-", "-")
         for verb in VERBS:
             self.assertGreater(len(self.options(verb)), 0)
@@ -39,12 +39,12 @@ class Manual(ToolTest):
     @needs("groff")
     def test_page_is_clean(self):
         done = subprocess.run(["groff", "-man", "-ww", "-K", "utf8", "-T", "utf8", "-z",
-                               BUILT / "vdb_molsurf.1"], capture_output=True, text=True, timeout=60)
+                               MANUAL / "vdb_molsurf.1"], capture_output=True, text=True, timeout=60)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_completion_has_every_option(self):
         script = self.check(0, "--bash-completion").stdout.decode()
-        self.assertEqual(script, (BUILT / "vdb_molsurf.bash").read_text())
+        self.assertEqual(script, (MANUAL / "vdb_molsurf.bash").read_text())
         for verb in VERBS:
             offered = self.complete(*(verb.split() or ["a.pdb"]), "--")
             self.assertLessEqual(set(self.options(verb)), set(offered), verb)

@@ -13,7 +13,7 @@ import unittest
 from unittest import mock
 
 from needs import needs
-from tool import CRAMBIN, DATA, TOOL, ToolTest
+from tool import CRAMBIN, DATA, ROOT, TOOL, ToolTest
 
 MSMS = pathlib.Path(TOOL).resolve().parent / "vdb_molsurf_msms"
 TORIC, SPHERICAL, CONTACT = 1, 2, 3
@@ -471,7 +471,7 @@ class Options(Msms):
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertIn("-probe_radius", done.stdout)
         page = self.run_msms("--man").stdout
-        self.assertEqual(page, (MSMS.parent / "vdb_molsurf_msms.1").read_text())
+        self.assertEqual(page, (ROOT / "docs/man/vdb_molsurf_msms.1").read_text())
         self.assertIn("\\fB\\-all_components\\fR", page)
         self.assertRegex(self.run_msms("--version").stdout, r"^vdb_molsurf_msms \d")
 

@@ -10,7 +10,7 @@ import re
 import subprocess
 import unittest
 
-from tool import CRAMBIN, TOOL, ToolTest, read_ply
+from tool import CRAMBIN, ROOT, TOOL, ToolTest, read_ply
 
 NANOSHAPER = pathlib.Path(TOOL).with_name("vdb_molsurf_nanoshaper")
 RADII = {"C": 1.7, "N": 1.55, "O": 1.52, "S": 1.8}
@@ -198,7 +198,7 @@ class NanoShaper(ToolTest):
     def test_help(self):
         done = self.run_nano("--help")
         self.assertIn("Probe_Radius", done.stdout)
-        self.assertEqual(self.run_nano("--man").stdout, (NANOSHAPER.parent / "vdb_molsurf_nanoshaper.1").read_text())
+        self.assertEqual(self.run_nano("--man").stdout, (ROOT / "docs/man/vdb_molsurf_nanoshaper.1").read_text())
         self.assertRegex(self.run_nano("--version").stdout, r"^vdb_molsurf_nanoshaper \d")
 
 

@@ -1,0 +1,93 @@
+# bash completion of vdb_molsurf 0.1.0
+_vdb_molsurf()
+{
+    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}
+    local verb=build options= words=
+    case ${COMP_WORDS[1]} in
+        bricks) verb="bricks ${COMP_WORDS[2]}" ;;
+        help|build|batch|compare|convert|bricks|info) verb=${COMP_WORDS[1]} ;;
+    esac
+    case $verb:$before in
+        "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face mrc dx cxc pml html json png atoms.csv residues.csv contacts.csv interfaces.csv pdb cif residues.pdb residues.cif" ;;
+        "build":--start) words="cold warm" ;;
+        "build":--surface) words="variational ses sas vdw gaussian" ;;
+        "build":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd v" ;;
+        "build":--coarse) words="atom residue" ;;
+        "build":--group-by) words="chain entity class copy" ;;
+        "build":--split) words="group" ;;
+        "build":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
+        "build":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
+        "build":--value-of) words="atom residue" ;;
+        "build":--areas) words="atoms residues contacts interfaces" ;;
+        "build":--contacts) words="atom residue chain" ;;
+        "build":--for) words="blender houdini usd" ;;
+        "build":--view) words="auto" ;;
+        "build":--background) words="transparent" ;;
+        "build":--style) words="soft glossy outline flat" ;;
+        "build":--legend) words="auto on off" ;;
+        "build":--regularizer) words="gradient area" ;;
+        "build":--flow) words="newton paper" ;;
+        "batch":--surface) words="variational ses sas vdw gaussian" ;;
+        "batch":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd v" ;;
+        "batch":--coarse) words="atom residue" ;;
+        "batch":--group-by) words="chain entity class copy" ;;
+        "batch":--split) words="group" ;;
+        "batch":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
+        "batch":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
+        "batch":--value-of) words="atom residue" ;;
+        "batch":--areas) words="atoms residues contacts interfaces" ;;
+        "batch":--contacts) words="atom residue chain" ;;
+        "batch":--for) words="blender houdini usd" ;;
+        "batch":--view) words="auto" ;;
+        "batch":--background) words="transparent" ;;
+        "batch":--style) words="soft glossy outline flat" ;;
+        "batch":--legend) words="auto on off" ;;
+        "batch":--regularizer) words="gradient area" ;;
+        "batch":--flow) words="newton paper" ;;
+        "compare":--format) words="vdb ply json" ;;
+        "compare":--color) words="distance signed-distance" ;;
+        "compare":--surface) words="variational ses sas vdw gaussian" ;;
+        "compare":--coarse) words="atom residue" ;;
+        "compare":--regularizer) words="gradient area" ;;
+        "compare":--flow) words="newton paper" ;;
+        "convert":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face mrc dx cxc pml html json png" ;;
+        "convert":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd v" ;;
+        "convert":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
+        "convert":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature" ;;
+        "convert":--view) words="auto" ;;
+        "convert":--background) words="transparent" ;;
+        "convert":--style) words="soft glossy outline flat" ;;
+        "convert":--legend) words="auto on off" ;;
+        "bricks plan":--surface) words="variational ses sas vdw gaussian" ;;
+        "bricks plan":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd v" ;;
+        "bricks plan":--coarse) words="atom residue" ;;
+        "bricks plan":--group-by) words="chain entity class copy" ;;
+        "bricks plan":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
+        "bricks plan":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
+        "bricks plan":--value-of) words="atom residue" ;;
+        "bricks plan":--regularizer) words="gradient area" ;;
+        "bricks plan":--flow) words="newton paper" ;;
+        "bricks merge":--format) words="vdb ply json" ;;
+    esac
+    case $verb in
+        "build") options="--output -o --format --force --select --model --assembly --instances --by-symmetry --weld --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --frames --trajectory --start --surface --voxel --lod --blobbiness --fill-cavities --fields --vdb-half --curvature-totals --epsilon --resolution --coarse --match-volume --groups --group-by --split --surface-of --interfaces --color --range --palette --value-of --flat-values --outward --crisp --areas --contacts --for --center --print-scale --min-wall --view --turn --size --background --plain-color --style --opacity --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --memory --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --list-radii --version -V --help -h" ;;
+        "batch") options="--folder -O --formats --force --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fill-cavities --fields --vdb-half --curvature-totals --epsilon --resolution --coarse --match-volume --groups --group-by --split --surface-of --interfaces --color --range --palette --value-of --flat-values --outward --areas --contacts --for --center --print-scale --min-wall --view --turn --size --background --plain-color --style --opacity --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --max-hours --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h" ;;
+        "compare") options="--output -o --format --force --color --range --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fill-cavities --epsilon --resolution --coarse --match-volume --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h" ;;
+        "convert") options="--output -o --format --force --fields --range --palette --color --print-scale --view --turn --size --background --plain-color --style --opacity --clip --depth-cue --legend --scale-bar --dpi --turntable --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h" ;;
+        "bricks plan") options="--output -o --force --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fields --vdb-half --epsilon --resolution --coarse --groups --group-by --color --range --palette --value-of --flat-values --outward --lambda --regularizer --flow --max-steps --steps --tolerance --bricks --memory --threads -j --quiet -q --no-progress --config --version -V --help -h" ;;
+        "bricks run") options="--force --max-hours --threads -j --quiet -q --no-progress --version -V --help -h" ;;
+        "bricks merge") options="--output -o --format --force --threads -j --quiet -q --verbose -v --no-progress --version -V --help -h" ;;
+        "info") options="--max-input --version -V --help -h" ;;
+    esac
+    if [[ $COMP_CWORD == 2 && ${COMP_WORDS[1]} == bricks ]]; then
+        COMPREPLY=($(compgen -W "plan run merge" -- "$word"))
+    elif [[ -n $words ]]; then
+        COMPREPLY=($(compgen -W "$words" -- "$word"))
+    elif [[ $word == -* ]]; then
+        COMPREPLY=($(compgen -W "$options" -- "$word"))
+    else
+        COMPREPLY=($(compgen -f -- "$word"))
+        [[ $COMP_CWORD == 1 ]] && COMPREPLY+=($(compgen -W "help build batch compare convert bricks info" -- "$word"))
+    fi
+}
+complete -o filenames -F _vdb_molsurf vdb_molsurf
