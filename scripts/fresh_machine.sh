@@ -1,21 +1,21 @@
 #!/bin/bash
 # Runs commands on a fresh machine: a bare Debian 12, with a clone of this repository and nothing else, in a folder
 # whose path has a space, without HOME, with LANG=C:
-#     scripts/fresh_machine.sh [--user] [--commit COMMIT] [--share FOLDER] [--then COMMAND]... [COMMAND]...
+#     scripts/fresh_machine.sh [--user] [--commit COMMIT] [--share FOLDER] [--suite SUITE] [--then COMMAND]... [COMMAND]...
 #     scripts/fresh_machine.sh --list
 # Without a COMMAND it runs the two of README.md, as they stand there (--list prints them). --then adds one that runs
 # after them. --user runs them as a user who has sudo, and otherwise they run as root, without sudo. COMMIT is HEAD
-# unless it is named. FOLDER of this machine is /srv/shared there.
+# unless it is named. FOLDER of this machine is /srv/shared there. SUITE is another release of Debian: trixie is 13.
 #
 # It ends with the minutes of each command, and with status 1 at the first one that fails. It needs root (or sudo),
 # 8 GB of free memory and debootstrap, which it installs. The system is in memory, in a mount and a process namespace
 # of its own: nothing of it is left when the script ends or is killed. The bare system, before any command, is kept in
-# build-fresh/base.tar for a week. Debian's mirror, apt's settings and proxies are those of this machine.
+# build-fresh/ for a week. Debian's mirror, apt's settings and proxies are those of this machine.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 root=$PWD/build-fresh/root        # a file system in memory lies over it, which only this script sees
-base=$PWD/build-fresh/base.tar
+suite=bookworm
 place="/srv/a folder/vdb_molsurf" # in the fresh machine
 path=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
 proxies=(http_proxy https_proxy ftp_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY)
@@ -41,13 +41,13 @@ mirror() {
   echo "${address:-http://deb.debian.org/debian}"
 }
 
-# Puts apt's sources, settings and proxies of this machine into the fresh one, if this one is a Debian 12, too.
+# Puts apt's settings and proxies of this machine into the fresh one, and its sources if this one is the same Debian.
 copy_settings() {
   cp /etc/resolv.conf /etc/hosts "$root/etc/" 2> /dev/null || true
   cp /etc/apt/apt.conf.d/*proxy* "$root/etc/apt/apt.conf.d/" 2> /dev/null || true
   # sudo forgets the variables.
   [[ -z ${http_proxy:-} ]] || echo "Acquire::http::Proxy \"$http_proxy\";" > "$root/etc/apt/apt.conf.d/80proxy"
-  grep -q '^VERSION_CODENAME=bookworm' /etc/os-release || return 0
+  grep -q "^VERSION_CODENAME=$suite" /etc/os-release || return 0
   local file
   for file in /etc/apt/sources.list /etc/apt/sources.list.d/debian*.sources /etc/apt/sources.list.d/debian*.list \
               /etc/apt/auth.conf /etc/apt/auth.conf.d/*.conf /etc/apt/apt.conf /etc/apt/apt.conf.d/99*; do
@@ -58,11 +58,12 @@ copy_settings() {
 
 # Makes the bare system in $root, of the tarball if that is not too old.
 make_base() {
+  local base=$PWD/build-fresh/$suite.tar
   if [[ -n $(find "$base" -mtime -7 2> /dev/null) ]]; then
     tar -C "$root" -xpf "$base"
     return
   fi
-  debootstrap --variant=minbase bookworm "$root" "$(mirror)" > build-fresh/debootstrap.log 2>&1 ||
+  debootstrap --variant=minbase "$suite" "$root" "$(mirror)" > build-fresh/debootstrap.log 2>&1 ||
     { tail -n 5 build-fresh/debootstrap.log >&2; fail "debootstrap failed, see build-fresh/debootstrap.log"; }
   rm -f "$root"/var/cache/apt/archives/*.deb
   tar -C "$root" --one-file-system -cf "$base.new" .
@@ -72,7 +73,8 @@ make_base() {
 # Inside the namespaces, as process 1.
 inside() {
   local as_user=$1 commit=$2 share=$3 began=$SECONDS command status=0 report=() variables=(PATH="$path" LANG=C)
-  shift 3
+  suite=$4
+  shift 4
   mount -t tmpfs -o mode=755,size=80% fresh "$root" || fail "a file system in memory cannot be mounted"
   make_base
   copy_settings
@@ -132,6 +134,7 @@ while [[ $# -gt 0 ]]; do
     --user) as_user=yes ;;
     --commit) commit=${2:?--commit needs a commit} && shift ;;
     --share) share=$(realpath "${2:?--share needs a folder}") && shift ;;
+    --suite) suite=${2:?--suite needs a release of Debian} && shift ;;
     --then) after+=("${2:?--then needs a command}") && shift ;;
     -*) echo "fresh_machine.sh: unknown option $1" >&2; exit 2 ;;
     *) commands+=("$1") ;;
@@ -157,7 +160,7 @@ mkdir -p build-fresh/root
 
 # Whoever ends this script ends everything in the namespaces, and with that their mounts.
 "${as_root[@]}" setpriv --pdeathsig KILL unshare --mount --pid --fork --kill-child \
-  /bin/bash scripts/fresh_machine.sh --inside "$as_user" "$commit" "$share" "${commands[@]}" "${after[@]}" &
+  /bin/bash scripts/fresh_machine.sh --inside "$as_user" "$commit" "$share" "$suite" "${commands[@]}" "${after[@]}" &
 machine=$!
 trap '"${as_root[@]}" kill -KILL $machine; exit 130' INT TERM HUP
 wait $machine
