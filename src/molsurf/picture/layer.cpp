@@ -174,7 +174,9 @@ void Tracer::tracePixel(int x, int y, const Layer* front, Layer& layer) const
         const double onPlane = from[s].dot(view_.toEye) - view_.center.dot(view_.toEye);
         at = from[s] + (double(seen.depth) - onPlane) * view_.toEye;
     }
-    if (light.depth > Seen::nothing) {
+    // Light comes to what stands behind through what stands before it: nothing there is in the
+    // dark.
+    if (light.depth > Seen::nothing && !front) {
         const Vec3d normal = double(light.normal[0]) * view_.right +
                              double(light.normal[1]) * view_.up +
                              double(light.normal[2]) * view_.toEye;

@@ -198,6 +198,16 @@ TEST_F(TwoBalls, OpacityLetsThroughInTheRightOrder)
         EXPECT_NEAR(pixel(picture, 107, 101)[c], fromLinearLight(double(expected[int(c)])), 2);
 }
 
+TEST_F(TwoBalls, WallsBehindWallsAreNotInTheDark)
+{
+    options.opacity = 0.5;
+    const Picture flat = drawn("flat"), soft = drawn("soft");
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float light = linearLight(pixel(soft, 107, 101))[int(c)];
+        EXPECT_GT(light, 0.9f * linearLight(pixel(flat, 107, 101))[int(c)]) << c << " " << light;
+    }
+}
+
 TEST_F(TwoBalls, ACutShowsTheInside)
 {
     options.clip = 3.0; // the middle in depth is at z = 3
