@@ -215,14 +215,13 @@ void writePicture(const Call& call, const BallSet& atoms, const Mesh& mesh, doub
     if (options.clip) options.inside = insideOf(call, atoms, options.borders);
     const auto legend = call.drawsLegend() ? legendOf(call.options.color, atoms, mesh, progress)
                                            : std::optional<Legend>();
-    if (!legend) {
-        writePng(drawMesh(mesh, options, progress), file);
-        return;
-    }
     const int width = options.width;
-    options.width = std::max(width - legendWidth(*legend, width), width / 2);
-    writePng(withLegend(drawMesh(mesh, options, progress), *legend, width, options.background),
-             file);
+    if (legend) options.width = std::max(width - legendWidth(*legend, width), width / 2);
+    Picture picture = drawMesh(mesh, options, progress);
+    if (call.scaleBar && picture.pixel > 0.0)
+        picture = withScaleBar(picture, width, options.background);
+    if (legend) picture = withLegend(picture, *legend, width, options.background);
+    writePng(picture, file);
 }
 
 /// The point that is 0 in meshes.

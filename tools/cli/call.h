@@ -78,6 +78,7 @@ struct Call : Settings {
     double wall = 0.0;       ///< least thickness of a print [mm]; 0: none
     DrawOptions picture;
     LegendChoice legend = LegendChoice::Auto;
+    bool scaleBar = false;    ///< a bar of lengths below pictures
     int turntable = 0;        ///< number of pictures; 0: one
     bool colorBySign = false; ///< Compare: by the signed distance
     double colorRange = 0.0;  ///< Compare: distance at the end of the colours [Å]; 0: choose

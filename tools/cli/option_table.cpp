@@ -511,6 +511,11 @@ OptionGroup pictureOptions()
                       "or more",
                       draw, MOLSURF_OF(legend),
                       std::vector{LegendChoice::Auto, LegendChoice::On, LegendChoice::Off})),
+         shownIn(Pixels, flag("scale-bar", "a bar below the picture that shows a length", draw,
+                              MOLSURF_OF(scaleBar))),
+         shownIn(Pixels,
+                 number("dpi", "N", "pixels an inch when it is printed; --size stays", "", draw,
+                        1.0, 10000.0, "a number from 1 to 10000", MOLSURF_OF(picture.dpi))),
          shownIn(Pixels, count("turntable", "N", "N pictures round the upright: name.0001.png, ...",
                                "", draw, 2, 9999, MOLSURF_OF(turntable)))}};
 }

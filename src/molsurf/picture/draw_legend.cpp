@@ -85,6 +85,40 @@ void fillBox(int x, int y, int width, int height, const Color& color, Picture& p
     }
 }
 
+/// A larger picture, with this one in it at the left.
+Picture framed(const Picture& picture, int width, int height, int above, const Color& background)
+{
+    Picture out;
+    out.width = width;
+    out.height = height;
+    out.pixel = picture.pixel;
+    out.dpi = picture.dpi;
+    out.rgb.resize(3 * std::size_t(out.width) * std::size_t(out.height));
+    fillBox(0, 0, out.width, out.height, background, out);
+    if (!picture.alpha.empty()) out.alpha.resize(out.rgb.size() / 3, 0);
+    for (int y = 0; y < picture.height; ++y) {
+        const std::ptrdiff_t from = std::ptrdiff_t(y) * picture.width,
+                             to = std::ptrdiff_t(y + above) * out.width;
+        std::copy_n(picture.rgb.begin() + 3 * from, 3 * picture.width, out.rgb.begin() + 3 * to);
+        if (!picture.alpha.empty())
+            std::copy_n(picture.alpha.begin() + from, picture.width, out.alpha.begin() + to);
+    }
+    return out;
+}
+
+Color inkOn(const Color& background)
+{
+    const double gray = 0.3 * background[0] + 0.6 * background[1] + 0.1 * background[2];
+    return gray > 127.0 ? Color{30, 33, 38} : Color{235, 237, 240};
+}
+
+/// The length of a bar [Å].
+double barLength(double longest)
+{
+    const double ten = std::pow(10.0, std::floor(std::log10(longest)));
+    return longest >= 5.0 * ten ? 5.0 * ten : longest >= 2.0 * ten ? 2.0 * ten : ten;
+}
+
 /// Draws downward from `top`.
 class Column
 {
@@ -171,23 +205,9 @@ Picture withLegend(const Picture& picture, const Legend& legend, int width, cons
     const int fixed =
         legend.scale ? 2 * line + sizes.gap + barHeight + line + below : line + sizes.gap;
 
-    Picture out;
-    out.width = width;
-    out.height = std::max(picture.height, legend.scale ? fixed + 2 * sizes.gap : 6 * line);
-    out.rgb.resize(3 * std::size_t(out.width) * std::size_t(out.height));
-    fillBox(0, 0, out.width, out.height, background, out);
-    if (!picture.alpha.empty()) out.alpha.resize(out.rgb.size() / 3, 0);
-    const int above = (out.height - picture.height) / 2;
-    for (int y = 0; y < picture.height; ++y) {
-        const std::ptrdiff_t from = std::ptrdiff_t(y) * picture.width,
-                             to = std::ptrdiff_t(y + above) * out.width;
-        std::copy_n(picture.rgb.begin() + 3 * from, 3 * picture.width, out.rgb.begin() + 3 * to);
-        if (!picture.alpha.empty())
-            std::copy_n(picture.alpha.begin() + from, picture.width, out.alpha.begin() + to);
-    }
-
-    const double gray = 0.3 * background[0] + 0.6 * background[1] + 0.1 * background[2];
-    const Color ink = gray > 127.0 ? Color{30, 33, 38} : Color{235, 237, 240};
+    const int height = std::max(picture.height, legend.scale ? fixed + 2 * sizes.gap : 6 * line);
+    Picture out = framed(picture, width, height, (height - picture.height) / 2, background);
+    const Color ink = inkOn(background);
     const int left = picture.width + sizes.gap;
     if (legend.scale) {
         Column column(sizes, font, left, (out.height - fixed) / 2, ink, out);
@@ -201,12 +221,30 @@ Picture withLegend(const Picture& picture, const Legend& legend, int width, cons
     }
     const int room = (out.height - 2 * sizes.gap - fixed) / line;
     const auto entries = shownEntries(legend.entries, std::size_t(std::max(room, 0)));
-    const int height = fixed + int(entries.size()) * line;
-    Column column(sizes, font, left, std::max((out.height - height) / 2, 0), ink, out);
+    const int all = fixed + int(entries.size()) * line;
+    Column column(sizes, font, left, std::max((out.height - all) / 2, 0), ink, out);
     column.text(legend.title);
     column.skip(sizes.gap);
     for (std::size_t i = 0; i < entries.size(); ++i)
         column.entry(entries[i], entries.size() == legend.entries.size() || i + 1 < entries.size());
+    return out;
+}
+
+Picture withScaleBar(const Picture& picture, int width, const Color& background)
+{
+    const Sizes sizes(width);
+    const Font font(sizes.letters);
+    const int thick = std::max(sizes.letters / 5, 2), strip = font.lineHeight() + sizes.gap;
+    Picture out = framed(picture, picture.width, picture.height + strip, 0, background);
+    const double length = barLength(0.25 * picture.width * picture.pixel);
+    const int pixels = int(std::lround(length / picture.pixel));
+    const Color ink = inkOn(background);
+    const int left = sizes.gap, baseline = picture.height + sizes.letters;
+    fillBox(left, baseline - sizes.letters * 3 / 8 - thick / 2, pixels, thick, ink, out);
+    constexpr double nanometre = 10.0; // [Å]
+    const std::string text = length < 10.0 * nanometre ? formatted("%g \xC3\x85", length)
+                                                       : formatted("%g nm", length / nanometre);
+    font.draw(text, left + pixels + sizes.gap, baseline, ink, out);
     return out;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Legends beside pictures.
+/// What explains a picture, outside of it: a legend beside it, a bar of lengths below it.
 
 #include "molsurf/color/legend.h"
 #include "molsurf/picture/draw_mesh.h"
@@ -21,5 +21,11 @@ int legendWidth(const Legend& legend, int width);
 /// @param[in] width  of the whole: picture.width + legendWidth()
 Picture withLegend(const Picture& picture, const Legend& legend, int width,
                    const Color& background);
+
+/// The picture with a bar below its left end that shows a length: the largest of 1, 2 and 5 times a
+/// power of ten Å that is a quarter of the width at most.
+/// @param[in] picture  to scale
+/// @param[in] width    as of legendWidth()
+Picture withScaleBar(const Picture& picture, int width, const Color& background);
 
 } // namespace molsurf

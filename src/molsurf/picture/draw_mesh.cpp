@@ -218,6 +218,7 @@ Picture blank(const DrawOptions& options, int height)
     Picture picture;
     picture.width = options.width;
     picture.height = height;
+    picture.dpi = options.dpi;
     const auto pixels = std::size_t(options.width) * std::size_t(height);
     picture.rgb.reserve(3 * pixels);
     for (std::size_t n = 0; n < pixels; ++n)
@@ -246,6 +247,7 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
     }
     const Vec3f background = linearLight(options.background);
     Picture picture = blank(options, view.height);
+    picture.pixel = view.pixel;
     parallelFor(std::size_t(view.height), progress, [&](std::size_t y) {
         for (std::size_t n = y * std::size_t(view.width); n < (y + 1) * std::size_t(view.width);
              ++n) {

@@ -27,6 +27,8 @@ struct Picture {
     int width = 0, height = 0; ///< [pixel]
     std::vector<std::uint8_t> rgb;
     std::vector<std::uint8_t> alpha = {}; ///< one a pixel, 255: opaque; empty: all are
+    double pixel = 0.0;                   ///< edge of a pixel [Å]; 0: the picture is not to scale
+    double dpi = 0.0;                     ///< pixels an inch of paper; 0: not said
 };
 
 /// From where, and how large.
@@ -43,6 +45,7 @@ struct DrawOptions {
     Color background = {255, 255, 255};
     bool depthCue = false;               ///< whether distant parts fade to the background
     bool transparent = false;            ///< there is nothing behind the surface
+    double dpi = 0.0;                    ///< Picture::dpi
     Color plain = {140, 181, 222};       ///< of a mesh without colours
     const PictureStyle* style = nullptr; ///< null: the first of styleTable()
     double opacity = 1.0; ///< of a surface seen from the front, in (0, 1]; what is seen aslant is

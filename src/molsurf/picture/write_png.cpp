@@ -5,6 +5,7 @@
 
 #include <png.h>
 
+#include <cmath>
 #include <csetjmp>
 
 namespace molsurf
@@ -33,6 +34,11 @@ bool encodePng(const Picture& picture, const std::vector<std::uint8_t>& pixels, 
     png_set_IHDR(png, info, png_uint_32(picture.width), png_uint_32(picture.height), 8,
                  picture.alpha.empty() ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    constexpr double inch = 0.0254; // [m]
+    if (picture.dpi > 0.0) {
+        const auto perMetre = png_uint_32(std::lround(picture.dpi / inch));
+        png_set_pHYs(png, info, perMetre, perMetre, PNG_RESOLUTION_METER);
+    }
     png_write_info(png, info);
     for (int row = 0; row < picture.height; ++row)
         png_write_row(png, pixels.data() +

@@ -78,6 +78,35 @@ TEST(DrawLegend, HasAMarginOnTheRight)
     }
 }
 
+// The longest row of ink is the bar.
+TEST(ScaleBar, IsAsLongAsItSays)
+{
+    const struct {
+        double pixel; // [Å]
+        int length;   // of the bar [pixel]
+    } cases[] = {{0.1, 200}, {0.24, 208}, {0.25, 200}, {1.0, 200}, {3.0, 167}, {0.011, 182}};
+    for (const auto& c : cases) {
+        Picture picture;
+        picture.width = 1000;
+        picture.height = 50;
+        picture.pixel = c.pixel;
+        picture.rgb.assign(3 * 1000 * 50, 200);
+        const Picture out = withScaleBar(picture, 1000, background);
+        EXPECT_EQ(out.width, 1000);
+        ASSERT_GT(out.height, 60);
+        EXPECT_TRUE(std::equal(picture.rgb.begin(), picture.rgb.end(), out.rgb.begin()));
+        int longest = 0;
+        for (int y = 50; y < out.height; ++y) {
+            for (int x = 0, run = 0; x < 1000; ++x) {
+                const bool ink = out.rgb[3 * std::size_t(y * 1000 + x)] < 60;
+                run = ink ? run + 1 : 0;
+                longest = std::max(longest, run);
+            }
+        }
+        EXPECT_EQ(longest, c.length) << c.pixel;
+    }
+}
+
 TEST(DrawLegend, TakesAnyName)
 {
     Legend legend;

@@ -31,5 +31,19 @@ TEST(WritePng, ReadsBackAsItWas)
     EXPECT_EQ(back, picture.rgb);
 }
 
+TEST(WritePng, SaysHowLargeItIsOnPaper)
+{
+    Picture picture;
+    picture.width = picture.height = 1;
+    picture.rgb = {1, 2, 3};
+    picture.dpi = 300.0;
+    const std::string bytes = test::written([&](OutputFile& file) { writePng(picture, file); });
+    // 300 / 0.0254 = 11811 pixels a metre, both ways.
+    EXPECT_NE(bytes.find(std::string("pHYs\0\0\x2E\x23\0\0\x2E\x23\1", 13)), std::string::npos);
+    picture.dpi = 0.0;
+    const std::string plain = test::written([&](OutputFile& file) { writePng(picture, file); });
+    EXPECT_EQ(plain.find("pHYs"), std::string::npos);
+}
+
 } // namespace
 } // namespace molsurf
