@@ -20,6 +20,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <set>
 
 namespace molsurf::tool
@@ -64,6 +65,25 @@ void addReading(const Report& read, Report& report)
     for (std::string& warning : report.warnings) warning = withOptionNames(warning);
 }
 
+namespace
+{
+
+/// Whether the area still goes one way: from the second to the last third of the steps it changed
+/// by more than half of what it does within the last one. A few steps cannot tell otherwise.
+bool stillTravels(const std::vector<double>& areas)
+{
+    const auto third = std::ptrdiff_t(areas.size() / 3);
+    if (third < 3) return true;
+    const auto mean = [&](std::vector<double>::const_iterator from) {
+        return std::accumulate(from, from + third, 0.0) / double(third);
+    };
+    const auto last = areas.end() - third;
+    const auto [low, high] = std::minmax_element(last, areas.end());
+    return std::abs(mean(last) - mean(last - third)) > 0.5 * (*high - *low);
+}
+
+} // namespace
+
 std::string unrestText(const EvolutionReport& evolution, double voxel)
 {
     const std::string steps = counted(std::size_t(evolution.steps), "step", "steps");
@@ -72,12 +92,17 @@ std::string unrestText(const EvolutionReport& evolution, double voxel)
                ": the paper's rule asks for no speed above 0.001 [hint: --flow newton]";
     const double tolerance = evolution.toleranceMet;
     const double unit = std::pow(10.0, std::floor(std::log10(tolerance)) - 1.0);
+    const double accepted = unit * std::ceil(1.05 * tolerance / unit);
+    const std::string hint =
+        stillTravels(evolution.area)
+            ? formatted("[hint: --max-steps %d goes on, --tolerance %g accepts that]",
+                        4 * evolution.steps, accepted)
+            : formatted("[hint: --tolerance %g accepts that, a smaller --voxel resolves it]",
+                        accepted);
     return formatted(
         "not converged after %s: %.3g %% of the surface moved by more than %.2g Å in the "
-        "last one; the files are written [hint: --tolerance %g accepts that, a smaller "
-        "--voxel resolves it]",
-        steps.c_str(), 100.0 * evolution.unsettledShare, 0.1 * voxel,
-        unit * std::ceil(1.05 * tolerance / unit));
+        "last one; the files are written %s",
+        steps.c_str(), 100.0 * evolution.unsettledShare, 0.1 * voxel, hint.c_str());
 }
 
 std::string inputStem(const std::string& input)

@@ -382,10 +382,11 @@ CASES = {
          "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.07 --voxel 0.6 --tolerance 0.03",
          "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.07 --voxel 0.35")],
     "tools/outputs.cpp": [
-        (" accepts that, a smaller --voxel resolves it", "vdb_molsurf 1crn.pdb --epsilon 0.07 --voxel 0.6 -o a.ply",
-         "vdb_molsurf 1crn.pdb --epsilon 0.07 --voxel 0.6 -o a.ply --force 2>&1 | sed -n 's/.*hint: \\(--tolerance [0-9.]*\\).*/\\1/p' > t; "
-         "vdb_molsurf 1crn.pdb --epsilon 0.07 --voxel 0.6 $(cat t) -o b.ply",
-         "vdb_molsurf 1crn.pdb --epsilon 0.07 --voxel 0.35 -o c.ply"),
+        (" goes on, ", "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 -o a.ply",
+         "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 -o a.ply --force 2>&1 | sed -n 's/.*hint: \\(--max-steps [0-9]*\\).*/\\1/p' > t; "
+         "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 $(cat t) -o b.ply",
+         "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 -o a.ply --force 2>&1 | sed -n 's/.*\\(--tolerance [0-9.]*\\).*/\\1/p' > t; "
+         "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 $(cat t) -o c.ply"),
         ("--flow newton", "vdb_molsurf 1crn.pdb --voxel 1 --flow paper --max-steps 5 -o a.ply",
          "vdb_molsurf 1crn.pdb --voxel 1 --flow newton -o b.ply")],
     "tools/msms/call.cpp": [
@@ -430,6 +431,7 @@ UNTRIED = {
     "surface/unit_run.cpp": {"a smaller `voxel`": "no unit is known that gives it",
                              "edges of": "no unit is known that gives it"},
     "tools/main.cpp": {"a larger --voxel": "what has memory by the estimate seldom ends so"},
+    "tools/outputs.cpp": {" accepts that, a smaller --voxel resolves it": "no small molecule is known that gives it"},
     "tools/msms/main.cpp": {"error: not enough": "what has memory by the estimate seldom ends so",
                             " [hint: a smaller -density, or fewer spheres": "cli.hints.memory follows it"},
     "tools/nanoshaper/main.cpp": {"error: not enough": "what has memory by the estimate seldom ends so",
