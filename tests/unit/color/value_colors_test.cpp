@@ -91,6 +91,9 @@ TEST_F(BlendTest, IsTheMeanBetweenTwoAndTheirOwnFarAway)
     EXPECT_NEAR(at(0.5, 1.6).value, 10.0 + 20.0 * std::exp(-0.25) / (1.0 + std::exp(-0.25)), 0.01);
     EXPECT_NEAR(at(0.0, 1.6).value, 10.0 + 20.0 * (weight - cut) / (1.0 + weight - 2.0 * cut),
                 1e-4);
+    // A ball whose surface is 1.5 Å away still weighs something.
+    const double far = std::exp(-(3.2 * 3.2 - 1.7 * 1.7) / 3.0);
+    EXPECT_NEAR(at(-1.7, 0.0).value, 10.0 + 20.0 * (far - cut) / (1.0 + far - 2.0 * cut), 1e-4);
 }
 
 TEST_F(BlendTest, HasNoJumps)

@@ -198,6 +198,38 @@ TEST_F(TwoBalls, OpacityLetsThroughInTheRightOrder)
         EXPECT_NEAR(pixel(picture, 107, 101)[c], fromLinearLight(double(expected[int(c)])), 2);
 }
 
+// A wall of one thickness is crossed by a longer way where it is seen from the side.
+TEST_F(TwoBalls, WhatIsSeenAslantHidesMore)
+{
+    options.opacity = 0.5;
+    const Picture picture = drawn("flat");
+    const double x = 8.05,
+                 facing = std::sqrt(1.0 - x * x / 100.0); // of both walls of the large ball
+    const double through = std::pow(0.5, 2.0 / facing);
+    const Vec3f r = linearLight(red);
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(pixel(picture, 104 + 80, 104)[c],
+                    fromLinearLight((1.0 - through) * double(r[int(c)]) + through), 3);
+}
+
+TEST_F(TwoBalls, ACueOfDepthLeavesWhatIsNear)
+{
+    options.depthCue = true;
+    const Picture picture = drawn("flat");
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(pixel(picture, 104, 104)[c], blue[c], 2);
+    EXPECT_GT(pixel(picture, 30, 104)[2], red[2] + 20);
+}
+
+// Without the cut the small ball would darken the plane of the cut on the lower right alone.
+TEST_F(TwoBalls, WhatIsCutAwayCastsNoShadow)
+{
+    options.clip = 3.0;
+    const Picture picture = drawn("soft");
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(pixel(picture, 104 + 42, 104 + 53)[c], pixel(picture, 104 - 42, 104 - 53)[c],
+                    3);
+}
+
 TEST_F(TwoBalls, WallsBehindWallsAreNotInTheDark)
 {
     options.opacity = 0.5;
