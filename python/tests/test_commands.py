@@ -27,9 +27,9 @@ def test_tells_the_version_of_the_module(name):
 
 
 def test_mesh_is_that_of_the_module(tmp_path):
-    subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--surface", "ses", "-o", tmp_path / "a.ply", "-q"], check=True)
-    ms.read(DATA / "1crn.pdb").surface(kind="ses").save(tmp_path / "b.ply")
-    assert (tmp_path / "a.ply").read_bytes() == (tmp_path / "b.ply").read_bytes()
+    subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--surface", "ses", "-o", tmp_path / "a.stl", "-q"], check=True)
+    ms.read(DATA / "1crn.pdb").surface(kind="ses").save(tmp_path / "b.stl")
+    assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()
 
 
 def test_picture_is_drawn(tmp_path):
