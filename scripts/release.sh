@@ -5,7 +5,8 @@
 #     sources  the sources as .tar.gz; scripts/example.sh runs in them on a bare Debian 12
 #     debian   scripts/package.sh: Debian's packages, tried on a bare Debian 12
 #     tarball  the programs with their libraries, tried on a bare Debian 12 and 13
-#     wheel    scripts/wheel.sh: the wheel and the sdist of the Python module; the wheel is tried on a bare Debian 12 and 13
+#     wheel    scripts/wheel.sh: the wheel and the sdist of the Python module; the wheel is tried on a bare Debian 12, whose
+#              Python 3.11 it is for
 # All goes to build-dist/, with SHA256SUMS and a log of each part. The version is that of CMakeLists.txt; the files that
 # repeat it have to agree. It needs what scripts/fresh_machine.sh needs, and an hour on 2 cores.
 set -euo pipefail
@@ -59,7 +60,7 @@ tarball() {
 
 wheel() {
   scripts/wheel.sh "$PWD/$dist"
-  bare bookworm,trixie "apt-get update -q && apt-get install -q -y --no-install-recommends python3-venv > /dev/null" \
+  bare bookworm "apt-get update -q && apt-get install -q -y --no-install-recommends python3-venv > /dev/null" \
     "python3 -m venv /srv/env && /srv/env/bin/pip install -q /srv/shared/*.whl pytest" \
     "cp -r python tests docs /srv/ && cd / && /srv/env/bin/python -m pytest -q -p no:cacheprovider /srv/python/tests" \
     "/srv/env/bin/vdb_molsurf tests/data/1crn.pdb -o /tmp/1crn.ply"
