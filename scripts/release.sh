@@ -60,8 +60,10 @@ tarball() {
 
 wheel() {
   scripts/wheel.sh "$PWD/$dist"
+  # What it needs of PyPI is downloaded here: the bare system knows no certificate of a proxy.
+  build-python/tools/bin/pip download -q -d $dist/pypi numpy pytest
   bare bookworm "apt-get update -q && apt-get install -q -y --no-install-recommends python3-venv > /dev/null" \
-    "python3 -m venv /srv/env && /srv/env/bin/pip install -q /srv/shared/*.whl pytest" \
+    "python3 -m venv /srv/env && /srv/env/bin/pip install -q --no-index --find-links /srv/shared/pypi /srv/shared/*.whl pytest" \
     "cp -r python tests docs /srv/ && cd / && /srv/env/bin/python -m pytest -q -p no:cacheprovider /srv/python/tests" \
     "/srv/env/bin/vdb_molsurf tests/data/1crn.pdb -o /tmp/1crn.ply"
 }
