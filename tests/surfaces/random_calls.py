@@ -241,7 +241,8 @@ def main():
             statuses[done.returncode] += 1
             what = finding(done, made, words)
             seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-            if not what and seconds > max(SECONDS, SLOWER * estimate(args.program.resolve(), words, folder)):
+            if not what and seconds > SECONDS and \
+                    seconds > SLOWER * estimate(args.program.resolve(), words, folder):
                 what = f"{seconds:.1f} s of processor time"
             if not what:
                 continue
