@@ -86,7 +86,7 @@ void fillBox(int x, int y, int width, int height, const Color& color, Picture& p
 }
 
 /// A larger picture, with this one in it at the left.
-Picture framed(const Picture& picture, int width, int height, int above, const Color& background)
+Picture enlarged(const Picture& picture, int width, int height, int above, const Color& background)
 {
     Picture out;
     out.width = width;
@@ -206,7 +206,7 @@ Picture withLegend(const Picture& picture, const Legend& legend, int width, cons
         legend.scale ? 2 * line + sizes.gap + barHeight + line + below : line + sizes.gap;
 
     const int height = std::max(picture.height, legend.scale ? fixed + 2 * sizes.gap : 6 * line);
-    Picture out = framed(picture, width, height, (height - picture.height) / 2, background);
+    Picture out = enlarged(picture, width, height, (height - picture.height) / 2, background);
     const Color ink = inkOn(background);
     const int left = picture.width + sizes.gap;
     if (legend.scale) {
@@ -235,7 +235,7 @@ Picture withScaleBar(const Picture& picture, int width, const Color& background)
     const Sizes sizes(width);
     const Font font(sizes.letters);
     const int thick = std::max(sizes.letters / 5, 2), strip = font.lineHeight() + sizes.gap;
-    Picture out = framed(picture, picture.width, picture.height + strip, 0, background);
+    Picture out = enlarged(picture, picture.width, picture.height + strip, 0, background);
     const double length = barLength(0.25 * picture.width * picture.pixel);
     const int pixels = int(std::lround(length / picture.pixel));
     const Color ink = inkOn(background);
