@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MPL-2.0
 """The programs that the wheel brings along."""
 
-import pathlib
 import shutil
 import subprocess
 import sysconfig
@@ -9,8 +8,7 @@ import sysconfig
 import pytest
 
 import vdb_molsurf as ms
-
-DATA = pathlib.Path(__file__).resolve().parents[2] / "tests" / "data"
+from conftest import DATA
 
 
 def command(name):
@@ -27,11 +25,13 @@ def test_tells_the_version_of_the_module(name):
 
 
 def test_mesh_is_that_of_the_module(tmp_path):
-    subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--surface", "ses", "-o", tmp_path / "a.stl", "-q"], check=True)
+    subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--surface", "ses", "-o", tmp_path / "a.stl", "-q"],
+                   check=True)
     ms.read(DATA / "1crn.pdb").surface(kind="ses").save(tmp_path / "b.stl")
     assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()
 
 
 def test_picture_is_drawn(tmp_path):
-    subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "-o", tmp_path / "a.png", "--size", "60", "-q"], check=True)
+    subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "-o", tmp_path / "a.png", "--size", "60", "-q"],
+                   check=True)
     assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
