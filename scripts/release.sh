@@ -19,14 +19,14 @@ prefix=vdb_molsurf-$version
 # Each file that repeats the version, and the words about it.
 check_version() {
   local wrong=0 file before
-  while read -r file before; do
+  while IFS='|' read -r file before; do # a blank at the end stays
     grep -qF -- "$before$version" "$file" || { echo "$file: expected '$before$version'" >&2; wrong=1; }
   done << EOF
-CHANGELOG.md ## 
-CITATION.cff version: 
-codemeta.json "version": "
-debian/changelog vdb-molsurf (
-packaging/conda/meta.yaml version: 
+CHANGELOG.md|## 
+CITATION.cff|version: 
+codemeta.json|"version": "
+debian/changelog|vdb-molsurf (
+packaging/conda/meta.yaml|version: 
 EOF
   return $wrong
 }
