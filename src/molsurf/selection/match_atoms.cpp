@@ -8,6 +8,7 @@
 #include <gemmi/select.hpp>
 
 #include <algorithm>
+#include <climits>
 #include <exception>
 
 namespace molsurf
@@ -78,10 +79,15 @@ std::size_t mark(const Selection& selection, const Structure& structure, std::ve
     return count;
 }
 
+/// A lone number is one residue; gemmi 0.5.7 takes it for the first of all that follow.
 Selection parse(const std::string& text)
 {
     try {
-        return Selection(text);
+        Selection selection(text);
+        const bool open = selection.to_seqid.seqnum == INT_MAX && selection.to_seqid.icode == '*';
+        if (open && !selection.from_seqid.empty() && text.find("-*") == std::string::npos)
+            selection.to_seqid = selection.from_seqid;
+        return selection;
     } catch (const std::exception& error) {
         throw Error(ErrorKind::Usage, "selection " + inQuotes(text) +
                                           ": expected gemmi's syntax, for example /1/A/53-132 or "

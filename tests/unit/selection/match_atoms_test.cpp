@@ -34,6 +34,9 @@ TEST_F(MatchAtoms, ByChainResidueAtomAndElement)
     EXPECT_EQ(count("*"), 7170u);
     EXPECT_EQ(count("A/10-19/CA"), 10u);
     EXPECT_EQ(count("/1/A/10-19/CA[C]"), 10u);
+    EXPECT_EQ(count("A/10/CA"), 1u); // not all that follow
+    EXPECT_EQ(count("A/301-/CA"), 10u);
+    EXPECT_EQ(count("A/301-*/CA"), 10u);
     EXPECT_EQ(count("[ZN]"), 2u);
     EXPECT_EQ(count("(ATP)"), 62u);
     EXPECT_EQ(count("*;polymer") + count("*;!polymer"), 7170u);
