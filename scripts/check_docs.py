@@ -15,8 +15,9 @@ Prints one line for each fault, and exits with 1 if there is one.
 With --installed the pages below a folder are checked instead (cmake/install_guide.cmake installs them): they link to
 what is there, and name no other file of the project.
 
-With --figures the numbers of all pages, or of some, have to be those of new runs instead (scripts/figures.py tells how a
-page says so); --renew then corrects them. Some runs take structures of FOLDER, and are left out without it.
+With --figures the numbers of all pages, or of some, have to be those of new runs instead, and the pictures of the gallery
+what its commands draw (scripts/gallery.py). scripts/figures.py tells how a page says so; --renew then corrects numbers.
+Some runs take structures of FOLDER, and are left out without it.
 """
 
 import argparse
@@ -236,9 +237,12 @@ def check_installed(root):
 
 def check_figures(words):
     import figures
+    import gallery
     start, held = time.monotonic(), figures.Figures(ROOT, words.program, words.structures)
     for page in [page.resolve() for page in words.pages] or figures.pages(ROOT):
         held.check(page, words.renew)
+    if not words.pages:
+        held.faults += gallery.faults(pathlib.Path(words.program).resolve())
     print(*held.left_out, *held.faults, sep="\n", end="\n" if held.left_out or held.faults else "")
     print(f"figures: {held.numbers} numbers of {held.runs} runs in {time.monotonic() - start:.0f} s, "
           f"{len(held.left_out)} runs left out and {held.unseen} numbers with them, {len(held.faults)} faults")

@@ -4,14 +4,17 @@
 
     scripts/gallery.py build-release/tools/vdb_molsurf [NAME ...]
 
-Without names all of them. Look at them before you commit.
+Without names all of them. Look at them before you commit. scripts/check_docs.py --figures draws them elsewhere and
+compares.
 """
 
+import os
 import pathlib
 import re
 import shlex
 import subprocess
 import sys
+import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "docs" / "pictures" / "gallery"
@@ -28,6 +31,31 @@ def commands(page):
     return found
 
 
+def draw(program, words, path):
+    subprocess.run([program, *words, path, "-q", "--force"], cwd=ROOT, check=True)
+
+
+def faults(program):
+    """A line for each picture of which more than 1 % of the pixels differ by more than 2 of 255 from a new one."""
+    sys.path.insert(0, str(ROOT / "tests" / "cli"))
+    os.environ["VDB_MOLSURF"] = str(program)
+    from tool import read_png
+    lines = []
+    for name, words in commands((ROOT / "docs" / "gallery.md").read_text()).items():
+        with tempfile.TemporaryDirectory() as folder:
+            new = pathlib.Path(folder) / "new.png"
+            draw(program, words, new)
+            (width, rows), (old_width, old_rows) = (read_png(p.read_bytes()) for p in (new, FOLDER / f"{name}.png"))
+        if (width, len(rows)) != (old_width, len(old_rows)):
+            lines.append(f"docs/pictures/gallery/{name}.png: {old_width} x {len(old_rows)} pixels, new ones {width} x {len(rows)}")
+            continue
+        far = sum(any(abs(row[x + i] - old[x + i]) > 2 for i in range(3))
+                  for row, old in zip(rows, old_rows) for x in range(0, 3 * width, 3))
+        if far > 0.01 * width * len(rows):
+            lines.append(f"docs/pictures/gallery/{name}.png: {100 * far / width / len(rows):.1f} % of the pixels are not as drawn now")
+    return lines
+
+
 def main():
     if len(sys.argv) < 2:
         sys.exit("usage: gallery.py VDB_MOLSURF [NAME ...]")
@@ -38,7 +66,7 @@ def main():
         sys.exit("gallery.py: expected some of " + ", ".join(known))
     FOLDER.mkdir(parents=True, exist_ok=True)
     for name in names:
-        subprocess.run([program, *known[name], FOLDER / f"{name}.png", "-q", "--force"], cwd=ROOT, check=True)
+        draw(program, known[name], FOLDER / f"{name}.png")
 
 
 if __name__ == "__main__":

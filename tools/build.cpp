@@ -125,17 +125,19 @@ std::vector<Mesh> coarserMeshes(const Call& call, const BallSet& balls, Report& 
     return meshes;
 }
 
-// The middle of the mesh's box comes to the origin; the grids follow when they are written.
-void centerMesh(Call& call, MolecularSurface& result, ShownMeshes& shown)
+// The middle of the mesh's box comes to the origin, with the atoms that pictures show; grids and
+// other atoms follow when they are written.
+void centerMesh(Call& call, MolecularSurface& result)
 {
     openvdb::BBoxd box;
     for (const openvdb::Vec3f& p : result.mesh.positions) box.expand(openvdb::Vec3d(p));
     const openvdb::Vec3d center = call.frame > 0 ? call.scene.center : box.getCenter();
-    const auto move = [&](Mesh& mesh) {
-        for (openvdb::Vec3f& p : mesh.positions) p = openvdb::Vec3f(openvdb::Vec3d(p) - center);
-    };
-    move(result.mesh);
-    if (shown.crisp) move(*shown.crisp);
+    for (openvdb::Vec3f& p : result.mesh.positions) p = openvdb::Vec3f(openvdb::Vec3d(p) - center);
+    if (call.picture.model) {
+        auto model = std::make_shared<AtomModel>(*call.picture.model);
+        for (MeshInstance& thing : model->instances) thing.translation -= center;
+        call.picture.model = model;
+    }
     call.scene.center = center;
     result.report.center = {center[0], center[1], center[2]};
 }
@@ -187,10 +189,10 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     if (result.surface) result.surface->setCreator(creator);
     for (const auto& field : result.fields) field->setCreator(creator);
 
+    if (call.center) centerMesh(call, result);
     ShownMeshes shown;
     shown.crisp = crispMesh(call, balls, result.mesh, terminal);
     shown.coarser = coarserMeshes(call, balls, result.report, terminal);
-    if (call.center) centerMesh(call, result, shown);
     writeAll(call, balls, result, shown, terminal, start, companions);
     terminal.erase();
     return result.report;
@@ -206,7 +208,7 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
     return report;
 }
 
-Report buildSurface(const Call& call, Clock::time_point start, const Companions& companions)
+Report buildSurface(Call call, Clock::time_point start, const Companions& companions)
 {
     prepareOutputs(call, companions.temporaries);
     Terminal terminal(call.progress);

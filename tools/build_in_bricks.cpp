@@ -104,7 +104,7 @@ bool goesInBricks(const Call& call)
     return true;
 }
 
-int buildInBricks(const Call& call, Clock::time_point start)
+int buildInBricks(Call call, Clock::time_point start)
 {
     prepareOutputs(call);
 

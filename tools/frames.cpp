@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
+#include "cli/option_table.h"
 #include "input_files.h"
 #include "outputs.h"
+#include "picture_atoms.h"
 #include "sidecar.h"
 #include "write_result.h"
 
@@ -128,6 +130,9 @@ public:
                                                      call_.atoms, probeOf(call_.options), terminal),
           moves_(hasField(call_.options.fields, "v")), tableName_(tableOf(call_))
     {
+        for (const ShowRule& rule : call_.shows) shown_.push_back(pictured(rule.select));
+        if (!call_.viewed.empty())
+            lookAt(call_, pictured(call_.viewed)->balls(0), source_.balls(0), call_.picture);
         if (call_.center) call_.scene.center = centerOf(source_.balls(0).balls);
         options_ = optionsDigest(call_);
         if (!tableName_.empty()) {
@@ -199,6 +204,14 @@ public:
     }
 
 private:
+    std::unique_ptr<FrameSource> pictured(const std::string& select)
+    {
+        if (call_.input == "-")
+            misuse("--frames reads INPUT again for the atoms of pictures, expected a file, got -");
+        return std::make_unique<FrameSource>(call_.input, call_.trajectory, call_.frames,
+                                             picturedAtoms(call_, select), 0.0, terminal_);
+    }
+
     void make(std::size_t i)
     {
         const Clock::time_point start = Clock::now();
@@ -211,6 +224,9 @@ private:
         std::vector<openvdb::Vec3f> displacement;
         if (moves_) displacement = source_.displacement(i);
         const BallSet& balls = source_.balls(i);
+        std::vector<BallSet> shown;
+        for (const auto& source : shown_) shown.push_back(source->balls(i));
+        showAtoms(call_, std::move(shown), balls, terminal_, calls_[i].picture);
         const bool begun = call_.warm && !warm_.empty();
         Report read;
         read.warnings = call_.warnings;
@@ -240,6 +256,7 @@ private:
     Call call_;
     Terminal& terminal_;
     FrameSource source_;
+    std::vector<std::unique_ptr<FrameSource>> shown_; // of each --show
     bool moves_;
     std::string tableName_, options_;
     FrameTable table_;

@@ -68,7 +68,7 @@ GivenOptions planned(const Call& call)
 
 } // namespace
 
-int plan(const Call& call)
+int plan(Call call)
 {
     prepareOutputs(call);
     Terminal terminal(call.progress);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "outputs.h"
+#include "picture_atoms.h"
 #include "verbs.h"
 
 #include "molsurf/color/palette.h"
@@ -13,7 +14,8 @@
 namespace molsurf::tool
 {
 
-DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& terminal)
+DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& terminal,
+                         DrawOptions* picture)
 {
     terminal.update("read", 0.0);
     if (path != "-" && isVdbFile(path))
@@ -28,13 +30,22 @@ DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& te
     stopIfAsked();
     BallSet balls = selectBalls(structure, call.atoms, probeOf(call.options), terminal);
     std::string description = describeSelection(structure, balls);
+    if (picture) {
+        const auto chosen = [&](const std::string& select) {
+            return selectBalls(structure, picturedAtoms(call, select), 0.0, terminal);
+        };
+        std::vector<BallSet> shown;
+        for (const ShowRule& rule : call.shows) shown.push_back(chosen(rule.select));
+        showAtoms(call, std::move(shown), balls, terminal, *picture);
+        if (!call.viewed.empty()) lookAt(call, chosen(call.viewed), balls, *picture);
+    }
     return {std::move(balls), std::move(description)};
 }
 
-BallSet readBalls(const Call& call, Terminal& terminal, Report& report)
+BallSet readBalls(Call& call, Terminal& terminal, Report& report)
 {
     const Clock::time_point start = Clock::now();
-    auto [balls, description] = readBalls(call.input, call, terminal);
+    auto [balls, description] = readBalls(call.input, call, terminal, &call.picture);
     malloc_trim(0); // what the parser has left is in pieces too small for the fields
     report.warnings = call.warnings;
     report.warnings.insert(report.warnings.end(), balls.warnings.begin(), balls.warnings.end());

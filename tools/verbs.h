@@ -38,7 +38,7 @@ struct Companions {
 
 /// The same without its last word on standard error, but for errors.
 /// @return the report, complete
-Report buildSurface(const Call& call, std::chrono::steady_clock::time_point start,
+Report buildSurface(Call call, std::chrono::steady_clock::time_point start,
                     const Companions& companions = {});
 
 /// The part of it behind the atoms.
@@ -60,11 +60,15 @@ struct DescribedBalls {
     BallSet balls;
     std::string description; ///< one line
 };
-DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& terminal);
+
+/// @param[in,out] picture  gets the atoms that it shows and looks at; null: there is none
+DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& terminal,
+                         DrawOptions* picture = nullptr);
 
 /// The balls of a call, described on standard error.
+/// @param[in,out] call    gets the atoms of its picture
 /// @param[in,out] report  gets the seconds that it took, and warnings
-BallSet readBalls(const Call& call, Terminal& terminal, Report& report);
+BallSet readBalls(Call& call, Terminal& terminal, Report& report);
 
 /// Colours each ball, if the options want colours, by what touches what in the whole molecule.
 void colorBalls(const SurfaceOptions& options, Terminal& terminal, BallSet& balls);
@@ -81,7 +85,7 @@ int batch(const Call& call);
 int compare(const Call& call, std::chrono::steady_clock::time_point start);
 
 /// Cuts the space about a molecule into bricks and writes a manifest: plan.cpp.
-int plan(const Call& call);
+int plan(Call call);
 
 /// Computes one brick of a plan: brick.cpp.
 int brick(const Call& call);
@@ -91,7 +95,7 @@ int brick(const Call& call);
 int merge(const Call& call, std::chrono::steady_clock::time_point start);
 
 /// Builds a surface within --memory, or only says what it takes (--dry-run): build_in_bricks.cpp.
-int buildInBricks(const Call& call, std::chrono::steady_clock::time_point start);
+int buildInBricks(Call call, std::chrono::steady_clock::time_point start);
 
 /// Meshes, colours and pictures of a stored surface: convert.cpp.
 /// @param[in] start  when the program began, for the total time

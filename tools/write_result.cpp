@@ -23,6 +23,7 @@
 #include "molsurf/io/write_view_script.h"
 #include "molsurf/io/write_volume.h"
 #include "molsurf/picture/draw_legend.h"
+#include "molsurf/picture/view_file.h"
 #include "molsurf/picture/write_html.h"
 #include "molsurf/picture/write_png.h"
 #include "molsurf/selection/coarse_grain.h"
@@ -97,6 +98,20 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
 namespace
 {
 
+/// The point that is 0 in meshes.
+openvdb::Vec3d originOf(const Call& call)
+{
+    return call.center ? call.scene.center : openvdb::Vec3d(0.0);
+}
+
+/// The balls where they lie to the mesh.
+std::vector<Ball> placedBalls(const Call& call, const BallSet& atoms)
+{
+    std::vector<Ball> balls = atoms.balls;
+    for (Ball& ball : balls) ball.center -= originOf(call);
+    return balls;
+}
+
 openvdb::GridCPtrVec gridsOf(const Call& call, const MolecularSurface& result)
 {
     openvdb::GridCPtrVec grids;
@@ -159,7 +174,7 @@ std::shared_ptr<const ColorOwners> bordersOf(const Call& call, const BallSet& at
     if (!colors.hasBorders || !colors.hasBorders(atoms)) return nullptr;
     if (atoms.balls.empty() || !mesh.parts.empty()) return nullptr;
     const KindRow& kind = rowOf(call.options.kind);
-    std::vector<Ball> balls = atoms.balls;
+    std::vector<Ball> balls = placedBalls(call, atoms);
     for (Ball& ball : balls)
         if (kind.isUnion) ball.radius += probeOf(call.options);
     return std::make_shared<ColorOwners>(
@@ -181,8 +196,8 @@ insideOf(const Call& call, const BallSet& atoms, const std::shared_ptr<const Col
     if (call.options.color != ColorBy::Value || atoms.balls.empty())
         return [](const openvdb::Vec3d&) { return neutralColor; };
     const auto values = std::make_shared<PointValues>(atoms, call.options);
-    return [values](const openvdb::Vec3d& x) {
-        return values->colorOf(values->at(x, openvdb::Vec3d(0.0), farthest));
+    return [values, origin = originOf(call)](const openvdb::Vec3d& x) {
+        return values->colorOf(values->at(x + origin, openvdb::Vec3d(0.0), farthest));
     };
 }
 
@@ -222,12 +237,6 @@ void writePicture(const Call& call, const BallSet& atoms, const Mesh& mesh, doub
         picture = withScaleBar(picture, width, options.background);
     if (legend) picture = withLegend(picture, *legend, width, options.background);
     writePng(picture, file);
-}
-
-/// The point that is 0 in meshes.
-openvdb::Vec3d originOf(const Call& call)
-{
-    return call.center ? call.scene.center : openvdb::Vec3d(0.0);
 }
 
 } // namespace
@@ -296,6 +305,11 @@ std::vector<MeshInstance> instancesOf(const Writing& w)
     return instancesOf(w.call, w.atoms, w.mesh, w.call.colorsCopies(), w.progress);
 }
 
+void writeCamera(const Writing& w, OutputFile& file)
+{
+    writeView(w.mesh, pictureOf(w.call, w.atoms, w.mesh, false, w.progress), file);
+}
+
 void writeGrids(const Writing& w, OutputFile& file)
 {
     openvdb::MetaMap metadata = vdbMetadata(w.call, w.result.report);
@@ -333,7 +347,8 @@ void writePage(const Writing& w, OutputFile& file)
     if (w.atoms.names) {
         constexpr double farthest = 30.0; // from a ball [Å]
         page.names = &*w.atoms.names;
-        page.ballOf = nearestBalls(w.atoms.balls, w.mesh.positions, farthest, w.progress);
+        page.ballOf =
+            nearestBalls(placedBalls(w.call, w.atoms), w.mesh.positions, farthest, w.progress);
     }
     writeHtml(w.mesh, page, file);
 }
@@ -413,6 +428,7 @@ const std::vector<Format>& formatTable()
          [](const Writing& w, OutputFile& file) {
              writePicture(w.call, w.atoms, w.mesh, w.output.turn, w.progress, file);
          }},
+        {"view", meshed, Copies | Views, "from where pictures see it, for --view", "", writeCamera},
         {"usda", Build, Stage | Colors | SceneUnits | Copies | Levels, "copies, with --instances",
          "", writeStage},
         {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},

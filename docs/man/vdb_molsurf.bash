@@ -8,7 +8,7 @@ _vdb_molsurf()
         help|build|batch|compare|convert|bricks|info) verb=${COMP_WORDS[1]} ;;
     esac
     case $verb:$before in
-        "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face mrc dx cxc pml html json png atoms.csv residues.csv contacts.csv interfaces.csv pdb cif residues.pdb residues.cif" ;;
+        "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face mrc dx cxc pml html json png view atoms.csv residues.csv contacts.csv interfaces.csv pdb cif residues.pdb residues.cif" ;;
         "build":--start) words="cold warm" ;;
         "build":--surface) words="variational ses sas vdw gaussian" ;;
         "build":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd v" ;;
@@ -24,6 +24,7 @@ _vdb_molsurf()
         "build":--view) words="auto" ;;
         "build":--background) words="transparent" ;;
         "build":--style) words="soft glossy outline flat" ;;
+        "build":--show) words="sticks balls spheres tube" ;;
         "build":--legend) words="auto on off" ;;
         "build":--regularizer) words="gradient area" ;;
         "build":--flow) words="newton paper" ;;
@@ -41,6 +42,7 @@ _vdb_molsurf()
         "batch":--view) words="auto" ;;
         "batch":--background) words="transparent" ;;
         "batch":--style) words="soft glossy outline flat" ;;
+        "batch":--show) words="sticks balls spheres tube" ;;
         "batch":--legend) words="auto on off" ;;
         "batch":--regularizer) words="gradient area" ;;
         "batch":--flow) words="newton paper" ;;
@@ -50,7 +52,7 @@ _vdb_molsurf()
         "compare":--coarse) words="atom residue" ;;
         "compare":--regularizer) words="gradient area" ;;
         "compare":--flow) words="newton paper" ;;
-        "convert":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face mrc dx cxc pml html json png" ;;
+        "convert":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face mrc dx cxc pml html json png view" ;;
         "convert":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd v" ;;
         "convert":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "convert":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature" ;;
@@ -70,8 +72,8 @@ _vdb_molsurf()
         "bricks merge":--format) words="vdb ply json" ;;
     esac
     case $verb in
-        "build") options="--output -o --format --force --select --model --assembly --instances --by-symmetry --weld --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --frames --trajectory --start --surface --voxel --lod --blobbiness --fill-cavities --fields --vdb-half --curvature-totals --epsilon --resolution --coarse --match-volume --groups --group-by --split --surface-of --interfaces --color --range --palette --value-of --flat-values --outward --crisp --areas --contacts --for --center --print-scale --min-wall --view --turn --size --background --plain-color --style --opacity --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --memory --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --list-radii --version -V --help -h" ;;
-        "batch") options="--folder -O --formats --force --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fill-cavities --fields --vdb-half --curvature-totals --epsilon --resolution --coarse --match-volume --groups --group-by --split --surface-of --interfaces --color --range --palette --value-of --flat-values --outward --areas --contacts --for --center --print-scale --min-wall --view --turn --size --background --plain-color --style --opacity --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --max-hours --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h" ;;
+        "build") options="--output -o --format --force --select --model --assembly --instances --by-symmetry --weld --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --frames --trajectory --start --surface --voxel --lod --blobbiness --fill-cavities --fields --vdb-half --curvature-totals --epsilon --resolution --coarse --match-volume --groups --group-by --split --surface-of --interfaces --color --range --palette --value-of --flat-values --outward --crisp --areas --contacts --for --center --print-scale --min-wall --view --turn --size --background --plain-color --style --show --opacity --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --memory --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --list-radii --version -V --help -h" ;;
+        "batch") options="--folder -O --formats --force --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fill-cavities --fields --vdb-half --curvature-totals --epsilon --resolution --coarse --match-volume --groups --group-by --split --surface-of --interfaces --color --range --palette --value-of --flat-values --outward --areas --contacts --for --center --print-scale --min-wall --view --turn --size --background --plain-color --style --show --opacity --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --max-hours --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h" ;;
         "compare") options="--output -o --format --force --color --range --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fill-cavities --epsilon --resolution --coarse --match-volume --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h" ;;
         "convert") options="--output -o --format --force --fields --range --palette --color --print-scale --view --turn --size --background --plain-color --style --opacity --clip --depth-cue --legend --scale-bar --dpi --turntable --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h" ;;
         "bricks plan") options="--output -o --force --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fields --vdb-half --epsilon --resolution --coarse --groups --group-by --color --range --palette --value-of --flat-values --outward --lambda --regularizer --flow --max-steps --steps --tolerance --bricks --memory --threads -j --quiet -q --no-progress --config --version -V --help -h" ;;

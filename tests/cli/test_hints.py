@@ -107,6 +107,12 @@ MERGE = "vdb_molsurf bricks merge plan.json -o a.vdb"
 
 # {source: [(hint, a call that gives it, calls that follow it...)]}; calls are lines of a shell, in one folder.
 CASES = {
+    "picture/view_file.cpp": [
+        ("-o NAME.view writes one", f"printf '{{}}' > bad.view; vdb_molsurf 1crn.pdb {FAST} --view bad.view -o a.png",
+         f"vdb_molsurf 1crn.pdb {FAST} -o NAME.view; vdb_molsurf 1crn.pdb {FAST} --view NAME.view -o a.png")],
+    "tools/picture_atoms.cpp": [
+        ("--view X,Y,Z is a direction", f"vdb_molsurf 1crn.pdb {FAST} --view '*' -o a.png",
+         f"vdb_molsurf 1crn.pdb {FAST} --view 1,0,0 -o a.png")],
     "flow/evolve.cpp": [
         ("a smaller --lambda", "vdb_molsurf two.xyzr --lambda 1e4 --regularizer area -o a.vdb",
          "vdb_molsurf two.xyzr --lambda 1 --regularizer area -o a.vdb")],

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """Pictures: the legend, turntables, and that 4AT1 by chain is one."""
 
+import json
 import os
 import unittest
 
@@ -119,6 +120,84 @@ class Pictures(ToolTest):
         self.assertGreater(mean[1], 1.05 * mean[0])
         self.check(2, CRAMBIN, "-o", "b.png", "--opacity", "0", says="0.01 to 1")
         self.check(2, CRAMBIN, "-o", "b.png", "--clip", "near", says="a number of Å")
+
+    def test_atoms_beside_the_surface(self):
+        """Sulphur of the disulfides, that no surface shows, has its colour in a faint one and where it is cut."""
+        words = [CRAMBIN, *FAST, "--size", "200", "--legend", "off", "--style", "flat"]
+        sulphur = (255, 255, 48)
+        _, rows = self.picture(*words, "--show", "A//SG=spheres")
+        self.assertFalse(self.has(rows, sulphur))
+        _, rows = self.picture(*words, "--show", "A//SG=spheres", "--clip", "-6")
+        self.assertTrue(self.has(rows, sulphur))
+        _, rows = self.picture(*words, "--select", "A/1-10", "--show", "A//SG=spheres")
+        self.assertTrue(self.has(rows, sulphur))  # of atoms that the surface is not of
+        _, faint = self.picture(*words, "--show", "tube", "--opacity", "0.1", "--color", "chain")
+        blues = [pixel for row in faint for pixel in row if pixel[2] > 1.3 * pixel[0]]
+        self.assertGreater(len(blues), 1500)  # the tube has the colour of its chain
+        # A chain that the surface has not got has a colour that it has not got either.
+        _, rows = self.picture(DATA / "4at1.ent.gz", *FAST, "--size", "200", "--legend", "off", "--style", "flat",
+                               "--select", "A,C", "--color", "chain", "--show", "B=tube")
+        seen = {color: sum(row.count(color) for row in rows)
+                for color in ((86, 180, 233), (230, 159, 0), (0, 158, 115))}
+        self.assertGreater(min(seen.values()), 40, seen)
+        for value, says in (("stick", "did you mean sticks?"), ("A/1=", "expected sticks, balls"),
+                            ("(XYZ)=sticks", "matches no atom"), ("A//CB=tube", "nothing to show")):
+            self.check(1 if "XYZ" in value or "CB" in value else 2, CRAMBIN, "-o", "b.png", "--show", value, says=says)
+        self.check(0, CRAMBIN, *FAST, "-o", "b.ply", "--show", "sticks", says="--show is for .png")
+
+    def test_atoms_of_frames_and_copies(self):
+        self.check(0, DATA / "1d3z.pdb.gz", *FAST, "--frames", "1-2", "--show", "sticks", "--opacity", "0.3", "--size", "150",
+                   "-o", "a.png")
+        seen = [(self.folder / f"a.000{n}.png").read_bytes() for n in (1, 2)]
+        self.assertNotEqual(*seen)
+        words = [DATA / "1a8o.cif.gz", "--voxel", "1.5", "--assembly", "1", "--size", "200", "--opacity", "0.3", "--show", "tube",
+                 "--view", "0,0,1"]
+        whole, copies = self.picture(*words), self.picture(*words, "--instances")
+        alike = sum(p == q for a, b in zip(whole[1], copies[1]) for p, q in zip(a, b))
+        self.assertGreater(alike, 0.5 * whole[0] * len(whole[1]))
+
+    def test_view_of_atoms_and_from_a_file(self):
+        words = [CRAMBIN, *FAST, "--size", "160"]
+        self.check(0, *words, "--view", "A/46", "-o", "a.view", "-o", "b.png", "--turn", "30")
+        view = json.loads((self.folder / "a.view").read_text())
+        self.assertAlmostEqual(view["width"] / view["height"], 160 / len(read_png((self.folder / "b.png").read_bytes())[1]),
+                               delta=0.02)
+        again = self.picture(*words, "--view", "a.view")
+        _, rows = read_png((self.folder / "b.png").read_bytes())
+        flat = [tuple(row[3 * x:3 * x + 3]) for row in rows for x in range(160)]
+        wrong = sum(p != q for p, q in zip(flat, (p for row in again[1] for p in row)))
+        self.assertLess(wrong, 0.01 * len(flat))
+        # A part of the molecule stays where it was, and so does its size.
+        part = self.picture(CRAMBIN, *FAST, "--size", "160", "--view", "a.view", "--select", "A/1-20")
+        self.assertEqual(len(part[1]), len(again[1]))
+        shown = [sum(p != WHITE for row in rows for p in row) for rows in (again[1], part[1])]
+        self.assertLess(shown[1], 0.8 * shown[0])
+        outside = sum(p != WHITE and q == WHITE for a, b in zip(part[1], again[1]) for p, q in zip(a, b))
+        self.assertLess(outside, 0.02 * shown[1])
+        # It looks at these atoms: the carboxyl end is the nearest to the eye.
+        ends = {line[22:26].strip(): [float(line[30 + 8 * i:38 + 8 * i]) for i in range(3)]
+                for line in CRAMBIN.read_text().splitlines() if line.startswith("ATOM") and line[12:16] == " CA "}
+        self.check(0, *words, "--view", "A/46", "-o", "c.view")
+        eye = json.loads((self.folder / "c.view").read_text())["to_eye"]
+        height = {name: sum(a * b for a, b in zip(eye, x)) for name, x in ends.items()}
+        self.assertGreater(height["46"], sorted(height.values())[-8])
+        (self.folder / "bad.view").write_text('{"to_eye": [0, 0, 1], "up": [0, 0, 2], "center": [0, 0, 0], "width": 1, "height": 1}')
+        self.check(1, *words, "--view", "bad.view", "-o", "d.png", says="two directions that differ")
+        (self.folder / "bad.view").write_text("{}")
+        self.check(1, *words, "--view", "bad.view", "-o", "d.png", says="-o NAME.view writes one")
+        self.check(1, *words, "--view", "*", "-o", "d.png", says="lie about the middle")
+        self.check(1, *words, "--view", "a.view", "-o", "a.view", "--force", says="a.view")
+
+    def test_centred_is_the_same_picture(self):
+        """Colours, the cut and shown atoms move with the mesh."""
+        words = [DATA / "1a8o.cif.gz", "--assembly", "1", "--voxel", "1", "--size", "200", "--show", "A//CA=spheres",
+                 "--clip", "2", "--color"]
+        for color in ("chain", "hydrophobicity"):
+            there, centred = self.picture(*words, color), self.picture(*words, color, "--center")
+            self.assertEqual(len(there[1]), len(centred[1]))
+            far = sum(max(abs(a - b) for a, b in zip(p, q)) > 40
+                      for one, other in zip(there[1], centred[1]) for p, q in zip(one, other))
+            self.assertLess(far, 0.01 * 200 * len(there[1]))
 
     def test_turntable(self):
         self.check(0, CRAMBIN, *FAST, "-o", "a.png", "-o", "a.ply", "--turntable", "4", "--size",

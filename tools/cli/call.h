@@ -7,6 +7,7 @@
 #include "cli/formats.h"
 
 #include "molsurf/io/scene.h"
+#include "molsurf/picture/atom_model.h"
 #include "molsurf/picture/draw_mesh.h"
 #include "molsurf/settings.h"
 #include "molsurf/surface/area_tables.h"
@@ -77,6 +78,8 @@ struct Call : Settings {
     double printScale = 0.0; ///< of .stl, .obj and .3mf [mm/Å]; 0: they are in Å
     double wall = 0.0;       ///< least thickness of a print [mm]; 0: none
     DrawOptions picture;
+    std::string viewed;          ///< atoms that face the eye, a selection; empty: none
+    std::vector<ShowRule> shows; ///< atoms that pictures show beside the surface
     LegendChoice legend = LegendChoice::Auto;
     bool scaleBar = false;    ///< a bar of lengths below pictures
     int turntable = 0;        ///< number of pictures; 0: one

@@ -7,6 +7,7 @@
 #include "molsurf/bricks.h"
 #include "molsurf/error.h"
 #include "molsurf/picture/style.h"
+#include "molsurf/picture/view_file.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/settings.h"
 #include "molsurf/surface/set_value.h"
@@ -144,23 +145,34 @@ Option either(const char* name, std::string help, const char* on, const char* of
     return o;
 }
 
+/// A direction X,Y,Z.
+std::optional<openvdb::Vec3d> directionOf(const std::string& text)
+{
+    openvdb::Vec3d way;
+    const char *from = text.data(), *end = from + text.size();
+    for (int i = 0; i < 3; ++i) {
+        const auto [stop, problem] = std::from_chars(from, end, way[i]);
+        if (problem != std::errc() || (i < 2 ? stop == end || *stop != ',' : stop != end))
+            return std::nullopt;
+        from = stop + 1;
+    }
+    return way;
+}
+
 void setView(Call& call, const Values& values)
 {
     const std::string& view = values.back();
     if (lowered(view) == "auto") return;
-    DrawOptions& picture = call.picture;
-    const char *from = view.data(), *end = from + view.size();
-    for (int i = 0; i < 3; ++i) {
-        const auto [stop, problem] = std::from_chars(from, end, picture.toEye[i]);
-        if (problem != std::errc() || (i < 2 ? stop == end || *stop != ',' : stop != end) ||
-            !std::isfinite(picture.toEye[i]))
-            wrongValue("view", "auto or a direction X,Y,Z", view);
-        from = stop + 1;
+    if (isViewName(view)) return readView(view, call.picture);
+    if (const auto way = directionOf(view)) {
+        const double length = way->length();
+        if (!(length > 0.0) || !std::isfinite(length))
+            wrongValue("view", "a direction X,Y,Z that is not 0", view);
+        return lookFrom(*way, call.picture);
     }
-    if (!(picture.toEye.lengthSqr() > 0.0)) wrongValue("view", "auto or a direction X,Y,Z", view);
-    // Up is y, or z when looking along y.
-    const openvdb::Vec3d eye = picture.toEye.unit();
-    picture.up = std::abs(eye.y()) < 0.99 ? openvdb::Vec3d(0, 1, 0) : openvdb::Vec3d(0, 0, 1);
+    if (!(call.verb & (Build | Batch)))
+        wrongValue("view", "auto, a direction X,Y,Z or a FILE.view", view);
+    call.viewed = view;
 }
 
 void setBackground(Call& call, const Values& values)
@@ -460,18 +472,30 @@ std::string styleText()
     return wrapped(joinWords(all, "; "), helpWidth);
 }
 
+std::string showText()
+{
+    Values all;
+    for (const AtomStyle& row : atomStyles()) all.push_back(row.word + ": "s + row.help);
+    return "atoms beside the surface, whole and opaque, such as\n\"(HEM)=sticks\"; repeats; " +
+           wrapped(joinWords(all, "; "), helpWidth);
+}
+
 OptionGroup pictureOptions()
 {
     constexpr unsigned draw = wholes | Convert;
     Option view{"view",
                 0,
-                "X,Y,Z",
-                "direction toward the eye, or auto: the shortest extent\n"
-                "toward the eye, the longest across",
+                "FROM",
+                "a direction X,Y,Z toward the eye; atoms that face it, as\n"
+                "\"A/63\"; FILE.view, as -o writes it; auto: the shortest\n"
+                "extent toward the eye, the longest across",
                 "auto",
                 draw,
                 {"auto"}};
     view.set = setView;
+    view.file = [](const std::string& value) {
+        return isViewName(value) ? std::size_t(0) : std::string::npos;
+    };
     Option background{"background",   0,
                       "COLOR",        "as #rrggbb or #rgb, a name such as black, or transparent",
                       "#ffffff",      draw,
@@ -489,6 +513,12 @@ OptionGroup pictureOptions()
             wrongValue("style", joinWords(words, ", "), values.back(),
                        didYouMean(values.back(), words));
     };
+    Option show{"show", 0, "[SEL=]WORD", showText(), "", Build | Batch};
+    for (const AtomStyle& row : atomStyles()) show.words.push_back(row.word);
+    show.repeats = true;
+    show.set = [](Call& call, const Values& values) {
+        for (const std::string& value : values) call.shows.push_back(parseShow(value));
+    };
     return {
         "Picture",
         {shownIn(Views, view),
@@ -497,6 +527,7 @@ OptionGroup pictureOptions()
          shownIn(Pixels, count("size", "N", "width in pixels; the height follows the shape", "1200",
                                draw, 16, 16384, MOLSURF_OF(picture.width))),
          shownIn(Pixels, background), shownIn(PlainColor, plain), shownIn(Pixels, style),
+         shownIn(Pixels, show),
          shownIn(Pixels, number("opacity", "O", "of the surface, seen from the front", "1", draw,
                                 0.01, 1.0, "a number from 0.01 to 1", MOLSURF_OF(picture.opacity))),
          shownIn(Pixels, number("clip", "D",

@@ -2,6 +2,7 @@
 #include "molsurf/balls/circle_cover.h"
 
 #include "molsurf/balls/quad.h"
+#include "molsurf/core/perpendicular.h"
 #include "molsurf/core/simd.h"
 
 #include <algorithm>
@@ -30,15 +31,6 @@ constexpr double sureError = 1e-11, sureCosine = 1.0 - 1e-4;
 
 /// Places on a circle are taken from doubles if their error is below this.
 constexpr double largestError = 1e-10;
-
-/// Two unit vectors that are orthogonal to a unit vector and to each other.
-void frame(const Vec3d& axis, Vec3d& e1, Vec3d& e2)
-{
-    const Vec3d other = std::abs(axis.x()) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
-    e1 = axis.cross(other);
-    e1.normalize();
-    e2 = axis.cross(e1);
-}
 
 struct CapPointers {
     const double *x, *y, *z, *cosine;
@@ -394,8 +386,8 @@ void findGaps(const std::vector<PlacedBall>& balls, std::int32_t i, const CapArr
 {
     gaps.clear();
     const auto place = std::size_t(own);
-    circle = {caps[own].axis, {}, {}, caps.cosine[place], caps.sine[place]};
-    frame(circle.axis, circle.e1, circle.e2);
+    const auto [e1, e2] = perpendicular(caps[own].axis);
+    circle = {caps[own].axis, e1, e2, caps.cosine[place], caps.sine[place]};
     scratch.rounded.resize(std::size_t(caps.size()));
     if (isSurelyCovered(circle, caps.rounded, scratch.rounded)) return;
     std::vector<std::int32_t>& kept = scratch.kept;

@@ -5,6 +5,7 @@
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/balls/boundary_measure.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/perpendicular.h"
 
 #include <openvdb/Types.h>
 
@@ -116,9 +117,7 @@ double facetArea(double radius, const Neighbour& neighbour, const std::vector<Ne
     if (square <= 0.0) return 0.0;
     const double rim = std::sqrt(square);
     const Vec3d axis = neighbour.offset / neighbour.distance;
-    Vec3d e1 = axis.cross(std::abs(axis.x()) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0));
-    e1.normalize();
-    const Vec3d e2 = axis.cross(e1);
+    const auto [e1, e2] = perpendicular(axis);
     polygon = {{-rim, -rim}, {rim, -rim}, {rim, rim}, {-rim, rim}};
     double reach = radius; // of the facet from the ball's centre: planes beyond it cut nothing off
     for (const Neighbour& other : others) {

@@ -31,7 +31,6 @@ constexpr ElementColor elementColors[] = {
     {29, {200, 128, 51}},  {30, {125, 128, 176}}, {34, {255, 161, 0}},   {35, {166, 41, 41}},
     {53, {148, 0, 148}}};
 constexpr Color otherElement = {255, 20, 147};
-constexpr std::uint8_t carbon = 6;
 
 /// Of Okabe and Ito's colours.
 struct ClassColor {
@@ -235,7 +234,7 @@ ColorKind illustrative()
     kind.ofBalls = [](const BallSet& atoms, const Progress& progress) {
         std::vector<Color> out = spread(chainColors(atoms, progress), atoms.labels->chainOf);
         for (std::size_t i = 0; i < out.size(); ++i)
-            if (atoms.labels->elementOf[i] == carbon)
+            if (atoms.labels->elementOf[i] == carbonElement)
                 for (std::uint8_t& c : out[i]) c = std::uint8_t(c + (255 - c) / 2);
         return out;
     };
@@ -255,7 +254,7 @@ ColorKind hetero()
     kind.ofBalls = [](const BallSet& atoms, const Progress& progress) {
         std::vector<Color> out = spread(chainColors(atoms, progress), atoms.labels->chainOf);
         for (std::size_t i = 0; i < out.size(); ++i)
-            if (const std::uint8_t element = atoms.labels->elementOf[i]; element != carbon)
+            if (const std::uint8_t element = atoms.labels->elementOf[i]; element != carbonElement)
                 out[i] = elementColor(element);
         return out;
     };
@@ -263,7 +262,7 @@ ColorKind hetero()
                        Legend& legend) {
         byChain().describe(atoms, mesh, progress, legend);
         std::vector<std::uint8_t> others = atoms.labels->elementOf;
-        others.erase(std::remove(others.begin(), others.end(), carbon), others.end());
+        others.erase(std::remove(others.begin(), others.end(), carbonElement), others.end());
         addKinds(others, elementSymbol, elementColor, legend);
     };
     return kind;

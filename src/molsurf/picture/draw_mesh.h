@@ -19,6 +19,7 @@
 namespace molsurf
 {
 
+struct AtomModel;
 struct ColorOwners;
 struct PictureStyle;
 
@@ -31,14 +32,21 @@ struct Picture {
     double dpi = 0.0;                     ///< pixels an inch of paper; 0: not said
 };
 
+/// The part of space that a picture shows.
+struct PictureFrame {
+    openvdb::Vec3d center; ///< [Å]
+    double width, height;  ///< [Å]
+};
+
 /// From where, and how large.
 struct DrawOptions {
     int width = 1200; ///< of the picture [pixel], > 0; the height follows the shape
     /// Toward the eye, and what is up; zero: the shortest principal axis toward the eye, the
     /// longest one across the picture.
     openvdb::Vec3d toEye{0.0}, up{0.0};
-    double turn = 0.0;     ///< about `up` [degree]
-    bool turnable = false; ///< the scale is the same for every turn, also for 0
+    std::optional<PictureFrame> frame{}; ///< none: all of the mesh
+    double turn = 0.0;                   ///< about `up` [degree]
+    bool turnable = false;               ///< the scale is the same for every turn, also for 0
     /// Points whose principal axes make the automatic view, so that it is the same for any mesh of
     /// them; empty: the vertices.
     std::vector<openvdb::Vec3d> about{};
@@ -58,6 +66,8 @@ struct DrawOptions {
     std::function<Color(const openvdb::Vec3d& x)> inside{};
     /// The copies of parts that are shown in the place of the mesh; empty: the mesh.
     std::vector<MeshInstance> instances{};
+    /// Atoms that are seen beside the surface, opaque and whole; null: none.
+    std::shared_ptr<const AtomModel> model{};
 };
 
 /// The directions to the right, up and toward the eye of a picture, as right-handed unit vectors.

@@ -2,6 +2,7 @@
 #include "molsurf/picture/layer.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/perpendicular.h"
 #include "molsurf/io/part_ranges.h"
 
 #include <algorithm>
@@ -52,14 +53,6 @@ void setRay(Rays& rays, std::size_t k, const Vec3d& from, const Vec3d& way, doub
     rays.mask[k] = ~0u;
 }
 
-/// Two directions at right angles to one, and to each other.
-std::pair<Vec3d, Vec3d> across(const Vec3d& way)
-{
-    const Vec3d side = std::abs(way[0]) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
-    const Vec3d u = way.cross(side).unit();
-    return {u, way.cross(u)};
-}
-
 Color mixed(const Color& a, const Color& b, const Color& c, const Vec3f& w)
 {
     Color out;
@@ -99,11 +92,15 @@ Vec3f Tracer::lamp()
     return Vec3f(-0.5f, 0.62f, 0.75f).unit();
 }
 
+Shapes::Shapes(const Mesh& shape, const std::vector<MeshInstance>& copies)
+    : mesh(shape), instances(copies), parts(trianglesOf(shape)),
+      scene(copies.empty() ? RayScene(shape) : RayScene(shape, parts, copies))
+{
+}
+
 Tracer::Tracer(const Mesh& mesh, const View& view, const PictureStyle& style,
                const DrawOptions& options)
-    : mesh_(mesh), view_(view), style_(style), options_(options), parts_(trianglesOf(mesh)),
-      scene_(options.instances.empty() ? RayScene(mesh)
-                                       : RayScene(mesh, parts_, options.instances)),
+    : view_(view), style_(style), options_(options), surface_(mesh, options.instances),
       top_(std::min(view.far + 1.0, options.clip.value_or(view.far + 1.0))),
       clips_(top_ < view.far + 1.0),
       lamp_(double(lamp()[0]) * view.right + double(lamp()[1]) * view.up +
@@ -111,6 +108,7 @@ Tracer::Tracer(const Mesh& mesh, const View& view, const PictureStyle& style,
       owners_(options.borders ? mesh.positions.size() : 0)
 {
     for (auto& owner : owners_) owner.store(unknown, std::memory_order_relaxed);
+    if (options.model) atoms_.emplace(options.model->mesh, options.model->instances);
 }
 
 Layer Tracer::first(const Progress& progress) const
@@ -139,6 +137,34 @@ Layer Tracer::trace(const Layer* front, const Progress& progress) const
     return layer;
 }
 
+/// @param[in] depths  where the rays begin; Seen::nothing: they do not
+Tracer::EyeRays Tracer::from(int x, int y, const std::array<float, eyeRays>& depths) const
+{
+    EyeRays out;
+    for (std::size_t s = 0; s < eyeRays; ++s) {
+        const double dx = (double(s % subpixels) + 0.5) / subpixels;
+        const double dy = (double(s / subpixels) + 0.5) / subpixels;
+        out.valid[s] = depths[s] > Seen::nothing ? -1 : 0;
+        out.from[s] =
+            view_.at(x + dx, y + dy) + (out.valid[s] ? double(depths[s]) : 0.0) * view_.toEye;
+    }
+    return out;
+}
+
+RTCRayHit4 Tracer::meet(const Shapes& shapes, const EyeRays& eye) const
+{
+    alignas(16) RTCRayHit4 rays{};
+    for (std::size_t s = 0; s < eyeRays; ++s) {
+        setRay(rays.ray, s, eye.from[s], -view_.toEye, view_.far - view_.low + 2.0);
+        rays.hit.geomID[s] = rays.hit.instID[0][s] = RTC_INVALID_GEOMETRY_ID;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect4(eye.valid.data(), shapes.scene.get(), &context, &rays);
+    return rays;
+}
+
 void Tracer::tracePixel(int x, int y, const Layer* front, Layer& layer) const
 {
     const auto columns = subpixels * std::size_t(view_.width);
@@ -146,100 +172,125 @@ void Tracer::tracePixel(int x, int y, const Layer* front, Layer& layer) const
         return (subpixels * std::size_t(y) + s / subpixels) * columns + subpixels * std::size_t(x) +
                s % subpixels;
     };
-    std::array<Vec3d, eyeRays> from;
-    alignas(16) std::array<int, eyeRays> valid;
-    alignas(16) RTCRayHit4 rays{};
-    for (std::size_t s = 0; s < eyeRays; ++s) {
-        const double dx = (double(s % subpixels) + 0.5) / subpixels;
-        const double dy = (double(s / subpixels) + 0.5) / subpixels;
-        const float above = front ? front->seen[placeOf(s)].depth - 1e-3f : float(top_);
-        valid[s] = above > Seen::nothing ? -1 : 0;
-        from[s] = view_.at(x + dx, y + dy) + (valid[s] ? double(above) : 0.0) * view_.toEye;
-        setRay(rays.ray, s, from[s], -view_.toEye, view_.far - view_.low + 2.0);
-        rays.hit.geomID[s] = rays.hit.instID[0][s] = RTC_INVALID_GEOMETRY_ID;
+    std::array<float, eyeRays> depths;
+    depths.fill(float(top_));
+    for (std::size_t s = 0; front && s < eyeRays; ++s) {
+        const Seen& before = front->seen[placeOf(s)];
+        depths[s] = before.opaque() ? Seen::nothing : before.depth - 1e-3f;
     }
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect4(valid.data(), scene_.get(), &context, &rays);
+    const EyeRays eye = from(x, y, depths);
+    const auto look = [&](const Shapes& shapes, const EyeRays& rays, const auto& seenOf) {
+        const RTCRayHit4 hits = meet(shapes, rays);
+        for (std::size_t s = 0; s < eyeRays; ++s) {
+            if (hits.hit.geomID[s] == RTC_INVALID_GEOMETRY_ID) continue;
+            const Seen found = seenOf(hits, s, rays.from[s]);
+            Seen& seen = layer.seen[placeOf(s)];
+            if (found.depth > seen.depth) seen = found;
+        }
+    };
+    look(surface_, eye, [this](auto&&... ray) { return hitOf(ray...); });
+    if (atoms_) { // which are not cut
+        if (!front) depths.fill(float(view_.far + 1.0));
+        look(*atoms_, from(x, y, depths), [this](auto&&... ray) { return atomOf(ray...); });
+    }
     PixelLight light;
     Vec3d at(0.0);
+    bool isAtom = false;
     for (std::size_t s = 0; s < eyeRays; ++s) {
-        if (rays.hit.geomID[s] == RTC_INVALID_GEOMETRY_ID) continue;
-        Seen& seen = layer.seen[placeOf(s)];
-        seen = hitOf(rays, s, from[s]);
+        const Seen& seen = layer.seen[placeOf(s)];
         if (seen.depth <= light.depth) continue;
         light.depth = seen.depth;
         light.normal = seen.normal();
-        const double onPlane = from[s].dot(view_.toEye) - view_.center.dot(view_.toEye);
-        at = from[s] + (double(seen.depth) - onPlane) * view_.toEye;
+        isAtom = seen.piece == Seen::atom;
+        const double onPlane = eye.from[s].dot(view_.toEye) - view_.center.dot(view_.toEye);
+        at = eye.from[s] + (double(seen.depth) - onPlane) * view_.toEye;
     }
-    // Light comes to what stands behind through what stands before it: nothing there is in the
-    // dark.
-    if (light.depth > Seen::nothing && !front) {
+    // Light comes through walls that let it through: behind them no wall is in the dark, and atoms
+    // are in that of each other alone.
+    if (light.depth > Seen::nothing && (!front || isAtom)) {
         const Vec3d normal = double(light.normal[0]) * view_.right +
                              double(light.normal[1]) * view_.up +
                              double(light.normal[2]) * view_.toEye;
         const int pattern = patternOf(x, y);
-        if (style_.sky > 0.0f) light.open = openness(at, normal, pattern);
-        if (style_.shadow > 0.0f) light.lit = lampShare(at, normal, pattern);
+        const bool among = isAtom && options_.opacity < 1.0;
+        if (style_.sky > 0.0f) light.open = openness(at, normal, among, pattern);
+        if (style_.shadow > 0.0f) light.lit = lampShare(at, normal, among, pattern);
     }
     layer.lights[std::size_t(y) * std::size_t(view_.width) + std::size_t(x)] = light;
 }
 
+/// @param[in] normal  of any length; turned to face the eye if it does not
+Seen Tracer::facing(float depth, Vec3d normal) const
+{
+    // At a rim the mean of the normals may look past the eye.
+    normal.normalize();
+    normal -= std::min(0.0, normal.dot(view_.toEye)) * view_.toEye;
+    normal.normalize();
+    Seen out;
+    out.depth = depth;
+    out.nx = std::int16_t(std::lround(32767.0 * normal.dot(view_.right)));
+    out.ny = std::int16_t(std::lround(32767.0 * normal.dot(view_.up)));
+    return out;
+}
+
+Seen Tracer::atomOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) const
+{
+    const MeshInstance& copy = *atoms_->copyOf(rays, s);
+    const Mesh& mesh = atoms_->mesh;
+    const auto& t = mesh.triangles[atoms_->parts[copy.part].first + rays.hit.primID[s]];
+    const Vec3f weights(1.0f - rays.hit.u[s] - rays.hit.v[s], rays.hit.u[s], rays.hit.v[s]);
+    const Vec3f normal = weights[0] * mesh.normals[t[0]] + weights[1] * mesh.normals[t[1]] +
+                         weights[2] * mesh.normals[t[2]];
+    const double start = from.dot(view_.toEye) - view_.center.dot(view_.toEye);
+    Seen out = facing(float(start - double(rays.ray.tfar[s])), copy.turned(Vec3d(normal)));
+    out.color = multiplied(mesh.colors[t[0]], copy.color);
+    out.piece = Seen::atom;
+    return out;
+}
+
 Seen Tracer::hitOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) const
 {
-    const MeshInstance* copy = nullptr;
-    std::size_t first = 0;
-    Seen out;
-    if (!options_.instances.empty()) {
-        copy = &options_.instances[rays.hit.instID[0][s]];
-        first = parts_[copy->part].first;
-        out.piece = std::uint8_t(rays.hit.instID[0][s] % Seen::cut);
-    }
-    const auto& t = mesh_.triangles[first + rays.hit.primID[s]];
+    const MeshInstance* copy = surface_.copyOf(rays, s);
+    const Mesh& mesh = surface_.mesh;
+    const std::size_t first = copy ? surface_.parts[copy->part].first : 0;
+    const auto& t = mesh.triangles[first + rays.hit.primID[s]];
     const Vec3f weights(1.0f - rays.hit.u[s] - rays.hit.v[s], rays.hit.u[s], rays.hit.v[s]);
-    const Vec3f side = (mesh_.positions[t[1]] - mesh_.positions[t[0]])
-                           .cross(mesh_.positions[t[2]] - mesh_.positions[t[0]]);
+    const Vec3f side = (mesh.positions[t[1]] - mesh.positions[t[0]])
+                           .cross(mesh.positions[t[2]] - mesh.positions[t[0]]);
     const auto placed = [&](const Vec3f& way) {
         return copy ? copy->turned(Vec3d(way)) : Vec3d(way);
     };
     const bool fromBehind = placed(side).dot(view_.toEye) < 0.0;
     const double length = double(rays.ray.tfar[s]);
     const double start = from.dot(view_.toEye) - view_.center.dot(view_.toEye);
-    if (clips_ && start >= top_ - 1e-6 && fromBehind) {
-        out.depth = float(top_); // it begins inside
+    if (clips_ && start >= top_ - 1e-6 && fromBehind) { // it begins inside
+        Seen out;
+        out.depth = float(top_);
         out.piece = Seen::cut;
         const Vec3d x = copy ? broughtBack(*copy, from) : from;
         out.color = options_.inside ? options_.inside(x) : options_.plain;
         return out;
     }
-    out.depth = float(start - length);
-    Vec3d normal = placed(weights[0] * mesh_.normals[t[0]] + weights[1] * mesh_.normals[t[1]] +
-                          weights[2] * mesh_.normals[t[2]]);
-    normal.normalize();
-    if (fromBehind) normal = -normal;
-    // At a rim the mean of the normals may look past the eye.
-    normal -= std::min(0.0, normal.dot(view_.toEye)) * view_.toEye;
-    normal.normalize();
-    out.nx = std::int16_t(std::lround(32767.0 * normal.dot(view_.right)));
-    out.ny = std::int16_t(std::lround(32767.0 * normal.dot(view_.up)));
+    Vec3d normal = placed(weights[0] * mesh.normals[t[0]] + weights[1] * mesh.normals[t[1]] +
+                          weights[2] * mesh.normals[t[2]]);
+    Seen out = facing(float(start - length), fromBehind ? -normal : normal);
+    if (copy) out.piece = std::uint8_t(rays.hit.instID[0][s] % Seen::atom);
     const Vec3d x = from - length * view_.toEye;
     out.color = colorAt(t.data(), weights, copy ? broughtBack(*copy, x) : x);
-    if (copy) out.color = mesh_.colors.empty() ? copy->color : multiplied(out.color, copy->color);
+    if (copy) out.color = mesh.colors.empty() ? copy->color : multiplied(out.color, copy->color);
     return out;
 }
 
 Color Tracer::colorAt(const std::uint32_t* corners, const Vec3f& weights, const Vec3d& x) const
 {
-    if (mesh_.colors.empty()) return options_.plain;
-    if (options_.borders) return borderColor(corners, weights, x);
-    return mixed(mesh_.colors[corners[0]], mesh_.colors[corners[1]], mesh_.colors[corners[2]],
-                 weights);
+    const std::vector<Color>& colors = surface_.mesh.colors;
+    if (colors.empty()) return options_.plain;
+    if (options_.borders) return borderColor(corners, x);
+    return mixed(colors[corners[0]], colors[corners[1]], colors[corners[2]], weights);
 }
 
 /// Where the corners of a triangle have one owner it has all of it; elsewhere it is asked for.
-Color Tracer::borderColor(const std::uint32_t* corners, const Vec3f&, const Vec3d& x) const
+Color Tracer::borderColor(const std::uint32_t* corners, const Vec3d& x) const
 {
     thread_local std::vector<OwnersPower> near;
     const ColorOwners& borders = *options_.borders;
@@ -252,7 +303,7 @@ Color Tracer::borderColor(const std::uint32_t* corners, const Vec3f&, const Vec3
         auto& known = owners_[corners[k]]; // the same, whoever finds it
         owner[k] = known.load(std::memory_order_relaxed);
         if (owner[k] != unknown) continue;
-        owner[k] = ownerAt(Vec3d(mesh_.positions[corners[k]]));
+        owner[k] = ownerAt(Vec3d(surface_.mesh.positions[corners[k]]));
         known.store(owner[k], std::memory_order_relaxed);
     }
     const bool same = owner[0] == owner[1] && owner[1] == owner[2];
@@ -269,55 +320,68 @@ double Tracer::lengthTo(double length, const Vec3d& from, const Vec3d& way) cons
     return std::max(0.0, std::min(length, left / rise));
 }
 
+/// Share of rays that meet nothing.
+/// @param[in] lengths  of the rays, which `rays` has as far as the surface is not cut away
+/// @param[in] among    whether atoms alone are in the way
+template<std::size_t count, typename Rays, typename Trace>
+float Tracer::freeShare(const std::array<double, count>& lengths, bool among, Trace* occluded,
+                        Rays& rays) const
+{
+    alignas(32) std::array<int, count> valid;
+    valid.fill(-1);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    if (!among) occluded(valid.data(), surface_.scene.get(), &context, &rays);
+    if (atoms_) {
+        for (std::size_t k = 0; k < count; ++k) {
+            valid[k] = rays.tfar[k] >= 0.0f ? -1 : 0;
+            if (valid[k]) rays.tfar[k] = float(lengths[k]);
+        }
+        occluded(valid.data(), atoms_->scene.get(), &context, &rays);
+    }
+    int open = 0;
+    for (std::size_t k = 0; k < count; ++k) open += rays.tfar[k] >= 0.0f;
+    return float(open) / float(count);
+}
+
 /// Share of the sky over a point, weighted by the cosine: rays by a golden spiral. To every other
 /// ray only what is near hides the sky, so that the insides of shells are not all dark.
-float Tracer::openness(const Vec3d& at, const Vec3d& normal, int pattern) const
+float Tracer::openness(const Vec3d& at, const Vec3d& normal, bool among, int pattern) const
 {
-    const auto [u, v] = across(normal);
+    const auto [u, v] = perpendicular(normal);
     const Vec3d from = at + 1.5 * view_.pixel * normal + 1e-3 * view_.toEye;
     alignas(32) RTCRay8 rays{};
-    alignas(32) std::array<int, skyRays> valid;
+    std::array<double, skyRays> lengths;
     const double share = (double(pattern) + 0.5) / 16.0;
     for (std::size_t k = 0; k < skyRays; ++k) {
         const double r = std::sqrt((double(k) + share) / skyRays);
         const double angle = 2.0 * M_PI * (double(k) * golden + double(pattern * 7 % 16) / 16.0);
         const Vec3d way =
             r * std::cos(angle) * u + r * std::sin(angle) * v + std::sqrt(1.0 - r * r) * normal;
-        const double length = k % 2 ? nearby : std::numeric_limits<double>::infinity();
-        setRay(rays, k, from, way, lengthTo(length, from, way));
-        valid[k] = -1;
+        lengths[k] = k % 2 ? nearby : std::numeric_limits<double>::infinity();
+        setRay(rays, k, from, way, lengthTo(lengths[k], from, way));
     }
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded8(valid.data(), scene_.get(), &context, &rays);
-    int open = 0;
-    for (std::size_t k = 0; k < skyRays; ++k) open += rays.tfar[k] >= 0.0f;
-    return float(open) / skyRays;
+    return freeShare(lengths, among, rtcOccluded8, rays);
 }
 
 /// Share of the lamp, a disc, that is seen.
-float Tracer::lampShare(const Vec3d& at, const Vec3d& normal, int pattern) const
+float Tracer::lampShare(const Vec3d& at, const Vec3d& normal, bool among, int pattern) const
 {
     if (normal.dot(lamp_) <= 0.0) return 0.0f;
-    const auto [u, v] = across(lamp_);
+    const auto [u, v] = perpendicular(lamp_);
     const Vec3d from = at + 1.5 * view_.pixel * normal + 1e-3 * view_.toEye;
     alignas(16) RTCRay4 rays{};
-    alignas(16) std::array<int, 4> valid;
+    std::array<double, lampRays> lengths;
+    lengths.fill(std::numeric_limits<double>::infinity());
     for (std::size_t k = 0; k < lampRays; ++k) {
         const double share = (double(k) + (double(pattern) + 0.5) / 16.0) / lampRays;
         const double r = double(style_.lampSize) * std::sqrt(share);
         const double angle =
             2.0 * M_PI * (double(k) / lampRays + double(pattern * 7 % 16) / 16.0 * golden);
         const Vec3d way = (lamp_ + r * std::cos(angle) * u + r * std::sin(angle) * v).unit();
-        setRay(rays, k, from, way, lengthTo(std::numeric_limits<double>::infinity(), from, way));
-        valid[k] = -1;
+        setRay(rays, k, from, way, lengthTo(lengths[k], from, way));
     }
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded4(valid.data(), scene_.get(), &context, &rays);
-    int open = 0;
-    for (std::size_t k = 0; k < lampRays; ++k) open += rays.tfar[k] >= 0.0f;
-    return float(open) / lampRays;
+    return freeShare(lengths, among, rtcOccluded4, rays);
 }
 
 } // namespace molsurf

@@ -2,6 +2,7 @@
 #include "molsurf/picture/view.h"
 
 #include "molsurf/io/part_ranges.h"
+#include "molsurf/picture/atom_model.h"
 
 #include <openvdb/math/Mat3.h>
 
@@ -20,10 +21,11 @@ namespace
 
 constexpr double border = 1.04; // width of the picture over that of the molecule
 
-/// The vertices of a part that lie farthest out in some direction of a few hundred.
-std::vector<Vec3d> outermost(const Mesh& mesh, const PartRange& part)
+constexpr int manyDirections = 400;
+
+/// The vertices of a part that lie farthest out in some directions.
+std::vector<Vec3d> outermost(const Mesh& mesh, const PartRange& part, int directions)
 {
-    constexpr int directions = 400;
     std::vector<Vec3d> out;
     for (int k = 0; k < directions; ++k) { // by a golden spiral
         const double z = 1.0 - (2.0 * k + 1.0) / directions, r = std::sqrt(1.0 - z * z);
@@ -38,18 +40,30 @@ std::vector<Vec3d> outermost(const Mesh& mesh, const PartRange& part)
     return out;
 }
 
-/// Points that span what is shown: the vertices, or of copies the outermost ones.
-std::vector<Vec3d> spanOf(const Mesh& mesh, const std::vector<MeshInstance>& instances)
+/// Adds the outermost points of copies.
+void addSpan(const Mesh& mesh, const std::vector<MeshInstance>& instances, int directions,
+             std::vector<Vec3d>& out)
 {
-    std::vector<Vec3d> out;
-    if (instances.empty()) {
-        for (const Vec3f& p : mesh.positions) out.push_back(Vec3d(p));
-        return out;
-    }
     std::vector<std::vector<Vec3d>> outer;
-    for (const PartRange& part : partRanges(mesh, "")) outer.push_back(outermost(mesh, part));
+    for (const PartRange& part : partRanges(mesh, ""))
+        outer.push_back(outermost(mesh, part, directions));
     for (const MeshInstance& instance : instances) {
         for (const Vec3d& x : outer[instance.part]) out.push_back(instance.placed(x));
+    }
+}
+
+/// Points that span what is shown: the vertices, or of copies the outermost ones.
+std::vector<Vec3d> spanOf(const Mesh& mesh, const DrawOptions& options)
+{
+    std::vector<Vec3d> out;
+    if (options.instances.empty())
+        for (const Vec3f& p : mesh.positions) out.push_back(Vec3d(p));
+    else
+        addSpan(mesh, options.instances, manyDirections, out);
+    if (const AtomModel* model = options.model.get()) {
+        const int directions =
+            std::clamp(int(200000 / model->instances.size()), 20, manyDirections);
+        addSpan(model->mesh, model->instances, directions, out);
     }
     return out;
 }
@@ -110,7 +124,7 @@ std::array<Vec3d, 3> axesOf(const std::vector<Vec3d>& points, const DrawOptions&
 View chooseView(const Mesh& mesh, const DrawOptions& options)
 {
     View view;
-    const std::vector<Vec3d> points = spanOf(mesh, options.instances);
+    const std::vector<Vec3d> points = spanOf(mesh, options);
     const std::array<Vec3d, 3> axes =
         axesOf(options.about.empty() ? points : options.about, options);
     view.right = axes[0];
@@ -134,18 +148,26 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
         }
     }
     const double across = std::max(extent[0], 2.0 * reach), upward = extent[1];
-    view.width = options.width;
-    view.pixel = border * across / view.width;
-    const double shape = std::clamp(upward * border / (across * border), 0.2, 4.0);
-    view.height = std::max(1, int(std::lround(view.width * shape)));
+    PictureFrame frame{view.center, border * across,
+                       border * across * std::clamp(upward / across, 0.2, 4.0)};
     view.low = -0.5 * extent[2];
     view.far = 0.5 * extent[2];
+    if (options.frame) {
+        frame = *options.frame;
+        const double behind = (frame.center - view.center).dot(view.toEye);
+        view.low -= behind;
+        view.far -= behind;
+        view.center = frame.center;
+    }
+    view.width = options.width;
+    view.pixel = frame.width / view.width;
+    view.height = std::max(1, int(std::lround(view.width * frame.height / frame.width)));
     return view;
 }
 
 std::array<Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options)
 {
-    return axesOf(options.about.empty() ? spanOf(mesh, options.instances) : options.about, options);
+    return axesOf(options.about.empty() ? spanOf(mesh, options) : options.about, options);
 }
 
 } // namespace molsurf

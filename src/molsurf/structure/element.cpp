@@ -54,4 +54,9 @@ double gemmiRadius(std::uint8_t number)
     return std::round(digits * double(gemmi::vdw_radius(static_cast<gemmi::El>(number)))) / digits;
 }
 
+double covalentRadius(std::uint8_t number)
+{
+    return double(gemmi::covalent_radius(static_cast<gemmi::El>(number)));
+}
+
 } // namespace molsurf

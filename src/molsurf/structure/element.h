@@ -13,6 +13,9 @@ namespace molsurf
 /// Number of the heaviest element known here.
 constexpr int maxElement = 118;
 
+/// Atomic number of carbon.
+constexpr std::uint8_t carbonElement = 6;
+
 /// Symbol of an element, "Mg"; "X" for 0, the unknown element.
 /// @param[in] number  atomic number, in [0, maxElement]
 const char* elementSymbol(std::uint8_t number);
@@ -29,5 +32,9 @@ std::uint8_t guessElement(const std::string& atomName, const std::string& residu
 /// Van der Waals radius in gemmi's table [Å].
 /// @param[in] number  atomic number, in [1, maxElement]
 double gemmiRadius(std::uint8_t number);
+
+/// Covalent radius in gemmi's table [Å].
+/// @param[in] number  atomic number, in [0, maxElement]
+double covalentRadius(std::uint8_t number);
 
 } // namespace molsurf

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/picture/atom_model.h"
+
+#include "molsurf/balls/ball_index.h"
+#include "molsurf/color/palette.h"
+#include "molsurf/core/perpendicular.h"
+#include "molsurf/core/words.h"
+#include "molsurf/error.h"
+#include "molsurf/structure/element.h"
+#include "molsurf/structure/text_fields.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+namespace
+{
+
+enum Part : std::size_t { BallPart, StickPart, TubePart };
+
+constexpr int circle = 24; // corners
+constexpr Color white = {255, 255, 255};
+constexpr Color carbonColor = {242, 184, 60};
+
+/// A point of a circle of `circle` corners.
+Vec3d onCircle(int k, const Vec3d& u, const Vec3d& v)
+{
+    const double angle = 2.0 * M_PI * k / circle;
+    return std::cos(angle) * u + std::sin(angle) * v;
+}
+
+/// Triangles between a ring of vertices and the one before it, the last ones of the mesh.
+void joinRings(Mesh& mesh)
+{
+    const auto end = std::uint32_t(mesh.positions.size());
+    const std::uint32_t upper = end - circle, lower = upper - circle;
+    for (std::uint32_t k = 0; k < circle; ++k) {
+        const std::uint32_t next = (k + 1) % circle;
+        mesh.triangles.push_back({lower + k, lower + next, upper + k});
+        mesh.triangles.push_back({lower + next, upper + next, upper + k});
+    }
+}
+
+void addRing(const Vec3d& center, const Vec3d& u, const Vec3d& v, const Vec3d& tilt, Mesh& mesh)
+{
+    for (int k = 0; k < circle; ++k) {
+        const Vec3d way = onCircle(k, u, v);
+        mesh.positions.emplace_back(center + way);
+        mesh.normals.emplace_back((way + tilt).unit());
+        mesh.colors.push_back(white);
+    }
+}
+
+void addBall(const Vec3d& at, double radius, const Color& color, AtomModel& model)
+{
+    model.instances.push_back(
+        {BallPart, "", {{{radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}, at, color});
+}
+
+void addStick(const Vec3d& from, const Vec3d& to, double radius, const Color& color,
+              AtomModel& model)
+{
+    const Vec3d way = to - from;
+    const auto [u, v] = perpendicular(way.unit());
+    MeshInstance stick{StickPart, "", {}, from, color};
+    for (std::size_t row = 0; row < 3; ++row) {
+        const int i = int(row);
+        stick.rotation[row] = {radius * u[i], radius * v[i], way[i]};
+    }
+    model.instances.push_back(stick);
+}
+
+/// Pairs of atoms as near as their covalent radii (Cordero et al., Dalton Transactions 2008, as
+/// gemmi has them) and a tolerance of 0.45 Å say.
+std::vector<std::array<std::size_t, 2>> bondsOf(const BallSet& atoms)
+{
+    constexpr double tolerance = 0.45, least = 0.4, reach = 3.0; // [Å]
+    const BallIndex index(atoms.balls, {1.0, 1.0, 2.0});
+    const std::vector<std::uint8_t>& element = atoms.labels->elementOf;
+    std::vector<std::array<std::size_t, 2>> bonds;
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
+        const Vec3d& x = atoms.balls[i].center;
+        index.forEachNear(x, x, reach, [&](const Ball& other, std::int32_t at) {
+            const auto j = std::size_t(at);
+            if (j <= i || (element[i] == 1 && element[j] == 1)) return;
+            const double far = covalentRadius(element[i]) + covalentRadius(element[j]) + tolerance;
+            const double d2 = (other.center - x).lengthSqr();
+            if (d2 > least * least && d2 < far * far) bonds.push_back({i, j});
+        });
+    }
+    return bonds;
+}
+
+/// Elements by their colours, but carbon, which is to be told from a grey surface.
+std::vector<Color> atomColors(const BallSet& atoms, const Progress& progress)
+{
+    std::vector<Color> colors = ballColors(atoms, ColorBy::Element, progress);
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        if (atoms.labels->elementOf[i] == carbonElement) colors[i] = carbonColor;
+    return colors;
+}
+
+/// Balls of some size, and half a stick from each end of a bond.
+void addBonded(const BallSet& atoms, const Progress& progress, double stick,
+               double (*sizeOf)(const Ball&), AtomModel& model)
+{
+    const std::vector<Color> colors = atomColors(atoms, progress);
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i)
+        addBall(atoms.balls[i].center, sizeOf(atoms.balls[i]), colors[i], model);
+    for (const auto& [i, j] : bondsOf(atoms)) {
+        const Vec3d &a = atoms.balls[i].center, &b = atoms.balls[j].center;
+        const Vec3d middle = 0.5 * (a + b);
+        addStick(a, middle, stick, colors[i], model);
+        addStick(b, middle, stick, colors[j], model);
+    }
+}
+
+constexpr double stickRadius = 0.25, thinStick = 0.14, tubeRadius = 0.6; // [Å]
+
+void addSticks(const BallSet& atoms, const Progress& progress, AtomModel& model)
+{
+    addBonded(
+        atoms, progress, stickRadius, [](const Ball&) { return stickRadius; }, model);
+}
+
+void addBalls(const BallSet& atoms, const Progress& progress, AtomModel& model)
+{
+    addBonded(
+        atoms, progress, thinStick, [](const Ball& ball) { return 0.27 * ball.radius; }, model);
+}
+
+void addSpheres(const BallSet& atoms, const Progress& progress, AtomModel& model)
+{
+    const std::vector<Color> colors = atomColors(atoms, progress);
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i)
+        addBall(atoms.balls[i].center, atoms.balls[i].radius, colors[i], model);
+}
+
+/// A cubic through p[1] at 0 and p[2] at 1 (Catmull and Rom), and its derivative.
+std::array<Vec3d, 2> onCurve(const std::array<Vec3d, 4>& p, double t)
+{
+    const Vec3d a = 0.5 * (p[2] - p[0]), b = p[0] - 2.5 * p[1] + 2.0 * p[2] - 0.5 * p[3],
+                c = 0.5 * (p[3] - p[0]) + 1.5 * (p[1] - p[2]);
+    return {p[1] + t * (a + t * (b + t * c)), a + t * (2.0 * b + t * 3.0 * c)};
+}
+
+/// A tube through at least two points, with round ends.
+void addTube(const std::vector<Vec3d>& points, const Color& color, AtomModel& model)
+{
+    constexpr int pieces = 8; // between two points
+    const std::size_t last = points.size() - 1;
+    const auto point = [&](std::ptrdiff_t i) {
+        if (i < 0) return 2.0 * points[0] - points[1];
+        return std::size_t(i) > last ? 2.0 * points[last] - points[last - 1]
+                                     : points[std::size_t(i)];
+    };
+    Vec3d u(0.0);
+    for (std::size_t n = 0; n <= last * pieces; ++n) {
+        const auto i = std::ptrdiff_t(std::min(n / pieces, last - 1));
+        const double t = double(n) / pieces - double(i);
+        const auto [at, along] = onCurve({point(i - 1), point(i), point(i + 1), point(i + 2)}, t);
+        const Vec3d way = along.lengthSqr() > 0.0 ? along.unit() : Vec3d(0, 0, 1);
+        // The ring turns as little as it can.
+        u -= u.dot(way) * way;
+        u = u.lengthSqr() > 1e-6 ? u.unit() : perpendicular(way)[0];
+        addRing(at, tubeRadius * u, tubeRadius * way.cross(u), Vec3d(0.0), model.mesh);
+        std::fill(model.mesh.colors.end() - circle, model.mesh.colors.end(), color);
+        if (n > 0) joinRings(model.mesh);
+    }
+    addBall(points.front(), tubeRadius, color, model);
+    addBall(points.back(), tubeRadius, color, model);
+}
+
+/// Through the CA of amino acids and the P of nucleotides, broken where neighbours are too far
+/// apart to be bonded.
+void addTubes(const BallSet& atoms, const Progress& progress, AtomModel& model)
+{
+    constexpr double farthest[] = {4.4, 8.0}; // of CA, of P [Å]
+    const std::vector<Color> colors = chainColors(atoms, progress);
+    std::vector<Vec3d> points;
+    std::int32_t chain = -1;
+    int kind = 0;
+    const auto end = [&] {
+        if (points.size() > 1) addTube(points, colors[std::size_t(chain)], model);
+        points.clear();
+    };
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
+        const std::string& name = atoms.names->atoms[i].name;
+        const std::uint8_t element = atoms.labels->elementOf[i];
+        const int found = name == "CA" && element == carbonElement ? 0 : name == "P" ? 1 : -1;
+        if (found < 0) continue;
+        const Vec3d& x = atoms.balls[i].center;
+        const std::int32_t own = atoms.labels->chainOf[i];
+        if (points.empty() || own != chain || found != kind ||
+            (x - points.back()).length() > farthest[found])
+            end();
+        chain = own;
+        kind = found;
+        points.push_back(x);
+    }
+    end();
+}
+
+/// A ball, a stick, and no tube.
+AtomModel emptyModel()
+{
+    AtomModel model;
+    Mesh& mesh = model.mesh;
+    mesh.parts.push_back({"ball", 0});
+    constexpr int rings = circle / 2;
+    for (int j = 0; j <= rings; ++j) {
+        const double angle = M_PI * j / rings, r = std::max(std::sin(angle), 1e-6);
+        const Vec3d z(0, 0, -std::cos(angle));
+        addRing(z, Vec3d(r, 0, 0), Vec3d(0, r, 0), z, mesh);
+        if (j > 0) joinRings(mesh);
+    }
+    mesh.parts.push_back({"stick", mesh.triangles.size()});
+    for (const double z : {0.0, 1.0})
+        addRing(Vec3d(0, 0, z), Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0.0), mesh);
+    joinRings(mesh);
+    mesh.parts.push_back({"tube", mesh.triangles.size()});
+    return model;
+}
+
+} // namespace
+
+const std::vector<AtomStyle>& atomStyles()
+{
+    static const std::vector<AtomStyle> all = {{"sticks", "bonds", addSticks},
+                                               {"balls", "small balls and thin bonds", addBalls},
+                                               {"spheres", "by van der Waals radii", addSpheres},
+                                               {"tube", "the backbone", addTubes}};
+    return all;
+}
+
+ShowRule parseShow(const std::string& text)
+{
+    const std::size_t equals = text.rfind('=');
+    const bool named = equals != std::string::npos;
+    ShowRule rule{named ? text.substr(0, equals) : "", nullptr};
+    const std::string word = lowered(named ? text.substr(equals + 1) : text);
+    std::vector<std::string> words;
+    for (const AtomStyle& style : atomStyles()) {
+        if (word == style.word) rule.style = &style;
+        words.push_back(style.word);
+    }
+    if (!rule.style || (named && rule.select.empty()))
+        throw Error(ErrorKind::Usage, "`show`: expected " + joinWords(words, ", ") +
+                                          ", or SELECTION= and one of them, got " + inQuotes(text) +
+                                          didYouMean(word, words));
+    return rule;
+}
+
+AtomModel atomModel(const std::vector<ShownAtoms>& shown, const Progress& progress)
+{
+    AtomModel model = emptyModel();
+    const std::size_t without = model.mesh.triangles.size();
+    for (const auto& [atoms, rule] : shown) {
+        const std::size_t before = model.instances.size();
+        rule.style->add(atoms, progress, model);
+        if (model.instances.size() == before)
+            throw Error(ErrorKind::Input, "`show` " +
+                                              (rule.select.empty() ? "" : rule.select + "=") +
+                                              rule.style->word + ": there is nothing to show");
+    }
+    if (model.mesh.triangles.size() > without)
+        model.instances.push_back(
+            {TubePart, "", {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, Vec3d(0.0), white});
+    return model;
+}
+
+} // namespace molsurf

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Atoms as balls, sticks and tubes, to be seen beside a surface.
+
+#include "molsurf/atoms.h"
+#include "molsurf/mesh.h"
+#include "molsurf/mesh/mesh_instance.h"
+#include "molsurf/progress.h"
+
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// Balls, sticks and tubes: copies of parts of a mesh, which may be stretched.
+struct AtomModel {
+    Mesh mesh; ///< a ball and a stick of radius 1, and the tubes as they are
+    std::vector<MeshInstance> instances;
+};
+
+/// A way to show atoms.
+struct AtomStyle {
+    const char* word; ///< of the command line
+    const char* help;
+    void (*add)(const BallSet& atoms, const Progress& progress, AtomModel& model);
+};
+
+/// All of them: sticks, balls, spheres, tube.
+const std::vector<AtomStyle>& atomStyles();
+
+/// Atoms of a structure and how they are shown.
+struct ShowRule {
+    std::string select; ///< gemmi selections joined by '|'; empty: all
+    const AtomStyle* style = nullptr;
+};
+
+/// "sticks", or "(HEM)=sticks" for some of the atoms.
+/// @throws Error(ErrorKind::Usage) if it is neither
+ShowRule parseShow(const std::string& text);
+
+/// Atoms that are shown.
+struct ShownAtoms {
+    BallSet atoms; ///< with labels and names
+    ShowRule rule;
+};
+
+/// Carbon is golden, other elements have their colours (CPK), tubes that of their chain.
+/// @throws Error(ErrorKind::Input) if a rule has nothing to show, as a tube without a backbone
+AtomModel atomModel(const std::vector<ShownAtoms>& shown, const Progress& progress);
+
+} // namespace molsurf

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/picture/atom_model.h"
+
+#include "molsurf/error.h"
+#include "molsurf/picture/draw_mesh.h"
+#include "molsurf/picture/style.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+BallSet atomsOf(const char* select)
+{
+    SelectOptions options;
+    options.select = select;
+    return readAtoms(MOLSURF_TEST_DATA "/1crn.pdb", options);
+}
+
+AtomModel modelOf(const BallSet& atoms, const char* style)
+{
+    return atomModel({{atoms, parseShow(style)}}, Progress());
+}
+
+/// How many copies there are of each part: balls, sticks, tubes.
+std::array<int, 3> partsOf(const AtomModel& model)
+{
+    std::array<int, 3> count{};
+    for (const MeshInstance& thing : model.instances) ++count[thing.part];
+    return count;
+}
+
+// Crambin is one chain of 327 atoms with 5 prolines, 2 tyrosines, a phenylalanine and 3 disulfides:
+// a tree of its atoms has 326 bonds, and each ring one more.
+TEST(AtomModel, HasTheBondsOfCrambin)
+{
+    const auto [balls, sticks, tubes] = partsOf(modelOf(atomsOf(""), "sticks"));
+    EXPECT_EQ(balls, 327);
+    EXPECT_EQ(sticks, 2 * (326 + 5 + 2 + 1 + 3));
+    EXPECT_EQ(tubes, 0);
+    EXPECT_EQ(partsOf(modelOf(atomsOf(""), "balls"))[1], sticks);
+    EXPECT_EQ(partsOf(modelOf(atomsOf(""), "spheres")), (std::array<int, 3>{327, 0, 0}));
+}
+
+// Two atoms of hydrogen are never bonded, whatever is as near as its radii say is.
+TEST(AtomModel, BondsByDistance)
+{
+    BallSet atoms = atomsOf("/1/A/1/N,CA");
+    ASSERT_EQ(atoms.balls.size(), 2u);
+    const auto sticksAt = [&](double distance, std::uint8_t a, std::uint8_t b) {
+        atoms.balls[1].center = atoms.balls[0].center + Vec3d(0.0, distance, 0.0);
+        atoms.labels->elementOf = {a, b};
+        return partsOf(modelOf(atoms, "sticks"))[1];
+    };
+    EXPECT_EQ(sticksAt(0.73 + 0.71 + 0.44, 6, 7), 2);
+    EXPECT_EQ(sticksAt(0.73 + 0.71 + 0.46, 6, 7), 0);
+    EXPECT_EQ(sticksAt(0.75, 1, 1), 0);
+    EXPECT_EQ(sticksAt(1.0, 1, 7), 2);
+    EXPECT_EQ(sticksAt(2.1, 26, 7), 2); // iron
+}
+
+// A stick reaches from its atom to the middle of the bond, and has its radius.
+TEST(AtomModel, SticksLieBetweenTheirAtoms)
+{
+    const BallSet atoms = atomsOf("/1/A/1/N,CA");
+    const AtomModel model = modelOf(atoms, "sticks");
+    const Vec3d &a = atoms.balls[0].center, &b = atoms.balls[1].center, along = (b - a).unit();
+    const std::size_t first = model.mesh.parts[1].firstTriangle;
+    for (const MeshInstance& stick : model.instances) {
+        if (stick.part != 1) continue;
+        const Vec3d& end = stick.translation;
+        EXPECT_TRUE(end == a || end == b);
+        const Vec3d way = end == a ? along : -along;
+        for (std::size_t t = first; t < model.mesh.parts[2].firstTriangle; ++t) {
+            const auto corner = model.mesh.triangles[t][0];
+            const Vec3d x = stick.placed(Vec3d(model.mesh.positions[corner])) - end;
+            const double height = x.dot(way), length = (b - a).length();
+            EXPECT_NEAR(height < 0.25 * length ? 0.0 : 0.5 * length, height, 1e-5);
+            EXPECT_NEAR((x - height * way).length(), 0.25, 1e-5);
+        }
+    }
+}
+
+// The rings of a tube have every CA in their middles, and a chain that is broken two tubes.
+TEST(AtomModel, TubesGoThroughTheBackbone)
+{
+    BallSet atoms = atomsOf("A/1-20|A/31-46");
+    const AtomModel model = modelOf(atoms, "tube");
+    EXPECT_EQ(partsOf(model), (std::array<int, 3>{4, 0, 1})); // two ends each
+    const std::size_t begin = model.mesh.triangles[model.mesh.parts[2].firstTriangle][0];
+    std::vector<Vec3d> middles;
+    for (std::size_t v = begin; v < model.mesh.positions.size(); v += 24) {
+        Vec3d sum(0.0);
+        for (std::size_t k = 0; k < 24; ++k) sum += Vec3d(model.mesh.positions[v + k]);
+        middles.push_back(sum / 24.0);
+    }
+    EXPECT_EQ(middles.size(), std::size_t(8 * 19 + 1 + 8 * 15 + 1));
+    std::size_t traced = 0;
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
+        if (atoms.names->atoms[i].name != "CA") continue;
+        double nearest = 1.0;
+        for (const Vec3d& x : middles)
+            nearest = std::min(nearest, (x - atoms.balls[i].center).length());
+        EXPECT_LT(nearest, 1e-4);
+        ++traced;
+    }
+    EXPECT_EQ(traced, 36u);
+}
+
+TEST(AtomModel, RefusesWhatItCannotShow)
+{
+    EXPECT_THROW(modelOf(atomsOf("A//CB"), "tube"), Error);
+    EXPECT_THROW(parseShow("stick"), Error);
+    EXPECT_THROW(parseShow("=sticks"), Error);
+    EXPECT_THROW(parseShow("(HEM)="), Error);
+    EXPECT_EQ(parseShow("A/1-3=Tube").select, "A/1-3");
+    EXPECT_EQ(parseShow("A/1-3=Tube").style->word, std::string("tube"));
+}
+
+/// A box from -h to h with normals to the outside.
+Mesh box(float h)
+{
+    Mesh mesh;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const float side : {-1.0f, 1.0f}) {
+            const auto first = std::uint32_t(mesh.positions.size());
+            Vec3f n(0.0f), u(0.0f), v(0.0f);
+            n[axis] = side;
+            u[(axis + 1) % 3] = h;
+            v[(axis + 2) % 3] = side * h;
+            for (const auto& [s, t] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+                mesh.positions.push_back(h * n + float(s) * u + float(t) * v);
+                mesh.normals.push_back(n);
+            }
+            mesh.triangles.push_back({first, first + 1, first + 2});
+            mesh.triangles.push_back({first, first + 2, first + 3});
+        }
+    }
+    return mesh;
+}
+
+/// What is seen in the middle of a picture of a box of 4 Å with an atom in it.
+Color middleOf(const Vec3d& atom, double opacity, std::optional<double> clip)
+{
+    BallSet atoms = atomsOf("/1/A/1/N");
+    atoms.balls[0] = {atom, 1.0, 0};
+    DrawOptions options;
+    options.width = 64;
+    options.toEye = {0, 0, 1};
+    options.up = {0, 1, 0};
+    options.style = findStyle("flat");
+    options.plain = {255, 255, 0};
+    options.opacity = opacity;
+    options.clip = clip;
+    options.model = std::make_shared<AtomModel>(modelOf(atoms, "spheres"));
+    const Picture picture = drawMesh(box(4.0f), options, Progress());
+    const std::size_t at = 3 * std::size_t(picture.height / 2 * picture.width + picture.width / 2);
+    return {picture.rgb[at], picture.rgb[at + 1], picture.rgb[at + 2]};
+}
+
+TEST(AtomModel, IsSeenBeforeTheSurfaceThroughItAndWhereItIsCut)
+{
+    constexpr Color nitrogen = {48, 80, 248}, surface = {255, 255, 0};
+    EXPECT_EQ(middleOf({0, 0, 3.5}, 1.0, {}), nitrogen);  // half out
+    EXPECT_EQ(middleOf({0, 0, 0}, 1.0, {}), surface);     // inside
+    EXPECT_EQ(middleOf({0, 0, -5}, 1.0, {}), surface);    // behind
+    EXPECT_EQ(middleOf({0, 0, 0.5}, 1.0, 1.0), nitrogen); // cut at 1 Å, it reaches 1.5
+    EXPECT_EQ(middleOf({0, 0, 3}, 1.0, 1.0), nitrogen);   // whole above the cut
+    EXPECT_EQ(middleOf({0, 0, -1}, 1.0, 1.0), surface);   // below it
+    // A half of the light of the front wall; the back one is behind the atom.
+    const Color through = middleOf({0, 0, 0}, 0.5, {});
+    const auto half = [](int a, int b) {
+        const Vec3f mean = 0.5f * (linearLight(Color{std::uint8_t(a), 0, 0}) +
+                                   linearLight(Color{std::uint8_t(b), 0, 0}));
+        return int(fromLinearLight(double(mean[0])));
+    };
+    for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(int(through[k]), half(nitrogen[k], surface[k]), 3) << k;
+}
+
+} // namespace
+} // namespace molsurf

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Atoms that pictures show or look at, beside those that the surface is of.
+
+#include "cli/call.h"
+
+#include "molsurf/atoms.h"
+#include "molsurf/progress.h"
+
+#include <string>
+#include <vector>
+
+namespace molsurf::tool
+{
+
+/// How they are chosen: ligands and ions are among them; model, copies and alternate locations are
+/// the surface's.
+SelectOptions picturedAtoms(const Call& call, const std::string& select);
+
+/// Puts atoms into the picture. Chains have the colours of the surface's.
+/// @param[in] atoms    of each --show, in its order
+/// @param[in] surface  the balls that the surface is of
+/// @throws Error(ErrorKind::Input) if there is nothing to show
+void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surface,
+               const Progress& progress, DrawOptions& picture);
+
+/// Looks at the side of the surface where the atoms of --view lie.
+/// @throws Error(ErrorKind::Input) if they lie on no side
+void lookAt(const Call& call, const BallSet& atoms, const BallSet& surface, DrawOptions& picture);
+
+} // namespace molsurf::tool
