@@ -476,8 +476,10 @@ std::string showText()
 {
     Values all;
     for (const AtomStyle& row : atomStyles()) all.push_back(row.word + ": "s + row.help);
-    return "atoms beside the surface, whole and opaque, such as\n\"(HEM)=sticks\"; repeats; " +
-           wrapped(joinWords(all, "; "), helpWidth);
+    return wrapped(
+        "atoms beside the surface, whole and opaque, such as \"(HEM)=sticks\"; repeats; " +
+            joinWords(all, "; "),
+        helpWidth);
 }
 
 OptionGroup pictureOptions()
