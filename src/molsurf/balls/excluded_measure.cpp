@@ -345,7 +345,7 @@ void addContacts(const BallBoundary& boundary, const BoundaryMeasure& measure, d
             part.flux = r * part.area;
             part.euler = face.characteristic;
             if (!out.areas.empty()) out.areas[std::size_t(patch.ball)] += part.area;
-            out.contactArea += part.area;
+            out.areasByCentre[std::size_t(face.piece)].contact += part.area;
         }
         all.parts.push_back(part);
     }
@@ -372,7 +372,7 @@ void addTori(const BallBoundary& boundary, const BoundaryMeasure& measure, doubl
         } else {
             low = toricPart(arc, probe, tube.low, tube.high);
         }
-        out.toricArea += low.area + high.area;
+        out.areasByCentre[std::size_t(measure.arcPieces[a])].toric += low.area + high.area;
         if (!out.areas.empty()) {
             out.areas[std::size_t(arc.balls[0])] +=
                 shareOf(arc, tube, probe, tube.low, tube.middle);
@@ -399,8 +399,9 @@ void addTori(const BallBoundary& boundary, const BoundaryMeasure& measure, doubl
     }
 }
 
-void addConcave(const BallBoundary& boundary, const ProbeCorners& corners, double probe,
-                const Progress& progress, Parts& all, ExcludedMeasure& out)
+void addConcave(const BallBoundary& boundary, const BoundaryMeasure& measure,
+                const ProbeCorners& corners, double probe, const Progress& progress, Parts& all,
+                ExcludedMeasure& out)
 {
     all.corners.resize(corners.size());
     tbb::enumerable_thread_specific<CornerScratch> scratches;
@@ -428,7 +429,8 @@ void addConcave(const BallBoundary& boundary, const ProbeCorners& corners, doubl
         if (!(area >= -wrong * probe * probe) || !(area <= (2.0 * M_PI + wrong) * probe * probe))
             failSurface("area of a concave face and half a sphere", area,
                         2.0 * M_PI * probe * probe);
-        out.concaveArea += area;
+        const std::int32_t piece = measure.arcPieces[corners[c].arcs[0]];
+        out.areasByCentre[std::size_t(piece)].concave += area;
     }
     all.concave.push_back(std::uint32_t(all.parts.size()));
 }
@@ -537,17 +539,29 @@ bool addUp(const Parts& all, DisjointSets& joined, std::vector<BoundaryPiece>& p
 
 } // namespace
 
+ExcludedAreas ExcludedMeasure::totalAreas() const
+{
+    ExcludedAreas total;
+    for (const ExcludedAreas& part : areasByCentre) {
+        total.contact += part.contact;
+        total.toric += part.toric;
+        total.concave += part.concave;
+    }
+    return total;
+}
+
 ExcludedMeasure measureExcluded(const BallBoundary& boundary, const BoundaryMeasure& measure,
                                 double probe, bool shares, const Progress& progress)
 {
     ExcludedMeasure out;
     if (shares) out.areas.assign(boundary.balls.size(), 0.0);
+    out.areasByCentre.resize(measure.pieces.size());
     if (measure.pieces.empty()) return out;
     const ProbeCorners corners(boundary, measure, progress);
     Parts all;
     addContacts(boundary, measure, probe, all, out);
     addTori(boundary, measure, probe, all, out);
-    addConcave(boundary, corners, probe, progress, all, out);
+    addConcave(boundary, measure, corners, probe, progress, all, out);
     DisjointSets joined(all.parts.size());
     joinParts(boundary, measure, corners, all, joined);
     out.topologyKnown = addUp(all, joined, out.pieces) && all.fits;

@@ -11,21 +11,32 @@
 namespace molsurf
 {
 
+/// Areas of a solvent-excluded surface by what makes it [Å^2].
+struct ExcludedAreas {
+    double contact = 0.0; ///< parts of the balls themselves
+    double toric = 0.0;   ///< parts that a probe makes which touches two balls
+    double concave = 0.0; ///< parts that a probe makes which touches three balls
+
+    double sum() const { return contact + toric + concave; }
+};
+
 /// The measures of a solvent-excluded surface. It bounds what no probe reaches whose centre is
 /// outside of the union of grown balls. Where it pinches off in a cusp two pieces end.
 struct ExcludedMeasure {
     /// The closed pieces, in the order of their first patch, as those of a union: outer ones, and
     /// the walls of cavities. (`component` is not used: one part of the union may have several.)
     std::vector<BoundaryPiece> pieces;
-    double contactArea = 0.0;  ///< of parts of the balls themselves [Å^2]
-    double toricArea = 0.0;    ///< of parts that a probe makes which touches two balls [Å^2]
-    double concaveArea = 0.0;  ///< of parts that a probe makes which touches three balls [Å^2]
+    /// What probes make whose centres lie on each of BoundaryMeasure::pieces. (Several of these
+    /// may make one of `pieces`, and one of these several.)
+    std::vector<ExcludedAreas> areasByCentre;
     double creaseLength = 0.0; ///< of the edges where concave faces meet [Å]
     std::vector<double> areas; ///< the share of each of BallBoundary::balls [Å^2], if asked for
     /// Whether all faces, edges and vertices fit together. They may not where four and more probes
     /// touch each other in one point to within rounding, as in molecules with many symmetries. Area
     /// and volume are right all the same, but the Euler number of a piece may be wrong by 2.
     bool topologyKnown = true;
+
+    ExcludedAreas totalAreas() const;
 };
 
 /// Measures the solvent-excluded surface of balls from the boundary of the balls grown by a probe.
@@ -43,7 +54,8 @@ struct ExcludedMeasure {
 /// surface is nearest, and is the same for equal radii.)
 ///
 /// @param[in] boundary  of the balls of radius r_i + probe
-/// @param[in] measure   of this boundary. Cavities that it leaves out are so here
+/// @param[in] measure   of this boundary. Faces and arcs that it leaves out, with -1 for their
+///                      piece, are so here
 /// @param[in] probe     [Å]
 /// @param[in] shares    whether to find the areas of balls, which takes half as long again
 /// @return exact but for rounding and the moves of placedBalls()

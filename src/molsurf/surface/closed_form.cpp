@@ -16,7 +16,8 @@ namespace
 MeshTolerance excludedTolerance(const BallBoundary& boundary, const BoundaryMeasure& measure,
                                 const ExcludedMeasure& excluded, double probe, double voxel)
 {
-    double bends = (excluded.toricArea + excluded.concaveArea) / probe;
+    const ExcludedAreas areas = excluded.totalAreas();
+    double bends = (areas.toric + areas.concave) / probe;
     for (std::size_t p = 0; p < boundary.patches.size(); ++p) {
         const double R = boundary.patches[p].radius, r = R - probe;
         bends += measure.patchAreas[p] * r / (R * R);

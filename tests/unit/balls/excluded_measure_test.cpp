@@ -346,7 +346,37 @@ TEST(ExcludedMeasure, OneBallAndNone)
     EXPECT_NEAR(one.all.area, 4.0 * M_PI * 1.75 * 1.75, 1e-6);
     EXPECT_NEAR(one.all.volume, 4.0 / 3.0 * M_PI * std::pow(1.75, 3), 1e-6);
     EXPECT_EQ(one.all.euler, 2);
-    EXPECT_EQ(one.measure.toricArea, 0.0);
+    EXPECT_EQ(one.measure.totalAreas().toric, 0.0);
+}
+
+TEST(ExcludedMeasure, AreasByCentreAreThoseOfEachMoleculeAlone)
+{
+    std::vector<Ball> first = test::randomBalls(20, 6.0, Vec3d(0.0), 1);
+    std::vector<Ball> second = test::randomBalls(30, 6.0, Vec3d(40.0, 0.0, 0.0), 2);
+    std::vector<Ball> both = first;
+    both.insert(both.end(), second.begin(), second.end());
+    const Excluded together(both);
+    for (const auto& balls : {first, second}) {
+        const ExcludedAreas alone = Excluded(balls).measure.totalAreas();
+        // What is left out of the measure of the union is left out.
+        BoundaryMeasure part = together.grown;
+        const bool isFirst = balls.size() == first.size();
+        const auto isOther = [&](std::int32_t ball) {
+            return (together.boundary.balls[std::size_t(ball)].centre().x() < 20.0) != isFirst;
+        };
+        for (BoundaryFace& face : part.faces)
+            if (isOther(together.boundary.patches[face.patch].ball)) face.piece = -1;
+        for (std::size_t a = 0; a < part.arcPieces.size(); ++a)
+            if (isOther(together.boundary.arcs[a].balls[0])) part.arcPieces[a] = -1;
+        const ExcludedAreas found =
+            measureExcluded(together.boundary, part, excludedProbe, false, Progress()).totalAreas();
+        EXPECT_NEAR(found.contact, alone.contact, 1e-5);
+        EXPECT_NEAR(found.toric, alone.toric, 1e-5);
+        EXPECT_NEAR(found.concave, alone.concave, 1e-5);
+    }
+    const ExcludedMeasure& m = together.measure;
+    ASSERT_EQ(m.areasByCentre.size(), together.grown.pieces.size());
+    EXPECT_NEAR(m.totalAreas().sum(), together.all.area, 1e-9 * together.all.area);
 }
 
 TEST(ExcludedMeasure, TwoBallsAreARevolvedProfile)
@@ -461,8 +491,8 @@ TEST(ExcludedMeasure, SharesAddUp)
         }
         EXPECT_NEAR(sum, surface.all.area, 1e-9 * sum);
         const ExcludedMeasure& m = surface.measure;
-        EXPECT_NEAR(m.contactArea + m.toricArea + m.concaveArea, sum, 1e-9 * sum);
-        EXPECT_GT(m.concaveArea, 0.0);
+        EXPECT_NEAR(m.totalAreas().sum(), sum, 1e-9 * sum);
+        EXPECT_GT(m.totalAreas().concave, 0.0);
         EXPECT_TRUE(m.topologyKnown);
     }
     const std::vector<Ball> twelve = ringOf(12, 3.0, 1.7);
