@@ -124,12 +124,13 @@ class Msms(ToolTest):
         return Surface(self.folder / base, **options)
 
     def totals(self, text):
-        """Of each component (re-entrant, toric, contact, SES, SAS) and (volume, area)."""
+        """Of each component (re-entrant, toric, contact, SES, SAS), and (volume, area) of each that has a mesh."""
         analytical = text.split("ANALYTICAL SURFACE AREA :\n")[1].splitlines()[1:]
         numerical = text.split("NUMERICAL VOLUMES AND AREA\n")[1].splitlines()[1:]
         rows = [line.split() for line in analytical]
         sums = [tuple(map(float, row[2:])) for row in rows[:[len(row) == 7 for row in rows].index(False)]]
-        parts = [tuple(map(float, line.split()[2:])) for line in numerical[:len(sums)]]
+        count = [line.startswith("    Total ") for line in numerical].index(True)
+        parts = [tuple(map(float, line.split()[2:])) for line in numerical[:count]]
         total = re.search(r"^    Total ses_volume: +(\S+)$", text, re.MULTILINE)
         self.assertAlmostEqual(float(total[1]), sum(part[0] for part in parts), delta=0.01)
         return sums, parts
@@ -150,7 +151,7 @@ class ClosedForm(Msms):
         (sums,), ((volume, _),) = self.totals(
             self.msms("-if", "one.xyzr", "-of", "a", "-af", "a", "-density", 10))
         for found, exact in zip(sums, (0, 0, 1, 1, (3.2 / 1.7) ** 2)):
-            self.assertAlmostEqual(found, exact * 4 * math.pi * radius ** 2, delta=5e-4 * 128)
+            self.assertAlmostEqual(found, exact * 4 * math.pi * radius ** 2, delta=1e-3)
         self.assertAlmostEqual(volume, 4 / 3 * math.pi * radius ** 3, delta=0.02)
         (ses, sas, name), = self.areas()
         self.assertEqual((round(ses - sums[3], 3), round(sas - sums[4], 3), name), (0, 0, None))
@@ -206,9 +207,8 @@ class ClosedForm(Msms):
     def test_two_balls(self):
         sums, contact, toric = self.two(3.5, (1.7, 1.5), 1.5, 20)
         self.assertAlmostEqual(sums[0], 0)
-        self.assertAlmostEqual(sums[3], sum(contact) + toric, delta=2e-3 * sums[3])
-        self.assertAlmostEqual(sums[2], sum(contact), delta=0.01 * sums[2])
-        self.assertAlmostEqual(sums[1], toric, delta=0.04 * toric)
+        for found, exact in zip(sums[1:4], (toric, sum(contact), sum(contact) + toric)):
+            self.assertAlmostEqual(found, exact, delta=2e-3)
         # The solvent-accessible area of each is that of its contact face, grown.
         for (ses, sas, _), own, radius in zip(self.areas(), contact, (1.7, 1.5)):
             self.assertAlmostEqual(sas, own * ((radius + 1.5) / radius) ** 2, delta=2e-3)
@@ -216,7 +216,7 @@ class ClosedForm(Msms):
 
     def test_two_balls_that_only_the_probe_joins(self):
         sums, contact, toric = self.two(5.5, (1.5, 1.5), 1.5, 20)
-        self.assertAlmostEqual(sums[3], sum(contact) + toric, delta=5e-3 * sums[3])
+        self.assertAlmostEqual(sums[3], sum(contact) + toric, delta=2e-3)
 
     def test_three_balls_hold_a_probe(self):
         centres = [(0, 0, 0), (4.0, 0, 0), (1.8, 3.6, 0)]
@@ -272,6 +272,36 @@ class Molecules(Msms):
             if out.kinds[v] == CONTACT:
                 self.assertAlmostEqual(min(away), 0, delta=2e-3)
 
+    def test_excluded_areas_are_those_of_the_closed_form(self):
+        self.crambin()
+        self.check(0, "1crn.xyzrn", "--surface", "ses", "--probe", 1.5, "-o", "a.json")
+        exact = json.loads((self.folder / "a.json").read_text())["surface"]
+        for words, key in (((), "outer_area"), (("-all",), "area")):
+            with self.subTest(words=words):
+                sums, parts = self.totals(self.msms("-if", "1crn.xyzrn", "-af", "a", *words))
+                total = sum(row[3] for row in sums)
+                self.assertAlmostEqual(total, exact[key], delta=0.01)
+                self.assertAlmostEqual(sum(area[0] for area in self.areas()), total, delta=0.2)
+                self.assertAlmostEqual(sum(part[1] for part in parts), total, delta=6e-3 * total)
+
+    def test_voids_that_no_probe_from_outside_gets_into(self):
+        """Of BPTI the mesh joins some to the outer surface. The areas without them are those that MSMS 2.6.1 prints."""
+        self.write("m.xyzrn", xyzrn(DATA / "bpti.pdb.gz"))
+        self.check(0, "m.xyzrn", "--surface", "sas", "--probe", 1.5, "-o", "a.json")
+        accessible = json.loads((self.folder / "a.json").read_text())["surface"]["area"]
+        for words in ((), ("-all",)):
+            sums, parts = self.totals(self.msms("-if", "m.xyzrn", "-of", "a", "-af", "a", *words))
+            for found, row in zip(sums[0], (682.347, 1208.379, 1117.906, 3008.632, 3915.677)):
+                self.assertAlmostEqual(found, row, delta=0.01)
+            for k in (0, 1):
+                total = sum(row[3 + k] for row in sums)
+                self.assertAlmostEqual(sum(area[k] for area in self.areas()), total, delta=0.2)
+            self.assertEqual(len(parts), 1)
+            self.assertGreater(parts[0][1], sums[0][3] + 50.0)
+            self.assertTrue(self.surface().closed())
+        self.assertGreater(len(sums), 1)
+        self.assertAlmostEqual(total, accessible, delta=0.01)
+
     def test_accessible_areas_are_exact(self):
         self.crambin()
         self.msms("-if", "1crn.xyzrn", "-af", "a", "-probe_radius", 1.4, "-all_components")
@@ -323,7 +353,7 @@ class Molecules(Msms):
         self.assertEqual(len([name for name in self.names() if name.startswith("a")]), 3)
         text = self.msms("-if", "4at1.xyzrn", "-of", "b", "-af", "b", "-all", "-density", 5)
         sums, parts = self.totals(text)
-        count = len(sums)
+        count = len(parts)
         self.assertGreater(count, 10)
         self.assertEqual(sums[0], alone[0][0])
         self.assertEqual((self.folder / "a.vert").read_bytes(), (self.folder / "b.vert").read_bytes())

@@ -126,8 +126,11 @@ std::string resultText(const MsmsCall& call, const MsmsSurface& surface)
     if (call.totals) {
         text += "ANALYTICAL SURFACE AREA :\n"
                 "    Comp. probe_radius,   reent,    toric,   contact    SES       SAS\n";
-        for (std::size_t n = 0; n < count; ++n) {
-            const Areas& a = surface.components[n].areas;
+        std::vector<Areas> rows;
+        for (const Component& component : surface.components) rows.push_back(component.areas);
+        rows.insert(rows.end(), surface.joined.begin(), surface.joined.end());
+        for (std::size_t n = 0; n < rows.size(); ++n) {
+            const Areas& a = rows[n];
             text +=
                 formatted("    %3zu       %5.3f  %10.3f %9.3f %9.3f %9.3f %9.3f\n", n, call.probe,
                           a.spherical, a.toric, a.contact, a.excluded(), a.accessible);
@@ -142,8 +145,8 @@ std::string resultText(const MsmsCall& call, const MsmsSurface& surface)
     double total = 0.0;
     for (std::size_t n = 0; n < count; ++n) {
         const Component& c = surface.components[n];
-        text += formatted("    %3zu      %5.2f  %11.3f %10.3f\n", n, call.probe, c.volume,
-                          c.areas.excluded());
+        text +=
+            formatted("    %3zu      %5.2f  %11.3f %10.3f\n", n, call.probe, c.volume, c.meshArea);
         total += c.volume;
     }
     return text + formatted("    Total ses_volume: %9.3f\n", total);

@@ -4,6 +4,7 @@
 #include "molsurf/balls/ball_boundary.h"
 #include "molsurf/balls/boundary_measure.h"
 #include "molsurf/balls/boundary_point.h"
+#include "molsurf/balls/excluded_measure.h"
 #include "molsurf/balls/nearest_ball.h"
 #include "molsurf/core/disjoint_sets.h"
 #include "molsurf/core/parallel.h"
@@ -220,57 +221,61 @@ std::vector<Component> componentsOf(const Mesh& mesh, const std::vector<Boundary
     return components;
 }
 
-/// The area of a ball.
-struct BallArea {
-    std::int32_t ball;
-    double area; ///< [Å^2]
-};
-
-/// Areas and volume of a mesh with curved triangles, by kind of face and, what is returned, by
-/// ball.
-std::vector<BallArea> measureComponent(const Exact& exact, const std::vector<BoundaryPoint>& points,
-                                       Component& component, const Progress& progress)
+/// Area and volume of a mesh with curved triangles.
+void measureMesh(Component& component, const Progress& progress)
 {
-    Mesh& mesh = component.mesh;
-    // Vertices of one ball and one kind of face have a number in common.
-    std::vector<std::uint64_t> keys(points.size());
-    for (std::size_t v = 0; v < points.size(); ++v)
-        keys[v] =
-            std::uint64_t(component.balls[v]) << 2 | std::uint64_t(exact.faceOf(points[v]).kind);
-    std::vector<std::uint64_t> distinct = keys;
-    std::sort(distinct.begin(), distinct.end());
-    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-    std::vector<std::uint32_t> numbers(keys.size());
-    parallelFor(keys.size(), progress, [&](std::size_t v) {
-        numbers[v] = std::uint32_t(std::lower_bound(distinct.begin(), distinct.end(), keys[v]) -
-                                   distinct.begin());
-    });
-    // measurePieces() counts a triangle where its first corner lies; each corner is first once.
-    const Vec3d origin(mesh.positions[0]);
-    std::vector<BallArea> out;
-    for (int turn = 0; turn < 3; ++turn) {
-        std::size_t flat = 0;
-        const std::vector<PieceMeasure> sums =
-            measurePieces(mesh, numbers, distinct.size(), origin, flat, progress);
-        for (std::size_t n = 0; n < sums.size(); ++n) {
-            const double area = sums[n].area / 3.0;
-            out.push_back({std::int32_t(distinct[n] >> 2), area});
-            const auto kind = FaceKind(distinct[n] & 3);
-            (kind == FaceKind::Contact ? component.areas.contact
-             : kind == FaceKind::Toric ? component.areas.toric
-                                       : component.areas.spherical) += area;
-            component.volume += sums[n].volume / 3.0;
-        }
-        for (auto& t : mesh.triangles) t = {t[1], t[2], t[0]};
+    const Mesh& mesh = component.mesh;
+    const std::vector<std::uint32_t> onePiece(mesh.positions.size(), 0);
+    std::size_t flat = 0;
+    const PieceMeasure sum =
+        measurePieces(mesh, onePiece, 1, Vec3d(mesh.positions[0]), flat, progress)[0];
+    component.meshArea = sum.area;
+    component.volume = sum.volume;
+}
+
+/// Adds the areas, in closed form, of what probes touch whose centres lie on some pieces of the
+/// solvent-accessible surface, and what each ball has of them.
+/// @param[in,out] areasOf  one a piece; null: it is left out, and probes there cut nothing off
+void addAreas(const Exact& exact, const std::vector<Areas*>& areasOf, MsmsSurface& out,
+              const Progress& progress)
+{
+    BoundaryMeasure measure = exact.measure;
+    const auto leaveOut = [&](std::int32_t& piece) {
+        if (piece >= 0 && !areasOf[std::size_t(piece)]) piece = -1;
+    };
+    for (BoundaryFace& face : measure.faces) leaveOut(face.piece);
+    for (std::int32_t& piece : measure.arcPieces) leaveOut(piece);
+
+    for (const BoundaryFace& face : measure.faces) {
+        if (face.piece < 0) continue;
+        Areas& areas = *areasOf[std::size_t(face.piece)];
+        const std::int32_t ball = exact.boundary.patches[face.patch].ball;
+        const auto index = std::size_t(exact.boundary.balls[std::size_t(ball)].index);
+        areas.accessible += face.area;
+        out.accessibleOf[index] += face.area;
+        if (exact.probe > 0.0) continue;
+        areas.contact += face.area;
+        out.excludedOf[index] += face.area;
     }
-    return out;
+    if (exact.probe == 0.0) return;
+    const ExcludedMeasure excluded =
+        measureExcluded(exact.boundary, measure, exact.probe, true, progress);
+    for (std::size_t p = 0; p < areasOf.size(); ++p) {
+        if (!areasOf[p]) continue;
+        areasOf[p]->contact += excluded.areasByCentre[p].contact;
+        areasOf[p]->toric += excluded.areasByCentre[p].toric;
+        areasOf[p]->spherical += excluded.areasByCentre[p].concave;
+    }
+    const std::vector<double> ofBalls =
+        areasOfBalls(exact.boundary, excluded, out.excludedOf.size());
+    for (std::size_t n = 0; n < ofBalls.size(); ++n) out.excludedOf[n] += ofBalls[n];
 }
 
 /// Keeps some of the vertices of a component, and tells the faces of what is left.
 void thinComponent(const Exact& exact, const std::vector<BoundaryPoint>& points, double density,
                    Component& component, const Progress& progress)
 {
-    const auto wanted = std::size_t(std::lround(density * component.areas.excluded()));
+    const auto wanted = std::size_t(std::lround(density * component.meshArea));
     ThinnedMesh thin = thinned(component.mesh, wanted, progress);
     Mesh mesh;
     std::vector<std::int32_t> balls;
@@ -322,41 +327,41 @@ MsmsSurface msmsSurface(const std::vector<Ball>& balls, double probe, double den
     for (std::size_t p = 0; p < exact.measure.pieces.size(); ++p)
         if (shares.ofPiece[p] != none && exact.measure.pieces[p].outer)
             outer[shares.ofPiece[p]] = 1;
-    std::vector<std::vector<BallArea>> areasOf(components.size());
-    std::vector<std::size_t> order;
+    std::size_t first = components.size();
     for (std::size_t n = 0; n < components.size(); ++n) {
-        Component& component = components[n];
-        areasOf[n] = measureComponent(exact, pointsOf[n], component, progress);
-        order.push_back(n);
+        measureMesh(components[n], progress);
+        if (outer[n] &&
+            (first == components.size() || components[n].meshArea > components[first].meshArea))
+            first = n;
     }
-    const auto larger = [&](std::size_t a, std::size_t b) {
-        return components[a].areas.excluded() > components[b].areas.excluded();
-    };
-    std::stable_sort(order.begin(), order.end(), larger);
-    const auto first =
-        std::find_if(order.begin(), order.end(), [&](std::size_t n) { return outer[n] != 0; });
-    if (first == order.end()) return {};
-    std::rotate(order.begin(), first, first + 1);
-    if (!all) order.resize(1);
+    if (first == components.size()) return {};
 
-    std::vector<std::uint32_t> place(components.size(), none);
     MsmsSurface out;
     out.excludedOf.resize(balls.size());
     out.accessibleOf.resize(balls.size());
+    const std::vector<BoundaryPiece>& pieces = exact.measure.pieces;
+    std::vector<Areas*> areasOf(pieces.size(), nullptr), othersOf = areasOf;
+    out.joined.reserve(pieces.size()); // its members stay where they are
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        const std::uint32_t share = shares.ofPiece[p];
+        if (share == none) continue;
+        const bool isJoined = outer[share] && !pieces[p].outer;
+        if (share == first && !isJoined)
+            areasOf[p] = &components[first].areas;
+        else if (all)
+            othersOf[p] = isJoined ? &out.joined.emplace_back() : &components[share].areas;
+    }
+    addAreas(exact, areasOf, out, progress);
+    if (all) addAreas(exact, othersOf, out, progress);
+    std::vector<std::size_t> order{first};
+    for (std::size_t n = 0; all && n < components.size(); ++n)
+        if (n != first) order.push_back(n);
+    std::stable_sort(order.begin() + 1, order.end(), [&](std::size_t a, std::size_t b) {
+        return components[a].areas.excluded() > components[b].areas.excluded();
+    });
     for (const std::size_t n : order) {
-        place[n] = std::uint32_t(out.components.size());
-        for (const BallArea& share : areasOf[n])
-            out.excludedOf[std::size_t(share.ball)] += share.area;
         thinComponent(exact, pointsOf[n], density, components[n], progress);
         out.components.push_back(std::move(components[n]));
-    }
-    for (const BoundaryFace& face : exact.measure.faces) {
-        const std::uint32_t share = face.piece < 0 ? none : shares.ofPiece[std::size_t(face.piece)];
-        if (share == none || place[share] == none) continue;
-        const std::int32_t ball = exact.boundary.patches[face.patch].ball;
-        const std::int32_t index = exact.boundary.balls[std::size_t(ball)].index;
-        out.accessibleOf[std::size_t(index)] += face.area;
-        out.components[place[share]].areas.accessible += face.area;
     }
     return out;
 }

@@ -25,28 +25,31 @@ struct Face {
     std::uint32_t number; ///< from 1: patches of spheres, then arcs, then corners
 };
 
-/// Areas of a component [Å^2].
+/// Areas of a component in closed form [Å^2].
 struct Areas {
     double contact = 0.0, toric = 0.0, spherical = 0.0;
-    double accessible = 0.0; ///< of the solvent-accessible surface, exact
+    double accessible = 0.0; ///< of the solvent-accessible surface
 
     double excluded() const { return contact + toric + spherical; }
 };
 
 /// A part of the solvent-excluded surface that hangs together, or that probes touch which can reach
-/// each other.
+/// each other. The mesh of an outer one also has the walls of voids that no probe from outside gets
+/// into, but that overlap with such a probe; the areas are without them.
 struct Component {
     Mesh mesh;                       ///< vertices exactly on the surface, with its normals
     std::vector<Face> vertexFaces;   ///< one a vertex
     std::vector<Face> triangleFaces; ///< one a triangle, by its centre
     std::vector<std::int32_t> balls; ///< the ball nearest to each vertex
     Areas areas;
-    double volume = 0.0; ///< inside; negative: that of a cavity [Å^3]
+    double meshArea = 0.0; ///< [Å^2]
+    double volume = 0.0;   ///< inside the mesh; negative: that of a cavity [Å^3]
 };
 
 /// Components with what each ball has of all of them.
 struct MsmsSurface {
     std::vector<Component> components;
+    std::vector<Areas> joined;        ///< of the voids whose walls meshes of outer components have
     std::vector<double> excludedOf;   ///< solvent-excluded area of each ball [Å^2]
     std::vector<double> accessibleOf; ///< solvent-accessible area of each ball [Å^2]
 };
@@ -59,9 +62,10 @@ SurfaceOptions meshOptions(const std::vector<Ball>& balls, double probe, double 
 ///
 /// A mesh on voxels fine enough gives the topology. Its vertices are put on the surface exactly,
 /// by the nearest point of the boundary of the union of balls of radius r_i + probe, which also
-/// tells their faces (but where faces meet in a crease that the voxels do not resolve). Areas and
-/// volumes are those of this mesh with curved triangles; a triangle belongs in thirds to the balls
-/// of its corners. Then vertices are taken away until the density is the one that is wanted.
+/// tells their faces (but where faces meet in a crease that the voxels do not resolve). It also
+/// tells which probes have a component in common. Areas are those in closed form, as of
+/// measureExcluded(), and volumes those of this mesh with curved triangles. Then vertices are taken
+/// away until the density is the one that is wanted.
 ///
 /// @param[in] probe    [Å], >= 0
 /// @param[in] density  vertices an Å^2, in [leastDensity, largestDensity]
