@@ -14,8 +14,9 @@ are added where a probe touches four or more spheres at once.
 Prints a table: the area of the solvent-excluded surface (SES) that each of the two calls analytical, and by how much
 ours differs from it; that difference for the solvent-accessible surface (SAS) and for the volume; vertices; the seconds
 of processor time; and what else is to be said. Where MSMS changes radii, ours runs on these, too. With --points the
-area of the re-entrant faces is counted, too, by N points on every probe that rests on three spheres: compare it with
---all. FILE gets all figures and what the programs print. Needs numpy.
+area of the re-entrant faces is counted, too, by N points on every probe that rests on three spheres, and the SAS by N
+points on every sphere: compare these with --all, and not where probes rest on four spheres. FILE gets all figures and
+what the programs print. Needs numpy.
 """
 
 import argparse
@@ -149,16 +150,21 @@ def changed_radii(spheres, text):
     return [(*sphere[:3], changed.get(n, sphere[3])) for n, sphere in enumerate(spheres)]
 
 
-def resting_probes(centres, grown):
-    """The places of probes that touch three spheres and lie in none, and these spheres."""
+def neighbours(centres, grown):
+    """For each of some spheres those that overlap it."""
     boxes = {}
     reach = 2 * grown.max()
     for n, cell in enumerate(map(tuple, (centres // reach).astype(int))):
         boxes.setdefault(cell, []).append(n)
     for i, x in enumerate(centres):
         cells = itertools.product(*((k - 1, k, k + 1) for k in (x // reach).astype(int)))
-        near = numpy.array([n for cell in cells for n in boxes.get(cell, ()) if n != i])
-        near = near[numpy.linalg.norm(centres[near] - x, axis=1) < grown[i] + grown[near]] if len(near) else near
+        near = numpy.array([n for cell in cells for n in boxes.get(cell, ()) if n != i], int)
+        yield near[numpy.linalg.norm(centres[near] - x, axis=1) < grown[i] + grown[near]]
+
+
+def resting_probes(centres, grown):
+    """The places of probes that touch three spheres and lie in none, and these spheres."""
+    for i, near in enumerate(neighbours(centres, grown)):
         for j in near[near > i]:
             both = near[numpy.linalg.norm(centres[near] - centres[j], axis=1) < grown[j] + grown[near]]
             both = both[both != j]
@@ -184,24 +190,44 @@ def touching(centres, grown):
             yield centres[0] + foot + sign * math.sqrt(height / length) * normal
 
 
-def counted_reentrant(spheres, probe, count):
-    """The area of the re-entrant faces of all components, by points on every resting probe: those between the
-    directions of its three spheres that lie in no other resting probe."""
-    spheres = numpy.array(spheres)
-    found = list(resting_probes(spheres[:, :3], spheres[:, 3] + probe))
-    places = numpy.array([place for place, _ in found])
+def directions_of(count):
     z = 1 - (2 * numpy.arange(count) + 1) / count
     turn = 2.399963229728653 * numpy.arange(count)  # the golden angle
     across = numpy.sqrt(1 - z * z)
-    directions = numpy.stack([across * numpy.cos(turn), across * numpy.sin(turn), z], 1)
+    return numpy.stack([across * numpy.cos(turn), across * numpy.sin(turn), z], 1)
+
+
+def outside(points, centres, radii):
+    """The points that lie in none of some spheres."""
+    for centre, radius in zip(centres, radii):
+        points = points[((points - centre) ** 2).sum(1) >= radius ** 2]
+    return points
+
+
+def counted_reentrant(spheres, probe, count):
+    """The area of the re-entrant faces of all components, by points on every resting probe: those between the
+    directions of its three spheres that lie in no other resting probe."""
+    found = list(resting_probes(spheres[:, :3], spheres[:, 3] + probe))
+    places = numpy.array([place for place, _ in found])
+    directions = directions_of(count)
     area = 0.0
     for place, touched in found:
         inside = (directions @ numpy.linalg.inv(spheres[touched, :3] - place) > 0).all(1)
-        points = place + probe * directions[inside]
         apart = numpy.linalg.norm(places - place, axis=1)
-        for other in places[(apart < 2 * probe) & (apart > 1e-9)]:
-            points = points[numpy.linalg.norm(points - other, axis=1) >= probe]
-        area += 4 * math.pi * probe ** 2 * len(points) / count
+        others = places[(apart < 2 * probe) & (apart > 1e-9)]
+        left = outside(place + probe * directions[inside], others, [probe] * len(others))
+        area += 4 * math.pi * probe ** 2 * len(left) / count
+    return area
+
+
+def counted_accessible(spheres, probe, count):
+    """The area of the solvent-accessible surface of all components, by points on every sphere."""
+    centres, grown = spheres[:, :3], spheres[:, 3] + probe
+    directions = directions_of(count)
+    area = 0.0
+    for i, near in enumerate(neighbours(centres, grown)):
+        left = outside(centres[i] + grown[i] * directions, centres[near], grown[near])
+        area += 4 * math.pi * grown[i] ** 2 * len(left) / count
     return area
 
 
@@ -224,17 +250,18 @@ def remark(case):
                     f"{percent(same['ses'], msms['ses'])} %")
     if msms["components"] != ours["components"] and not msms["failed"]:
         said.append(f"components {msms['components']} / {ours['components']}")
-    if case["counted"]:
-        said.append(f"re-entrant {msms['reentrant']:,.1f} / {ours['reentrant']:,.1f}, by points {case['counted']:,.1f}")
+    for key, name in (("reentrant", "re-entrant"), ("sas", "SAS")):
+        if case["counted"]:
+            said.append(f"{name} {msms[key]:,.1f} / {ours[key]:,.1f}, by points {case['counted'][key]:,.1f}")
     return "; ".join(said)
 
 
 def row_of(case):
     msms, ours = case["msms"], case["ours"]
-    theirs = {key: 0 if msms["failed"] else msms[key] for key in ("ses", "sas", "volume", "vertices")}
-    return [case["name"], f"{case['atoms']:,}", f"{theirs['ses']:,.1f}", f"{ours['ses']:,.1f}",
-            *(percent(ours[key], theirs[key]) for key in ("ses", "sas", "volume")),
-            f"{theirs['vertices']:,} / {ours['vertices']:,}", f"{msms['seconds']:.2f} / {ours['seconds']:.2f}",
+    area, vertices = ("–", "–") if msms["failed"] else (f"{msms['ses']:,.1f}", f"{msms['vertices']:,}")
+    return [case["name"], f"{case['atoms']:,}", area, f"{ours['ses']:,.1f}",
+            *("" if msms["failed"] else percent(ours[key], msms[key]) for key in ("ses", "sas", "volume")),
+            f"{vertices} / {ours['vertices']:,}", f"{msms['seconds']:.2f} / {ours['seconds']:.2f}",
             remark(case)]
 
 
@@ -271,7 +298,9 @@ def main():
                     "ours": run_on(spheres, stand_in, "ours")}
             changed = changed_radii(spheres, case["msms"]["output"])
             case["ours_on_changed_radii"] = run_on(changed, stand_in, "changed") if changed else None
-            case["counted"] = counted_reentrant(spheres, options.probe, options.points) if options.points else None
+            points = (numpy.array(spheres), options.probe, options.points)
+            case["counted"] = {"reentrant": counted_reentrant(*points),
+                               "sas": counted_accessible(*points)} if options.points else None
         cases.append(case)
         print("|", " | ".join(row_of(case)), "|", flush=True)
         if options.json:
