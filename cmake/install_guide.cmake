@@ -39,6 +39,6 @@ file(COPY ${SOURCE}/scripts/blender ${SOURCE}/scripts/houdini ${SOURCE}/scripts/
      PATTERN __pycache__ EXCLUDE)
 file(COPY ${SOURCE}/tests/data DESTINATION ${TO}/tests)
 file(COPY ${SOURCE}/tests/package/CMakeLists.txt ${SOURCE}/tests/package/consumer.cpp DESTINATION ${TO}/tests/package)
-foreach(script peers rotations scaling specks)
+foreach(script msms peers rotations scaling specks)
   file(COPY ${SOURCE}/bench/${script}.py DESTINATION ${TO}/bench)
 endforeach()
