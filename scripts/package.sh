@@ -27,5 +27,5 @@ if [[ ${1:-} != --again ]]; then
 fi
 scripts/fresh_machine.sh --share $work "$install /srv/shared/vdb-molsurf_*.deb" debian/tests/example \
   "dpkg-query -W -f '\${Package} \${Installed-Size} kB\n' vdb-molsurf"
-scripts/fresh_machine.sh --share $work "$install cmake g++ make pkg-config /srv/shared/libmolsurf{-dev,0.1}_*.deb > /dev/null" \
+scripts/fresh_machine.sh --share $work "$install cmake g++ make pkg-config /srv/shared/libmolsurf{-dev,1.0}_*.deb > /dev/null" \
   debian/tests/library

@@ -1,4 +1,4 @@
-# bash completion of vdb_molsurf 0.1.0
+# bash completion of vdb_molsurf 1.0.0
 _vdb_molsurf()
 {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}
