@@ -52,7 +52,10 @@ UsdVolume usdVolume(const Call& call, const Output& output)
     const std::string vdb = output.beside.empty()
                                 ? fs::path(output.path).replace_extension(".vdb").string()
                                 : output.beside;
-    return usdVolumeOf(vdb, !output.beside.empty(), usdaMetersPerAngstrom / call.scene.scale);
+    UsdVolume volume =
+        usdVolumeOf(vdb, !output.beside.empty(), usdaMetersPerAngstrom / call.scene.scale);
+    if (isOwnUsda(output.path)) volume.extents = extentsOfUsda(output.path);
+    return volume;
 }
 
 } // namespace molsurf::tool

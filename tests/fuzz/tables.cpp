@@ -52,6 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         case 'u':
             isOwnUsda(path);
+            extentsOfUsda(path);
             break;
         case 'c': {
             const char* words[] = {"vdb_molsurf", "--config", path.c_str(), "a.pdb"};

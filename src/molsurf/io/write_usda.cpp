@@ -91,6 +91,36 @@ void writeField(const openvdb::GridBase& grid, const UsdVolume& volume, std::ost
     out << "        }\n";
 }
 
+// The extent of a frame is a line of its own, so that the file that takes the place of this one can
+// keep it.
+constexpr std::string_view extentIndent = "            ";
+
+std::string extentText(const openvdb::GridCPtrVec& grids)
+{
+    std::ostringstream out;
+    out.precision(std::numeric_limits<float>::max_digits10);
+    const openvdb::BBoxd box = extentOf(grids);
+    out << "[(" << box.min()[0] << ", " << box.min()[1] << ", " << box.min()[2] << "), ("
+        << box.max()[0] << ", " << box.max()[1] << ", " << box.max()[2] << ")]";
+    return out.str();
+}
+
+void writeExtent(const openvdb::GridCPtrVec& grids, const UsdVolume& volume, std::ostream& out)
+{
+    if (volume.frames.empty()) {
+        out << "        float3[] extent = " << extentText(grids) << "\n";
+        return;
+    }
+    out << "        float3[] extent.timeSamples = {\n";
+    for (const auto& [frame, file] : volume.frames) {
+        const auto known = volume.extents.find(frame);
+        if (file == volume.file || known != volume.extents.end())
+            out << extentIndent << frame << ": "
+                << (file == volume.file ? extentText(grids) : known->second) << ",\n";
+    }
+    out << "        }\n";
+}
+
 std::string usdaText(const openvdb::GridCPtrVec& grids, const UsdVolume& volume)
 {
     std::ostringstream out;
@@ -105,15 +135,7 @@ std::string usdaText(const openvdb::GridCPtrVec& grids, const UsdVolume& volume)
             << "\n    timeCodesPerSecond = 24\n";
     out << "    upAxis = \"Z\"\n)\n\ndef Xform \"" << name
         << "\" (\n    kind = \"component\"\n)\n{\n    def Volume \"volume\"\n    {\n";
-    const openvdb::BBoxd box = extentOf(grids);
-    const auto point = [&](const openvdb::Vec3d& p) {
-        out << "(" << p[0] << ", " << p[1] << ", " << p[2] << ")";
-    };
-    out << "        float3[] extent = [";
-    point(box.min());
-    out << ", ";
-    point(box.max());
-    out << "]\n";
+    writeExtent(grids, volume, out);
     for (const auto& grid : grids) {
         const std::string field = usdaIdentifier(grid->getName());
         out << "        rel field:" << field << " = </" << name << "/volume/" << field << ">\n";
@@ -141,6 +163,22 @@ bool isOwnUsda(const std::string& path)
     return false;
 }
 
+std::map<int, std::string> extentsOfUsda(const std::string& path)
+{
+    std::map<int, std::string> extents;
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line) && line.find(" rel ") == std::string::npos;) {
+        const std::size_t colon = line.find(": [(");
+        int frame = 0;
+        if (line.rfind(extentIndent, 0) == 0 && colon != std::string::npos && line.back() == ',' &&
+            parseWhole(
+                std::string_view(line).substr(extentIndent.size(), colon - extentIndent.size()),
+                frame))
+            extents[frame] = line.substr(colon + 2, line.size() - colon - 3);
+    }
+    return extents;
+}
+
 FrameName frameName(const std::string& path)
 {
     const std::string stem = fs::path(path).stem().string();
@@ -155,7 +193,7 @@ UsdVolume usdVolumeOf(const std::string& vdb, bool sequence, double metersPerUni
 {
     const fs::path path = vdb;
     const FrameName own = frameName(vdb);
-    UsdVolume volume{own.stem, metersPerUnit, path.filename().string(), {}};
+    UsdVolume volume{own.stem, metersPerUnit, path.filename().string(), {}, {}};
     if (!sequence || !own.frame) return volume;
     volume.frames.emplace_back(*own.frame, volume.file);
     std::error_code ignored;

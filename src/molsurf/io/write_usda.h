@@ -8,6 +8,7 @@
 
 #include <openvdb/openvdb.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,6 +24,7 @@ struct UsdVolume {
     std::string file;             ///< the .vdb, relative to the .usda
     /// Frames of a sequence and their files, the first one first; empty: no sequence.
     std::vector<std::pair<int, std::string>> frames;
+    std::map<int, std::string> extents; ///< of other frames, as text: extentsOfUsda()
 };
 
 /// Writes USD as text: a Volume with an OpenVDBAsset for each grid, whose field class, type and
@@ -34,6 +36,9 @@ void writeUsda(const openvdb::GridCPtrVec& grids, const UsdVolume& volume, Outpu
 
 /// Whether a file is one that writeUsda() has made.
 bool isOwnUsda(const std::string& path);
+
+/// The extents of the frames in a file that writeUsda() has made, as they stand there.
+std::map<int, std::string> extentsOfUsda(const std::string& path);
 
 /// The name of a .vdb without folder and extension: "name.0001.vdb" is frame 1 of "name".
 struct FrameName {
