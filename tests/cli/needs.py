@@ -18,6 +18,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 NODE = shutil.which("node")
 BPY_PYTHON = os.environ.get("BPY_PYTHON", sys.executable)  # a Python that has the module bpy
+USD_PYTHON = os.environ.get("USD_PYTHON", sys.executable)  # the same of OpenUSD, pxr
 # Where scripts/install_deps.sh puts packages of npm, and where npm does with --global.
 NODE_ENVIRONMENT = {**os.environ, "NODE_PATH": os.pathsep.join(filter(None, [
     os.environ.get("NODE_PATH"), str(ROOT / "build-tools" / "node_modules"),
@@ -88,6 +89,8 @@ NEEDS = {
     "snakemake": (program("snakemake"), "scripts/install_deps.sh snakemake"),
     "strace": (lambda: runs("strace", "-qq", "-o", "/dev/null", "-e", "inject=all:delay_exit=1:when=1", "true"),
                "scripts/install_deps.sh strace, and the right to trace"),
+    "usd": (lambda: runs(USD_PYTHON, "-c", "from pxr import UsdValidation"),
+            "pip install usd-core, and USD_PYTHON=<that Python>"),
     "full": (lambda: os.path.exists("/dev/full"), "a system with /dev/full"),
     "mount": (can_mount, "the right to mount a file system, as root has it"),
     "memory": (lambda: runs(os.environ["VDB_MOLSURF"], "--version", preexec_fn=small_address_space),
