@@ -174,8 +174,9 @@ class Instances(ToolTest):
         self.assertEqual(root.meta["variants"], {"lod": "lod0"})
         for n, count in enumerate(counts):
             over = root.variants["lod", f"lod{n}"].children["copies"]
-            prototype = root.children["copies"].children["prototypes"].children[
-                over.value("prototypes")[0].rsplit("/", 1)[1]]
+            prototypes = list(over.children["prototypes"].children.values())  # those of no other level
+            self.assertEqual(over.value("prototypes"), [prototype.path for prototype in prototypes])
+            prototype = prototypes[0]
             mesh = root.children["geometry"].children[prototype.meta["references"].rsplit("/", 1)[1]]
             self.assertEqual(len(mesh.value("faceVertexCounts")), count)
             self.assertAlmostEqual(mesh.value("extent")[0][0],

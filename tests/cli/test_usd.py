@@ -48,6 +48,7 @@ class Copies(Usd):
         copies, entries = scene["copies"], json.loads((self.folder / "a.json").read_text())["instances"]
         _, vertices, triangles = read_ply((self.folder / "a.ply").read_bytes())
         self.assertEqual(len(copies["matrices"]), len(entries))
+        self.assertEqual(len(copies["meshes"]), scene["meshes"])  # all meshes are prototypes
         self.assertEqual(copies["ids"], list(range(1, len(entries) + 1)))
         for mesh in copies["meshes"]:
             self.assertEqual(mesh["triangles"], [v for three in triangles for v in three])
@@ -103,6 +104,7 @@ class Copies(Usd):
         self.check_copies(scenes["lod0"])
         counts = [len(scenes[f"lod{n}"]["copies"]["meshes"][0]["triangles"]) for n in range(3)]
         self.assertTrue(counts[0] > 2 * counts[1] > 4 * counts[2], counts)
+        self.assertEqual([scenes[f"lod{n}"]["meshes"] for n in range(3)], [2, 2, 2])
         for n in (1, 2):  # coarser ones are where the finest is
             for a, b in zip(scenes[f"lod{n}"]["copies"]["box"], scenes["lod0"]["copies"]["box"]):
                 self.assert_near(a, b, 2.0)

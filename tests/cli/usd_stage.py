@@ -72,7 +72,8 @@ def volume(stage, prim):
 
 
 def scene(stage):
-    out = {"faults": faults(stage), "default": stage.GetDefaultPrim().GetName(), "copies": None, "volume": None,
+    out = {"faults": faults(stage), "copies": None, "volume": None,
+           "meshes": sum(prim.IsA(UsdGeom.Mesh) for prim in stage.Traverse()),
            "meters": UsdGeom.GetStageMetersPerUnit(stage), "up": UsdGeom.GetStageUpAxis(stage),
            "times": [stage.GetStartTimeCode(), stage.GetEndTimeCode()] if stage.HasAuthoredTimeCodeRange() else None}
     for prim in stage.Traverse():

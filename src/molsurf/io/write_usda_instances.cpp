@@ -103,6 +103,7 @@ public:
                 out_ << "        \"lod" << level << "\" {\n            over \"copies\"\n"
                      << "            {\n";
                 writeLevel(level, "                ");
+                writePrototypes(level, "                ");
                 out_ << "            }\n        }\n";
             }
             out_ << "    }\n";
@@ -226,15 +227,24 @@ private:
                 putTuple(out_, std::array<double, 4>{w, x, y, z}, 4, quaternionDigits);
             });
         }
-        out_ << "\n\n" << in << "def Scope \"prototypes\"\n" << in << "{\n";
-        for (std::size_t level = 0; level < levels_.size(); ++level)
-            for (const Prototype& prototype : prototypes_) writePrototype(level, prototype);
-        out_ << in << "}\n    }\n";
+        out_ << "\n";
+        if (levels_.size() == 1) writePrototypes(0, in);
+        out_ << "    }\n";
     }
 
-    void writePrototype(std::size_t level, const Prototype& prototype)
+    /// Those of the level that is shown and no others: some programs show each mesh that is no
+    /// prototype.
+    void writePrototypes(std::size_t level, const std::string& in)
     {
-        const std::string in = "            ", more = in + "    ";
+        out_ << "\n" << in << "def Scope \"prototypes\"\n" << in << "{\n";
+        for (const Prototype& prototype : prototypes_)
+            writePrototype(level, prototype, in + "    ");
+        out_ << in << "}\n";
+    }
+
+    void writePrototype(std::size_t level, const Prototype& prototype, const std::string& in)
+    {
+        const std::string more = in + "    ";
         const std::size_t material = materials_.at(prototype.color);
         out_ << in << "def Mesh \"" << prototypeName(level, prototype) << "\" (\n"
              << more << "prepend apiSchemas = [\"MaterialBindingAPI\"]\n"
