@@ -7,9 +7,9 @@ In a window, or without one and with a picture (Cycles on the processor):
     blender --python open_in_blender.py -- surface.vdb
     blender -b --factory-startup --python open_in_blender.py -- surface.vdb --render surface.png
 
-Takes a .vdb that was written with `--for blender[=SCALE]`, or the first frame of a sequence
-name.0001.vdb, name.0002.vdb, ... --help lists the options. Tried in Blender 3.4.1 (Debian 12); what
-differs in later versions is guarded, and marked.
+Takes a .vdb that was written with `--for blender[=SCALE]` or `--for houdini[=SCALE]`, or the first frame of a sequence
+name.0001.vdb, name.0002.vdb, ... --help lists the options. Tried in Blender 3.4.1 (Debian 12) and in the
+module bpy 5.2.3, where `python open_in_blender.py -- ...` does; what differs in later versions is guarded, and marked.
 
 Colours: Volume to Mesh makes a mesh without colours. With `--color` they are taken from the grid Cd,
 for which Blender's Python needs OpenVDB's module (Debian: python3-openvdb; official builds from 4.4
@@ -20,6 +20,7 @@ import argparse
 import math
 import pathlib
 import re
+import struct
 import sys
 
 import bpy
@@ -27,6 +28,10 @@ from mathutils import Matrix, Vector
 from mathutils.kdtree import KDTree
 
 PLAIN = (0.26, 0.46, 0.73, 1.0)  # linear light
+WHITE = (1.0, 1.0, 1.0, 1.0)
+NIGHT = (0.008, 0.012, 0.022, 1.0)  # behind fog
+# Voxels by which Blender shows every voxel too far along each axis; --for blender moves the grids back by 0.5.
+FARTHER = 0.5 if bpy.app.version < (5, 0, 0) else 0.0
 
 
 def arguments():
@@ -82,6 +87,9 @@ def load_volume(path):
     data.grids.load()
     if data.grids.error_message:
         sys.exit(f"{path}: {data.grids.error_message}")
+    voxel = min(data.grids[0].matrix_object.to_scale())
+    volume.location = 3 * [-voxel * (FARTHER + number_of(path, "scene.shift_in_voxels", 0.0))]
+    bpy.context.view_layer.update()
     return volume
 
 
@@ -124,20 +132,20 @@ def openvdb_module():
     return None
 
 
-def colors_of_grid(mesh, path):
-    """Linear light of each vertex by the grid Cd, or None."""
+def colors_of_grid(mesh, path, name):
+    """Linear light of each vertex by the grid of that name, or None."""
     vdb = openvdb_module()
     if vdb is None:
         return None
     try:
-        grid = vdb.read(str(path), "Cd")
+        grid = vdb.read(str(path), name)
     except (KeyError, IOError):
         return None
     accessor = grid.getConstAccessor()
-    half = 0.5 * grid.transform.voxelSize()[0]  # Blender shows a voxel so much farther
+    farther = FARTHER * grid.transform.voxelSize()[0]
     out = []
     for vertex in mesh.vertices:
-        x = [c - half for c in vertex.co]
+        x = [c - farther for c in vertex.co]
         i = [math.floor(c + 0.5) for c in grid.transform.worldToIndex(x)]
         out.append(accessor.getValue(tuple(i)))
     return out
@@ -153,7 +161,7 @@ def import_ply(path):
     return (set(bpy.data.objects) - before).pop()
 
 
-def colors_of_ply(mesh, path):
+def colors_of_ply(mesh, path, offset):
     """The same by the nearest vertex of the .ply beside the .vdb, or None."""
     ply = path.with_suffix(".ply")
     if not ply.exists():
@@ -174,21 +182,30 @@ def colors_of_ply(mesh, path):
     else:
         of_vertex = [value.color[:3] for value in colors[0].data]
     scale = read_scale(path)
-    out = [of_vertex[tree.find(vertex.co / scale)[1]] for vertex in mesh.vertices]
+    out = [of_vertex[tree.find((vertex.co + offset) / scale)[1]] for vertex in mesh.vertices]
     bpy.data.objects.remove(other)
     return out
 
 
+def number_of(path, name, default):
+    """A number that vdb_molsurf has put at the head of a .vdb: after its name, by the length before each, type and value."""
+    with open(path, "rb") as file:
+        _, found, rest = file.read(1 << 20).partition(name.encode())
+    if not found:
+        return default
+    size, = struct.unpack_from("<i", rest)
+    assert rest[4:4 + size] == b"double", rest[:20]
+    return struct.unpack_from("<d", rest, 8 + size)[0]
+
+
 def read_scale(path):
-    """Scene units per Å that the file names; 1 if it cannot be read."""
-    vdb = openvdb_module()
-    if vdb is None:
-        return 1.0
-    return vdb.readMetadata(str(path)).get("scene.units_per_angstrom", 1.0)
+    """Scene units per Å that the file names; else 1."""
+    return number_of(path, "scene.units_per_angstrom", 1.0)
 
 
-def add_colors(mesh, path):
-    colors = colors_of_grid(mesh, path) or colors_of_ply(mesh, path)
+def add_colors(mesh, path, volume, grid="Cd"):
+    """Gives a mesh made of a volume the colours of its file; says so and returns False if there are none."""
+    colors = colors_of_grid(mesh, path, grid) or colors_of_ply(mesh, path, volume.location)
     if colors is None:
         print(f"{path}: no colours: neither OpenVDB's Python module with a grid Cd, nor a .ply "
               "with colours beside it", file=sys.stderr)
@@ -219,29 +236,54 @@ def new_material(name, kind, output):
     return material, shader
 
 
-def surface_material(colored):
+def surface_material(colored, size):
+    """Coated, and light enters it as far as a fiftieth of the object's size."""
     material, shader = new_material("surface", "ShaderNodeBsdfPrincipled", "Surface")
-    shader.inputs["Base Color"].default_value = PLAIN
-    shader.inputs["Roughness"].default_value = 0.45
-    specular = socket(shader, "Specular", "Specular IOR Level")  # the second from Blender 4.0 on
-    specular.default_value = 0.35
-    subsurface = socket(shader, "Subsurface", "Subsurface Weight")
-    subsurface.default_value = 0.0
+    for value, *names in ((0.5, "Roughness"), (0.4, "Specular", "Specular IOR Level"),  # the second from Blender 4.0 on
+                          (0.25, "Subsurface", "Subsurface Weight"), (0.35, "Clearcoat", "Coat Weight"),
+                          (0.25, "Clearcoat Roughness", "Coat Roughness")):
+        socket(shader, *names).default_value = value
+    shader.inputs["Subsurface Radius"].default_value = 3 * [size / 50]
+    if "Subsurface Scale" in shader.inputs:  # Blender 4.0 on
+        shader.inputs["Subsurface Scale"].default_value = 1.0
+    nodes = material.node_tree.nodes
     if colored:
-        attribute = material.node_tree.nodes.new("ShaderNodeAttribute")
-        attribute.attribute_name = "Cd"
-        material.node_tree.links.new(attribute.outputs["Color"], shader.inputs["Base Color"])
+        color = nodes.new("ShaderNodeAttribute")
+        color.attribute_name = "Cd"
+    else:
+        color = nodes.new("ShaderNodeRGB")
+        color.outputs["Color"].default_value = PLAIN
+    connect_color(material, color)
     return material
 
 
-def fog_material(colored, thickness):
-    """Fog of so much density in a scene unit."""
+def connect_color(material, node):
+    """A surface in the colour that comes out of a node."""
+    shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    for name in ("Base Color", "Subsurface Color"):  # the second until Blender 3.6
+        if name in shader.inputs:
+            material.node_tree.links.new(node.outputs["Color"], shader.inputs[name])
+
+
+def fog_material(colored, size):
+    """Light goes through a 24th of the object's size before the fog scatters it, which happens many times. What is
+    scattered each time is 1 - (1 - colour)^2, which is more than the colour, so that it does not become dark."""
     material, shader = new_material("fog", "ShaderNodeVolumePrincipled", "Volume")
+    nodes, links = material.node_tree.nodes, material.node_tree.links
     shader.inputs["Density Attribute"].default_value = "density"
-    shader.inputs["Density"].default_value = thickness
-    shader.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0) if colored else PLAIN
-    shader.inputs["Color Attribute"].default_value = "Cd" if colored else ""
-    shader.inputs["Anisotropy"].default_value = 0.0
+    shader.inputs["Density"].default_value = 24 / size
+    color, *steps = [nodes.new(f"ShaderNode{kind}") for kind in ("Attribute", "Invert", "Gamma", "Invert")]
+    color.attribute_name = "Cd"
+    steps[1].inputs["Gamma"].default_value = 2.0
+    steps[2].inputs[0].default_value = 0.98  # rounded, a colour of 0 would be less than that
+    if colored:
+        links.new(color.outputs["Color"], steps[0].inputs["Color"])
+    else:
+        steps[0].inputs["Color"].default_value = PLAIN
+    for before, after in zip(steps, [*steps[1:], shader]):
+        links.new(before.outputs["Color"], after.inputs["Color"])
+    shader.inputs["Color Attribute"].default_value = ""
+    shader.inputs["Anisotropy"].default_value = 0.3
     return material
 
 
@@ -252,6 +294,11 @@ def box_of(obj):
     low = Vector([min(c[i] for c in corners) for i in range(3)])
     high = Vector([max(c[i] for c in corners) for i in range(3)])
     return low, high
+
+
+def size_of(obj):
+    low, high = box_of(obj)
+    return (high - low).length
 
 
 def outline_of(obj):
@@ -265,19 +312,19 @@ def outline_of(obj):
     return [c for p in points for c in evaluated.matrix_world @ p]
 
 
-def set_world(world):
-    """White to the camera, a dim sky to everything else."""
+def set_world(world, backdrop, sky):
+    """The backdrop to the camera, a white sky of so much light to everything else."""
     world.use_nodes = True
     nodes, links = world.node_tree.nodes, world.node_tree.links
     nodes.clear()
     output, mix = nodes.new("ShaderNodeOutputWorld"), nodes.new("ShaderNodeMixShader")
     path = nodes.new("ShaderNodeLightPath")
     links.new(path.outputs["Is Camera Ray"], mix.inputs[0])
-    for number, strength in ((1, 0.35), (2, 1.0)):
-        sky = nodes.new("ShaderNodeBackground")
-        sky.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
-        sky.inputs["Strength"].default_value = strength
-        links.new(sky.outputs[0], mix.inputs[number])
+    for number, color, strength in ((1, WHITE, sky), (2, backdrop, 1.0)):
+        background = nodes.new("ShaderNodeBackground")
+        background.inputs["Color"].default_value = color
+        background.inputs["Strength"].default_value = strength
+        links.new(background.outputs[0], mix.inputs[number])
     links.new(mix.outputs[0], output.inputs["Surface"])
 
 
@@ -285,10 +332,22 @@ def aim(obj, target):
     obj.rotation_euler = (target - obj.location).to_track_quat("-Z", "Y").to_euler()
 
 
-def set_stage(obj, turn):
-    """Camera and three lamps about the object, all in proportion to its size."""
+def add_ground(center, size, height):
+    """A plane that shows nothing but the shadow of what is above it."""
+    mesh = bpy.data.meshes.new("ground")
+    corners = [(center.x + a * size, center.y + b * size, height) for a, b in ((-9, -9), (9, -9), (9, 9), (-9, 9))]
+    mesh.from_pydata(corners, [], [(0, 1, 2, 3)])
+    ground = bpy.data.objects.new("ground", mesh)
+    ground.is_shadow_catcher = True
+    bpy.context.scene.collection.objects.link(ground)
+
+
+def set_stage(obj, turn, fog=False):
+    """Camera and three lamps about the object, all in proportion to its size: a solid one over a white ground that
+    takes its shadow, fog before the night."""
     low, high = box_of(obj)
     center, size = (low + high) / 2, (high - low).length
+    backdrop, sky, light = (NIGHT, 0.1, 2.4) if fog else (WHITE, 0.3, 0.85)
     turned = Matrix.Rotation(math.radians(turn), 3, "Z")
     scene = bpy.context.scene
 
@@ -302,14 +361,15 @@ def set_stage(obj, turn):
     scene.camera = camera
     bpy.context.view_layer.update()
     place, _ = camera.camera_fit_coords(bpy.context.evaluated_depsgraph_get(), outline_of(obj))
-    camera.location = center + 1.06 * (place - center)
+    camera.location = center + 1.1 * (place - center)
+    data.shift_y = 0.0 if fog else -0.025  # room for the shadow
 
     # Power falls with the square of the distance, which is in proportion to the size.
     for name, place, power, width in (("key", (-0.9, -1.2, 1.3), 30.0, 0.8),
                                       ("fill", (1.5, -0.9, 0.2), 9.0, 1.2),
                                       ("rim", (0.4, 1.5, 1.0), 26.0, 0.8)):
         lamp = bpy.data.objects.new(name, bpy.data.lights.new(name, "AREA"))
-        lamp.data.energy = power * size * size
+        lamp.data.energy = light * power * size * size
         lamp.data.size = width * size
         lamp.location = center + turned @ Vector(place) * size
         aim(lamp, center)
@@ -317,7 +377,9 @@ def set_stage(obj, turn):
 
     if scene.world is None:
         scene.world = bpy.data.worlds.new("world")
-    set_world(scene.world)
+    set_world(scene.world, backdrop, sky)
+    if not fog:
+        add_ground(center, size, low.z)
 
 
 def set_size(width):
@@ -328,11 +390,13 @@ def set_size(width):
 
 
 def render(path, samples):
+    import _cycles  # of Blender, which may be without Cycles
+
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     scene.cycles.device = "CPU"
     scene.cycles.samples = samples
-    scene.cycles.use_denoising = False  # Debian's Blender has no denoiser
+    scene.cycles.use_denoising = _cycles.with_openimagedenoise  # Debian's Blender has no denoiser
     scene.cycles.volume_bounces = 8
     scene.view_settings.view_transform = "Standard"  # colours as they are in Cd
     scene.render.film_transparent = False
@@ -354,18 +418,17 @@ def open_surface(path, show="mesh", grid="surface", color=False, turn=0.0):
     if show == "volume":
         if "density" not in names:
             sys.exit(f"{path}: there is no grid density [hint: vdb_molsurf --for blender]")
-        voxel = min(volume.data.grids["density"].matrix_object.to_scale())
         shown = volume
-        volume.data.materials.append(fog_material("Cd" in names, 4.0 / voxel))
         outline = mesh_of(volume, grid) if grid in names else volume
-        set_stage(outline, turn)
+        volume.data.materials.append(fog_material("Cd" in names, size_of(outline)))
+        set_stage(outline, turn, fog=True)
         if outline is not volume:
             bpy.data.objects.remove(outline)
         volume.hide_render = False
     else:
         shown = mesh_of(volume, grid)
-        colored = color and add_colors(fixed(shown), path)
-        material = surface_material(colored)
+        colored = color and add_colors(fixed(shown), path, volume)
+        material = surface_material(colored, size_of(shown))
         shown.data.materials.clear()
         shown.data.materials.append(material)
         set_stage(shown, turn)

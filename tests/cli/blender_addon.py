@@ -44,7 +44,10 @@ result["mesh"] = {"vertices": len(mesh.vertices), "faces": len(mesh.polygons), "
                   "atoms": [v.value for v in mesh.attributes["atom_id"].data][:100],
                   "first": list(mesh.vertices[0].co)}
 obj, = build(input=words[1], show="volume")
-result["volume"] = {"grids": sorted(g.name for g in obj.data.grids), "material": obj.data.materials[0].name}
+grid = obj.data.grids["surface"]
+result["volume"] = {"grids": sorted(g.name for g in obj.data.grids), "material": obj.data.materials[0].name,
+                    "origin": list(grid.matrix_object.translation)}
+result["version"] = bpy.app.version[0]
 copies = build(input=words[2], show="instances", assembly="1")
 result["copies"] = {"count": len(copies), "meshes": len({o.data.name for o in copies if o.data}),
                     "matrices": [[list(row) for row in o.matrix_world] for o in copies if o.data]}

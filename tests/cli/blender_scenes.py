@@ -7,9 +7,9 @@ import math
 import pathlib
 import sys
 
-import bmesh
 import bpy
-from mathutils import Euler
+import bmesh  # once bpy is there
+from mathutils import Euler, Matrix
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts" / "blender"))
@@ -54,12 +54,11 @@ def main():
         result[name] = measured(mesh)
         result[name]["grids"] = {g.name: g.data_type for g in volume.data.grids}
         # Turned, moved and enlarged as an object.
-        volume.rotation_euler = Euler((math.radians(30), math.radians(-50), math.radians(110)))
-        volume.location = (3, -1, 2)
-        volume.scale = (1.5, 1.5, 1.5)
+        turn = Euler((math.radians(30), math.radians(-50), math.radians(110)))
+        move = Matrix.LocRotScale((3, -1, 2), turn, (1.5, 1.5, 1.5))
+        volume.matrix_world = move @ volume.matrix_world
         bpy.context.view_layer.update()
-        result[name]["placed"] = {**measured(mesh),
-                                  "matrix": [list(row) for row in volume.matrix_world]}
+        result[name]["placed"] = {**measured(mesh), "matrix": [list(row) for row in move]}
 
     fresh()
     volume, mesh = open_in_blender.open_surface("angstrom.vdb", color=True)

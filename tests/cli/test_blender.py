@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: MPL-2.0
-"""What --for blender writes lies in Blender where the mesh of the same run lies."""
+"""What --for blender writes lies in Blender where the mesh of the same run lies, and importers find all of it; in
+Blender and in the module bpy."""
 
 import json
+import os
 import pathlib
 import subprocess
 import unittest
 
-from needs import needs
-from tool import CRAMBIN, DATA, ROOT, ToolTest, read_ply
+from needs import BPY_PYTHON, needs
+from test_instances import placed
+from tool import CRAMBIN, DATA, FAST, ROOT, ToolTest, read_ply
 
-SCENES = pathlib.Path(__file__).resolve().parent / "blender_scenes.py"
+HERE = pathlib.Path(__file__).resolve().parent
 SCRIPT = ROOT / "scripts" / "blender" / "open_in_blender.py"
 DIMER = [DATA / "1a8o.cif.gz", "--assembly", "1"]
 VOXEL = 0.5
@@ -29,15 +32,21 @@ def volume_and_centroid(path):
     return volume, [m / volume for m in moment]
 
 
-@needs("blender")
-class Blender(ToolTest):
+class Blender:
+    def run_script(self, script, *words):
+        path = f"/usr/bin:{os.environ['PATH']}"  # Debian's Blender has the modules of the first python3 there
+        return subprocess.run([*self.program, str(script), "--", *map(str, words)], cwd=self.folder,
+                              capture_output=True, text=True, timeout=500, env={**os.environ, "PATH": path})
+
     def blender(self, script, *words):
-        done = subprocess.run(
-            ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "--python", str(script),
-             "--", *map(str, words)],
-            cwd=self.folder, capture_output=True, text=True, timeout=500)
+        done = self.run_script(script, *words)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done.stdout
+
+    def result(self, script, *words):
+        out = self.blender(HERE / script, *words)
+        line, = [line for line in out.splitlines() if line.startswith("RESULT ")]
+        return json.loads(line[len("RESULT "):])
 
     def assert_near(self, a, b, distance, what):
         for x, y in zip(a, b):
@@ -54,9 +63,7 @@ class Blender(ToolTest):
             self.check(0, CRAMBIN, "--voxel", 1, "--probe", 1 + frame / 20, "--for", "blender",
                        "-o", f"{name}.vdb", "-o", "frame.ply", "--force")
             volumes.append(volume_and_centroid(self.folder / "frame.ply")[0])
-        out = self.blender(SCENES, ",".join(f"{name}.vdb" for name in SCALES), "frame.0001.vdb")
-        line, = [line for line in out.splitlines() if line.startswith("RESULT ")]
-        result = json.loads(line[len("RESULT "):])
+        result = self.result("blender_scenes.py", ",".join(f"{name}.vdb" for name in SCALES), "frame.0001.vdb")
 
         volume, centroid = volume_and_centroid(self.folder / "a.ply")
         for name, (_, scale) in SCALES.items():
@@ -101,10 +108,64 @@ class Blender(ToolTest):
     def test_missing_frame(self):
         for frame in (1, 2, 4):
             (self.folder / f"a.000{frame}.vdb").write_bytes(b"")
-        done = subprocess.run(["blender", "-b", "--factory-startup", "--python", str(SCRIPT), "--",
-                               "a.0001.vdb"], cwd=self.folder, capture_output=True, text=True,
-                              timeout=100)
+        done = self.run_script(SCRIPT, "a.0001.vdb")
         self.assertIn("frames are missing between 1 and 4", done.stdout + done.stderr)
+
+    def test_importers(self):
+        """Blender's importers, with all attributes where these have any place for them."""
+        self.check(0, *DIMER, *FAST, "--color", "chain", "--for", "blender", "-o", "a.ply", "-o", "a.glb", "-o", "a.vdb")
+        ply, glb, vdb = self.result("blender_import.py", "a.ply", "a.glb", "a.vdb")
+        names, vertices, faces = read_ply((self.folder / "a.ply").read_bytes())
+        for scene, prefix, upper in ((ply, "", False), (glb, "_", True)):
+            mesh, = scene["meshes"]
+            self.assertEqual((len(mesh["points"]), mesh["faces"]), (len(vertices), len(faces)))
+            for p, v in zip(mesh["points"], vertices):
+                self.assert_near(p, v[:3], 1e-4, "points")
+            colors = [each for name, each in mesh["attributes"].items() if name.startswith("Col")]
+            self.assertEqual(len({tuple(round(x, 2) for x in color) for color in colors[0]}), 2, "colours")
+            for name in ("mean_curvature", "gaussian_curvature", "atom_id", "chain_id") if self.attributes else ():
+                seen = mesh["attributes"][prefix + (name.upper() if upper else name)]
+                for a, v in zip(seen, vertices, strict=True):
+                    self.assertAlmostEqual(a, v[names.index(name)], delta=1e-4 + 1e-4 * abs(a))
+        self.assertIn("VERTEX_COLOR", glb["meshes"][0]["nodes"])
+        volume, = vdb["volumes"]
+        self.assertEqual(volume, {"grids": {"surface": "FLOAT", "density": "FLOAT", "Cd": "VECTOR_FLOAT"}, "error": ""})
+
+    def test_importers_of_copies(self):
+        """Copies lie where the matrices place them, and nothing but copies is shown."""
+        lod, voxel = ["--lod", "1,2"], FAST
+        for color in ("copy", "mean-curvature"):
+            self.check(0, *DIMER, "--instances", *voxel, "--color", color, "-o", "a.glb", "-o", "a.ply", "-o", "a.json",
+                       "--force")
+            self.check(0, *DIMER, "--instances", *lod, "--color", color, "-o", "a.usda", "--force")
+            _, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+            entries = json.loads((self.folder / "a.json").read_text())["instances"]
+            for scene in self.result("blender_import.py", "a.glb", "a.usda"):
+                if scene is None:
+                    continue  # this Blender has no USD
+                self.assertEqual(len(scene["meshes"]), len(entries))
+                boxes = [[[f(p[i] for p in points) for i in range(3)] for f in (min, max)] for points in (
+                    *(mesh["points"] for mesh in scene["meshes"]),
+                    *([placed(entry["matrix"], v[:3]) for v in vertices] for entry in entries))]
+                for seen, want in zip(boxes, boxes[len(entries):]):
+                    self.assert_near(seen[0], want[0], 0.03, "box")
+                    self.assert_near(seen[1], want[1], 0.03, "box")
+        self.check(0, *DIMER, *FAST, "--for", "usd", "-o", "b.vdb")
+        scene, = self.result("blender_import.py", "b.usda")
+        if scene:
+            self.assertEqual([list(volume["grids"]) for volume in scene["volumes"]], [["Cd", "density", "surface"]])
+
+
+@needs("blender")
+class InBlender(Blender, ToolTest):
+    program = ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "--python"]
+    attributes = False  # of Blender 3.4.1
+
+
+@needs("bpy")
+class InModule(Blender, ToolTest):
+    program = [BPY_PYTHON]
+    attributes = True
 
 
 if __name__ == "__main__":

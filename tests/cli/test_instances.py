@@ -13,7 +13,7 @@ import unittest
 import zlib
 
 from browser import Browser
-from needs import needs
+from needs import BPY_PYTHON, needs
 from test_meshes import accessor, linear, read_glb
 from test_page import element, unpacked
 from test_symmetry import biomt, icosahedron, product
@@ -283,6 +283,13 @@ class Instances(ToolTest):
 
     @needs("blender")
     def test_blender(self):
+        self.check_blender("blender", "-b", "--factory-startup", "--python-exit-code", "1", "--python")
+
+    @needs("bpy")
+    def test_bpy(self):
+        self.check_blender(BPY_PYTHON)
+
+    def check_blender(self, *program):
         """The copies made by the script are where the whole assembly is."""
         self.write(assembly("cyclic"))
         self.check(0, "a.pdb", "--assembly", "1", *QUICK, *FAST, "-o", "whole.ply")
@@ -291,13 +298,15 @@ class Instances(ToolTest):
         self.check(0, "a.pdb", "--assembly", "1", *QUICK, *FAST, "--instances", "--for", "blender=nm", "-o",
                    "a.vdb", "-o", "a.json", "-o", "a.ply")
         for name, show, scale in (("a.vdb", "mesh", 0.1), ("a.ply", "mesh", 1), ("a.vdb", "volume", 0.1)):
-            done = subprocess.run(
-                ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "--python", str(COPIES), "--",
-                 "a.json", name, show], cwd=self.folder, capture_output=True, text=True, timeout=300)
+            done = subprocess.run([*program, str(COPIES), "--", "a.json", name, show], cwd=self.folder,
+                                  capture_output=True, text=True, timeout=300)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             line, = [line for line in done.stdout.splitlines() if line.startswith("RESULT ")]
             result = json.loads(line[len("RESULT "):])
             self.assertEqual((result["objects"], result["data"]), (5, 1))
+            whole, half, last = result["hidden"]
+            self.assertEqual((whole, last), (0, 4))
+            self.assertTrue(0 < half < 4, half)
             for seen, want in zip(result["box"], box):
                 for a, b in zip(seen, want):
                     self.assertAlmostEqual(a / scale, b, delta=12 if show == "volume" else 1, msg=(name, show))

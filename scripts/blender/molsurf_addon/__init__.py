@@ -193,7 +193,8 @@ class Request:
         color = ["--color", self.color] if self.color else []
         kept = pathlib.Path(bpy.data.filepath).parent if bpy.data.filepath else pathlib.Path(tempfile.gettempdir())
         path = kept / f"{name}.molsurf.vdb"  # Blender reads it again whenever it shows the volume
-        _, warnings = run_program(self.program, [*self.words(), *color, "--for", f"blender={self.scale}", "-o", path], folder)
+        host = "blender" if bpy.app.version < (5, 0, 0) else "houdini"  # from 5.0 on Blender has OpenVDB's own convention
+        _, warnings = run_program(self.program, [*self.words(), *color, "--for", f"{host}={self.scale}", "-o", path], folder)
         data = bpy.data.volumes.new(name)
         data.filepath = str(path)
         data.grids.load()

@@ -15,7 +15,7 @@ namespace molsurf
 /// The programs whose conventions are known.
 enum class Host {
     None,    ///< grids as they are: Å, a voxel's value at the voxel's coordinate
-    Blender, ///< shows the value of a voxel half a voxel farther along each axis
+    Blender, ///< up to 4.5 shows the value of a voxel half a voxel farther along each axis
     Houdini, ///< OpenVDB's own convention
     Usd      ///< the same, and a .usda file beside the .vdb
 };
