@@ -1,34 +1,45 @@
 #!/bin/bash
-# The pictures of docs/artists.md. Needs blender, chromium and python3-pil.
-# usage: artist_pictures.sh VDB_MOLSURF [OUTPUT_FOLDER]
+# The pictures of docs/artists.md. Needs blender, chromium and python3-pil; BPY_PYTHON, a Python that has the module bpy,
+# takes the place of blender, and its denoiser that of three rays in four. STRUCTURES has 1f2n.cif.gz of the Protein Data Bank,
+# without which the capsid is left out.
+# usage: artist_pictures.sh VDB_MOLSURF [OUTPUT_FOLDER [STRUCTURES]]
 set -euo pipefail
 tool=$(realpath "$1")
 out=$(realpath "${2:-$(dirname "$0")/../docs/pictures}")
+structures=${3:+$(realpath "$3")}
 cd "$(dirname "$0")/.."
-script=$PWD/scripts/blender/open_in_blender.py
+scripts=$PWD/scripts/blender
 data=$PWD/tests/data
+blender=(blender -b --factory-startup --python-exit-code 1 --python)
+fewer=1
+[[ -n ${BPY_PYTHON:-} ]] && blender=("$BPY_PYTHON") fewer=4
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
-keep() # PICTURE MODE FILE: pixels alone, since Blender writes times beside them
+keep() # PICTURE FILE: pixels alone, since Blender writes times beside them
 {
   /usr/bin/python3 -c "
 import sys
 from PIL import Image
-Image.open(sys.argv[1]).convert(sys.argv[2]).save(sys.argv[3], optimize=True)" "$@"
+Image.open(sys.argv[1]).convert('RGB').save(sys.argv[2], optimize=True)" "$@"
 }
 
-"$tool" "$data/1a8o.cif.gz" --assembly 1 --voxel 0.25 --for blender -q -o mesh.vdb
+draw() # NAME SAMPLES SCRIPT WORD...
+{
+  "${blender[@]}" "$scripts/$3" -- "${@:4}" --size 600 --samples $(($2 / fewer)) --render "$1.png" > blender.log 2>&1 ||
+    { cat blender.log; exit 1; }
+  keep "$1.png" "$out/$1.png"
+}
+
+"$tool" "$data/1a8o.cif.gz" --assembly 1 --voxel 0.25 --for blender -q -o mesh.vdb -o mesh.ply
 "$tool" "$data/1a8o.cif.gz" --assembly 1 --for blender -q -o fog.vdb
-for show in mesh fog; do
-  words=(--show volume)
-  samples=64
-  [[ $show == mesh ]] && words=(--color) samples=160
-  blender -b --factory-startup --python-exit-code 1 --python "$script" -- "$show.vdb" "${words[@]}" \
-    --size 480 --samples "$samples" --render "blender_$show.png" > blender.log || cat blender.log
-  keep "blender_$show.png" RGBA "$out/blender_$show.png"
-done
+draw blender_mesh 160 open_in_blender.py mesh.vdb --color
+draw blender_fog 160 open_in_blender.py fog.vdb --show volume
+if [[ -n $structures ]]; then
+  "$tool" "$structures/1f2n.cif.gz" --assembly 1 --instances --voxel 0.5 --color chain -q -o unit.ply -o copies.json
+  draw blender_capsid 96 place_copies.py copies.json unit.ply --color --cut 0
+fi
 
 "$tool" "$data/4at1.ent.gz" --color chain --size 700 --force -q -o "$out/4at1_chains.png"
 
@@ -36,4 +47,4 @@ done
 chromium --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
   --window-size=900,640 --hide-scrollbars --user-data-dir="$work/profile" \
   --virtual-time-budget=8000 --screenshot=view.png "file://$work/view.html" 2> browser.log
-keep view.png RGB "$out/view_html.png"
+keep view.png "$out/view_html.png"
