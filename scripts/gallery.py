@@ -37,11 +37,13 @@ def draw(program, words, path):
 
 def faults(program):
     """A line for each picture of which more than 1 % of the pixels differ by more than 2 of 255 from a new one."""
+    lines, page = [], ROOT / "docs" / "gallery.md"
+    if not page.exists():
+        return lines
     sys.path.insert(0, str(ROOT / "tests" / "cli"))
     os.environ["VDB_MOLSURF"] = str(program)
     from tool import read_png
-    lines = []
-    for name, words in commands((ROOT / "docs" / "gallery.md").read_text()).items():
+    for name, words in commands(page.read_text()).items():
         with tempfile.TemporaryDirectory() as folder:
             new = pathlib.Path(folder) / "new.png"
             draw(program, words, new)

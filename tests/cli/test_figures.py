@@ -110,7 +110,7 @@ class Pages(ToolTest):
         """It ends with 1 if a number is wrong, and corrects it if it is told to."""
         script = self.folder / "scripts"
         script.mkdir()
-        for name in ("check_docs.py", "figures.py"):
+        for name in ("check_docs.py", "figures.py", "gallery.py"):
             (script / name).write_text((ROOT / "scripts" / name).read_text())
         (self.folder / "README.md").write_text("# Nothing\n")
         self.check_page(PAGE.replace("50.27", "50.3"))

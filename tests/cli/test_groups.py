@@ -61,10 +61,11 @@ class Refused(ToolTest):
 
 
     def test_picture(self):
-        for option, value in (("--view", "up"), ("--view", "0,0,0"), ("--view", "1,2"),
-                              ("--view", "1,2,3,4"), ("--size", "0"), ("--background", "whitish"),
+        for option, value in (("--view", "0,0,0"), ("--size", "0"), ("--background", "whitish"),
                               ("--turn", "x")):
             self.refuse(2, option, value, says=option)
+        for status, value in ((1, "up"), (2, "1,2"), (2, "1,2,3,4")):  # atoms, then: there are none, or it is no selection
+            self.refuse(status, "--view", value, says=f'selection "{value}"')
 
 
 class Groups(ToolTest):

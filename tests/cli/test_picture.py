@@ -138,7 +138,7 @@ class Pictures(ToolTest):
         _, rows = self.picture(DATA / "4at1.ent.gz", *FAST, "--size", "200", "--legend", "off", "--style", "flat",
                                "--select", "A,C", "--color", "chain", "--show", "B=tube")
         seen = {color: sum(row.count(color) for row in rows)
-                for color in ((86, 180, 233), (230, 159, 0), (0, 158, 115))}
+                for color in ((86, 180, 233), (230, 159, 0), (204, 121, 167))}
         self.assertGreater(min(seen.values()), 40, seen)
         for value, says in (("stick", "did you mean sticks?"), ("A/1=", "expected sticks, balls"),
                             ("(XYZ)=sticks", "matches no atom"), ("A//CB=tube", "nothing to show")):

@@ -399,9 +399,8 @@ void addTori(const BallBoundary& boundary, const BoundaryMeasure& measure, doubl
     }
 }
 
-void addConcave(const BallBoundary& boundary, const BoundaryMeasure& measure,
-                const ProbeCorners& corners, double probe, const Progress& progress, Parts& all,
-                ExcludedMeasure& out)
+void addConcave(const BallBoundary& boundary, const ProbeCorners& corners, double probe,
+                const Progress& progress, Parts& all, ExcludedMeasure& out)
 {
     all.corners.resize(corners.size());
     tbb::enumerable_thread_specific<CornerScratch> scratches;
@@ -429,10 +428,19 @@ void addConcave(const BallBoundary& boundary, const BoundaryMeasure& measure,
         if (!(area >= -wrong * probe * probe) || !(area <= (2.0 * M_PI + wrong) * probe * probe))
             failSurface("area of a concave face and half a sphere", area,
                         2.0 * M_PI * probe * probe);
-        const std::int32_t piece = measure.arcPieces[corners[c].arcs[0]];
-        out.areasByCentre[std::size_t(piece)].concave += area;
     }
     all.concave.push_back(std::uint32_t(all.parts.size()));
+}
+
+/// Shares the areas of concave faces out among the pieces on which their probes lie.
+void addByCentre(const BoundaryMeasure& measure, const ProbeCorners& corners, const Parts& all,
+                 ExcludedMeasure& out)
+{
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+        const std::int32_t piece = measure.arcPieces[corners[c].arcs[0]];
+        for (std::size_t p = all.concave[c]; p < all.concave[c + 1]; ++p)
+            out.areasByCentre[std::size_t(piece)].concave += all.parts[p].area;
+    }
 }
 
 /// The face of another corner beyond a crease; -1: there is none.
@@ -561,7 +569,8 @@ ExcludedMeasure measureExcluded(const BallBoundary& boundary, const BoundaryMeas
     Parts all;
     addContacts(boundary, measure, probe, all, out);
     addTori(boundary, measure, probe, all, out);
-    addConcave(boundary, measure, corners, probe, progress, all, out);
+    addConcave(boundary, corners, probe, progress, all, out);
+    addByCentre(measure, corners, all, out);
     DisjointSets joined(all.parts.size());
     joinParts(boundary, measure, corners, all, joined);
     out.topologyKnown = addUp(all, joined, out.pieces) && all.fits;

@@ -82,11 +82,12 @@ TEST(AtomModel, SticksLieBetweenTheirAtoms)
         EXPECT_TRUE(end == a || end == b);
         const Vec3d way = end == a ? along : -along;
         for (std::size_t t = first; t < model.mesh.parts[2].firstTriangle; ++t) {
-            const auto corner = model.mesh.triangles[t][0];
-            const Vec3d x = stick.placed(Vec3d(model.mesh.positions[corner])) - end;
-            const double height = x.dot(way), length = (b - a).length();
-            EXPECT_NEAR(height < 0.25 * length ? 0.0 : 0.5 * length, height, 1e-5);
-            EXPECT_NEAR((x - height * way).length(), 0.25, 1e-5);
+            for (const std::uint32_t corner : model.mesh.triangles[t]) {
+                const Vec3d x = stick.placed(Vec3d(model.mesh.positions[corner])) - end;
+                const double height = x.dot(way), length = (b - a).length();
+                EXPECT_NEAR(height < 0.25 * length ? 0.0 : 0.5 * length, height, 1e-5);
+                EXPECT_NEAR((x - height * way).length(), 0.25, 1e-5);
+            }
         }
     }
 }
