@@ -36,7 +36,7 @@ LIBRARIES = {
     "Model/COM/": ["src/molsurf/io/write_3mf.cpp"],
     "dlfcn.h": ["src/molsurf/io/write_3mf.cpp"],
     "ft2build.h": ["src/molsurf/picture/font.cpp"],
-    "embree3/": ["src/molsurf/mesh/", "src/molsurf/picture/draw_mesh.cpp"],
+    "embree": ["src/molsurf/mesh/embree.h"],
     "openssl/": ["tools/sha256.cpp"],
     "boost/program_options": ["tools/cli/parse.cpp"],
 }

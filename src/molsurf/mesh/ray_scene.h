@@ -5,9 +5,8 @@
 /// A triangle mesh in Embree's hands.
 
 #include "molsurf/mesh.h"
+#include "molsurf/mesh/embree.h"
 #include "molsurf/mesh/mesh_instance.h"
-
-#include <embree3/rtcore.h>
 
 #include <utility>
 #include <vector>

@@ -158,10 +158,7 @@ RTCRayHit4 Tracer::meet(const Shapes& shapes, const EyeRays& eye) const
         setRay(rays.ray, s, eye.from[s], -view_.toEye, view_.far - view_.low + 2.0);
         rays.hit.geomID[s] = rays.hit.instID[0][s] = RTC_INVALID_GEOMETRY_ID;
     }
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect4(eye.valid.data(), shapes.scene.get(), &context, &rays);
+    intersect(eye.valid.data(), shapes.scene.get(), rays);
     return rays;
 }
 
@@ -323,21 +320,18 @@ double Tracer::lengthTo(double length, const Vec3d& from, const Vec3d& way) cons
 /// Share of rays that meet nothing.
 /// @param[in] lengths  of the rays, which `rays` has as far as the surface is not cut away
 /// @param[in] among    whether atoms alone are in the way
-template<std::size_t count, typename Rays, typename Trace>
-float Tracer::freeShare(const std::array<double, count>& lengths, bool among, Trace* occluded,
-                        Rays& rays) const
+template<std::size_t count, typename Rays>
+float Tracer::freeShare(const std::array<double, count>& lengths, bool among, Rays& rays) const
 {
     alignas(32) std::array<int, count> valid;
     valid.fill(-1);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    if (!among) occluded(valid.data(), surface_.scene.get(), &context, &rays);
+    if (!among) occlude(valid.data(), surface_.scene.get(), rays);
     if (atoms_) {
         for (std::size_t k = 0; k < count; ++k) {
             valid[k] = rays.tfar[k] >= 0.0f ? -1 : 0;
             if (valid[k]) rays.tfar[k] = float(lengths[k]);
         }
-        occluded(valid.data(), atoms_->scene.get(), &context, &rays);
+        occlude(valid.data(), atoms_->scene.get(), rays);
     }
     int open = 0;
     for (std::size_t k = 0; k < count; ++k) open += rays.tfar[k] >= 0.0f;
@@ -361,7 +355,7 @@ float Tracer::openness(const Vec3d& at, const Vec3d& normal, bool among, int pat
         lengths[k] = k % 2 ? nearby : std::numeric_limits<double>::infinity();
         setRay(rays, k, from, way, lengthTo(lengths[k], from, way));
     }
-    return freeShare(lengths, among, rtcOccluded8, rays);
+    return freeShare(lengths, among, rays);
 }
 
 /// Share of the lamp, a disc, that is seen.
@@ -381,7 +375,7 @@ float Tracer::lampShare(const Vec3d& at, const Vec3d& normal, bool among, int pa
         const Vec3d way = (lamp_ + r * std::cos(angle) * u + r * std::sin(angle) * v).unit();
         setRay(rays, k, from, way, lengthTo(lengths[k], from, way));
     }
-    return freeShare(lengths, among, rtcOccluded4, rays);
+    return freeShare(lengths, among, rays);
 }
 
 } // namespace molsurf

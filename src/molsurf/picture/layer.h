@@ -111,9 +111,8 @@ private:
                    int pattern) const;
     float lampShare(const openvdb::Vec3d& at, const openvdb::Vec3d& normal, bool among,
                     int pattern) const;
-    template<std::size_t count, typename Rays, typename Trace>
-    float freeShare(const std::array<double, count>& lengths, bool among, Trace* occluded,
-                    Rays& rays) const;
+    template<std::size_t count, typename Rays>
+    float freeShare(const std::array<double, count>& lengths, bool among, Rays& rays) const;
     double lengthTo(double length, const openvdb::Vec3d& from, const openvdb::Vec3d& way) const;
 
     const View& view_;
