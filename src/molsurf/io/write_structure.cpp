@@ -2,6 +2,7 @@
 #include "molsurf/io/write_structure.h"
 
 #include "molsurf/error.h"
+#include "molsurf/structure/gemmi_model.h"
 
 #define GEMMI_WRITE_IMPLEMENTATION
 #include <gemmi/to_cif.hpp>
@@ -30,7 +31,7 @@ gemmi::Structure structureOf(const BallSet& atoms, const std::vector<double>& va
                              const openvdb::Vec3d& origin)
 {
     gemmi::Structure out;
-    gemmi::Model& model = out.models.emplace_back("1");
+    gemmi::Model& model = out.models.emplace_back(ModelNumber{1});
     const BallNames& names = *atoms.names;
     std::map<std::string, std::size_t> chains;
     std::map<std::string, std::string> entities;

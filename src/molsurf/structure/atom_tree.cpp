@@ -2,10 +2,12 @@
 #include "molsurf/structure/atom_tree.h"
 
 #include "molsurf/structure/element.h"
+#include "molsurf/structure/gemmi_model.h"
 #include "molsurf/structure/name_table.h"
 #include "molsurf/structure/residue_kind.h"
 
 #include <gemmi/polyheur.hpp>
+#include <gemmi/resinfo.hpp>
 
 #include <cctype>
 
@@ -133,7 +135,7 @@ void AtomTree::startModel(int number)
         numbers_.back() = number;
         return;
     }
-    tree_.models.emplace_back(std::to_string(number));
+    tree_.models.emplace_back(ModelNumber{number});
     numbers_.push_back(number);
 }
 

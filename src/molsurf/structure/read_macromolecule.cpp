@@ -5,12 +5,14 @@
 #include "molsurf/structure/assembly_operators.h"
 #include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/binary_cif.h"
+#include "molsurf/structure/gemmi_model.h"
 #include "molsurf/structure/ihm_spheres.h"
 #include "molsurf/structure/pdb_text.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <gemmi/cif.hpp>
 #include <gemmi/mmcif.hpp>
+#include <gemmi/numb.hpp>
 #include <gemmi/pdb.hpp>
 #include <gemmi/polyheur.hpp>
 
@@ -216,7 +218,7 @@ void addAtoms(Block& block, const std::string& path, Structure& out)
     for (const gemmi::Model& model : tree.models) {
         if (model.chains.empty()) continue;
         numbers.push_back(numbers.empty() ? 1 : numbers.back() + 1);
-        parseInteger(model.name, numbers.back());
+        setNumber(numbers.back(), model);
     }
     copyTree(tree, numbers, true, entitiesKnown, out);
 }
