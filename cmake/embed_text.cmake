@@ -1,10 +1,15 @@
 # Makes a C++ file of text files:
-#   cmake -DOUTPUT=x.cpp -DFOLDER=dir -P embed_text.cmake
+#   cmake -DOUTPUT=x.cpp -DFOLDER=dir -DSCRIPT=viewer.min.js -P embed_text.cmake
+# Without a SCRIPT its text is null.
 # A literal has 16,000 letters at most, since more need not be taken by a compiler.
 set(text "// Made of the files of viewer/ by cmake/embed_text.cmake.\n#include \"molsurf/picture/viewer_text.h\"\n\nnamespace molsurf\n{\n")
-foreach(entry "viewerPage=page.html" "viewerScript=viewer.min.js")
+foreach(entry "viewerPage=page.html" "viewerScript=${SCRIPT}")
   string(REGEX REPLACE "=.*" "" name "${entry}")
   string(REGEX REPLACE ".*=" "" file "${entry}")
+  if(file STREQUAL "")
+    string(APPEND text "const char* const ${name} = nullptr;\n")
+    continue()
+  endif()
   file(READ "${FOLDER}/${file}" content)
   string(LENGTH "${content}" length)
   string(APPEND text "const char* const ${name} =\n")

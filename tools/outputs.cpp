@@ -10,6 +10,7 @@
 #include "molsurf/io/commit.h"
 #include "molsurf/io/temporary_file.h"
 #include "molsurf/io/write_3mf.h"
+#include "molsurf/picture/write_html.h"
 
 #include <sys/resource.h>
 
@@ -117,6 +118,7 @@ void checkOutput(const Call& call, const Output& output)
     InputFiles(call).refuse(output.path);
     checkWritable(output.path, mayReplace(call, output));
     if (output.format == findFormat("3mf")) load3mf();
+    if (output.format == findFormat("html")) needViewer();
 }
 
 void prepareOutputs(const Call& call, const std::vector<std::string>& more)

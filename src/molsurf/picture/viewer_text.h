@@ -8,6 +8,6 @@ namespace molsurf
 {
 
 extern const char* const viewerPage;   ///< page.html
-extern const char* const viewerScript; ///< viewer.min.js
+extern const char* const viewerScript; ///< viewer.min.js; null if built without it
 
 } // namespace molsurf

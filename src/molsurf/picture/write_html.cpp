@@ -282,8 +282,16 @@ std::string escaped(const std::string& text, const char* less, const char* amper
 
 } // namespace
 
+void needViewer()
+{
+    if (viewerScript == nullptr)
+        throw Error(ErrorKind::Output,
+                    "HTML: expected the viewer, got a program built without it (MOLSURF_VIEWER)");
+}
+
 void writeHtml(const Mesh& mesh, const HtmlPage& page, OutputFile& file)
 {
+    needViewer();
     Arrays arrays;
     const Json header = headerOf(mesh, page, arrays);
     const std::string headerText = header.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -36,6 +36,10 @@ struct HtmlPage {
     std::vector<std::int32_t> ballOf{};
 };
 
+/// Finds out before any work is done whether writeHtml() has its viewer.
+/// @throws Error(ErrorKind::Output) if it was built without
+void needViewer();
+
 /// Writes a page of HTML with the mesh in it and a viewer (three.js, WebGL 2).
 ///
 /// The mesh is packed: positions by steps of 1/65535 of its largest extent, values of curvature in
@@ -45,7 +49,7 @@ struct HtmlPage {
 /// if it has to, which it makes itself. Each vertex knows its atom, so that the page can name what
 /// the mouse is over and sum up areas. A legend without an attribute shows Mesh::colors.
 ///
-/// @throws Error(ErrorKind::Output) if the file cannot be written
+/// @throws Error(ErrorKind::Output) if there is no viewer or the file cannot be written
 void writeHtml(const Mesh& mesh, const HtmlPage& page, OutputFile& file);
 
 } // namespace molsurf
