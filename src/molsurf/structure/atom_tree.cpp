@@ -36,6 +36,15 @@ bool isInPolymer(const gemmi::Chain& chain, std::size_t index, bool entitiesKnow
            (index + 1 < chain.residues.size() && areBonded(residue, chain.residues[index + 1]));
 }
 
+/// Whether a residue looks like a link of a polymer by itself.
+bool mayBeLink(const gemmi::Residue& residue)
+{
+    const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(residue.name);
+    if (!info.found()) return residue.get_ca() || residue.get_p();
+    return (info.is_amino_acid() || info.is_nucleic_acid()) &&
+           !(info.is_standard() && residue.het_flag == 'H');
+}
+
 /// Atomic number; corrects names such as CA that stand one column too far left in a file without
 /// elements, where they read as calcium.
 std::uint8_t elementOf(const gemmi::Atom& atom, bool standardResidue)
@@ -117,6 +126,22 @@ bool isStandardResidue(const std::string& name)
     return (info.is_amino_acid() || info.is_nucleic_acid()) && info.is_standard();
 }
 
+void guessPolymers(gemmi::Structure& tree, bool all)
+{
+    std::vector<gemmi::Residue*> guessed;
+    for (gemmi::Model& model : tree.models)
+        for (gemmi::Chain& chain : model.chains)
+            for (gemmi::Residue& residue : chain.residues)
+                if (all || residue.entity_type == gemmi::EntityType::Unknown)
+                    guessed.push_back(&residue);
+    gemmi::add_entity_types(tree, all);
+    for (gemmi::Residue* residue : guessed) { // from 0.6 on short polymers go on with what follows
+        if (residue->entity_type != gemmi::EntityType::Polymer || mayBeLink(*residue)) continue;
+        residue->entity_type =
+            residue->is_water() ? gemmi::EntityType::Water : gemmi::EntityType::NonPolymer;
+    }
+}
+
 void copyTree(const gemmi::Structure& tree, const std::vector<int>& numbers, bool asyms,
               bool entitiesKnown, Structure& out)
 {
@@ -164,7 +189,7 @@ void AtomTree::add(const AtomLine& atom)
 
 Structure AtomTree::finish()
 {
-    gemmi::add_entity_types(tree_, false);
+    guessPolymers(tree_, false);
     Structure out;
     copyTree(tree_, numbers_, false, false, out);
     return out;

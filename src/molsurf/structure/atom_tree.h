@@ -15,6 +15,10 @@
 namespace molsurf
 {
 
+/// Guesses what belongs to a polymer.
+/// @param[in] all  of all residues; otherwise of those of which nothing is known
+void guessPolymers(gemmi::Structure& tree, bool all);
+
 /// Copies a tree into the tables of a structure: models, atoms, residues, chains.
 ///
 /// @param[in] numbers        of the models that have chains, in order

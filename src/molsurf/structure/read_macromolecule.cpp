@@ -14,7 +14,6 @@
 #include <gemmi/mmcif.hpp>
 #include <gemmi/numb.hpp>
 #include <gemmi/pdb.hpp>
-#include <gemmi/polyheur.hpp>
 
 #include <algorithm>
 #include <array>
@@ -213,7 +212,7 @@ void addAtoms(Block& block, const std::string& path, Structure& out)
     const bool entitiesKnown = block.has_tag("_entity.type");
     keepOnlyAtoms(block);
     gemmi::Structure tree = gemmi::make_structure_from_block(block);
-    if (!entitiesKnown) gemmi::add_entity_types(tree, true);
+    if (!entitiesKnown) guessPolymers(tree, true);
     std::vector<int> numbers;
     for (const gemmi::Model& model : tree.models) {
         if (model.chains.empty()) continue;
@@ -261,7 +260,7 @@ Structure readPdb(std::string text, const std::string& path)
     gemmi::Structure parsed;
     try {
         parsed = gemmi::read_pdb_from_memory(text.data(), text.size(), path);
-        gemmi::add_entity_types(parsed, false);
+        guessPolymers(parsed, false);
     } catch (const std::exception& error) {
         failAt(path, oneLine(error, path));
     }

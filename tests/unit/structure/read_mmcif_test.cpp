@@ -124,7 +124,7 @@ TEST(ReadMmcif, RefusesWhatIsCutShortOrBroken)
 {
     const std::string rows = "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\nATOM 2 C CA . GLY A 2 1\n";
     const std::string message = mmcifError(atomSite(full, rows));
-    EXPECT_HAS(message, "Wrong number of values in the loop");
+    EXPECT_HAS(message, "Wrong number of values in ");
     EXPECT_HAS(message, "a.cif: "); // the path, once
     EXPECT_EQ(message.find("a.cif"), message.rfind("a.cif"));
     EXPECT_HAS(mmcifError("loop_\n_atom_site.id\n1\n"), "expected block header");

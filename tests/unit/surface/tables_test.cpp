@@ -31,7 +31,7 @@ SurfaceOptions exact()
 }
 
 template<typename T>
-const std::vector<T>& column(const Table& table, const std::string& name)
+const std::vector<T>& column(const Table& table, const char* name)
 {
     for (const Table::Column& one : table.columns)
         if (one.name == name) return std::get<std::vector<T>>(one.values);
