@@ -42,7 +42,8 @@ std::string titleOf(const Legend& legend)
 std::string forChimeraX(const std::string& text)
 {
     std::string out;
-    for (const char c : text) out += c == '"' || c == '\\' ? '\'' : c < ' ' && c >= 0 ? ' ' : c;
+    for (const char c : text)
+        out += c == '"' || c == '\\' ? '\'' : static_cast<unsigned char>(c) < ' ' ? ' ' : c;
     return "\"" + out + "\"";
 }
 
@@ -52,7 +53,7 @@ std::string forPython(const std::string& text)
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') out += '\\';
-        out += c < ' ' && c >= 0 ? ' ' : c;
+        out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
     }
     return out + "\"";
 }
