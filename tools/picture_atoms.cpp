@@ -2,8 +2,10 @@
 #include "picture_atoms.h"
 
 #include "molsurf/color/palette.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/picture/view_file.h"
+#include "molsurf/surface/check_balls.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -85,6 +87,12 @@ void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surf
             labels.chainColors.push_back(colors.of(chain));
         shown.push_back({std::move(atoms[k]), call.shows[k]});
     }
+    const double bytes = bytesOfModel(shown), available = double(availableMemory());
+    if (bytes > available)
+        throw Error(ErrorKind::Input,
+                    formatted("--show: these atoms take about %.3g GiB of memory, and there are "
+                              "%.3g, expected fewer atoms",
+                              bytes / double(1 << 30), available / double(1 << 30)));
     picture.model = std::make_shared<AtomModel>(atomModel(shown, progress));
 }
 

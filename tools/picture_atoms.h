@@ -22,7 +22,7 @@ SelectOptions picturedAtoms(const Call& call, const std::string& select);
 /// Puts atoms into the picture. Chains have the colours of the surface's.
 /// @param[in] atoms    of each --show, in its order
 /// @param[in] surface  the balls that the surface is of
-/// @throws Error(ErrorKind::Input) if there is nothing to show
+/// @throws Error(ErrorKind::Input) if there is nothing to show, or more than the memory holds
 void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surface,
                const Progress& progress, DrawOptions& picture);
 

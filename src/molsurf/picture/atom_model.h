@@ -26,6 +26,8 @@ struct AtomStyle {
     const char* word; ///< of the command line
     const char* help;
     void (*add)(const BallSet& atoms, const Progress& progress, AtomModel& model);
+    /// About what the atoms take while they are drawn [byte].
+    double (*bytesOf)(const BallSet& atoms);
 };
 
 /// All of them: sticks, balls, spheres, tube.
@@ -46,6 +48,9 @@ struct ShownAtoms {
     BallSet atoms; ///< with labels and names
     ShowRule rule;
 };
+
+/// About what the model of these atoms takes while it is drawn [byte].
+double bytesOfModel(const std::vector<ShownAtoms>& shown);
 
 /// Carbon is golden, other elements have their colours (CPK), tubes that of their chain.
 /// @throws Error(ErrorKind::Input) if a rule has nothing to show, as a tube without a backbone

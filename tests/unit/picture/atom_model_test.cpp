@@ -118,6 +118,21 @@ TEST(AtomModel, TubesGoThroughTheBackbone)
     EXPECT_EQ(traced, 36u);
 }
 
+// What a model itself takes is a part of what is estimated, most of which is Embree's.
+TEST(AtomModel, TellsWhatItTakes)
+{
+    const BallSet atoms = atomsOf("");
+    for (const AtomStyle& style : atomStyles()) {
+        const ShownAtoms shown{atoms, {"", &style}};
+        const AtomModel model = atomModel({shown}, Progress());
+        const double vertices = double(model.mesh.positions.size() * (2 * sizeof(Vec3f) + 3)),
+                     triangles = double(model.mesh.triangles.size() * 12),
+                     copies = double(model.instances.size() * sizeof(MeshInstance));
+        EXPECT_GT(bytesOfModel({shown}), vertices + triangles + copies) << style.word;
+        EXPECT_LT(bytesOfModel({shown}), 20.0 * (vertices + triangles + copies)) << style.word;
+    }
+}
+
 TEST(AtomModel, RefusesWhatItCannotShow)
 {
     EXPECT_THROW(modelOf(atomsOf("A//CB"), "tube"), Error);
