@@ -183,6 +183,8 @@ class Pictures(ToolTest):
         self.assertGreater(height["46"], sorted(height.values())[-8])
         (self.folder / "bad.view").write_text('{"to_eye": [0, 0, 1], "up": [0, 0, 2], "center": [0, 0, 0], "width": 1, "height": 1}')
         self.check(1, *words, "--view", "bad.view", "-o", "d.png", says="two directions that differ")
+        (self.folder / "bad.view").write_text(json.dumps({**view, "height": 6 * view["width"]}))
+        self.check(1, *words, "--view", "bad.view", "-o", "d.png", says="0.1 to 5 widths")  # or it takes any memory
         (self.folder / "bad.view").write_text("{}")
         self.check(1, *words, "--view", "bad.view", "-o", "d.png", says="-o NAME.view writes one")
         self.check(1, *words, "--view", "*", "-o", "d.png", says="lie about the middle")

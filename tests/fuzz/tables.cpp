@@ -9,6 +9,7 @@
 #include "molsurf/io/batch_summary.h"
 #include "molsurf/io/frame_table.h"
 #include "molsurf/io/write_usda.h"
+#include "molsurf/picture/view_file.h"
 #include "molsurf/selection/ball_values.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/selection/radii.h"
@@ -54,6 +55,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             isOwnUsda(path);
             extentsOfUsda(path);
             break;
+        case 'w': {
+            DrawOptions options;
+            readView(path, options);
+            break;
+        }
         case 'c': {
             const char* words[] = {"vdb_molsurf", "--config", path.c_str(), "a.pdb"};
             tool::parse(4, words);

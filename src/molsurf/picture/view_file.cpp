@@ -72,13 +72,14 @@ void readView(const std::string& path, DrawOptions& options)
                     path + ": expected a view: to_eye, up and center of three numbers, width and "
                            "height [hint: -o NAME.view writes one]");
     }
+    constexpr double lowest = 0.1, highest = 5.0; // of the widths that drawMesh() has, 0.2 to 4
     const double across = options.up.cross(options.toEye).length();
     const bool bounded = frame.center.length() < 1e7 && frame.width < 1e7 && frame.height < 1e7;
     if (!(across > 1e-6 * options.up.length() * options.toEye.length()) || !std::isfinite(across) ||
-        !bounded || !(frame.width > 1e-3) || !(frame.height > 0.05 * frame.width) ||
-        !(frame.height < 20.0 * frame.width))
+        !bounded || !(frame.width > 1e-3) || !(frame.height > lowest * frame.width) ||
+        !(frame.height < highest * frame.width))
         throw Error(ErrorKind::Input, path + ": expected a view with two directions that differ, "
-                                             "and a width and height above 0 that are alike");
+                                             "and a width and a height of 0.1 to 5 widths");
     options.frame = frame;
 }
 

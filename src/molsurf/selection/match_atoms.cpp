@@ -85,7 +85,8 @@ Selection parse(const std::string& text)
     try {
         Selection selection(text);
         const bool open = selection.to_seqid.seqnum == INT_MAX && selection.to_seqid.icode == '*';
-        if (open && !selection.from_seqid.empty() && text.find("-*") == std::string::npos)
+        const auto has = [&](const char* end) { return text.find(end) != std::string::npos; };
+        if (open && !selection.from_seqid.empty() && !has("-*") && !has("-.*"))
             selection.to_seqid = selection.from_seqid;
         return selection;
     } catch (const std::exception& error) {

@@ -37,6 +37,7 @@ TEST_F(MatchAtoms, ByChainResidueAtomAndElement)
     EXPECT_EQ(count("A/10/CA"), 1u); // not all that follow
     EXPECT_EQ(count("A/301-/CA"), 10u);
     EXPECT_EQ(count("A/301-*/CA"), 10u);
+    EXPECT_EQ(count("A/301-.*/CA"), 10u);
     EXPECT_EQ(count("[ZN]"), 2u);
     EXPECT_EQ(count("(ATP)"), 62u);
     EXPECT_EQ(count("*;polymer") + count("*;!polymer"), 7170u);
