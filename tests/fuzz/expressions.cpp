@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 "ATOM      4  CB  GLY A   2A     12.639   7.071  -5.147  1.00 13.79           C\n"
                 "HETATM    5 ZN    ZN B   3      21.639   6.071  -5.147  1.00 13.79          ZN\n"
                 "HETATM    6  O   HOH B   4      31.639   6.071  -5.147  1.00 13.79           O\n",
-                "structure");
+                "structure", Progress());
     static const std::map<std::string, Operator> operators = [] {
         std::map<std::string, Operator> out;
         for (const char* name : {"1", "2", "3", "X0", "P"}) out[name].name = name;

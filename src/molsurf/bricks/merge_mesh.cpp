@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/merge_mesh.h"
 
+#include "molsurf/core/cancel.h"
 #include "molsurf/core/disjoint_sets.h"
 #include "molsurf/error.h"
 #include "molsurf/mesh/statistics.h"
@@ -183,7 +184,7 @@ void MergedMesh::writePly(OutputFile& file, const Progress& progress) const
     for (const BrickFile& brick : bricks_) {
         inRuns(brick, brick.header().vertices, layout.vertexSize(),
                [&](const char* records, std::size_t count) {
-                   if (progress.cancelled()) throw Cancelled();
+                   stopIfCancelled(progress);
                    for (std::size_t i = 0; i < count; ++i) {
                        std::array<float, 3> place;
                        std::memcpy(&place, records + i * layout.vertexSize(), sizeof place);
@@ -197,7 +198,7 @@ void MergedMesh::writePly(OutputFile& file, const Progress& progress) const
     for (std::size_t b = 0; b < bricks_.size(); ++b) {
         inRuns(bricks_[b], bricks_[b].header().triangles, sizeof(Triangle),
                [&](const char* records, std::size_t count) {
-                   if (progress.cancelled()) throw Cancelled();
+                   stopIfCancelled(progress);
                    for (std::size_t i = 0; i < count; ++i) {
                        Triangle t;
                        std::memcpy(&t, records + i * sizeof t, sizeof t);

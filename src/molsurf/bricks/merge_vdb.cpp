@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/merge_vdb.h"
 
+#include "molsurf/core/cancel.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
 #include "molsurf/io/check_vdb.h"
@@ -300,7 +301,7 @@ public:
             values.resize(size);
             bricks[first.brick].read(first.offset, values.data(), size);
             stream.write(values.data(), std::streamsize(size));
-            if (progress.cancelled()) throw Cancelled();
+            stopIfCancelled(progress);
         }
         if (!seekable) return;
         descriptor.setEndPos(stream.tellp());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/mesh/extract.h"
 
+#include "molsurf/core/cancel.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/mesh/surface_vertices.h"
 #include "molsurf/mesh/triangle_shape.h"
@@ -65,7 +66,7 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
 {
     openvdb::tools::VolumeToMesh mesher;
     mesher(surface);
-    if (progress.cancelled()) throw Cancelled();
+    stopIfCancelled(progress);
     const openvdb::Vec3s* starts = mesher.pointList().get();
     openvdb::tools::PolygonPoolList& pools = mesher.polygonPoolList(); // quads alone, by leaf
     std::vector<std::size_t> begins(mesher.polygonPoolListSize() + 1, 0);

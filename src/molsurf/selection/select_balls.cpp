@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/select_balls.h"
 
+#include "molsurf/core/cancel.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/ball_names.h"
@@ -477,6 +478,18 @@ void countWhole(BallSet& out)
     out.copyNumbers = {1};
 }
 
+/// Counts the beads of the whole, and the atoms that they stand for.
+/// @param[in] atoms  that the bead of each representative atom stands for; 0: it is no bead
+void countBeads(const std::vector<std::int32_t>& atoms, BallSet& out)
+{
+    const std::size_t times = out.unit ? out.instances.size() : 1;
+    for (std::size_t i = 0; i < out.own(); ++i) {
+        const std::int32_t n = atoms[std::size_t(out.balls[i].atom)];
+        out.beads += times * (n > 0);
+        out.beadAtoms += times * std::size_t(n);
+    }
+}
+
 /// The groups, with the numbers of their copies.
 /// @param[in] balls  in the coordinates of the file
 std::vector<GroupRule> withCopies(const Structure& structure, const SelectOptions& options,
@@ -545,15 +558,15 @@ BallSet readAtoms(const std::string& path, const SelectOptions& options, double 
                   const Progress& progress)
 {
     checkOptions(options);
-    return selectBalls(readStructure(path, options.maxInput), options, probe, progress);
+    return selectBalls(readStructure(path, options.maxInput, progress), options, probe, progress);
 }
 
 BallSet readAtoms(FileContent file, const SelectOptions& options, double probe,
                   const Progress& progress)
 {
     checkOptions(options);
-    return selectBalls(parseStructure(std::move(file.bytes), file.name, options.maxInput), options,
-                       probe, progress);
+    return selectBalls(parseStructure(std::move(file.bytes), file.name, options.maxInput, progress),
+                       options, probe, progress);
 }
 
 BallSet selectBalls(const Structure& structure, const SelectOptions& options, double probe,
@@ -584,6 +597,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
         beadAtoms = std::move(coarse.beadAtoms);
         out.warnings.insert(out.warnings.end(), coarse.warnings.begin(), coarse.warnings.end());
     }
+    stopIfCancelled(progress);
     const std::vector<GroupRule> groups = withCopies(structure, options, balls);
     const RotationGroup group = placeBalls(structure, options, std::move(balls), out);
     if (out.balls.empty()) {
@@ -597,12 +611,8 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
         out.unit->motionOf = surround(group, options.surroundings, out);
     }
     warnOfRounding(out.balls, out.warnings);
-    const std::size_t times = out.unit ? out.instances.size() : 1;
-    for (std::size_t i = 0; i < out.own(); ++i) {
-        const std::int32_t n = beadAtoms.empty() ? 0 : beadAtoms[std::size_t(out.balls[i].atom)];
-        out.beads += times * (n > 0);
-        out.beadAtoms += times * std::size_t(n);
-    }
+    if (!beadAtoms.empty()) countBeads(beadAtoms, out);
+    stopIfCancelled(progress);
     applyResolutions(structure, options, out);
     const bool several = options.instances && out.copies > 1; // a surface for each prototype
     if (several && (!options.groups.empty() || options.groupBy))
@@ -617,6 +627,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
         out.warnings.insert(out.warnings.end(), out.labels->warnings.begin(),
                             out.labels->warnings.end());
     }
+    stopIfCancelled(progress);
     out.coloring = options.coloring;
     if (options.valueBy) addValues(structure, options, out);
     if (options.plainColor) out.colors.assign(out.balls.size(), *options.plainColor);

@@ -4,6 +4,7 @@
 /// @file
 /// Detects the format of a text.
 
+#include "molsurf/progress.h"
 #include "molsurf/structure/structure.h"
 
 #include <string>
@@ -24,7 +25,7 @@ struct StructureFormatRow {
     std::vector<std::string> endings; ///< of names of files: ".pdb", ".ent"
     /// Whether a text is of this format and not of one of those behind it.
     bool (*matches)(const StructureSample& sample);
-    Structure (*read)(std::string text, const std::string& path);
+    Structure (*read)(std::string text, const std::string& path, const Progress& progress);
 };
 
 /// All of them, in the order in which a text is held against them.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/read_macromolecule.h"
 
+#include "molsurf/core/cancel.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/assembly_operators.h"
 #include "molsurf/structure/atom_tree.h"
@@ -206,12 +207,13 @@ void keepOnlyAtoms(Block& block)
 }
 
 /// The atoms of a block, with what gemmi reads of it.
-void addAtoms(Block& block, const std::string& path, Structure& out)
+void addAtoms(Block& block, const std::string& path, const Progress& progress, Structure& out)
 {
     completeAtomSite(block, path);
     const bool entitiesKnown = block.has_tag("_entity.type");
     keepOnlyAtoms(block);
     gemmi::Structure tree = gemmi::make_structure_from_block(block);
+    stopIfCancelled(progress);
     if (!entitiesKnown) guessPolymers(tree, true);
     std::vector<int> numbers;
     for (const gemmi::Model& model : tree.models) {
@@ -222,16 +224,36 @@ void addAtoms(Block& block, const std::string& path, Structure& out)
     copyTree(tree, numbers, true, entitiesKnown, out);
 }
 
-Structure structureOf(gemmi::cif::Document& document, const std::string& path)
+Structure structureOf(gemmi::cif::Document& document, const std::string& path,
+                      const Progress& progress)
 {
+    stopIfCancelled(progress);
     Structure out;
     Block& block = blockWithAtoms(document, path, out);
     out.assemblies = readAssemblies(block);
     Block spheres("");
     if (hasSpheres(block)) spheres.items = block.items;
-    if (block.has_tag("_atom_site.Cartn_x")) addAtoms(block, path, out);
+    if (block.has_tag("_atom_site.Cartn_x")) addAtoms(block, path, progress, out);
     if (hasSpheres(spheres)) addSpheres(spheres, path, out);
     return out;
+}
+
+/// The structure of a document that is parsed from text or bytes.
+template<typename Parse>
+Structure readDocument(std::string all, const std::string& path, const Progress& progress,
+                       const Parse& parse)
+{
+    try {
+        gemmi::cif::Document document = parse(all);
+        std::string().swap(all);
+        return structureOf(document, path, progress);
+    } catch (const Error&) {
+        throw;
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const std::exception& error) {
+        failAt(path, oneLine(error, path));
+    }
 }
 
 /// The categories that structureOf() reads.
@@ -253,10 +275,11 @@ bool isRead(const std::string& category)
 
 } // namespace
 
-Structure readPdb(std::string text, const std::string& path)
+Structure readPdb(std::string text, const std::string& path, const Progress& progress)
 {
     if (text.back() != '\n') text += '\n';
     PdbRecords records = preparePdb(text, path);
+    stopIfCancelled(progress);
     gemmi::Structure parsed;
     try {
         parsed = gemmi::read_pdb_from_memory(text.data(), text.size(), path);
@@ -265,6 +288,7 @@ Structure readPdb(std::string text, const std::string& path)
         failAt(path, oneLine(error, path));
     }
     std::string().swap(text);
+    stopIfCancelled(progress);
     const auto found =
         std::count_if(parsed.models.begin(), parsed.models.end(),
                       [](const gemmi::Model& model) { return !model.chains.empty(); });
@@ -277,31 +301,17 @@ Structure readPdb(std::string text, const std::string& path)
     return out;
 }
 
-Structure readMmcif(std::string text, const std::string& path)
+Structure readMmcif(std::string text, const std::string& path, const Progress& progress)
 {
-    try {
-        gemmi::cif::Document document =
-            gemmi::cif::read_memory(text.data(), text.size(), path.c_str());
-        std::string().swap(text);
-        return structureOf(document, path);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception& error) {
-        failAt(path, oneLine(error, path));
-    }
+    return readDocument(std::move(text), path, progress, [&](const std::string& all) {
+        return gemmi::cif::read_memory(all.data(), all.size(), path.c_str());
+    });
 }
 
-Structure readBinaryCif(std::string bytes, const std::string& path)
+Structure readBinaryCif(std::string bytes, const std::string& path, const Progress& progress)
 {
-    try {
-        gemmi::cif::Document document = decodeBinaryCif(bytes, path, isRead);
-        std::string().swap(bytes);
-        return structureOf(document, path);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception& error) {
-        failAt(path, oneLine(error, path));
-    }
+    return readDocument(std::move(bytes), path, progress,
+                        [&](const std::string& all) { return decodeBinaryCif(all, path, isRead); });
 }
 
 } // namespace molsurf

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/read_structure.h"
 
+#include "molsurf/core/cancel.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/beads.h"
 #include "molsurf/structure/detect_format.h"
@@ -30,10 +31,13 @@ void checkCoordinates(const Structure& structure, const std::string& path)
     }
 }
 
-Structure parseAndCheck(StructureFormat format, std::string text, const std::string& path)
+Structure parseAndCheck(StructureFormat format, std::string text, const std::string& path,
+                        const Progress& progress)
 {
+    stopIfCancelled(progress);
     const StructureFormatRow& row = rowOf(format);
-    Structure structure = row.read(std::move(text), path);
+    Structure structure = row.read(std::move(text), path, progress);
+    stopIfCancelled(progress);
     structure.source = path == "-" ? path : std::filesystem::path(path).filename().string();
     structure.format = row.name;
     if (structure.atoms.empty()) {
@@ -61,23 +65,24 @@ std::string describeAtom(const Structure& structure, std::size_t index)
     return atom.name.empty() ? text : text + ")";
 }
 
-Structure readStructure(const std::string& path, std::size_t maxBytes)
+Structure readStructure(const std::string& path, std::size_t maxBytes, const Progress& progress)
 {
     std::string text = loadText(path, maxBytes);
     const StructureFormat format = detectFormat(path, text);
-    return parseAndCheck(format, std::move(text), path);
+    return parseAndCheck(format, std::move(text), path, progress);
 }
 
-Structure parseStructure(std::string bytes, const std::string& path, std::size_t maxBytes)
+Structure parseStructure(std::string bytes, const std::string& path, std::size_t maxBytes,
+                         const Progress& progress)
 {
     std::string text = unpackedText(std::move(bytes), path, maxBytes);
     const StructureFormat format = detectFormat(path, text);
-    return parseAndCheck(format, std::move(text), path);
+    return parseAndCheck(format, std::move(text), path, progress);
 }
 
 Structure readStructureAs(StructureFormat format, const std::string& path, std::size_t maxBytes)
 {
-    return parseAndCheck(format, loadText(path, maxBytes), path);
+    return parseAndCheck(format, loadText(path, maxBytes), path, Progress());
 }
 
 } // namespace molsurf

@@ -4,6 +4,7 @@
 /// @file
 /// Reads the files of structureFormats(), each also .gz, and standard input.
 
+#include "molsurf/progress.h"
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/structure.h"
 
@@ -35,14 +36,18 @@ namespace molsurf
 /// - .gro, .psf, .sdf, .mol and .mol2: see their readers.
 ///
 /// @param[in] maxBytes  that the text may have; see loadText()
+/// @param[in] progress  may end the reading between its stages: unpacking, parsing, making atoms
 /// @throws Error(ErrorKind::Input) if the file does not exist, is a folder, is empty, too large or
 ///         cut short, is not a structure, has no model or no atom, or has a coordinate that is not
 ///         finite or lies beyond 1e6 Å
-Structure readStructure(const std::string& path, std::size_t maxBytes = 0);
+/// @throws Cancelled if the progress object says so
+Structure readStructure(const std::string& path, std::size_t maxBytes = 0,
+                        const Progress& progress = Progress());
 
 /// Reads a structure from a file in memory; otherwise as above.
 /// @param[in] path  stands for it in messages
-Structure parseStructure(std::string bytes, const std::string& path, std::size_t maxBytes = 0);
+Structure parseStructure(std::string bytes, const std::string& path, std::size_t maxBytes = 0,
+                         const Progress& progress = Progress());
 
 /// Reads a structure whose format is known, whatever its content looks like; otherwise as above.
 Structure readStructureAs(StructureFormat format, const std::string& path,

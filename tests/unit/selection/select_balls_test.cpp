@@ -171,5 +171,23 @@ TEST(SelectBalls, PassesOnTheWarningsOfTheFile)
     ASSERT_EQ(selection.warnings.size(), 1u);
 }
 
+// Cancelled at each question that a reading asks: between all of its stages.
+TEST(ReadAtoms, EndsWhenCancelled)
+{
+    struct StopAfter : Progress {
+        explicit StopAfter(int n) : left(n) {}
+        mutable int left;
+        bool cancelled() const override { return --left < 0; }
+    };
+    for (const char* name : {"1a8o.cif.gz", "1a8o.bcif.gz", "1a8o.pdb.gz"}) {
+        StopAfter count(1000);
+        readAtoms(dataFile(name), {}, 0.0, count);
+        const int questions = 1000 - count.left;
+        EXPECT_GE(questions, 7) << name;
+        for (int k = 0; k < questions; ++k)
+            EXPECT_THROW(readAtoms(dataFile(name), {}, 0.0, StopAfter(k)), Cancelled) << name << k;
+    }
+}
+
 } // namespace
 } // namespace molsurf::test
