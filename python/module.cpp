@@ -419,14 +419,17 @@ nb::tuple comparisonOf(const Mesh& a, const Mesh& b, const How& how)
                           dictOf(std::move(both.bToA)));
 }
 
-void save(const MadeSurface& surface, const std::string& path, bool replace, int width)
+void save(const MadeSurface& surface, const std::string& path, bool replace, int width,
+          const std::string& scene)
 {
     nb::gil_scoped_release free;
     const std::string end = std::filesystem::path(path).extension().string();
-    if (end == ".vdb") return writeVdb(surface.result, path, replace);
+    if (end == ".vdb") return writeVdb(surface.result, path, replace, scene);
     if (end == ".json") return writeReport(surface.result.report, path, replace);
     checkMesh(surface.result.mesh);
-    if (end == ".png") return writePicture(surface.result.mesh, path, width, replace);
+    if (end == ".png" || end == ".html")
+        return writePicture(*surface.atoms, surface.result, surface.options.color, path, width,
+                            replace);
     std::string all;
     bool known = false;
     for (const std::string& one : meshEndings()) {
@@ -435,7 +438,7 @@ void save(const MadeSurface& surface, const std::string& path, bool replace, int
     }
     if (!known)
         throw Error(ErrorKind::Usage,
-                    path + ": expected a name that ends in " + all + ".vdb, .json or .png");
+                    path + ": expected a name that ends in " + all + ".vdb, .json, .png or .html");
     writeMesh(surface.result.mesh, path, replace);
 }
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """Prints the type hints of the package, python/vdb_molsurf/__init__.pyi, whose keywords come from the module's table:
 
-    python stubs.py > vdb_molsurf/__init__.pyi
+    python -P python/stubs.py > python/vdb_molsurf/__init__.pyi
 """
 
 import textwrap
@@ -65,6 +65,9 @@ class Comparison(NamedTuple):
     a_to_b: dict[str, Any]
     b_to_a: dict[str, Any]
 
+class Page:
+    html: str
+
 class Surface:
 '''
 
@@ -86,6 +89,8 @@ METHODS = '''\
                  threads: int = 0) -> Distances: ...
     def voxels(self) -> Voxels: ...
     def save(self, path: Path, *, replace: bool = True) -> None: ...
+    def to_vdb(self, path: Path, scene: str | None = None, *, replace: bool = True) -> None: ...
+    def view(self, height: int = 480) -> Page: ...
     def picture(self, path: Path, width: int = 1200, *, replace: bool = True) -> None: ...
 '''
 

@@ -61,15 +61,6 @@ struct Metadata {
     }
 };
 
-// How the grids lie in the scene of another program.
-void addScene(const Call& call, Metadata& to)
-{
-    const char* axes[] = {"scene.center_x", "scene.center_y", "scene.center_z"};
-    for (int i = 0; i < 3; ++i) to.number(axes[i], call.scene.center[i]);
-    to.number("scene.units_per_angstrom", call.scene.scale);
-    to.number("scene.shift_in_voxels", call.scene.host == Host::Blender ? -0.5 : 0.0);
-}
-
 } // namespace
 
 openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
@@ -91,7 +82,7 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
         to.text("frames.options", optionsDigest(call));
     }
     addOptions(call, map);
-    addScene(call, to);
+    describeScene(call.scene, map);
     return map;
 }
 
@@ -129,21 +120,6 @@ LengthUnit printUnit(const Call& call)
 std::string stemOf(const std::string& path)
 {
     return path == "-" ? "surface" : std::filesystem::path(path).stem().string();
-}
-
-// Legends to offer; the one that was asked for is the first.
-std::vector<Legend> legendsOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
-                              const Progress& progress)
-{
-    const ColorBy asked = call.options.color;
-    std::vector<ColorBy> kinds = {asked};
-    for (const ColorKind& kind : colorTable())
-        if (kind.offered && kind.by != asked) kinds.push_back(kind.by);
-    std::vector<Legend> legends;
-    for (const ColorBy kind : kinds)
-        if (auto legend = legendOf(kind, atoms, mesh, progress))
-            legends.push_back(std::move(*legend));
-    return legends;
 }
 
 /// The copies of an assembly as nodes.
@@ -338,18 +314,14 @@ void writePage(const Writing& w, OutputFile& file)
 {
     const DrawOptions view = pictureOf(w.call, w.atoms, w.mesh, true, w.progress);
     HtmlPage page{displayName(inputStem(w.call.input)),
-                  legendsOf(w.call, w.atoms, w.mesh, w.progress),
+                  offeredLegends(w.call.options.color, w.atoms, w.mesh, w.progress),
                   w.call.picture.plain,
                   viewAxes(w.mesh, view),
                   view.instances,
                   w.call.colorsCopies(),
                   w.coarser};
-    if (w.atoms.names) {
-        constexpr double farthest = 30.0; // from a ball [Å]
-        page.names = &*w.atoms.names;
-        page.ballOf =
-            nearestBalls(placedBalls(w.call, w.atoms), w.mesh.positions, farthest, w.progress);
-    }
+    if (w.atoms.names)
+        nameAtoms(*w.atoms.names, placedBalls(w.call, w.atoms), w.mesh, w.progress, page);
     writeHtml(w.mesh, page, file);
 }
 

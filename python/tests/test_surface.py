@@ -2,13 +2,18 @@
 """What surfaces, areas, contacts, distances and comparisons are, against closed forms and searches through all atoms."""
 
 import gc
+import html
 import json
 import math
+import re
+import subprocess
 
 import numpy as np
 import pytest
 
 import vdb_molsurf as ms
+from conftest import DATA
+from test_commands import command
 
 ONE = np.array([[0.3, -0.2, 0.1]])
 
@@ -188,6 +193,38 @@ def test_report_and_files(ses, tmp_path):
     ses.picture(tmp_path / "a.png", 200)
     assert (tmp_path / "a.png").read_bytes()[:4] == b"\x89PNG"
     assert ms.compare(ses, tmp_path / "a.ply").hausdorff < 1e-3
+
+
+def test_a_vdb_is_placed_for_a_program(ses, tmp_path):
+    """The files are those of the command line, which has tests that open them in Blender."""
+    for name, scene, given in [("plain", None, []), ("blender", "blender", ["--for", "blender"]),
+                               ("houdini", "houdini=0.5", ["--for", "houdini=0.5"])]:
+        ses.to_vdb(tmp_path / f"{name}.vdb", scene=scene)
+        told = subprocess.run([command("vdb_molsurf"), "info", tmp_path / f"{name}.vdb"], capture_output=True, text=True,
+                              check=True).stdout
+        subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--surface", "ses", *given, "-o", tmp_path / "b.vdb",
+                        "--force", "-q"], check=True)
+        expected = subprocess.run([command("vdb_molsurf"), "info", tmp_path / "b.vdb"], capture_output=True, text=True,
+                                  check=True).stdout
+        placed = [(re.findall("scene.*", text), text[text.index("grid surface"):]) for text in (told, expected)]
+        assert len(placed[0][0]) == 5 and placed[0] == placed[1]
+
+
+def test_a_page_has_the_colours_and_names_of_the_atoms(crambin, tmp_path):
+    s = crambin.surface(kind="ses", voxel=1, color="chain")
+    s.save(tmp_path / "crambin.html")
+    page = (tmp_path / "crambin.html").read_text()
+    assert page.startswith("<!DOCTYPE html>") and "<title>crambin" in page and "TYR" in page
+    view = s.view(300)
+    shown = view._repr_html_()
+    assert "\n" not in repr(view)
+    inside = html.unescape(re.search('srcdoc="([^"]*)"', shown).group(1))
+    assert inside == view.html and "height: 300px" in shown and "allow-same-origin" not in shown
+    table = s._repr_html_()
+    assert f"{s.area:.2f}" in table and f"{len(s.faces)}" in table
+    points = ms.surface(ONE, 2.0, kind="vdw", voxel=0.5)
+    assert "TYR" not in points.view().html
+    points.picture(tmp_path / "a.png", 100)
 
 
 def test_comparisons_have_both_ways():

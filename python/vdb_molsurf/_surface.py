@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MPL-2.0
 """Surfaces, and what is known of balls in closed form."""
 
+import html
 import json
 import os
+import tempfile
 from typing import NamedTuple
 
 import numpy as np
@@ -266,15 +268,50 @@ class Surface:
         return Voxels(*self._core.voxels())
 
     def save(self, path, *, replace=True):
-        """Writes a file; its extension says what: that of a mesh (.ply, .obj, .stl, ...), .vdb, .json or .png."""
-        self._core.save(os.fspath(path), bool(replace), 1200)
+        """Writes a file; its extension says what: that of a mesh (.ply, .obj, .stl, ...), .vdb, .json, .png, or .html, a page."""
+        self._core.save(os.fspath(path), bool(replace), 1200, "")
+
+    def to_vdb(self, path, scene=None, *, replace=True):
+        """Writes the grids as a .vdb for "blender", "houdini" or "usd", perhaps with "=SCALE"; None: in Å, as they are."""
+        path = os.fspath(path)
+        if not path.endswith(".vdb"):
+            raise ValueError("to_vdb: expected a name that ends in .vdb")
+        self._core.save(path, bool(replace), 1200, "" if scene is None else str(scene))
+
+    def view(self, height=480):
+        """The page of save("name.html") as what a notebook shows: a surface to turn, with its colours and atoms."""
+        return Page(self, int(height))
+
+    def _repr_html_(self):
+        rows = [("kind", self.kind), ("area", f"{self.area:.2f} Å²"), ("volume", f"{self.volume:.2f} Å³"),
+                ("vertices", f"{len(self.vertices)}"), ("faces", f"{len(self.faces)}")]
+        return "<table>" + "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows) + "</table>"
 
     def picture(self, path, width=1200, *, replace=True):
         """Draws the surface into a .png of so many pixels."""
         path = os.fspath(path)
         if not path.endswith(".png"):
             raise ValueError("picture: expected a name that ends in .png")
-        self._core.save(path, bool(replace), int(width))
+        self._core.save(path, bool(replace), int(width), "")
+
+
+class Page:
+    """A surface that a notebook shows and that can be turned there: what Surface.view() makes."""
+
+    def __init__(self, surface, height):
+        self._height = height
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "surface.html")
+            surface.save(path)
+            with open(path, encoding="utf-8") as file:
+                self.html = file.read()
+
+    def __repr__(self):
+        return f"<Page: {len(self.html)} letters of HTML>"
+
+    def _repr_html_(self):
+        return (f'<iframe srcdoc="{html.escape(self.html)}" sandbox="allow-scripts allow-downloads" '
+                f'style="width: 100%; height: {self._height}px; border: 0"></iframe>')
 
 
 def _unpickled(state, made):

@@ -1,21 +1,43 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/files.h"
 
+#include "molsurf/color/legend.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/io/read_mesh.h"
+#include "molsurf/io/scene.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_report.h"
 #include "molsurf/io/write_vdb.h"
+#include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/draw_mesh.h"
+#include "molsurf/picture/write_html.h"
 #include "molsurf/picture/write_png.h"
 #include "molsurf/structure/detect_format.h"
+#include "molsurf/structure/text_fields.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
 namespace molsurf
 {
+
+namespace
+{
+
+DrawOptions drawn(int width)
+{
+    if (width < 16 || width > 16384)
+        throw Error(ErrorKind::Usage,
+                    "width: expected 16 to 16384 pixels, got " + std::to_string(width));
+    DrawOptions options;
+    options.width = width;
+    return options;
+}
+
+} // namespace
 
 std::vector<std::string> structureEndings()
 {
@@ -46,13 +68,21 @@ void writeMesh(const Mesh& mesh, const std::string& path, bool replace)
                 path + ": expected a name that ends in " + joinWords(meshEndings(), " or "));
 }
 
-void writeVdb(const MolecularSurface& surface, const std::string& path, bool replace)
+void writeVdb(const MolecularSurface& surface, const std::string& path, bool replace,
+              const std::string& scene)
 {
+    const std::optional<Scene> place = scene.empty() ? Scene() : parseScene(scene);
+    if (!place)
+        throw Error(ErrorKind::Usage, "scene: expected blender, houdini or usd, perhaps with "
+                                      "=SCALE, got " +
+                                          inQuotes(scene));
     openvdb::GridCPtrVec grids;
     if (surface.surface) grids.push_back(surface.surface);
     grids.insert(grids.end(), surface.fields.begin(), surface.fields.end());
+    openvdb::MetaMap metadata;
+    describeScene(*place, metadata);
     OutputFile file(path, replace);
-    writeVdb(grids, openvdb::MetaMap(), file);
+    writeVdb(place->known() ? placeInScene(grids, *place) : grids, metadata, file);
     file.commit();
 }
 
@@ -65,13 +95,34 @@ void writeReport(const Report& report, const std::string& path, bool replace)
 
 void writePicture(const Mesh& mesh, const std::string& path, int width, bool replace)
 {
-    if (width < 16 || width > 16384)
-        throw Error(ErrorKind::Usage,
-                    "width: expected 16 to 16384 pixels, got " + std::to_string(width));
-    DrawOptions options;
-    options.width = width;
     OutputFile file(path, replace);
-    writePng(drawMesh(mesh, options, Progress()), file);
+    writePng(drawMesh(mesh, drawn(width), Progress()), file);
+    file.commit();
+}
+
+void writePicture(const BallSet& atoms, const MolecularSurface& surface, ColorBy color,
+                  const std::string& path, int width, bool replace)
+{
+    const Progress nobody;
+    const Mesh& mesh = surface.mesh;
+    DrawOptions options = drawn(width);
+    for (const Ball& ball : atoms.balls) options.about.push_back(ball.center);
+    const std::filesystem::path name = path;
+    OutputFile file(path, replace);
+    if (name.extension() == ".html") {
+        HtmlPage page;
+        page.title = name.stem().string();
+        page.legends = offeredLegends(color, atoms, mesh, nobody);
+        page.axes = viewAxes(mesh, options);
+        if (atoms.names) nameAtoms(*atoms.names, atoms.balls, mesh, nobody, page);
+        writeHtml(mesh, page, file);
+    } else {
+        const auto legend = legendOf(color, atoms, mesh, nobody);
+        if (legend) options.width = std::max(width - legendWidth(*legend, width), width / 2);
+        Picture picture = drawMesh(mesh, options, nobody);
+        if (legend) picture = withLegend(picture, *legend, width, options.background);
+        writePng(picture, file);
+    }
     file.commit();
 }
 

@@ -31,8 +31,12 @@ void writeMesh(const Mesh& mesh, const std::string& path, bool replace = true);
 
 /// Writes the grids of a surface as an OpenVDB file, the level set first.
 /// @param[in] replace  whether a file that exists may be replaced
+/// @param[in] scene    "blender", "houdini" or "usd", perhaps with "=SCALE", places and scales them
+///                     for that program: docs/artists.md; empty: they lie as they are, in Å
+/// @throws Error(ErrorKind::Usage) if the scene is none of these
 /// @throws Error(ErrorKind::Output) if the file cannot be written
-void writeVdb(const MolecularSurface& surface, const std::string& path, bool replace = true);
+void writeVdb(const MolecularSurface& surface, const std::string& path, bool replace = true,
+              const std::string& scene = "");
 
 /// Writes a report as JSON.
 /// @param[in] replace  whether a file that exists may be replaced
@@ -45,6 +49,14 @@ void writeReport(const Report& report, const std::string& path, bool replace = t
 /// @throws Error(ErrorKind::Usage) if the width is out of its range
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writePicture(const Mesh& mesh, const std::string& path, int width = 1200, bool replace = true);
+
+/// Draws the surface of atoms with the legend of its colours, or, if the name ends in .html, writes
+/// a page that shows it in a browser and names its atoms.
+/// @param[in] color  what the colours of the mesh show
+/// @param[in] width  as above
+/// @throws as above
+void writePicture(const BallSet& atoms, const MolecularSurface& surface, ColorBy color,
+                  const std::string& path, int width = 1200, bool replace = true);
 
 /// Reads positions and triangles from a file in the format that the extension tells: .ply (text or
 /// binary, of either byte order), .obj, or .stl (text or binary). Polygons are split into fans.

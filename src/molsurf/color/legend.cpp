@@ -30,4 +30,17 @@ std::optional<Legend> legendOf(ColorBy by, const BallSet& atoms, const Mesh& mes
     return legend;
 }
 
+std::vector<Legend> offeredLegends(ColorBy asked, const BallSet& atoms, const Mesh& mesh,
+                                   const Progress& progress)
+{
+    std::vector<ColorBy> kinds = {asked};
+    for (const ColorKind& kind : colorTable())
+        if (kind.offered && kind.by != asked) kinds.push_back(kind.by);
+    std::vector<Legend> legends;
+    for (const ColorBy kind : kinds)
+        if (auto legend = legendOf(kind, atoms, mesh, progress))
+            legends.push_back(std::move(*legend));
+    return legends;
+}
+
 } // namespace molsurf

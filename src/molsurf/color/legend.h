@@ -43,4 +43,8 @@ struct Legend {
 std::optional<Legend> legendOf(ColorBy by, const BallSet& atoms, const Mesh& mesh,
                                const Progress& progress);
 
+/// Legends of all colours that a mesh offers; the one that it was asked for comes first.
+std::vector<Legend> offeredLegends(ColorBy asked, const BallSet& atoms, const Mesh& mesh,
+                                   const Progress& progress);
+
 } // namespace molsurf

@@ -105,4 +105,16 @@ openvdb::GridCPtrVec placeInScene(const openvdb::GridCPtrVec& grids, const Scene
     return out;
 }
 
+void describeScene(const Scene& scene, openvdb::MetaMap& metadata)
+{
+    const auto add = [&](const char* name, double value) {
+        metadata.insertMeta(name, openvdb::DoubleMetadata(value));
+    };
+    add("scene.center_x", scene.center[0]);
+    add("scene.center_y", scene.center[1]);
+    add("scene.center_z", scene.center[2]);
+    add("scene.units_per_angstrom", scene.scale);
+    add("scene.shift_in_voxels", scene.host == Host::Blender ? -0.5 : 0.0);
+}
+
 } // namespace molsurf

@@ -51,4 +51,7 @@ int lengthPower(const openvdb::GridBase& grid);
 ///                   float where the values have a unit
 openvdb::GridCPtrVec placeInScene(const openvdb::GridCPtrVec& grids, const Scene& scene);
 
+/// Adds to the metadata of a file how its grids lie in their scene, so that they can be read back.
+void describeScene(const Scene& scene, openvdb::MetaMap& metadata);
+
 } // namespace molsurf

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/picture/write_html.h"
 
+#include "molsurf/balls/nearest_ball.h"
 #include "molsurf/color/palette.h"
 
 #include "molsurf/error.h"
@@ -287,6 +288,14 @@ void needViewer()
     if (viewerScript == nullptr)
         throw Error(ErrorKind::Output,
                     "HTML: expected the viewer, got a program built without it (MOLSURF_VIEWER)");
+}
+
+void nameAtoms(const BallNames& names, const std::vector<Ball>& balls, const Mesh& mesh,
+               const Progress& progress, HtmlPage& page)
+{
+    constexpr double farthest = 30.0; // from a ball [Å]
+    page.names = &names;
+    page.ballOf = nearestBalls(balls, mesh.positions, farthest, progress);
 }
 
 void writeHtml(const Mesh& mesh, const HtmlPage& page, OutputFile& file)

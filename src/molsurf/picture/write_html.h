@@ -40,6 +40,11 @@ struct HtmlPage {
 /// @throws Error(ErrorKind::Output) if it was built without
 void needViewer();
 
+/// Lets a page name the atoms of a surface.
+/// @param[in] names  of the balls, kept by reference
+void nameAtoms(const BallNames& names, const std::vector<Ball>& balls, const Mesh& mesh,
+               const Progress& progress, HtmlPage& page);
+
 /// Writes a page of HTML with the mesh in it and a viewer (three.js, WebGL 2).
 ///
 /// The mesh is packed: positions by steps of 1/65535 of its largest extent, values of curvature in
