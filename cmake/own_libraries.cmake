@@ -3,6 +3,7 @@
 set(programs $<TARGET_FILE:vdb_molsurf> $<TARGET_FILE:vdb_molsurf_msms> $<TARGET_FILE:vdb_molsurf_nanoshaper>)
 install(CODE "set(programs ${programs})
   set(libraries_folder ${CMAKE_INSTALL_LIBDIR})
+  set(licences_script ${PROJECT_SOURCE_DIR}/scripts/licences.sh)
   set(licences \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/licenses/vdb_molsurf)")
 install(CODE [[
   file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${programs} RESOLVED_DEPENDENCIES_VAR libraries
@@ -10,8 +11,6 @@ install(CODE [[
   foreach(library IN LISTS libraries)
     file(INSTALL ${library} DESTINATION ${CMAKE_INSTALL_PREFIX}/${libraries_folder} TYPE SHARED_LIBRARY FOLLOW_SYMLINK_CHAIN)
     file(REAL_PATH ${library} library)
-    cmake_path(GET library FILENAME name)
-    execute_process(COMMAND dpkg-query -S "*/${name}" OUTPUT_VARIABLE package COMMAND_ERROR_IS_FATAL ANY)
-    string(REGEX REPLACE ":.*" "" package "${package}")
-    file(INSTALL /usr/share/doc/${package}/copyright DESTINATION ${licences} RENAME ${package})
-  endforeach()]])
+    list(APPEND files ${library})
+  endforeach()
+  execute_process(COMMAND ${licences_script} ${licences} ${files} COMMAND_ERROR_IS_FATAL ANY)]])
