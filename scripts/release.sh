@@ -5,8 +5,9 @@
 #     sources  the sources as .tar.gz; scripts/example.sh runs in them on a bare Debian 12
 #     debian   scripts/package.sh: Debian's packages, tried on a bare Debian 12
 #     tarball  the programs with their libraries, tried on a bare Debian 12 and 13
-#     wheel    scripts/wheel.sh: the wheel and the sdist of the Python module; the wheel is tried on a bare Debian 12, whose
-#              Python 3.11 it is for
+#     wheel    scripts/wheel.sh: the wheel and the sdist of the Python module, in python/; the wheel is tried on a bare
+#              Debian 12, whose Python 3.11 it is for. NEWER_PYTHON names a Python of 3.12 or newer: the wheel of that
+#              one is for all later ones, too, and is tried on a bare Debian 13, whose Python is 3.13
 # All goes to build-dist/, with SHA256SUMS and a log of each part. The version is that of CMakeLists.txt; the files that
 # repeat it have to agree. It needs what scripts/fresh_machine.sh needs, and an hour on 2 cores.
 set -euo pipefail
@@ -58,14 +59,24 @@ tarball() {
     "/opt/$prefix-linux-x86_64/bin/vdb_molsurf info /tmp/1crn.vdb"
 }
 
-wheel() {
-  scripts/wheel.sh "$PWD/$dist"
+# Tries the wheel of a Python on a bare system: try_wheel SUITE VERSION WHEEL
+try_wheel() {
   # What it needs of PyPI is downloaded here: the bare system knows no certificate of a proxy.
-  build-python/tools/bin/pip download -q -d $dist/pypi numpy pytest
-  bare bookworm "apt-get update -q && apt-get install -q -y --no-install-recommends python3-venv > /dev/null" \
-    "python3 -m venv /srv/env && /srv/env/bin/pip install -q --no-index --find-links /srv/shared/pypi /srv/shared/*.whl pytest" \
+  /usr/bin/python3 -m venv build-python/pip
+  build-python/pip/bin/pip download -q --python-version "$2" --only-binary=:all: -d "$dist/pypi" numpy pytest
+  bare "$1" "apt-get update -q && apt-get install -q -y --no-install-recommends python3-venv > /dev/null" \
+    "python3 -m venv /srv/env && /srv/env/bin/pip install -q --no-index --find-links /srv/shared/pypi /srv/shared/python/$3 pytest" \
     "cp -r python tests docs /srv/ && cd / && /srv/env/bin/python -m pytest -q -p no:cacheprovider /srv/python/tests" \
     "/srv/env/bin/vdb_molsurf tests/data/1crn.pdb -o /tmp/1crn.ply"
+}
+
+wheel() {
+  scripts/wheel.sh "$PWD/$dist/python"
+  try_wheel bookworm 3.11 '*-cp311-*.whl'
+  [[ -n ${NEWER_PYTHON:-} ]] || return 0
+  PYTHON=$NEWER_PYTHON scripts/wheel.sh "$PWD/$dist/newer"
+  mv $dist/newer/*.whl $dist/python/
+  try_wheel trixie 3.13 '*-abi3-*.whl'
 }
 
 parts=("$@")
@@ -88,7 +99,8 @@ for part in "${parts[@]}"; do
   [[ $status -eq 0 ]] || { tail -n 20 "$dist/$part.log" >&2; echo "release.sh: $part failed, see $dist/$part.log" >&2; exit 1; }
   table+=("$(printf '%-8s %3d:%02d' "$part" $(((SECONDS - began) / 60)) $(((SECONDS - began) % 60)))")
 done
-(cd $dist && sha256sum ./*.tar.gz ./*.deb ./*.whl 2> /dev/null > SHA256SUMS || true)
+(cd $dist && find . -maxdepth 2 \( -name 'vdb*.tar.gz' -o -name '*.deb' -o -name 'vdb*.whl' \) ! -path './newer/*' -print0 |
+  sort -z | xargs -0 sha256sum > SHA256SUMS)
 printf '\npart     minutes\n'
 printf '%s\n' "${table[@]}"
 (cd $dist && sha256sum --check --quiet SHA256SUMS && cat SHA256SUMS)
