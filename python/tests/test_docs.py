@@ -3,12 +3,20 @@
 
 import importlib.util
 import re
+import runpy
 
 import pytest
 
 from conftest import ROOT
 
 PAGE = (ROOT / "docs" / "python.md").read_text()
+
+
+def test_the_page_of_names_is_that_which_the_script_makes(capsys):
+    for needs in ("MDAnalysis", "mdtraj", "Bio"):
+        pytest.importorskip(needs)
+    runpy.run_path(str(ROOT / "python" / "api_page.py"), run_name="__main__")
+    assert (ROOT / "docs" / "python_api.md").read_text() == capsys.readouterr().out
 
 
 def test_the_examples_run(tmp_path, monkeypatch, capsys):

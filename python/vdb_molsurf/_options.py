@@ -93,18 +93,25 @@ def of_file(color, known):
     return "=" in word or (word in KEYWORDS["color"]["words"] and word not in known)
 
 
+def sentence(row):
+    """What a setting does, the words it may be, and its range."""
+    text = " ".join(row["text"].split()).replace("a name of `list_radii`", SETS)
+    words = "" if row["type"] != "word" or not row["words"] else f" One of {', '.join(row['words'])}."
+    bounds = f"{row['low']:.10g} to {row['high']:.10g}" if row["low"] == row["low"] else ""
+    return f"{text[:1].upper()}{text[1:]}.{words}" + (f" From {bounds}." if bounds not in text else "")
+
+
+def rows_of(where):
+    """Names and settings of the keywords of read() or surface()."""
+    return [(name, row) for name, row in KEYWORDS.items() if (where == "read") == row["of_atoms"] or name == "color"]
+
+
 def documented(where):
     """The keywords as paragraphs of a docstring."""
     lines = []
-    for name, row in KEYWORDS.items():
-        if (where == "read") != row["of_atoms"] and name != "color":
-            continue
-        text = " ".join(row["text"].split()).replace("a name of `list_radii`", SETS)
-        words = "" if row["type"] != "word" or not row["words"] else f" One of {', '.join(row['words'])}."
-        low, high = row["low"], row["high"]
-        bounds = f" From {low:.10g} to {high:.10g}." if low == low else ""
+    for name, row in rows_of(where):
         preset = f" Default: {row['preset']}." if row["preset"] else ""
-        lines.append(f"    {name}: {TYPES[row['type']]}\n        {text[:1].upper()}{text[1:]}.{words}{bounds}{preset}")
+        lines.append(f"    {name}: {TYPES[row['type']]}\n        {sentence(row)}{preset}")
     extra = {"groups": GROUPS} if where == "read" else MORE
     for name, (kind, preset, text) in extra.items():
         lines.append(f"    {name}: {kind}\n        {text[:1].upper()}{text[1:]}. Default: {preset}.")
