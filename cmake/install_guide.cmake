@@ -34,7 +34,7 @@ foreach(page README.md ${guides})
 endforeach()
 
 file(COPY ${SOURCE}/LICENSE DESTINATION ${TO})
-file(COPY ${SOURCE}/docs/pictures DESTINATION ${TO}/docs)
+file(COPY ${SOURCE}/docs/pictures ${SOURCE}/docs/tutorial.ipynb DESTINATION ${TO}/docs)
 file(COPY ${SOURCE}/scripts/blender ${SOURCE}/scripts/houdini ${SOURCE}/scripts/pymol ${SOURCE}/scripts/workflow DESTINATION ${TO}/scripts
      PATTERN __pycache__ EXCLUDE)
 file(COPY ${SOURCE}/tests/data DESTINATION ${TO}/tests)
