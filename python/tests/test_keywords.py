@@ -77,7 +77,7 @@ def test_docstrings_tell_every_keyword():
     for name, row in _options.KEYWORDS.items():
         text = (ms.read if row["of_atoms"] else ms.surface).__doc__
         assert f"\n    {name}: " in text, name
-    assert "From 0.05 to 10." in ms.surface.__doc__
+    assert "From 0.1 to 100." in ms.surface.__doc__ and "[Å], 0.05 to 10. Default" in ms.surface.__doc__
 
 
 def test_every_keyword_is_taken(crambin):

@@ -195,19 +195,21 @@ def test_report_and_files(ses, tmp_path):
     assert ms.compare(ses, tmp_path / "a.ply").hausdorff < 1e-3
 
 
-def test_a_vdb_is_placed_for_a_program(ses, tmp_path):
+def test_a_vdb_is_placed_for_a_program(crambin, tmp_path):
     """The files are those of the command line, which has tests that open them in Blender."""
     for name, scene, given in [("plain", None, []), ("blender", "blender", ["--for", "blender"]),
                                ("houdini", "houdini=0.5", ["--for", "houdini=0.5"])]:
-        ses.to_vdb(tmp_path / f"{name}.vdb", scene=scene)
+        crambin.surface(kind="ses", voxel=1).to_vdb(tmp_path / f"{name}.vdb", scene=scene)
         told = subprocess.run([command("vdb_molsurf"), "info", tmp_path / f"{name}.vdb"], capture_output=True, text=True,
                               check=True).stdout
-        subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--surface", "ses", *given, "-o", tmp_path / "b.vdb",
+        subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--surface", "ses", "--voxel", "1", *given, "-o", tmp_path / "b.vdb",
                         "--force", "-q"], check=True)
         expected = subprocess.run([command("vdb_molsurf"), "info", tmp_path / "b.vdb"], capture_output=True, text=True,
                                   check=True).stdout
-        placed = [(re.findall("scene.*", text), text[text.index("grid surface"):]) for text in (told, expected)]
-        assert len(placed[0][0]) == 5 and placed[0] == placed[1]
+        surfaces = [re.search("  grid surface\n(?:    .*\n)*", text)[0] for text in (told, expected)]
+        placed = [re.findall("scene.*", text) + re.findall("(?:transform|voxel size|background|active|bounding|area|volume) .*", own)
+                  for text, own in zip((told, expected), surfaces)]
+        assert len(placed[0]) == 13 and placed[0] == placed[1]
 
 
 def test_a_page_has_the_colours_and_names_of_the_atoms(crambin, tmp_path):

@@ -272,7 +272,10 @@ class Surface:
         self._core.save(os.fspath(path), bool(replace), 1200, "")
 
     def to_vdb(self, path, scene=None, *, replace=True):
-        """Writes the grids as a .vdb for "blender", "houdini" or "usd", perhaps with "=SCALE"; None: in Å, as they are."""
+        """Writes the grids as a .vdb for "blender", "houdini" or "usd", perhaps with "=SCALE"; None: in Å, as they are.
+
+        They are the level set and those of `fields`: Blender shows a fog, which is fields="density".
+        """
         path = os.fspath(path)
         if not path.endswith(".vdb"):
             raise ValueError("to_vdb: expected a name that ends in .vdb")
