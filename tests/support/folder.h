@@ -44,6 +44,7 @@ private:
     std::filesystem::path path_;
 };
 
+/// The content of a file.
 inline std::string contentOf(const std::string& path)
 {
     std::ifstream file(path, std::ios_base::binary);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "molsurf/error.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -60,13 +61,6 @@ std::string errorOf(ErrorKind kind, Call call)
 inline std::string dataFile(const std::string& name)
 {
     return std::string(MOLSURF_TEST_DATA) + "/" + name;
-}
-
-/// The content of a file.
-inline std::string contentOf(const std::string& path)
-{
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 #define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)

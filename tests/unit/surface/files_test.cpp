@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/files.h"
+
+#include "molsurf/surface.h"
+#include "support/folder.h"
+#include "unit/structure/temp_file.h"
+
+#include <openvdb/io/File.h>
+
+namespace molsurf::test
+{
+namespace
+{
+
+/// Crambin, coloured by element.
+struct Colored {
+    BallSet atoms = readAtoms(dataFile("1crn.pdb"));
+    SurfaceOptions options = [] {
+        SurfaceOptions o;
+        o.kind = SurfaceKind::SolventExcluded;
+        o.voxel = 1.0;
+        o.color = ColorBy::Element;
+        return o;
+    }();
+    MolecularSurface surface = makeSurface(atoms, options);
+};
+
+/// The level set of a file, and the units per Å that the file tells.
+std::pair<openvdb::FloatGrid::Ptr, double> levelSetIn(const std::string& path)
+{
+    openvdb::initialize();
+    openvdb::io::File file(path);
+    file.open();
+    return {openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("surface")),
+            file.getMetadata()->metaValue<double>("scene.units_per_angstrom")};
+}
+
+TEST(Files, PlaceALevelSetInAScene)
+{
+    const Colored made;
+    const Folder folder;
+    writeVdb(made.surface, folder / "a.vdb");
+    writeVdb(made.surface, folder / "b.vdb", true, "blender=0.5");
+    const auto [plain, one] = levelSetIn(folder / "a.vdb");
+    const auto [placed, half] = levelSetIn(folder / "b.vdb");
+    EXPECT_EQ(one, 1.0);
+    EXPECT_EQ(half, 0.5);
+    EXPECT_EQ(plain->activeVoxelCount(), placed->activeVoxelCount());
+    const openvdb::Coord voxel(3, 4, 5);
+    const openvdb::Vec3d at = placed->indexToWorld(voxel);
+    EXPECT_LT((at - (0.5 * plain->indexToWorld(voxel) - openvdb::Vec3d(0.25))).length(), 1e-12);
+    EXPECT_FLOAT_EQ(placed->tree().getValue(voxel), 0.5f * plain->tree().getValue(voxel));
+    EXPECT_HAS(
+        errorOf(ErrorKind::Usage, [&] { writeVdb(made.surface, folder / "c.vdb", true, "maya"); }),
+        "expected blender, houdini or usd");
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.vdb", "b.vdb"}));
+}
+
+TEST(Files, DrawASurfaceWithItsLegend)
+{
+    const Colored made;
+    const Folder folder;
+    writePicture(made.atoms, made.surface, ColorBy::Element, folder / "legend.png", 200);
+    writePicture(made.surface.mesh, folder / "bare.png", 200);
+    const std::string legend = contentOf(folder / "legend.png");
+    const std::string bare = contentOf(folder / "bare.png");
+    EXPECT_EQ(legend.substr(1, 3), "PNG");
+    EXPECT_EQ(legend.substr(16, 4), bare.substr(16, 4)); // the width
+    EXPECT_NE(legend, bare);
+    EXPECT_HAS(errorOf(ErrorKind::Usage,
+                       [&] {
+                           writePicture(made.atoms, made.surface, ColorBy::Element,
+                                        folder / "small.png", 15);
+                       }),
+               "width: expected 16 to 16384 pixels, got 15");
+}
+
+#ifndef MOLSURF_NO_VIEWER
+TEST(Files, WriteAPageThatNamesTheAtoms)
+{
+    const Colored made;
+    const Folder folder;
+    writePicture(made.atoms, made.surface, ColorBy::Element, folder / "crambin.html");
+    const std::string page = contentOf(folder / "crambin.html");
+    EXPECT_HAS(page, "<title>crambin");
+    EXPECT_HAS(page, "TYR");
+    EXPECT_HAS(page, "Element");
+    BallSet nameless = made.atoms;
+    nameless.names.reset();
+    writePicture(nameless, made.surface, ColorBy::Element, folder / "crambin.html");
+    EXPECT_EQ(contentOf(folder / "crambin.html").find("TYR"), std::string::npos);
+}
+#endif
+
+} // namespace
+} // namespace molsurf::test
