@@ -162,9 +162,10 @@ private:
 MOLSURF_MEMBERS(ResolutionRule, v.select, v.resolution)
 MOLSURF_MEMBERS(ResolutionGroup, v.rule, v.balls, v.level)
 MOLSURF_MEMBERS(Excluded, v.reason, v.count)
-MOLSURF_MEMBERS(Instance, v.prototype, v.name, v.rotation, v.translation)
-MOLSURF_MEMBERS(SymmetricUnit, v.pointGroup, v.centre, v.copies, v.balls, v.deviation, v.motionOf,
-                v.product, v.inverse)
+MOLSURF_MEMBERS(Instance, v.part, v.name, v.rotation, v.translation)
+MOLSURF_MEMBERS(Placement::Unit, v.pointGroup, v.centre, v.copies, v.deviation, v.product,
+                v.inverse)
+MOLSURF_MEMBERS(Placement, v.copies, v.begin, v.numbers, v.instances, v.unit, v.around, v.motionOf)
 MOLSURF_MEMBERS(Group, v.name, v.balls, v.color)
 MOLSURF_MEMBERS(BallValues, v.name, v.title, v.unit, v.palette, v.low, v.high, v.centre, v.valueOf,
                 v.flat)
@@ -175,9 +176,9 @@ MOLSURF_MEMBERS(BallNames::Residue, v.chain, v.labelChain, v.name, v.number, v.i
                 v.hetatm)
 MOLSURF_MEMBERS(BallNames::Atom, v.name, v.altloc, v.element, v.occupancy)
 MOLSURF_MEMBERS(BallNames, v.residues, v.residueOf, v.atoms)
-MOLSURF_MEMBERS(BallSet, v.balls, v.decays, v.resolutions, v.resolutionOf, v.drops, v.copies,
-                v.copyBegin, v.copyNumbers, v.instances, v.unit, v.beads, v.beadAtoms, v.labels,
-                v.names, v.colors, v.coloring, v.radii, v.model, v.warnings)
+MOLSURF_MEMBERS(BallSet, v.balls, v.decays, v.resolutions, v.resolutionOf, v.drops, v.placement,
+                v.beads, v.beadAtoms, v.labels, v.names, v.colors, v.coloring, v.radii, v.model,
+                v.warnings)
 MOLSURF_MEMBERS(Attribute<float>, v.name, v.values)
 MOLSURF_MEMBERS(Attribute<std::int32_t>, v.name, v.values)
 MOLSURF_MEMBERS(MeshPart, v.name, v.firstTriangle)

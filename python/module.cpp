@@ -464,7 +464,7 @@ void addMolecule(nb::module_& m)
                          for (std::string& warning : all) warning = withKeywords(warning);
                          return all;
                      })
-        .def_prop_ro("copies", [](const Molecule& v) { return v.atoms->copies; })
+        .def_prop_ro("copies", [](const Molecule& v) { return v.atoms->placement.copies; })
         .def_prop_ro("groups",
                      [](const Molecule& v) {
                          std::vector<std::string> all;

@@ -46,9 +46,9 @@ void completeReport(const Call& call, const BallSet& balls, const Report& read, 
 {
     beginReport(call, report);
     report.voxel = call.options.grid ? call.options.voxel : 0.0;
-    for (const Instance& instance : balls.instances) {
+    for (const Instance& instance : balls.placement.instances) {
         InstanceReport& copy = report.instances.emplace_back();
-        copy.part = instance.prototype;
+        copy.part = instance.part;
         copy.name = instance.name;
         for (std::size_t row = 0; row < 3; ++row) {
             const auto& r = instance.rotation[row];
@@ -166,7 +166,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     }
     call.options.meshLabels = call.writes(Triangles | PlainColor);
     call.options.energy = call.writes(Numbers);
-    if (balls.instances.size() > 0 && balls.copies > 1) call.options.split = true;
+    if (balls.placement.prototypes() > 1) call.options.split = true;
     MolecularSurface result;
     try {
         result = makeSurface(balls, call.options, &terminal, warm);

@@ -131,10 +131,9 @@ std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, co
     const std::vector<Color> colors =
         colored ? instanceColors(atoms, progress) : std::vector<Color>();
     std::vector<MeshInstance> out;
-    for (std::size_t i = 0; i < atoms.instances.size(); ++i) {
-        const Instance& copy = atoms.instances[i];
-        out.push_back({copy.prototype,
-                       "copy " + (copy.name.empty() ? std::to_string(i + 1) : copy.name),
+    for (std::size_t i = 0; i < atoms.placement.instances.size(); ++i) {
+        const Instance& copy = atoms.placement.instances[i];
+        out.push_back({copy.part, "copy " + (copy.name.empty() ? std::to_string(i + 1) : copy.name),
                        copy.rotation, copy.translation, colors.empty() ? plain : colors[i]});
     }
     return out;
@@ -184,13 +183,13 @@ DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, 
 {
     DrawOptions options = call.picture;
     options.instances = instancesOf(call, atoms, mesh, coloredCopies, progress);
-    if (atoms.instances.empty()) {
+    if (atoms.placement.isWhole()) {
         for (const Ball& ball : atoms.balls) options.about.emplace_back(ball.center);
         return options;
     }
     constexpr std::size_t enough = 300; // balls of a prototype
     for (const MeshInstance& copy : options.instances) {
-        const std::size_t begin = atoms.copyBegin[copy.part], end = atoms.copyBegin[copy.part + 1];
+        const auto [begin, end] = atoms.prototype(copy.part);
         for (std::size_t i = begin; i < end; i += 1 + (end - begin) / enough)
             options.about.push_back(copy.placed(openvdb::Vec3d(atoms.balls[i].center)));
     }
@@ -295,7 +294,7 @@ void writeGrids(const Writing& w, OutputFile& file)
 
 void writeStage(const Writing& w, OutputFile& file)
 {
-    if (w.output.beside.empty() && !w.atoms.instances.empty())
+    if (w.output.beside.empty() && !w.atoms.placement.isWhole())
         writeUsdaInstances(
             w.mesh, {stemOf(w.output.path), w.call.scene.scale, instancesOf(w), w.coarser}, file);
     else
@@ -451,7 +450,7 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
 {
     const Mesh& mesh = shown.crisp && isCrisp(call, output) ? *shown.crisp : result.mesh;
     std::optional<Mesh> whole;
-    if (atoms.unit && output.holds(Triangles))
+    if (atoms.placement.unit && output.holds(Triangles))
         whole = wholeMesh(
             atoms, result, mesh, call.weld,
             call.colorsCopies() ? instanceColors(atoms, progress) : std::vector<Color>(), progress);

@@ -231,7 +231,7 @@ struct SelectOptions {
     bool instances = false; ///< whether the balls are those of each prototype of the assembly once,
                             ///< in the coordinates of the file
     /// Whether the balls are those of a unit, of which the rotations of the assembly make the
-    /// whole, and those around it, as BallSet::unit says. Not beside `instances` and `copies`.
+    /// whole, and those around it, as Placement::unit says. Not beside `instances` and `copies`.
     bool bySymmetry = false;
     double surroundings = 20.0; ///< how far around a unit the balls lie [Å], see surroundingsOf()
     bool labels = true; ///< whether the balls are labelled even if there are neither groups nor
@@ -261,23 +261,60 @@ struct ResolutionGroup {
 /// A copy of a prototype, that is of balls that an assembly moves together: x -> rotation x +
 /// translation.
 struct Instance {
-    std::size_t prototype = 0;                     ///< its index
+    std::size_t part = 0;                          ///< index of the prototype
     std::string name;                              ///< of the operator
     std::array<std::array<double, 3>, 3> rotation; ///< rows
     openvdb::Vec3d translation;                    ///< [Å]
+
+    openvdb::Vec3d turned(const openvdb::Vec3d& x) const
+    {
+        const auto& r = rotation;
+        return {r[0][0] * x[0] + r[0][1] * x[1] + r[0][2] * x[2],
+                r[1][0] * x[0] + r[1][1] * x[1] + r[1][2] * x[2],
+                r[2][0] * x[0] + r[2][1] * x[1] + r[2][2] * x[2]};
+    }
+    openvdb::Vec3d placed(const openvdb::Vec3d& x) const { return turned(x) + translation; }
 };
 
-/// A unit of an assembly, of which rotations about a point make the whole: the motions of
-/// BallSet::instances, of which the first is the identity. They are a group.
-struct SymmetricUnit {
-    std::string pointGroup; ///< Schoenflies: "C5", "D3", "T", "O", "I"; "" if other
-    openvdb::Vec3d centre;  ///< the point [Å]
-    std::size_t copies = 0; ///< copies of the assembly in the unit
-    std::size_t balls = 0;  ///< balls of the unit; they come first
-    double deviation = 0.0; ///< largest distance of a copy from where a motion brings it [Å]
-    std::vector<std::int32_t> motionOf; ///< of each ball: the motion that made it; 0: the unit's
-    std::vector<std::vector<std::size_t>> product; ///< motion k after motion l is product[k][l]
-    std::vector<std::size_t> inverse;              ///< of each motion
+/// How the balls of a set stand for a whole. There are four ways: the balls of a file, or of all
+/// copies of an assembly, are the whole themselves; prototypes have a surface each, and instances
+/// repeat it; and rotations repeat a unit, whose neighbours are among the balls.
+struct Placement {
+    /// A unit of an assembly, of which rotations about a point make the whole: the motions of
+    /// `instances`, of which the first is the identity. They are a group.
+    struct Unit {
+        std::string pointGroup; ///< Schoenflies: "C5", "D3", "T", "O", "I"; "" if other
+        openvdb::Vec3d centre;  ///< the point [Å]
+        std::size_t copies = 0; ///< copies of the assembly in the unit
+        double deviation = 0.0; ///< largest distance of a copy from where a motion brings it [Å]
+        std::vector<std::vector<std::size_t>> product; ///< motion k after motion l is product[k][l]
+        std::vector<std::size_t> inverse;              ///< of each motion
+    };
+
+    std::size_t copies = 1; ///< copies that the assembly makes; its prototypes, if instances repeat
+                            ///< them; 1 without an assembly
+    std::vector<std::size_t> begin;     ///< copy or prototype i is balls [begin[i], begin[i + 1])
+    std::vector<int> numbers;           ///< of copy i in the whole assembly, from 1
+    std::vector<Instance> instances;    ///< that make the whole; empty: the balls are the whole
+    std::optional<Unit> unit;           ///< if the instances are its rotations
+    std::size_t around = 0;             ///< balls around a unit; they come last
+    std::vector<std::int32_t> motionOf; ///< of each ball of a unit and around it: the motion that
+                                        ///< made it; 0: the unit's
+
+    /// Tells whether the balls are the whole themselves.
+    bool isWhole() const { return instances.empty(); }
+
+    /// Tells whether a ball belongs to what the surface is of; -1 is that of a point without one.
+    bool owns(std::int32_t ball) const
+    {
+        return motionOf.empty() || (ball >= 0 && motionOf[std::size_t(ball)] == 0);
+    }
+
+    /// Returns how many prototypes have surfaces of their own.
+    std::size_t prototypes() const { return isWhole() ? 1 : copies; }
+
+    /// Returns how often the whole has each ball that a surface is of.
+    std::size_t order() const { return unit ? instances.size() : 1; }
 };
 
 /// Balls with their labels, and a record of how they were chosen.
@@ -287,17 +324,12 @@ struct BallSet {
     std::vector<ResolutionGroup> resolutions; ///< one for each rule, in their order
     std::vector<std::int32_t> resolutionOf;   ///< index of each ball's rule, or -1; empty if there
                                               ///< are no rules
-    std::vector<Excluded> drops; ///< atoms left out of the model, before the assembly is made
-    std::size_t copies = 1;      ///< copies that the assembly makes; 1 without an assembly
-    std::vector<std::size_t> copyBegin; ///< copy i is balls [copyBegin[i], copyBegin[i + 1])
-    std::vector<int> copyNumbers;       ///< number of copy i in the whole assembly, from 1
-    std::vector<Instance> instances;    ///< the copies of the prototypes, which copyBegin then
-                                        ///< tells apart, or those of the unit; else empty
-    std::optional<SymmetricUnit> unit;  ///< if the balls are those of one and around it
-    std::size_t beads = 0;              ///< balls that coarse rules made
-    std::size_t beadAtoms = 0;          ///< atoms that these balls stand for
-    std::optional<BallLabels> labels;   ///< present unless they were not asked for
-    std::optional<BallNames> names;     ///< the same
+    std::vector<Excluded> drops;      ///< atoms left out of the model, before the assembly is made
+    Placement placement;              ///< how the balls stand for the whole
+    std::size_t beads = 0;            ///< balls that coarse rules made
+    std::size_t beadAtoms = 0;        ///< atoms that these balls stand for
+    std::optional<BallLabels> labels; ///< present unless they were not asked for
+    std::optional<BallNames> names;   ///< the same
     std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue (sRGB), one a ball; empty
                                                      ///< if the caller chose none
     SelectOptions::Coloring coloring;                ///< as SelectOptions::coloring
@@ -308,10 +340,17 @@ struct BallSet {
 
     /// Returns the number of balls that the surface is of, which are the first ones: without those
     /// around a unit.
-    std::size_t own() const { return unit ? unit->balls : balls.size(); }
+    std::size_t own() const { return balls.size() - placement.around; }
+
+    /// Returns the first ball of a prototype and that behind its last, if the whole has any.
+    std::pair<std::size_t, std::size_t> prototype(std::size_t p) const
+    {
+        if (placement.prototypes() == 1) return {0, own()};
+        return {placement.begin[p], placement.begin[p + 1]};
+    }
 
     /// Returns the number of balls of the whole that a unit stands for, or of these.
-    std::size_t whole() const { return unit ? unit->balls * instances.size() : balls.size(); }
+    std::size_t whole() const { return own() * placement.order(); }
 };
 
 /// Checks the options.

@@ -21,7 +21,7 @@
 namespace molsurf
 {
 
-/// A vertex on the border of a symmetric unit (BallSet::unit): in unit k it is the vertex `other`
+/// A vertex on the border of a symmetric unit (Placement::unit): in unit k it is the vertex `other`
 /// of the unit that motion k after `motion` makes.
 struct SharedVertex {
     std::uint32_t vertex;

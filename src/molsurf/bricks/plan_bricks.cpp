@@ -282,8 +282,7 @@ public:
         : options_(options), influence_(influence), grain_(grain), atoms_(atoms.balls.size()),
           occupancy_(occupancyOf(atoms.balls, grain, influence.ofSurface(), most, progress)),
           weight_(occupancy_.sample.every),
-          excluded_(isClosedForm(options) && offsetOf(options) > 0.0 && !options.fillCavities &&
-                    !atoms.unit)
+          excluded_(isMeasured(atoms, options) && offsetOf(options) > 0.0)
     {
     }
 

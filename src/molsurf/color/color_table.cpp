@@ -135,7 +135,7 @@ void foldClasses(const BallSet& atoms, Legend& legend)
     for (const LegendEntry& entry : legend.entries)
         if (entry.name.rfind(word, 0) != 0) return;
     const std::size_t chains =
-        atoms.labels->chains.size() * std::max<std::size_t>(atoms.instances.size(), 1);
+        atoms.labels->chains.size() * std::max<std::size_t>(atoms.placement.instances.size(), 1);
     const std::size_t classes = legend.entries.size();
     if (chains <= classes) return;
     legend.title = std::to_string(chains) + " chains in " + counted(classes, "class", "classes");

@@ -113,26 +113,22 @@ void checkColors(const BallSet& atoms, ColorBy by)
 
 std::vector<Color> instanceColors(const BallSet& atoms, const Progress& progress)
 {
-    if (atoms.instances.empty()) return {}; // a stored surface has no prototypes either
     struct Prototype {
         openvdb::Vec3d middle;
         double radius;
     };
     std::vector<Prototype> prototypes;
-    for (std::size_t p = 0; p < atoms.copies; ++p) {
+    for (std::size_t p = 0; p < atoms.placement.prototypes(); ++p) {
         openvdb::BBoxd box;
-        for (std::size_t i = atoms.copyBegin[p]; i < atoms.copyBegin[p + 1]; ++i)
-            box.expand(openvdb::Vec3d(atoms.balls[i].center));
+        const auto [begin, end] = atoms.prototype(p);
+        for (std::size_t i = begin; i < end; ++i) box.expand(openvdb::Vec3d(atoms.balls[i].center));
         prototypes.push_back({box.getCenter(), 0.35 * box.extents().length()});
     }
     std::vector<Ball> middles; // of copies, as balls that touch where copies are near
-    for (const Instance& copy : atoms.instances) {
-        const auto& [middle, radius] = prototypes[copy.prototype];
-        openvdb::Vec3d x = copy.translation;
-        for (int row = 0; row < 3; ++row)
-            for (int column = 0; column < 3; ++column)
-                x[row] += copy.rotation[std::size_t(row)][std::size_t(column)] * middle[column];
-        middles.push_back({openvdb::Vec3f(x), float(radius), std::int32_t(middles.size())});
+    for (const Instance& copy : atoms.placement.instances) {
+        const auto& [middle, radius] = prototypes[copy.part];
+        middles.push_back(
+            {openvdb::Vec3f(copy.placed(middle)), float(radius), std::int32_t(middles.size())});
     }
     std::vector<std::int32_t> own(middles.size());
     std::iota(own.begin(), own.end(), 0);

@@ -47,8 +47,8 @@ std::vector<std::string> colorWarnings(const BallSet& atoms, ColorBy by);
 /// The colours of the chains themselves, as ballColors() gives them.
 std::vector<Color> chainColors(const BallSet& atoms, const Progress& progress);
 
-/// The colours of the copies of an assembly, BallSet::instances, by distinctColors() of those whose
-/// middles are near.
+/// The colours of the copies of an assembly, Placement::instances, by distinctColors() of those
+/// whose middles are near.
 std::vector<Color> instanceColors(const BallSet& atoms, const Progress& progress);
 
 /// The colours of the groups themselves, as ballColors() gives them.

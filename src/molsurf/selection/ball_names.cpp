@@ -6,17 +6,17 @@
 namespace molsurf
 {
 
-BallNames ballNames(const Structure& structure, const std::vector<Ball>& balls,
-                    const std::vector<std::size_t>& copyBegin, const std::vector<int>& copyNumbers)
+BallNames ballNames(const Structure& structure, const BallSet& atoms)
 {
     BallNames out;
-    out.residueOf.reserve(balls.size());
-    out.atoms.reserve(balls.size());
-    for (std::size_t c = 0; c + 1 < copyBegin.size(); ++c) {
-        const std::string suffix = copyNumbers[c] == 1 ? "" : "-" + std::to_string(copyNumbers[c]);
+    out.residueOf.reserve(atoms.balls.size());
+    out.atoms.reserve(atoms.balls.size());
+    const Placement& placement = atoms.placement;
+    for (std::size_t c = 0; c < placement.numbers.size(); ++c) {
+        const std::string suffix = chainSuffix(placement.numbers[c]);
         std::map<std::int32_t, std::int32_t> known; // of this copy, by their place in the file
-        for (std::size_t i = copyBegin[c]; i < copyBegin[c + 1]; ++i) {
-            const Atom& atom = structure.atoms[std::size_t(balls[i].atom)];
+        for (std::size_t i = placement.begin[c]; i < placement.begin[c + 1]; ++i) {
+            const Atom& atom = structure.atoms[std::size_t(atoms.balls[i].atom)];
             const auto [place, isNew] =
                 known.emplace(atom.residue, std::int32_t(out.residues.size()));
             if (isNew) {

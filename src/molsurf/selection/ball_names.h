@@ -15,13 +15,17 @@
 namespace molsurf
 {
 
+/// What is added to the name of a chain in a copy: "" or "-2".
+inline std::string chainSuffix(int copy)
+{
+    return copy == 1 ? "" : "-" + std::to_string(copy);
+}
+
 /// Names balls by their atoms. Residues of different copies are different ones; the chains of copy
 /// 2 end in "-2", as those of BallLabels::chains.
 ///
-/// @param[in] balls        copy i is balls [copyBegin[i], copyBegin[i + 1])
-/// @param[in] copyNumbers  number of each copy
-BallNames ballNames(const Structure& structure, const std::vector<Ball>& balls,
-                    const std::vector<std::size_t>& copyBegin, const std::vector<int>& copyNumbers);
+/// @param[in] atoms  balls and placement
+BallNames ballNames(const Structure& structure, const BallSet& atoms);
 
 /// The name of the amino acid that a residue is a form of: HIS for the protonation states of force
 /// fields HID, HIE, HIP, HSD, HSE and HSP; CYS for CYX and CYM; ASP for ASH, GLU for GLH, LYS for

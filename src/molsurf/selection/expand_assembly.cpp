@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <unordered_set>
 #include <utility>
 
 namespace molsurf
@@ -17,10 +18,9 @@ namespace molsurf
 namespace
 {
 
-[[noreturn]] void fail(const Structure& structure, const std::string& name, const std::string& what)
+std::string titleOf(const Structure& structure, const std::string& name)
 {
-    throw Error(ErrorKind::Input,
-                displayName(structure.source) + ": assembly " + inQuotes(name) + ": " + what);
+    return displayName(structure.source) + ": assembly " + inQuotes(name) + ": ";
 }
 
 const Assembly& findAssembly(const Structure& structure, const std::string& name)
@@ -30,11 +30,11 @@ const Assembly& findAssembly(const Structure& structure, const std::string& name
         names.push_back(assembly.name);
         if (assembly.name != name) continue;
         if (assembly.problem.empty()) return assembly;
-        fail(structure, name, assembly.problem);
+        throw Error(ErrorKind::Input, titleOf(structure, name) + assembly.problem);
     }
-    fail(structure, name,
-         "expected " +
-             (names.empty() ? "none: the file describes no assembly" : "one of " + joined(names)));
+    throw Error(ErrorKind::Input, titleOf(structure, name) + "expected " +
+                                      (names.empty() ? "none: the file describes no assembly"
+                                                     : "one of " + joined(names)));
 }
 
 /// The balls whose chains a part of an assembly lists.
@@ -97,14 +97,9 @@ MotionKey keyOf(const Operator& op)
 
 void appendCopy(const Operator& op, const std::vector<Ball>& balls, std::vector<Ball>& out)
 {
-    const auto& r = op.rotation;
-    for (const Ball& ball : balls) {
-        const openvdb::Vec3d& p = ball.center;
-        const openvdb::Vec3d center(r[0][0] * p[0] + r[0][1] * p[1] + r[0][2] * p[2],
-                                    r[1][0] * p[0] + r[1][1] * p[1] + r[1][2] * p[2],
-                                    r[2][0] * p[0] + r[2][1] * p[1] + r[2][2] * p[2]);
-        out.push_back({center + op.translation, ball.radius, ball.atom});
-    }
+    const Instance motion{0, {}, op.rotation, op.translation};
+    for (const Ball& ball : balls)
+        out.push_back({motion.placed(ball.center), ball.radius, ball.atom});
 }
 
 std::vector<int> findCopies(const Structure& structure, const std::string& name,
@@ -124,7 +119,7 @@ AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
                         const CopyChoice& copies, const std::vector<Ball>& balls, BallSet& out)
 {
     const Assembly& assembly = findAssembly(structure, name);
-    AssemblyCopies found;
+    AssemblyCopies found{titleOf(structure, name), {}, {}};
     std::vector<char> used(balls.size());
     found.parts = ballsOfParts(structure, assembly, balls, used);
     const auto unused = std::size_t(std::count(used.begin(), used.end(), char{0}));
@@ -134,32 +129,30 @@ AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
     for (const std::size_t i : chooseCopies(structure, assembly, copies, centroidOf(found.parts))) {
         if (found.parts[partOf[i]].empty()) continue;
         const std::string problem = rotationProblem(operators[i]);
-        if (!problem.empty()) fail(structure, name, problem);
+        if (!problem.empty()) throw Error(ErrorKind::Input, found.title + problem);
         found.copies.push_back({int(i) + 1, partOf[i], operators[i]});
     }
     return found;
 }
 
-void expandAssembly(const Structure& structure, const std::string& name, const CopyChoice& copies,
-                    const std::vector<Ball>& balls, BallSet& out)
+Placement expandAssembly(const AssemblyCopies& assembly, std::vector<Ball>& out)
 {
-    const AssemblyCopies assembly = copiesOf(structure, name, copies, balls, out);
     std::size_t total = 0;
     for (const auto& copy : assembly.copies) total += assembly.parts[copy.part].size();
-    out.balls.reserve(total);
+    out.reserve(total);
+    Placement placement;
+    placement.copies = assembly.copies.size();
     for (const auto& copy : assembly.copies) {
-        out.copyBegin.push_back(out.balls.size());
-        out.copyNumbers.push_back(copy.number);
-        appendCopy(copy.op, assembly.parts[copy.part], out.balls);
+        placement.begin.push_back(out.size());
+        placement.numbers.push_back(copy.number);
+        appendCopy(copy.op, assembly.parts[copy.part], out);
     }
-    out.copyBegin.push_back(out.balls.size());
-    out.copies = assembly.copies.size();
+    placement.begin.push_back(out.size());
+    return placement;
 }
 
-void instanceAssembly(const Structure& structure, const std::string& name, const CopyChoice& copies,
-                      const std::vector<Ball>& balls, BallSet& out)
+Placement instanceAssembly(const AssemblyCopies& assembly, std::vector<Ball>& out)
 {
-    const AssemblyCopies assembly = copiesOf(structure, name, copies, balls, out);
     // The parts that move together, motion by motion in the order of the file.
     struct Motion {
         const Operator* op;
@@ -173,7 +166,8 @@ void instanceAssembly(const Structure& structure, const std::string& name, const
         motions[found->second].parts.push_back(copy.part);
     }
 
-    out.copyBegin = {0};
+    Placement placement;
+    placement.begin = {0};
     std::map<std::vector<std::size_t>, std::size_t> prototypeOf;
     for (Motion& motion : motions) {
         std::sort(motion.parts.begin(), motion.parts.end());
@@ -181,19 +175,19 @@ void instanceAssembly(const Structure& structure, const std::string& name, const
                            motion.parts.end());
         const auto [found, isNew] = prototypeOf.emplace(motion.parts, prototypeOf.size());
         if (isNew) {
-            std::vector<char> taken(structure.atoms.size(), 0); // parts may share chains
+            std::unordered_set<std::int32_t> taken; // parts may share chains
             for (const std::size_t part : motion.parts) {
                 for (const Ball& ball : assembly.parts[part])
-                    if (!std::exchange(taken[std::size_t(ball.atom)], char{1}))
-                        out.balls.push_back(ball);
+                    if (taken.insert(ball.atom).second) out.push_back(ball);
             }
-            out.copyBegin.push_back(out.balls.size());
-            out.copyNumbers.push_back(int(out.copyBegin.size()) - 1);
+            placement.begin.push_back(out.size());
+            placement.numbers.push_back(int(prototypeOf.size()));
         }
-        out.instances.push_back(
+        placement.instances.push_back(
             {found->second, motion.op->name, motion.op->rotation, motion.op->translation});
     }
-    out.copies = prototypeOf.size();
+    placement.copies = prototypeOf.size();
+    return placement;
 }
 
 } // namespace molsurf

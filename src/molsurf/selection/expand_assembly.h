@@ -25,6 +25,7 @@ struct AssemblyCopy {
 
 /// The copies of an assembly before they are made.
 struct AssemblyCopies {
+    std::string title;                    ///< of the assembly, for messages
     std::vector<std::vector<Ball>> parts; ///< in the coordinates of the file
     std::vector<AssemblyCopy> copies;     ///< those whose part has balls
 };
@@ -33,14 +34,15 @@ struct AssemblyCopies {
 /// @param[in]     copies  which copies
 /// @param[in]     balls   in the coordinates of the file
 /// @param[in,out] out     gets the number of balls that no part of the assembly lists
-/// @throws Error as expandAssembly()
+/// @throws Error(ErrorKind::Input) if the file describes no such assembly, if it cannot be built,
+///         or if it has no such copies
 AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
                         const CopyChoice& copies, const std::vector<Ball>& balls, BallSet& out);
 
 /// The numbers of some copies of an assembly.
 ///
 /// @param[in] balls   in the coordinates of the file
-/// @throws Error as expandAssembly()
+/// @throws Error as copiesOf()
 std::vector<int> findCopies(const Structure& structure, const std::string& name,
                             const CopyChoice& copies, const std::vector<Ball>& balls);
 
@@ -53,20 +55,13 @@ void appendCopy(const Operator& op, const std::vector<Ball>& balls, std::vector<
 /// Centres of atoms are computed in double precision from the atoms' positions. A part of the
 /// assembly none of whose chains has a ball makes no copy.
 ///
-/// @param[in]     copies  which copies
-/// @param[in]     balls   in the coordinates of the file
-/// @param[in,out] out     gets the balls, copy by copy
-/// @throws Error(ErrorKind::Input) if the file describes no such assembly, if it cannot be built,
-///         or if it has no such copies
-void expandAssembly(const Structure& structure, const std::string& name, const CopyChoice& copies,
-                    const std::vector<Ball>& balls, BallSet& out);
+/// @param[out] out  gets the balls, copy by copy
+Placement expandAssembly(const AssemblyCopies& assembly, std::vector<Ball>& out);
 
 /// Takes the prototypes of an assembly once each, and lists their copies, in the order of the
 /// operators. Prototypes are the sets of chains that some operators move together; most assemblies
 /// have one.
-/// @param[in,out] out  gets the balls, prototype by prototype, in the coordinates of the file
-/// @throws Error as expandAssembly()
-void instanceAssembly(const Structure& structure, const std::string& name, const CopyChoice& copies,
-                      const std::vector<Ball>& balls, BallSet& out);
+/// @param[out] out  gets the balls, prototype by prototype, in the coordinates of the file
+Placement instanceAssembly(const AssemblyCopies& assembly, std::vector<Ball>& out);
 
 } // namespace molsurf

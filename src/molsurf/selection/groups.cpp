@@ -6,6 +6,7 @@
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/match_atoms.h"
+#include "molsurf/selection/subset.h"
 #include "molsurf/structure/load_text.h"
 
 #include <nlohmann/json.hpp>
@@ -131,10 +132,10 @@ ResidueClass classOf(const std::string& name)
 }
 
 /// Gives every ball the last rule that has its atom in its copy.
-void labelByRules(const Structure& structure, const std::vector<Ball>& balls,
-                  const std::vector<std::size_t>& copyBegin, const std::vector<int>& copyNumbers,
+void labelByRules(const Structure& structure, const BallSet& atoms,
                   const std::vector<GroupRule>& rules, BallLabels& labels)
 {
+    const Placement& placement = atoms.placement;
     std::vector<std::vector<char>> has; // by rule and atom
     for (const GroupRule& rule : rules) {
         try {
@@ -148,17 +149,17 @@ void labelByRules(const Structure& structure, const std::vector<Ball>& balls,
         labels.groups.push_back({rule.name, 0, rule.color});
     }
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> lost; // to a later rule: atoms
-    labels.groupOf.assign(balls.size(), -1);
-    for (std::size_t c = 0; c + 1 < copyBegin.size(); ++c) {
+    labels.groupOf.assign(atoms.balls.size(), -1);
+    for (std::size_t c = 0; c < placement.numbers.size(); ++c) {
         const auto applies = [&](const GroupRule& rule) {
             const auto& numbers = rule.copyNumbers;
             return numbers.empty() ||
-                   std::find(numbers.begin(), numbers.end(), copyNumbers[c]) != numbers.end();
+                   std::find(numbers.begin(), numbers.end(), placement.numbers[c]) != numbers.end();
         };
         for (std::size_t r = 0; r < rules.size(); ++r) {
             if (!applies(rules[r])) continue;
-            for (std::size_t i = copyBegin[c]; i < copyBegin[c + 1]; ++i) {
-                if (!has[r][std::size_t(balls[i].atom)]) continue;
+            for (std::size_t i = placement.begin[c]; i < placement.begin[c + 1]; ++i) {
+                if (!has[r][std::size_t(atoms.balls[i].atom)]) continue;
                 if (labels.groupOf[i] >= 0) ++lost[{std::size_t(labels.groupOf[i]), r}];
                 labels.groupOf[i] = std::int32_t(r);
             }
@@ -309,29 +310,26 @@ std::string textOf(const GroupBy& by)
                                               : groupWords[std::size_t(by.kind)];
 }
 
-BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls,
-                      const std::vector<std::size_t>& copyBegin,
-                      const std::vector<int>& copyNumbers, const std::vector<GroupRule>& rules,
-                      const std::optional<GroupBy>& by)
+BallLabels labelBalls(const Structure& structure, const BallSet& atoms,
+                      const std::vector<GroupRule>& rules, const std::optional<GroupBy>& by)
 {
+    const std::vector<Ball>& balls = atoms.balls;
+    const Placement& placement = atoms.placement;
     GroupNames names(structure, by.value_or(GroupBy()));
     BallLabels labels;
-    if (!by && !rules.empty()) {
-        labelByRules(structure, balls, copyBegin, copyNumbers, rules, labels);
-    }
+    if (!by && !rules.empty()) labelByRules(structure, atoms, rules, labels);
     std::map<std::string, std::int32_t> number; // of groups by name
     // Of chains by copy: the images of a unit's copies have their numbers.
     std::map<std::pair<int, std::int32_t>, std::int32_t> chainOf;
-    const std::size_t copies = copyBegin.size() - 1;
     labels.chainOf.resize(balls.size());
     labels.elementOf.resize(balls.size());
     labels.residueClassOf.resize(balls.size());
     if (by) labels.groupOf.assign(balls.size(), -1);
-    for (std::size_t c = 0; c < copies; ++c) {
-        const int copy = copyNumbers[c];
-        const std::string suffix = copy == 1 ? "" : "-" + std::to_string(copy);
+    for (std::size_t c = 0; c < placement.numbers.size(); ++c) {
+        const int copy = placement.numbers[c];
+        const std::string suffix = chainSuffix(copy);
         std::int32_t lastResidue = -1, lastGroup = -1;
-        for (std::size_t i = copyBegin[c]; i < copyBegin[c + 1]; ++i) {
+        for (std::size_t i = placement.begin[c]; i < placement.begin[c + 1]; ++i) {
             const Atom& atom = structure.atoms[std::size_t(balls[i].atom)];
             const Residue& residue = structure.residues[std::size_t(atom.residue)];
             const std::string chainName = structure.chains[std::size_t(residue.chain)] + suffix;
@@ -342,7 +340,7 @@ BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls
             labels.elementOf[i] = atom.element;
             labels.residueClassOf[i] = classOf(residue.name);
             if (by) {
-                if (atom.residue != lastResidue || i == copyBegin[c]) {
+                if (atom.residue != lastResidue || i == placement.begin[c]) {
                     const std::string name = names.nameOf(residue, chainName, copy);
                     const auto added = number.emplace(name, std::int32_t(labels.groups.size()));
                     if (added.second) labels.groups.push_back({name, 0, {}});
@@ -351,11 +349,9 @@ BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls
                 }
                 labels.groupOf[i] = lastGroup;
             }
-            if (!labels.groupOf.empty() && labels.groupOf[i] >= 0) {
-                ++labels.groups[std::size_t(labels.groupOf[i])].balls;
-            }
         }
     }
+    countBalls(atoms, labels.groupOf, labels.groups);
     for (const Group& group : labels.groups) {
         if (group.balls == 0) {
             labels.warnings.push_back("groups: no ball is left for " + group.name);

@@ -38,16 +38,13 @@ GroupBy parseGroupBy(const std::string& text);
 /// The text that parseGroupBy() reads.
 std::string textOf(const GroupBy& by);
 
-/// Labels balls.
+/// Labels balls. Groups count those of the whole that a unit stands for.
 ///
-/// @param[in] copyBegin    copy i is balls [copyBegin[i], copyBegin[i + 1])
-/// @param[in] copyNumbers  of copy i in the whole assembly, from 1
-/// @param[in] rules        groups; an atom of several belongs to the last
-/// @param[in] by           groups instead of the rules, if there are any
+/// @param[in] atoms  balls and placement
+/// @param[in] rules  groups; an atom of several belongs to the last
+/// @param[in] by     groups instead of the rules, if there are any
 /// @throws Error(ErrorKind::Input) if a selection does not parse or matches nothing
-BallLabels labelBalls(const Structure& structure, const std::vector<Ball>& balls,
-                      const std::vector<std::size_t>& copyBegin,
-                      const std::vector<int>& copyNumbers, const std::vector<GroupRule>& rules,
-                      const std::optional<GroupBy>& by);
+BallLabels labelBalls(const Structure& structure, const BallSet& atoms,
+                      const std::vector<GroupRule>& rules, const std::optional<GroupBy>& by);
 
 } // namespace molsurf

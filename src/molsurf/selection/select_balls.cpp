@@ -14,6 +14,7 @@
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/selection/molecule.h"
 #include "molsurf/selection/radii.h"
+#include "molsurf/selection/subset.h"
 #include "molsurf/selection/symmetric_unit.h"
 #include "molsurf/structure/read_structure.h"
 #include "molsurf/structure/symmetry.h"
@@ -282,19 +283,20 @@ std::vector<char> findDuplicates(const std::vector<Ball>& balls,
 /// would count it twice. Prototypes are surfaces of their own, and keep theirs.
 void dropDuplicates(const Structure& structure, Filter& filter, BallSet& out)
 {
-    const bool apart = !out.instances.empty() && !out.unit;
-    const std::vector<char> duplicate = findDuplicates(
-        out.balls, apart ? out.copyBegin : std::vector<std::size_t>{0, out.balls.size()});
+    std::vector<std::size_t>& begin = out.placement.begin;
+    const bool apart = out.placement.prototypes() > 1;
+    const std::vector<char> duplicate =
+        findDuplicates(out.balls, apart ? begin : std::vector<std::size_t>{0, out.balls.size()});
     const std::size_t first =
         std::size_t(std::find(duplicate.begin(), duplicate.end(), 1) - duplicate.begin());
     if (first == duplicate.size()) return;
     const std::size_t atom = std::size_t(out.balls[first].atom);
     std::size_t kept = 0, copy = 0;
     for (std::size_t i = 0; i < out.balls.size(); ++i) {
-        while (out.copyBegin[copy] == i) out.copyBegin[copy++] = kept;
+        while (begin[copy] == i) begin[copy++] = kept;
         if (!duplicate[i]) out.balls[kept++] = out.balls[i];
     }
-    std::fill(out.copyBegin.begin() + std::ptrdiff_t(copy), out.copyBegin.end(), kept);
+    std::fill(begin.begin() + std::ptrdiff_t(copy), begin.end(), kept);
     const std::size_t count = out.balls.size() - kept;
     out.balls.resize(kept);
     filter.note("duplicate", count);
@@ -437,8 +439,8 @@ void applyResolutions(const Structure& structure, const SelectOptions& options, 
         if (r < 0) continue;
         const double d = options.resolutions[std::size_t(r)].resolution;
         out.decays[i].rate = float(M_PI * M_PI / (d * d));
-        ++out.resolutions[std::size_t(r)].balls;
     }
+    countBalls(out, out.resolutionOf, out.resolutions);
     for (const ResolutionGroup& group : out.resolutions) {
         if (group.balls > 0) continue;
         out.warnings.push_back("resolution " + inQuotes(group.rule.select) +
@@ -452,7 +454,7 @@ void addValues(const Structure& structure, const SelectOptions& options, BallSet
     openvdb::Vec3d centre(0.0);
     for (const Ball& ball : out.balls)
         centre += openvdb::Vec3d(ball.center) / double(out.balls.size());
-    if (out.unit) centre = out.unit->centre;
+    if (out.placement.unit) centre = out.placement.unit->centre;
     BallValues values = ballValues(structure, out.balls, *options.valueBy, options.coloring, centre,
                                    options.maxInput, out.warnings);
     const std::size_t none = std::size_t(std::count_if(values.valueOf.begin(), values.valueOf.end(),
@@ -462,27 +464,11 @@ void addValues(const Structure& structure, const SelectOptions& options, BallSet
     out.labels->values = std::move(values);
 }
 
-/// Makes groups and rules count the balls of the whole that a unit stands for, and forgets its
-/// copies.
-void countWhole(BallSet& out)
-{
-    const std::size_t own = out.own();
-    const auto count = [&](const std::vector<std::int32_t>& memberOf, auto& groups) {
-        for (auto& group : groups) group.balls = 0;
-        for (std::size_t i = 0; i < std::min(own, memberOf.size()); ++i)
-            if (memberOf[i] >= 0) groups[std::size_t(memberOf[i])].balls += out.instances.size();
-    };
-    count(out.resolutionOf, out.resolutions);
-    if (out.labels) count(out.labels->groupOf, out.labels->groups);
-    out.copyBegin = {0, own, out.balls.size()};
-    out.copyNumbers = {1};
-}
-
 /// Counts the beads of the whole, and the atoms that they stand for.
 /// @param[in] atoms  that the bead of each representative atom stands for; 0: it is no bead
 void countBeads(const std::vector<std::int32_t>& atoms, BallSet& out)
 {
-    const std::size_t times = out.unit ? out.instances.size() : 1;
+    const std::size_t times = out.placement.order();
     for (std::size_t i = 0; i < out.own(); ++i) {
         const std::int32_t n = atoms[std::size_t(out.balls[i].atom)];
         out.beads += times * (n > 0);
@@ -515,21 +501,20 @@ std::vector<GroupRule> withCopies(const Structure& structure, const SelectOption
 /// Puts the balls where they belong: as in the file, as a unit of a whole, each prototype of an
 /// assembly once, or all of its copies.
 /// @param[in] balls  in the coordinates of the file
-/// @return the rotations of a unit
-RotationGroup placeBalls(const Structure& structure, const SelectOptions& options,
-                         std::vector<Ball> balls, BallSet& out)
+void placeBalls(const Structure& structure, const SelectOptions& options, std::vector<Ball> balls,
+                BallSet& out)
 {
     if (!options.assembly) {
         out.balls = std::move(balls);
-        out.copyBegin = {0, out.balls.size()};
-        out.copyNumbers = {1};
-        return {};
+        out.placement.begin = {0, out.balls.size()};
+        out.placement.numbers = {1};
+        return;
     }
-    const std::string& name = *options.assembly;
-    if (options.bySymmetry) return chooseUnit(structure, name, balls, out);
-    (options.instances ? instanceAssembly : expandAssembly)(structure, name, options.copies, balls,
-                                                            out);
-    return {};
+    const auto place = options.bySymmetry  ? chooseUnit
+                       : options.instances ? instanceAssembly
+                                           : expandAssembly;
+    out.placement =
+        place(copiesOf(structure, *options.assembly, options.copies, balls, out), out.balls);
 }
 
 } // namespace
@@ -599,30 +584,27 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     }
     stopIfCancelled(progress);
     const std::vector<GroupRule> groups = withCopies(structure, options, balls);
-    const RotationGroup group = placeBalls(structure, options, std::move(balls), out);
+    placeBalls(structure, options, std::move(balls), out);
     if (out.balls.empty()) {
         failInput(structure, "nothing is left of " + std::to_string(model.end - model.begin) +
                                  " atoms: dropped " + describeDrops(out.drops));
     }
     dropDuplicates(structure, filter, out);
     checkExtent(structure, out.balls);
-    if (out.unit) {
-        out.unit->balls = out.balls.size();
-        out.unit->motionOf = surround(group, options.surroundings, out);
-    }
+    surround(options.surroundings, out);
     warnOfRounding(out.balls, out.warnings);
     if (!beadAtoms.empty()) countBeads(beadAtoms, out);
     stopIfCancelled(progress);
     applyResolutions(structure, options, out);
-    const bool several = options.instances && out.copies > 1; // a surface for each prototype
+    const bool several = out.placement.prototypes() > 1;
     if (several && (!options.groups.empty() || options.groupBy))
         throw Error(ErrorKind::Usage,
                     "`groups` and `groupBy`: expected one prototype, the assembly "
                     "has " +
-                        std::to_string(out.copies) + " with `instances`");
+                        std::to_string(out.placement.copies) + " with `instances`");
     if (options.labels || options.valueBy || !options.groups.empty() || options.groupBy ||
         several) {
-        out.labels = labelBalls(structure, out.balls, out.copyBegin, out.copyNumbers, groups,
+        out.labels = labelBalls(structure, out, groups,
                                 several ? GroupBy{GroupBy::Kind::Copy} : options.groupBy);
         out.warnings.insert(out.warnings.end(), out.labels->warnings.begin(),
                             out.labels->warnings.end());
@@ -631,8 +613,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     out.coloring = options.coloring;
     if (options.valueBy) addValues(structure, options, out);
     if (options.plainColor) out.colors.assign(out.balls.size(), *options.plainColor);
-    if (options.names) out.names = ballNames(structure, out.balls, out.copyBegin, out.copyNumbers);
-    if (out.unit) countWhole(out);
+    if (options.names) out.names = ballNames(structure, out);
     return out;
 }
 
@@ -652,21 +633,22 @@ std::string describeSelection(const Structure& structure, const BallSet& selecti
                        some(structure.models.size(), "model") + ", " + some(atoms, "atom");
     if (structure.models.size() > 1) text += " in model " + std::to_string(selection.model);
     text += "; used " + some(selection.own(), selection.beads > 0 ? "ball" : "atom");
-    if (const auto& unit = selection.unit) {
+    const Placement& placement = selection.placement;
+    if (const auto& unit = placement.unit) {
         text += " (" + counted(unit->copies, "copy", "copies") + ") in each of " +
-                std::to_string(selection.instances.size()) + " units that rotations make (" +
+                std::to_string(placement.order()) + " units that rotations make (" +
                 (unit->pointGroup.empty() ? "no point group" : unit->pointGroup) + "), and " +
-                std::to_string(selection.balls.size() - unit->balls) + " around one";
-    } else if (!selection.instances.empty()) {
-        text += " of " + some(selection.copies, "prototype") + " for " +
-                std::to_string(selection.instances.size()) + " copies";
-    } else if (selection.copies > 1)
-        text += " (" + std::to_string(selection.copies) + " copies)";
+                std::to_string(placement.around) + " around one";
+    } else if (!placement.isWhole()) {
+        text += " of " + some(placement.copies, "prototype") + " for " +
+                std::to_string(placement.instances.size()) + " copies";
+    } else if (placement.copies > 1)
+        text += " (" + std::to_string(placement.copies) + " copies)";
     if (selection.beads > 0) {
         text += ", of them " + some(selection.beads, "bead") + " for " +
                 some(selection.beadAtoms, "atom");
     }
-    if (selection.copies == 1 && selection.instances.empty()) {
+    if (placement.copies == 1 && placement.isWhole()) {
         for (const Assembly& assembly : structure.assemblies) {
             const std::size_t copies = operatorsOf(assembly).size();
             if (copies < 2 || !assembly.problem.empty()) continue;

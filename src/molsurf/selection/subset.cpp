@@ -20,17 +20,6 @@ std::vector<T> gather(const std::vector<T>& from, const std::vector<std::size_t>
     return out;
 }
 
-/// Sets the number of balls of each group or rule.
-/// @param[in] memberOf  index of its group for each ball, or -1
-template<typename T>
-void count(const std::vector<std::int32_t>& memberOf, std::vector<T>& groups)
-{
-    for (T& group : groups) group.balls = 0;
-    for (const std::int32_t g : memberOf) {
-        if (g >= 0) ++groups[std::size_t(g)].balls;
-    }
-}
-
 } // namespace
 
 BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which, Counted counted)
@@ -42,12 +31,8 @@ BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which, Coun
     out.resolutionOf = gather(atoms.resolutionOf, which);
     out.colors = gather(atoms.colors, which);
     out.coloring = atoms.coloring;
-    out.copyBegin = {0, out.balls.size()};
     out.model = atoms.model;
-    out.instances = atoms.instances;
-    out.unit = atoms.unit;
-    if (out.unit) out.unit->motionOf = gather(atoms.unit->motionOf, which);
-    if (counted == Counted::Subset) count(out.resolutionOf, out.resolutions);
+    if (counted == Counted::Subset) countBalls(out, out.resolutionOf, out.resolutions);
     if (!atoms.labels) return out;
     const BallLabels& all = *atoms.labels;
     BallLabels& labels = out.labels.emplace();
@@ -59,14 +44,18 @@ BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which, Coun
     labels.residueClassOf = gather(all.residueClassOf, which);
     labels.values = all.values;
     if (labels.values) labels.values->valueOf = gather(all.values->valueOf, which);
-    if (counted == Counted::Subset) count(labels.groupOf, labels.groups);
+    if (counted == Counted::Subset) countBalls(out, labels.groupOf, labels.groups);
     return out;
 }
 
 BallSet inSpatialOrder(const BallSet& atoms)
 {
     const std::vector<std::int32_t> order = spatialOrder(atoms.balls);
-    return subset(atoms, {order.begin(), order.end()}, Counted::Whole);
+    const std::vector<std::size_t> which(order.begin(), order.end());
+    BallSet out = subset(atoms, which, Counted::Whole);
+    out.placement = atoms.placement;
+    out.placement.motionOf = gather(atoms.placement.motionOf, which);
+    return out;
 }
 
 } // namespace molsurf

@@ -6,6 +6,7 @@
 
 #include "molsurf/atoms.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -16,8 +17,19 @@ namespace molsurf
 /// those of the whole.
 enum class Counted { Subset, Whole };
 
-/// Takes some of the balls, with their labels, colours and resolutions. Chains, groups and rules
-/// stay all, so that their indices mean the same.
+/// Sets the number of balls of each group or rule in the whole that a unit stands for, or in these.
+/// @param[in] memberOf  index of its group for each ball, or -1
+template<typename T>
+void countBalls(const BallSet& atoms, const std::vector<std::int32_t>& memberOf,
+                std::vector<T>& groups)
+{
+    for (T& group : groups) group.balls = 0;
+    for (std::size_t i = 0; i < std::min(atoms.own(), memberOf.size()); ++i)
+        if (memberOf[i] >= 0) groups[std::size_t(memberOf[i])].balls += atoms.placement.order();
+}
+
+/// Takes some of the balls, with their labels, colours and resolutions, as a whole of their own.
+/// Chains, groups and rules stay all, so that their indices mean the same.
 /// @param[in] which  indices, in the order that is wanted
 BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which,
                Counted counted = Counted::Subset);

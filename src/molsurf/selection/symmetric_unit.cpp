@@ -4,8 +4,7 @@
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
-#include "molsurf/selection/expand_assembly.h"
-#include "molsurf/structure/text_fields.h"
+#include "molsurf/structure/rotation_group.h"
 
 #include <tbb/parallel_for.h>
 
@@ -39,12 +38,6 @@ double deviationOf(const Operator& motion, const Operator& unit, const Operator&
         farthest = std::max(farthest, (moved(motion, moved(unit, x)) - moved(copy, x)).length());
     }
     return farthest;
-}
-
-[[noreturn]] void fail(const Structure& structure, const std::string& name, const std::string& what)
-{
-    throw Error(ErrorKind::Input,
-                displayName(structure.source) + ": assembly " + inQuotes(name) + ": " + what);
 }
 
 /// The copies of an assembly that have balls.
@@ -110,26 +103,25 @@ std::map<std::size_t, std::size_t> nearestOfOrbits(const Copies& copies, const R
 
 } // namespace
 
-RotationGroup chooseUnit(const Structure& structure, const std::string& name,
-                         const std::vector<Ball>& balls, BallSet& out)
+Placement chooseUnit(const AssemblyCopies& assembly, std::vector<Ball>& out)
 {
-    const AssemblyCopies assembly = copiesOf(structure, name, {}, balls, out);
-    out.copyBegin = {0};
-    if (assembly.copies.empty()) return {};
+    Placement placement;
+    placement.begin = {0};
+    if (assembly.copies.empty()) return placement;
     const Copies copies(assembly);
     RotationGroup group;
     try {
         group = findRotationGroup(copies.used(), copies.box(0).getCenter());
     } catch (const Error& e) {
-        fail(structure, name,
-             std::string("by symmetry: ") + e.what() + " [hint: without `bySymmetry`]");
+        throw Error(ErrorKind::Input,
+                    assembly.title + "by symmetry: " + e.what() + " [hint: without `bySymmetry`]");
     }
     double deviation = 0.0;
     for (const auto& [orbit, i] : nearestOfOrbits(copies, group)) {
         const AssemblyCopy& copy = copies.at(i);
-        appendCopy(copy.op, assembly.parts[copy.part], out.balls);
-        out.copyBegin.push_back(out.balls.size());
-        out.copyNumbers.push_back(copy.number);
+        appendCopy(copy.op, assembly.parts[copy.part], out);
+        placement.begin.push_back(out.size());
+        placement.numbers.push_back(copy.number);
         for (std::size_t k = 0; k < group.motions.size(); ++k)
             deviation =
                 std::max(deviation, deviationOf(group.motions[k], copy.op,
@@ -137,54 +129,51 @@ RotationGroup chooseUnit(const Structure& structure, const std::string& name,
     }
     constexpr double largest = 1.0; // [Å]
     if (deviation > largest)
-        fail(structure, name,
-             formatted("by symmetry: its copies lie up to %.3g Å from where its rotations bring "
-                       "them, expected at most %g Å [hint: without `bySymmetry`]",
-                       deviation, largest));
-    out.unit = SymmetricUnit{group.symmetry.pointGroup,
-                             group.symmetry.centre,
-                             out.copyNumbers.size(),
-                             0,
-                             deviation,
-                             {},
-                             group.product,
-                             group.inverse};
+        throw Error(
+            ErrorKind::Input,
+            assembly.title +
+                formatted("by symmetry: its copies lie up to %.3g Å from where its rotations bring "
+                          "them, expected at most %g Å [hint: without `bySymmetry`]",
+                          deviation, largest));
+    placement.unit = Placement::Unit{group.symmetry.pointGroup, group.symmetry.centre,
+                                     placement.numbers.size(),  deviation,
+                                     std::move(group.product),  std::move(group.inverse)};
     for (const Operator& motion : group.motions)
-        out.instances.push_back({0, motion.name, motion.rotation, motion.translation});
-    return group;
+        placement.instances.push_back({0, motion.name, motion.rotation, motion.translation});
+    return placement;
 }
 
-std::vector<std::int32_t> surround(const RotationGroup& group, double reach, BallSet& out)
+void surround(double reach, BallSet& out)
 {
+    Placement& placement = out.placement;
+    if (!placement.unit) return;
     const std::vector<Ball> unit = out.balls;
-    const std::size_t copies = out.copyNumbers.size();
+    const std::size_t copies = placement.numbers.size();
     const BallIndex index(unit, {0.0, 0.0, 6.0});
     std::vector<Vec3d> middles;
     std::vector<double> radii;
     for (std::size_t c = 0; c < copies; ++c) {
-        const openvdb::BBoxd box =
-            boxOf(unit.data() + out.copyBegin[c], unit.data() + out.copyBegin[c + 1]);
-        middles.push_back(out.copyBegin[c] < out.copyBegin[c + 1] ? box.getCenter() : Vec3d(0.0));
-        radii.push_back(out.copyBegin[c] < out.copyBegin[c + 1] ? 0.5 * box.extents().length()
-                                                                : -1e9);
+        const std::size_t begin = placement.begin[c], end = placement.begin[c + 1];
+        const openvdb::BBoxd box = boxOf(unit.data() + begin, unit.data() + end);
+        middles.push_back(begin < end ? box.getCenter() : Vec3d(0.0));
+        radii.push_back(begin < end ? 0.5 * box.extents().length() : -1e9);
     }
-    std::vector<std::int32_t> motionOf(unit.size(), 0);
+    placement.motionOf.assign(unit.size(), 0);
     std::vector<Ball> images;
     std::vector<char> near;
-    for (std::size_t m = 1; m < group.motions.size(); ++m) {
-        const openvdb::Mat3d rotation = matrixOf(group.motions[m]);
-        const Vec3d& shift = group.motions[m].translation;
+    for (std::size_t m = 1; m < placement.instances.size(); ++m) {
+        const Instance& motion = placement.instances[m];
         for (std::size_t c = 0; c < copies; ++c) {
-            const Vec3d middle = rotation * middles[c] + shift;
+            const Vec3d middle = motion.placed(middles[c]);
             bool close = false;
             for (std::size_t d = 0; d < copies && !close; ++d)
                 close = (middle - middles[d]).length() < radii[c] + radii[d] + reach;
             if (!close) continue;
-            images.assign(unit.begin() + std::ptrdiff_t(out.copyBegin[c]),
-                          unit.begin() + std::ptrdiff_t(out.copyBegin[c + 1]));
+            images.assign(unit.begin() + std::ptrdiff_t(placement.begin[c]),
+                          unit.begin() + std::ptrdiff_t(placement.begin[c + 1]));
             near.assign(images.size(), 0);
             tbb::parallel_for(std::size_t(0), images.size(), [&](std::size_t i) {
-                const Vec3d x = rotation * Vec3d(images[i].center) + shift;
+                const Vec3d x = motion.placed(Vec3d(images[i].center));
                 images[i].center = x;
                 double least = std::numeric_limits<double>::max();
                 index.forEachNear(x, x, reach, [&](const Ball& ball, std::int32_t) {
@@ -196,12 +185,12 @@ std::vector<std::int32_t> surround(const RotationGroup& group, double reach, Bal
             for (std::size_t i = 0; i < images.size(); ++i)
                 if (near[i]) out.balls.push_back(images[i]);
             if (out.balls.size() == before) continue;
-            motionOf.resize(out.balls.size(), std::int32_t(m));
-            out.copyBegin.push_back(out.balls.size());
-            out.copyNumbers.push_back(out.copyNumbers[c]);
+            placement.motionOf.resize(out.balls.size(), std::int32_t(m));
+            placement.begin.push_back(out.balls.size());
+            placement.numbers.push_back(placement.numbers[c]);
         }
     }
-    return motionOf;
+    placement.around = out.balls.size() - unit.size();
 }
 
 } // namespace molsurf

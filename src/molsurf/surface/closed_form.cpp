@@ -28,6 +28,13 @@ MeshTolerance excludedTolerance(const BallBoundary& boundary, const BoundaryMeas
 
 } // namespace
 
+bool isMeasured(const BallSet& atoms, const SurfaceOptions& options)
+{
+    // What a mesh holds for a cavity may be open to the outside where probes touch each other.
+    const bool filled = options.fillCavities && offsetOf(options) > 0.0;
+    return isClosedForm(options) && !filled && !atoms.placement.unit;
+}
+
 ClosedForm measureClosedForm(const BallBoundary& boundary, const SurfaceOptions& options,
                              std::size_t areasOf, const Progress& progress)
 {

@@ -4,6 +4,7 @@
 /// @file
 /// What is known in closed form of a surface of a union of balls, on the union or inside of it.
 
+#include "molsurf/atoms.h"
 #include "molsurf/balls/boundary_check.h"
 #include "molsurf/balls/boundary_measure.h"
 #include "molsurf/options.h"
@@ -23,6 +24,9 @@ struct ClosedForm {
     std::optional<double> cuspLength; ///< SurfaceReport::cuspLength
     MeshTolerance tolerance;          ///< of a mesh
 };
+
+/// Tells whether a run of some balls measures their surface in closed form.
+bool isMeasured(const BallSet& atoms, const SurfaceOptions& options);
 
 /// Measures a surface and checks the measures.
 /// @param[in] boundary  of the balls grown by probeOf()

@@ -143,7 +143,7 @@ SurfaceDistance::SurfaceDistance(const BallSet& atoms, const SurfaceOptions& opt
     checkFinite(atoms.balls);
     auto parts = std::make_unique<Parts>(atoms.balls);
     const bool changed = options.split || !options.surfaceOf.empty() || options.fillCavities;
-    if (isBoundary(options) && !changed && !atoms.unit && atoms.instances.empty())
+    if (isBoundary(options) && !changed && atoms.placement.isWhole())
         parts->exact.emplace(atoms.balls, probeOf(options), progress);
     else if (!surface.mesh.triangles.empty())
         parts->meshed.emplace(surface, progress);

@@ -92,19 +92,19 @@ std::vector<std::size_t> merged(const std::vector<std::size_t>& a,
 void measureUnitInterfaces(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
                            Report& report)
 {
-    const SymmetricUnit& unit = *atoms.unit;
-    const std::size_t order = unit.inverse.size(), groups = atoms.labels->groups.size();
+    const Placement& placement = atoms.placement;
+    const SymmetricUnit& unit = *placement.unit;
+    const std::size_t order = placement.order(), groups = atoms.labels->groups.size();
     const SurfaceOptions plain = plainOptions(options);
     BallSet balls = atoms;
-    balls.unit.reset();
-    balls.instances.clear();
+    balls.placement = {};
     // Groups motion by motion: those of the unit come first.
     std::vector<std::int32_t> memberOf(balls.balls.size(), -1);
     std::vector<std::vector<std::size_t>> members(order * groups);
     for (std::size_t i = 0; i < memberOf.size(); ++i) {
         const std::int32_t g = balls.labels->groupOf[i];
         if (g < 0) continue;
-        memberOf[i] = unit.motionOf[i] * std::int32_t(groups) + g;
+        memberOf[i] = placement.motionOf[i] * std::int32_t(groups) + g;
         members[std::size_t(memberOf[i])].push_back(i);
     }
     const auto near = contacts(balls.balls, memberOf, members.size(),
@@ -130,7 +130,7 @@ void measureUnitInterfaces(const BallSet& atoms, const SurfaceOptions& options, 
             if (area < noticeable) continue;
             const bool mirrored = b == a && back == m;
             std::string name = atoms.labels->groups[b].name;
-            if (m != 0) name += " of unit " + atoms.instances[m].name;
+            if (m != 0) name += " of unit " + placement.instances[m].name;
             report.interfaces.push_back(
                 {atoms.labels->groups[a].name, name, area, mirrored ? order / 2 : order, {}});
         }
@@ -142,7 +142,7 @@ void measureUnitInterfaces(const BallSet& atoms, const SurfaceOptions& options, 
 void measureInterfaces(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
                        Report& report)
 {
-    if (atoms.unit) return measureUnitInterfaces(atoms, options, progress, report);
+    if (atoms.placement.unit) return measureUnitInterfaces(atoms, options, progress, report);
     const SurfaceOptions plain = plainOptions(options);
     const BallLabels& labels = *atoms.labels;
     const auto near = contacts(atoms.balls, labels.groupOf, labels.groups.size(),

@@ -80,7 +80,7 @@ void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Lab
         const std::vector<Vec3f> inside =
             pointsInside(*result.surface, result.report.surface.volume);
         for (const std::int32_t ball : nearestBalls(atoms.balls, inside, reach, progress)) {
-            if (atoms.unit && (ball < 0 || atoms.unit->motionOf[std::size_t(ball)] != 0)) continue;
+            if (!atoms.placement.owns(ball)) continue;
             const std::int32_t g = ball < 0 ? -1 : labels.groupOf[std::size_t(ball)];
             points[g < 0 ? other : std::size_t(g)] += 1.0;
         }

@@ -94,11 +94,10 @@ MolecularSurface runInOrder(const BallSet& atoms, const SurfaceOptions& options,
 std::vector<double> areasApart(const BallSet& atoms, const SurfaceOptions& options,
                                Progress& progress)
 {
-    const bool whole = !atoms.unit || isBoundary(options);
-    if (!isClosedForm(options) || !whole) {
-        if (!whole)
-            throw Error(ErrorKind::Usage, "areas of atoms by symmetry: expected a surface in "
-                                          "closed form [hint: `surface` sas or vdw]");
+    if (atoms.placement.unit && !isBoundary(options))
+        throw Error(ErrorKind::Usage, "areas of atoms by symmetry: expected a surface in "
+                                      "closed form [hint: `surface` sas or vdw]");
+    if (!isClosedForm(options)) {
         QuietProgress quiet(progress);
         return makeSurface(atoms, options, &quiet).ballAreas;
     }
@@ -116,7 +115,7 @@ void addAreas(const BallSet& atoms, const SurfaceOptions& options, Progress& pro
     shown.kind = options.areasOf.value_or(options.kind);
     shown.areasOf.reset();
     result.report.areasOf = nameOf(shown.kind);
-    if (options.ballAreas && (shown.kind != options.kind || atoms.unit)) {
+    if (options.ballAreas && (shown.kind != options.kind || result.ballAreas.empty())) {
         SurfaceOptions alone = shown;
         alone.fields.clear();
         alone.contacts = alone.interfaces = alone.curvatureTotals = false;
@@ -167,7 +166,7 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
     if (apart)
         throw Error(ErrorKind::Usage,
                     std::string("areas of atoms: expected one surface, and not ") + apart);
-    if (atoms.unit) {
+    if (atoms.placement.unit) {
         wanted.ballAreas = false;
         result = runUnit(inSpatialOrder(atoms), wanted, progress);
     } else if (!options.grid) {

@@ -157,9 +157,7 @@ DistanceBand SurfaceRun::distanceToBalls()
     BallUnion set = unionOf(atoms_.balls, probeOf(options_), progress_);
     const double probe = offsetOf(options_);
     if (probe > 0.0) cuspLength_ = cuspLengthOf(set.boundary, probe);
-    // What a mesh holds for a cavity may be open to the outside where probes touch each other.
-    const bool filled = options_.fillCavities && probe > 0.0;
-    if (scope_.region.whole() && isClosedForm(options_) && !filled && !atoms_.unit) {
+    if (scope_.region.whole() && isMeasured(atoms_, options_)) {
         const bool grouped = atoms_.labels && !atoms_.labels->groups.empty();
         const bool areas = (options_.ballAreas || grouped) && !options_.fillCavities;
         exact_ =

@@ -2,7 +2,6 @@
 #include "molsurf/surface/unit_border.h"
 
 #include "molsurf/balls/ball_index.h"
-#include "molsurf/mesh/mesh_instance.h"
 
 #include <algorithm>
 #include <limits>
@@ -51,12 +50,10 @@ struct UnitVertex {
 class BorderFitter
 {
 public:
-    BorderFitter(const std::vector<Instance>& motions, const SymmetricUnit& unit, double voxel,
-                 CutMesh& part)
-        : unit_(unit), near_(voxel), longest_(3.0 * voxel), part_(part), mesh_(part.mesh)
+    BorderFitter(const Placement& placement, double voxel, CutMesh& part)
+        : unit_(*placement.unit), motions_(placement.instances), near_(voxel),
+          longest_(3.0 * voxel), part_(part), mesh_(part.mesh)
     {
-        for (const Instance& m : motions)
-            motions_.push_back({0, {}, m.rotation, m.translation, {}});
     }
 
     BorderFit fit()
@@ -89,7 +86,7 @@ private:
     {
         return std::int32_t(unit_.product[std::size_t(g)][std::size_t(h)]);
     }
-    const MeshInstance& motion(std::int32_t g) const { return motions_[std::size_t(g)]; }
+    const Instance& motion(std::int32_t g) const { return motions_[std::size_t(g)]; }
     std::uint32_t from(std::uint32_t e) const { return edges_[e].from; }
     std::uint32_t to(std::uint32_t e) const { return edges_[edges_[e].next].from; }
 
@@ -436,7 +433,7 @@ private:
         std::int32_t power = 0;
         do {
             for (const UnitEdge& e : round) {
-                const MeshInstance& there = motion(product(power, e.unit));
+                const Instance& there = motion(product(power, e.unit));
                 const Vec3d a = there.placed(at(from(e.edge))), b = there.placed(at(to(e.edge)));
                 middle += 0.5 * (b - a).length() * (a + b);
                 weight += (b - a).length();
@@ -447,7 +444,7 @@ private:
         middle = weight > 0.0 ? middle / weight : origin;
         std::map<std::int32_t, std::uint32_t> middleOf; // of units
         for (const UnitEdge& e : round) {
-            const MeshInstance& back = motion(inverse(e.unit));
+            const Instance& back = motion(inverse(e.unit));
             std::int32_t like = e.unit; // the first unit that the rotation brings there
             for (power = turn; power != 0; power = product(power, turn))
                 like = std::min(like, product(power, e.unit));
@@ -474,8 +471,8 @@ private:
         out_.shared.push_back({other, inverse(g), v});
     }
 
-    std::vector<MeshInstance> motions_;
-    const SymmetricUnit& unit_;
+    const Placement::Unit& unit_;
+    const std::vector<Instance>& motions_;
     const double near_;    ///< how far vertices that become one are apart [Å]
     const double longest_; ///< line between two of them [Å]
     CutMesh& part_;
@@ -487,7 +484,7 @@ private:
 
 } // namespace
 
-BorderClasses::BorderClasses(const SymmetricUnit& unit, const std::vector<SharedVertex>& shared,
+BorderClasses::BorderClasses(const Placement::Unit& unit, const std::vector<SharedVertex>& shared,
                              std::size_t vertices)
     : order_(unit.inverse.size()), border_([&] {
           std::vector<std::uint32_t> all;
@@ -516,10 +513,9 @@ std::size_t BorderClasses::count()
     return out;
 }
 
-BorderFit fitBorder(const std::vector<Instance>& motions, const SymmetricUnit& unit, double voxel,
-                    CutMesh& part)
+BorderFit fitBorder(const Placement& placement, double voxel, CutMesh& part)
 {
-    return BorderFitter(motions, unit, voxel, part).fit();
+    return BorderFitter(placement, voxel, part).fit();
 }
 
 } // namespace molsurf

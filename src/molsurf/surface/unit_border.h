@@ -30,7 +30,7 @@ class BorderClasses
 {
 public:
     /// @param[in] vertices  of the unit's mesh
-    BorderClasses(const SymmetricUnit& unit, const std::vector<SharedVertex>& shared,
+    BorderClasses(const Placement::Unit& unit, const std::vector<SharedVertex>& shared,
                   std::size_t vertices);
 
     /// Vertices of the unit that are shared, ascending.
@@ -63,9 +63,9 @@ private:
 /// glued along edges is one, whatever edges these are, so the whole is closed if the unit's surface
 /// was.
 ///
+/// @param[in]     placement  of the unit
 /// @param[in]     voxel  what is farther apart is not glued [Å]
 /// @param[in,out] part   what owner 0 has; its loops are used up
-BorderFit fitBorder(const std::vector<Instance>& motions, const SymmetricUnit& unit, double voxel,
-                    CutMesh& part);
+BorderFit fitBorder(const Placement& placement, double voxel, CutMesh& part);
 
 } // namespace molsurf

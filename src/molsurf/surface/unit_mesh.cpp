@@ -3,7 +3,6 @@
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
-#include "molsurf/mesh/mesh_instance.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/surface/unit_border.h"
 
@@ -18,7 +17,7 @@ namespace
 
 /// The vertex that each vertex of each unit is in the whole: that of unit k and vertex v at
 /// k * vertices + v.
-std::vector<std::uint32_t> vertexNumbers(const SymmetricUnit& unit,
+std::vector<std::uint32_t> vertexNumbers(const Placement::Unit& unit,
                                          const std::vector<SharedVertex>& shared,
                                          std::size_t vertices, std::size_t& count)
 {
@@ -45,8 +44,8 @@ std::vector<std::uint32_t> vertexNumbers(const SymmetricUnit& unit,
 }
 
 /// Turns the columns that are components of vectors: their names end in _x, _y and _z.
-void turnVectors(const MeshInstance& motion, std::vector<Attribute<float>>& scalars,
-                 std::size_t begin, std::size_t end)
+void turnVectors(const Instance& motion, std::vector<Attribute<float>>& scalars, std::size_t begin,
+                 std::size_t end)
 {
     for (std::size_t a = 0; a + 2 < scalars.size(); ++a) {
         const auto ends = [&](std::size_t i, const char* with) {
@@ -67,13 +66,14 @@ void turnVectors(const MeshInstance& motion, std::vector<Attribute<float>>& scal
 Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, const Mesh& unit, bool weld,
                const std::vector<std::array<std::uint8_t, 3>>& colors, const Progress& progress)
 {
-    const std::size_t order = atoms.instances.size(), vertices = unit.positions.size();
+    const Placement& placement = atoms.placement;
+    const std::size_t order = placement.order(), vertices = unit.positions.size();
     if (order * vertices > 0xffffffffu)
         throw Error(ErrorKind::Output, "the mesh of the whole has more vertices than 32 bits count "
                                        "[hint: a .glb file holds the unit once]");
     std::size_t count = order * vertices;
     std::vector<std::uint32_t> numbers;
-    if (weld) numbers = vertexNumbers(*atoms.unit, surface.shared, vertices, count);
+    if (weld) numbers = vertexNumbers(*placement.unit, surface.shared, vertices, count);
 
     Mesh out;
     const auto repeat = [&](auto& to, const auto& from) {
@@ -94,8 +94,7 @@ Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, const Mesh
 
     std::size_t first = 0; // vertex of unit k
     for (std::size_t k = 0; k < order; ++k) {
-        const Instance& m = atoms.instances[k];
-        const MeshInstance motion{0, {}, m.rotation, m.translation, {}};
+        const Instance& motion = placement.instances[k];
         std::size_t last = first;
         for (std::size_t v = 0; v < vertices; ++v)
             last += !weld || numbers[k * vertices + v] == last;
@@ -107,7 +106,7 @@ Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, const Mesh
         turnVectors(motion, out.scalars, first, last);
         if (!colors.empty()) out.colors.insert(out.colors.end(), last - first, colors[k]);
         first = last;
-        if (!weld) out.parts.push_back({"unit " + m.name, out.triangles.size()});
+        if (!weld) out.parts.push_back({"unit " + motion.name, out.triangles.size()});
         for (const auto& t : unit.triangles) {
             auto& corners = out.triangles.emplace_back();
             for (std::size_t c = 0; c < 3; ++c) {

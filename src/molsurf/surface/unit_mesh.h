@@ -14,7 +14,7 @@
 namespace molsurf
 {
 
-/// Puts the units of a whole together, in the order of BallSet::instances.
+/// Puts the units of a whole together, in the order of Placement::instances.
 ///
 /// @param[in] atoms    with a unit
 /// @param[in] surface  of it

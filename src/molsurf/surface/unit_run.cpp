@@ -7,7 +7,6 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/mesh/measure.h"
-#include "molsurf/mesh/mesh_instance.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/surface/label_surface.h"
 #include "molsurf/surface/surface_kind.h"
@@ -32,11 +31,12 @@ namespace
 /// own units, so that each has an equal part.
 std::vector<Ball> owningBalls(const BallSet& atoms, double grown)
 {
+    const Placement& placement = atoms.placement;
     const BallIndex index(atoms.balls, {0.0, 0.0, 2.0});
     Vec3d middle(0.0);
     std::size_t count = 0;
     for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
-        if (atoms.unit->motionOf[i] != 0) continue;
+        if (!placement.owns(std::int32_t(i))) continue;
         middle += Vec3d(atoms.balls[i].center);
         ++count;
     }
@@ -45,8 +45,7 @@ std::vector<Ball> owningBalls(const BallSet& atoms, double grown)
     for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].radius += grown;
         if (imagesAt(atoms, index, i).empty()) continue;
-        const Instance& m = atoms.instances[std::size_t(atoms.unit->motionOf[i])];
-        const MeshInstance motion{0, {}, m.rotation, m.translation, {}};
+        const Instance& motion = placement.instances[std::size_t(placement.motionOf[i])];
         const Vec3d away = motion.placed(middle) - Vec3d(out[i].center);
         if (away.lengthSqr() > 0.0) out[i].center += onAxis * away.unit();
     }
@@ -58,7 +57,7 @@ std::vector<Ball> owningBalls(const BallSet& atoms, double grown)
 std::vector<double> takeClosedForm(const BallSet& atoms, double grown, const Progress& progress,
                                    SurfaceReport& surface)
 {
-    const double order = double(atoms.unit->inverse.size());
+    const double order = double(atoms.placement.order());
     UnitShare share = shareOfUnit(atoms, grown, progress);
     surface.eulerCharacteristic = share.wholeEuler;
     surface.area = 0.0;
@@ -75,7 +74,7 @@ std::vector<double> takeClosedForm(const BallSet& atoms, double grown, const Pro
 MolecularSurface runUnitWithoutGrid(const BallSet& atoms, const SurfaceOptions& options,
                                     Progress& progress)
 {
-    const SymmetricUnit& unit = *atoms.unit;
+    const Placement::Unit& unit = *atoms.placement.unit;
     MolecularSurface result;
     Stopwatch watch(result.report);
     progress.update("areas", 0.0);
@@ -90,7 +89,7 @@ MolecularSurface runUnitWithoutGrid(const BallSet& atoms, const SurfaceOptions& 
 }
 
 /// The connected pieces of the whole: each piece of every unit joined to those that it meets.
-std::vector<PieceMeasure> wholePieces(const SymmetricUnit& unit, const BorderFit& fit,
+std::vector<PieceMeasure> wholePieces(const Placement::Unit& unit, const BorderFit& fit,
                                       const std::vector<std::uint32_t>& pieceOf,
                                       const std::vector<PieceMeasure>& pieces)
 {
@@ -133,7 +132,7 @@ UnitPieces unitPieces(const Mesh& mesh, const Vec3d& centre, SurfaceReport& surf
 
 /// Fills in the measures of the whole of a unit: areas are those of the surface that was found,
 /// volumes those that the fitted one encloses.
-void measureWhole(const SymmetricUnit& unit, const BorderFit& fit, const Mesh& mesh,
+void measureWhole(const Placement::Unit& unit, const BorderFit& fit, const Mesh& mesh,
                   const UnitPieces& found, const Progress& progress, SurfaceReport& surface)
 {
     UnitPieces fitted = unitPieces(mesh, unit.centre, surface, progress);
@@ -190,8 +189,8 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
 {
     checkUnitOptions(options);
     if (!options.grid) return runUnitWithoutGrid(atoms, options, progress);
-    const SymmetricUnit& unit = *atoms.unit;
-    const double order = double(unit.inverse.size());
+    const Placement& placement = atoms.placement;
+    const Placement::Unit& unit = *placement.unit;
     SurfaceRun run(atoms, options, Scope(), progress);
     run.density();
     run.flow(nullptr);
@@ -209,14 +208,14 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
         for (const std::uint32_t v : splitNonManifold(mesh))
             stats.slopes.push_back(stats.slopes[v]);
     const double grown = isUnion(options.kind) ? probeOf(options) : 0.0;
-    const PowerOwners owners(owningBalls(atoms, grown), unit.motionOf);
+    const PowerOwners owners(owningBalls(atoms, grown), placement.motionOf);
     CutMesh part = cutToOwner(mesh, owners, run.currentSpline(), progress);
     if (part.mesh.triangles.empty())
         throw Error(ErrorKind::Numeric, "mesh: nothing of the unit is left at this resolution "
                                         "[hint: a smaller `voxel`]");
     SurfaceReport& surface = run.result().report.surface;
     const UnitPieces found = unitPieces(part.mesh, unit.centre, surface, progress);
-    const BorderFit fit = fitBorder(atoms.instances, unit, options.voxel, part);
+    const BorderFit fit = fitBorder(placement, options.voxel, part);
     std::vector<float> slopes;
     for (const std::uint32_t v : part.sources) slopes.push_back(stats.slopes[v]);
     mesh = std::move(part.mesh);
@@ -233,7 +232,7 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     const double area = surface.area;
     if (isBoundary(options))
         run.result().ballAreas = takeClosedForm(atoms, grown, progress, surface);
-    checkFit(fit, area / order, surface);
+    checkFit(fit, area / double(placement.order()), surface);
     watch.stop("unit");
     run.freeFields();
     run.labels();

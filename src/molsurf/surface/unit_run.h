@@ -13,7 +13,7 @@ namespace molsurf
 /// @throws Error(ErrorKind::Usage) for options that need the whole at once
 void checkUnitOptions(const SurfaceOptions& options);
 
-/// Makes the surface of a unit (BallSet::unit) among the balls around it, and measures the whole
+/// Makes the surface of a unit (Placement::unit) among the balls around it, and measures the whole
 /// that its rotations make: areas, volumes and pieces are those of the whole, the mesh and its
 /// statistics those of the unit, without a grid.
 ///

@@ -92,7 +92,8 @@ std::vector<std::size_t> imagesAt(const BallSet& atoms, const BallIndex& index, 
 
 UnitShare shareOfUnit(const BallSet& atoms, double grown, const Progress& progress)
 {
-    const SymmetricUnit& unit = *atoms.unit;
+    const Placement& placement = atoms.placement;
+    const Vec3d& middle = placement.unit->centre;
     std::vector<Ball> balls = atoms.balls;
     for (Ball& ball : balls) ball.radius += grown;
     const MeasuredUnion all(balls, progress);
@@ -101,7 +102,7 @@ UnitShare shareOfUnit(const BallSet& atoms, double grown, const Progress& progre
         const Patch& patch = all.boundary.patches[face.patch];
         areas[all.ballOf(face.patch)] += face.area;
         fluxes[all.ballOf(face.patch)] +=
-            patch.radius * face.area + (patch.centre - unit.centre).dot(face.normal);
+            patch.radius * face.area + (patch.centre - middle).dot(face.normal);
     }
 
     UnitShare sum;
@@ -117,8 +118,8 @@ UnitShare shareOfUnit(const BallSet& atoms, double grown, const Progress& progre
         const double part = 1.0 / double(here.size());
         double weight = 0.0;
         for (const std::size_t j : here) {
-            if (unit.motionOf[j] == 0) weight += part;
-            if (unit.motionOf[i] != 0) continue;
+            if (placement.owns(std::int32_t(j))) weight += part;
+            if (!placement.owns(std::int32_t(i))) continue;
             sum.areas[i] += part * areas[j];
             sum.volume += part * fluxes[j] / 3.0;
         }
@@ -126,7 +127,7 @@ UnitShare shareOfUnit(const BallSet& atoms, double grown, const Progress& progre
         single.push_back(balls[i]);
         weights.push_back(weight);
     }
-    const double order = double(unit.inverse.size());
+    const double order = double(placement.order());
     const double euler =
         order * (single.size() == balls.size() ? eulerOfUnit(balls, weights, all)
                                                : eulerOfUnit(single, weights, {single, progress}));

@@ -33,7 +33,7 @@ struct UnitShare {
     std::optional<int> wholeEuler;
 };
 
-/// Measures what a unit (BallSet::unit) has of the union of balls of radius r_i + grown. A patch
+/// Measures what a unit (Placement::unit) has of the union of balls of radius r_i + grown. A patch
 /// belongs to the unit of its ball. Balls in one place have equal parts of what is theirs.
 ///
 /// The volume is the flux of (x - c)/3 through the unit's patches, c being the point about which

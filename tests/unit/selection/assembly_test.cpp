@@ -45,8 +45,8 @@ TEST(Assembly, OfTheDimer)
         SelectOptions options = assembly("1");
         const BallSet dry = selectBalls(s, options);
         EXPECT_EQ(dry.balls.size(), 1112u) << name;
-        EXPECT_EQ(dry.copies, 2u);
-        EXPECT_EQ(dry.copyBegin, (std::vector<std::size_t>{0, 556, 1112}));
+        EXPECT_EQ(dry.placement.copies, 2u);
+        EXPECT_EQ(dry.placement.begin, (std::vector<std::size_t>{0, 556, 1112}));
         EXPECT_HAS(describeSelection(s, dry), "used 1112 atoms (2 copies); dropped 88 water");
         options.waters = true;
         EXPECT_EQ(selectBalls(s, options).balls.size(), 1288u) << name;
@@ -80,8 +80,8 @@ TEST(Assembly, CopyByCopyAndOnlyItsChains)
          ""}};
     const BallSet selection = selectBalls(s, assembly("x"));
     ASSERT_EQ(selection.balls.size(), 5u);
-    EXPECT_EQ(selection.copies, 3u); // no atom is in chain Q
-    EXPECT_EQ(selection.copyBegin, (std::vector<std::size_t>{0, 2, 4, 5}));
+    EXPECT_EQ(selection.placement.copies, 3u); // no atom is in chain Q
+    EXPECT_EQ(selection.placement.begin, (std::vector<std::size_t>{0, 2, 4, 5}));
     const std::vector<float> x{11, 11, 21, 21, 31};
     const std::vector<std::int32_t> atoms{0, 1, 0, 1, 0};
     for (std::size_t i = 0; i < 5; ++i) {
@@ -99,7 +99,7 @@ TEST(Assembly, CopiesInOnePlaceCountOnce)
     s.assemblies = {{"1", {{{}, {moved(10), moved(20), moved(10), moved(30)}}}, ""}};
     const BallSet selection = selectBalls(s, assembly("1"));
     EXPECT_EQ(selection.balls.size(), 9u);
-    EXPECT_EQ(selection.copyBegin, (std::vector<std::size_t>{0, 3, 6, 6, 9}));
+    EXPECT_EQ(selection.placement.begin, (std::vector<std::size_t>{0, 3, 6, 6, 9}));
     EXPECT_EQ(selection.balls[6].center, openvdb::Vec3d(31, 2, 3));
     EXPECT_EQ(selection.warnings.size(), 1u);
     // Atoms that the file has in one place, and the assembly moves apart, all stay.
@@ -120,20 +120,21 @@ TEST(Assembly, InstancesAreThePrototypesOnce)
     options.instances = true;
     const BallSet selection = selectBalls(s, options);
     // A and B at 10; A, B and C at 20; B at 30.
-    EXPECT_EQ(selection.copyBegin, (std::vector<std::size_t>{0, 2, 5, 6}));
+    EXPECT_EQ(selection.placement.begin, (std::vector<std::size_t>{0, 2, 5, 6}));
     const std::vector<std::int32_t> atoms{0, 1, 0, 1, 2, 1};
     for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_EQ(selection.balls[i].atom, atoms[i]);
         EXPECT_EQ(selection.balls[i].center, openvdb::Vec3d(1, 2, 3 + atoms[i]));
     }
-    ASSERT_EQ(selection.instances.size(), 3u);
+    ASSERT_EQ(selection.placement.instances.size(), 3u);
     for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_EQ(selection.instances[i].prototype, i);
-        EXPECT_EQ(selection.instances[i].translation, openvdb::Vec3d(10.0 * double(i + 1), 0, 0));
+        EXPECT_EQ(selection.placement.instances[i].part, i);
+        EXPECT_EQ(selection.placement.instances[i].translation,
+                  openvdb::Vec3d(10.0 * double(i + 1), 0, 0));
     }
     s.assemblies = {{"1", {{{}, {moved(10), moved(20), moved(30)}}}, ""}};
-    EXPECT_EQ(selectBalls(s, options).copyBegin, (std::vector<std::size_t>{0, 3}));
-    EXPECT_EQ(selectBalls(s, options).instances.size(), 3u);
+    EXPECT_EQ(selectBalls(s, options).placement.begin, (std::vector<std::size_t>{0, 3}));
+    EXPECT_EQ(selectBalls(s, options).placement.instances.size(), 3u);
 }
 
 TEST(Assembly, TurnsThenShifts)

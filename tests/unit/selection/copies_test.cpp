@@ -60,8 +60,8 @@ TEST(Copies, AboutTheAxesOfTheIcosahedron)
     expectRing(selectBalls(s, copies("fold:5")).balls, 5, {0, 1, golden});
     expectRing(selectBalls(s, copies("fold:3")).balls, 3, {1, 1, 1});
     expectRing(selectBalls(s, copies("fold:2")).balls, 2, {1, golden * golden, golden});
-    EXPECT_EQ(selectBalls(s, copies("fold:5")).copyNumbers[0], 1);
-    EXPECT_EQ(selectBalls(s, copies("")).copies, 60u);
+    EXPECT_EQ(selectBalls(s, copies("fold:5")).placement.numbers[0], 1);
+    EXPECT_EQ(selectBalls(s, copies("")).placement.copies, 60u);
 }
 
 TEST(Copies, AreThoseOfTheFirstOperatorWhereverItIs)
@@ -70,7 +70,7 @@ TEST(Copies, AreThoseOfTheFirstOperatorWhereverItIs)
     std::rotate(operators.begin(), operators.begin() + 17, operators.end());
     const Operator home = inverseOf(operators[0]);
     const BallSet five = selectBalls(withAssembly(operators), copies("fold:5"));
-    ASSERT_EQ(five.copies, 5u);
+    ASSERT_EQ(five.placement.copies, 5u);
     // In the frame of copy 1 it is the ring of the copy that the identity makes.
     std::vector<Ball> balls = five.balls;
     for (Ball& ball : balls) ball.center = applied(home, ball.center);
@@ -86,7 +86,7 @@ TEST(Copies, OfCyclicAndDihedralAssemblies)
                "[1 four-fold axis]");
     const Structure d3 = withAssembly(dihedral(3));
     expectRing(selectBalls(d3, copies("fold:3")).balls, 3, {0, 0, 1});
-    EXPECT_EQ(selectBalls(d3, copies("fold:2")).copies, 2u);
+    EXPECT_EQ(selectBalls(d3, copies("fold:2")).placement.copies, 2u);
     EXPECT_HAS(errorOf(ErrorKind::Input, [&] { selectBalls(d3, copies("fold:7")); }),
                "[1 three-fold, 3 two-fold axes]");
     EXPECT_HAS(
@@ -99,7 +99,7 @@ TEST(Copies, OfAHelixAreRefusedByItsName)
     const Structure s = withAssembly(helix(20, 2.5, 0.4));
     EXPECT_HAS(errorOf(ErrorKind::Input, [&] { selectBalls(s, copies("fold:3")); }),
                "got fold:3 [helical, rise 2.50 Å, twist 22.92 degrees, no rotation axis]");
-    EXPECT_EQ(selectBalls(s, copies("3-7")).copies, 5u);
+    EXPECT_EQ(selectBalls(s, copies("3-7")).placement.copies, 5u);
 }
 
 TEST(Copies, DuplicatesAreLeftOutOfARing)
@@ -109,15 +109,15 @@ TEST(Copies, DuplicatesAreLeftOutOfARing)
     operators.insert(operators.end(), once.begin(), once.end());
     const BallSet five = selectBalls(withAssembly(operators), copies("fold:5"));
     expectRing(five.balls, 5, {0, 1, golden});
-    EXPECT_LE(five.copyNumbers.back(), 60);
+    EXPECT_LE(five.placement.numbers.back(), 60);
 }
 
 TEST(Copies, ByNumber)
 {
     const Structure s = withAssembly(icosahedral());
     const BallSet some = selectBalls(s, copies("7, 1,23-25,24"));
-    EXPECT_EQ(some.copyNumbers, (std::vector<int>{1, 7, 23, 24, 25}));
-    EXPECT_EQ(some.copyBegin, (std::vector<std::size_t>{0, 2, 4, 6, 8, 10}));
+    EXPECT_EQ(some.placement.numbers, (std::vector<int>{1, 7, 23, 24, 25}));
+    EXPECT_EQ(some.placement.begin, (std::vector<std::size_t>{0, 2, 4, 6, 8, 10}));
     const BallSet all = selectBalls(s, copies(""));
     EXPECT_EQ(some.balls[2].center, all.balls[12].center); // copy 7
     EXPECT_EQ(some.balls[9].center, all.balls[49].center); // copy 25
@@ -136,7 +136,7 @@ TEST(Copies, OfAPartWithItsOwnOperatorsComeAlong)
     std::rotate(others.begin(), others.begin() + 1, others.end()); // the identity comes last
     s.assemblies[0].parts.push_back({{"B"}, others});
     const BallSet ring = selectBalls(s, copies("fold:4"));
-    EXPECT_EQ(ring.copyNumbers, (std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8}));
+    EXPECT_EQ(ring.placement.numbers, (std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8}));
     EXPECT_EQ(selectBalls(s, copies("8")).balls.at(0).center, openvdb::Vec3d(8, 51, 71));
 }
 
@@ -155,7 +155,7 @@ TEST(Copies, AMirrorImageIsNotBuilt)
     for (double& r : s.assemblies[0].parts[0].operators[1].rotation[2]) r = -r;
     EXPECT_HAS(errorOf(ErrorKind::Input, [&] { selectBalls(s, copies("")); }),
                "made: assembly \"1\": operator \"2\": expected a rotation, got a reflection");
-    EXPECT_EQ(selectBalls(s, copies("1,3")).copies, 2u);
+    EXPECT_EQ(selectBalls(s, copies("1,3")).placement.copies, 2u);
 }
 
 } // namespace

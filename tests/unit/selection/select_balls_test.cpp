@@ -32,7 +32,7 @@ TEST(SelectBalls, GivesEveryAtomItsBall)
     ASSERT_EQ(selection.balls.size(), 327u);
     EXPECT_TRUE(selection.drops.empty());
     EXPECT_TRUE(selection.warnings.empty());
-    EXPECT_EQ(selection.copyBegin, (std::vector<std::size_t>{0, 327}));
+    EXPECT_EQ(selection.placement.begin, (std::vector<std::size_t>{0, 327}));
     for (std::size_t i = 0; i < 327; ++i) {
         EXPECT_EQ(selection.balls[i].atom, static_cast<std::int32_t>(i));
         EXPECT_EQ(selection.balls[i].center, s.atoms[i].position);

@@ -101,10 +101,11 @@ TEST_P(BySymmetry, IsTheWhole)
         s.assemblies = {assemblyOf(elsewhere(c.operators, centre))};
         const BallSet unit = selectBalls(s, assembly(true, options));
         const BallSet whole = selectBalls(s, assembly(false, options));
-        ASSERT_TRUE(unit.unit);
-        EXPECT_EQ(unit.unit->pointGroup, c.name);
-        EXPECT_NEAR((unit.unit->centre - centre).length(), 0.0, c.name[0] == 'C' ? 50.0 : 1e-3);
-        EXPECT_LT(unit.unit->deviation, 1e-4);
+        ASSERT_TRUE(unit.placement.unit);
+        EXPECT_EQ(unit.placement.unit->pointGroup, c.name);
+        EXPECT_NEAR((unit.placement.unit->centre - centre).length(), 0.0,
+                    c.name[0] == 'C' ? 50.0 : 1e-3);
+        EXPECT_LT(unit.placement.unit->deviation, 1e-4);
 
         const MolecularSurface a = makeSurface(unit, options), b = makeSurface(whole, options);
         const SurfaceReport &found = a.report.surface, &expected = b.report.surface;
@@ -179,8 +180,8 @@ TEST(SymmetricUnit, OfAHelix)
         for (const Operator& strand : cyclic(3)) strands.push_back(multiplied(strand, op));
     s.assemblies = {assemblyOf(strands)};
     const BallSet unit = selectBalls(s, assembly(true, options));
-    EXPECT_EQ(unit.unit->pointGroup, "C3");
-    EXPECT_EQ(unit.unit->copies, 5u);
+    EXPECT_EQ(unit.placement.unit->pointGroup, "C3");
+    EXPECT_EQ(unit.placement.unit->copies, 5u);
     const MolecularSurface a = makeSurface(unit, options);
     const MolecularSurface b = makeSurface(selectBalls(s, assembly(false, options)), options);
     EXPECT_NEAR(a.report.surface.area, b.report.surface.area, 3e-3 * b.report.surface.area);
@@ -292,7 +293,7 @@ TEST(SymmetricUnit, OnALatticeIsTheWhole)
         EXPECT_NEAR(found.volume, expected.volume, 1e-6 * expected.volume);
         ASSERT_TRUE(found.eulerCharacteristic);
         EXPECT_EQ(*found.eulerCharacteristic, *expected.eulerCharacteristic);
-        shared += unit.unit->inverse.size() * unit.unit->balls != whole.balls.size();
+        shared += unit.whole() != whole.balls.size();
     }
     EXPECT_GE(shared, 3);
 }
@@ -411,7 +412,7 @@ TEST(SymmetricUnit, BordersMeet)
     const MolecularSurface a = makeSurface(unit, options);
     ASSERT_FALSE(a.shared.empty());
     for (const SharedVertex& v : a.shared) {
-        const Instance& m = unit.instances[std::size_t(v.motion)];
+        const Instance& m = unit.placement.instances[std::size_t(v.motion)];
         const Operator op{m.rotation, m.translation, {}};
         const Vec3d there = applied(op, Vec3d(a.mesh.positions[v.other]));
         EXPECT_NEAR((there - Vec3d(a.mesh.positions[v.vertex])).length(), 0.0, 1e-4);

@@ -21,7 +21,7 @@ BallSet pair(float distance)
     BallSet atoms;
     atoms.balls = {{Vec3f(0.1f, 0.2f, 0.3f), 1.7f, 0},
                    {Vec3f(0.1f + distance, 0.2f, 0.3f), 1.7f, 1}};
-    atoms.copyBegin = {0, 2};
+    atoms.placement.begin = {0, 2};
     BallLabels labels;
     labels.chains = {"A", "B"};
     labels.chainOf = labels.groupOf = {0, 1};
