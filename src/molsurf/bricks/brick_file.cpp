@@ -221,7 +221,7 @@ std::string headerText(const BrickHeader& h)
     for (const GroupReport& g : h.sums.groups)
         groups.push_back(Json{{"name", g.name}, {"atoms", g.atoms}, {"area", g.area}});
     for (const auto& [stage, time] : h.sums.seconds) seconds.push_back(Json{stage, time});
-    const Brick& b = h.sums;
+    const BrickSums& b = h.sums;
     const Json text = {{"plan", h.plan},
                        {"brick", h.number},
                        {"grids", std::move(grids)},
@@ -235,9 +235,9 @@ std::string headerText(const BrickHeader& h)
                        {"border", json(h.border)},
                        {"open_edges", json(h.openEdges)},
                        {"pieces", json(h.pieces)},
-                       {"closed", b.mesh.closed},
-                       {"manifold", b.mesh.manifold},
-                       {"degenerate_triangles", b.mesh.flat},
+                       {"closed", h.closed},
+                       {"manifold", h.manifold},
+                       {"degenerate_triangles", h.flat},
                        {"max_residual", b.maxResidual},
                        {"kink_vertices", b.kinkVertices},
                        {"unit_vertices", b.unitVertices},
@@ -270,9 +270,9 @@ BrickHeader parseHeader(const std::string& text)
     h.border = section(j.at("border"));
     h.openEdges = section(j.at("open_edges"));
     h.pieces = section(j.at("pieces"));
-    h.sums.mesh.closed = j.at("closed");
-    h.sums.mesh.manifold = j.at("manifold");
-    h.sums.mesh.flat = count(j.at("degenerate_triangles"));
+    h.closed = j.at("closed");
+    h.manifold = j.at("manifold");
+    h.flat = count(j.at("degenerate_triangles"));
     h.sums.maxResidual = jsonNumber<double>(j.at("max_residual"));
     h.sums.kinkVertices = count(j.at("kink_vertices"));
     h.sums.unitVertices = count(j.at("unit_vertices"));
@@ -363,16 +363,10 @@ void writeBrick(const Brick& brick, const std::string& plan, std::size_t number,
     BrickHeader header;
     header.plan = plan;
     header.number = number;
-    header.sums.evolution = brick.evolution;
-    header.sums.displacements = brick.displacements;
-    header.sums.maxResidual = brick.maxResidual;
-    header.sums.kinkVertices = brick.kinkVertices;
-    header.sums.unitVertices = brick.unitVertices;
-    header.sums.groups = brick.groups;
-    header.sums.seconds = brick.seconds;
-    header.sums.mesh.closed = brick.mesh.closed;
-    header.sums.mesh.manifold = brick.mesh.manifold;
-    header.sums.mesh.flat = brick.mesh.flat;
+    header.sums = brick;
+    header.closed = brick.mesh.closed;
+    header.manifold = brick.mesh.manifold;
+    header.flat = brick.mesh.flat;
 
     Writer writer(file);
     Head head;

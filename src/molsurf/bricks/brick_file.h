@@ -49,15 +49,16 @@ struct BrickHeader {
     std::size_t number = 0; ///< from 1
     std::vector<StoredGrid> grids;
     PlyLayout layout;
-    Section vertices;   ///< the owned ones, records of layout.vertexSize() bytes, if meshed
-    Section triangles;  ///< three 32-bit indices, if meshed
-    Section areas;      ///< floats, one an owned vertex
-    Section curvatures; ///< two floats an owned vertex: mean [1/Å] and Gaussian [1/Å^2]
-    Section border;     ///< of BorderVertex
-    Section openEdges;  ///< of OpenEdge
-    Section pieces;     ///< of PieceMeasure
-    /// The part that does not lie in sections: mesh.mesh and grids stay empty.
-    Brick sums;
+    Section vertices;     ///< the owned ones, records of layout.vertexSize() bytes, if meshed
+    Section triangles;    ///< three 32-bit indices, if meshed
+    Section areas;        ///< floats, one an owned vertex
+    Section curvatures;   ///< two floats an owned vertex: mean [1/Å] and Gaussian [1/Å^2]
+    Section border;       ///< of BorderVertex
+    Section openEdges;    ///< of OpenEdge
+    Section pieces;       ///< of PieceMeasure
+    std::size_t flat = 0; ///< as those of BrickMesh
+    bool closed = true, manifold = true;
+    BrickSums sums;
 
     /// Whether vertices and triangles are in the file.
     bool meshed() const { return triangles.offset > 0; }

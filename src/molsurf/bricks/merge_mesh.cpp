@@ -155,7 +155,7 @@ void MergedMesh::checkTriangles(std::size_t b) const
     }
     const Topology found = checkTopology(mesh, inner, Progress());
     const bool manifold = found.closed && found.oriented && found.manifold;
-    if (!manifold && (header.sums.mesh.closed || header.sums.mesh.manifold))
+    if (!manifold && (header.closed || header.manifold))
         brick.refuse("has a mesh with holes, and says that it is closed");
     const std::vector<OpenEdge> listed = brick.read<OpenEdge>(header.openEdges);
     const std::vector<OpenEdge> open = openEdges(mesh, border, Progress());
@@ -260,12 +260,12 @@ SurfaceReport MergedMesh::report() const
             if (!std::isfinite(p.area + p.volume)) brick.refuse("has pieces without a size");
             sums.push_back(p);
         }
-        const Brick& s = brick.header().sums;
-        report.closed = report.closed && s.mesh.closed;
-        report.manifold = report.manifold && s.mesh.manifold;
-        report.degenerateTriangles += s.mesh.flat;
-        report.maxResidual = std::max(report.maxResidual, s.maxResidual);
-        counts += {s.kinkVertices, s.unitVertices};
+        const BrickHeader& h = brick.header();
+        report.closed = report.closed && h.closed;
+        report.manifold = report.manifold && h.manifold;
+        report.degenerateTriangles += h.flat;
+        report.maxResidual = std::max(report.maxResidual, h.sums.maxResidual);
+        counts += {h.sums.kinkVertices, h.sums.unitVertices};
     }
     DisjointSets sets(sums.size());
     std::vector<std::pair<std::uint64_t, std::size_t>> pieceAt; // by vertex of the whole
