@@ -146,8 +146,8 @@ void centerMesh(Call& call, MolecularSurface& result)
 bool isEstimated(const SurfaceOptions& options)
 {
     const EvolveOptions& flow = options.evolution;
-    const bool several = options.interfaces || options.split || !options.surfaceOf.empty() ||
-                         options.matchVolume || options.ballAreas;
+    const bool several =
+        options.interfaces || options.ofParts() || options.matchVolume || options.ballAreas;
     const bool asked = flow.flow == Flow::Paper || flow.steps || flow.maxSteps;
     return !several && !asked;
 }
@@ -186,8 +186,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
         result.report.tables.push_back(areaTable(table, call, balls, result));
     if (extend) extend(result);
     const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
-    if (result.surface) result.surface->setCreator(creator);
-    for (const auto& field : result.fields) field->setCreator(creator);
+    for (const auto& grid : result.grids()) grid->setCreator(creator);
 
     if (call.center) centerMesh(call, result);
     ShownMeshes shown;

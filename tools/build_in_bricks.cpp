@@ -93,8 +93,7 @@ std::string sizeText(std::size_t bytes)
 
 bool goesInBricks(const Call& call)
 {
-    if (call.verb != Build || call.atoms.instances || call.atoms.bySymmetry || !call.frames.empty())
-        return false;
+    if (call.verb != Build || call.atoms.repeats() || !call.frames.empty()) return false;
     try {
         checkBrickOptions(call.options);
         checkOutputs(call);

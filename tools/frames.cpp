@@ -163,7 +163,7 @@ public:
         const BallSet& first = source_.balls(0);
         std::vector<std::string> warnings = call_.warnings;
         warnings.insert(warnings.end(), first.warnings.begin(), first.warnings.end());
-        const bool parts = call_.options.split || !call_.options.surfaceOf.empty();
+        const bool parts = call_.options.ofParts();
         if (moves_ && parts) warnings.push_back("no grid v: groups have surfaces of their own");
         for (const std::string& warning : warnings) say("warning: " + warning);
         const auto kept = std::count(done_.begin(), done_.end(), true);

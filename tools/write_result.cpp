@@ -105,9 +105,8 @@ std::vector<Ball> placedBalls(const Call& call, const BallSet& atoms)
 
 openvdb::GridCPtrVec gridsOf(const Call& call, const MolecularSurface& result)
 {
-    openvdb::GridCPtrVec grids;
-    if (result.surface) grids.push_back(result.surface);
-    grids.insert(grids.end(), result.fields.begin(), result.fields.end());
+    const openvdb::GridPtrVec all = result.grids();
+    const openvdb::GridCPtrVec grids(all.begin(), all.end());
     const Scene& scene = call.scene;
     return scene.known() || call.center ? placeInScene(grids, scene) : grids;
 }

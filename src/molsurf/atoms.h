@@ -240,6 +240,9 @@ struct SelectOptions {
     /// The bytes that the file's text may have, unpacked; 0: 4 GiB, and no more than 200 times its
     /// packed size.
     std::size_t maxInput = 0;
+
+    /// Tells whether motions repeat the balls that are made.
+    bool repeats() const { return instances || bySymmetry; }
 };
 
 /// A number of atoms that are left out for one reason.

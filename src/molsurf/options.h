@@ -107,6 +107,9 @@ struct SurfaceOptions {
     /// closed form, of the kinds SolventExcluded, SolventAccessible and VanDerWaals alone, with
     /// none of split, surfaceOf, fields, fillCavities, minWall and curvatureTotals.
     bool grid = true;
+
+    /// Tells whether parts have surfaces of their own.
+    bool ofParts() const { return split || !surfaceOf.empty(); }
 };
 
 /// The range of SurfaceOptions::voxel [Å].

@@ -58,6 +58,14 @@ struct MolecularSurface {
     /// If they were asked for, what contactAreas() gives with the probe of the surface.
     std::vector<ContactArea> contacts;
     Report report; ///< measures of the surface; its caller fills in command, input and the like
+
+    /// Returns the level set, if there is one, and the fields.
+    openvdb::GridPtrVec grids() const
+    {
+        openvdb::GridPtrVec all = fields;
+        if (surface) all.insert(all.begin(), surface);
+        return all;
+    }
 };
 
 /// The active voxels of a grid, in the order of its tree. The centre of voxel ijk lies at

@@ -122,8 +122,7 @@ struct Call : Settings {
     /// Whether copies of an assembly, which nodes place, have colours.
     bool colorsCopies() const
     {
-        return colorGroups && colorGroups->kind == GroupBy::Kind::Copy &&
-               (atoms.instances || atoms.bySymmetry);
+        return colorGroups && colorGroups->kind == GroupBy::Kind::Copy && atoms.repeats();
     }
 };
 

@@ -151,7 +151,7 @@ std::vector<Pair> surfacePairs()
              return !blended && kindOf(call.options.color).hasBorders != nullptr;
          }},
         {"crisp", IsFor, {}, "one surface, without --split and --surface-of", [](const Call& call) {
-             return !call.options.split && call.options.surfaceOf.empty();
+             return !call.options.ofParts();
          }}};
 }
 

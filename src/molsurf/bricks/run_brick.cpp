@@ -178,8 +178,7 @@ Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope&
     cutMesh(run, options, scope.region, brick, progress);
     run.labels();
     brick.mesh.mesh = std::move(result.mesh);
-    brick.grids = {result.surface};
-    brick.grids.insert(brick.grids.end(), result.fields.begin(), result.fields.end());
+    brick.grids = result.grids();
     if (options.halfFloats)
         for (const auto& grid : brick.grids) grid->setSaveFloatAsHalf(true);
     brick.evolution = result.report.evolution;

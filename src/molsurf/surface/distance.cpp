@@ -142,7 +142,7 @@ SurfaceDistance::SurfaceDistance(const BallSet& atoms, const SurfaceOptions& opt
     if (atoms.balls.empty()) throw Error(ErrorKind::Input, "distance: no atoms");
     checkFinite(atoms.balls);
     auto parts = std::make_unique<Parts>(atoms.balls);
-    const bool changed = options.split || !options.surfaceOf.empty() || options.fillCavities;
+    const bool changed = options.ofParts() || options.fillCavities;
     if (isBoundary(options) && !changed && atoms.placement.isWhole())
         parts->exact.emplace(atoms.balls, probeOf(options), progress);
     else if (!surface.mesh.triangles.empty())

@@ -4,9 +4,9 @@
 #include "molsurf/balls/contacts.h"
 #include "molsurf/core/quiet_progress.h"
 #include "molsurf/selection/subset.h"
+#include "molsurf/surface.h"
 #include "molsurf/surface/closed_form.h"
 #include "molsurf/surface/influence.h"
-#include "molsurf/surface/parts.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
@@ -86,55 +86,27 @@ std::vector<std::size_t> merged(const std::vector<std::size_t>& a,
     return out;
 }
 
-/// The same of a whole that follows from a unit: the pairs of a group of the unit with another one,
-/// or with an image. An image is there as far as the unit feels it; what is missing changes both
-/// areas alike.
-void measureUnitInterfaces(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
-                           Report& report)
+/// Groups with their images: those that a motion makes are behind those that the one before it
+/// makes, and the unit's own are the first. Without a unit there are no others.
+struct Members {
+    std::vector<std::int32_t> of;                ///< of each ball: its group's, or -1
+    std::vector<std::vector<std::size_t>> balls; ///< of each
+};
+
+Members membersOf(const BallSet& atoms)
 {
     const Placement& placement = atoms.placement;
-    const SymmetricUnit& unit = *placement.unit;
-    const std::size_t order = placement.order(), groups = atoms.labels->groups.size();
-    const SurfaceOptions plain = plainOptions(options);
-    BallSet balls = atoms;
-    balls.placement = {};
-    // Groups motion by motion: those of the unit come first.
-    std::vector<std::int32_t> memberOf(balls.balls.size(), -1);
-    std::vector<std::vector<std::size_t>> members(order * groups);
-    for (std::size_t i = 0; i < memberOf.size(); ++i) {
-        const std::int32_t g = balls.labels->groupOf[i];
-        if (g < 0) continue;
-        memberOf[i] = placement.motionOf[i] * std::int32_t(groups) + g;
-        members[std::size_t(memberOf[i])].push_back(i);
+    const std::size_t groups = atoms.labels->groups.size();
+    Members out;
+    out.of = atoms.labels->groupOf;
+    out.balls.resize(placement.order() * groups);
+    for (std::size_t i = 0; i < out.of.size(); ++i) {
+        if (out.of[i] < 0) continue;
+        if (!placement.owns(std::int32_t(i)))
+            out.of[i] += placement.motionOf[i] * std::int32_t(groups);
+        out.balls[std::size_t(out.of[i])].push_back(i);
     }
-    const auto near = contacts(balls.balls, memberOf, members.size(),
-                               Influence(balls, plain).acrossGap(), progress);
-    std::size_t runs = 0, done = 0;
-    for (std::size_t a = 0; a < groups; ++a) runs += near[a].size();
-    std::map<std::size_t, double> alone;
-    const auto aloneOf = [&](std::size_t member) {
-        const auto [found, isNew] = alone.emplace(member, 0.0);
-        if (isNew) found->second = areasOf(subset(balls, members[member]), plain, progress).total;
-        return found->second;
-    };
-    for (std::size_t a = 0; a < groups; ++a) {
-        for (const std::int32_t other : near[a]) {
-            progress.update("interfaces", double(done++) / double(runs));
-            const std::size_t member = std::size_t(other), m = member / groups, b = member % groups;
-            // The inverse motion makes the same pair of b and a.
-            const std::size_t back = unit.inverse[m];
-            if (b < a || (b == a && back < m) || member == a) continue;
-            const double both =
-                areasOf(subset(balls, merged(members[a], members[member])), plain, progress).total;
-            const double area = (aloneOf(a) + aloneOf(member) - both) / 2.0;
-            if (area < noticeable) continue;
-            const bool mirrored = b == a && back == m;
-            std::string name = atoms.labels->groups[b].name;
-            if (m != 0) name += " of unit " + placement.instances[m].name;
-            report.interfaces.push_back(
-                {atoms.labels->groups[a].name, name, area, mirrored ? order / 2 : order, {}});
-        }
-    }
+    return out;
 }
 
 } // namespace
@@ -142,40 +114,51 @@ void measureUnitInterfaces(const BallSet& atoms, const SurfaceOptions& options, 
 void measureInterfaces(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
                        Report& report)
 {
-    if (atoms.placement.unit) return measureUnitInterfaces(atoms, options, progress, report);
+    const Placement& placement = atoms.placement;
+    const std::vector<Group>& groups = atoms.labels->groups;
+    const std::size_t order = placement.order();
     const SurfaceOptions plain = plainOptions(options);
-    const BallLabels& labels = *atoms.labels;
-    const auto near = contacts(atoms.balls, labels.groupOf, labels.groups.size(),
-                               Influence(atoms, options).acrossGap(), progress);
-    const auto balls = ballsOfGroups(labels);
+    const Members members = membersOf(atoms);
+    const auto near = contacts(atoms.balls, members.of, members.balls.size(),
+                               Influence(atoms, plain).acrossGap(), progress);
 
-    std::size_t runs = labels.groups.size(), done = 0;
-    for (const auto& n : near) runs += n.size(); // twice the pairs
-    const auto tick = [&](std::size_t count) {
-        progress.update("interfaces", double(done) / double(runs));
-        done += count;
+    std::size_t runs = groups.size(), done = 0;
+    for (std::size_t a = 0; a < groups.size(); ++a) runs += near[a].size();
+    const auto tick = [&] { progress.update("interfaces", double(done++) / double(runs)); };
+    const auto measured = [&](const std::vector<std::size_t>& some) {
+        return areasOf(subset(atoms, some), plain, progress);
     };
-    std::vector<Areas> alone(labels.groups.size());
-    for (std::size_t g = 0; g < alone.size(); ++g) {
-        tick(1);
-        if (balls[g].empty()) continue;
-        alone[g] = areasOf(subset(atoms, balls[g]), plain, progress);
-        report.groups[g].aloneArea = alone[g].total;
+    std::map<std::size_t, Areas> alone;
+    const auto aloneOf = [&](std::size_t member) -> const Areas& {
+        const auto [found, isNew] = alone.emplace(member, Areas());
+        if (isNew) found->second = measured(members.balls[member]);
+        return found->second;
+    };
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        tick();
+        if (order == 1 && !members.balls[g].empty()) report.groups[g].aloneArea = aloneOf(g).total;
     }
-    for (std::size_t a = 0; a < near.size(); ++a) {
+    for (std::size_t a = 0; a < groups.size(); ++a) {
         for (const std::int32_t other : near[a]) {
-            const auto b = std::size_t(other);
-            if (b <= a) continue;
-            tick(2);
-            const Areas both = areasOf(subset(atoms, merged(balls[a], balls[b])), plain, progress);
-            const double area = (alone[a].total + alone[b].total - both.total) / 2.0;
+            tick();
+            const std::size_t member = std::size_t(other), m = member / groups.size(),
+                              b = member % groups.size();
+            // The inverse motion makes the same pair of b and a.
+            const std::size_t back = m == 0 ? 0 : placement.unit->inverse[m];
+            if (b < a || (b == a && back < m) || member == a) continue;
+            const auto &own = members.balls[a], &its = members.balls[member];
+            const Areas both = measured(merged(own, its));
+            const double area = (aloneOf(a).total + aloneOf(member).total - both.total) / 2.0;
             if (area < noticeable) continue; // what buries nothing is no interface
+            const bool mirrored = b == a && back == m;
             InterfaceReport& found = report.interfaces.emplace_back();
-            found.first = labels.groups[a].name;
-            found.second = labels.groups[b].name;
+            found.first = groups[a].name;
+            found.second = groups[b].name;
+            if (m != 0) found.second += " of unit " + placement.instances[m].name;
             found.area = area;
-            if (options.ballAreas)
-                found.buried = buriedBalls({&balls[a], &balls[b]}, {&alone[a], &alone[b]}, both,
+            found.count = mirrored ? order / 2 : order;
+            if (options.ballAreas && order == 1)
+                found.buried = buriedBalls({&own, &its}, {&aloneOf(a), &aloneOf(member)}, both,
                                            isClosedForm(options) ? rounding : noticeable);
         }
     }

@@ -190,16 +190,6 @@ BallSet colored(const BallSet& atoms, ColorBy by, const Progress& progress)
 
 } // namespace
 
-std::vector<std::vector<std::size_t>> ballsOfGroups(const BallLabels& labels)
-{
-    std::vector<std::vector<std::size_t>> out(labels.groups.size() + 1);
-    for (std::size_t i = 0; i < labels.groupOf.size(); ++i) {
-        const std::int32_t g = labels.groupOf[i];
-        out[g < 0 ? labels.groups.size() : std::size_t(g)].push_back(i);
-    }
-    return out;
-}
-
 MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
     const std::vector<Part> parts = partsOf(atoms, options);

@@ -6,14 +6,8 @@
 
 #include "molsurf/surface.h"
 
-#include <cstddef>
-#include <vector>
-
 namespace molsurf
 {
-
-/// Lists the balls of each group, and at last those of none.
-std::vector<std::vector<std::size_t>> ballsOfGroups(const BallLabels& labels);
 
 /// Surfaces every group alone (SurfaceOptions::split), or those of SurfaceOptions::surfaceOf alone
 /// and the other atoms together.

@@ -151,8 +151,8 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
         return makeSurface(matched, once, &progress, warm);
     }
     checkBalls(atoms.balls, options, Pieces::One, availableMemory());
-    const bool whole = !options.split && options.surfaceOf.empty();
-    if ((!whole || options.interfaces) && (!atoms.labels || atoms.labels->groups.empty())) {
+    if ((options.ofParts() || options.interfaces) &&
+        (!atoms.labels || atoms.labels->groups.empty())) {
         throw Error(ErrorKind::Input, "there are no groups to surface alone");
     }
     const char* shown = hasField(options.fields, "Cd") ? curvatureNameOf(options.color) : nullptr;
@@ -171,10 +171,10 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
         result = runUnit(inSpatialOrder(atoms), wanted, progress);
     } else if (!options.grid) {
         result = runWithoutGrid(atoms, wanted, progress);
-    } else if (whole) {
-        result = runInOrder(atoms, wanted, progress, warm);
-    } else {
+    } else if (options.ofParts()) {
         result = runParts(atoms, wanted, progress);
+    } else {
+        result = runInOrder(atoms, wanted, progress, warm);
     }
     if (shown)
         addCurvatureColors(options.color, atoms.coloring, !helps, result.mesh, result.fields);
@@ -187,10 +187,8 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
             {group.rule.select, group.rule.resolution, group.balls, group.level});
     }
     addAreas(atoms, options, progress, result);
-    if (options.halfFloats) {
-        if (result.surface) result.surface->setSaveFloatAsHalf(true);
-        for (const auto& field : result.fields) field->setSaveFloatAsHalf(true);
-    }
+    if (options.halfFloats)
+        for (const auto& grid : result.grids()) grid->setSaveFloatAsHalf(true);
     return result;
 }
 
