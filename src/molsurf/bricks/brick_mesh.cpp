@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/bricks/brick_mesh.h"
+#include "molsurf/bricks/brick.h"
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/mesh/statistics.h"

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/detect_format.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/structure/binary_cif.h"
-#include "molsurf/structure/read_ball_list.h"
-#include "molsurf/structure/read_ligand.h"
-#include "molsurf/structure/read_macromolecule.h"
-#include "molsurf/structure/read_simulation.h"
+#include "molsurf/structure/readers.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
@@ -23,14 +21,9 @@ using std::string_view;
 
 std::string lowerExtension(const std::string& path)
 {
-    std::filesystem::path name(path);
-    auto lower = [](std::string text) {
-        for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        return text;
-    };
-    std::string extension = lower(name.extension().string());
-    if (extension == ".gz") extension = lower(name.stem().extension().string());
-    return extension;
+    const std::filesystem::path name(path);
+    const std::string extension = lowered(name.extension().string());
+    return extension == ".gz" ? lowered(name.stem().extension().string()) : extension;
 }
 
 bool startsWithNoCase(string_view text, string_view lowerPrefix)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/read_ball_list.h"
+#include "molsurf/structure/readers.h"
 
 #include "molsurf/structure/element.h"
 #include "molsurf/structure/name_table.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/read_macromolecule.h"
+#include "molsurf/structure/readers.h"
 
 #include "molsurf/core/cancel.h"
 #include "molsurf/error.h"

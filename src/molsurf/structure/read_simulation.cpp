@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/read_simulation.h"
+#include "molsurf/structure/readers.h"
 
 #include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/element.h"

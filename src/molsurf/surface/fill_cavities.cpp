@@ -3,18 +3,61 @@
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/flow/evolve.h"
-#include "molsurf/levelset/cavities.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <cmath>
+#include <deque>
 
 namespace molsurf
 {
 
 namespace
 {
+
+/// Finds the voxels that can be reached from seeds by steps to face neighbours within a set of
+/// voxels.
+///
+/// @param[in] allowed  the set, one mask a leaf of the table
+/// @param[in] seeds    one mask a leaf; those outside the set count for nothing
+/// @return one mask a leaf
+std::vector<LeafMask> connectedTo(const LeafTable& table, const std::vector<LeafMask>& allowed,
+                                  const std::vector<LeafMask>& seeds)
+{
+    std::vector<LeafMask> reached(table.size());
+    std::deque<std::size_t> queue; // leaves that may grow
+    std::vector<bool> queued(table.size(), false);
+    const auto enqueue = [&](std::size_t n) {
+        if (queued[n]) return;
+        queued[n] = true;
+        queue.push_back(n);
+    };
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        reached[n] = seeds[n] & allowed[n];
+        if (!reached[n].any()) continue;
+        for (const std::int32_t m : table.neighbours(n)) {
+            if (m != noLeaf) enqueue(std::size_t(m));
+        }
+    }
+    while (!queue.empty()) {
+        const std::size_t n = queue.front();
+        queue.pop_front();
+        queued[n] = false;
+        bool grown = false;
+        for (;;) {
+            const LeafMask next = (dilatedMask(table, reached, n, false) & allowed[n]) | reached[n];
+            if (next.words == reached[n].words) break;
+            reached[n] = next;
+            grown = true;
+        }
+        if (!grown) continue;
+        for (const std::int32_t m : table.neighbours(n)) {
+            if (m != noLeaf) enqueue(std::size_t(m));
+        }
+    }
+    return reached;
+}
 
 /// Makes voxels inner ones, and the level set a distance again.
 /// @param[in] voxels  one mask a leaf

@@ -22,7 +22,6 @@
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/fill_cavities.h"
 #include "molsurf/surface/label_surface.h"
-#include "molsurf/surface/warm_start.h"
 
 #include <tbb/parallel_invoke.h>
 
@@ -123,6 +122,61 @@ void SurfaceRun::refineCoarseRest()
     band_.psi = std::move(psi.values);
     watch_.stop("initial");
 }
+
+/// How far the surface at rest lies from the one that the flow began at, in the band.
+struct WarmStart::State {
+    SparseField correction; ///< phi at rest minus that of psi = 0 [Å]
+};
+
+WarmStart::WarmStart() = default;
+WarmStart::~WarmStart() = default;
+WarmStart::WarmStart(WarmStart&& other) noexcept = default;
+WarmStart& WarmStart::operator=(WarmStart&& other) noexcept = default;
+
+namespace
+{
+
+/// Adds to the surface of psi = 0 what the flow of the frame before added to its own.
+/// @param[in]     warm  empty: nothing is added
+/// @param[in,out] phi   signed distance in the band of the flow [Å]
+void addCorrection(const WarmStart& warm, SparseField& phi, const Progress& progress)
+{
+    if (warm.empty()) return;
+    constexpr int repairs = 2; // the sum is nearly a distance
+    const float width = float(bandWidthVox * phi.voxelSize);
+    const SparseField& correction = warm.state->correction;
+    parallelFor(phi.table.size(), progress, [&](std::size_t n) {
+        const std::int32_t m = correction.table.find(phi.table.origin(n));
+        if (m == noLeaf) return;
+        for (int v = 0; v < leafSize; ++v)
+            phi.leaf(n)[v] = std::clamp(phi.leaf(n)[v] + correction.leaf(m)[v], -width, width);
+    });
+    reinitialize(phi, width, repairs, progress);
+}
+
+/// Keeps for the next frame how far the flow went, where both ends are known.
+/// @param[in] cold  the level set of psi = 0 [Å]
+/// @param[in] phi   the level set at rest [Å]
+WarmStart correctionOf(const SparseField& cold, const SparseField& phi, const Progress& progress)
+{
+    const float width = float(bandWidthVox * phi.voxelSize) * 0.999f;
+    WarmStart warm;
+    warm.state = std::make_unique<WarmStart::State>();
+    SparseField& correction = warm.state->correction;
+    correction = {phi.table, LeafField(phi.table.size()), phi.voxelSize};
+    parallelFor(phi.table.size(), progress, [&](std::size_t n) {
+        float* out = correction.leaf(n);
+        std::fill_n(out, leafSize, 0.0f);
+        const std::int32_t m = cold.table.find(phi.table.origin(n));
+        if (m == noLeaf) return;
+        const float *from = cold.leaf(m), *to = phi.leaf(n);
+        for (int v = 0; v < leafSize; ++v)
+            if (std::abs(from[v]) < width && std::abs(to[v]) < width) out[v] = to[v] - from[v];
+    });
+    return warm;
+}
+
+} // namespace
 
 void SurfaceRun::flow(WarmStart* warm)
 {

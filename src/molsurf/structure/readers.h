@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The readers of the formats of structureFormats().
+
+#include "molsurf/progress.h"
+#include "molsurf/structure/structure.h"
+
+#include <string>
+
+namespace molsurf
+{
+
+// read_macromolecule: PDB, mmCIF and BinaryCIF by way of gemmi.
+
+/// Reads the text of a PDB file; see readStructure() for what is accepted.
+/// @param[in] text  consumed, to save memory
+/// @param[in] progress  may end the reading between its stages
+/// @throws Error(ErrorKind::Input) if it cannot be read; a text without atoms gives none
+/// @throws Cancelled if the progress object says so
+Structure readPdb(std::string text, const std::string& path, const Progress& progress);
+
+/// Reads the text of an mmCIF file: the first data block that has atoms, or spheres of an
+/// integrative model.
+/// @param[in] text  consumed, to save memory
+/// @throws Error(ErrorKind::Input) if it cannot be read, or if no data block has atoms
+Structure readMmcif(std::string text, const std::string& path, const Progress& progress);
+
+/// The same of a BinaryCIF file.
+Structure readBinaryCif(std::string bytes, const std::string& path, const Progress& progress);
+
+// read_ball_list: files whose atoms carry their own radii.
+
+/// Reads a PQR text: from the right radius, charge, z, y, x; from the left serial number, atom,
+/// residue, an optional chain, residue number. HETATM records are hetero unless they are water.
+/// @throws Error(ErrorKind::Input) naming the line, if it has too few columns, if a column is no
+///         number, or if a radius is negative
+Structure readPqr(const std::string& text, const std::string& path);
+
+/// Reads an xyzr text; see readStructure() for its columns.
+/// @throws Error(ErrorKind::Input) as readPqr()
+Structure readXyzr(const std::string& text, const std::string& path);
+
+/// Reads an xyzrn text; see readStructure() for its columns. Lines without a name are allowed.
+/// @throws Error(ErrorKind::Input) as readPqr()
+Structure readXyzrn(const std::string& text, const std::string& path);
+
+// read_ligand: the files of small molecules.
+
+/// Reads the molecules of an .sdf or .mol file, V2000 or V3000; each is a model. Atoms are named by
+/// their elements, "C1", "C2", "O1".
+/// @throws Error(ErrorKind::Input) with the line, if it is not as described, or if a molecule is
+///         drawn in two dimensions
+Structure readSdf(const std::string& text, const std::string& path);
+
+/// Reads the molecules of a .mol2 file; each is a model. Residues are its substructures, with
+/// numbers and chains if they are given; atoms have charges if all lines have one. Types ("C.3")
+/// tell the elements; lone pairs are left out.
+/// @throws Error(ErrorKind::Input) with the line, if it is not as described
+Structure readMol2(const std::string& text, const std::string& path);
+
+// read_simulation: the files of GROMACS, and of CHARMM, X-PLOR and NAMD.
+
+/// Reads a .gro file: title, number of atoms, atoms in nanometres, box; further frames are models.
+/// The columns of coordinates are as wide as the distance of their decimal points says, velocities
+/// are passed over. Names tell the elements.
+/// @throws Error(ErrorKind::Input) with the line, if it is not as described
+Structure readGro(const std::string& text, const std::string& path);
+
+/// Reads the atoms of a .psf file, whose places are to come from elsewhere (Structure::placed is
+/// false). Segments are the chains, masses and names tell the elements.
+/// @throws Error(ErrorKind::Input) with the line, if it is not as described
+Structure readPsf(const std::string& text, const std::string& path);
+
+} // namespace molsurf
