@@ -8,7 +8,7 @@
 #include "molsurf/selection/groups.h"
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/structure/assembly_operators.h"
-#include "molsurf/structure/read_macromolecule.h"
+#include "molsurf/structure/readers.h"
 #include "molsurf/surface/frame_source.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "cli/help.h"
+#include "cli/parse.h"
 
 #include "cli/option_table.h"
 #include "cli/verb_table.h"

@@ -2,7 +2,6 @@
 #include "cli/parse.h"
 
 #include "cli/complete.h"
-#include "cli/help.h"
 #include "cli/option_table.h"
 #include "cli/pair_table.h"
 #include "cli/verb_table.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// From the words of a command line to a call.
+/// From the words of a command line to a call, or to a text that tells of verbs and options.
 
 #include "cli/call.h"
 
@@ -25,5 +25,22 @@ Parsed parse(int argc, const char* const* argv);
 /// Sets options of a call; the order of their names does not matter.
 /// @throws Error(ErrorKind::Usage) for a value that an option cannot have
 void setOptions(const GivenOptions& given, Call& call);
+
+// help.cpp: the texts, all made of the tables of verbs and options.
+
+/// All verbs, a line each.
+std::string overview();
+
+/// What --help prints for a verb.
+std::string helpText(Verb verb);
+
+/// The manual page, for man.
+std::string manPage();
+
+/// The completion of bash.
+std::string bashCompletion();
+
+/// The options of all verbs as Markdown: docs/options.md.
+std::string optionsPage();
 
 } // namespace molsurf::tool
