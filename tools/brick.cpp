@@ -66,7 +66,7 @@ Call callOf(PlanManifest manifest, const std::string& path)
     completeSurface(call);
     checkPlan(manifest.plan, call.options);
     call.options.evolution.steps = manifest.plan.steps;
-    checkBrickOptions(call.options);
+    checkWay(InBricks, call.options);
     return call;
 }
 

@@ -95,7 +95,7 @@ bool goesInBricks(const Call& call)
 {
     if (call.verb != Build || call.atoms.repeats() || !call.frames.empty()) return false;
     try {
-        checkBrickOptions(call.options);
+        checkWay(InBricks, call.options);
         checkOutputs(call);
     } catch (const Error&) {
         return false;
@@ -130,7 +130,7 @@ int buildInBricks(Call call, Clock::time_point start)
         for (const std::string& line : describePlan(one)) say(line);
         return 0;
     }
-    checkBrickOptions(call.options);
+    checkWay(InBricks, call.options);
     checkOutputs(call);
     const BrickPlan plan = planBricks(atoms, call.options, {0, call.memory, true}, terminal);
     terminal.erase();

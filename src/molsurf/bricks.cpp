@@ -22,7 +22,7 @@ void makeBrick(const BallSet& balls, const SurfaceOptions& options, const BrickP
                std::size_t number, const std::string& path, Progress* listener)
 {
     checkOptions(options);
-    checkBrickOptions(options);
+    checkWay(InBricks, options);
     if (number == 0 || number > plan.bricks.size())
         throw Error(ErrorKind::Usage, "brick: expected a number from 1 to " +
                                           std::to_string(plan.bricks.size()) + ", got " +

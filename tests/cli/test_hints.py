@@ -164,11 +164,13 @@ CASES = {
     "bricks/brick_file.cpp": [
         ("run the brick again with --force", f"{PLAN}; {RUN}; echo junk >> plan.1.brick; {MERGE}",
          f"vdb_molsurf bricks run plan.json 1 --force && {MERGE}")],
-    "bricks/run_brick.cpp": [
+    "surface/whole_only.cpp": [
         ("in one piece", "vdb_molsurf bricks plan 1crn.pdb --bricks 2 --voxel 2 --color mean-curvature -o plan.json",
          "vdb_molsurf 1crn.pdb --voxel 2 --color mean-curvature -o a.ply"),
         ("in one piece", "vdb_molsurf 1crn.pdb --voxel 0.2 --memory 62M --fill-cavities -o a.ply",
-         "vdb_molsurf 1crn.pdb --voxel 0.2 --fill-cavities -o a.ply")],
+         "vdb_molsurf 1crn.pdb --voxel 0.2 --fill-cavities -o a.ply"),
+        ("without --by-symmetry", f"vdb_molsurf 1a8o.cif.gz --assembly 1 --by-symmetry --fill-cavities {FAST} -o a.ply",
+         f"vdb_molsurf 1a8o.cif.gz --assembly 1 --fill-cavities {FAST} -o a.ply")],
     "surface/parts.cpp": [
         ("the groups are A", "vdb_molsurf 1crn.pdb --group-by chain --surface-of B=ses --voxel 2 -o a.ply",
          "vdb_molsurf 1crn.pdb --group-by chain --surface-of A=ses --voxel 2 -o a.ply")],
@@ -372,9 +374,6 @@ CASES = {
          f"vdb_molsurf 1a8o.cif.gz --assembly 1 --group-by copy --color group {FAST} -o a.ply"),
         ("--group-by class --color group", f"vdb_molsurf 1a8o.cif.gz --assembly 1 --color class --group-by chain {FAST} -o a.ply",
          f"vdb_molsurf 1a8o.cif.gz --assembly 1 --group-by class --color group {FAST} -o a.ply")],
-    "surface/unit_run.cpp": [
-        ("without --by-symmetry", f"vdb_molsurf 1a8o.cif.gz --assembly 1 --by-symmetry --fill-cavities {FAST} -o a.ply",
-         f"vdb_molsurf 1a8o.cif.gz --assembly 1 --fill-cavities {FAST} -o a.ply")],
     "tools/cli/parse.cpp": [
         ("vdb_molsurf help", "vdb_molsurf bricks", "vdb_molsurf help | grep 'bricks plan'"),
         ("vdb_molsurf convert --help", "vdb_molsurf convert a.vdb --qqqqqq", "vdb_molsurf convert --help"),

@@ -6,7 +6,6 @@
 #include "cli/verb_table.h"
 #include "sidecar.h"
 
-#include "molsurf/bricks/run_brick.h"
 #include "molsurf/color/color_table.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
@@ -16,7 +15,7 @@
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/frame_source.h"
 #include "molsurf/surface/surface_kind.h"
-#include "molsurf/surface/unit_run.h"
+#include "molsurf/surface/whole_only.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -269,7 +268,7 @@ void completeLevels(Call& call)
 void completeSymmetry(Call& call)
 {
     if (!call.atoms.bySymmetry) return;
-    checkUnitOptions(call.options);
+    checkWay(BySymmetry, call.options);
     SurfaceOptions coarsest = call.options;
     if (!call.lod.empty()) coarsest.voxel = call.lod.back();
     call.atoms.surroundings = surroundingsOf(coarsest);
@@ -364,7 +363,7 @@ void completePlan(Call& call)
     if (call.bricks == 0 && call.memory == 0)
         misuse("bricks plan: expected either --bricks N or --memory SIZE");
     completeSurface(call);
-    checkBrickOptions(call.options);
+    checkWay(InBricks, call.options);
 }
 
 void completeBrick(Call& call)

@@ -544,7 +544,7 @@ double bytesOfNodes(const std::vector<Ball>& balls, double voxel)
 BrickPlan planBricks(const BallSet& atoms, const SurfaceOptions& options, const BrickLimits& limits,
                      const Progress& progress)
 {
-    checkBrickOptions(options);
+    checkWay(InBricks, options);
     constexpr double all = std::numeric_limits<double>::infinity();
     return makePlan(atoms, options, Influence(atoms, options), limits, options.voxel, all,
                     progress);

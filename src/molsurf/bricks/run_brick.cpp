@@ -6,7 +6,6 @@
 #include "molsurf/levelset/round_ridges.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/surface/influence.h"
-#include "molsurf/surface/whole_only.h"
 
 #include <algorithm>
 #include <cmath>
@@ -141,15 +140,6 @@ BallSet ballsNear(const BallSet& atoms, const SurfaceOptions& options, const Sco
     std::vector<std::size_t> ordered; // as in a run of the whole
     for (const std::int32_t k : spatialOrder(balls)) ordered.push_back(near[std::size_t(k)]);
     return subset(atoms, ordered, Counted::Whole);
-}
-
-void checkBrickOptions(const SurfaceOptions& options)
-{
-    if (const char* what = missingIn(InBricks, options))
-        throw Error(ErrorKind::Usage,
-                    std::string(what) +
-                        " needs the whole molecule at once: it is not for bricks [hint: a run in "
-                        "one piece, on a machine that has enough memory]");
 }
 
 Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,

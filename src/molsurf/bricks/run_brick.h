@@ -8,6 +8,7 @@
 #include "molsurf/bricks/brick.h"
 #include "molsurf/options.h"
 #include "molsurf/surface/surface_run.h"
+#include "molsurf/surface/whole_only.h"
 
 namespace molsurf
 {
@@ -21,13 +22,9 @@ Scope brickScope(const SurfaceOptions& options, const Region& region, const Gaus
 /// them; groups and rules still count the balls of the whole molecule.
 BallSet ballsNear(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope);
 
-/// Checks that a surface can be computed brick by brick.
-/// @throws Error(ErrorKind::Usage) for options that need the whole molecule at once; names them
-void checkBrickOptions(const SurfaceOptions& options);
-
 /// Computes what a brick owns of a surface.
 /// @param[in] atoms    those that ballsNear() gives, or more; coloured if colours are wanted
-/// @param[in] options  as checkBrickOptions() lets them pass, with a number of steps
+/// @param[in] options  as checkWay() lets them pass, with a number of steps
 Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
                Progress& progress);
 

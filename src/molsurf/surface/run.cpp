@@ -162,10 +162,7 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
     const bool valued = atoms.labels && atoms.labels->values; // means of values need areas
     if (options.areasOf.value_or(options.kind) != options.kind && !valued) wanted.ballAreas = false;
     MolecularSurface result;
-    const char* apart = options.ballAreas ? missingIn(ByAtom, options) : nullptr;
-    if (apart)
-        throw Error(ErrorKind::Usage,
-                    std::string("areas of atoms: expected one surface, and not ") + apart);
+    if (options.ballAreas) checkWay(ByAtom, options);
     if (atoms.placement.unit) {
         wanted.ballAreas = false;
         result = runUnit(inSpatialOrder(atoms), wanted, progress);

@@ -168,14 +168,6 @@ void checkFit(const BorderFit& fit, double area, const SurfaceReport& surface)
 
 } // namespace
 
-void checkUnitOptions(const SurfaceOptions& options)
-{
-    if (const char* what = missingIn(BySymmetry, options))
-        throw Error(ErrorKind::Usage,
-                    std::string(what) +
-                        " needs the whole assembly at once [hint: without `bySymmetry`]");
-}
-
 double surroundingsOf(const SurfaceOptions& options)
 {
     // Two balls that touch through a probe, and the voxels between a surface and what it depends
@@ -187,7 +179,7 @@ double surroundingsOf(const SurfaceOptions& options)
 
 MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
-    checkUnitOptions(options);
+    checkWay(BySymmetry, options);
     if (!options.grid) return runUnitWithoutGrid(atoms, options, progress);
     const Placement& placement = atoms.placement;
     const Placement::Unit& unit = *placement.unit;

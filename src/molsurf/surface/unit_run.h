@@ -9,10 +9,6 @@
 namespace molsurf
 {
 
-/// Checks that a unit can have what the options ask for.
-/// @throws Error(ErrorKind::Usage) for options that need the whole at once
-void checkUnitOptions(const SurfaceOptions& options);
-
 /// Makes the surface of a unit (Placement::unit) among the balls around it, and measures the whole
 /// that its rotations make: areas, volumes and pieces are those of the whole, the mesh and its
 /// statistics those of the unit, without a grid.
@@ -22,7 +18,7 @@ void checkUnitOptions(const SurfaceOptions& options);
 /// are those of the unit times the order of the group; its pieces follow from which pieces of the
 /// unit meet at the borders; its Euler characteristic counts corners where m units meet as 1/m.
 ///
-/// @throws Error as checkUnitOptions() and makeSurface()
+/// @throws Error as checkWay() and makeSurface()
 MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Progress& progress);
 
 } // namespace molsurf

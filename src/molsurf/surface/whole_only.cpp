@@ -2,11 +2,13 @@
 #include "molsurf/surface/whole_only.h"
 
 #include "molsurf/color/color_table.h"
+#include "molsurf/error.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
+#include <string>
 
 namespace molsurf
 {
@@ -49,6 +51,22 @@ const char* missingIn(Way way, const SurfaceOptions& options)
     for (const Row& row : rows)
         if ((row.ways & way) && row.asked(options)) return row.what;
     return nullptr;
+}
+
+void checkWay(Way way, const SurfaceOptions& options)
+{
+    const char* what = missingIn(way, options);
+    if (!what) return;
+    if (way == ByAtom)
+        throw Error(ErrorKind::Usage,
+                    std::string("areas of atoms: expected one surface, and not ") + what);
+    throw Error(ErrorKind::Usage,
+                what + std::string(way == InBricks
+                                       ? " needs the whole molecule at once: it is not for bricks "
+                                         "[hint: a run in one piece, on a machine that has enough "
+                                         "memory]"
+                                       : " needs the whole assembly at once [hint: without "
+                                         "`bySymmetry`]"));
 }
 
 } // namespace molsurf

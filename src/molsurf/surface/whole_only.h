@@ -20,4 +20,8 @@ enum Way : unsigned {
 /// What the options ask for that a way cannot give, in backticks; null: it gives all of it.
 const char* missingIn(Way way, const SurfaceOptions& options);
 
+/// Checks that a way gives all of what the options ask for.
+/// @throws Error(ErrorKind::Usage) that names the first thing that it does not
+void checkWay(Way way, const SurfaceOptions& options);
+
 } // namespace molsurf

@@ -333,9 +333,9 @@ TEST_F(Bricks, RefuseWhatNeedsTheWhole)
     const auto refused = [](auto change) {
         SurfaceOptions options;
         change(options);
-        EXPECT_THROW(checkBrickOptions(options), Error);
+        EXPECT_THROW(checkWay(InBricks, options), Error);
     };
-    EXPECT_NO_THROW(checkBrickOptions(SurfaceOptions()));
+    EXPECT_NO_THROW(checkWay(InBricks, SurfaceOptions()));
     refused([](SurfaceOptions& o) { o.split = true; });
     refused([](SurfaceOptions& o) { o.interfaces = true; });
     refused([](SurfaceOptions& o) { o.fillCavities = true; });
