@@ -250,27 +250,27 @@ std::uint64_t hashOf(const Ball& ball)
     return hash;
 }
 
-/// Whether each ball is the same as one before it of the same set.
-/// @param[in] begin  set s is balls [begin[s], begin[s + 1])
-std::vector<char> findDuplicates(const std::vector<Ball>& balls,
-                                 const std::vector<std::size_t>& begin)
+/// Whether each ball is the same as one before it of the same prototype.
+std::vector<char> findDuplicates(const BallSet& atoms)
 {
+    const std::vector<Ball>& balls = atoms.balls;
     struct Entry {
         std::uint64_t hash;
-        std::uint32_t set, ball;
-        auto key() const { return std::make_tuple(hash, set, ball); }
+        std::uint32_t prototype, ball;
+        auto key() const { return std::make_tuple(hash, prototype, ball); }
     };
     std::vector<Entry> entries(balls.size());
-    for (std::size_t s = 0; s + 1 < begin.size(); ++s) {
-        for (std::size_t i = begin[s]; i < begin[s + 1]; ++i)
-            entries[i] = {hashOf(balls[i]), std::uint32_t(s), std::uint32_t(i)};
+    for (std::size_t p = 0; p < atoms.placement.prototypes(); ++p) {
+        const auto [begin, end] = atoms.prototype(p);
+        for (std::size_t i = begin; i < end; ++i)
+            entries[i] = {hashOf(balls[i]), std::uint32_t(p), std::uint32_t(i)};
     }
     tbb::parallel_sort(entries.begin(), entries.end(),
                        [](const Entry& a, const Entry& b) { return a.key() < b.key(); });
     std::vector<char> duplicate(balls.size(), 0);
     for (std::size_t n = 1, first = 0; n < entries.size(); ++n) {
         const Entry &a = entries[first], &b = entries[n];
-        const bool same = a.hash == b.hash && a.set == b.set &&
+        const bool same = a.hash == b.hash && a.prototype == b.prototype &&
                           balls[a.ball].center == balls[b.ball].center &&
                           balls[a.ball].radius == balls[b.ball].radius;
         duplicate[b.ball] = same;
@@ -284,9 +284,7 @@ std::vector<char> findDuplicates(const std::vector<Ball>& balls,
 void dropDuplicates(const Structure& structure, Filter& filter, BallSet& out)
 {
     std::vector<std::size_t>& begin = out.placement.begin;
-    const bool apart = out.placement.prototypes() > 1;
-    const std::vector<char> duplicate =
-        findDuplicates(out.balls, apart ? begin : std::vector<std::size_t>{0, out.balls.size()});
+    const std::vector<char> duplicate = findDuplicates(out);
     const std::size_t first =
         std::size_t(std::find(duplicate.begin(), duplicate.end(), 1) - duplicate.begin());
     if (first == duplicate.size()) return;
