@@ -2,7 +2,6 @@
 #include "molsurf/structure/trajectory.h"
 
 #include "molsurf/error.h"
-#include "molsurf/structure/read_dcd.h"
 #include "molsurf/structure/read_xtc.h"
 
 #include <cmath>
@@ -40,7 +39,7 @@ std::vector<openvdb::Vec3f> Trajectory::read(std::size_t frame)
 std::unique_ptr<Trajectory> openTrajectory(const std::string& path)
 {
     if (XtcFile::recognizes(path)) return std::make_unique<XtcFile>(path);
-    return std::make_unique<DcdFile>(path);
+    return openDcd(path);
 }
 
 } // namespace molsurf

@@ -56,7 +56,12 @@ private:
     std::string path_;
 };
 
-/// Opens a trajectory: a DcdFile or an XtcFile, by what the file begins with, not by its name.
+/// Opens a trajectory in the DCD format of CHARMM, X-PLOR and NAMD.
+/// @throws Error(ErrorKind::Input) if the file cannot be opened or is no such file, or if it ends
+///         within a frame. That it holds fewer than its header says is a warning.
+std::unique_ptr<Trajectory> openDcd(const std::string& path);
+
+/// Opens a trajectory, of DCD or an XtcFile, by what the file begins with, not by its name.
 /// @throws Error(ErrorKind::Input) if the file cannot be opened, is neither of them or is cut short
 std::unique_ptr<Trajectory> openTrajectory(const std::string& path);
 
