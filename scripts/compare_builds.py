@@ -55,6 +55,14 @@ def cases():
     yield [f"{dimer} --by-symmetry --weld --fields mean_curvature --color copy -o a.ply -o a.html -o a.stl"]
     yield [f"{dimer} --by-symmetry --surface sas -o a.json -o a.atoms.csv -o a.residues.pdb"]
     yield [f"{dimer} --instances --color element -o a.glb -o a.usda -o a.html -o a.png -o a.json"]
+    for more in ["--surface vdw --group-by chain --interfaces -o a.json", "--color radius -o a.ply -o a.html -o a.json",
+                 "--resolution 4 --color bfactor --group-by class -o a.ply -o a.obj -o a.json",
+                 "--coarse residue --surface sas --color copy -o a.json -o a.stl -o a.png"]:
+        yield [f"{dimer} --by-symmetry {more}", f"{dimer} {more}".replace("-o a.", "-o b.")]
+    tables = "-o a.atoms.csv -o a.residues.csv -o a.contacts.csv -o a.interfaces.csv -o a.json"
+    yield [f"{dimer} --surface ses --group-by copy --interfaces {tables}"]
+    yield [f"{dimer} --copies 2 --group-by entity --color group --interfaces -o a.ply -o a.json"]
+    yield ["@1a8o.cif.gz --assembly 1 --instances --lod 1.5,3 --surface vdw --color chain -o a.glb -o a.usda -o a.view"]
     for color, kind in (("chain", "ses"), ("residue", "vdw"), ("element", "sas"), ("element", "variational")):
         yield [f"@4at1.ent.gz --voxel 1 --surface {kind} --color {color} --crisp -o a.ply -o a.obj -o a.3mf -o a.png"]
     for kind in KINDS:
