@@ -115,7 +115,7 @@ class Page(ToolTest):
         return Browser(f"file://{self.folder}/a.html", self.folder, size)
 
     def ready(self, page):
-        page.wait("document.body.dataset.state === 'ready' && document.body.dataset.drawn > 0")
+        page.wait("document.body.dataset.state === 'ready' && document.body.dataset.rests === 'true'")
 
     def shown(self, page):
         """The pixels of the surface, as columns of each row, in a picture of the page."""
@@ -178,6 +178,33 @@ class Page(ToolTest):
                 self.assertTrue(panel[2] <= left or panel[1] >= bottom, (panel, left, bottom))
 
     @needs("chromium")
+    def test_light_goes_through_in_order(self):
+        """In the middle light goes through four walls of two balls, one behind the other, the farthest first."""
+        (self.folder / "a.pdb").write_text("".join(
+            f"ATOM      {n}  CA  ALA {chain}   {n}       0.000   0.000{z:8.3f}  1.00  0.00           C\n"
+            for n, chain, z in ((1, "A", 4.0), (2, "B", -4.0))))
+        middles, opacity = [], 0.5
+        for view in ("0,0,1", "0,0,-1"):
+            self.page("a.pdb", "--surface", "vdw", "--voxel", "0.3", "--color", "chain", "--view", view)
+            with self.opened((800, 600)) as browser:
+                for value in (1, opacity):
+                    browser.evaluate("delete document.body.dataset.rests")
+                    browser.evaluate(f"{{ {slid('opacity', value)} }} 0")
+                    self.ready(browser)
+                    (left, top, right, bottom), _ = self.shown(browser)
+                    _, rows = read_png((self.folder / "p.png").read_bytes())
+                    x = int(left + right) // 2
+                    middles.append(rows[int(top + bottom) // 2][3 * x:3 * x + 3])
+                self.assertEqual(browser.console, [])
+        front, through, back, other = middles
+        self.assertGreater(front[2], back[2] + 100)  # blue and orange
+        for walls, seen in (((front, front, back, back), through), ((back, back, front, front), other)):
+            want = [255.0] * 3
+            for wall in reversed(walls):
+                want = [opacity * w + (1 - opacity) * c for w, c in zip(wall, want)]
+            self.assertLess(max(abs(a - b) for a, b in zip(want, seen)), 4, (want, seen, middles))
+
+    @needs("chromium")
     def test_every_control(self):
         self.page(*DIMER, *FAST, "--color", "chain")
         with self.opened((900, 600)) as browser:
@@ -186,12 +213,11 @@ class Page(ToolTest):
             def after(expression):
                 drawn = browser.evaluate("document.body.dataset.drawn")
                 browser.evaluate(f"{{ {expression} }} 0")
-                browser.wait(f"document.body.dataset.drawn !== '{drawn}'")
+                browser.wait(f"document.body.dataset.drawn !== '{drawn}' && document.body.dataset.rests === 'true'")
                 return self.shown(browser)[1]
 
             def slide(name, value):
-                return after(f"const e = document.getElementById('{name}'); e.value = {value}; "
-                             "e.dispatchEvent(new Event('input'));")
+                return after(slid(name, value))
 
             def key(name):
                 return after("document.getElementById('view').dispatchEvent("
@@ -214,6 +240,12 @@ class Page(ToolTest):
             dark = after("document.getElementById('dark').click();")
             self.assertEqual(count(dark), 676 * 600)  # all of the stage
             self.assertEqual(browser.console, [])
+
+
+def slid(name, value):
+    """Moves a slider of the page."""
+    return (f"const e = document.getElementById('{name}'); e.value = {value}; "
+            "e.dispatchEvent(new Event('input'));")
 
 
 def alike(pixel, color):

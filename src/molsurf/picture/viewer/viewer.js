@@ -111,18 +111,13 @@ function clustered(shape, cell) {
   return makeShape(shape.level, positions, Uint32Array.from(index), source);
 }
 
-const fewTriangles = 30;
-
-// The shapes of a part, from fine to coarse: those of the file, and behind them what is still
-// coarser, for turning many copies without a graphics card.
-function shapesOf(header, part, arrays) {
-  const shapes = header.levels.map((level) => unpackShape(level, part, arrays));
-  if (header.copies.length < 2) return shapes;
+// Adds to the shapes of a part, from fine to coarse, what is still coarser: for turning without a graphics card.
+function coarsen(shapes, fewTriangles) {
   for (let cell = 2 * shapes[shapes.length - 1].edge; ; cell *= 1.2) {
     const last = shapes[shapes.length - 1];
-    if (last.triangles <= fewTriangles) return shapes;
+    if (last.triangles <= fewTriangles) return;
     const next = clustered(last, cell);
-    if (next.triangles === 0) return shapes;
+    if (next.triangles === 0) return;
     if (next.triangles < 0.7 * last.triangles) shapes.push(next);
   }
 }
@@ -261,7 +256,10 @@ const ambient = 0.9, direct = 2.4, lampPlace = [-0.5, 0.8, 1]; // over the eye's
 // For turning without a graphics card: light at vertices, and nothing to be done for a pixel.
 const quickShader = {
   vertexColors: true,
+  clipping: true,
+  uniforms: { opacity: { value: 1 } },
   vertexShader: `varying vec3 shade;
+    #include <clipping_planes_pars_vertex>
     void main() {
       vec4 place = vec4(position, 1.0);
       vec3 outward = normal, light = color;
@@ -272,13 +270,80 @@ const quickShader = {
       #ifdef USE_INSTANCING_COLOR
         light *= instanceColor;
       #endif
-      float lamp = max(0.0, dot(normalize(normalMatrix * outward), normalize(vec3(${lampPlace}))));
+      vec4 mvPosition = modelViewMatrix * place;
+      #include <clipping_planes_vertex>
+      outward = normalize(normalMatrix * outward);
+      if (dot(outward, mvPosition.xyz) > 0.0) outward = -outward; // a wall that is seen from behind
+      float lamp = max(0.0, dot(outward, normalize(vec3(${lampPlace}))));
       light *= (${ambient} + ${direct} * lamp) / ${Math.PI};
       shade = 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055; // sRGB
-      gl_Position = projectionMatrix * modelViewMatrix * place;
+      gl_Position = projectionMatrix * mvPosition;
     }`,
-  fragmentShader: 'varying vec3 shade; void main() { gl_FragColor = vec4(shade, 1.0); }',
+  fragmentShader: `varying vec3 shade;
+    uniform float opacity;
+    #include <clipping_planes_pars_fragment>
+    void main() {
+      #include <clipping_planes_fragment>
+      gl_FragColor = vec4(shade, opacity);
+    }`,
 };
+
+// Copies as one mesh, each by a shape of its part. Its triangles can be put in order, since light that
+// goes through several walls has to go through the farthest first.
+class Joined {
+  constructor(list, shapeOf) {
+    this.pieces = list.map(({ part, matrix, color }) => ({ shape: shapeOf(part), matrix, color }));
+    const sum = (count) => this.pieces.reduce((all, { shape }) => all + count(shape.geometry), 0);
+    const positions = new Float32Array(3 * sum(({ attributes }) => attributes.position.count));
+    this.corners = new Uint32Array(sum(({ index }) => index.count));
+    const corner = new Vector3();
+    let vertices = 0, corners = 0;
+    for (const { shape: { geometry }, matrix } of this.pieces) {
+      for (const v of geometry.index.array) this.corners[corners++] = vertices + v;
+      for (let v = 0; v < geometry.attributes.position.count; ++v)
+        corner.fromBufferAttribute(geometry.attributes.position, v).applyMatrix4(matrix).toArray(positions, 3 * vertices++);
+    }
+    this.mesh = new Mesh(makeShape('', positions, this.corners.slice(), []).geometry);
+  }
+
+  paint(colored) {
+    const to = this.mesh.geometry.attributes.color;
+    let at = 0;
+    for (const { shape, color } of this.pieces) {
+      const own = colored ? color.toArray() : [1, 1, 1];
+      shape.geometry.attributes.color.array.forEach((value, i) => { to.array[at++] = value * own[i % 3]; });
+    }
+    to.needsUpdate = true;
+  }
+
+  // Puts the triangles in order along a direction, as their middles lie, by counting.
+  sort([x, y, z]) {
+    const at = this.mesh.geometry.attributes.position.array, { corners } = this, count = corners.length / 3;
+    const along = new Float32Array(at.length / 3);
+    for (let v = 0; v < along.length; ++v) along[v] = x * at[3 * v] + y * at[3 * v + 1] + z * at[3 * v + 2];
+    const sums = new Float32Array(count), places = new Uint16Array(count), ends = new Uint32Array(65537);
+    let low = Infinity, high = -Infinity;
+    for (let t = 0; t < count; ++t) {
+      const sum = sums[t] = along[corners[3 * t]] + along[corners[3 * t + 1]] + along[corners[3 * t + 2]];
+      if (sum < low) low = sum;
+      if (sum > high) high = sum;
+    }
+    const scale = 65535 / (high - low || 1);
+    for (let t = 0; t < count; ++t) {
+      places[t] = (sums[t] - low) * scale;
+      ++ends[places[t] + 1];
+    }
+    for (let k = 0; k < 65536; ++k) ends[k + 1] += ends[k];
+    const { index } = this.mesh.geometry, to = index.array;
+    for (let t = 0; t < count; ++t) {
+      const place = 3 * ends[places[t]]++;
+      to[place] = corners[3 * t];
+      to[place + 1] = corners[3 * t + 1];
+      to[place + 2] = corners[3 * t + 2];
+    }
+    index.needsUpdate = true;
+  }
+}
 
 // What is drawn: the copies of parts, each by one of the shapes of its part.
 class Copies {
@@ -289,20 +354,14 @@ class Copies {
     this.group = new Group();
     this.material = material;
     this.quick = new ShaderMaterial(quickShader);
+    this.joined = [];
     this.insides = new Group(); // what is seen through a cut, as flat as if it were filled
     this.insides.visible = false;
     this.parts = header.levels[0].parts.map((_, part) => {
-      const shapes = shapesOf(header, part, arrays);
-      const count = list.filter((copy) => copy[0] === part).length;
-      const meshes = shapes.map(({ geometry }) => {
-        const mesh = new InstancedMesh(geometry, material, count);
-        mesh.frustumCulled = false; // copy by copy instead
-        mesh.instanceMatrix.setUsage(DynamicDrawUsage);
-        this.group.add(mesh);
-        return mesh;
-      });
-      return { shapes, meshes, part };
+      const shapes = header.levels.map((level) => unpackShape(level, part, arrays));
+      return { shapes, meshes: [], count: list.filter((copy) => copy[0] === part).length };
     });
+    this.coarsen(list.length > 1 ? 30 : Infinity);
     this.list = list.map(([part, rows, color]) => {
       const matrix = new Matrix4().set(...rows, 0, 0, 0, 1);
       const sphere = this.parts[part].shapes[0].geometry.boundingSphere.clone().applyMatrix4(matrix);
@@ -315,40 +374,42 @@ class Copies {
     this.colored = false;
   }
 
-  paint(mode, arrays) {
-    for (const { shapes } of this.parts) for (const shape of shapes) paint(shape, mode, arrays);
-    this.colored = mode.kind === 'copies';
-    if (this.crowd) this.paintCrowd();
-  }
-
-  // All copies by the coarsest shapes as one mesh: without a graphics card every copy that is drawn by
-  // itself costs as much as some hundred triangles.
-  makeCrowd() {
-    const positions = [], index = [], corner = new Vector3();
-    for (const { part, matrix } of this.list) {
-      const { geometry } = part.shapes[part.shapes.length - 1];
-      const first = positions.length / 3;
-      for (const v of geometry.index.array) index.push(first + v);
-      for (let v = 0; v < geometry.attributes.position.count; ++v) {
-        corner.fromBufferAttribute(geometry.attributes.position, v).applyMatrix4(matrix);
-        positions.push(corner.x, corner.y, corner.z);
+  // Adds shapes down to so few triangles.
+  coarsen(fewTriangles) {
+    for (const { shapes, meshes, count } of this.parts) {
+      coarsen(shapes, fewTriangles);
+      for (const { geometry } of shapes.slice(meshes.length)) {
+        const mesh = new InstancedMesh(geometry, this.material, count);
+        mesh.frustumCulled = false; // copy by copy instead
+        mesh.instanceMatrix.setUsage(DynamicDrawUsage);
+        this.group.add(mesh);
+        meshes.push(mesh);
       }
     }
-    const { geometry } = makeShape('', Float32Array.from(positions), Uint32Array.from(index), []);
-    this.crowd = new Mesh(geometry, this.quick);
-    this.group.add(this.crowd);
-    this.paintCrowd();
   }
 
-  paintCrowd() {
-    const to = this.crowd.geometry.attributes.color;
-    let at = 0;
-    for (const { part, color } of this.list) {
-      const from = part.shapes[part.shapes.length - 1].geometry.attributes.color.array;
-      const own = this.colored ? [color.r, color.g, color.b] : [1, 1, 1];
-      from.forEach((value, i) => { to.array[at++] = value * own[i % 3]; });
+  paint(mode, arrays, mark) {
+    for (const { shapes } of this.parts) {
+      for (const shape of shapes) paint(shape, mode, arrays);
+      for (const shape of shapes) if (shape.level === shapes[0].level) mark(shape);
     }
-    to.needsUpdate = true;
+    this.colored = mode.kind === 'copies';
+    for (const joined of this.joined) joined?.paint(this.colored);
+  }
+
+  // All copies as one mesh, of the finest shapes that have at most so many triangles, or the coarsest. Without a
+  // graphics card every copy that is drawn by itself costs as much as some hundred triangles.
+  join(most) {
+    const at = ({ shapes }, place) => shapes[Math.min(place, shapes.length - 1)];
+    const coarsest = Math.max(...this.parts.map(({ shapes }) => shapes.length)) - 1;
+    let place = 0;
+    while (place < coarsest && this.list.reduce((sum, { part }) => sum + at(part, place).triangles, 0) > most) ++place;
+    if (!this.joined[place]) {
+      this.joined[place] = new Joined(this.list, (part) => at(part, place));
+      this.joined[place].paint(this.colored);
+      this.group.add(this.joined[place].mesh);
+    }
+    return this.joined[place];
   }
 
   // Adds what is seen of a surface by itself where it is cut.
@@ -358,13 +419,15 @@ class Copies {
   }
 
   // Shows the copies as one mesh, or those that choose() has made ready.
-  show(quick, crowd) {
-    if (crowd && !this.crowd) this.makeCrowd();
-    if (this.crowd) this.crowd.visible = crowd;
-    for (const mesh of this.parts.flatMap(({ meshes }) => meshes)) {
-      mesh.material = quick ? this.quick : this.material;
-      mesh.visible = mesh.count > 0 && !crowd;
-    }
+  show(quick, joined) {
+    const singly = this.parts.flatMap(({ meshes }) => meshes);
+    for (const mesh of singly) mesh.visible = mesh.count > 0 && !joined;
+    for (const one of this.joined) if (one) one.mesh.visible = one === joined;
+    this.insides.children.forEach((mesh, i) => {
+      const { shapes, meshes } = this.parts[i];
+      mesh.geometry = shapes[Math.max(0, meshes.findIndex(({ count }) => count > 0))].geometry;
+    });
+    for (const mesh of joined ? [joined.mesh] : singly) mesh.material = quick ? this.quick : this.material;
   }
 
   // Chooses for each copy in sight the coarsest shape whose edges are at most `pixels` long, and
@@ -411,10 +474,14 @@ const frameTime = 1000 / 30; // that turning may take [ms]
 const restAfter = 150; // without a move [ms]
 const longest = 200; // that a finer drawing may take when nothing moves [ms]
 const manyCopies = 300; // too many to be drawn one by one without a graphics card
+const mostSorted = 1e6; // triangles, for a drawing at rest
 
 function start(header, arrays) {
-  const several = header.copies.length > 1; // they get smooth edges when nothing moves
-  const renderer = new WebGLRenderer({ canvas: byId('view'), antialias: !several, preserveDrawingBuffer: true });
+  const several = header.copies.length > 1;
+  const finest = several ? 1 : 0.01; // edges, in pixels
+  // Edges are smooth since there are more pixels than on the screen: `antialias` would cost three times as much
+  // without a graphics card, where it cannot be left out while the surface turns.
+  const renderer = new WebGLRenderer({ canvas: byId('view'), preserveDrawingBuffer: true });
   const canvas = renderer.domElement, stage = byId('stage');
   renderer.localClippingEnabled = true;
   const ratio = Math.min(window.devicePixelRatio, 2);
@@ -422,14 +489,14 @@ function start(header, arrays) {
 
   const scene = new Scene();
   const camera = new PerspectiveCamera(30, 1, 0.1, 1000);
-  const material = new MeshStandardMaterial({ vertexColors: true, roughness: 0.55 });
+  const material = new MeshStandardMaterial({ vertexColors: true, roughness: 0.55, forceSinglePass: true });
   const copies = new Copies(header, arrays, material);
   const axes = header.axes.map((axis) => new Vector3(...axis)); // as pictures of the mesh stand
   copies.group.quaternion.setFromRotationMatrix(new Matrix4().makeBasis(...axes).transpose());
   scene.add(copies.group, camera, new AmbientLight(0xffffff, ambient));
   const lamp = new DirectionalLight(0xffffff, direct);
   lamp.position.set(...lampPlace);
-  camera.add(lamp);
+  camera.add(lamp, lamp.target); // which turn together
 
   const radius = copies.sphere.radius;
   const middle = copies.sphere.center.clone().applyQuaternion(copies.group.quaternion);
@@ -443,12 +510,15 @@ function start(header, arrays) {
   let moved = true, movedAt = 0, size = 0, most = 500000, slow = false, crowded = false;
   let sharp = 1; // pixels of a crowd against those of the screen
   const draw = (pixels, triangles, pixelRatio) => {
+    const glass = material.transparent;
     if (renderer.getPixelRatio() !== pixelRatio) renderer.setPixelRatio(pixelRatio);
     scene.updateMatrixWorld();
     size = copies.choose(camera, stage.clientHeight * ratio, pixels, triangles);
     if (clipped()) cut.constant = cutAt();
     crowded = moved && slow && copies.seen > manyCopies;
-    copies.show(moved && slow, crowded);
+    const joined = crowded ? copies.join(0) : glass ? copies.join(Math.min(triangles, mostSorted)) : null;
+    if (glass) joined.sort(toEye().applyQuaternion(copies.group.quaternion.clone().invert()).toArray());
+    copies.show(moved && slow, joined);
     renderer.render(scene, camera);
     place.copy(camera.position);
     turned.copy(camera.quaternion);
@@ -456,32 +526,43 @@ function start(header, arrays) {
     dataset.triangles = renderer.info.render.triangles;
     dataset.drawn = Number(dataset.drawn ?? 0) + 1;
   };
+  const toEye = () => camera.position.clone().sub(controls.target).normalize();
   const timed = (...how) => { // waits for the end of the drawing
     const begin = performance.now();
     draw(...how);
     renderer.getContext().readPixels(0, 0, 1, 1, 6408, 5121, new Uint8Array(4)); // RGBA, bytes
     return performance.now() - begin;
   };
+  const measure = () => { // whether turning needs something quicker
+    slow = false;
+    draw(finest, most, ratio); // compiles what the drawing card runs
+    const time = timed(finest, most, ratio);
+    slow = time > frameTime;
+    if (several || !slow) return;
+    most = Math.max((most * frameTime) / time, 20000);
+    copies.coarsen(5000);
+    repaint();
+  };
   const step = (now) => {
     controls.update();
     const pause = now - movedAt;
     if (moved) {
-      if (crowded && pause < 500) { // turning since the last frame
-        if (pause > 1.1 * frameTime) sharp = Math.max(0.5, 0.9 * sharp);
-      } else if (several && pause < 500) {
-        if (pause > 1.1 * frameTime) most = Math.max(0.8 * most, 20000);
-        else if (pause < 0.7 * frameTime) most = Math.min(1.05 * most, 5e6);
+      const late = pause > 1.1 * frameTime, early = pause < 0.7 * frameTime;
+      if ((slow || several) && pause < 500) { // turning since the last frame
+        if (late && (crowded || material.transparent)) sharp = Math.max(0.5, 0.9 * sharp);
+        if (late && !crowded) most = Math.max(0.8 * most, 20000);
+        if (early && !crowded) most = Math.min(1.05 * most, 5e6);
       }
-      draw(1, several ? most : Infinity, slow ? sharp : ratio);
+      draw(finest, slow || several ? most : Infinity, slow ? sharp : several ? ratio : 2);
       movedAt = now;
       moved = false;
-    } else if (several && size > 0 && pause > restAfter) {
-      const last = size <= 1;
-      const time = timed(Math.max(1, size / 2), Infinity, last ? 2 : ratio);
+    } else if ((several || slow) && size > 0 && pause > restAfter) {
+      const last = !several || size <= 1;
+      const time = timed(last ? finest : Math.max(1, size / 2), Infinity, last ? 2 : ratio);
       if (last || time > longest) size = 0;
       sharp = Math.min(1, 1.1 * sharp);
     }
-    document.body.dataset.rests = size === 0;
+    document.body.dataset.rests = !moved && (size === 0 || !(several || slow));
   };
   controls.addEventListener('change', () => { // which goes on after a move for steps nobody sees
     const way = place.distanceTo(camera.position) / controls.target.distanceTo(camera.position);
@@ -511,8 +592,7 @@ function start(header, arrays) {
   };
   let mode = header.modes[0], chosen = null;
   const repaint = () => {
-    copies.paint(mode, arrays);
-    if (chosen) for (const { shapes } of copies.parts) owners.mark(shapes[0], chosen);
+    copies.paint(mode, arrays, (shape) => { if (chosen) owners.mark(shape, chosen); });
     moved = true;
   };
   const setMode = (place) => {
@@ -528,9 +608,9 @@ function start(header, arrays) {
     const { left, top, width, height } = canvas.getBoundingClientRect();
     mouse.set((2 * (event.clientX - left)) / width - 1, 1 - (2 * (event.clientY - top)) / height);
     ray.setFromCamera(mouse, camera);
-    const shown = copies.parts.flatMap(({ shapes, meshes }) => (meshes[0].count > 0 ? [[meshes[0], shapes[0]]] : []));
     let nearest = null;
-    for (const [mesh, shape] of shown) {
+    for (const { meshes: [mesh], shapes: [shape] } of copies.parts) {
+      if (!several) mesh.count = 1; // whatever is shown in its place
       mesh.boundingSphere = null; // copies have moved
       const hits = ray.intersectObject(mesh, false);
       const hit = hits.find(({ point }) => !clipped() || cut.distanceToPoint(point) >= 0);
@@ -590,29 +670,34 @@ function start(header, arrays) {
   const cut = new Plane();
   const clipped = () => Number(byId('clip').value) > 0;
   const cutAt = () => {
-    const toEye = camera.position.clone().sub(controls.target).normalize();
-    cut.normal.copy(toEye).negate();
-    return toEye.dot(middle) + radius * (1 - 2 * Number(byId('clip').value));
+    cut.normal.copy(toEye()).negate();
+    return toEye().dot(middle) + radius * (1 - 2 * Number(byId('clip').value));
   };
   const inside = new MeshBasicMaterial({ side: BackSide, clippingPlanes: [cut] });
   if (!several) copies.fill(inside);
   const setClip = () => {
-    material.clippingPlanes = clipped() ? [cut] : null;
-    material.side = material.transparent ? DoubleSide : FrontSide;
-    material.needsUpdate = true;
+    for (const one of [material, copies.quick]) {
+      one.clippingPlanes = clipped() ? [cut] : null;
+      one.side = one.transparent ? DoubleSide : FrontSide;
+      one.needsUpdate = true;
+    }
     copies.insides.visible = clipped() && material.opacity === 1;
     moved = true;
   };
   const setOpacity = () => {
-    material.opacity = Number(byId('opacity').value);
-    material.transparent = material.opacity < 1;
-    material.depthWrite = !material.transparent;
+    const before = material.transparent;
+    material.opacity = copies.quick.uniforms.opacity.value = Number(byId('opacity').value);
+    for (const one of [material, copies.quick]) {
+      one.transparent = material.opacity < 1;
+      one.depthWrite = !one.transparent;
+    }
     setClip();
+    if (material.transparent !== before) measure();
   };
   byId('clip').addEventListener('input', setClip);
   byId('opacity').addEventListener('input', setOpacity);
   byId('png').addEventListener('click', () => {
-    draw(1, Infinity, ratio);
+    draw(finest, Infinity, 2);
     const link = document.createElement('a');
     link.download = `${header.title.replace(/[^\w.-]+/g, '_') || 'surface'}.png`;
     link.href = canvas.toDataURL('image/png');
@@ -664,10 +749,7 @@ function start(header, arrays) {
   setSize();
   reset();
   setMode(choice.value);
-  if (several) {
-    draw(1, most, ratio); // compiles what the drawing card runs
-    slow = timed(1, most, ratio) > frameTime;
-  }
+  measure();
   renderer.setAnimationLoop(step);
 }
 
