@@ -189,8 +189,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     for (const auto& grid : result.grids()) grid->setCreator(creator);
 
     if (call.center) centerMesh(call, result);
-    ShownMeshes shown;
-    shown.crisp = crispMesh(call, balls, result.mesh, terminal);
+    ShownMeshes shown = shownMeshes(call, balls, result.mesh, terminal);
     shown.coarser = coarserMeshes(call, balls, result.report, terminal);
     writeAll(call, balls, result, shown, terminal, start, companions);
     terminal.erase();

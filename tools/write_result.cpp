@@ -195,24 +195,6 @@ DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, 
     return options;
 }
 
-void writePicture(const Call& call, const BallSet& atoms, const Mesh& mesh, double turn,
-                  const Progress& progress, OutputFile& file)
-{
-    DrawOptions options = pictureOf(call, atoms, mesh, call.colorsCopies(), progress);
-    options.turn += turn;
-    options.borders = bordersOf(call, atoms, mesh, progress);
-    if (options.clip) options.inside = insideOf(call, atoms, options.borders);
-    const auto legend = call.drawsLegend() ? legendOf(call.options.color, atoms, mesh, progress)
-                                           : std::optional<Legend>();
-    const int width = options.width;
-    if (legend) options.width = std::max(width - legendWidth(*legend, width), width / 2);
-    Picture picture = drawMesh(mesh, options, progress);
-    if (call.scaleBar && picture.pixel > 0.0)
-        picture = withScaleBar(picture, width, options.background);
-    if (legend) picture = withLegend(picture, *legend, width, options.background);
-    writePng(picture, file);
-}
-
 } // namespace
 
 Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
@@ -247,17 +229,22 @@ bool isCrisp(const Call& call, const Output& output)
     return output.holds(ColorChoices) || (call.crisp && !output.holds(Pixels));
 }
 
-std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh& mesh,
-                              const Progress& progress)
+ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh,
+                        const Progress& progress)
 {
-    const bool shown = std::any_of(call.outputs.begin(), call.outputs.end(),
-                                   [&](const Output& o) { return isCrisp(call, o); });
-    const auto borders = shown ? bordersOf(call, atoms, mesh, progress) : nullptr;
-    if (!borders) return std::nullopt;
+    ShownMeshes shown;
+    const auto shows = [&](auto&& what) {
+        return std::any_of(call.outputs.begin(), call.outputs.end(), what);
+    };
+    const bool cut = shows([&](const Output& output) { return isCrisp(call, output); });
+    if (cut || shows([](const Output& output) { return output.holds(Pixels); }))
+        shown.borders = bordersOf(call, atoms, mesh, progress);
+    if (!cut || !shown.borders) return shown;
     const KindRow& kind = rowOf(call.options.kind);
-    return withCrispBorders(
-        mesh, *borders, kind.isUnion && !kind.hasOffset ? call.options.voxel : 0.0,
+    shown.crisp = withCrispBorders(
+        mesh, *shown.borders, kind.isUnion && !kind.hasOffset ? call.options.voxel : 0.0,
         call.options.color == ColorBy::Value ? atoms.labels->values->name : "", progress);
+    return shown;
 }
 
 struct Writing {
@@ -269,6 +256,7 @@ struct Writing {
     const Mesh& mesh;                 ///< with the borders that the format shows
     const Mesh& whole;                ///< by symmetry the mesh of the whole, else the same
     std::vector<const Mesh*> coarser; ///< further levels of detail
+    const std::shared_ptr<const ColorOwners>& borders;
 };
 
 namespace
@@ -277,6 +265,25 @@ namespace
 std::vector<MeshInstance> instancesOf(const Writing& w)
 {
     return instancesOf(w.call, w.atoms, w.mesh, w.call.colorsCopies(), w.progress);
+}
+
+void writePicture(const Writing& w, OutputFile& file)
+{
+    const Call& call = w.call;
+    DrawOptions options = pictureOf(call, w.atoms, w.mesh, call.colorsCopies(), w.progress);
+    options.turn += w.output.turn;
+    options.borders = w.borders;
+    if (options.clip) options.inside = insideOf(call, w.atoms, w.borders);
+    const auto legend = call.drawsLegend()
+                            ? legendOf(call.options.color, w.atoms, w.mesh, w.progress)
+                            : std::optional<Legend>();
+    const int width = options.width;
+    if (legend) options.width = std::max(width - legendWidth(*legend, width), width / 2);
+    Picture picture = drawMesh(w.mesh, options, w.progress);
+    if (call.scaleBar && picture.pixel > 0.0)
+        picture = withScaleBar(picture, width, options.background);
+    if (legend) picture = withLegend(picture, *legend, width, options.background);
+    writePng(picture, file);
 }
 
 void writeCamera(const Writing& w, OutputFile& file)
@@ -394,10 +401,7 @@ const std::vector<Format>& formatTable()
          "page that shows it", "", writePage},
         {"json", all, Numbers | Copies, "report", "",
          [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
-        {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "picture", "",
-         [](const Writing& w, OutputFile& file) {
-             writePicture(w.call, w.atoms, w.mesh, w.output.turn, w.progress, file);
-         }},
+        {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "picture", "", writePicture},
         {"view", meshed, Copies | Views, "from where pictures see it, for --view", "", writeCamera},
         {"usda", Build, Stage | Colors | SceneUnits | Copies | Levels, "copies, with --instances",
          "", writeStage},
@@ -455,8 +459,9 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
             call.colorsCopies() ? instanceColors(atoms, progress) : std::vector<Color>(), progress);
     std::vector<const Mesh*> coarser;
     for (const Mesh& level : shown.coarser) coarser.push_back(&level);
-    output.format->write(
-        {call, atoms, result, output, progress, mesh, whole ? *whole : mesh, coarser}, file);
+    output.format->write({call, atoms, result, output, progress, mesh, whole ? *whole : mesh,
+                          coarser, shown.borders},
+                         file);
 }
 
 } // namespace molsurf::tool

@@ -28,14 +28,15 @@ Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
 
 /// What files show of a surface besides its mesh.
 struct ShownMeshes {
-    std::optional<Mesh> crisp{}; ///< the mesh, with the borders between its colours cut
-    std::vector<Mesh> coarser{}; ///< the further levels of detail of --lod
+    std::shared_ptr<const ColorOwners> borders{}; ///< between its colours; null: they have none
+    std::optional<Mesh> crisp{};                  ///< the mesh, with these borders cut
+    std::vector<Mesh> coarser{};                  ///< the further levels of detail of --lod
 };
 
-/// The mesh with crisp borders, if a file of the call shows them and it has colours with names.
+/// What the files of the call show, but for `coarser`: borders are found once for all of them.
 /// @param[in] mesh  of the surface, where the atoms are
-std::optional<Mesh> crispMesh(const Call& call, const BallSet& atoms, const Mesh& mesh,
-                              const Progress& progress);
+ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh,
+                        const Progress& progress);
 
 /// Writes one output. The report must be complete but for what is timed by writing.
 /// @throws Error(ErrorKind::Output) if the file cannot be written
