@@ -149,10 +149,12 @@ private:
         for (int j = std::max(y - reach, 0); j <= std::min(y + reach, view_.height - 1); ++j) {
             for (int i = std::max(x - reach, 0); i <= std::min(x + reach, view_.width - 1); ++i) {
                 const PixelLight& other = layer.lights[placeOf(i, j)];
-                if (!(std::abs(other.depth - here.depth) < deepest)) continue;
+                if (!other.known || other.depth == Seen::nothing) continue;
                 const float alike = other.normal.dot(here.normal);
                 // Those that face elsewhere count a little, lest one alone be a speck.
                 float weight = std::clamp(2.5f * (alike - 0.5f), 0.1f, 1.0f);
+                if (std::abs(other.depth - here.depth) > deepest)
+                    weight = 1e-6f; // if there is no other
                 for (const int d : {i - x, j - y})
                     if (d == reach || d == -reach) weight *= 0.5f;
                 open += weight * other.open;
@@ -160,6 +162,7 @@ private:
                 weights += weight;
             }
         }
+        if (weights == 0.0f) return here;
         here.open = open / weights;
         here.lit = lit / weights;
         return here;

@@ -20,6 +20,7 @@ namespace
 
 constexpr std::size_t skyRays = 8, lampRays = 4; // a pixel
 constexpr double nearby = 60.0;                  // what half of the sky's rays look at [Å]
+constexpr int allLit = 1500; // pixels: in wider pictures every other one asks for its light
 constexpr std::int32_t unknown = -2;
 constexpr double golden = 0.6180339887498949;
 
@@ -208,10 +209,11 @@ void Tracer::tracePixel(int x, int y, const Layer* front, Layer& layer) const
         const Vec3d normal = double(light.normal[0]) * view_.right +
                              double(light.normal[1]) * view_.up +
                              double(light.normal[2]) * view_.toEye;
-        const int pattern = patternOf(x, y);
+        const int pattern = patternOf(x, y); // the first eight are those of a chessboard
+        light.known = view_.width <= allLit || pattern < 8;
         const bool among = isAtom && options_.opacity < 1.0;
-        if (style_.sky > 0.0f) light.open = openness(at, normal, among, pattern);
-        if (style_.shadow > 0.0f) light.lit = lampShare(at, normal, among, pattern);
+        if (light.known && style_.sky > 0.0f) light.open = openness(at, normal, among, pattern);
+        if (light.known && style_.shadow > 0.0f) light.lit = lampShare(at, normal, among, pattern);
     }
     layer.lights[std::size_t(y) * std::size_t(view_.width) + std::size_t(x)] = light;
 }

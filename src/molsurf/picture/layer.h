@@ -48,6 +48,7 @@ struct PixelLight {
     float depth = Seen::nothing; ///< of that [Å]
     float open = 1.0f;           ///< share of the sky that is seen
     float lit = 1.0f;            ///< share of the lamp that is seen
+    bool known = true;           ///< whether these are; else they are those of pixels about it
 };
 
 /// Everything that the eye sees, up to the first opaque thing.

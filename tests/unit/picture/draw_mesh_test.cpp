@@ -304,6 +304,27 @@ TEST(DrawMesh, DarknessIsSmooth)
     EXPECT_LE(roughest, 4);
 }
 
+// A picture of more than 1500 pixels asks for the light of every other one.
+TEST_F(TwoBalls, WidePicturesAreLitLikeOthers)
+{
+    options.frame = PictureFrame{{0.0, 0.0, 3.0}, 104.0, 26.0};
+    options.width = 1480;
+    const Picture all = drawn("soft");
+    options.width = 1520;
+    const Picture other = drawn("soft");
+    int sum = 0, farthest = 0;
+    for (int i = 0; i < 900; ++i) { // to the right of the small ball, where its shadow lies
+        const auto at = [&](const Picture& picture) {
+            return int(pixel(picture, int((0.53 + 0.03 * (i % 30) / 30.0) * picture.width),
+                             int((0.3 + 0.4 * (i / 30) / 30.0) * picture.height))[0]);
+        };
+        sum += std::abs(at(all) - at(other));
+        farthest = std::max(farthest, std::abs(at(all) - at(other)));
+    }
+    EXPECT_LT(sum, 900);
+    EXPECT_LT(farthest, 12);
+}
+
 TEST(DrawMesh, SameForOneAndTwoThreads)
 {
     Mesh mesh;
