@@ -123,11 +123,13 @@ private:
             const float seenLamp = 1.0f - style_.shadow * (1.0f - shared.lit);
             const float key = std::max(0.0f, normal.dot(Tracer::lamp())) * seenLamp;
             // Where little of the sky is seen little comes from other walls either.
-            const float hollow = 0.4f + 0.6f * shared.open;
+            const float open =
+                shared.open * std::sqrt(shared.open); // walls are darker than the sky
+            const float hollow = 0.4f + 0.6f * open;
             const float light =
-                style_.sky * (0.06f + 0.94f * shared.open) +
+                style_.sky * (0.06f + 0.94f * open) +
                 hollow * (style_.key * key + style_.fill * std::max(0.0f, normal.dot(fill)));
-            const float mirrored = style_.highlight * seenLamp * shared.open *
+            const float mirrored = style_.highlight * seenLamp * open *
                                    std::pow(std::max(0.0f, normal.dot(half_)), style_.gloss);
             color = light * color + Vec3f(mirrored);
         }

@@ -9,8 +9,8 @@ namespace molsurf
 const std::vector<PictureStyle>& styleTable()
 {
     static const std::vector<PictureStyle> all = {
-        {"soft", "", 0.52f, 0.6f, 0.05f, 0.75f, 0.12f, 0.04f, 12.0f, 1.6f, 0.0f, 0.8f},
-        {"glossy", "with highlights", 0.38f, 0.72f, 0.06f, 0.85f, 0.05f, 0.35f, 48.0f, 0.0f, 0.0f,
+        {"soft", "", 0.36f, 0.8f, 0.07f, 0.85f, 0.1f, 0.08f, 16.0f, 1.6f, 0.0f, 0.8f},
+        {"glossy", "with highlights", 0.24f, 0.9f, 0.08f, 0.9f, 0.05f, 0.8f, 44.0f, 0.0f, 0.0f,
          0.0f},
         {"outline", "as drawn with a pen", 0.86f, 0.16f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 3.2f, 2.0f,
          0.95f},
