@@ -3,6 +3,7 @@
 
 import base64
 import json
+import os
 import re
 import subprocess
 import unittest
@@ -203,6 +204,27 @@ class Page(ToolTest):
             for wall in reversed(walls):
                 want = [opacity * w + (1 - opacity) * c for w, c in zip(wall, want)]
             self.assertLess(max(abs(a - b) for a, b in zip(want, seen)), 4, (want, seen, middles))
+
+    @needs("chromium")
+    def test_turns_without_a_graphics_card(self):
+        """Some 200,000 triangles, at rest; while they turn coarser ones, 30 times a second by the software renderer."""
+        self.check(0, DATA / "4at1.ent.gz", "--voxel", "0.7", "--color", "chain", "-o", "a.html", "-o", "a.json")
+        triangles = json.loads((self.folder / "a.json").read_text())["surface"]["triangles"]
+        idle = os.getloadavg()[0] < os.cpu_count() / 2
+        with self.opened((1000, 700)) as browser:
+            for opacity in (1, 0.5):
+                browser.evaluate(f"{{ {slid('opacity', opacity)} }} 0")
+                rates = []
+                while len(rates) < 5 and max(rates, default=0) < 30:
+                    times = browser.turn(3)
+                    rates.append(1000 * len(times) / max(1, sum(times)))
+                turning = int(browser.evaluate("document.body.dataset.triangles"))
+                self.ready(browser)
+                self.assertGreaterEqual(int(browser.evaluate("document.body.dataset.triangles")), triangles)
+                if max(rates) < 60:  # with a card it turns as it is
+                    self.assertLess(turning, triangles)
+                self.assertGreater(max(rates), 30 if idle else 1, (opacity, rates))  # beside other work: at all
+            self.assertEqual(browser.console, [])
 
     @needs("chromium")
     def test_every_control(self):
