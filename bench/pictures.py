@@ -48,13 +48,13 @@ def pymol_view(view, cut):
     eye, up = view["to_eye"], view["up"]
     right = cross(up, eye)
     rotation = [axis[i] for i in range(3) for axis in (right, up, eye)]
-    far = min(view["width"], view["height"]) / 2 / 0.17632698  # the field of view is 20 degrees
-    return [*rotation, 0, 0, -far, *view["center"], far if cut else far - 500, far + 500, -20]
+    far = view["height"] / 2 / 0.17632698  # a field of view of 20 degrees; as a positive number it stands for parallel rays
+    return [*rotation, 0, 0, -far, *view["center"], far if cut else far - view["height"], far + view["height"], 20]
 
 
 def script_of(structure, view, cut, commands, size, picture):
     lines = [f"load {structure}, m", "remove solvent", "hide everything", "show surface", "bg_color white",
-             "set ray_opaque_background, 1", "set ray_shadows, 1", "set antialias, 1", "set orthoscopic, 1",
+             "set ray_opaque_background, 1", "set ray_shadows, 1", "set antialias, 1", "set depth_cue, 0", "set ray_trace_fog, 0",
              commands, f"set_view {pymol_view(view, cut)}",
              f"ray {size}, {round(size * view['height'] / view['width'])}", f"png {picture}", ""]
     return "\n".join(lines)
