@@ -428,8 +428,7 @@ void save(const MadeSurface& surface, const std::string& path, bool replace, int
     if (end == ".json") return writeReport(surface.result.report, path, replace);
     checkMesh(surface.result.mesh);
     if (end == ".png" || end == ".html")
-        return writePicture(*surface.atoms, surface.result, surface.options.color, path, width,
-                            replace);
+        return writePicture(*surface.atoms, surface.result, surface.options, path, width, replace);
     std::string all;
     bool known = false;
     for (const std::string& one : meshEndings()) {

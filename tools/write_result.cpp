@@ -138,23 +138,6 @@ std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, co
     return out;
 }
 
-/// The owners of colours that meet along exact lines, or null: these run smoothly, or are of
-/// vertices.
-std::shared_ptr<const ColorOwners> bordersOf(const Call& call, const BallSet& atoms,
-                                             const Mesh& mesh, const Progress& progress)
-{
-    const ColorBy by = call.options.color;
-    const ColorKind& colors = kindOf(by);
-    if (!colors.hasBorders || !colors.hasBorders(atoms)) return nullptr;
-    if (atoms.balls.empty() || !mesh.parts.empty()) return nullptr;
-    const KindRow& kind = rowOf(call.options.kind);
-    std::vector<Ball> balls = placedBalls(call, atoms);
-    for (Ball& ball : balls)
-        if (kind.isUnion) ball.radius += probeOf(call.options);
-    return std::make_shared<ColorOwners>(
-        colorOwners(balls, atoms.colors.empty() ? ballColors(atoms, by, progress) : atoms.colors));
-}
-
 /// The colours of points inside.
 std::function<Color(const openvdb::Vec3d&)>
 insideOf(const Call& call, const BallSet& atoms, const std::shared_ptr<const ColorOwners>& borders)
@@ -238,7 +221,8 @@ ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh
     };
     const bool cut = shows([&](const Output& output) { return isCrisp(call, output); });
     if (cut || shows([](const Output& output) { return output.holds(Pixels); }))
-        shown.borders = bordersOf(call, atoms, mesh, progress);
+        shown.borders = bordersOf(call.options.color, atoms,
+                                  asMeshed(placedBalls(call, atoms), call.options), mesh, progress);
     if (!cut || !shown.borders) return shown;
     const KindRow& kind = rowOf(call.options.kind);
     shown.crisp = withCrispBorders(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/files.h"
 
+#include "molsurf/color/crisp_borders.h"
 #include "molsurf/color/legend.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
@@ -16,6 +17,7 @@
 #include "molsurf/picture/write_png.h"
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/text_fields.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -100,27 +102,29 @@ void writePicture(const Mesh& mesh, const std::string& path, int width, bool rep
     file.commit();
 }
 
-void writePicture(const BallSet& atoms, const MolecularSurface& surface, ColorBy color,
-                  const std::string& path, int width, bool replace)
+void writePicture(const BallSet& atoms, const MolecularSurface& surface,
+                  const SurfaceOptions& options, const std::string& path, int width, bool replace)
 {
     const Progress nobody;
     const Mesh& mesh = surface.mesh;
-    DrawOptions options = drawn(width);
-    for (const Ball& ball : atoms.balls) options.about.push_back(ball.center);
+    const ColorBy color = options.color;
+    DrawOptions how = drawn(width);
+    for (const Ball& ball : atoms.balls) how.about.push_back(ball.center);
     const std::filesystem::path name = path;
     OutputFile file(path, replace);
     if (name.extension() == ".html") {
         HtmlPage page;
         page.title = name.stem().string();
         page.legends = offeredLegends(color, atoms, mesh, nobody);
-        page.axes = viewAxes(mesh, options);
+        page.axes = viewAxes(mesh, how);
         if (atoms.names) nameAtoms(*atoms.names, atoms.balls, mesh, nobody, page);
         writeHtml(mesh, page, file);
     } else {
         const auto legend = legendOf(color, atoms, mesh, nobody);
-        if (legend) options.width = std::max(width - legendWidth(*legend, width), width / 2);
-        Picture picture = drawMesh(mesh, options, nobody);
-        if (legend) picture = withLegend(picture, *legend, width, options.background);
+        how.borders = bordersOf(color, atoms, asMeshed(atoms.balls, options), mesh, nobody);
+        if (legend) how.width = std::max(width - legendWidth(*legend, width), width / 2);
+        Picture picture = drawMesh(mesh, how, nobody);
+        if (legend) picture = withLegend(picture, *legend, width, how.background);
         writePng(picture, file);
     }
     file.commit();

@@ -52,11 +52,12 @@ void writePicture(const Mesh& mesh, const std::string& path, int width = 1200, b
 
 /// Draws the surface of atoms with the legend of its colours, or, if the name ends in .html, writes
 /// a page that shows it in a browser and names its atoms.
-/// @param[in] color  what the colours of the mesh show
-/// @param[in] width  as above
+/// @param[in] options  that the surface was made with
+/// @param[in] width    as above
 /// @throws as above
-void writePicture(const BallSet& atoms, const MolecularSurface& surface, ColorBy color,
-                  const std::string& path, int width = 1200, bool replace = true);
+void writePicture(const BallSet& atoms, const MolecularSurface& surface,
+                  const SurfaceOptions& options, const std::string& path, int width = 1200,
+                  bool replace = true);
 
 /// Reads positions and triangles from a file in the format that the extension tells: .ply (text or
 /// binary, of either byte order), .obj, or .stl (text or binary). Polygons are split into fans.

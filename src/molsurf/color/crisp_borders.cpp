@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/color/crisp_borders.h"
 
+#include "molsurf/color/color_table.h"
+#include "molsurf/color/palette.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/zero_between.h"
 
@@ -258,6 +260,17 @@ ColorOwners colorOwners(const std::vector<Ball>& balls, const std::vector<Color>
         ownerOf.push_back(found->second);
     }
     return {std::move(colors), PowerOwners(balls, std::move(ownerOf))};
+}
+
+std::shared_ptr<const ColorOwners> bordersOf(ColorBy color, const BallSet& atoms,
+                                             const std::vector<Ball>& balls, const Mesh& mesh,
+                                             const Progress& progress)
+{
+    const ColorKind& kind = kindOf(color);
+    if (!kind.hasBorders || !kind.hasBorders(atoms)) return nullptr;
+    if (balls.empty() || !mesh.parts.empty()) return nullptr;
+    return std::make_shared<ColorOwners>(colorOwners(
+        balls, atoms.colors.empty() ? ballColors(atoms, color, progress) : atoms.colors));
 }
 
 Mesh withCrispBorders(const Mesh& mesh, const ColorOwners& of, double crease,

@@ -4,12 +4,15 @@
 /// @file
 /// Meshes whose colours meet along exact lines.
 
+#include "molsurf/atoms.h"
 #include "molsurf/ball.h"
 #include "molsurf/balls/power_owners.h"
 #include "molsurf/color/color_map.h"
 #include "molsurf/mesh.h"
+#include "molsurf/options.h"
 #include "molsurf/progress.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,6 +29,13 @@ struct ColorOwners {
 /// @param[in] balls      that the surface is of
 /// @param[in] ballColor  one a ball
 ColorOwners colorOwners(const std::vector<Ball>& balls, const std::vector<Color>& ballColor);
+
+/// The owners of colours that meet along exact lines, or null: these run smoothly, are of vertices,
+/// or are those of parts.
+/// @param[in] balls  of the atoms, where they lie to the mesh, as large as its surface has them
+std::shared_ptr<const ColorOwners> bordersOf(ColorBy color, const BallSet& atoms,
+                                             const std::vector<Ball>& balls, const Mesh& mesh,
+                                             const Progress& progress);
 
 /// Cuts triangles along the borders between colours, so that each triangle has one. The border of
 /// two balls is the circle in which their spheres meet.

@@ -72,6 +72,13 @@ BandWidths widthsOf(const SurfaceOptions& options)
     return {offset + width + grown, std::max(width - offset, options.voxel) + grown};
 }
 
+std::vector<Ball> asMeshed(std::vector<Ball> balls, const SurfaceOptions& options)
+{
+    const double growth = isUnion(options.kind) ? probeOf(options) : 0.0;
+    for (Ball& ball : balls) ball.radius += growth;
+    return balls;
+}
+
 void failNothingLeft(const char* stage, SurfaceKind kind)
 {
     throw Error(ErrorKind::Numeric,

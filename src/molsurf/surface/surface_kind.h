@@ -75,6 +75,10 @@ double splineWidthOf(const SurfaceOptions& options);
 /// Gives how far from the surface of its set the distance is computed.
 BandWidths widthsOf(const SurfaceOptions& options);
 
+/// Gives balls as large as those whose cells own the points of a surface: grown by the probe where
+/// it is the surface of their union or lies inside of it.
+std::vector<Ball> asMeshed(std::vector<Ball> balls, const SurfaceOptions& options);
+
 /// Says that the voxels show nothing of a surface, and what would.
 /// @param[in] stage  that found it
 [[noreturn]] void failNothingLeft(const char* stage, SurfaceKind kind);

@@ -60,7 +60,7 @@ TEST(Files, DrawASurfaceWithItsLegend)
 {
     const Colored made;
     const Folder folder;
-    writePicture(made.atoms, made.surface, ColorBy::Element, folder / "legend.png", 200);
+    writePicture(made.atoms, made.surface, made.options, folder / "legend.png", 200);
     writePicture(made.surface.mesh, folder / "bare.png", 200);
     const std::string legend = contentOf(folder / "legend.png");
     const std::string bare = contentOf(folder / "bare.png");
@@ -69,7 +69,7 @@ TEST(Files, DrawASurfaceWithItsLegend)
     EXPECT_NE(legend, bare);
     EXPECT_HAS(errorOf(ErrorKind::Usage,
                        [&] {
-                           writePicture(made.atoms, made.surface, ColorBy::Element,
+                           writePicture(made.atoms, made.surface, made.options,
                                         folder / "small.png", 15);
                        }),
                "width: expected 16 to 16384 pixels, got 15");
@@ -80,14 +80,14 @@ TEST(Files, WriteAPageThatNamesTheAtoms)
 {
     const Colored made;
     const Folder folder;
-    writePicture(made.atoms, made.surface, ColorBy::Element, folder / "crambin.html");
+    writePicture(made.atoms, made.surface, made.options, folder / "crambin.html");
     const std::string page = contentOf(folder / "crambin.html");
     EXPECT_HAS(page, "<title>crambin");
     EXPECT_HAS(page, "TYR");
     EXPECT_HAS(page, "Element");
     BallSet nameless = made.atoms;
     nameless.names.reset();
-    writePicture(nameless, made.surface, ColorBy::Element, folder / "crambin.html");
+    writePicture(nameless, made.surface, made.options, folder / "crambin.html");
     EXPECT_EQ(contentOf(folder / "crambin.html").find("TYR"), std::string::npos);
 }
 #endif
