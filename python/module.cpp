@@ -350,9 +350,8 @@ Molecule unpackMolecule(const nb::bytes& bytes)
 nb::bytes packSurface(const MadeSurface& surface)
 {
     const MolecularSurface& result = surface.result;
-    openvdb::GridCPtrVec grids;
-    if (result.surface) grids.push_back(result.surface);
-    grids.insert(grids.end(), result.fields.begin(), result.fields.end());
+    const openvdb::GridPtrVec all = result.grids();
+    const openvdb::GridCPtrVec grids(all.begin(), all.end());
     Packer packer;
     const nb::bytes atoms = pack(*surface.atoms, "");
     packer(std::string(MOLSURF_VERSION), std::string(atoms.c_str(), atoms.size()), result.mesh,

@@ -261,13 +261,7 @@ void writePicture(const Writing& w, OutputFile& file)
     const auto legend = call.drawsLegend()
                             ? legendOf(call.options.color, w.atoms, w.mesh, w.progress)
                             : std::optional<Legend>();
-    const int width = options.width;
-    if (legend) options.width = std::max(width - legendWidth(*legend, width), width / 2);
-    Picture picture = drawMesh(w.mesh, options, w.progress);
-    if (call.scaleBar && picture.pixel > 0.0)
-        picture = withScaleBar(picture, width, options.background);
-    if (legend) picture = withLegend(picture, *legend, width, options.background);
-    writePng(picture, file);
+    writePng(drawExplained(w.mesh, std::move(options), legend, call.scaleBar, w.progress), file);
 }
 
 void writeCamera(const Writing& w, OutputFile& file)

@@ -19,7 +19,6 @@
 #include "molsurf/structure/text_fields.h"
 #include "molsurf/surface/surface_kind.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -78,9 +77,8 @@ void writeVdb(const MolecularSurface& surface, const std::string& path, bool rep
         throw Error(ErrorKind::Usage, "scene: expected blender, houdini or usd, perhaps with "
                                       "=SCALE, got " +
                                           inQuotes(scene));
-    openvdb::GridCPtrVec grids;
-    if (surface.surface) grids.push_back(surface.surface);
-    grids.insert(grids.end(), surface.fields.begin(), surface.fields.end());
+    const openvdb::GridPtrVec all = surface.grids();
+    const openvdb::GridCPtrVec grids(all.begin(), all.end());
     openvdb::MetaMap metadata;
     describeScene(*place, metadata);
     OutputFile file(path, replace);
@@ -120,12 +118,9 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
         if (atoms.names) nameAtoms(*atoms.names, atoms.balls, mesh, nobody, page);
         writeHtml(mesh, page, file);
     } else {
-        const auto legend = legendOf(color, atoms, mesh, nobody);
         how.borders = bordersOf(color, atoms, asMeshed(atoms.balls, options), mesh, nobody);
-        if (legend) how.width = std::max(width - legendWidth(*legend, width), width / 2);
-        Picture picture = drawMesh(mesh, how, nobody);
-        if (legend) picture = withLegend(picture, *legend, width, how.background);
-        writePng(picture, file);
+        const auto legend = legendOf(color, atoms, mesh, nobody);
+        writePng(drawExplained(mesh, std::move(how), legend, false, nobody), file);
     }
     file.commit();
 }

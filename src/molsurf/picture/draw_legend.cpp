@@ -248,4 +248,15 @@ Picture withScaleBar(const Picture& picture, int width, const Color& background)
     return out;
 }
 
+Picture drawExplained(const Mesh& mesh, DrawOptions options, const std::optional<Legend>& legend,
+                      bool scaleBar, const Progress& progress)
+{
+    const int width = options.width;
+    if (legend) options.width = std::max(width - legendWidth(*legend, width), width / 2);
+    Picture picture = drawMesh(mesh, options, progress);
+    if (scaleBar && picture.pixel > 0.0) picture = withScaleBar(picture, width, options.background);
+    if (legend) picture = withLegend(picture, *legend, width, options.background);
+    return picture;
+}
+
 } // namespace molsurf

@@ -7,6 +7,8 @@
 #include "molsurf/color/legend.h"
 #include "molsurf/picture/draw_mesh.h"
 
+#include <optional>
+
 namespace molsurf
 {
 
@@ -27,5 +29,12 @@ Picture withLegend(const Picture& picture, const Legend& legend, int width,
 /// @param[in] picture  to scale
 /// @param[in] width    as of legendWidth()
 Picture withScaleBar(const Picture& picture, int width, const Color& background);
+
+/// Draws a mesh with what explains it.
+/// @param[in] options   of the whole: what is beside the mesh takes of its width, half at most
+/// @param[in] legend    if it has one
+/// @param[in] scaleBar  whether a picture that is to scale gets a bar
+Picture drawExplained(const Mesh& mesh, DrawOptions options, const std::optional<Legend>& legend,
+                      bool scaleBar, const Progress& progress);
 
 } // namespace molsurf
