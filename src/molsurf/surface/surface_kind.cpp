@@ -72,10 +72,14 @@ BandWidths widthsOf(const SurfaceOptions& options)
     return {offset + width + grown, std::max(width - offset, options.voxel) + grown};
 }
 
+double growthOf(const SurfaceOptions& options)
+{
+    return isUnion(options.kind) ? probeOf(options) : 0.0;
+}
+
 std::vector<Ball> asMeshed(std::vector<Ball> balls, const SurfaceOptions& options)
 {
-    const double growth = isUnion(options.kind) ? probeOf(options) : 0.0;
-    for (Ball& ball : balls) ball.radius += growth;
+    for (Ball& ball : balls) ball.radius += growthOf(options);
     return balls;
 }
 

@@ -75,8 +75,11 @@ double splineWidthOf(const SurfaceOptions& options);
 /// Gives how far from the surface of its set the distance is computed.
 BandWidths widthsOf(const SurfaceOptions& options);
 
-/// Gives balls as large as those whose cells own the points of a surface: grown by the probe where
-/// it is the surface of their union or lies inside of it.
+/// Gives how much larger than the atoms' balls are those whose cells own the points of a surface
+/// [Å]: the probe radius where it is the surface of their union or lies inside of it, else 0.
+double growthOf(const SurfaceOptions& options);
+
+/// Gives balls grown by growthOf().
 std::vector<Ball> asMeshed(std::vector<Ball> balls, const SurfaceOptions& options);
 
 /// Says that the voxels show nothing of a surface, and what would.

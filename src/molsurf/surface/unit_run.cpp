@@ -199,7 +199,7 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     if (!topology.manifold)
         for (const std::uint32_t v : splitNonManifold(mesh))
             stats.slopes.push_back(stats.slopes[v]);
-    const double grown = isUnion(options.kind) ? probeOf(options) : 0.0;
+    const double grown = growthOf(options);
     const PowerOwners owners(owningBalls(atoms, grown), placement.motionOf);
     CutMesh part = cutToOwner(mesh, owners, run.currentSpline(), progress);
     if (part.mesh.triangles.empty())
