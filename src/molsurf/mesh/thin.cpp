@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/mesh/thin.h"
 
+#include "molsurf/core/cancel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -48,7 +50,7 @@ public:
     void run(std::size_t wanted, const Progress& progress)
     {
         for (std::size_t n = 0; left_ > wanted && !queue_.empty(); ++n) {
-            if (n % 4096 == 0 && progress.cancelled()) throw Cancelled();
+            if (n % 4096 == 0) stopIfCancelled(progress);
             const Edge edge = queue_.top();
             queue_.pop();
             const auto [a, b] = edge.ends;

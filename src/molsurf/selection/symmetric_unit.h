@@ -16,8 +16,7 @@ namespace molsurf
 /// to a common point, so that they hang together.
 /// @param[out] out  gets the balls of the unit, copy by copy
 /// @throws Error as findRotationGroup(), or if a copy lies farther than 1 Å from where the
-/// rotations
-///         bring it
+///         rotations bring it
 Placement chooseUnit(const AssemblyCopies& assembly, std::vector<Ball>& out);
 
 /// Adds the images of a unit's balls that lie near it. Of image m of copy i the number is that of
