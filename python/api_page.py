@@ -42,17 +42,9 @@ def signature_of(name, function, keywords):
 
 def keyword_table(where):
     """The keywords of read() or surface()."""
-    def cell(text):
-        return text.replace("|", "\\|")
-
-    def row(name, kind, preset, text):
-        return f"| `{name}` | {cell(kind)} | {cell(preset)} | {cell(text)} |"
     rows = ["| keyword | type | default | what it does |", "|---|---|---|---|"]
-    for name, setting in _options.rows_of(where):
-        rows.append(row(name, _options.TYPES[setting["type"]], setting["preset"] or "", _options.sentence(setting)))
-    extra = {"groups": _options.GROUPS} if where == "read" else _options.MORE
-    for name, (kind, preset, text) in extra.items():
-        rows.append(row(name, kind, preset, f"{text[:1].upper()}{text[1:]}."))
+    for name, *cells in _options.told(where):
+        rows.append("| " + " | ".join([f"`{name}`", *(cell.replace("|", "\\|") for cell in cells)]) + " |")
     return "\n".join(rows)
 
 
@@ -82,12 +74,11 @@ def described_class(name, what):
 
 def main():
     page = [HEAD.rstrip()]
-    wheres = {"surface": "surface", "read": "read"}
     things = {name: getattr(ms, name) for name in ms.__all__}
     page.append("## Functions")
     for name, thing in things.items():
         if inspect.isfunction(thing):
-            page.append(function(name, thing, wheres.get(name)))
+            page.append(function(name, thing, name if name in ("surface", "read") else None))
     page.append("## Classes")
     for name, thing in things.items():
         if inspect.isclass(thing) and not issubclass(thing, Exception):

@@ -101,18 +101,17 @@ def sentence(row):
     return f"{text[:1].upper()}{text[1:]}.{words}" + (f" From {bounds}." if bounds not in text else "")
 
 
-def rows_of(where):
-    """Names and settings of the keywords of read() or surface()."""
-    return [(name, row) for name, row in KEYWORDS.items() if (where == "read") == row["of_atoms"] or name == "color"]
+def told(where):
+    """Name, type, default and text of each keyword of read() or surface()."""
+    rows = [(name, TYPES[row["type"]], row["preset"] or "", sentence(row)) for name, row in KEYWORDS.items()
+            if (where == "read") == row["of_atoms"] or name == "color"]
+    extra = {"groups": GROUPS} if where == "read" else MORE
+    return rows + [(name, kind, preset, f"{text[:1].upper()}{text[1:]}.") for name, (kind, preset, text) in extra.items()]
 
 
 def documented(where):
     """The keywords as paragraphs of a docstring."""
     lines = []
-    for name, row in rows_of(where):
-        preset = f" Default: {row['preset']}." if row["preset"] else ""
-        lines.append(f"    {name}: {TYPES[row['type']]}\n        {sentence(row)}{preset}")
-    extra = {"groups": GROUPS} if where == "read" else MORE
-    for name, (kind, preset, text) in extra.items():
-        lines.append(f"    {name}: {kind}\n        {text[:1].upper()}{text[1:]}. Default: {preset}.")
+    for name, kind, preset, text in told(where):
+        lines.append(f"    {name}: {kind}\n        {text}" + (f" Default: {preset}." if preset else ""))
     return "\n".join(lines)
