@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """Times many small structures at once: structures a second and core, by vdb_molsurf and by other programs.
 
-    bench/batch.py build-release/tools/vdb_molsurf FOLDER [--files 1000] [--python PYTHON] [--voxel 1.0 0.75 0.5] [--keep FOLDER]
+    bench/batch.py build-release/tools/vdb_molsurf FOLDER [--files 1000] [--others 100] [--python PYTHON] [--voxel 1.0 0.75 0.5]
 
 The files are made of the structures in FOLDER: chains of 500 to 5,000 atoms, each turned at random until there are enough. All
 programs run on one core (taskset) and take turns; processor seconds are those of all their processes together.
@@ -13,6 +13,7 @@ programs run on one core (taskset) and take turns; processor seconds are those o
 """
 
 import argparse
+import gzip
 import os
 import pathlib
 import shutil
@@ -20,8 +21,6 @@ import subprocess
 import sys
 import tempfile
 import time
-
-import gzip
 
 import numpy as np
 
