@@ -81,15 +81,15 @@ private:
         return std::size_t(y) * std::size_t(view_.width) + std::size_t(x);
     }
 
-    std::size_t columns() const { return subpixels * std::size_t(view_.width); }
+    std::size_t columns() const { return std::size_t(subpixels * view_.width); }
 
     Light pixelOf(const Layer& layer, const std::vector<std::uint8_t>& ink, int x, int y) const
     {
         Light out;
         const PixelLight shared = smoothed(layer, x, y);
-        for (std::size_t s = 0; s < eyeRays; ++s) {
-            const std::size_t n = (subpixels * std::size_t(y) + s / subpixels) * columns() +
-                                  subpixels * std::size_t(x) + s % subpixels;
+        for (int s = 0; s < int(samplesPerPixel); ++s) {
+            const std::size_t n = std::size_t(subpixels * y + s / subpixels) * columns() +
+                                  std::size_t(subpixels * x + s % subpixels);
             const Seen& seen = layer.seen[n];
             const float drawn = ink.empty() ? 0.0f : style_.ink * float(ink[n]) / 255.0f;
             if (!seen.any() && drawn == 0.0f) continue;
@@ -100,8 +100,8 @@ private:
             }
             one.light = (1.0f - drawn) * one.light + Vec3f(drawn * inkLight);
             one.cover = 1.0f - (1.0f - one.cover) * (1.0f - drawn);
-            out.light += one.light / float(eyeRays);
-            out.cover += one.cover / float(eyeRays);
+            out.light += one.light / float(samplesPerPixel);
+            out.cover += one.cover / float(samplesPerPixel);
         }
         return out;
     }
@@ -145,13 +145,18 @@ private:
     {
         PixelLight here = layer.lights[placeOf(x, y)];
         if (here.depth == Seen::nothing || style_.sky == 0.0f) return here;
-        constexpr int reach = 2;
+        const int step = lightStep(view_.width), reach = 2 * step;
+        const auto firstFrom = [&](int place) {
+            return (std::max(place, 0) + step - 1) / step * step;
+        };
         const float deepest = float(4.0 * reach * view_.pixel);
         float open = 0.0f, lit = 0.0f, weights = 0.0f;
-        for (int j = std::max(y - reach, 0); j <= std::min(y + reach, view_.height - 1); ++j) {
-            for (int i = std::max(x - reach, 0); i <= std::min(x + reach, view_.width - 1); ++i) {
+        const int right = std::min(x + reach, view_.width - 1);
+        const int bottom = std::min(y + reach, view_.height - 1);
+        for (int j = firstFrom(y - reach); j <= bottom; j += step) {
+            for (int i = firstFrom(x - reach); i <= right; i += step) {
                 const PixelLight& other = layer.lights[placeOf(i, j)];
-                if (!other.known || other.depth == Seen::nothing) continue;
+                if (other.depth == Seen::nothing) continue;
                 const float alike = other.normal.dot(here.normal);
                 // Those that face elsewhere count a little, lest one alone be a speck.
                 float weight = std::clamp(2.5f * (alike - 0.5f), 0.1f, 1.0f);

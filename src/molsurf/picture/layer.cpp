@@ -20,7 +20,6 @@ namespace
 
 constexpr std::size_t skyRays = 8, lampRays = 4; // a pixel
 constexpr double nearby = 60.0;                  // what half of the sky's rays look at [Å]
-constexpr int allLit = 1500; // pixels: in wider pictures every other one asks for its light
 constexpr std::int32_t unknown = -2;
 constexpr double golden = 0.6180339887498949;
 
@@ -125,29 +124,45 @@ Layer Tracer::behind(const Layer& front, const Progress& progress) const
 Layer Tracer::trace(const Layer* front, const Progress& progress) const
 {
     const auto width = std::size_t(view_.width), height = std::size_t(view_.height);
+    // Rays miss what is thinner than a pixel, as bonds may be, and what begins behind a mean.
+    const bool sparse = view_.width > widestDense && options_.opacity >= 1.0 && !atoms_;
     Layer layer;
-    layer.seen.resize(eyeRays * width * height);
+    layer.seen.resize(samplesPerPixel * width * height);
     layer.lights.resize(width * height);
+    parallelFor(height, progress, [&](std::size_t y) {
+        Samples samples;
+        for (int row = subpixels * int(y); row < subpixels * int(y + 1); row += sparse ? 2 : 1)
+            for (int column = 0; column < subpixels * view_.width; column += sparse ? 2 : 1)
+                samples.push_back({column, row});
+        look(samples, front, layer);
+    });
+    if (sparse) {
+        parallelFor(height, progress, [&](std::size_t y) { lookBetween(int(y), layer); });
+    }
     std::atomic<bool> any{false};
     parallelFor(height, progress, [&](std::size_t y) {
-        for (std::size_t x = 0; x < width; ++x) tracePixel(int(x), int(y), front, layer);
-        for (std::size_t x = 0; x < width; ++x)
-            if (layer.lights[y * width + x].depth > Seen::nothing) any = true;
+        for (std::size_t x = 0; x < width; ++x) {
+            PixelLight& light = layer.lights[y * width + x];
+            light = lightOf(int(x), int(y), !front, layer);
+            if (light.depth > Seen::nothing) any = true;
+        }
     });
     layer.empty = !any;
     return layer;
 }
 
 /// @param[in] depths  where the rays begin; Seen::nothing: they do not
-Tracer::EyeRays Tracer::from(int x, int y, const std::array<float, eyeRays>& depths) const
+Tracer::EyeRays Tracer::from(const std::array<int, 2>* samples,
+                             const std::array<float, packet>& depths) const
 {
     EyeRays out;
-    for (std::size_t s = 0; s < eyeRays; ++s) {
-        const double dx = (double(s % subpixels) + 0.5) / subpixels;
-        const double dy = (double(s / subpixels) + 0.5) / subpixels;
+    for (std::size_t s = 0; s < packet; ++s) {
         out.valid[s] = depths[s] > Seen::nothing ? -1 : 0;
+        out.from[s] = view_.center;
+        if (!out.valid[s]) continue;
         out.from[s] =
-            view_.at(x + dx, y + dy) + (out.valid[s] ? double(depths[s]) : 0.0) * view_.toEye;
+            view_.at((samples[s][0] + 0.5) / subpixels, (samples[s][1] + 0.5) / subpixels) +
+            double(depths[s]) * view_.toEye;
     }
     return out;
 }
@@ -155,7 +170,7 @@ Tracer::EyeRays Tracer::from(int x, int y, const std::array<float, eyeRays>& dep
 RTCRayHit4 Tracer::meet(const Shapes& shapes, const EyeRays& eye) const
 {
     alignas(16) RTCRayHit4 rays{};
-    for (std::size_t s = 0; s < eyeRays; ++s) {
+    for (std::size_t s = 0; s < packet; ++s) {
         setRay(rays.ray, s, eye.from[s], -view_.toEye, view_.far - view_.low + 2.0);
         rays.hit.geomID[s] = rays.hit.instID[0][s] = RTC_INVALID_GEOMETRY_ID;
     }
@@ -163,59 +178,128 @@ RTCRayHit4 Tracer::meet(const Shapes& shapes, const EyeRays& eye) const
     return rays;
 }
 
-void Tracer::tracePixel(int x, int y, const Layer* front, Layer& layer) const
+/// Sends rays through samples.
+/// @param[in] front  null, or the layer that they begin behind
+void Tracer::look(const Samples& samples, const Layer* front, Layer& layer) const
 {
-    const auto columns = subpixels * std::size_t(view_.width);
-    const auto placeOf = [&](std::size_t s) {
-        return (subpixels * std::size_t(y) + s / subpixels) * columns + subpixels * std::size_t(x) +
-               s % subpixels;
-    };
-    std::array<float, eyeRays> depths;
-    depths.fill(float(top_));
-    for (std::size_t s = 0; front && s < eyeRays; ++s) {
-        const Seen& before = front->seen[placeOf(s)];
-        depths[s] = before.opaque() ? Seen::nothing : before.depth - 1e-3f;
-    }
-    const EyeRays eye = from(x, y, depths);
-    const auto look = [&](const Shapes& shapes, const EyeRays& rays, const auto& seenOf) {
-        const RTCRayHit4 hits = meet(shapes, rays);
-        for (std::size_t s = 0; s < eyeRays; ++s) {
-            if (hits.hit.geomID[s] == RTC_INVALID_GEOMETRY_ID) continue;
-            const Seen found = seenOf(hits, s, rays.from[s]);
-            Seen& seen = layer.seen[placeOf(s)];
-            if (found.depth > seen.depth) seen = found;
+    for (std::size_t first = 0; first < samples.size(); first += packet) {
+        const std::array<int, 2>* at = samples.data() + first;
+        const std::size_t count = std::min(packet, samples.size() - first);
+        std::array<float, packet> depths;
+        depths.fill(Seen::nothing);
+        for (std::size_t s = 0; s < count; ++s) {
+            depths[s] = float(top_);
+            if (!front) continue;
+            const Seen& before = front->seen[placeOf(at[s][0], at[s][1])];
+            depths[s] = before.opaque() ? Seen::nothing : before.depth - 1e-3f;
         }
-    };
-    look(surface_, eye, [this](auto&&... ray) { return hitOf(ray...); });
-    if (atoms_) { // which are not cut
-        if (!front) depths.fill(float(view_.far + 1.0));
-        look(*atoms_, from(x, y, depths), [this](auto&&... ray) { return atomOf(ray...); });
+        const auto send = [&](const Shapes& shapes, const auto& seenOf) {
+            const EyeRays eye = from(at, depths);
+            const RTCRayHit4 hits = meet(shapes, eye);
+            for (std::size_t s = 0; s < count; ++s) {
+                if (hits.hit.geomID[s] == RTC_INVALID_GEOMETRY_ID) continue;
+                const Seen found = seenOf(hits, s, eye.from[s]);
+                Seen& seen = layer.seen[placeOf(at[s][0], at[s][1])];
+                if (found.depth > seen.depth) seen = found;
+            }
+        };
+        send(surface_, [this](auto&&... ray) { return hitOf(ray...); });
+        if (!atoms_) continue;
+        if (!front) std::fill_n(depths.begin(), count, float(view_.far + 1.0)); // not cut
+        send(*atoms_, [this](auto&&... ray) { return atomOf(ray...); });
     }
+}
+
+/// Fills the samples of a row of pixels between those that rays were sent through.
+void Tracer::lookBetween(int y, Layer& layer) const
+{
+    Samples others;
+    for (int row = subpixels * y; row < subpixels * (y + 1); ++row) {
+        const bool sent = row % 2 == 0; // through every other one
+        for (int column = sent; column < subpixels * view_.width; column += sent ? 2 : 1) {
+            if (const auto mean = between(layer, column, row)) {
+                layer.seen[placeOf(column, row)] = *mean;
+            } else {
+                others.push_back({column, row});
+            }
+        }
+    }
+    look(others, nullptr, layer);
+}
+
+/// The mean of the samples about one that have had a ray, if they see the same smooth piece of
+/// surface.
+std::optional<Seen> Tracer::between(const Layer& layer, int column, int row) const
+{
+    constexpr float flat = 0.98f, steepest = 0.25f; // cosines: of normals, and to the eye
+    constexpr int mostColors = 16;                  // of 255, between two samples
+    const int left = column - column % 2, right = column + column % 2;
+    const int above = row - row % 2, below = row + row % 2;
+    if (right >= subpixels * view_.width || below >= subpixels * view_.height) return {};
+    const std::array<std::size_t, 4> about = {placeOf(left, above), placeOf(right, above),
+                                              placeOf(left, below), placeOf(right, below)};
+    const Seen& one = layer.seen[about[0]];
+    const Vec3f normal = one.normal();
+    const float deepest = float(2.0 * view_.pixel / steepest);
+    int nx = 0, ny = 0;
+    float depth = 0.0f;
+    std::array<int, 3> color{};
+    for (const std::size_t n : about) {
+        const Seen& other = layer.seen[n];
+        if (other.any() != one.any() || other.piece != one.piece) return {};
+        if (!one.any()) continue;
+        const Vec3f way = other.normal();
+        if (way.dot(normal) < flat || way[2] < steepest) return {};
+        if (std::abs(other.depth - one.depth) > deepest) return {};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int change = std::abs(int(other.color[k]) - int(one.color[k]));
+            if (change > (options_.borders ? 0 : mostColors)) return {};
+            color[k] += other.color[k];
+        }
+        nx += other.nx;
+        ny += other.ny;
+        depth += other.depth;
+    }
+    Seen mean = one;
+    if (!one.any()) return mean;
+    mean.depth = depth / 4.0f;
+    mean.nx = std::int16_t(nx / 4);
+    mean.ny = std::int16_t(ny / 4);
+    for (std::size_t k = 0; k < 3; ++k) mean.color[k] = std::uint8_t((color[k] + 2) / 4);
+    return mean;
+}
+
+PixelLight Tracer::lightOf(int x, int y, bool isFirst, const Layer& layer) const
+{
     PixelLight light;
     Vec3d at(0.0);
     bool isAtom = false;
-    for (std::size_t s = 0; s < eyeRays; ++s) {
-        const Seen& seen = layer.seen[placeOf(s)];
-        if (seen.depth <= light.depth) continue;
-        light.depth = seen.depth;
-        light.normal = seen.normal();
-        isAtom = seen.piece == Seen::atom;
-        const double onPlane = eye.from[s].dot(view_.toEye) - view_.center.dot(view_.toEye);
-        at = eye.from[s] + (double(seen.depth) - onPlane) * view_.toEye;
+    for (int row = subpixels * y; row < subpixels * (y + 1); ++row) {
+        for (int column = subpixels * x; column < subpixels * (x + 1); ++column) {
+            const Seen& seen = layer.seen[placeOf(column, row)];
+            if (seen.depth <= light.depth) continue;
+            light.depth = seen.depth;
+            light.normal = seen.normal();
+            isAtom = seen.piece == Seen::atom;
+            at = view_.at((column + 0.5) / subpixels, (row + 0.5) / subpixels) +
+                 double(seen.depth) * view_.toEye;
+        }
     }
     // Light comes through walls that let it through: behind them no wall is in the dark, and atoms
     // are in that of each other alone.
-    if (light.depth > Seen::nothing && (!front || isAtom)) {
-        const Vec3d normal = double(light.normal[0]) * view_.right +
-                             double(light.normal[1]) * view_.up +
-                             double(light.normal[2]) * view_.toEye;
-        const int pattern = patternOf(x, y); // the first eight are those of a chessboard
-        light.known = view_.width <= allLit || pattern < 8;
-        const bool among = isAtom && options_.opacity < 1.0;
-        if (light.known && style_.sky > 0.0f) light.open = openness(at, normal, among, pattern);
-        if (light.known && style_.shadow > 0.0f) light.lit = lampShare(at, normal, among, pattern);
-    }
-    layer.lights[std::size_t(y) * std::size_t(view_.width) + std::size_t(x)] = light;
+    if (light.depth == Seen::nothing || (!isFirst && !isAtom)) return light;
+    const int step = lightStep(view_.width);
+    const int left = x - x % step, top = y - y % step;
+    const bool asks = (left == x && top == y) || // a thin thing may miss the pixels that ask
+                      !layer.seen[placeOf(subpixels * left, subpixels * top)].any();
+    if (!asks) return light;
+    const Vec3d normal = double(light.normal[0]) * view_.right +
+                         double(light.normal[1]) * view_.up + double(light.normal[2]) * view_.toEye;
+    const int pattern = patternOf(x / step, y / step);
+    const bool among = isAtom && options_.opacity < 1.0;
+    if (style_.sky > 0.0f) light.open = openness(at, normal, among, pattern);
+    if (style_.shadow > 0.0f) light.lit = lampShare(at, normal, among, pattern);
+    return light;
 }
 
 /// @param[in] normal  of any length; turned to face the eye if it does not

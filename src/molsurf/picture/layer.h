@@ -22,10 +22,19 @@
 namespace molsurf
 {
 
-constexpr std::size_t subpixels = 2; ///< a pixel is the mean of 2 x 2 rays
-constexpr std::size_t eyeRays = subpixels * subpixels;
+constexpr int subpixels = 2; ///< a pixel is the mean of 2 x 2 samples
+constexpr std::size_t samplesPerPixel = std::size_t(subpixels * subpixels);
 
-/// What one ray from the eye meets.
+/// In pictures wider than this, [pixel], there are less rays than samples.
+constexpr int widestDense = 1500;
+
+/// Every which pixel, both ways, asks for its light: more is not seen in wide pictures.
+inline int lightStep(int width)
+{
+    return width > widestDense ? 2 : 1;
+}
+
+/// What the eye sees in one place.
 struct Seen {
     static constexpr float nothing = -std::numeric_limits<float>::infinity();
     static constexpr std::uint8_t cut = 255;  ///< `piece` of the inside, where it is cut
@@ -42,13 +51,12 @@ struct Seen {
     openvdb::Vec3f normal() const;                ///< to the right, up, toward the eye
 };
 
-/// What is nearest in a pixel.
+/// What is nearest in a pixel, and its light if the pixel asks for it.
 struct PixelLight {
     openvdb::Vec3f normal{0.0f}; ///< of what is nearest, as Seen::normal()
     float depth = Seen::nothing; ///< of that [Å]
     float open = 1.0f;           ///< share of the sky that is seen
     float lit = 1.0f;            ///< share of the lamp that is seen
-    bool known = true;           ///< whether these are; else they are those of pixels about it
 };
 
 /// Everything that the eye sees, up to the first opaque thing.
@@ -77,6 +85,8 @@ struct Shapes {
 /// Sends rays. They go in packets of 4 and of 8, a quarter faster than one by one.
 class Tracer
 {
+    static constexpr std::size_t packet = 4;
+
 public:
     /// @param[in] view   of the same mesh; all arguments have to live as long
     /// @param[in] style  decides which rays are needed
@@ -92,16 +102,25 @@ public:
     static openvdb::Vec3f lamp();
 
 private:
-    /// The rays of a pixel.
+    /// A packet of rays.
     struct EyeRays {
-        std::array<openvdb::Vec3d, eyeRays> from;
-        alignas(16) std::array<int, eyeRays> valid; ///< -1, or 0: there is none
+        std::array<openvdb::Vec3d, packet> from;
+        alignas(16) std::array<int, packet> valid; ///< -1, or 0: there is none
     };
+    /// Where samples are, from the upper left corner: column and row.
+    using Samples = std::vector<std::array<int, 2>>;
 
     Layer trace(const Layer* front, const Progress& progress) const;
-    void tracePixel(int x, int y, const Layer* front, Layer& layer) const;
-    EyeRays from(int x, int y, const std::array<float, eyeRays>& depths) const;
+    std::size_t placeOf(int column, int row) const
+    {
+        return std::size_t(row) * std::size_t(subpixels * view_.width) + std::size_t(column);
+    }
+    void look(const Samples& samples, const Layer* front, Layer& layer) const;
+    void lookBetween(int y, Layer& layer) const;
+    std::optional<Seen> between(const Layer& layer, int column, int row) const;
+    EyeRays from(const std::array<int, 2>* samples, const std::array<float, packet>& depths) const;
     RTCRayHit4 meet(const Shapes& shapes, const EyeRays& eye) const;
+    PixelLight lightOf(int x, int y, bool isFirst, const Layer& layer) const;
     Seen hitOf(const RTCRayHit4& rays, std::size_t s, const openvdb::Vec3d& from) const;
     Seen atomOf(const RTCRayHit4& rays, std::size_t s, const openvdb::Vec3d& from) const;
     Seen facing(float depth, openvdb::Vec3d normal) const;

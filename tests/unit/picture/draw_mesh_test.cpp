@@ -256,18 +256,39 @@ TEST_F(TwoBalls, ACutShowsTheInside)
 TEST_F(TwoBalls, BordersAreFoundByThePixel)
 {
     // By the plane x = 0.35, whatever the vertices have.
+    constexpr Color other = {190, 30, 30};
     options.borders = std::make_shared<ColorOwners>(
-        colorOwners({{{-5.0f, 0, 0}, 6.0, 0}, {{5.7f, 0, 0}, 6.0, 1}}, {red, blue}));
+        colorOwners({{{-5.0f, 0, 0}, 6.0, 0}, {{5.7f, 0, 0}, 6.0, 1}}, {red, other}));
     options.style = findStyle("flat");
     mesh.triangles.resize(mesh.triangles.size() / 2); // the larger ball
-    const Picture picture = drawMesh(mesh, options, Progress());
-    int wrong = 0;
-    for (int x = 20; x < 188; ++x) {
-        const double place = (x + 0.5 - 104.0) * 0.1;
-        if (std::abs(place - 0.35) < 0.06) continue;
-        wrong += pixel(picture, x, 100) != (place < 0.35 ? red : blue);
+    for (const int width : {208, 1670}) { // the border is a tenth into a pixel of the latter
+        options.width = width;
+        const Picture picture = drawMesh(mesh, options, Progress());
+        const double edge = 20.8 / width; // of a pixel [Å]
+        int wrong = 0;
+        for (int x = width / 10; x < width - width / 10; ++x) {
+            const double place = (x + 0.5 - 0.5 * width) * edge;
+            if (std::abs(place - 0.35) < 0.51 * edge) continue;
+            wrong += pixel(picture, x, width / 2 - width / 50) != (place < 0.35 ? red : other);
+        }
+        EXPECT_EQ(wrong, 0) << width;
     }
-    EXPECT_EQ(wrong, 0);
+}
+
+// A picture of more than 1500 pixels sends less rays than it has samples.
+TEST_F(TwoBalls, WidePicturesHaveTheSameRims)
+{
+    options.transparent = true;
+    options.frame = PictureFrame{{0.0, 0.0, 3.0}, 30.0, 26.0};
+    const auto areaAt = [&](int width) {
+        options.width = width;
+        const Picture picture = drawn("flat");
+        double sum = 0.0;
+        for (const std::uint8_t alpha : picture.alpha) sum += alpha / 255.0;
+        return sum * picture.pixel * picture.pixel;
+    };
+    const double dense = areaAt(1480);
+    EXPECT_NEAR(areaAt(1520), dense, 1e-4 * dense);
 }
 
 TEST_F(TwoBalls, LinesGrowWithThePicture)
