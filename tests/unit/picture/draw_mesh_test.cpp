@@ -261,7 +261,7 @@ TEST_F(TwoBalls, BordersAreFoundByThePixel)
         colorOwners({{{-5.0f, 0, 0}, 6.0, 0}, {{5.7f, 0, 0}, 6.0, 1}}, {red, other}));
     options.style = findStyle("flat");
     mesh.triangles.resize(mesh.triangles.size() / 2); // the larger ball
-    for (const int width : {208, 1670}) { // the border is a tenth into a pixel of the latter
+    for (const int width : {208, 1194}) { // the border is a tenth into a pixel of the latter
         options.width = width;
         const Picture picture = drawMesh(mesh, options, Progress());
         const double edge = 20.8 / width; // of a pixel [Å]
@@ -275,7 +275,7 @@ TEST_F(TwoBalls, BordersAreFoundByThePixel)
     }
 }
 
-// A picture of more than 1500 pixels sends less rays than it has samples.
+// A picture of more than 1000 pixels sends less rays than it has samples.
 TEST_F(TwoBalls, WidePicturesHaveTheSameRims)
 {
     options.transparent = true;
@@ -287,8 +287,8 @@ TEST_F(TwoBalls, WidePicturesHaveTheSameRims)
         for (const std::uint8_t alpha : picture.alpha) sum += alpha / 255.0;
         return sum * picture.pixel * picture.pixel;
     };
-    const double dense = areaAt(1480);
-    EXPECT_NEAR(areaAt(1520), dense, 1e-4 * dense);
+    const double dense = areaAt(980);
+    EXPECT_NEAR(areaAt(1020), dense, 1e-4 * dense);
 }
 
 TEST_F(TwoBalls, LinesGrowWithThePicture)
@@ -325,13 +325,13 @@ TEST(DrawMesh, DarknessIsSmooth)
     EXPECT_LE(roughest, 4);
 }
 
-// A picture of more than 1500 pixels asks for the light of every other one.
+// A picture of more than 1000 pixels asks for the light of every fourth one.
 TEST_F(TwoBalls, WidePicturesAreLitLikeOthers)
 {
     options.frame = PictureFrame{{0.0, 0.0, 3.0}, 104.0, 26.0};
-    options.width = 1480;
+    options.width = 980;
     const Picture all = drawn("soft");
-    options.width = 1520;
+    options.width = 1020;
     const Picture other = drawn("soft");
     int sum = 0, farthest = 0;
     for (int i = 0; i < 900; ++i) { // to the right of the small ball, where its shadow lies
