@@ -118,6 +118,9 @@ class Pictures(ToolTest):
         _, faint = self.picture(*words, "--opacity", "0.2")
         mean = [sum(sum(p) for row in rows for p in row) / len(rows) for rows in (whole, faint)]
         self.assertGreater(mean[1], 1.05 * mean[0])
+        _, walls = self.picture(*words, "--opacity", "0.2", "--all-walls")
+        self.assertLess(sum(sum(p) for row in walls for p in row), sum(sum(p) for row in faint for p in row))
+        self.check(0, CRAMBIN, *FAST, "-o", "b.png", "--all-walls", says="--all-walls is for --opacity")
         self.check(2, CRAMBIN, "-o", "b.png", "--opacity", "0", says="0.01 to 1")
         self.check(2, CRAMBIN, "-o", "b.png", "--clip", "near", says="a number of Å")
 

@@ -532,6 +532,8 @@ OptionGroup pictureOptions()
          shownIn(Pixels, show),
          shownIn(Pixels, number("opacity", "O", "of the surface, seen from the front", "1", draw,
                                 0.01, 1.0, "a number from 0.01 to 1", MOLSURF_OF(picture.opacity))),
+         shownIn(Pixels, flag("all-walls", "--opacity shows what is behind the nearest wall, too",
+                              draw, MOLSURF_OF(picture.allWalls))),
          shownIn(Pixels, number("clip", "D",
                                 "cuts away what is nearer to the eye than the middle\n"
                                 "by more than D Å, and shows the inside",

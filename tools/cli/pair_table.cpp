@@ -137,6 +137,7 @@ std::vector<Pair> surfacePairs()
                     hasField(call.options.fields, "sas");
          }},
         {"legend", IsFor, {"color"}, "", [](const Call& call) { return call.verb == Convert; }},
+        {"all-walls", IsFor, {"opacity"}},
         ofValues("range"),
         ofValues("palette"),
         {"value-of", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},

@@ -250,7 +250,9 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
         const Painter painter(view, style, options);
         Layer layer = tracer.first(progress);
         painter.add(layer, progress, lights);
-        for (int n = 1; n < mostLayers && options.opacity < 1.0 && !layer.empty; ++n) {
+        const bool through = options.opacity < 1.0 && (options.allWalls || options.model);
+        const int layers = !through ? 1 : options.allWalls ? mostLayers : 2;
+        for (int n = 1; n < layers && !layer.empty; ++n) {
             layer = tracer.behind(layer, progress);
             painter.add(layer, progress, lights);
         }

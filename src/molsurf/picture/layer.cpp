@@ -203,7 +203,8 @@ void Tracer::look(const Samples& samples, const Layer* front, Layer& layer) cons
                 if (found.depth > seen.depth) seen = found;
             }
         };
-        send(surface_, [this](auto&&... ray) { return hitOf(ray...); });
+        if (!front || options_.allWalls)
+            send(surface_, [this](auto&&... ray) { return hitOf(ray...); });
         if (!atoms_) continue;
         if (!front) std::fill_n(depths.begin(), count, float(view_.far + 1.0)); // not cut
         send(*atoms_, [this](auto&&... ray) { return atomOf(ray...); });

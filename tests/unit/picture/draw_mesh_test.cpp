@@ -187,9 +187,19 @@ TEST_F(TwoBalls, CastShadows)
     EXPECT_GT(sum(104 + 35, 104 - 28), sum(104 + 28, 104 + 35) + 30);
 }
 
-TEST_F(TwoBalls, OpacityLetsThroughInTheRightOrder)
+TEST_F(TwoBalls, TheNearestWallAloneLetsThrough)
 {
     options.opacity = 0.5;
+    const Picture picture = drawn("flat");
+    const Vec3f expected = 0.5f * linearLight(blue) + Vec3f(0.5f);
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(pixel(picture, 107, 101)[c], fromLinearLight(double(expected[int(c)])), 2);
+}
+
+TEST_F(TwoBalls, AllWallsLetThroughInTheRightOrder)
+{
+    options.opacity = 0.5;
+    options.allWalls = true;
     const Picture picture = drawn("flat");
     // Four walls in the middle, of which each, seen from the front, takes half.
     const Vec3f b = linearLight(blue), r = linearLight(red);
@@ -202,6 +212,7 @@ TEST_F(TwoBalls, OpacityLetsThroughInTheRightOrder)
 TEST_F(TwoBalls, WhatIsSeenAslantHidesMore)
 {
     options.opacity = 0.5;
+    options.allWalls = true;
     const Picture picture = drawn("flat");
     const double x = 8.05,
                  facing = std::sqrt(1.0 - x * x / 100.0); // of both walls of the large ball
@@ -233,6 +244,7 @@ TEST_F(TwoBalls, WhatIsCutAwayCastsNoShadow)
 TEST_F(TwoBalls, WallsBehindWallsAreNotInTheDark)
 {
     options.opacity = 0.5;
+    options.allWalls = true;
     const Picture flat = drawn("flat"), soft = drawn("soft");
     for (std::size_t c = 0; c < 3; ++c) {
         const float light = linearLight(pixel(soft, 107, 101))[int(c)];
