@@ -472,14 +472,25 @@ std::string styleText()
     return wrapped(joinWords(all, "; "), helpWidth);
 }
 
-std::string showText()
+Option showOption()
 {
     Values all;
     for (const AtomStyle& row : atomStyles()) all.push_back(row.word + ": "s + row.help);
-    return wrapped(
-        "atoms beside the surface, whole and opaque, such as \"(HEM)=sticks\"; repeats; " +
-            joinWords(all, "; "),
-        helpWidth);
+    Option show{
+        "show",
+        0,
+        "[SEL=]WORD",
+        wrapped("atoms beside the surface, whole and opaque, such as \"(HEM)=sticks\"; repeats; " +
+                    joinWords(all, "; "),
+                helpWidth),
+        "",
+        Build | Batch};
+    for (const AtomStyle& row : atomStyles()) show.words.push_back(row.word);
+    show.repeats = true;
+    show.set = [](Call& call, const Values& values) {
+        for (const std::string& value : values) call.shows.push_back(parseShow(value));
+    };
+    return show;
 }
 
 OptionGroup pictureOptions()
@@ -515,12 +526,6 @@ OptionGroup pictureOptions()
             wrongValue("style", joinWords(words, ", "), values.back(),
                        didYouMean(values.back(), words));
     };
-    Option show{"show", 0, "[SEL=]WORD", showText(), "", Build | Batch};
-    for (const AtomStyle& row : atomStyles()) show.words.push_back(row.word);
-    show.repeats = true;
-    show.set = [](Call& call, const Values& values) {
-        for (const std::string& value : values) call.shows.push_back(parseShow(value));
-    };
     return {
         "Picture",
         {shownIn(Views, view),
@@ -529,7 +534,7 @@ OptionGroup pictureOptions()
          shownIn(Pixels, count("size", "N", "width in pixels; the height follows the shape", "1200",
                                draw, 16, 16384, MOLSURF_OF(picture.width))),
          shownIn(Pixels, background), shownIn(PlainColor, plain), shownIn(Pixels, style),
-         shownIn(Pixels, show),
+         shownIn(Pixels, showOption()),
          shownIn(Pixels, number("opacity", "O", "of the surface, seen from the front", "1", draw,
                                 0.01, 1.0, "a number from 0.01 to 1", MOLSURF_OF(picture.opacity))),
          shownIn(Pixels, flag("all-walls", "--opacity shows what is behind the nearest wall, too",
