@@ -202,19 +202,18 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
     NewtonSteps newton(steps);
 
     EvolutionReport report;
-    LeafField next(band.phi.table.size());
+    LeafField before;
     std::vector<double> rms, tails;
     while (report.steps < maxSteps) {
-        const InterfaceSums sums = newton.step(band, region, next, progress);
+        const InterfaceSums sums = newton.step(band, region, before, progress);
         record(sums, region.whole(), report);
         report.maxSpeed.push_back(sums.maxSpeed);
         ++report.steps;
         progress.update("evolve", double(report.steps) / maxSteps);
-        std::swap(band.phi.values, next);
         InterfaceMotion motion(newton.table(), region, h);
         reinitialize(band.phi, {bandWidthVox * h, steps.repairs(), Repair::Errors, motion.watch()},
-                     progress, next);
-        updateBand(band, source, region.grown(halo), next, progress);
+                     progress, before);
+        updateBand(band, source, region.grown(halo), before, progress);
 
         const Displacements moved = motion.sum();
         report.meanDisplacement.push_back(moved.mean() * h);
@@ -227,7 +226,6 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
             moved.quantile(0.99) < calmBulk &&
             settleFronts(band, source, steps, motion, report, progress)) {
             newton = NewtonSteps(steps);
-            next = LeafField(band.phi.table.size());
             rms.clear();
             tails.clear();
             continue;

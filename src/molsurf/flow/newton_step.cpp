@@ -25,28 +25,34 @@ constexpr float leastStiffness = 0.1f;
 // [voxel].
 constexpr float noHistory = 0.04f, noHistoryOfExtended = 0.01f;
 
-/// Two positive or negative floats in one word, each to a relative 0.002 (bfloat16): enough for
-/// coefficients, since rest is where b is 0.
+/// The upper half of a float, rounded: the number to a relative 0.002 (bfloat16). That is enough
+/// for coefficients and for displacements, since rest is where both are 0.
+MOLSURF_INLINE std::uint32_t upperHalf(float value)
+{
+    std::uint32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return (bits + 0x8000u) >> 16;
+}
+MOLSURF_INLINE float ofUpperHalf(std::uint32_t half)
+{
+    const std::uint32_t bits = half << 16;
+    float value;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/// Two numbers in one word.
 MOLSURF_INLINE std::uint32_t packed(float b, float c)
 {
-    std::uint32_t high, low;
-    std::memcpy(&high, &b, sizeof high);
-    std::memcpy(&low, &c, sizeof low);
-    return ((high + 0x8000u) & 0xffff0000u) | (low + 0x8000u) >> 16;
+    return upperHalf(b) << 16 | upperHalf(c);
 }
 MOLSURF_INLINE float highOf(std::uint32_t word)
 {
-    const std::uint32_t bits = word & 0xffff0000u;
-    float b;
-    std::memcpy(&b, &bits, sizeof b);
-    return b;
+    return ofUpperHalf(word >> 16);
 }
 MOLSURF_INLINE float lowOf(std::uint32_t word)
 {
-    const std::uint32_t bits = word << 16;
-    float c;
-    std::memcpy(&c, &bits, sizeof c);
-    return c;
+    return ofUpperHalf(word & 0xffffu);
 }
 
 /// Coefficients of  (c + number of neighbours) u = b + sum of the neighbours' u,  with c = P h^2/w
@@ -55,7 +61,7 @@ MOLSURF_KERNEL void coefficientRows(const float* __restrict phiBlock,
                                     const float* __restrict psiBlock,
                                     const LeafCurvature& __restrict shape, const LeafMask& acting,
                                     float h, const Weights weights, InterfaceRows& __restrict sums,
-                                    std::uint32_t* __restrict system, float* __restrict u)
+                                    std::uint32_t* __restrict system, std::uint16_t* __restrict u)
 {
     using Block = LeafBlock<float, 1>;
     const float inverse = 1.0f / h, h2 = h * h;
@@ -64,7 +70,7 @@ MOLSURF_KERNEL void coefficientRows(const float* __restrict phiBlock,
         const int first = (row / 8 + 1) * Block::strideX + (row % 8 + 1) * Block::strideY + 1;
         const float *p = phiBlock + first, *q = psiBlock + first;
         if (bits == 0) {
-            for (int z = 0; z < 8; ++z) u[8 * row + z] = outside;
+            for (int z = 0; z < 8; ++z) u[8 * row + z] = std::uint16_t(upperHalf(outside));
             continue;
         }
         for (int z = 0; z < 8; ++z) {
@@ -81,7 +87,7 @@ MOLSURF_KERNEL void coefficientRows(const float* __restrict phiBlock,
             const float scale = h2 / larger(m.w, 1e-4f);
             const float b = scale * front.speed, c = scale * P;
             system[v] = packed(b, c);
-            u[v] = bits & rowBits[z] ? b / (c + 6.0f) : outside;
+            u[v] = std::uint16_t(upperHalf(bits & rowBits[z] ? b / (c + 6.0f) : outside));
             const float on = bits & rowBits[z] ? 1.0f : 0.0f;
             addVoxel(front, shape, row, z, p[z], phi, h, on, sums);
         }
@@ -90,47 +96,48 @@ MOLSURF_KERNEL void coefficientRows(const float* __restrict phiBlock,
 
 /// One sweep: out <- out + omega (J(u) - out), J being Jacobi's.
 /// @param[in] keep  0: out has no values yet, and counts as 0; else 1
-MOLSURF_KERNEL void sweepRows(const float* __restrict uBlock, const LeafMask& acting,
+MOLSURF_KERNEL void sweepRows(const std::uint16_t* __restrict uBlock, const LeafMask& acting,
                               const std::uint32_t* __restrict system, float omega, float keep,
-                              float* __restrict out)
+                              std::uint16_t* __restrict out)
 {
-    constexpr int X = LeafBlock<float, 1>::strideX, Y = LeafBlock<float, 1>::strideY;
+    constexpr int X = LeafBlock<std::uint16_t, 1>::strideX,
+                  Y = LeafBlock<std::uint16_t, 1>::strideY;
     for (int row = 0; row < 64; ++row) {
         const int bits = acting.row(row);
         if (bits == 0) {
-            for (int z = 0; z < 8; ++z) out[8 * row + z] = outside;
+            for (int z = 0; z < 8; ++z) out[8 * row + z] = std::uint16_t(upperHalf(outside));
             continue;
         }
-        const float* p = uBlock + (row / 8 + 1) * X + (row % 8 + 1) * Y + 1;
+        const std::uint16_t* p = uBlock + (row / 8 + 1) * X + (row % 8 + 1) * Y + 1;
         for (int z = 0; z < 8; ++z) {
             const int v = 8 * row + z;
             float sum = 0.0f, count = 0.0f;
             for (const int step : {X, -X, Y, -Y, 1, -1}) {
-                const float u = p[z + step];
+                const float u = ofUpperHalf(p[z + step]);
                 sum += u < known ? u : 0.0f;
                 count += u < known ? 1.0f : 0.0f;
             }
             const float jacobi = (highOf(system[v]) + sum) / (lowOf(system[v]) + count);
-            const float before = keep > 0.0f ? out[v] : 0.0f;
+            const float before = keep > 0.0f ? ofUpperHalf(out[v]) : 0.0f;
             const float next = before + omega * (jacobi - before);
-            out[v] = bits & rowBits[z] ? next : outside;
+            out[v] = std::uint16_t(upperHalf(bits & rowBits[z] ? next : outside));
         }
     }
 }
 
 /// u at the feet of a leaf's voxels, and |grad phi| there; 0 beside the active ones.
-MOLSURF_KERNEL void feetRows(const float* __restrict phiBlock, const float* __restrict uBlock,
-                             const LeafMask& active, float h, float* __restrict atFoot,
-                             float* __restrict slope)
+MOLSURF_KERNEL void feetRows(const float* __restrict phiBlock,
+                             const std::uint16_t* __restrict uBlock, const LeafMask& active,
+                             float h, float* __restrict atFoot, float* __restrict slope)
 {
     constexpr int X = LeafBlock<float, 1>::strideX, Y = LeafBlock<float, 1>::strideY;
-    constexpr int UX = LeafBlock<float, footReach>::strideX;
-    constexpr int UY = LeafBlock<float, footReach>::strideY;
+    constexpr int UX = LeafBlock<std::uint16_t, footReach>::strideX;
+    constexpr int UY = LeafBlock<std::uint16_t, footReach>::strideY;
     const float inverse = 1.0f / h;
     for (int row = 0; row < 64; ++row) {
         const int bits = active.row(row);
         const float* p = phiBlock + (row / 8 + 1) * X + (row % 8 + 1) * Y + 1;
-        const float* q =
+        const std::uint16_t* q =
             uBlock + (row / 8 + footReach) * UX + (row % 8 + footReach) * UY + footReach;
         if (bits == 0) {
             for (int z = 0; z < 8; ++z) atFoot[8 * row + z] = slope[8 * row + z] = 0.0f;
@@ -154,16 +161,16 @@ MOLSURF_KERNEL void feetRows(const float* __restrict phiBlock, const float* __re
         }
         // u at the foot, from those corners of its cell where it is known. All are read before any
         // is used: a vector cannot be loaded while its parts are still being stored.
-        alignas(64) float pairs[4][16]; // corners that are neighbours in memory
+        alignas(64) std::uint32_t pairs[4][8]; // corners that are neighbours in memory
         for (int k = 0; k < 4; ++k) {
-            const float* corner = q + (k >> 1) * UX + (k & 1) * UY;
+            const std::uint16_t* corner = q + (k >> 1) * UX + (k & 1) * UY;
             for (int z = 0; z < 8; ++z)
-                std::memcpy(pairs[k] + 2 * z, corner + cell[z], 2 * sizeof(float));
+                std::memcpy(pairs[k] + z, corner + cell[z], sizeof pairs[k][z]);
         }
         for (int k = 0; k < 4; ++k) {
             for (int z = 0; z < 8; ++z) {
                 const float w = (k & 2 ? tx[z] : 1.0f - tx[z]) * (k & 1 ? ty[z] : 1.0f - ty[z]);
-                const float below = pairs[k][2 * z], above = pairs[k][2 * z + 1];
+                const float below = lowOf(pairs[k][z]), above = highOf(pairs[k][z]);
                 const float wBelow = below < known ? w * (1.0f - tz[z]) : 0.0f;
                 const float wAbove = above < known ? w * tz[z] : 0.0f;
                 sum[z] += wBelow * smaller(below, 1e6f) + wAbove * smaller(above, 1e6f);
@@ -171,7 +178,8 @@ MOLSURF_KERNEL void feetRows(const float* __restrict phiBlock, const float* __re
             }
         }
         for (int z = 0; z < 8; ++z) {
-            const float own = q[z] < known ? q[z] : 0.0f;
+            const float here = ofUpperHalf(q[z]);
+            const float own = here < known ? here : 0.0f;
             const bool hasFoot = (slopes[z] > 0.5f) & (weight[z] > 0.3f);
             const float u = hasFoot ? sum[z] / larger(weight[z], 0.1f) : own;
             atFoot[8 * row + z] = bits & rowBits[z] ? u : 0.0f;
@@ -182,141 +190,175 @@ MOLSURF_KERNEL void feetRows(const float* __restrict phiBlock, const float* __re
 
 /// The steps that are made of a leaf's displacements.
 /// @param[in,out] history  of the step before; then of this one
-MOLSURF_KERNEL void chooseSteps(const float* __restrict atFoot, float h, bool extended,
-                                StepHistory& __restrict history, float* __restrict step)
+/// @param[in,out] fronts   null, or likewise, and steps are extended
+MOLSURF_KERNEL void chooseSteps(const float* __restrict atFoot, float h,
+                                StepHistory& __restrict history, FrontHistory* __restrict fronts,
+                                float* __restrict step)
 {
     for (int v = 0; v < leafSize; ++v) {
-        const float u = atFoot[v], last = history.step[v];
-        const float share = shareOfStep(u, last, 1.0f - history.lost[v]);
-        const float whole = extended ? extendedStep(u, history.u[v], last, h) : u;
+        const float u = atFoot[v], last = float(history.share[v]) / StepHistory::whole;
+        const float share = shareOfStep(u, last);
+        const float whole = fronts ? extendedStep(u, fronts->u[v], fronts->step[v], h) : u;
         step[v] = clamped(share * whole, -longestStep * h, longestStep * h);
-        history.u[v] = u;
-        history.step[v] = step[v];
-        history.lost[v] = 1.0f - share;
+        const float made = StepHistory::whole * share + 0.5f;
+        history.share[v] = std::int8_t(step[v] < 0.0f ? -made : step[v] > 0.0f ? made : 0.0f);
+    }
+    for (int v = 0; fronts && v < leafSize; ++v) {
+        fronts->u[v] = atFoot[v];
+        fronts->step[v] = step[v];
     }
 }
 
-/// phi after the step.
-MOLSURF_KERNEL void moveRows(const float* __restrict phi, const float* __restrict slope,
-                             const float* __restrict step, const LeafMask& active,
-                             float* __restrict next)
+/// How far phi moves by the steps.
+MOLSURF_KERNEL void changeRows(const float* __restrict slope, const float* __restrict step,
+                               const LeafMask& active, float* __restrict change)
 {
     for (int row = 0; row < 64; ++row) {
         const int bits = active.row(row);
         for (int z = 0; z < 8; ++z) {
             const int v = 8 * row + z;
             const float on = bits & rowBits[z] ? 1.0f : 0.0f;
-            next[v] = phi[v] + on * smaller(slope[v], 1.0f) * step[v];
+            change[v] = on * smaller(slope[v], 1.0f) * step[v];
         }
     }
 }
 
 } // namespace
 
-/// Makes fields for the leaves of a table; leaves that are new have not moved yet.
+/// Keeps the history for the leaves of a table; leaves that are new have not moved yet.
 void NewtonSteps::fit(const LeafTable& table, const Progress& progress)
 {
-    acting_.assign(table.size(), LeafMask());
     if (known_.size() == table.size() && table.size() > 0) return; // leaves are never dropped
-    u_ = LeafField();
-    u_ = LeafField(table.size());
-    system_ = LeafArray<std::uint32_t>();
-    system_ = LeafArray<std::uint32_t>(table.size());
-    std::vector<std::unique_ptr<StepHistory>> history(table.size());
-    parallelFor(table.size(), progress, [&](std::size_t n) {
-        const std::int32_t m = known_.find(table.origin(n));
-        if (m == noLeaf) return;
-        history[n] = std::move(history_[std::size_t(m)]);
-    });
-    history_ = std::move(history);
+    const auto fitted = [&](auto& history) {
+        std::decay_t<decltype(history)> all(table.size());
+        parallelFor(table.size(), progress, [&](std::size_t n) {
+            const std::int32_t m = known_.find(table.origin(n));
+            if (m != noLeaf) all[n] = std::move(history[std::size_t(m)]);
+        });
+        history = std::move(all);
+    };
+    fitted(history_);
+    fitted(fronts_);
     known_ = table;
 }
 
 /// Sweeps; the Chebyshev weights are those of eigenvalues of Jacobi's iteration in [-rho, rho], rho
 /// such that all sweeps together lessen them tenfold. Smoother errors fall more slowly, and none
 /// grows.
-void NewtonSteps::sweep(const LeafTable& table, LeafField& scratch, const Progress& progress)
+void NewtonSteps::sweep(const LeafTable& table, System& system, const Progress& progress) const
 {
     constexpr double lessening = 10.0;
     const double rho = 1.0 / std::cosh(std::acosh(lessening) / options_.sweeps);
     double omega = 1.0;
+    Displacement next(table.size());
     for (int i = 1; i < options_.sweeps; ++i) {
         omega = 1.0 / (1.0 - rho * rho * (i == 1 ? 0.5 : 0.25 * omega));
         parallelFor(table.size(), progress, [&](std::size_t n) {
-            if (!acting_[n].any()) {
-                if (i == 1) std::fill_n(scratch.leaf(n), leafSize, outside);
+            if (!system.acting[n].any()) {
+                if (i == 1) std::copy_n(system.u.leaf(n), leafSize, next.leaf(n)); // all outside
                 return;
             }
-            LeafBlock<float, 1> u;
-            u.gather(table, u_, n);
-            sweepRows(u.values, acting_[n], system_.leaf(n), float(omega), i == 1 ? 0.0f : 1.0f,
-                      scratch.leaf(n));
+            LeafBlock<std::uint16_t, 1> u;
+            u.gather(table, system.u, n);
+            sweepRows(u.values, system.acting[n], system.coefficients.leaf(n), float(omega),
+                      i == 1 ? 0.0f : 1.0f, next.leaf(n));
         });
-        std::swap(u_, scratch);
+        std::swap(system.u, next);
     }
 }
 
-InterfaceSums NewtonSteps::sums(const NarrowBand& band, const Region& region,
-                                const Progress& progress)
+InterfaceSums NewtonSteps::assemble(const NarrowBand& band, const Region& region, System& system,
+                                    const Progress& progress) const
 {
     const LeafTable& table = band.phi.table;
-    fit(table, progress);
     const double h = band.phi.voxelSize;
     const openvdb::Coord first = sumOrigin(table, region);
     Spline coarse;
     if (options_.splineLevel > 0) coarse = splineOf(band.phi, options_.splineLevel, progress);
     return parallelSum<InterfaceSums>(table.size(), progress, [&](std::size_t n) {
-        acting_[n] = table.active(n) & within(band.phi.leaf(n), float(newtonWidthVox * h));
-        if (!acting_[n].any()) {
-            std::fill_n(u_.leaf(n), leafSize, outside);
+        LeafMask& acting = system.acting[n];
+        acting = table.active(n) & within(band.phi.leaf(n), float(newtonWidthVox * h));
+        if (!acting.any()) {
+            std::fill_n(system.u.leaf(n), leafSize, std::uint16_t(upperHalf(outside)));
             return InterfaceSums();
         }
         LeafBlock<float, 1> phi, psi;
         phi.gather(band.phi, n);
         psi.gather(table, band.psi, n);
         LeafCurvature shape;
-        curvature(phi, acting_[n], float(h), shape);
-        if (options_.splineLevel > 0) takeCurvature(coarse, table.origin(n), h, acting_[n], shape);
+        curvature(phi, acting, float(h), shape);
+        if (options_.splineLevel > 0) takeCurvature(coarse, table.origin(n), h, acting, shape);
         InterfaceRows rows;
-        coefficientRows(phi.values, psi.values, shape, acting_[n], float(h), options_.weights, rows,
-                        system_.leaf(n), u_.leaf(n));
+        coefficientRows(phi.values, psi.values, shape, acting, float(h), options_.weights, rows,
+                        system.coefficients.leaf(n), system.u.leaf(n));
         return region.owned.isInside(table.origin(n))
                    ? rows.total((table.origin(n) - first).asVec3d() * h)
                    : InterfaceSums();
     });
 }
 
-InterfaceSums NewtonSteps::step(const NarrowBand& band, const Region& region, LeafField& next,
+InterfaceSums NewtonSteps::sums(const NarrowBand& band, const Region& region,
+                                const Progress& progress)
+{
+    System system(band.phi.table.size());
+    return assemble(band, region, system, progress);
+}
+
+/// The steps of a leaf, and its history.
+/// @param[in] u  at the feet of its voxels [Å]
+void NewtonSteps::choose(std::size_t n, float h, const float* u, float* step)
+{
+    const float least = options_.extended ? noHistoryOfExtended : noHistory;
+    if (within(u, least * h).count() == leafSize) {
+        history_[n].reset();
+        fronts_[n].reset();
+        std::copy_n(u, leafSize, step);
+        return;
+    }
+    if (!history_[n]) history_[n] = std::make_unique<StepHistory>();
+    if (!fronts_[n] && options_.extended) fronts_[n] = std::make_unique<FrontHistory>();
+    chooseSteps(u, h, *history_[n], fronts_[n].get(), step);
+}
+
+InterfaceSums NewtonSteps::step(NarrowBand& band, const Region& region, LeafField& before,
                                 const Progress& progress)
 {
     const LeafTable& table = band.phi.table;
     const double h = band.phi.voxelSize;
-    const InterfaceSums before = sums(band, region, progress);
-    sweep(table, next, progress);
-    const float least = options_.extended ? noHistoryOfExtended : noHistory;
+    fit(table, progress);
+    before = LeafField(); // its memory serves the equations
+    InterfaceSums sums;
+    LeafField change;
+    {
+        System system(table.size());
+        sums = assemble(band, region, system, progress);
+        sweep(table, system, progress);
+        change = std::move(system.coefficients).reused<float>();
+        parallelFor(table.size(), progress, [&](std::size_t n) {
+            const LeafMask& active = table.active(n);
+            if (!active.any()) {
+                std::fill_n(change.leaf(n), leafSize, 0.0f);
+                history_[n].reset();
+                fronts_[n].reset();
+                return;
+            }
+            LeafBlock<float, 1> phi;
+            LeafBlock<std::uint16_t, footReach> u;
+            phi.gather(band.phi, n);
+            u.gather(table, system.u, n);
+            alignas(64) float solved[leafSize], slope[leafSize], step[leafSize];
+            feetRows(phi.values, u.values, active, float(h), solved, slope);
+            choose(n, float(h), solved, step);
+            changeRows(slope, step, active, change.leaf(n));
+        });
+    }
+    before = LeafField(table.size());
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        const LeafMask& active = table.active(n);
-        if (!active.any()) {
-            std::copy_n(band.phi.leaf(n), leafSize, next.leaf(n));
-            history_[n].reset();
-            return;
-        }
-        LeafBlock<float, 1> phi;
-        LeafBlock<float, footReach> u;
-        phi.gather(band.phi, n);
-        u.gather(table, u_, n);
-        alignas(64) float solved[leafSize], slope[leafSize], step[leafSize];
-        feetRows(phi.values, u.values, active, float(h), solved, slope);
-        if (within(solved, least * float(h)).count() == leafSize) {
-            history_[n].reset();
-            std::copy_n(solved, leafSize, step);
-        } else {
-            if (!history_[n]) history_[n] = std::make_unique<StepHistory>();
-            chooseSteps(solved, float(h), options_.extended, *history_[n], step);
-        }
-        moveRows(band.phi.leaf(n), slope, step, active, next.leaf(n));
+        float* phi = band.phi.leaf(n);
+        std::copy_n(phi, leafSize, before.leaf(n));
+        for (int v = 0; v < leafSize; ++v) phi[v] += change.leaf(n)[v];
     });
-    return before;
+    return sums;
 }
 
 } // namespace molsurf

@@ -12,6 +12,7 @@
 #include "molsurf/progress.h"
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -22,11 +23,17 @@ namespace molsurf
 /// phi is noise, which a Newton step would answer in full.
 constexpr double newtonWidthVox = 1.5;
 
-/// The step before at the voxels of a leaf.
+/// Of the step before, at the voxels of a leaf: its sign, and the share of it that was made in
+/// 1/127; 0: there was none.
 struct StepHistory {
-    alignas(64) float u[leafSize] = {};    ///< the displacement that it solved for [Å]
-    alignas(64) float step[leafSize] = {}; ///< the one that it made [Å]
-    alignas(64) float lost[leafSize] = {}; ///< the share of it that was not made, in [0, 1)
+    static constexpr float whole = 127.0f;
+    alignas(64) std::int8_t share[leafSize] = {};
+};
+
+/// The step before of fronts, at the voxels of a leaf [Å]; 0: there was none.
+struct FrontHistory {
+    alignas(64) float u[leafSize] = {};    ///< the displacement that was solved for
+    alignas(64) float step[leafSize] = {}; ///< the step that was made of it
 };
 
 /// The longest step [voxel], and by how much steps of fronts are extended at most: where u is
@@ -40,11 +47,13 @@ constexpr float shorter = 0.5f, longer = 1.2f, leastShare = 0.1f;
 /// The share of a step that is made. Where u has another sign than the step before, which went too
 /// far, it is halved, and it grows from step to step where it has the same: so what goes to and fro
 /// in a gap comes to rest.
-/// @param[in] lastShare, lastStep  of the step before; 1 and 0: there was none
-MOLSURF_INLINE float shareOfStep(float u, float lastStep, float lastShare)
+/// @param[in] last  share of the step before, with that step's sign; 0: there was none
+MOLSURF_INLINE float shareOfStep(float u, float last)
 {
-    return lastStep * u < 0.0f ? larger(shorter * lastShare, leastShare)
-                               : smaller(longer * lastShare, 1.0f);
+    const float size = std::abs(last);
+    const float next =
+        last * u < 0.0f ? larger(shorter * size, leastShare) : smaller(longer * size, 1.0f);
+    return last == 0.0f ? 1.0f : next;
 }
 
 /// The step of a front with the displacement u [Å]: u itself, but where it falls by the same factor
@@ -89,9 +98,9 @@ public:
 
     /// Makes a step.
     /// @param[in]  region  whose own voxels are summed
-    /// @param[out] next    phi after the step, as many leaves as phi
+    /// @param[out] before  phi before the step
     /// @return sums before the step
-    InterfaceSums step(const NarrowBand& band, const Region& region, LeafField& next,
+    InterfaceSums step(NarrowBand& band, const Region& region, LeafField& before,
                        const Progress& progress);
 
     /// The sums of a band, without a step.
@@ -101,15 +110,28 @@ public:
     const LeafTable& table() const { return known_; }
 
 private:
+    /// The displacement u, to a relative 0.002 (bfloat16); `outside` where it is not solved for.
+    using Displacement = LeafArray<std::uint16_t>;
+
+    /// The equations of a step. They live while it is solved.
+    struct System {
+        LeafArray<std::uint32_t> coefficients; ///< b and c in a word
+        Displacement u;                        ///< a first solution; then that of the sweeps
+        std::vector<LeafMask> acting;          ///< the voxels that it is solved in
+
+        explicit System(std::size_t leaves) : coefficients(leaves), u(leaves), acting(leaves) {}
+    };
+
     void fit(const LeafTable& table, const Progress& progress);
-    void sweep(const LeafTable& table, LeafField& scratch, const Progress& progress);
+    InterfaceSums assemble(const NarrowBand& band, const Region& region, System& system,
+                           const Progress& progress) const;
+    void sweep(const LeafTable& table, System& system, const Progress& progress) const;
+    void choose(std::size_t n, float h, const float* u, float* step);
 
     NewtonOptions options_;
-    LeafArray<std::uint32_t> system_;                   // its coefficients, two in a word
-    LeafField u_;                                       // its solution
-    std::vector<LeafMask> acting_;                      // the voxels that it is solved in
     LeafTable known_;                                   // the leaves of the step before,
-    std::vector<std::unique_ptr<StepHistory>> history_; // and its displacements where one is long
+    std::vector<std::unique_ptr<StepHistory>> history_; // and its steps where one is long
+    std::vector<std::unique_ptr<FrontHistory>> fronts_; // of extended ones alone
 };
 
 } // namespace molsurf

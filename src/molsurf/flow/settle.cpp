@@ -127,14 +127,13 @@ void move(NarrowBand& part, const PsiSource& source, const NewtonOptions& option
           Progress& progress)
 {
     NewtonSteps newton(options);
-    LeafField next(part.phi.table.size());
+    LeafField before;
     for (int i = 0; i < steps; ++i) {
-        newton.step(part, {}, next, progress);
-        std::swap(part.phi.values, next);
+        newton.step(part, {}, before, progress);
         reinitialize(part.phi,
                      {bandWidthVox * part.phi.voxelSize, options.repairs(), Repair::Errors},
-                     progress, next);
-        updateBand(part, source, openvdb::CoordBBox::inf(), next, progress);
+                     progress, before);
+        updateBand(part, source, openvdb::CoordBBox::inf(), before, progress);
     }
 }
 

@@ -108,12 +108,12 @@ MOLSURF_KERNEL void settleMeans(float* __restrict sum, float* __restrict weight,
 }
 
 /// The carrier in a leaf: the way from psi to its level, over the slope of psi.
-/// @param[in] levels, weights  of the leaf's block; the levels count where the weight is not 0
-/// @param[in] beside           distance from the interface at which a voxel may change sides
+/// @param[in]     levels, weights  of the leaf's block; the levels count where the weight is not 0
+/// @param[in]     beside           distance from the interface at which a voxel may change sides
+/// @param[in,out] out              the slope; then the carrier
 MOLSURF_KERNEL void carry(const float* __restrict levels, const float* __restrict weights,
-                          const float* __restrict psi, const float* __restrict slope,
-                          const float* __restrict distance, float lambda, float limit, float beside,
-                          float* __restrict out)
+                          const float* __restrict psi, const float* __restrict distance,
+                          float lambda, float limit, float beside, float* __restrict out)
 {
     constexpr int rim = 3;
     constexpr float leastShare = 0.6f; // of the distance
@@ -124,9 +124,10 @@ MOLSURF_KERNEL void carry(const float* __restrict levels, const float* __restric
             // Far from the interface, where the level is not known, the bottom of the valley
             // serves.
             const float known = weights[first + z] > 0.0f ? 1.0f : 0.0f;
-            const float bottom = -fastLog(1.0f + lambda * slope[i] * slope[i]);
+            const float slope = out[i];
+            const float bottom = -fastLog(1.0f + lambda * slope * slope);
             const float level = known > 0.0f ? levels[first + z] : bottom;
-            const float value = clamped((level - psi[i]) / slope[i], -limit, limit);
+            const float value = clamped((level - psi[i]) / slope, -limit, limit);
             const float mixed = value + leaving(level - bottom) * (distance[i] - value);
             // Away from the interface voxels do not change sides, nor come near it: beside a front
             // that spans a gap, and in a cavity that was filled, psi knows nothing of it.
@@ -140,13 +141,13 @@ MOLSURF_KERNEL void carry(const float* __restrict levels, const float* __restric
 
 } // namespace
 
-SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, double width,
+SparseField smoothCarrier(const SparseField& phi, CarrierSource source, double width,
                           const Progress& progress)
 {
     const LeafTable& table = phi.table;
     const float voxelSize = float(phi.voxelSize);
     LeafField levels(table.size());
-    SparseField out{table, LeafField(table.size()), phi.voxelSize};
+    SparseField out{table, std::move(source.slope), phi.voxelSize};
     parallelFor(table.size(), progress, [&](std::size_t n) {
         std::fill_n(levels.leaf(n), leafSize, unknown);
         const LeafMask mask = table.active(n) & within(phi.leaf(n), near * voxelSize);
@@ -168,8 +169,8 @@ SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, d
             spread(weight, rim, scratch, weights);
             settleMeans(sum, weight, rim, sums, weights, rim == 3 ? 0.0f : 1.0f);
         }
-        carry(sum, weight, source.psi.leaf(n), source.slope.leaf(n), phi.leaf(n), lambda, limit,
-              1.0f * voxelSize, out.leaf(n));
+        carry(sum, weight, source.psi.leaf(n), phi.leaf(n), lambda, limit, 1.0f * voxelSize,
+              out.leaf(n));
     });
     return out;
 }

@@ -14,8 +14,8 @@ namespace molsurf
 struct CarrierSource {
     const LeafField& psi; ///< on the leaves of phi
     /// |grad psi| where the balls around are flat [1/Å], at each voxel; psi varies by nearly that
-    /// where one ball is near, whatever lies beside it.
-    const LeafField& slope;
+    /// where one ball is near, whatever lies beside it. The result takes its memory.
+    LeafField slope;
     bool onPsiZero; ///< whether the interface is psi = 0 itself: v is 0 then
     double lambda;  ///< weight of the regulariser |grad g|^2, whose valley lies off psi = 0; else 0
 };
@@ -32,7 +32,7 @@ struct CarrierSource {
 /// @return a field on the leaves of phi: < 0 inside, with a slope of 1 where the interface is flat
 /// and of
 ///         0.2 to 1 in creases
-SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, double width,
+SparseField smoothCarrier(const SparseField& phi, CarrierSource source, double width,
                           const Progress& progress);
 
 } // namespace molsurf

@@ -39,10 +39,10 @@ LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
     std::vector<Decay> decays = hasFlow(options.kind) ? atoms.decays : std::vector<Decay>();
     const std::vector<double> slopes = slopesOf(atoms.balls, gaussian, decays);
     const LeafTable& table = band.phi.table;
-    LeafField out(table.size());
     const auto ends = std::minmax_element(slopes.begin(), slopes.end());
     const double least = *ends.first, most = *ends.second;
     if (most - least < 1e-4 * most) {
+        LeafField out(table.size());
         parallelFor(table.size(), progress,
                     [&](std::size_t n) { std::fill_n(out.leaf(n), leafSize, float(most)); });
         return out;
@@ -53,14 +53,15 @@ LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
         decays[i].level += float(std::log(slopes[i] / most));
     GaussianSum sum(atoms.balls, gaussian, decays);
     sum.setBumps(bumps);
-    const SparseField weighted = sum.evaluate(table, progress);
+    LeafField field = sum.evaluate(table, progress).values;
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        const float *w = weighted.leaf(n), *psi = band.psi.leaf(n);
+        float* value = field.leaf(n); // of the weighted sum; then the slope
+        const float* psi = band.psi.leaf(n);
         for (int v = 0; v < leafSize; ++v)
-            out.leaf(n)[v] =
-                std::clamp(float(most) * std::exp(w[v] - psi[v]), float(least), float(most));
+            value[v] =
+                std::clamp(float(most) * std::exp(value[v] - psi[v]), float(least), float(most));
     });
-    return out;
+    return field;
 }
 
 } // namespace
@@ -69,12 +70,13 @@ SparseField carrierOf(const BallSet& atoms, const SurfaceOptions& options,
                       const std::optional<GaussianExtent>& extent, const NarrowBand& band,
                       const Bumps& bumps, const Progress& progress)
 {
-    const LeafField slope = slopeField(atoms, options, extent, band, bumps, progress);
+    LeafField slope = slopeField(atoms, options, extent, band, bumps, progress);
     const EvolveOptions& evolution = options.evolution;
     const bool valley = hasFlow(options.kind) && evolution.regularizer == Regularizer::Gradient;
-    return smoothCarrier(band.phi,
-                         {band.psi, slope, !hasFlow(options.kind), valley ? evolution.lambda : 0.0},
-                         bandWidthVox * band.phi.voxelSize, progress);
+    return smoothCarrier(
+        band.phi,
+        {band.psi, std::move(slope), !hasFlow(options.kind), valley ? evolution.lambda : 0.0},
+        bandWidthVox * band.phi.voxelSize, progress);
 }
 
 } // namespace molsurf
