@@ -232,6 +232,7 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
         }
         if (report.converged || (mayGiveUp && stalled(rms, tails, report))) break;
     }
+    before = LeafField(); // its memory serves the sums
     record(newton.sums(band, region, progress), region.whole(), report);
     estimateAreaError(options, report);
     return report;
