@@ -55,12 +55,12 @@ GivenOptions planned(const Call& call)
     for (const auto& [name, values] : call.given) {
         const Option* option = findOption(BricksPlan, name);
         if (!option || !option->stored) continue;
+        std::vector<std::string>& kept = options[name]; // of a switch it is empty
         for (const std::string& value : values) {
             const std::size_t begin = option->file ? option->file(value) : std::string::npos;
-            options[name].push_back(begin == std::string::npos
-                                        ? value
-                                        : value.substr(0, begin) +
-                                              fromPlan(call, value.substr(begin)));
+            kept.push_back(begin == std::string::npos
+                               ? value
+                               : value.substr(0, begin) + fromPlan(call, value.substr(begin)));
         }
     }
     return options;

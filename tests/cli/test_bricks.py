@@ -51,6 +51,11 @@ class Bricks(ToolTest):
     def report(self, name):
         return json.loads((self.folder / name).read_text())
 
+    def test_plans_keep_switches(self):
+        plan = self.plan(2, "--waters")
+        self.assertEqual(plan["options"]["waters"], [])
+        self.check(0, "bricks", "run", "plan.json", 1, says=f"used {plan['atoms']} atoms")
+
     def test_are_the_whole(self):
         plan = self.plan(4, "--fields", FIELDS, "--color", "chain", "--group-by", "chain")
         self.assertEqual(len(plan["bricks"]), 4)
