@@ -15,6 +15,7 @@
 #include "molsurf/io/temporary_file.h"
 #include "molsurf/io/write_table.h"
 #include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/field_table.h"
 #include "molsurf/surface/frame_source.h"
 
 #include <algorithm>

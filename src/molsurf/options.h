@@ -92,8 +92,8 @@ struct SurfaceOptions {
     int splineLevel = 0;       ///< L in 0, 1, 2: the spline lies on voxels of edge 2^L h
     bool fillCavities = false; ///< whether the inner walls of closed cavities are removed
     double minWall = 0.0;      ///< thinner parts are thickened to this [Å], >= 0; 0: none is
-    /// Names of further grids to make: "sas", "spline", "density", "atom_id", "chain_id",
-    /// "group_id", "Cd", or a curvature as "mean_curvature", which the mesh then has as well.
+    /// Names of further grids to make, of the list in docs/options.md: "density", "Cd", or a
+    /// curvature as "mean_curvature", which the mesh then has as well.
     std::vector<std::string> fields;
     bool halfFloats = false; ///< whether the grids' values are saved as 16-bit floats
     bool meshLabels = true;  ///< whether the mesh has the atom, chain and group of its vertices

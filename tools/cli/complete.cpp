@@ -12,7 +12,7 @@
 #include "molsurf/flow/evolve.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/spline/curvature.h"
-#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/field_table.h"
 #include "molsurf/surface/frame_source.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/whole_only.h"
@@ -240,10 +240,11 @@ void completeGroups(Call& call)
         call.atoms.groupBy = call.colorGroups;
         options.color = ColorBy::Group;
     }
-    const auto has = [&](const char* field) { return hasField(options.fields, field); };
-    if (has("Cd") && options.color == ColorBy::Nothing) options.color = ColorBy::Chain;
-    call.atoms.labels = options.color != ColorBy::Nothing || has("chain_id") || has("Cd") ||
-                        call.writes(ColorChoices);
+    if (hasField(options.fields, "Cd") && options.color == ColorBy::Nothing)
+        options.color = ColorBy::Chain;
+    const bool labels = std::any_of(options.fields.begin(), options.fields.end(),
+                                    [](auto& field) { return findField(field)->needsLabels; });
+    call.atoms.labels = options.color != ColorBy::Nothing || labels || call.writes(ColorChoices);
 }
 
 void completeInstances(Call& call)

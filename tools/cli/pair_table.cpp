@@ -4,7 +4,7 @@
 #include "cli/option_table.h"
 
 #include "molsurf/color/color_table.h"
-#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/field_table.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/subset.h"
-#include "molsurf/spline/curvature.h"
 #include "molsurf/surface/check_balls.h"
+#include "molsurf/surface/field_table.h"
 #include "molsurf/surface/influence.h"
 #include "molsurf/surface/surface_kind.h"
 
@@ -250,10 +250,8 @@ Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach
 int valuesAlong(const SurfaceOptions& options)
 {
     int values = 0;
-    for (const std::string& name : options.fields) {
-        const CurvatureField* curvature = findCurvatureField(name);
-        values += curvature ? curvature->components : name == "Cd" ? 3 : name == "surface" ? 0 : 1;
-    }
+    for (const std::string& name : options.fields)
+        if (const FieldRow* field = findField(name)) values += field->values;
     return values;
 }
 

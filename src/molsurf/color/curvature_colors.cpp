@@ -46,32 +46,27 @@ void colorByCurvature(ColorBy by, const SelectOptions::Coloring& options, Mesh& 
     }
 }
 
-void addCurvatureColors(ColorBy by, const SelectOptions::Coloring& options, bool keep,
-                        const Mesh& mesh, std::vector<openvdb::GridBase::Ptr>& fields)
+openvdb::GridPtrVec curvatureColors(ColorBy by, const SelectOptions::Coloring& options,
+                                    const Mesh& mesh, const openvdb::GridPtrVec& fields)
 {
-    const char* name = curvatureNameOf(by);
-    if (!name) return;
+    const std::string name = curvatureNameOf(by);
+    openvdb::GridPtrVec colors;
     const auto scalar = std::find_if(mesh.scalars.begin(), mesh.scalars.end(),
                                      [&](const auto& s) { return s.name == name; });
-    if (scalar == mesh.scalars.end()) return;
+    if (scalar == mesh.scalars.end()) return colors;
     const ColorScale scale = curvatureScale(scalar->values, options);
-    const std::string start = name;
-    std::vector<openvdb::GridBase::Ptr> kept, colors;
     for (const auto& field : fields) {
         const std::string whole = field->getName();
         const auto values = openvdb::gridPtrCast<openvdb::FloatGrid>(field);
-        const bool shown = whole.rfind(start, 0) == 0 && values;
-        if (keep || !shown) kept.push_back(field);
-        if (!shown) continue;
-        auto grid = gridLike<openvdb::Vec3SGrid>(*values, "Cd" + whole.substr(start.size()),
+        if (whole.rfind(name, 0) != 0 || !values) continue;
+        auto grid = gridLike<openvdb::Vec3SGrid>(*values, "Cd" + whole.substr(name.size()),
                                                  linearLight(neutralColor));
         auto to = grid->beginValueOn();
         for (auto from = values->cbeginValueOn(); from; ++from, ++to)
             to.setValue(linearLight(scale.at(*from)));
         colors.push_back(grid);
     }
-    kept.insert(kept.end(), colors.begin(), colors.end());
-    fields = std::move(kept);
+    return colors;
 }
 
 } // namespace molsurf

@@ -27,10 +27,9 @@ ColorScale curvatureScale(const std::vector<float>& curvature,
 /// Colours a mesh by one of its curvatures, if `by` is one.
 void colorByCurvature(ColorBy by, const SelectOptions::Coloring& options, Mesh& mesh);
 
-/// Adds to some grids a grid Cd for each curvature grid of the name that `by` stands for, by the
-/// scale of the mesh: "Cd", or with parts "Cd_NAME".
-/// @param[in] keep  false: takes the curvature grids away
-void addCurvatureColors(ColorBy by, const SelectOptions::Coloring& options, bool keep,
-                        const Mesh& mesh, std::vector<openvdb::GridBase::Ptr>& fields);
+/// A grid Cd for each curvature grid of the name that `by` stands for, by the scale of the mesh:
+/// "Cd", or with parts "Cd_NAME".
+openvdb::GridPtrVec curvatureColors(ColorBy by, const SelectOptions::Coloring& options,
+                                    const Mesh& mesh, const openvdb::GridPtrVec& fields);
 
 } // namespace molsurf

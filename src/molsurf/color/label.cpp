@@ -19,9 +19,6 @@ namespace molsurf
 using openvdb::Coord;
 using openvdb::Vec3f;
 
-namespace
-{
-
 Labels atomsOf(const std::vector<Ball>& balls)
 {
     Labels out;
@@ -30,7 +27,6 @@ Labels atomsOf(const std::vector<Ball>& balls)
     return out;
 }
 
-/// The label of the ball that each point belongs to; -1 without one.
 Labels labelsOf(const Labels& nearest, const Labels& labelOf)
 {
     Labels out(nearest.size(), -1);
@@ -40,14 +36,8 @@ Labels labelsOf(const Labels& nearest, const Labels& labelOf)
     return out;
 }
 
-openvdb::GridBase::Ptr labelGrid(const openvdb::FloatGrid& surface, const char* name,
-                                 const Labels& labels)
+namespace
 {
-    auto grid = gridLike<openvdb::Int32Grid>(surface, name, -1);
-    std::size_t i = 0;
-    for (auto it = grid->beginValueOn(); it; ++it) it.setValue(labels[i++]);
-    return grid;
-}
 
 /// The part of a triangle where a function that is linear in it is negative.
 double negativeShare(std::array<double, 3> f)
@@ -70,24 +60,22 @@ std::vector<Color> colorsOf(const Labels& nearest, const std::vector<Color>& bal
     return out;
 }
 
-openvdb::GridBase::Ptr colorGrid(const openvdb::FloatGrid& surface, bool inside,
-                                 const std::vector<Ball>& balls,
-                                 const std::vector<Color>& ballColor, double reach,
-                                 const Progress& progress)
+openvdb::BoolGrid::Ptr shownVoxels(const openvdb::FloatGrid& surface, bool inside)
 {
-    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "Cd", linearLight(neutralColor));
-    if (inside) {
-        grid->tree().topologyUnion(openvdb::tools::sdfInteriorMask(surface)->tree());
-        grid->tree().voxelizeActiveTiles();
-    }
-    std::vector<Vec3f> points;
-    for (auto it = grid->cbeginValueOn(); it; ++it)
-        points.emplace_back(surface.indexToWorld(it.getCoord()));
-    const std::vector<Color> colors =
-        colorsOf(nearestBalls(balls, points, reach, progress), ballColor);
-    std::size_t i = 0;
-    for (auto it = grid->beginValueOn(); it; ++it) it.setValue(linearLight(colors[i++]));
+    auto grid = gridLike<openvdb::BoolGrid>(surface, "", false);
+    if (!inside) return grid;
+    grid->tree().topologyUnion(openvdb::tools::sdfInteriorMask(surface)->tree());
+    grid->tree().voxelizeActiveTiles();
     return grid;
+}
+
+Labels ownersOf(const openvdb::BoolGrid& voxels, const std::vector<Ball>& balls, double reach,
+                const Progress& progress)
+{
+    std::vector<Vec3f> points;
+    for (auto it = voxels.cbeginValueOn(); it; ++it)
+        points.emplace_back(voxels.indexToWorld(it.getCoord()));
+    return nearestBalls(balls, points, reach, progress);
 }
 
 std::vector<double> memberAreas(const std::vector<Ball>& balls, const Labels& memberOf,
@@ -201,27 +189,6 @@ void labelVertices(const BallSet& atoms, const Labels& nearest, Mesh& mesh)
     mesh.labels.push_back({"chain_id", labelsOf(nearest, atoms.labels->chainOf)});
     if (!atoms.labels->groups.empty())
         mesh.labels.push_back({"group_id", labelsOf(nearest, atoms.labels->groupOf)});
-}
-
-std::vector<openvdb::GridBase::Ptr> labelGrids(const BallSet& atoms,
-                                               const openvdb::FloatGrid& surface,
-                                               const LabelNames& names, double reach,
-                                               const Progress& progress)
-{
-    std::vector<openvdb::GridBase::Ptr> grids;
-    if (!names.atoms && !names.chains && !names.groups) return grids;
-    std::vector<Vec3f> points;
-    for (auto it = surface.cbeginValueOn(); it; ++it)
-        points.emplace_back(surface.indexToWorld(it.getCoord()));
-    const Labels owner = nearestBalls(atoms.balls, points, reach, progress);
-    const auto add = [&](const char* name, const Labels& labelOf) {
-        grids.push_back(labelGrid(surface, name, labelsOf(owner, labelOf)));
-    };
-    if (names.atoms) add("atom_id", atomsOf(atoms.balls));
-    if (names.chains && atoms.labels) add("chain_id", atoms.labels->chainOf);
-    if (names.groups && atoms.labels && !atoms.labels->groups.empty())
-        add("group_id", atoms.labels->groupOf);
-    return grids;
 }
 
 } // namespace molsurf

@@ -27,28 +27,23 @@ using Labels = std::vector<std::int32_t>;
 /// @param[in] nearest  ball of each vertex
 void labelVertices(const BallSet& atoms, const Labels& nearest, Mesh& mesh);
 
-/// The grids of labels that are wanted.
-struct LabelNames {
-    bool atoms = false, chains = false, groups = false;
-};
+/// The voxels of the band of a level set.
+/// @param[in] inside  whether all of the inside is among them, as fog needs it
+openvdb::BoolGrid::Ptr shownVoxels(const openvdb::FloatGrid& surface, bool inside);
 
-/// The grids atom_id, chain_id and group_id on the active voxels of a level set, -1 elsewhere.
+/// The ball of each active voxel, in the order of the tree.
 /// @param[in] reach  farthest that a point of the band may lie from the balls [Å]
-std::vector<openvdb::GridBase::Ptr> labelGrids(const BallSet& atoms,
-                                               const openvdb::FloatGrid& surface,
-                                               const LabelNames& names, double reach,
-                                               const Progress& progress);
+Labels ownersOf(const openvdb::BoolGrid& voxels, const std::vector<Ball>& balls, double reach,
+                const Progress& progress);
+
+/// The atom of each ball.
+Labels atomsOf(const std::vector<Ball>& balls);
+
+/// The label of the ball that each point belongs to; -1 without one.
+Labels labelsOf(const Labels& nearest, const Labels& labelOf);
 
 /// The colour of the ball of each point, neutral without one.
 std::vector<Color> colorsOf(const Labels& nearest, const std::vector<Color>& ballColor);
-
-/// A grid Cd: colours on the band of a level set.
-/// @param[in] inside     whether all of the inside has colours, too, as fog needs it
-/// @param[in] ballColor  one a ball
-openvdb::GridBase::Ptr colorGrid(const openvdb::FloatGrid& surface, bool inside,
-                                 const std::vector<Ball>& balls,
-                                 const std::vector<Color>& ballColor, double reach,
-                                 const Progress& progress);
 
 /// The area of every group, and at last of no group, on a mesh [Å^2]. A triangle of two groups is
 /// cut where it is equally far from the balls of both.

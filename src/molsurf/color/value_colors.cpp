@@ -3,10 +3,9 @@
 
 #include "molsurf/color/palette.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/grid/grid_like.h"
 #include "molsurf/selection/scalar_map.h"
 
-#include <openvdb/tools/LevelSetUtil.h>
+#include <openvdb/tree/LeafManager.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +50,13 @@ ColorScale scaleOf(const BallValues& values)
 bool isFlat(const BallValues& values)
 {
     return values.flat || findPalette(values.palette)->steps;
+}
+
+bool isBlended(const BallSet& atoms, ColorBy by)
+{
+    if (by != ColorBy::Value || !atoms.labels || !atoms.labels->values) return false;
+    const BallValues& values = *atoms.labels->values;
+    return values.byPoint() || !isFlat(values);
 }
 
 std::vector<Color> valueColors(const BallValues& values)
@@ -120,20 +126,20 @@ Color PointValues::colorOf(const PointValue& value) const
     return out;
 }
 
-openvdb::GridBase::Ptr valueGrid(const openvdb::FloatGrid& surface, bool inside,
-                                 const PointValues& values, double reach, const Progress& progress)
+std::vector<PointValue> PointValues::on(const openvdb::BoolGrid& voxels,
+                                        const openvdb::FloatGrid& surface, double reach,
+                                        const Progress& progress) const
 {
-    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "Cd", linearLight(neutralColor));
-    if (inside) {
-        grid->tree().topologyUnion(openvdb::tools::sdfInteriorMask(surface)->tree());
-        grid->tree().voxelizeActiveTiles();
-    }
-    std::vector<openvdb::Vec3STree::LeafNodeType*> leaves;
-    grid->tree().getNodes(leaves);
+    const openvdb::tree::LeafManager<const openvdb::BoolTree> leaves(voxels.tree());
+    std::vector<std::size_t> first = {0}; // of each leaf
+    for (std::size_t n = 0; n < leaves.leafCount(); ++n)
+        first.push_back(first[n] + leaves.leaf(n).onVoxelCount());
+    std::vector<PointValue> out(first.back());
     const double h = surface.voxelSize()[0];
-    parallelFor(leaves.size(), progress, [&](std::size_t n) {
+    parallelFor(leaves.leafCount(), progress, [&](std::size_t n) {
         const auto from = surface.getConstAccessor();
-        for (auto voxel = leaves[n]->beginValueOn(); voxel; ++voxel) {
+        PointValue* value = out.data() + first[n];
+        for (auto voxel = leaves.leaf(n).cbeginValueOn(); voxel; ++voxel) {
             const openvdb::Coord at = voxel.getCoord();
             Vec3d normal(0.0); // by differences of the distance
             for (int a = 0; a < 3; ++a) {
@@ -144,10 +150,10 @@ openvdb::GridBase::Ptr valueGrid(const openvdb::FloatGrid& surface, bool inside,
             if (normal.lengthSqr() > 0.0) normal.normalize();
             // From the voxel to the surface, beside which it lies.
             const Vec3d x = at.asVec3d() * h - double(from.getValue(at)) * normal;
-            voxel.setValue(linearLight(values.colorOf(values.at(x, normal, reach))));
+            *value++ = this->at(x, normal, reach);
         }
     });
-    return grid;
+    return out;
 }
 
 void addValues(const BallSet& atoms, const SurfaceOptions& options, const Labels& nearest,

@@ -22,6 +22,9 @@ ColorScale scaleOf(const BallValues& values);
 /// Whether a point has the value of one ball: it was asked for, or the colours have steps.
 bool isFlat(const BallValues& values);
 
+/// Whether colours show values of points that nearby balls may share.
+bool isBlended(const BallSet& atoms, ColorBy by);
+
 /// The colour of every ball, neutral where it has no value.
 std::vector<Color> valueColors(const BallValues& values);
 
@@ -47,6 +50,10 @@ public:
     /// @param[in] reach   no point that has a value is farther than this from its ball [Å]
     PointValue at(const openvdb::Vec3d& x, const openvdb::Vec3d& normal, double reach) const;
 
+    /// The values of some voxels of a level set's band or inside, in the order of their tree.
+    std::vector<PointValue> on(const openvdb::BoolGrid& voxels, const openvdb::FloatGrid& surface,
+                               double reach, const Progress& progress) const;
+
     /// The colour of such a value, mixed with the neutral one as far as balls have none.
     Color colorOf(const PointValue& value) const;
 
@@ -59,11 +66,6 @@ private:
     double smallest_; ///< radius of a ball [Å]
     double outward_;  ///< [Å]
 };
-
-/// A grid Cd of such values on the active voxels of a level set; linear light.
-/// @param[in] inside  whether all of the inside has colours, too
-openvdb::GridBase::Ptr valueGrid(const openvdb::FloatGrid& surface, bool inside,
-                                 const PointValues& values, double reach, const Progress& progress);
 
 /// Adds the values to the vertices of a mesh as a scalar, which is not a number where less than
 /// half of the weights have one, and colours them by it unless they are flat.

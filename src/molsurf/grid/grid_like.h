@@ -6,6 +6,7 @@
 
 #include <openvdb/openvdb.h>
 
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -23,6 +24,18 @@ typename GridT::Ptr gridLike(const SourceT& source, const std::string& name,
                                                              openvdb::TopologyCopy()));
     grid->setTransform(source.transform().copy());
     grid->setName(name);
+    return grid;
+}
+
+/// Makes a grid of one value for each active voxel of another.
+/// @param[in] of  gives the value of a voxel, by its number in the order of the tree
+template<typename GridT, typename SourceT, typename Of>
+typename GridT::Ptr gridOf(const SourceT& voxels, const std::string& name,
+                           const typename GridT::ValueType& background, const Of& of)
+{
+    auto grid = gridLike<GridT>(voxels, name, background);
+    std::size_t i = 0;
+    for (auto to = grid->beginValueOn(); to; ++to) to.setValue(of(i++));
     return grid;
 }
 

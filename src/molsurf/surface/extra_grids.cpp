@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/extra_grids.h"
 
-#include "molsurf/balls/nearest_ball.h"
+#include "molsurf/color/label.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/grid/grid_like.h"
 #include "molsurf/spline/curvature.h"
@@ -10,30 +10,11 @@
 #include <openvdb/tools/LevelSetUtil.h>
 #include <openvdb/tree/LeafManager.h>
 
-#include <algorithm>
-
 namespace molsurf
 {
 
 using openvdb::Coord;
 using openvdb::Vec3d;
-
-const std::vector<std::string>& fieldNames()
-{
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> all = {"sas", "spline"};
-        for (const CurvatureField& field : curvatureFields()) all.push_back(field.name);
-        for (const char* name : {"density", "atom_id", "chain_id", "group_id", "Cd", "v"})
-            all.push_back(name);
-        return all;
-    }();
-    return names;
-}
-
-bool hasField(const std::vector<std::string>& fields, const std::string& name)
-{
-    return std::find(fields.begin(), fields.end(), name) != fields.end();
-}
 
 openvdb::FloatGrid::Ptr splineGrid(const Spline& spline)
 {
@@ -124,17 +105,14 @@ openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const Ba
                                      const std::vector<openvdb::Vec3f>& displacement,
                                      const SurfaceOptions& options, const Progress& progress)
 {
-    auto grid = gridLike<openvdb::Vec3SGrid>(surface, "v", openvdb::Vec3f(0.0f));
+    const auto voxels = shownVoxels(surface, false);
+    const Labels owner =
+        ownersOf(*voxels, atoms.balls, Influence(atoms, options).ofLabel(), progress);
+    auto grid = gridOf<openvdb::Vec3SGrid>(*voxels, "v", openvdb::Vec3f(0.0f), [&](std::size_t i) {
+        return owner[i] < 0 ? openvdb::Vec3f(0.0f) : displacement[std::size_t(owner[i])];
+    });
     grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
     if (options.halfFloats) grid->setSaveFloatAsHalf(true);
-    std::vector<openvdb::Vec3f> points;
-    for (auto it = surface.cbeginValueOn(); it; ++it)
-        points.emplace_back(surface.indexToWorld(it.getCoord()));
-    const std::vector<std::int32_t> owner =
-        nearestBalls(atoms.balls, points, Influence(atoms, options).ofLabel(), progress);
-    std::size_t i = 0;
-    for (auto it = grid->beginValueOn(); it; ++it, ++i)
-        if (owner[i] >= 0) it.setValue(displacement[std::size_t(owner[i])]);
     return grid;
 }
 

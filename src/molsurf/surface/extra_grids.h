@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// The optional grids beside `surface`.
+/// Grids beside `surface`, which fieldTable() lists.
 
 #include "molsurf/atoms.h"
 #include "molsurf/options.h"
@@ -16,14 +16,6 @@
 
 namespace molsurf
 {
-
-/// The names that SurfaceOptions::fields takes: "sas", "spline", those of curvatureFields(),
-/// "density", "atom_id", "chain_id", "group_id", "Cd", and for frames "v", see velocityGrid(),
-/// which makeSurface() leaves to its caller.
-const std::vector<std::string>& fieldNames();
-
-/// Whether a list of fields names one.
-bool hasField(const std::vector<std::string>& fields, const std::string& name);
 
 /// The coefficients of a spline, as they are.
 openvdb::FloatGrid::Ptr splineGrid(const Spline& spline);

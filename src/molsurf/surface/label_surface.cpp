@@ -6,7 +6,7 @@
 #include "molsurf/color/label.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/color/value_colors.h"
-#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/field_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,20 +105,11 @@ void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Lab
     }
 }
 
-/// Whether points have values that nearby balls may share.
-bool hasPoints(const BallSet& atoms)
-{
-    if (!atoms.labels || !atoms.labels->values) return false;
-    const BallValues& values = *atoms.labels->values;
-    return values.byPoint() || !isFlat(values);
-}
-
 /// Labels and colours. @return the ball of each vertex, if anything depends on it
 Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, Progress& progress,
              MolecularSurface& result)
 {
     Mesh& mesh = result.mesh;
-    const auto has = [&](const char* name) { return hasField(options.fields, name); };
     const bool grouped = atoms.labels && !atoms.labels->groups.empty();
     colorByCurvature(options.color, atoms.coloring, mesh);
     const bool colored = options.color != ColorBy::Nothing && mesh.colors.empty();
@@ -134,12 +125,16 @@ Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, 
         result.ballAreas.pop_back(); // of no ball
         result.ballAreas = scaled(std::move(result.ballAreas), result.report.surface.area);
     }
-    const LabelNames names{has("atom_id"), has("chain_id"), has("group_id")};
-    for (auto& grid : labelGrids(atoms, *result.surface, names, reach, progress))
-        result.fields.push_back(std::move(grid));
+    std::vector<Color> ballColor;
+    if (colored)
+        ballColor =
+            atoms.colors.empty() ? ballColors(atoms, options.color, progress) : atoms.colors;
+    FieldSource source{atoms, options, result, colored ? &ballColor : nullptr, reach, progress};
+    for (const FieldRow& row : fieldTable()) {
+        if (!row.ofBalls || !hasField(options.fields, row.name)) continue;
+        if (auto grid = row.ofBalls(source)) result.fields.push_back(std::move(grid));
+    }
     if (!colored) return nearest;
-    const std::vector<Color> ballColor =
-        atoms.colors.empty() ? ballColors(atoms, options.color, progress) : atoms.colors;
     mesh.colors = colorsOf(nearest, ballColor);
     for (std::string& warning : colorWarnings(atoms, options.color))
         result.report.warnings.push_back(std::move(warning));
@@ -154,13 +149,6 @@ Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, 
             result.ballValues = meansOf(values, nearest, mesh, atoms.balls.size());
         else if (options.ballAreas)
             result.ballValues.assign(own.valueOf.begin(), own.valueOf.end());
-    }
-    if (has("Cd")) {
-        const bool inside = has("density");
-        result.fields.push_back(
-            options.color == ColorBy::Value && hasPoints(atoms)
-                ? valueGrid(*result.surface, inside, PointValues(atoms, options), reach, progress)
-                : colorGrid(*result.surface, inside, atoms.balls, ballColor, reach, progress));
     }
     return nearest;
 }

@@ -2,10 +2,9 @@
 #include "molsurf/options.h"
 
 #include "molsurf/error.h"
-#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/field_table.h"
 #include "molsurf/surface/surface_kind.h"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -51,10 +50,8 @@ void checkOptions(const SurfaceOptions& options)
     check(options.evolution.tolerance > 0.0 && finite(options.evolution.tolerance), "`tolerance`",
           "a positive number", options.evolution.tolerance);
     for (const std::string& field : options.fields) {
-        const auto& names = fieldNames();
-        if (std::find(names.begin(), names.end(), field) == names.end()) {
+        if (!findField(field))
             throw Error(ErrorKind::Usage, "`fields`: there is no field '" + field + "'");
-        }
     }
     if (!options.grid && !hasClosedForm(options))
         throw Error(ErrorKind::Usage,

@@ -9,7 +9,7 @@
 #include "molsurf/selection/subset.h"
 #include "molsurf/surface/check_balls.h"
 #include "molsurf/surface/closed_form.h"
-#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/field_table.h"
 #include "molsurf/surface/interfaces.h"
 #include "molsurf/surface/label_surface.h"
 #include "molsurf/surface/match_volume.h"
@@ -19,6 +19,7 @@
 #include "molsurf/surface/unit_run.h"
 #include "molsurf/surface/whole_only.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace molsurf
@@ -155,7 +156,9 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
         (!atoms.labels || atoms.labels->groups.empty())) {
         throw Error(ErrorKind::Input, "there are no groups to surface alone");
     }
-    const char* shown = hasField(options.fields, "Cd") ? curvatureNameOf(options.color) : nullptr;
+    const bool colored = std::any_of(options.fields.begin(), options.fields.end(),
+                                     [](auto& name) { return findField(name)->ofColors; });
+    const char* shown = colored ? curvatureNameOf(options.color) : nullptr;
     const bool helps = shown && !hasField(options.fields, shown);
     SurfaceOptions wanted = options;
     if (helps) wanted.fields.push_back(shown);
@@ -173,8 +176,15 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
     } else {
         result = runInOrder(atoms, wanted, progress, warm);
     }
-    if (shown)
-        addCurvatureColors(options.color, atoms.coloring, !helps, result.mesh, result.fields);
+    openvdb::GridPtrVec colors;
+    if (shown && hasField(options.fields, "Cd"))
+        colors = curvatureColors(options.color, atoms.coloring, result.mesh, result.fields);
+    if (helps) {
+        const auto isShown = [&](auto& grid) { return grid->getName().rfind(shown, 0) == 0; };
+        result.fields.erase(std::remove_if(result.fields.begin(), result.fields.end(), isShown),
+                            result.fields.end());
+    }
+    result.fields.insert(result.fields.end(), colors.begin(), colors.end());
     Report& report = result.report;
     report.atoms = atoms.whole();
     report.voxel = options.voxel;

@@ -7,7 +7,7 @@
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/selection/radii.h"
-#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/field_table.h"
 #include "molsurf/surface/set_value.h"
 #include "molsurf/surface/surface_kind.h"
 

@@ -10,6 +10,7 @@
 #include "molsurf/selection/groups.h"
 #include "molsurf/surface/compare.h"
 #include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/field_table.h"
 #include "molsurf/surface/surface_run.h"
 
 #include <openvdb/tools/ChangeBackground.h>
@@ -201,10 +202,10 @@ void colorByCurvature(const Source& from, ColorBy by, FloatGrid& levelSet, const
     colorByCurvature(by, from.coloring, result.mesh);
     const auto local = levelSet.copy();
     local->setTransform(openvdb::math::Transform::createLinearTransform(levelSet.voxelSize()[0]));
-    std::vector<openvdb::GridBase::Ptr> curvatures =
+    const openvdb::GridPtrVec curvatures =
         curvatureGrids(*local, spline, {curvatureNameOf(by)}, progress);
-    addCurvatureColors(by, from.coloring, false, result.mesh, curvatures);
-    addColorGrid(from, openvdb::gridPtrCast<Vec3SGrid>(curvatures.at(0)), result);
+    const auto colors = curvatureColors(by, from.coloring, result.mesh, curvatures).at(0);
+    addColorGrid(from, openvdb::gridPtrCast<Vec3SGrid>(colors), result);
 }
 
 /// The colours of the file, if these are colours that the program knows.

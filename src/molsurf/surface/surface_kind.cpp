@@ -57,7 +57,7 @@ bool isBoundary(const SurfaceOptions& options)
 
 bool hasClosedForm(const SurfaceOptions& options)
 {
-    return !missingIn(InClosedForm, options);
+    return missingIn(InClosedForm, options).empty();
 }
 
 double splineWidthOf(const SurfaceOptions& options)

@@ -20,6 +20,7 @@
 #include "molsurf/surface/carrier_of.h"
 #include "molsurf/surface/check_mesh.h"
 #include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/field_table.h"
 #include "molsurf/surface/fill_cavities.h"
 #include "molsurf/surface/label_surface.h"
 
@@ -479,13 +480,14 @@ openvdb::FloatGrid::Ptr SurfaceRun::sasGrid()
 
 void SurfaceRun::grids()
 {
-    const auto has = [&](const char* name) { return hasField(options_.fields, name); };
-    std::vector<openvdb::GridBase::Ptr>& fields = result_.fields;
-    if (has("sas")) fields.push_back(sasGrid());
-    if (has("spline")) fields.push_back(splineGrid(spline_));
-    for (auto& grid : curvatureGrids(*result_.surface, spline_, options_.fields, progress_))
-        fields.push_back(std::move(grid));
-    if (has("density")) fields.push_back(densityGrid(*result_.surface));
+    const openvdb::GridPtrVec curvatures =
+        curvatureGrids(*result_.surface, spline_, options_.fields, progress_);
+    for (const FieldRow& row : fieldTable()) {
+        if (!hasField(options_.fields, row.name)) continue;
+        if (row.ofRun) result_.fields.push_back(row.ofRun(*this));
+        for (const auto& grid : curvatures)
+            if (grid->getName() == row.name) result_.fields.push_back(grid);
+    }
 }
 
 void SurfaceRun::freeFields()

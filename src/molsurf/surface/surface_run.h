@@ -131,6 +131,9 @@ public:
     /// Makes the grids that the options ask for, except those of labels and colours. Optional.
     void grids();
 
+    /// Makes the grid `sas`: the evolved level set, or that of the solvent-accessible surface.
+    openvdb::FloatGrid::Ptr sasGrid();
+
     /// Frees the fields of the stages up to here.
     void freeFields();
 
@@ -160,7 +163,6 @@ private:
     void checkLeft() const;
     bool keepsLevelSet() const;
     DistanceBand distanceToBalls();
-    openvdb::FloatGrid::Ptr sasGrid();
 
     const BallSet& atoms_;
     const SurfaceOptions& options_;

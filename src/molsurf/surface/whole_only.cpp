@@ -3,12 +3,8 @@
 
 #include "molsurf/color/color_table.h"
 #include "molsurf/error.h"
-#include "molsurf/spline/curvature.h"
-#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/field_table.h"
 #include "molsurf/surface/surface_kind.h"
-
-#include <algorithm>
-#include <string>
 
 namespace molsurf
 {
@@ -34,10 +30,6 @@ const Row rows[] = {
     {"`minWall`", InBricks, [](auto& o) { return o.minWall > 0.0; }},
     {"a solvent-excluded surface without `grid`", BySymmetry,
      [](auto& o) { return !o.grid && !isBoundary(o); }},
-    {"`fields` density", InBricks, [](auto& o) { return hasField(o.fields, "density"); }},
-    {"`fields` but those of curvatures", BySymmetry,
-     [](auto& o) { return !std::all_of(o.fields.begin(), o.fields.end(), findCurvatureField); }},
-    {"`fields`", InClosedForm, [](auto& o) { return !o.fields.empty(); }},
     {"`curvatureTotals`", InBricks | InClosedForm, [](auto& o) { return o.curvatureTotals; }},
     {"`splineLevel`", InBricks, [](auto& o) { return o.splineLevel > 0; }},
     {"`flow` paper", InBricks,
@@ -46,27 +38,28 @@ const Row rows[] = {
 
 } // namespace
 
-const char* missingIn(Way way, const SurfaceOptions& options)
+std::string missingIn(Way way, const SurfaceOptions& options)
 {
     for (const Row& row : rows)
         if ((row.ways & way) && row.asked(options)) return row.what;
-    return nullptr;
+    for (const FieldRow& row : fieldTable())
+        if ((row.missingIn & way) && hasField(options.fields, row.name))
+            return "`fields` " + row.name;
+    return "";
 }
 
 void checkWay(Way way, const SurfaceOptions& options)
 {
-    const char* what = missingIn(way, options);
-    if (!what) return;
+    const std::string what = missingIn(way, options);
+    if (what.empty()) return;
     if (way == ByAtom)
-        throw Error(ErrorKind::Usage,
-                    std::string("areas of atoms: expected one surface, and not ") + what);
+        throw Error(ErrorKind::Usage, "areas of atoms: expected one surface, and not " + what);
     throw Error(ErrorKind::Usage,
-                what + std::string(way == InBricks
-                                       ? " needs the whole molecule at once: it is not for bricks "
-                                         "[hint: a run in one piece, on a machine that has enough "
-                                         "memory]"
-                                       : " needs the whole assembly at once [hint: without "
-                                         "`bySymmetry`]"));
+                what + (way == InBricks ? " needs the whole molecule at once: it is not for bricks "
+                                          "[hint: a run in one piece, on a machine that has enough "
+                                          "memory]"
+                                        : " needs the whole assembly at once [hint: without "
+                                          "`bySymmetry`]"));
 }
 
 } // namespace molsurf

@@ -6,6 +6,8 @@
 
 #include "molsurf/options.h"
 
+#include <string>
+
 namespace molsurf
 {
 
@@ -17,8 +19,8 @@ enum Way : unsigned {
     ByAtom = 8        ///< with areas of atoms
 };
 
-/// What the options ask for that a way cannot give, in backticks; null: it gives all of it.
-const char* missingIn(Way way, const SurfaceOptions& options);
+/// What the options ask for that a way cannot give, in backticks; "": it gives all of it.
+std::string missingIn(Way way, const SurfaceOptions& options);
 
 /// Checks that a way gives all of what the options ask for.
 /// @throws Error(ErrorKind::Usage) that names the first thing that it does not

@@ -35,15 +35,17 @@ TEST(ValueGrid, IsThatOfTheSurfaceNotOfTheVoxel)
     BallValues& values = *atoms.labels->values;
     values.high = 10.0;
     values.centre = Vec3d(0.3, 1.2, -0.7);
-    const auto grid = openvdb::gridPtrCast<openvdb::Vec3SGrid>(
-        valueGrid(*surface, false, PointValues(atoms, SurfaceOptions()), 2.0, Progress()));
+    const PointValues points(atoms, SurfaceOptions());
+    const auto voxels = shownVoxels(*surface, false);
+    const std::vector<PointValue> found = points.on(*voxels, *surface, 2.0, Progress());
+    ASSERT_EQ(found.size(), surface->activeVoxelCount());
     const Vec3f wanted = linearLight(scaleOf(values).at(5.0));
-    std::size_t seen = 0;
-    for (auto voxel = surface->cbeginValueOn(); voxel; ++voxel) {
+    std::size_t seen = 0, i = 0;
+    for (auto voxel = surface->cbeginValueOn(); voxel; ++voxel, ++i) {
         if (std::abs(*voxel) > 0.5f) continue;
         ++seen;
-        const Vec3f found = grid->tree().getValue(voxel.getCoord());
-        ASSERT_LT((found - wanted).length(), 0.01f) << *voxel;
+        const Vec3f color = linearLight(points.colorOf(found[i]));
+        ASSERT_LT((color - wanted).length(), 0.01f) << *voxel;
     }
     EXPECT_GT(seen, 2000u);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/spline/curvature.h"
-#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/field_table.h"
 
 #include "support/runs.h"
 

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/field_table.h"
+
+#include "molsurf/color/palette.h"
+#include "molsurf/grid/grid_like.h"
+#include "molsurf/spline/curvature.h"
+#include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/surface_run.h"
+#include "molsurf/surface/whole_only.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace molsurf
+{
+
+FieldSource::Voxels& FieldSource::of(bool colored)
+{
+    const bool inside = colored && hasField(options.fields, "density");
+    Voxels& voxels = found[inside];
+    if (!voxels.grid) voxels.grid = shownVoxels(*result.surface, inside);
+    return voxels;
+}
+
+const Labels& FieldSource::owners(bool colored)
+{
+    Voxels& voxels = of(colored);
+    if (!voxels.owners) voxels.owners = ownersOf(*voxels.grid, atoms.balls, reach, progress);
+    return *voxels.owners;
+}
+
+namespace
+{
+
+using openvdb::GridBase;
+
+/// A row of what the stages of a run leave.
+FieldRow fromRun(const char* name, GridBase::Ptr (*make)(SurfaceRun& run))
+{
+    FieldRow row{name, 1, BySymmetry | InClosedForm};
+    row.ofRun = make;
+    return row;
+}
+
+/// A row of what the balls have.
+FieldRow fromBalls(const char* name, int values, GridBase::Ptr (*make)(FieldSource& from))
+{
+    FieldRow row{name, values, BySymmetry | InClosedForm};
+    row.ofBalls = make;
+    return row;
+}
+
+GridBase::Ptr labelGrid(FieldSource& from, const char* name, const Labels& labelOf)
+{
+    const Labels labels = labelsOf(from.owners(false), labelOf);
+    return gridOf<openvdb::Int32Grid>(from.voxels(false), name, -1,
+                                      [&](std::size_t i) { return labels[i]; });
+}
+
+FieldRow densityField()
+{
+    FieldRow row = fromRun("density", [](SurfaceRun& run) -> GridBase::Ptr {
+        return densityGrid(*run.result().surface);
+    });
+    row.missingIn |= InBricks;
+    return row;
+}
+
+FieldRow atomField()
+{
+    return fromBalls("atom_id", 1, [](FieldSource& from) {
+        return labelGrid(from, "atom_id", atomsOf(from.atoms.balls));
+    });
+}
+
+FieldRow chainField()
+{
+    FieldRow row = fromBalls("chain_id", 1, [](FieldSource& from) {
+        return from.atoms.labels ? labelGrid(from, "chain_id", from.atoms.labels->chainOf)
+                                 : nullptr;
+    });
+    row.needsLabels = true;
+    return row;
+}
+
+FieldRow groupField()
+{
+    return fromBalls("group_id", 1, [](FieldSource& from) {
+        const auto& labels = from.atoms.labels;
+        return labels && !labels->groups.empty() ? labelGrid(from, "group_id", labels->groupOf)
+                                                 : nullptr;
+    });
+}
+
+/// Colours in linear light; those of curvatures are made of the whole.
+FieldRow colorField()
+{
+    FieldRow row = fromBalls("Cd", 3, [](FieldSource& from) -> GridBase::Ptr {
+        if (!from.ballColors) return nullptr;
+        std::vector<Color> colors;
+        if (isBlended(from.atoms, from.options.color)) {
+            const PointValues values(from.atoms, from.options);
+            for (const PointValue& v :
+                 values.on(from.voxels(true), *from.result.surface, from.reach, from.progress))
+                colors.push_back(values.colorOf(v));
+        } else {
+            colors = colorsOf(from.owners(true), *from.ballColors);
+        }
+        return gridOf<openvdb::Vec3SGrid>(from.voxels(true), "Cd", linearLight(neutralColor),
+                                          [&](std::size_t i) { return linearLight(colors[i]); });
+    });
+    row.ofColors = true;
+    return row;
+}
+
+} // namespace
+
+const std::vector<FieldRow>& fieldTable()
+{
+    static const std::vector<FieldRow> all = [] {
+        std::vector<FieldRow> rows = {
+            fromRun("sas", [](SurfaceRun& run) -> GridBase::Ptr { return run.sasGrid(); }),
+            fromRun("spline", [](SurfaceRun& run) -> GridBase::Ptr {
+                return splineGrid(run.currentSpline());
+            })};
+        for (const CurvatureField& field : curvatureFields())
+            rows.push_back({field.name, field.components, InClosedForm});
+        for (auto* more : {densityField, atomField, chainField, groupField, colorField})
+            rows.push_back(more());
+        rows.push_back({"v", 3, BySymmetry | InClosedForm}); // by velocityGrid()
+        return rows;
+    }();
+    return all;
+}
+
+const FieldRow* findField(const std::string& name)
+{
+    for (const FieldRow& row : fieldTable())
+        if (row.name == name) return &row;
+    return nullptr;
+}
+
+std::vector<std::string> fieldNames()
+{
+    std::vector<std::string> names;
+    for (const FieldRow& row : fieldTable()) names.push_back(row.name);
+    return names;
+}
+
+bool hasField(const std::vector<std::string>& fields, const std::string& name)
+{
+    return std::find(fields.begin(), fields.end(), name) != fields.end();
+}
+
+} // namespace molsurf
