@@ -11,7 +11,7 @@ _vdb_molsurf()
         "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face mrc dx cxc pml html json png view atoms.csv residues.csv contacts.csv interfaces.csv pdb cif residues.pdb residues.cif" ;;
         "build":--start) words="cold warm" ;;
         "build":--surface) words="variational ses sas vdw gaussian" ;;
-        "build":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd v" ;;
+        "build":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value v" ;;
         "build":--coarse) words="atom residue" ;;
         "build":--group-by) words="chain entity class copy" ;;
         "build":--split) words="group" ;;
@@ -29,7 +29,7 @@ _vdb_molsurf()
         "build":--regularizer) words="gradient area" ;;
         "build":--flow) words="newton paper" ;;
         "batch":--surface) words="variational ses sas vdw gaussian" ;;
-        "batch":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd v" ;;
+        "batch":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value v" ;;
         "batch":--coarse) words="atom residue" ;;
         "batch":--group-by) words="chain entity class copy" ;;
         "batch":--split) words="group" ;;
@@ -53,7 +53,7 @@ _vdb_molsurf()
         "compare":--regularizer) words="gradient area" ;;
         "compare":--flow) words="newton paper" ;;
         "convert":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face mrc dx cxc pml html json png view" ;;
-        "convert":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd v" ;;
+        "convert":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value v" ;;
         "convert":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "convert":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature" ;;
         "convert":--view) words="auto" ;;
@@ -61,7 +61,7 @@ _vdb_molsurf()
         "convert":--style) words="soft glossy outline flat" ;;
         "convert":--legend) words="auto on off" ;;
         "bricks plan":--surface) words="variational ses sas vdw gaussian" ;;
-        "bricks plan":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd v" ;;
+        "bricks plan":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value v" ;;
         "bricks plan":--coarse) words="atom residue" ;;
         "bricks plan":--group-by) words="chain entity class copy" ;;
         "bricks plan":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius table=FILE potential=FILE residue-type plain=#RRGGBB" ;;

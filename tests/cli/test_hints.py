@@ -225,6 +225,9 @@ CASES = {
          f"vdb_molsurf moved.pdb --copies 1 --assembly 1 {FAST} -o a.ply"),
         ("--assembly 1", f"vdb_molsurf moved.pdb {FAST} -o a.ply",
          f"vdb_molsurf moved.pdb --assembly 1 {FAST} -o b.ply")],
+    "surface/field_table.cpp": [
+        ("--color bfactor", f"vdb_molsurf 1crn.pdb {FAST} --fields value -o a.vdb",
+         f"vdb_molsurf 1crn.pdb {FAST} --fields value --color bfactor -o a.vdb")],
     "color/palette.cpp": [
         ("--color entity", f"vdb_molsurf 1crn.pdb --group-by residues:1 --color group {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --color entity {FAST} -o b.ply")],

@@ -6,6 +6,7 @@ import math
 import struct
 import unittest
 
+from needs import needs
 from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply, read_png
 
 GREY = (190, 190, 190)
@@ -91,6 +92,46 @@ class Values(ToolTest):
                            ("B 7 1\n", 't.txt: none of its atoms is there: it has those of chain "B", 7')):
             self.write("t.txt", text)
             self.check(1, "a.pdb", "--color", "table=t.txt", "-o", "b.ply", says=says)
+
+    @needs("openvdb")
+    def test_the_number_as_a_grid(self):
+        """`value` is what the vertices have, on the voxels of `Cd`; a file read again gives it back."""
+        import pyopenvdb
+        self.check(2, CRAMBIN, "--fields", "value", "-o", "a.vdb", says="--fields value: expected --color by a value or")
+        self.check(2, CRAMBIN, "--fields", "value", "--color", "chain", "-o", "a.vdb", says="[hint: --color bfactor")
+        self.check(0, CRAMBIN, *FAST, "--color", "bfactor", "--fields", "all,value", "-o", "a.vdb", "-o", "a.ply")
+        value, colors = (pyopenvdb.read(str(self.folder / "a.vdb"), name) for name in ("value", "Cd"))
+        self.assertEqual((value["attribute"], value["unit"]), ("bfactor", "Å²"))
+        self.assertEqual(value.activeVoxelCount(), colors.activeVoxelCount())
+        # On the vertices it is within what differs over a voxel; they are beside atoms of 1.7 to 10 Å².
+        at = value.getConstAccessor()
+        names, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+        column = names.index("bfactor")
+        off = [abs(at.getValue(tuple(map(round, v[:3]))) - v[column]) for v in vertices]
+        self.assertLess(sum(off) / len(off), 0.3)
+        spread = [v[column] for v in vertices]
+        self.assertGreater(max(spread) - min(spread), 5.0)
+        self.check(0, "convert", "a.vdb", "-o", "b.ply")
+        names, again, _ = read_ply((self.folder / "b.ply").read_bytes())
+        column = names.index("bfactor")
+        same = sum(v[column] == at.getValue(tuple(map(round, v[:3]))) for v in again)
+        self.assertGreater(same, 0.99 * len(again))  # but for places half a voxel from two
+
+    @needs("openvdb")
+    def test_the_number_in_bricks(self):
+        import pyopenvdb
+        words = [CRAMBIN, *FAST, "--surface", "sas", "--color", "bfactor", "--flat-values",
+                 "--fields", "value"]
+        self.check(0, *words, "-o", "a.vdb")
+        self.check(0, "bricks", "plan", *words, "--bricks", "2", "-o", "p.json")
+        for k in (1, 2):
+            self.check(0, "bricks", "run", "p.json", k)
+        self.check(0, "bricks", "merge", "p.json", "-o", "b.vdb")
+        whole, parts = (pyopenvdb.read(str(self.folder / name), "value") for name in ("a.vdb", "b.vdb"))
+        values = {tuple(item.min): item.value for item in whole.citerOnValues()}
+        found = {tuple(item.min): item.value for item in parts.citerOnValues()}
+        self.assertEqual(len(values), len(found))
+        self.assertTrue(values == found)  # without a list of all that differ
 
     def test_maps_that_do_not_fit(self):
         head = ("object 1 class gridpositions counts 2 2 2\norigin {0} {0} {0}\ndelta 40 0 0\ndelta 0 40 0\n"

@@ -5,6 +5,7 @@
 #include "molsurf/error.h"
 #include "molsurf/levelset/round_ridges.h"
 #include "molsurf/selection/subset.h"
+#include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/influence.h"
 
 #include <algorithm>
@@ -169,8 +170,7 @@ Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope&
     run.labels();
     brick.mesh.mesh = std::move(result.mesh);
     brick.grids = result.grids();
-    if (options.halfFloats)
-        for (const auto& grid : brick.grids) grid->setSaveFloatAsHalf(true);
+    if (options.halfFloats) saveAsHalf(brick.grids);
     brick.evolution = result.report.evolution;
     brick.displacements = run.displacements();
     brick.groups = result.report.groups;

@@ -175,7 +175,7 @@ void addValues(const BallSet& atoms, const SurfaceOptions& options, const Labels
             }
             const PointValue value =
                 points.at(Vec3d(mesh.positions[v]), Vec3d(mesh.normals[v]), reach);
-            if (value.share >= 0.5f) out.values[v] = value.value;
+            out.values[v] = value.known();
             mesh.colors[v] = points.colorOf(value);
         }
     });

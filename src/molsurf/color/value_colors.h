@@ -11,6 +11,7 @@
 #include "molsurf/mesh.h"
 #include "molsurf/options.h"
 
+#include <limits>
 #include <vector>
 
 namespace molsurf
@@ -32,6 +33,9 @@ std::vector<Color> valueColors(const BallValues& values);
 struct PointValue {
     float value = 0.0f; ///< the mean of what there is; not a number, if share is 0
     float share = 0.0f; ///< of the weights that balls with a value have, in [0, 1]
+
+    /// The value, where at least half of the weights have one; else not a number.
+    float known() const { return share < 0.5f ? std::numeric_limits<float>::quiet_NaN() : value; }
 };
 
 /// The values of points of a surface: its distance from the centre, that of the map, or a mean over

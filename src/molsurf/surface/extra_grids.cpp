@@ -101,6 +101,12 @@ std::vector<openvdb::GridBase::Ptr> curvatureGrids(const openvdb::FloatGrid& sur
     return grids;
 }
 
+void saveAsHalf(const openvdb::GridPtrVec& grids)
+{
+    for (const auto& grid : grids)
+        if (grid->getName().rfind("value", 0) != 0) grid->setSaveFloatAsHalf(true);
+}
+
 openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const BallSet& atoms,
                                      const std::vector<openvdb::Vec3f>& displacement,
                                      const SurfaceOptions& options, const Progress& progress)

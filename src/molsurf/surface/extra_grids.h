@@ -37,6 +37,10 @@ std::vector<openvdb::GridBase::Ptr> curvatureGrids(const openvdb::FloatGrid& sur
                                                    const std::vector<std::string>& names,
                                                    const Progress& progress);
 
+/// Has the values of grids saved as 16-bit floats, but for those of `value`, which may be beyond
+/// the range of these.
+void saveAsHalf(const openvdb::GridPtrVec& grids);
+
 /// The grid `v`: at each active voxel of a surface the displacement of the ball that it belongs to,
 /// as in labelSurface(); 0 elsewhere. Vectors that are relative and turn with the grid
 /// (openvdb::VEC_CONTRAVARIANT_RELATIVE).

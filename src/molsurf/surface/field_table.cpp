@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/field_table.h"
 
+#include "molsurf/color/color_table.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/grid/grid_like.h"
 #include "molsurf/spline/curvature.h"
@@ -9,6 +10,7 @@
 #include "molsurf/surface/whole_only.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace molsurf
@@ -113,6 +115,55 @@ FieldRow colorField()
     return row;
 }
 
+/// Says which number a grid holds, by the name of the vertex attribute.
+void describeNumber(const std::string& attribute, const std::string& unit, GridBase& grid)
+{
+    grid.insertMeta("attribute", openvdb::StringMetadata(attribute));
+    grid.insertMeta("unit", openvdb::StringMetadata(unit));
+}
+
+/// The number that colours show. Voxels without one are not active.
+FieldRow valueField()
+{
+    FieldRow row = fromBalls("value", 1, [](FieldSource& from) -> GridBase::Ptr {
+        const ColorKind& kind = kindOf(from.options.color);
+        if (kind.ofCurvature) {
+            const auto grid =
+                findGrid<openvdb::FloatGrid>(from.result.fields, kind.attribute)->deepCopy();
+            grid->setName("value");
+            describeNumber(kind.attribute, kind.unit, *grid);
+            return grid;
+        }
+        const BallValues& of = *from.atoms.labels->values;
+        std::vector<float> values;
+        if (isBlended(from.atoms, from.options.color)) {
+            const PointValues points(from.atoms, from.options);
+            for (const PointValue& v :
+                 points.on(from.voxels(true), *from.result.surface, from.reach, from.progress))
+                values.push_back(v.known());
+        } else {
+            for (const std::int32_t ball : from.owners(true))
+                values.push_back(ball < 0 ? std::nanf("") : of.valueOf[std::size_t(ball)]);
+        }
+        const auto grid = gridOf<openvdb::FloatGrid>(from.voxels(true), "value", 0.0f,
+                                                     [&](std::size_t i) { return values[i]; });
+        for (auto it = grid->beginValueOn(); it; ++it) {
+            if (std::isfinite(*it)) continue;
+            it.setValue(0.0f);
+            it.setValueOff();
+        }
+        describeNumber(of.name, of.unit, *grid);
+        return grid;
+    });
+    row.help = "the number that `color` shows";
+    row.needs = "`color` by a value or a curvature [hint: `color` bfactor, for example]";
+    row.given = [](const SurfaceOptions& o) {
+        return o.color == ColorBy::Value || kindOf(o.color).ofCurvature;
+    };
+    row.ofColors = true;
+    return row;
+}
+
 } // namespace
 
 const std::vector<FieldRow>& fieldTable()
@@ -125,7 +176,7 @@ const std::vector<FieldRow>& fieldTable()
             })};
         for (const CurvatureField& field : curvatureFields())
             rows.push_back({field.name, field.components, InClosedForm});
-        for (auto* more : {densityField, atomField, chainField, groupField, colorField})
+        for (auto* more : {densityField, atomField, chainField, groupField, colorField, valueField})
             rows.push_back(more());
         rows.push_back({"v", 3, BySymmetry | InClosedForm}); // by velocityGrid()
         return rows;
@@ -143,7 +194,8 @@ const FieldRow* findField(const std::string& name)
 std::vector<std::string> fieldNames()
 {
     std::vector<std::string> names;
-    for (const FieldRow& row : fieldTable()) names.push_back(row.name);
+    for (const FieldRow& row : fieldTable())
+        if (!row.needs) names.push_back(row.name);
     return names;
 }
 

@@ -47,9 +47,13 @@ private:
 /// A grid beside `surface`. Of `ofRun` and `ofBalls` one makes it, or curvatureGrids() does;
 /// without any the caller of makeSurface() does.
 struct FieldRow {
-    std::string name;         ///< of the command line and of the grid
-    int values = 1;           ///< numbers of a voxel
-    unsigned missingIn = 0;   ///< ways to a surface that cannot give it, of Way
+    std::string name;       ///< of the command line and of the grid
+    int values = 1;         ///< numbers of a voxel
+    unsigned missingIn = 0; ///< ways to a surface that cannot give it, of Way
+    const char* help = "";  ///< what a help text says of it
+    /// What it needs to be asked for, too, with a hint, and whether that is.
+    const char* needs = nullptr;
+    bool (*given)(const SurfaceOptions& options) = nullptr;
     bool needsLabels = false; ///< whether the balls need labels for it
     bool ofColors = false;    ///< whether it is of what SurfaceOptions::color shows
     openvdb::GridBase::Ptr (*ofRun)(SurfaceRun& run) = nullptr;
@@ -62,7 +66,7 @@ const std::vector<FieldRow>& fieldTable();
 /// The row of a name, or null.
 const FieldRow* findField(const std::string& name);
 
-/// Their names, which SurfaceOptions::fields takes.
+/// The names of those that need nothing else to be asked for.
 std::vector<std::string> fieldNames();
 
 /// Whether a list of fields names one.

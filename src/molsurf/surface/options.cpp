@@ -50,8 +50,10 @@ void checkOptions(const SurfaceOptions& options)
     check(options.evolution.tolerance > 0.0 && finite(options.evolution.tolerance), "`tolerance`",
           "a positive number", options.evolution.tolerance);
     for (const std::string& field : options.fields) {
-        if (!findField(field))
-            throw Error(ErrorKind::Usage, "`fields`: there is no field '" + field + "'");
+        const FieldRow* row = findField(field);
+        if (!row) throw Error(ErrorKind::Usage, "`fields`: there is no field '" + field + "'");
+        if (row->needs && !row->given(options))
+            throw Error(ErrorKind::Usage, "`fields` " + field + ": expected " + row->needs);
     }
     if (!options.grid && !hasClosedForm(options))
         throw Error(ErrorKind::Usage,

@@ -9,6 +9,7 @@
 #include "molsurf/selection/subset.h"
 #include "molsurf/surface/check_balls.h"
 #include "molsurf/surface/closed_form.h"
+#include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/interfaces.h"
 #include "molsurf/surface/label_surface.h"
@@ -194,8 +195,7 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
             {group.rule.select, group.rule.resolution, group.balls, group.level});
     }
     addAreas(atoms, options, progress, result);
-    if (options.halfFloats)
-        for (const auto& grid : result.grids()) grid->setSaveFloatAsHalf(true);
+    if (options.halfFloats) saveAsHalf(result.grids());
     return result;
 }
 

@@ -164,7 +164,14 @@ ResolutionRule parseResolution(const std::string& text)
     return rule;
 }
 
-/// What `fields` takes.
+/// What `fields` takes, and what "all" stands for.
+Values knownFields()
+{
+    Values names = {"surface"};
+    for (const FieldRow& row : fieldTable()) names.push_back(row.name);
+    return names;
+}
+
 Values allFields()
 {
     Values names = fieldNames();
@@ -174,13 +181,14 @@ Values allFields()
 
 void setFields(Settings& settings, const Values& values)
 {
-    const Values known = allFields();
+    const Values known = knownFields();
     Values wanted;
     for (const std::string& field : splitWords(values.back())) {
         const auto same = [&](const std::string& one) { return lowered(one) == lowered(field); };
         const auto found = std::find_if(known.begin(), known.end(), same);
         if (lowered(field) == "all") {
-            wanted = known;
+            const Values all = allFields();
+            wanted.insert(wanted.end(), all.begin(), all.end());
         } else if (found != known.end()) {
             wanted.push_back(*found);
         } else {
@@ -282,14 +290,16 @@ std::vector<Setting> atomSettings()
 
 Setting fieldSetting()
 {
+    std::string text = "grids of the .vdb, by commas, or all of\n" + inLines(allFields()) + ";\n";
+    for (const FieldRow& row : fieldTable())
+        if (*row.help) text += row.name + ": " + row.help + ";\n";
     Setting fields{"fields",
                    SettingType::List,
                    "LIST",
-                   "grids of the .vdb, by commas, or all of\n" + inLines(allFields()) +
-                       ";\ncurvatures also at the vertices of a .ply; positive\n"
-                       "where convex, 1/R on a ball; shape_index 1: a cap",
+                   text + "curvatures also at the vertices of a .ply; positive\n"
+                          "where convex, 1/R on a ball; shape_index 1: a cap",
                    "surface",
-                   allFields()};
+                   knownFields()};
     fields.words.insert(fields.words.begin(), "all");
     fields.set = setFields;
     fields.get = [](const Settings& s) {

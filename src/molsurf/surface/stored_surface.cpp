@@ -174,6 +174,24 @@ BallLabels addLabels(const Source& from, Mesh& mesh)
     return names;
 }
 
+/// Adds the values that colours show, if they are stored and no curvature of the mesh.
+void addValues(const Source& from, Mesh& mesh)
+{
+    const auto values = findGrid<FloatGrid>(from.grids, "value");
+    if (!values) return;
+    Attribute<float> scalar{textOf(*values, "attribute"), {}};
+    for (const auto& known : mesh.scalars)
+        if (known.name == scalar.name) return;
+    const auto accessor = values->getConstAccessor();
+    for (const Coord& voxel : from.voxels) {
+        float value = 0.0f;
+        const bool active = accessor.probeValue(voxel, value);
+        scalar.values.push_back(active ? value : std::numeric_limits<float>::quiet_NaN());
+    }
+    if (scalar.name.empty()) scalar.name = values->getName();
+    mesh.scalars.push_back(std::move(scalar));
+}
+
 /// Adds a grid of colours to a surface, placed as that of the file.
 void addColorGrid(const Source& from, const Vec3SGrid::Ptr& grid, MolecularSurface& result)
 {
@@ -319,6 +337,7 @@ StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::Met
 
     progress.update("color", 0.0);
     BallLabels names = addLabels(from, result.mesh);
+    addValues(from, result.mesh);
     ColorBy& by = stored.options.color;
     by = options.color == ColorBy::Nothing ? storedColors(from) : options.color;
     addColors(from, options.color == ColorBy::Nothing, by, run, progress);
