@@ -197,6 +197,8 @@ MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, P
     SurfaceOptions one = options;
     one.split = one.interfaces = false;
     one.surfaceOf.clear();
+    if (curvatureNameOf(options.color)) // one scale of colours for all
+        one.fields.erase(std::remove(one.fields.begin(), one.fields.end(), "Cd"), one.fields.end());
 
     MolecularSurface whole;
     std::set<std::string> names;

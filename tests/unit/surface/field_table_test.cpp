@@ -48,8 +48,7 @@ SurfaceOptions coloredBy(ColorBy by, std::vector<std::string> fields)
 TEST(FieldTable, EachRowHasItsGridInTheOrderOfTheTable)
 {
     SurfaceOptions options = coloredBy(ColorBy::Value, {});
-    for (const FieldRow& row : fieldTable())
-        options.fields.insert(options.fields.begin(), row.name);
+    for (const FieldRow& row : fieldTable()) options.fields.insert(options.fields.begin(), row.name);
     const MolecularSurface result = makeSurface(valued({1.0f, 2.0f}), options);
     std::size_t i = 0;
     for (const FieldRow& row : fieldTable()) {
@@ -129,6 +128,23 @@ TEST(ValueField, NeedsANumberThatColoursShow)
                 << e.what();
         }
     }
+}
+
+// All parts have the colours of one scale, each once.
+TEST(Fields, OfCurvatureInParts)
+{
+    BallSet atoms = valued({1.0f, 2.0f});
+    BallLabels& labels = *atoms.labels;
+    atoms.balls[1].radius = 3.4;
+    labels.groups = {{"left", 1, {}}, {"right", 1, {}}};
+    labels.groupOf = {0, 1};
+    SurfaceOptions options = coloredBy(ColorBy::MeanCurvature, {"Cd", "value"});
+    options.split = true;
+    const MolecularSurface result = makeSurface(atoms, options);
+    std::vector<std::string> names;
+    for (const auto& grid : result.fields) names.push_back(grid->getName());
+    EXPECT_EQ(names, (std::vector<std::string>{"surface_left", "value_left", "surface_right",
+                                               "value_right", "Cd_left", "Cd_right"}));
 }
 
 } // namespace
