@@ -152,7 +152,8 @@ insideOf(const Call& call, const BallSet& atoms, const std::shared_ptr<const Col
     if (call.options.color == ColorBy::Nothing) return nullptr;
     if (call.options.color != ColorBy::Value || atoms.balls.empty())
         return [](const openvdb::Vec3d&) { return neutralColor; };
-    const auto values = std::make_shared<PointValues>(atoms, call.options);
+    const auto values =
+        std::make_shared<PointValues>(atoms, outwardOf(atoms.coloring, call.options));
     return [values, origin = originOf(call)](const openvdb::Vec3d& x) {
         return values->colorOf(values->at(x + origin, openvdb::Vec3d(0.0), farthest));
     };

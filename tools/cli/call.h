@@ -9,6 +9,7 @@
 #include "molsurf/picture/draw_mesh.h"
 #include "molsurf/settings.h"
 #include "molsurf/surface/area_tables.h"
+#include "molsurf/surface/field_table.h"
 
 #include <cstddef>
 #include <map>
@@ -166,11 +167,12 @@ struct Call : Settings {
     bool writesOnly(unsigned some) const;
     bool drawsLegend() const;
 
-    /// Whether one of the surfaces is of such a kind.
+    /// Whether one of the surfaces is of such a kind, or the grid `sas` is.
     template<typename Such>
     bool builds(const Such& such) const
     {
-        bool any = such(options.kind);
+        bool any = such(options.kind) ||
+                   (hasField(options.fields, "sas") && such(SurfaceKind::SolventAccessible));
         for (const auto& [group, kind] : options.surfaceOf) any = any || such(kind);
         return any;
     }

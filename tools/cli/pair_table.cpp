@@ -4,7 +4,6 @@
 #include "cli/option_table.h"
 
 #include "molsurf/color/color_table.h"
-#include "molsurf/surface/field_table.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
@@ -128,14 +127,6 @@ std::vector<Pair> surfacePairs()
          ": a resolution for all atoms says how smooth it is, too",
          unlessAll},
         {"match-volume", IsFor, {"resolution"}},
-        {"probe",
-         IsFor,
-         {},
-         "--surface variational, ses or sas",
-         [](const Call& call) {
-             return call.builds([](SurfaceKind kind) { return rowOf(kind).hasProbe; }) ||
-                    hasField(call.options.fields, "sas");
-         }},
         {"legend", IsFor, {"color"}, "", [](const Call& call) { return call.verb == Convert; }},
         {"all-walls", IsFor, {"opacity"}},
         ofValues("range"),

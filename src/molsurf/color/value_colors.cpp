@@ -33,13 +33,6 @@ double powerOf(const Ball& ball, const Vec3d& x)
     return (x - Vec3d(ball.center)).lengthSqr() - ball.radius * ball.radius;
 }
 
-/// How far outside of the surface a potential is taken [Å].
-double outwardOf(const SelectOptions::Coloring& coloring, const SurfaceOptions& options)
-{
-    const bool out = options.kind == SurfaceKind::SolventAccessible; // already
-    return coloring.outward.value_or(out ? 0.0 : options.probe);
-}
-
 } // namespace
 
 ColorScale scaleOf(const BallValues& values)
@@ -68,10 +61,9 @@ std::vector<Color> valueColors(const BallValues& values)
     return out;
 }
 
-PointValues::PointValues(const BallSet& atoms, const SurfaceOptions& options)
+PointValues::PointValues(const BallSet& atoms, double outward)
     : values_(*atoms.labels->values), index_(atoms.balls, {0.5, 0.0, 2.0}),
-      scale_(scaleOf(values_)), smallest_(std::numeric_limits<double>::max()),
-      outward_(outwardOf(atoms.coloring, options))
+      scale_(scaleOf(values_)), smallest_(std::numeric_limits<double>::max()), outward_(outward)
 {
     for (const Ball& ball : atoms.balls) smallest_ = std::min(smallest_, ball.radius);
 }
@@ -156,12 +148,12 @@ std::vector<PointValue> PointValues::on(const openvdb::BoolGrid& voxels,
     return out;
 }
 
-void addValues(const BallSet& atoms, const SurfaceOptions& options, const Labels& nearest,
-               double reach, const Progress& progress, Mesh& mesh)
+void addValues(const BallSet& atoms, double outward, const Labels& nearest, double reach,
+               const Progress& progress, Mesh& mesh)
 {
     const BallValues& values = *atoms.labels->values;
     const bool flat = isFlat(values) && !values.byPoint();
-    const PointValues points(atoms, options);
+    const PointValues points(atoms, outward);
     Attribute<float>& out = mesh.scalars.emplace_back();
     out.name = values.name;
     out.values.resize(mesh.positions.size(), missing);

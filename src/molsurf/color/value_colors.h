@@ -47,8 +47,8 @@ struct PointValue {
 class PointValues
 {
 public:
-    /// @param[in] options  of the surface, for how far outside of it a potential is taken
-    PointValues(const BallSet& atoms, const SurfaceOptions& options);
+    /// @param[in] outward  how far outside of the surface a potential is taken [Å]
+    PointValues(const BallSet& atoms, double outward);
 
     /// @param[in] normal  of the surface there, outward
     /// @param[in] reach   no point that has a value is farther than this from its ball [Å]
@@ -73,8 +73,9 @@ private:
 
 /// Adds the values to the vertices of a mesh as a scalar, which is not a number where less than
 /// half of the weights have one, and colours them by it unless they are flat.
+/// @param[in] outward  as above
 /// @param[in] nearest  ball of each vertex
-void addValues(const BallSet& atoms, const SurfaceOptions& options, const Labels& nearest,
-               double reach, const Progress& progress, Mesh& mesh);
+void addValues(const BallSet& atoms, double outward, const Labels& nearest, double reach,
+               const Progress& progress, Mesh& mesh);
 
 } // namespace molsurf

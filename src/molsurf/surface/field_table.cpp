@@ -6,6 +6,7 @@
 #include "molsurf/grid/grid_like.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/extra_grids.h"
+#include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/surface_run.h"
 #include "molsurf/surface/whole_only.h"
 
@@ -101,7 +102,7 @@ FieldRow colorField()
         if (!from.ballColors) return nullptr;
         std::vector<Color> colors;
         if (isBlended(from.atoms, from.options.color)) {
-            const PointValues values(from.atoms, from.options);
+            const PointValues values(from.atoms, outwardOf(from.atoms.coloring, from.options));
             for (const PointValue& v :
                  values.on(from.voxels(true), *from.result.surface, from.reach, from.progress))
                 colors.push_back(values.colorOf(v));
@@ -137,7 +138,7 @@ FieldRow valueField()
         const BallValues& of = *from.atoms.labels->values;
         std::vector<float> values;
         if (isBlended(from.atoms, from.options.color)) {
-            const PointValues points(from.atoms, from.options);
+            const PointValues points(from.atoms, outwardOf(from.atoms.coloring, from.options));
             for (const PointValue& v :
                  points.on(from.voxels(true), *from.result.surface, from.reach, from.progress))
                 values.push_back(v.known());

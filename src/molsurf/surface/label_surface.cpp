@@ -7,6 +7,7 @@
 #include "molsurf/color/palette.h"
 #include "molsurf/color/value_colors.h"
 #include "molsurf/surface/field_table.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,7 +140,7 @@ Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, 
     for (std::string& warning : colorWarnings(atoms, options.color))
         result.report.warnings.push_back(std::move(warning));
     if (options.color == ColorBy::Value && atoms.labels && atoms.labels->values) {
-        addValues(atoms, options, nearest, reach, progress, mesh);
+        addValues(atoms, outwardOf(atoms.coloring, options), nearest, reach, progress, mesh);
         const std::vector<float>& values = mesh.scalars.back().values;
         if (std::none_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }))
             result.report.warnings.push_back(atoms.labels->values->title +

@@ -108,10 +108,16 @@ Setting word(const char* name, const char* value, std::string help, const Of& of
     return row;
 }
 
-/// The row of what changes surfaces of one kind alone.
-Setting onlyOf(SurfaceKind kind, Setting row)
+bool evolves(const KindRow& kind)
 {
-    row.kinds = {kind};
+    return kind.hasFlow;
+}
+
+/// The row of what changes surfaces of some kinds alone.
+Setting onlyOf(bool (*such)(const KindRow&), Setting row)
+{
+    for (const KindRow& kind : kindTable())
+        if (such(kind)) row.kinds.push_back(kind.kind);
     return row;
 }
 
@@ -316,8 +322,10 @@ std::vector<Setting> surfaceSettings()
         word("surface", "KIND", kindText(), MOLSURF_OF(options.kind), surfaceKinds()),
         within(minVoxel, maxVoxel,
                number("voxel", "H", "edge of a voxel [Å], 0.05 to 10", MOLSURF_OF(options.voxel))),
-        within(0.0, 100.0, number("probe", "R", "probe radius [Å]", MOLSURF_OF(options.probe))),
-        onlyOf(SurfaceKind::Gaussian,
+        onlyOf([](const KindRow& kind) { return kind.hasProbe; },
+               within(0.0, 100.0,
+                      number("probe", "R", "probe radius [Å]", MOLSURF_OF(options.probe)))),
+        onlyOf(isGaussian,
                within(0.1, 100.0,
                       number("blobbiness", "D", "decay of the Gaussians of `surface` gaussian",
                              MOLSURF_OF(options.blobbiness)))),
@@ -363,14 +371,13 @@ std::vector<Setting> resolutionSettings()
         return all.empty() ? "atom" : joinWords(all, ", ");
     };
     resolution.ofAtoms = coarse.ofAtoms = true;
-    constexpr SurfaceKind smooth = SurfaceKind::Variational;
-    return {onlyOf(smooth, within(0.01, 10.0,
-                                  number("epsilon", "E",
-                                         "tolerance of the Gaussian sum [Å]; larger is smoother",
-                                         MOLSURF_OF(options.epsilon)))),
-            onlyOf(smooth, resolution), coarse,
-            onlyOf(smooth, flag("match-volume", "resolutions keep the volume of the fine surface",
-                                MOLSURF_OF(options.matchVolume)))};
+    return {onlyOf(evolves, within(0.01, 10.0,
+                                   number("epsilon", "E",
+                                          "tolerance of the Gaussian sum [Å]; larger is smoother",
+                                          MOLSURF_OF(options.epsilon)))),
+            onlyOf(evolves, resolution), coarse,
+            onlyOf(evolves, flag("match-volume", "resolutions keep the volume of the fine surface",
+                                 MOLSURF_OF(options.matchVolume)))};
 }
 
 /// The words of groups that are made to be coloured.
@@ -591,7 +598,7 @@ std::vector<Setting> flowSettings()
                "converged when a step moves the surface by less than T\n"
                "voxels (rms), and by less than 8 T on 99.9 % of it",
                of(&EvolveOptions::tolerance))};
-    for (Setting& row : rows) row.kinds = {SurfaceKind::Variational};
+    for (Setting& row : rows) row = onlyOf(evolves, std::move(row));
     rows.push_back(
         changed(count("spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2", "0",
                       {0, 2}, MOLSURF_OF(options.splineLevel)),

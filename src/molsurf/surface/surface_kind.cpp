@@ -77,6 +77,12 @@ double growthOf(const SurfaceOptions& options)
     return isUnion(options.kind) ? probeOf(options) : 0.0;
 }
 
+double outwardOf(const SelectOptions::Coloring& coloring, const SurfaceOptions& options)
+{
+    const bool out = rowOf(options.kind).hasProbe && !rowOf(options.kind).hasOffset; // already
+    return coloring.outward.value_or(out ? 0.0 : options.probe);
+}
+
 std::vector<Ball> asMeshed(std::vector<Ball> balls, const SurfaceOptions& options)
 {
     for (Ball& ball : balls) ball.radius += growthOf(options);
@@ -108,8 +114,7 @@ GaussianOptions gaussianOptions(const SurfaceOptions& options)
 {
     // Stencils reach a voxel beyond the band, along diagonals.
     const double h = options.voxel, reach = (bandWidthVox + 1.5) * h;
-    const KindRow& row = rowOf(options.kind);
-    if (!row.isUnion && !row.hasFlow) return {0.0, 0.0, options.blobbiness, h, reach};
+    if (isGaussian(rowOf(options.kind))) return {0.0, 0.0, options.blobbiness, h, reach};
     return {options.probe, options.epsilon, 0.0, h, reach};
 }
 

@@ -4,6 +4,7 @@
 /// @file
 /// How each kind of surface is made: of which set it is the boundary, and how far inside of that.
 
+#include "molsurf/atoms.h"
 #include "molsurf/grid/distance_band.h"
 #include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/options.h"
@@ -37,6 +38,12 @@ const std::vector<KindRow>& kindTable();
 
 /// The row of a kind.
 const KindRow& rowOf(SurfaceKind kind);
+
+/// Tells whether a surface is the level set of a sum of Gaussians as it is.
+inline bool isGaussian(const KindRow& row)
+{
+    return !row.isUnion && !row.hasFlow;
+}
 
 /// Tells whether a surface is that of a union of balls.
 inline bool isUnion(SurfaceKind kind)
@@ -78,6 +85,10 @@ BandWidths widthsOf(const SurfaceOptions& options);
 /// Gives how much larger than the atoms' balls are those whose cells own the points of a surface
 /// [Å]: the probe radius where it is the surface of their union or lies inside of it, else 0.
 double growthOf(const SurfaceOptions& options);
+
+/// Gives how far outside of the surface a potential is taken [Å]: where the coloring does not say
+/// it, a probe radius, if the surface is not that far from the atoms itself.
+double outwardOf(const SelectOptions::Coloring& coloring, const SurfaceOptions& options);
 
 /// Gives balls grown by growthOf().
 std::vector<Ball> asMeshed(std::vector<Ball> balls, const SurfaceOptions& options);

@@ -3,6 +3,7 @@
 
 #include "molsurf/color/palette.h"
 #include "molsurf/selection/scalar_map.h"
+#include "molsurf/surface/surface_kind.h"
 #include "support/surfaces.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +36,7 @@ TEST(ValueGrid, IsThatOfTheSurfaceNotOfTheVoxel)
     BallValues& values = *atoms.labels->values;
     values.high = 10.0;
     values.centre = Vec3d(0.3, 1.2, -0.7);
-    const PointValues points(atoms, SurfaceOptions());
+    const PointValues points(atoms, 1.4);
     const auto voxels = shownVoxels(*surface, false);
     const std::vector<PointValue> found = points.on(*voxels, *surface, 2.0, Progress());
     ASSERT_EQ(found.size(), surface->activeVoxelCount());
@@ -63,7 +64,9 @@ TEST(PointValues, OfAMapAreOutsideAlongTheNormal)
     SurfaceOptions options;
     options.probe = 1.5;
     const auto at = [&](const Vec3d& normal) {
-        return PointValues(atoms, options).at({2, 3, 4}, normal, 1.0).value;
+        return PointValues(atoms, outwardOf(atoms.coloring, options))
+            .at({2, 3, 4}, normal, 1.0)
+            .value;
     };
     EXPECT_FLOAT_EQ(at({1, 0, 0}), 3.5f);
     EXPECT_FLOAT_EQ(at({-0.6, 0.8, 0}), 1.1f);
@@ -79,7 +82,7 @@ struct BlendTest : testing::Test {
                            {10.0f, 30.0f, 50.0f});
     PointValue at(double x, double y) const
     {
-        return PointValues(atoms, SurfaceOptions()).at({x, y, 0.0}, Vec3d(0.0), 2.0);
+        return PointValues(atoms, 1.4).at({x, y, 0.0}, Vec3d(0.0), 2.0);
     }
 };
 
@@ -111,7 +114,7 @@ TEST_F(BlendTest, HasNoJumps)
 TEST_F(BlendTest, FadesToNeutralWhereBallsHaveNone)
 {
     atoms.labels->values->valueOf[1] = atoms.labels->values->valueOf[2] = std::nanf("");
-    const PointValues values(atoms, SurfaceOptions());
+    const PointValues values(atoms, 1.4);
     EXPECT_FLOAT_EQ(at(0.75, 1.6).share, 0.5f);
     EXPECT_FLOAT_EQ(at(0.75, 1.6).value, 10.0f);
     EXPECT_TRUE(std::isnan(at(10.7, 0.0).value));
@@ -120,7 +123,7 @@ TEST_F(BlendTest, FadesToNeutralWhereBallsHaveNone)
     mesh.positions = {Vec3f(0.7f, 1.6f, 0), Vec3f(0.8f, 1.6f, 0)};
     mesh.normals.resize(2);
     mesh.colors.resize(2);
-    addValues(atoms, SurfaceOptions(), {0, 1}, 2.0, Progress(), mesh);
+    addValues(atoms, 1.4, {0, 1}, 2.0, Progress(), mesh);
     EXPECT_EQ(mesh.scalars[0].values[0], 10.0f);
     EXPECT_TRUE(std::isnan(mesh.scalars[0].values[1]));
 }
@@ -132,7 +135,7 @@ TEST_F(BlendTest, FlatValuesAreThoseOfTheBall)
     mesh.positions = {Vec3f(0.7f, 1.6f, 0)};
     mesh.normals.resize(1);
     mesh.colors = {Color{1, 2, 3}};
-    addValues(atoms, SurfaceOptions(), {0}, 2.0, Progress(), mesh);
+    addValues(atoms, 1.4, {0}, 2.0, Progress(), mesh);
     EXPECT_EQ(mesh.scalars[0].values[0], 10.0f);
     EXPECT_EQ(mesh.colors[0], (Color{1, 2, 3})); // of its ball, as it was
 }
