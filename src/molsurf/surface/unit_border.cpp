@@ -4,7 +4,6 @@
 #include "molsurf/balls/ball_index.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -17,19 +16,6 @@ using openvdb::Vec3f;
 
 namespace
 {
-
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-/// An edge of the border, the unit on its left.
-struct BorderEdge {
-    std::uint32_t from;           ///< vertex
-    std::int32_t owner;           ///< beyond it
-    std::uint32_t triangle;       ///< (from, to, a vertex that is not of the border)
-    std::uint32_t next;           ///< edge
-    std::uint32_t previous;       ///< edge
-    std::uint32_t partner = none; ///< the edge that it is, the other way round, in a neighbour
-    std::int32_t neighbour = -1;  ///< the motion of that
-};
 
 /// An edge in the whole.
 struct UnitEdge {
@@ -52,13 +38,13 @@ class BorderFitter
 public:
     BorderFitter(const Placement& placement, double voxel, CutMesh& part)
         : unit_(*placement.unit), motions_(placement.instances), near_(voxel),
-          longest_(3.0 * voxel), part_(part), mesh_(part.mesh)
+          longest_(3.0 * voxel), mesh_(part.mesh), edges_(std::move(part.border))
     {
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) edgeFrom_[from(e)] = e;
     }
 
     BorderFit fit()
     {
-        takeEdges();
         std::vector<std::int32_t> owners;
         for (const BorderEdge& e : edges_) owners.push_back(e.owner);
         std::sort(owners.begin(), owners.end());
@@ -89,19 +75,6 @@ private:
     const Instance& motion(std::int32_t g) const { return motions_[std::size_t(g)]; }
     std::uint32_t from(std::uint32_t e) const { return edges_[e].from; }
     std::uint32_t to(std::uint32_t e) const { return edges_[edges_[e].next].from; }
-
-    void takeEdges()
-    {
-        for (const BorderLoop& loop : part_.loops) {
-            const auto first = std::uint32_t(edges_.size());
-            const auto n = std::uint32_t(loop.vertices.size());
-            for (std::uint32_t i = 0; i < n; ++i) {
-                edgeFrom_[loop.vertices[i]] = first + i;
-                edges_.push_back({loop.vertices[i], loop.owners[i], loop.triangles[i],
-                                  first + (i + 1) % n, first + (i + n - 1) % n});
-            }
-        }
-    }
 
     /// A vertex of the border with a neighbour.
     struct Place {
@@ -221,7 +194,7 @@ private:
         for (const auto& [own, its] : anchorOf) back[its] = own;
         const auto count = std::uint32_t(edges_.size());
         for (std::uint32_t e = 0; e < count; ++e) {
-            if (edges_[e].owner != g || edges_[e].partner != none) continue;
+            if (edges_[e].owner != g || edges_[e].partner != noEdge) continue;
             const auto start = anchorOf.find(from(e));
             if (start == anchorOf.end()) continue;
             Chain own =
@@ -302,9 +275,9 @@ private:
 
     void unglue(std::uint32_t e)
     {
-        if (edges_[e].partner == none) return;
-        edges_[edges_[e].partner].partner = none;
-        edges_[e].partner = none;
+        if (edges_[e].partner == noEdge) return;
+        edges_[edges_[e].partner].partner = noEdge;
+        edges_[e].partner = noEdge;
     }
 
     /// The vertices of neighbours that a vertex is one with since their edges are.
@@ -313,8 +286,8 @@ private:
         std::vector<UnitVertex> out;
         const BorderEdge& after = edges_[edgeFrom_.at(v)];
         const BorderEdge& before = edges_[after.previous];
-        if (after.partner != none) out.push_back({after.neighbour, to(after.partner)});
-        if (before.partner != none) {
+        if (after.partner != noEdge) out.push_back({after.neighbour, to(after.partner)});
+        if (before.partner != noEdge) {
             const UnitVertex other{before.neighbour, from(before.partner)};
             if (out.empty() || !(out[0] == other)) out.push_back(other);
         }
@@ -355,12 +328,12 @@ private:
     void glueCoincident()
     {
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-            if (edges_[e].partner != none) continue;
+            if (edges_[e].partner != noEdge) continue;
             const std::vector<UnitVertex> ends = classOf(to(e));
             for (const UnitVertex& other : classOf(from(e))) {
                 const std::uint32_t before = edges_[edgeFrom_.at(other.vertex)].previous;
                 const UnitVertex start{other.unit, from(before)};
-                if (other.unit == 0 || edges_[before].partner != none ||
+                if (other.unit == 0 || edges_[before].partner != noEdge ||
                     std::find(ends.begin(), ends.end(), start) == ends.end())
                     continue;
                 glue(e, other.unit, before);
@@ -397,7 +370,7 @@ private:
     UnitEdge following(const UnitEdge& e) const
     {
         UnitEdge out{e.unit, edges_[e.edge].next};
-        while (edges_[out.edge].partner != none) {
+        while (edges_[out.edge].partner != noEdge) {
             const BorderEdge& glued = edges_[out.edge];
             out = {product(out.unit, glued.neighbour), edges_[glued.partner].next};
         }
@@ -410,7 +383,7 @@ private:
     {
         std::vector<char> done(edges_.size(), 0);
         for (std::uint32_t first = 0; first < edges_.size(); ++first) {
-            if (edges_[first].partner != none || done[first]) continue;
+            if (edges_[first].partner != noEdge || done[first]) continue;
             std::vector<UnitEdge> round; // as far as it is no image of its beginning
             UnitEdge next{0, first};
             do {
@@ -419,7 +392,6 @@ private:
                 next = following(next);
             } while (next.edge != first);
             fillHole(round, next.unit);
-            ++out_.holes;
             out_.open += round.size();
         }
     }
@@ -475,10 +447,9 @@ private:
     const std::vector<Instance>& motions_;
     const double near_;    ///< how far vertices that become one are apart [Å]
     const double longest_; ///< line between two of them [Å]
-    CutMesh& part_;
     Mesh& mesh_;
-    BorderFit out_;
     std::vector<BorderEdge> edges_;
+    BorderFit out_;
     std::unordered_map<std::uint32_t, std::uint32_t> edgeFrom_; ///< of vertices
 };
 

@@ -20,8 +20,7 @@ namespace molsurf
 struct BorderFit {
     std::vector<SharedVertex> shared; ///< every vertex of the border, once for each neighbour
     std::size_t open = 0;             ///< edges of the border that fit none of a neighbour's
-    std::size_t holes = 0;            ///< that these left in the whole, and triangles fill
-    double filled = 0.0;              ///< area of these triangles [Å^2]
+    double filled = 0.0;              ///< area of triangles in the holes that these left [Å^2]
     double largest = 0.0;             ///< gap that was closed [Å]
 };
 
@@ -65,7 +64,7 @@ private:
 ///
 /// @param[in]     placement  of the unit
 /// @param[in]     voxel  what is farther apart is not glued [Å]
-/// @param[in,out] part   what owner 0 has; its loops are used up
+/// @param[in,out] part   what owner 0 has; its border is used up
 BorderFit fitBorder(const Placement& placement, double voxel, CutMesh& part);
 
 } // namespace molsurf

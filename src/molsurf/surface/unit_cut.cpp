@@ -214,23 +214,24 @@ std::vector<CutStep> followBorder(const std::vector<CutEdge>& borders, std::uint
     return next;
 }
 
-std::vector<BorderLoop> loopsOf(const std::vector<CutStep>& next, std::uint32_t first)
+/// The edges of the border, line after line.
+std::vector<BorderEdge> edgesOf(const std::vector<CutStep>& next, std::uint32_t first)
 {
-    std::vector<BorderLoop> loops;
+    std::vector<BorderEdge> out;
     std::vector<char> seen(next.size(), 0);
-    for (std::size_t e = 0; e < next.size(); ++e) {
-        if (seen[e]) continue;
-        BorderLoop& loop = loops.emplace_back();
-        for (std::uint32_t v = first + std::uint32_t(e); !seen[v - first];) {
-            seen[v - first] = 1;
-            const CutStep& step = next[v - first];
-            loop.vertices.push_back(v);
-            loop.owners.push_back(step.other);
-            loop.triangles.push_back(step.triangle);
-            v = step.to;
+    for (std::size_t begin = 0; begin < next.size(); ++begin) {
+        const auto start = std::uint32_t(out.size());
+        for (std::size_t i = begin; !seen[i]; i = next[i].to - first) {
+            seen[i] = 1;
+            const auto e = std::uint32_t(out.size());
+            out.push_back(
+                {first + std::uint32_t(i), next[i].other, next[i].triangle, e + 1, e - 1});
         }
+        if (start == out.size()) continue;
+        out.back().next = start;
+        out[start].previous = std::uint32_t(out.size() - 1);
     }
-    return loops;
+    return out;
 }
 
 /// Adds the vertices of a part: those of the whole at `sources`, and those of the border.
@@ -317,7 +318,7 @@ CutMesh cutToOwner(const Mesh& mesh, const PowerOwners& owners, const Spline& sp
     std::vector<AddedVertex> added = crossingsOf(mesh, edges, owners, spline, progress);
     BorderFinder finder(owners, spline);
     const std::vector<CutStep> next = followBorder(borders, first, finder, added, triangles);
-    out.loops = loopsOf(next, first);
+    out.border = edgesOf(next, first);
     addVertices(mesh, out.sources, added, out.mesh);
     return out;
 }

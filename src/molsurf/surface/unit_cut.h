@@ -10,23 +10,31 @@
 #include "molsurf/spline/spline.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace molsurf
 {
 
-/// A closed line of border vertices, the unit on its left if seen from outside the molecule.
-struct BorderLoop {
-    std::vector<std::uint32_t> vertices;  ///< in order
-    std::vector<std::int32_t> owners;     ///< beyond the edge from vertex i to the next one
-    std::vector<std::uint32_t> triangles; ///< at that edge: their first two vertices are its own
+/// No edge.
+constexpr std::uint32_t noEdge = std::numeric_limits<std::uint32_t>::max();
+
+/// An edge of the border, the unit on its left if seen from outside the molecule.
+struct BorderEdge {
+    std::uint32_t from;             ///< vertex
+    std::int32_t owner;             ///< beyond it
+    std::uint32_t triangle;         ///< (from, to, a vertex that is not of the border)
+    std::uint32_t next;             ///< edge
+    std::uint32_t previous;         ///< edge
+    std::uint32_t partner = noEdge; ///< the edge that it is, the other way round, in a neighbour
+    std::int32_t neighbour = -1;    ///< the motion of that
 };
 
 /// A part of a mesh with its border.
 struct CutMesh {
     Mesh mesh;                          ///< vertices of the whole first, then those of the border
     std::vector<std::uint32_t> sources; ///< of the former: their indices in the whole
-    std::vector<BorderLoop> loops;
+    std::vector<BorderEdge> border;     ///< closed lines, one after another
 };
 
 /// Cuts out of a mesh what owner 0 has. The vertices of the border lie on S = 0 where the power of

@@ -34,13 +34,14 @@ TEST(CutToOwner, TakesAThirdOfASphere)
     const CutMesh cut = cutToOwner(mesh, PowerOwners(balls, {0, 1, 2}), spline, Progress());
 
     EXPECT_NEAR(measure(cut.mesh, Progress()).area, 4.0 * M_PI * R * R / 3.0, 0.05);
-    ASSERT_EQ(cut.loops.size(), 1u);
-    const BorderLoop& loop = cut.loops[0];
-    const std::size_t n = loop.vertices.size();
+    const std::vector<BorderEdge>& border = cut.border;
     std::size_t corners = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const Vec3d a(cut.mesh.positions[loop.vertices[i]]);
-        const Vec3d b(cut.mesh.positions[loop.vertices[(i + 1) % n]]);
+    for (std::size_t i = 0; i < border.size(); ++i) {
+        ASSERT_EQ(border[i].next, (i + 1) % border.size()); // one line
+        const BorderEdge& last = border[border[i].previous];
+        ASSERT_EQ(last.next, i);
+        const Vec3d a(cut.mesh.positions[border[i].from]);
+        const Vec3d b(cut.mesh.positions[border[border[i].next].from]);
         EXPECT_NEAR((a - ball.centre).length(), R, 2e-3);
         // Power cells have plane borders, so that the middle of an edge lies in one, too: in that
         // with the owner beyond the edge, who is the nearest other one there.
@@ -48,10 +49,10 @@ TEST(CutToOwner, TakesAThirdOfASphere)
         const auto power = [&](std::int32_t k) {
             return (middle - balls[std::size_t(k)].center).lengthSqr();
         };
-        const std::int32_t other = loop.owners[i];
+        const std::int32_t other = border[i].owner;
         EXPECT_NEAR(power(0), power(other), 2e-3);
         EXPECT_LT(power(other), power(3 - other) + 2e-3);
-        if (loop.owners[(i + n - 1) % n] == other) continue;
+        if (last.owner == other) continue;
         ++corners;
         EXPECT_NEAR(std::hypot(a.x() - ball.centre.x(), a.y() - ball.centre.y()), 0.0, 1e-3);
     }
