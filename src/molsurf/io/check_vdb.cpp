@@ -8,6 +8,7 @@
 #include <array>
 #include <cctype>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -36,19 +37,17 @@ constexpr Type types[] = {{"float", 4, 2},  {"double", 8, 2},  {"int32", 4, 4},
                           {"int64", 8, 8},  {"vec3i", 12, 12}, {"vec3s", 12, 6},
                           {"vec3d", 24, 6}, {"bool", 1, 1},    {"mask", 1, 1}};
 
-/// The maps of transforms, and what a file holds of them [byte].
-struct Map {
-    std::string_view name;
-    std::uint64_t size;
-};
+constexpr const char* frustum = "NonlinearFrustumMap"; ///< holds another map
 
-constexpr Map maps[] = {{"AffineMap", 128},
-                        {"UnitaryMap", 128},
-                        {"ScaleMap", 120},
-                        {"UniformScaleMap", 120},
-                        {"TranslationMap", 24},
-                        {"ScaleTranslateMap", 144},
-                        {"UniformScaleTranslateMap", 144}};
+/// What a file holds of the map of a transform [byte]; it is the same for all maps of a type.
+std::uint64_t sizeOfMap(const std::string& type)
+{
+    if (type == frustum || !openvdb::math::MapRegistry::isRegistered(type))
+        refuseBytes("it has an unknown transform");
+    std::ostringstream text;
+    openvdb::math::MapRegistry::createMap(type)->write(text);
+    return std::uint64_t(text.tellp());
+}
 
 /// The numbers of children of a node along an edge, by level; 0 is a leaf.
 constexpr std::uint64_t valuesOf[] = {512, 4096, 32768};
@@ -161,14 +160,11 @@ private:
     void transform()
     {
         std::string name = text();
-        if (name == "NonlinearFrustumMap") {
+        if (name == frustum) {
             skip(8 * sizeof(double)); // box, taper and depth
             name = text();
         }
-        const auto map = std::find_if(std::begin(maps), std::end(maps),
-                                      [&](const Map& m) { return m.name == name; });
-        if (map == std::end(maps)) refuseBytes("it has an unknown transform");
-        skip(map->size);
+        skip(sizeOfMap(name));
     }
 
     void grid()
