@@ -10,7 +10,7 @@ _vdb_molsurf()
     case $verb:$before in
         "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face mrc dx cxc pml html json png view atoms.csv residues.csv contacts.csv interfaces.csv pdb cif residues.pdb residues.cif" ;;
         "build":--start) words="cold warm" ;;
-        "build":--surface) words="variational ses sas vdw gaussian" ;;
+        "build":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "build":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value v" ;;
         "build":--coarse) words="atom residue" ;;
         "build":--group-by) words="chain entity class copy" ;;
@@ -28,7 +28,7 @@ _vdb_molsurf()
         "build":--legend) words="auto on off" ;;
         "build":--regularizer) words="gradient area" ;;
         "build":--flow) words="newton paper" ;;
-        "batch":--surface) words="variational ses sas vdw gaussian" ;;
+        "batch":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "batch":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value v" ;;
         "batch":--coarse) words="atom residue" ;;
         "batch":--group-by) words="chain entity class copy" ;;
@@ -48,7 +48,7 @@ _vdb_molsurf()
         "batch":--flow) words="newton paper" ;;
         "compare":--format) words="vdb ply json" ;;
         "compare":--color) words="distance signed-distance" ;;
-        "compare":--surface) words="variational ses sas vdw gaussian" ;;
+        "compare":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "compare":--coarse) words="atom residue" ;;
         "compare":--regularizer) words="gradient area" ;;
         "compare":--flow) words="newton paper" ;;
@@ -60,7 +60,7 @@ _vdb_molsurf()
         "convert":--background) words="transparent" ;;
         "convert":--style) words="soft glossy outline flat" ;;
         "convert":--legend) words="auto on off" ;;
-        "bricks plan":--surface) words="variational ses sas vdw gaussian" ;;
+        "bricks plan":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "bricks plan":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value v" ;;
         "bricks plan":--coarse) words="atom residue" ;;
         "bricks plan":--group-by) words="chain entity class copy" ;;

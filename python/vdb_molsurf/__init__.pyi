@@ -135,7 +135,7 @@ class Molecule:
     @property
     def warnings(self) -> list[str]: ...
     def surface(self, *,
-        kind: Literal["variational", "ses", "sas", "vdw", "gaussian"] = "variational",
+        kind: Literal["variational", "ses", "sas", "vdw", "gaussian", "smooth-sas"] = "variational",
         voxel: float = 0.5,
         probe: float = 1.4,
         blobbiness: float = 2.3,
@@ -164,7 +164,7 @@ class Molecule:
     ) -> Surface: ...
 
 def surface(positions: ArrayLike, radii: ArrayLike, *,
-    kind: Literal["variational", "ses", "sas", "vdw", "gaussian"] = "variational",
+    kind: Literal["variational", "ses", "sas", "vdw", "gaussian", "smooth-sas"] = "variational",
     voxel: float = 0.5,
     probe: float = 1.4,
     blobbiness: float = 2.3,
@@ -205,7 +205,7 @@ def read(source: Path | bytes | bytearray | memoryview | TextIO | BinaryIO, *,
     waters: bool = False,
     radii: str = ...,
     max_input: str = ...,
-    kind: Literal["variational", "ses", "sas", "vdw", "gaussian"] = "variational",
+    kind: Literal["variational", "ses", "sas", "vdw", "gaussian", "smooth-sas"] = "variational",
     voxel: float = 0.5,
     probe: float = 1.4,
     blobbiness: float = 2.3,

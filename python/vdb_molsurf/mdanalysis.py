@@ -14,7 +14,7 @@ class SurfaceAnalysis(AnalysisBase):
         run = SurfaceAnalysis(universe.select_atoms("protein"), kind="sas").run(step=10)
         run.results.residue_area
 
-    kind: "sas" (the default), "vdw" and "ses" are exact and need no mesh; "variational" and "gaussian" have one.
+    kind: "sas" (the default), "vdw" and "ses" are exact and need no mesh; the others have one.
     radii: the name of a set, "bondi" unless given, or an array of one radius an atom [Å]. Radii of MDAnalysis are not
     taken. Elements are those of the topology; without them the names of the atoms tell.
     Other keywords are those of vdb_molsurf.surface().

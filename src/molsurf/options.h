@@ -20,7 +20,8 @@ enum class SurfaceKind {
     SolventExcluded,   ///< the union of balls of radius r_i + r_b, offset inward by r_b
     SolventAccessible, ///< the union of balls of radius r_i + r_b
     VanDerWaals,       ///< the union of balls of radius r_i
-    Gaussian           ///< sum_i exp(-(d/r_i^2) (|x - x_i|^2 - r_i^2)) = 1
+    Gaussian,          ///< sum_i exp(-(d/r_i^2) (|x - x_i|^2 - r_i^2)) = 1
+    SmoothAccessible   ///< the minimiser of the energy itself
 };
 
 /// Properties that the colours of a surface may show.
@@ -119,7 +120,7 @@ constexpr double minVoxel = 0.05, maxVoxel = 10.0;
 /// the Gaussian surface, whatever SurfaceOptions::probe is.
 double probeOf(const SurfaceOptions& options);
 
-/// Returns the word of the command line for a kind: variational, ses, sas, vdw, gaussian.
+/// Returns the word of the command line for a kind: variational, ses, smooth-sas.
 const char* nameOf(SurfaceKind kind);
 
 /// Returns the word of the command line for a property: chain, element, mean-curvature.

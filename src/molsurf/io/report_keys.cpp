@@ -23,7 +23,7 @@ constexpr ReportKey keyTable[] = {
      "The point of the input that is the origin of the files; null if the surface was not "
      "moved"},
     {"surface", "", "The measures of the surface"},
-    {"surface.kind", "", "variational, ses, sas, vdw, gaussian; mixed, of parts of several kinds"},
+    {"surface.kind", "", "The kind, as variational or ses; mixed, of parts of several kinds"},
     {"surface.area", "Å²",
      "The area of all walls, those of cavities included. Of ses by symmetry, in bricks and with "
      "filled cavities that of the mesh, which lacks what is narrower than a voxel"},

@@ -21,7 +21,8 @@ const std::vector<KindRow>& kindTable()
         {K::SolventExcluded, "ses", "solvent-excluded", true, false, true, true},
         {K::SolventAccessible, "sas", "solvent-accessible", true, false, true, false},
         {K::VanDerWaals, "vdw", "van der Waals", true, false, false, false},
-        {K::Gaussian, "gaussian", "", false, false, false, false}};
+        {K::Gaussian, "gaussian", "", false, false, false, false},
+        {K::SmoothAccessible, "smooth-sas", "variational, where sas is", false, true, true, false}};
     return table;
 }
 
@@ -74,7 +75,8 @@ BandWidths widthsOf(const SurfaceOptions& options)
 
 double growthOf(const SurfaceOptions& options)
 {
-    return isUnion(options.kind) ? probeOf(options) : 0.0;
+    const KindRow& row = rowOf(options.kind);
+    return row.isUnion || !row.hasOffset ? probeOf(options) : 0.0;
 }
 
 double outwardOf(const SelectOptions::Coloring& coloring, const SurfaceOptions& options)

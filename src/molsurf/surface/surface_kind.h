@@ -83,7 +83,8 @@ double splineWidthOf(const SurfaceOptions& options);
 BandWidths widthsOf(const SurfaceOptions& options);
 
 /// Gives how much larger than the atoms' balls are those whose cells own the points of a surface
-/// [Å]: the probe radius where it is the surface of their union or lies inside of it, else 0.
+/// [Å]: the probe radius where it is the surface of their union or lies inside of it, or where it
+/// is so far from the atoms; else 0.
 double growthOf(const SurfaceOptions& options);
 
 /// Gives how far outside of the surface a potential is taken [Å]: where the coloring does not say

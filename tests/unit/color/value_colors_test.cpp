@@ -70,8 +70,10 @@ TEST(PointValues, OfAMapAreOutsideAlongTheNormal)
     };
     EXPECT_FLOAT_EQ(at({1, 0, 0}), 3.5f);
     EXPECT_FLOAT_EQ(at({-0.6, 0.8, 0}), 1.1f);
-    options.kind = SurfaceKind::SolventAccessible; // a probe radius out itself
-    EXPECT_FLOAT_EQ(at({1, 0, 0}), 2.0f);
+    for (const SurfaceKind kind : {SurfaceKind::SolventAccessible, SurfaceKind::SmoothAccessible}) {
+        options.kind = kind; // a probe radius out itself
+        EXPECT_FLOAT_EQ(at({1, 0, 0}), 2.0f);
+    }
     atoms.coloring.outward = 0.25;
     EXPECT_FLOAT_EQ(at({1, 0, 0}), 2.25f);
 }

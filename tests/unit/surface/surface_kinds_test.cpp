@@ -3,6 +3,8 @@
 #include "support/mesh_checks.h"
 #include "support/runs.h"
 
+#include <openvdb/tools/Interpolation.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -200,6 +202,26 @@ TEST(UnionSurfaces, CavitiesAreListedOrFilled)
         EXPECT_LT(filled.surface->tree().getValue(openvdb::Coord(0)), 0.0f) << nameOf(kind);
         EXPECT_GT(hollow.surface->tree().getValue(openvdb::Coord(0)), 0.0f) << nameOf(kind);
     }
+}
+
+// It is the level set at rest, which the variational surface lies inside of by the probe radius.
+TEST(SmoothAccessible, IsTheLevelSetAtRest)
+{
+    const std::vector<Ball> balls = test::balls("1crn.pdb");
+    SurfaceOptions options = optionsFor(SurfaceKind::Variational);
+    options.fields = {"sas"};
+    const MolecularSurface inside = test::runOn(balls, options);
+    const auto rest = openvdb::gridPtrCast<openvdb::FloatGrid>(inside.fields.at(0));
+    const MolecularSurface smooth = test::runOn(balls, optionsFor(SurfaceKind::SmoothAccessible));
+    openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::QuadraticSampler> phi(*rest);
+    for (const Vec3f& p : smooth.mesh.positions) ASSERT_NEAR(phi.wsSample(Vec3d(p)), 0.0, 0.06);
+    const SurfaceReport& s = smooth.report.surface;
+    EXPECT_TRUE(s.closed && s.manifold);
+    EXPECT_EQ(s.kind, "smooth-sas");
+    const SurfaceReport exact =
+        test::runOn(balls, optionsFor(SurfaceKind::SolventAccessible)).report.surface;
+    EXPECT_NEAR(s.area, exact.area, 0.1 * exact.area);
+    EXPECT_GT(s.volume, exact.volume);
 }
 
 TEST(UnionSurfaces, OfSpecialPositions)
