@@ -48,7 +48,8 @@ SurfaceOptions coloredBy(ColorBy by, std::vector<std::string> fields)
 TEST(FieldTable, EachRowHasItsGridInTheOrderOfTheTable)
 {
     SurfaceOptions options = coloredBy(ColorBy::Value, {});
-    for (const FieldRow& row : fieldTable()) options.fields.insert(options.fields.begin(), row.name);
+    for (const FieldRow& row : fieldTable())
+        options.fields.insert(options.fields.begin(), row.name);
     const MolecularSurface result = makeSurface(valued({1.0f, 2.0f}), options);
     std::size_t i = 0;
     for (const FieldRow& row : fieldTable()) {
