@@ -20,7 +20,7 @@ WIDER = {"candidates": 10, "number": 9, "computeBrick": 9, "mergeBricks": 8, "co
          "ballValues": 7, "writeOutput": 7, "writeAll": 7, "moveToSurface": 7, "evolve": 7, "makePlan": 7,
          "addArc": 7,
          # kernels: rows of fields, and what a loop carries along
-         "nearestInCube": 9, "nearestOf": 8, "curvatureRows": 9, "carry": 9, "coefficientRows": 9,
+         "nearestInCube": 9, "nearestOf": 8, "curvatureRows": 9, "carry": 8, "coefficientRows": 9,
          "addVoxel": 9, "speedRows": 8, "metricAtFoot": 7, "farthestEnd": 9, "intersectCircle": 8, "relateAll": 8,
          "findGaps": 7, "findCovers": 7}
 

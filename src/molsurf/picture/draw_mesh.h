@@ -56,8 +56,8 @@ struct DrawOptions {
     double dpi = 0.0;                    ///< Picture::dpi
     Color plain = {140, 181, 222};       ///< of a mesh without colours
     const PictureStyle* style = nullptr; ///< null: the first of styleTable()
-    double opacity = 1.0; ///< of a surface seen from the front, in (0, 1]; what is seen aslant is
-                          ///< more opaque
+    double opacity = 1.0;  ///< of a surface seen from the front, in (0, 1]; what is seen aslant is
+                           ///< more opaque
     bool allWalls = false; ///< whether walls behind the nearest one are seen through it, too
     std::optional<double> clip; ///< what is nearer to the eye than the middle by more than this is
                                 ///< cut away [Å], and the inside is seen there
