@@ -386,9 +386,9 @@ CASES = {
          f"vdb_molsurf two.xyzr {FAST} -o b.vdb && vdb_molsurf compare b.vdb two.xyzr {FAST}"),
         ("-o .ply", "vdb_molsurf compare open.ply solid.ply -o a.vdb",
          "vdb_molsurf compare open.ply solid.ply -o a.ply"),
-        ("a larger --tolerance or a smaller --voxel", "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.07 --voxel 0.6",
-         "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.07 --voxel 0.6 --tolerance 0.03",
-         "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.07 --voxel 0.35")],
+        ("a larger --tolerance or a smaller --voxel", "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.05 --voxel 0.7",
+         "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.05 --voxel 0.7 --tolerance 0.03",
+         "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.05 --voxel 0.6")],
     "tools/outputs.cpp": [
         (" goes on, ", "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 -o a.ply",
          "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 -o a.ply --force 2>&1 | sed -n 's/.*hint: \\(--max-steps [0-9]*\\).*/\\1/p' > t; "

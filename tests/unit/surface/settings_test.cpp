@@ -118,8 +118,8 @@ TEST(Settings, NameTheMemberOfAWrongValue)
     EXPECT_EQ(messageOf("max-input", {"much"}),
               "`maxInput`: expected a size such as 500M or 4G, got 'much'");
     EXPECT_EQ(messageOf("surface", {"see"}),
-              "`surface`: expected variational or ses or sas or vdw or gaussian, got 'see' [hint: "
-              "did you mean ses?]");
+              "`surface`: expected variational or ses or sas or vdw or gaussian or smooth-sas, got "
+              "'see' [hint: did you mean ses?]");
     EXPECT_EQ(messageOf("surface-of", {"core"}),
               "`surfaceOf`: expected GROUP=KIND with a kind of `surface`, got 'core'");
     EXPECT_EQ(messageOf("max-steps", {"1.5"}),

@@ -214,7 +214,14 @@ TEST(SmoothAccessible, IsTheLevelSetAtRest)
     const auto rest = openvdb::gridPtrCast<openvdb::FloatGrid>(inside.fields.at(0));
     const MolecularSurface smooth = test::runOn(balls, optionsFor(SurfaceKind::SmoothAccessible));
     openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::QuadraticSampler> phi(*rest);
-    for (const Vec3f& p : smooth.mesh.positions) ASSERT_NEAR(phi.wsSample(Vec3d(p)), 0.0, 0.06);
+    double sum = 0.0, farthest = 0.0; // where creases are rounded
+    for (const Vec3f& p : smooth.mesh.positions) {
+        const double beside = phi.wsSample(Vec3d(p));
+        sum += beside * beside;
+        farthest = std::max(farthest, std::abs(beside));
+    }
+    EXPECT_LT(std::sqrt(sum / double(smooth.mesh.positions.size())), 0.015);
+    EXPECT_LT(farthest, 0.15);
     const SurfaceReport& s = smooth.report.surface;
     EXPECT_TRUE(s.closed && s.manifold);
     EXPECT_EQ(s.kind, "smooth-sas");
