@@ -62,7 +62,7 @@ class Manual(ToolTest):
         for word in self.complete("a.pdb", "--surface", ""):
             self.check(2, "a.pdb", "--surface", word, says="-o FILE")
         for word in self.complete("a.pdb", "--fields", ""):
-            self.check(1, "none.pdb", "-o", "a.vdb", "--fields", word, "--frames", "1",
+            self.check(1, "none.pdb", "-o", "a.vdb", "--fields", word, "--frames", "1", "--color", "bfactor",
                        says="none.pdb")
 
 
