@@ -117,8 +117,8 @@ TEST(SmoothCarrier, KnowsTheLevelOfAFrontBetweenVoxels)
     const SparseField psi =
         test::filled(table, voxel, [](const Vec3d& x) { return level - slope * (x.x() - front); });
     const SparseField slopes = test::filled(table, voxel, [](const Vec3d&) { return slope; });
-    const SparseField carrier = smoothCarrier(
-        phi, {psi.values, copied(slopes.values), false, 0.0}, 3.0 * voxel, Progress());
+    const SparseField carrier = smoothCarrier(phi, {psi.values, copied(slopes.values), false, 0.0},
+                                              3.0 * voxel, Progress());
     test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
         if (std::abs(x.x() - front) < voxel) {
             ASSERT_NEAR(carrier.leaf(n)[v], x.x() - front, 1e-4) << x;
@@ -141,9 +141,8 @@ TEST(SmoothCarrier, HasTheShapeOfPsiInTheValleyAlone)
             const SparseField psi = test::filled(table, voxel, [&](const Vec3d& x) {
                 return bottom + above - share * slope * (x.x() - front);
             });
-            const SparseField carrier =
-                smoothCarrier(phi, {psi.values, copied(slopes.values), false, lambda},
-                              3.0 * voxel, Progress());
+            const SparseField carrier = smoothCarrier(
+                phi, {psi.values, copied(slopes.values), false, lambda}, 3.0 * voxel, Progress());
             const double shape = std::abs(above) > 1.0 ? 1.0 : share;
             test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
                 const double d = x.x() - front;
@@ -164,8 +163,8 @@ TEST(SmoothCarrier, IsThatOfPsiInAThinSheet)
     const SparseField psi =
         test::filled(table, voxel, [&](const Vec3d& x) { return -slope * distance(x); });
     const SparseField slopes = test::filled(table, voxel, [](const Vec3d&) { return slope; });
-    const SparseField carrier = smoothCarrier(
-        phi, {psi.values, copied(slopes.values), false, 0.0}, 3.0 * voxel, Progress());
+    const SparseField carrier = smoothCarrier(phi, {psi.values, copied(slopes.values), false, 0.0},
+                                              3.0 * voxel, Progress());
     test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
         if (std::abs(x.x()) <= 4.0 * voxel) {
             ASSERT_NEAR(carrier.leaf(n)[v], distance(x), 0.1) << x;
