@@ -27,11 +27,11 @@ constexpr float noHistory = 0.04f, noHistoryOfExtended = 0.01f;
 
 /// The upper half of a float, rounded: the number to a relative 0.002 (bfloat16). That is enough
 /// for coefficients and for displacements, since rest is where both are 0.
-MOLSURF_INLINE std::uint32_t upperHalf(float value)
+MOLSURF_INLINE std::uint16_t upperHalf(float value)
 {
     std::uint32_t bits;
     std::memcpy(&bits, &value, sizeof bits);
-    return (bits + 0x8000u) >> 16;
+    return std::uint16_t((bits + 0x8000u) >> 16);
 }
 MOLSURF_INLINE float ofUpperHalf(std::uint32_t half)
 {
@@ -44,7 +44,7 @@ MOLSURF_INLINE float ofUpperHalf(std::uint32_t half)
 /// Two numbers in one word.
 MOLSURF_INLINE std::uint32_t packed(float b, float c)
 {
-    return upperHalf(b) << 16 | upperHalf(c);
+    return std::uint32_t(upperHalf(b)) << 16 | upperHalf(c);
 }
 MOLSURF_INLINE float highOf(std::uint32_t word)
 {
@@ -70,7 +70,7 @@ MOLSURF_KERNEL void coefficientRows(const float* __restrict phiBlock,
         const int first = (row / 8 + 1) * Block::strideX + (row % 8 + 1) * Block::strideY + 1;
         const float *p = phiBlock + first, *q = psiBlock + first;
         if (bits == 0) {
-            for (int z = 0; z < 8; ++z) u[8 * row + z] = std::uint16_t(upperHalf(outside));
+            for (int z = 0; z < 8; ++z) u[8 * row + z] = upperHalf(outside);
             continue;
         }
         for (int z = 0; z < 8; ++z) {
@@ -87,7 +87,7 @@ MOLSURF_KERNEL void coefficientRows(const float* __restrict phiBlock,
             const float scale = h2 / larger(m.w, 1e-4f);
             const float b = scale * front.speed, c = scale * P;
             system[v] = packed(b, c);
-            u[v] = std::uint16_t(upperHalf(bits & rowBits[z] ? b / (c + 6.0f) : outside));
+            u[v] = upperHalf(bits & rowBits[z] ? b / (c + 6.0f) : outside);
             const float on = bits & rowBits[z] ? 1.0f : 0.0f;
             addVoxel(front, shape, row, z, p[z], phi, h, on, sums);
         }
@@ -105,7 +105,7 @@ MOLSURF_KERNEL void sweepRows(const std::uint16_t* __restrict uBlock, const Leaf
     for (int row = 0; row < 64; ++row) {
         const int bits = acting.row(row);
         if (bits == 0) {
-            for (int z = 0; z < 8; ++z) out[8 * row + z] = std::uint16_t(upperHalf(outside));
+            for (int z = 0; z < 8; ++z) out[8 * row + z] = upperHalf(outside);
             continue;
         }
         const std::uint16_t* p = uBlock + (row / 8 + 1) * X + (row % 8 + 1) * Y + 1;
@@ -120,7 +120,7 @@ MOLSURF_KERNEL void sweepRows(const std::uint16_t* __restrict uBlock, const Leaf
             const float jacobi = (highOf(system[v]) + sum) / (lowOf(system[v]) + count);
             const float before = keep > 0.0f ? ofUpperHalf(out[v]) : 0.0f;
             const float next = before + omega * (jacobi - before);
-            out[v] = std::uint16_t(upperHalf(bits & rowBits[z] ? next : outside));
+            out[v] = upperHalf(bits & rowBits[z] ? next : outside);
         }
     }
 }
@@ -279,7 +279,7 @@ InterfaceSums NewtonSteps::assemble(const NarrowBand& band, const Region& region
         LeafMask& acting = system.acting[n];
         acting = table.active(n) & within(band.phi.leaf(n), float(newtonWidthVox * h));
         if (!acting.any()) {
-            std::fill_n(system.u.leaf(n), leafSize, std::uint16_t(upperHalf(outside)));
+            std::fill_n(system.u.leaf(n), leafSize, upperHalf(outside));
             return InterfaceSums();
         }
         LeafBlock<float, 1> phi, psi;

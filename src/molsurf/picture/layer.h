@@ -25,7 +25,7 @@ namespace molsurf
 constexpr int subpixels = 2; ///< a pixel is the mean of 2 x 2 samples
 constexpr std::size_t samplesPerPixel = std::size_t(subpixels * subpixels);
 
-/// In pictures wider than this, [pixel], there are less rays than samples.
+/// In pictures wider than this, [pixel], there are fewer rays than samples.
 constexpr int widestDense = 1000;
 
 /// Every which pixel, both ways, asks for its light: more is not seen in wide pictures.

@@ -287,7 +287,7 @@ TEST_F(TwoBalls, BordersAreFoundByThePixel)
     }
 }
 
-// A picture of more than 1000 pixels sends less rays than it has samples.
+// A picture of more than 1000 pixels sends fewer rays than it has samples.
 TEST_F(TwoBalls, WidePicturesHaveTheSameRims)
 {
     options.transparent = true;
