@@ -96,6 +96,15 @@ std::vector<double> numbersOf(const openvdb::Vec3s& value)
     return {value.x(), value.y(), value.z()};
 }
 
+std::map<std::string, std::string> wordsOf(const openvdb::MetaMap& metadata)
+{
+    std::map<std::string, std::string> words;
+    for (auto it = metadata.beginMeta(); it != metadata.endMeta(); ++it)
+        if (it->second->typeName() == openvdb::StringMetadata::staticTypeName())
+            words.emplace(it->first, it->second->str());
+    return words;
+}
+
 template<typename GridT>
 StoredGrid addGrid(const GridT& grid, std::uint32_t compression, Writer& writer,
                    const Progress& progress)
@@ -126,7 +135,8 @@ StoredGrid addGrid(const GridT& grid, std::uint32_t compression, Writer& writer,
             openvdb::GridBase::gridClassToString(grid.getGridClass()),
             numbersOf(background),
             half,
-            writer.add(stored)};
+            writer.add(stored),
+            wordsOf(grid)};
 }
 
 StoredGrid addAnyGrid(const openvdb::GridBase::Ptr& grid, std::uint32_t compression, Writer& writer,
@@ -216,6 +226,7 @@ std::string headerText(const BrickHeader& h)
                              {"class", g.gridClass},
                              {"background", g.background},
                              {"half", g.half},
+                             {"metadata", g.metadata},
                              {"leaves", json(g.leaves)}});
     }
     for (const GroupReport& g : h.sums.groups)
@@ -258,7 +269,8 @@ BrickHeader parseHeader(const std::string& text)
     for (const Json& g : j.at("grids")) {
         h.grids.push_back({g.at("name"), g.at("type"), g.at("class"),
                            jsonNumbers<double>(g.at("background")), g.at("half"),
-                           section(g.at("leaves"))});
+                           section(g.at("leaves")),
+                           g.value("metadata", std::map<std::string, std::string>())});
     }
     h.layout.scalars = j.at("scalars").get<std::vector<std::string>>();
     h.layout.labels = j.at("labels").get<std::vector<std::string>>();

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -36,11 +37,12 @@ struct StoredLeaf {
 
 /// A grid without its leaves.
 struct StoredGrid {
-    std::string name, type, gridClass; ///< as OpenVDB calls them
-    std::vector<double> background;    ///< one number, or three
-    bool half;                         ///< floats have 16 bits
-    Section leaves;                    ///< of StoredLeaf
-    std::uint64_t values = 0;          ///< where those of the first leaf begin in the file
+    std::string name, type, gridClass;             ///< as OpenVDB calls them
+    std::vector<double> background;                ///< one number, or three
+    bool half;                                     ///< floats have 16 bits
+    Section leaves;                                ///< of StoredLeaf
+    std::map<std::string, std::string> metadata{}; ///< that are words
+    std::uint64_t values = 0; ///< where those of the first leaf begin in the file
 };
 
 /// The content of the header.

@@ -200,6 +200,8 @@ Skeleton skeletonOf(const std::vector<BrickFile>& bricks, std::size_t g, double 
     const Value background = valueFrom<Value>(first.background);
     auto grid = GridT::create(background);
     grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
+    for (const auto& [name, words] : first.metadata)
+        grid->insertMeta(name, openvdb::StringMetadata(words));
     grid->setGridClass(openvdb::GridBase::stringToGridClass(first.gridClass));
     grid->setName(first.name);
     if (first.half) grid->setSaveFloatAsHalf(true);

@@ -55,6 +55,13 @@ void closeSides(openvdb::FloatGrid& surface)
         tree.addTile(1, origin, inside ? -outside : outside, false);
 }
 
+/// Leaves the voxels outside of a box inactive. Those beside them need their values.
+void turnOffOutside(openvdb::FloatGrid& grid, const CoordBBox& box)
+{
+    for (auto leaf = grid.tree().beginLeaf(); leaf; ++leaf)
+        if (!box.isInside(leaf->origin())) leaf->setValuesOff();
+}
+
 /// Takes the leaves in a box out of a grid, which is lost.
 template<typename GridT>
 openvdb::GridBase::Ptr ownedPart(GridT& grid, const CoordBBox& box)
@@ -160,16 +167,15 @@ Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope&
     run.mesh();
     run.dropSpecks();
     run.curvatures();
-    result.surface = openvdb::gridPtrCast<openvdb::FloatGrid>(owned(result.surface, box));
+    turnOffOutside(*result.surface, box);
     run.grids();
-    for (auto& grid : result.fields) grid = owned(grid, box);
     run.freeFields();
 
     Brick brick;
     cutMesh(run, options, scope.region, brick, progress);
     run.labels();
     brick.mesh.mesh = std::move(result.mesh);
-    brick.grids = result.grids();
+    for (const auto& grid : result.grids()) brick.grids.push_back(owned(grid, box));
     if (options.halfFloats) saveAsHalf(brick.grids);
     brick.evolution = result.report.evolution;
     brick.displacements = run.displacements();

@@ -13,6 +13,8 @@
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/topology.h"
+#include "molsurf/surface/field_table.h"
+#include "molsurf/surface/whole_only.h"
 #include "support/mesh_checks.h"
 
 #include <gtest/gtest.h>
@@ -86,13 +88,14 @@ protected:
         return files;
     }
 
-    /// The level set as its file gives it back.
-    openvdb::FloatGrid::Ptr saved(const openvdb::FloatGrid::Ptr& grid)
+    /// Grids as their file gives them back.
+    openvdb::GridPtrVec saved(const MolecularSurface& whole)
     {
+        const openvdb::GridPtrVec grids = whole.grids();
         OutputFile file(path("saved.vdb"), true);
-        writeVdb({grid}, {}, file);
+        writeVdb({grids.begin(), grids.end()}, {}, file);
         file.commit();
-        return openvdb::gridPtrCast<openvdb::FloatGrid>(readVdb(path("saved.vdb")).grids.at(0));
+        return readVdb(path("saved.vdb")).grids;
     }
 
     /// Compares bricks with the whole, bit by bit.
@@ -104,7 +107,7 @@ protected:
         BallSet atoms;
         atoms.balls = balls;
         MolecularSurface whole = makeSurface(atoms, options, &progress);
-        whole.surface = saved(whole.surface);
+        whole.surface = openvdb::gridPtrCast<openvdb::FloatGrid>(saved(whole).at(0));
         const BrickPlan plan = planBricks(atoms, options, {count, 0}, progress);
         ASSERT_GT(plan.bricks.size(), 1u);
         const std::vector<BrickFile> bricks = bricksOf(atoms, options, plan);
@@ -220,6 +223,64 @@ TEST_F(Bricks, UnionsAreThoseOfTheWhole)
     // Of the whole, area, volume and pieces are those of the balls and not of the mesh.
     expectSame(chain(), coarse(SurfaceKind::VanDerWaals), 3, false);
     expectSame(chain(), coarse(SurfaceKind::SolventAccessible), 3, false);
+}
+
+/// Voxels of a grid that differ from those of another in value or activity.
+template<typename GridT>
+std::size_t differing(const openvdb::GridBase& a, const openvdb::GridBase& b)
+{
+    const auto &left = dynamic_cast<const GridT&>(a), &right = dynamic_cast<const GridT&>(b);
+    const auto values = right.getConstAccessor();
+    std::size_t wrong = left.activeVoxelCount() != right.activeVoxelCount();
+    for (auto it = left.cbeginValueOn(); it; ++it)
+        wrong += !values.isValueOn(it.getCoord()) || values.getValue(it.getCoord()) != *it;
+    return wrong;
+}
+
+// A value beside a face of a brick is one of the surface, whose normal needs what lies behind it.
+TEST_F(Bricks, FieldsAreThoseOfTheWhole)
+{
+    constexpr std::size_t count = 500;
+    BallSet atoms;
+    atoms.balls = chain();
+    atoms.balls.resize(count);
+    BallLabels& labels = atoms.labels.emplace();
+    labels.chains = {"A"};
+    labels.groups = {{"all", count, {}}};
+    labels.chainOf.assign(count, 0);
+    labels.groupOf = labels.chainOf;
+    labels.elementOf.assign(count, 6);
+    labels.residueClassOf.assign(count, ResidueClass::Other);
+    BallValues& of = labels.values.emplace();
+    of.name = "bfactor";
+    of.unit = "Å²";
+    for (std::size_t i = 0; i < count; ++i) of.valueOf.push_back(float(i % 7) / 6.0f);
+    SurfaceOptions options = coarse();
+    options.evolution.steps = 6;
+    options.color = ColorBy::Value;
+    for (const FieldRow& row : fieldTable())
+        if (!(row.missingIn & InBricks) && row.name != "v") options.fields.push_back(row.name);
+    Progress progress;
+    const openvdb::GridPtrVec expected = saved(makeSurface(atoms, options, &progress));
+    const BrickPlan plan = planBricks(atoms, options, {4, 0}, progress);
+    OutputFile vdb(path("merged.vdb"), true);
+    writeMergedVdb(bricksOf(atoms, options, plan), options.voxel, "test", {}, vdb, progress);
+    vdb.commit();
+    const openvdb::GridPtrVec merged = readVdb(path("merged.vdb")).grids;
+    ASSERT_EQ(merged.size(), expected.size());
+    ASSERT_EQ(merged.size(), options.fields.size() + 1);
+    for (std::size_t g = 0; g < merged.size(); ++g) {
+        const openvdb::GridBase &a = *expected[g], &b = *merged[g];
+        ASSERT_EQ(a.getName(), b.getName());
+        ASSERT_EQ(a.type(), b.type()) << a.getName();
+        for (const char* word : {"attribute", "unit"})
+            EXPECT_EQ(a[word] ? a[word]->str() : "", b[word] ? b[word]->str() : "") << a.getName();
+        EXPECT_EQ(a.isType<openvdb::FloatGrid>()   ? differing<openvdb::FloatGrid>(a, b)
+                  : a.isType<openvdb::Int32Grid>() ? differing<openvdb::Int32Grid>(a, b)
+                                                   : differing<openvdb::Vec3SGrid>(a, b),
+                  0u)
+            << a.getName();
+    }
 }
 
 TEST_F(Bricks, HoldTheWholeSpaceOnce)
