@@ -98,7 +98,7 @@ KEYWORDS = [
     ({"voxel": True}, TypeError, "voxel: expected float, got bool"),
     ({"voxel": [1, 2]}, TypeError, "voxel: expected float, got list"),
     ({"voxel": 1j}, TypeError, "voxel: expected float, got complex"),
-    ({"kind": "see"}, ms.OptionError, "`kind`: expected variational or ses or sas or vdw or gaussian, got 'see' "
+    ({"kind": "see"}, ms.OptionError, "`kind`: expected variational or ses or sas or vdw or gaussian or smooth-sas, got 'see' "
                                       "[hint: did you mean ses?]"),
     ({"kind": 3}, TypeError, "kind: expected str, got int"),
     ({"fill_cavities": 1}, TypeError, "fill_cavities: expected bool, got int"),
