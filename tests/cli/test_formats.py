@@ -181,8 +181,15 @@ class Formats(ToolTest):
     def test_volumes_hold_the_distance(self):
         """A ball in general position: r - R near the surface, and the same values in both files."""
         self.write("ball.xyzr", "1.3 -2.1 0.7 3.0\n")
-        for more, center in ([], (1.3, -2.1, 0.7)), (["--center"], (0.0, 0.0, 0.0)):
-            self.check(0, "ball.xyzr", "--surface", "vdw", "--voxel", "0.5", *more, "-o", "a.mrc", "-o", "a.dx", "--force")
+        volumes = ["-o", "a.mrc", "-o", "a.dx", "--force"]
+        for more, center, stored in (([], (1.3, -2.1, 0.7), False), (["--center"], (0.0, 0.0, 0.0), False),
+                                     (["--for", "blender=0.1"], (1.3, -2.1, 0.7), True)):
+            build = ["ball.xyzr", "--surface", "vdw", "--voxel", "0.5", *more]
+            if stored:
+                self.check(0, *build, "-o", "a.vdb")
+                self.check(0, "convert", "a.vdb", *volumes)
+            else:
+                self.check(0, *build, *volumes)
             for name in ("a.mrc", "a.dx"):
                 origin, steps, counts, grid = self.volume(name)
                 self.assertEqual(min(counts), max(counts))

@@ -34,9 +34,16 @@ struct DenseBox {
 
 DenseBox denseBoxOf(const openvdb::FloatGrid& surface, const Vec3d& origin, const OutputFile& file)
 {
+    const double h = surface.voxelSize()[0];
+    const Vec3d zero = surface.indexToWorld(Vec3d(0.0));
+    for (const Vec3d& axis : {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)})
+        if (!(surface.indexToWorld(axis) - zero).eq(h * axis, 1e-6 * h))
+            throw Error(ErrorKind::Input, "cannot write " + file.path() +
+                                              ": expected a level set along the axes, got one that "
+                                              "is turned");
     const openvdb::CoordBBox box = surface.evalActiveVoxelBoundingBox();
     const DenseBox dense{box.min(), box.dim(), surface.transform().indexToWorld(box.min()) - origin,
-                         surface.voxelSize()[0]};
+                         h};
     if (dense.count() > std::numeric_limits<std::int32_t>::max())
         throw Error(ErrorKind::Output,
                     "cannot write " + file.path() +

@@ -17,6 +17,7 @@ namespace molsurf
 ///
 /// @param[in] surface  with cubic voxels along the axes [Å]
 /// @param[in] origin   the point of space that is 0 in the file [Å]
+/// @throws Error(ErrorKind::Input) if the voxels do not lie along the axes
 /// @throws Error(ErrorKind::Output) if the file cannot be written, or the box has more than 2^31
 ///         points
 void writeMrc(const openvdb::FloatGrid& surface, const openvdb::Vec3d& origin, OutputFile& file);

@@ -341,9 +341,11 @@ StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::Met
     ColorBy& by = stored.options.color;
     by = options.color == ColorBy::Nothing ? storedColors(from) : options.color;
     addColors(from, options.color == ColorBy::Nothing, by, run, progress);
+    if ((coloring.range || !coloring.palette.empty()) && !kindOf(by).ofCurvature)
+        stored.warnings.push_back("`range` and `palette`: the colours are those of the file, only "
+                                  "curvatures get others [hint: both when it is built]");
     stored.names.labels = std::move(names);
     stored.result = run.finish();
-    stored.result.surface = nullptr; // it is the file's
     return stored;
 }
 

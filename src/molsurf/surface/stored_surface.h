@@ -18,7 +18,7 @@ namespace molsurf
 /// A surface that was read back, and how it relates to its file.
 struct StoredSurface {
     /// Mesh with curvatures, labels and colours; the grid Cd if colours were asked for, the only
-    /// field, placed as the surface of the file; a report of the mesh.
+    /// field, placed as the surface of the file; the level set in Å; a report of the mesh.
     MolecularSurface result;
     BallSet names;          ///< chains and groups with their colours, for legends; no balls
     SurfaceOptions options; ///< color: what the colours show, if they show what the program knows
