@@ -240,6 +240,16 @@ class Frames(ToolTest):
         self.check(1, "few.pdb", *FAST, "--frames", "3-4", *out, says="frame 4: expected 1230")
         self.assertLessEqual(set(self.names()), {"hole.pdb", "few.pdb", "a.0001.vdb"})
 
+    def test_models_without_good_numbers_are_counted(self):
+        text = gzip.decompress(NMR.read_bytes()).decode()
+        for number in ("0", "2"):
+            (self.folder / "a.pdb").write_text(text.replace("MODEL        1", f"MODEL        {number}"))
+            self.check(0, "a.pdb", *FAST, "--surface", "sas", "--frames", "1-3:2", "-o", "a.csv", "--force",
+                       says="are counted from 1 to 10")
+            self.check(0, NMR, *FAST, "--surface", "sas", "--frames", "1-3:2", "-o", "b.csv", "--force")
+            areas = [[row["area"] for row in self.table(name)] for name in ("a.csv", "b.csv")]
+            self.assertEqual(*areas)
+
     def test_a_run_that_ended_early(self):
         (self.folder / "t.dcd").write_bytes(dcd(self.moved(3), promised=5))
         self.check(0, CRAMBIN, *FAST, "--trajectory", "t.dcd", "-o", "a.csv",

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 namespace molsurf
 {
@@ -31,6 +32,21 @@ void checkCoordinates(const Structure& structure, const std::string& path)
     }
 }
 
+/// Models are asked for by number. Where a number is below 1 or stands twice, they are counted.
+void numberModels(Structure& structure)
+{
+    std::set<int> numbers;
+    for (const Model& model : structure.models)
+        if (model.number > 0) numbers.insert(model.number);
+    if (numbers.size() == structure.models.size()) return;
+    int count = 0;
+    for (Model& model : structure.models) model.number = ++count;
+    if (count > 1)
+        structure.warnings.push_back("a number of a model is below 1 or stands twice: the models "
+                                     "are counted from 1 to " +
+                                     std::to_string(count));
+}
+
 Structure parseAndCheck(StructureFormat format, std::string text, const std::string& path,
                         const Progress& progress)
 {
@@ -47,6 +63,7 @@ Structure parseAndCheck(StructureFormat format, std::string text, const std::str
                         (records ? "ATOM or HETATM records" : "coordinates") + ", got none");
     }
     checkCoordinates(structure, path);
+    numberModels(structure);
     if (!structure.hasRadii) markBeads(structure);
     return structure;
 }
