@@ -70,7 +70,7 @@ class Bricks(ToolTest):
         merged, whole = self.report("m.json"), self.report("w.json")
         self.assertEqual(list(merged), list(whole))
         self.assertEqual(list(merged["surface"]), list(whole["surface"]))
-        for name in ("euler_characteristic", "components", "cavities", "vertices", "triangles",
+        for name in ("euler_characteristic", "mesh_euler_characteristic", "components", "cavities", "vertices", "triangles",
                      "closed", "manifold", "degenerate_triangles", "kink_share", "gradient_share"):
             self.assertEqual(merged["surface"][name], whole["surface"][name], name)
         for name in ("area", "volume", "outer_area"):

@@ -285,6 +285,9 @@ class ThreeMf(ToolTest):
             self.assertEqual(len(vertices), part["surface"]["vertices"])
             self.assertEqual(len(triangles), part["surface"]["triangles"])
             self.assertEqual(len(set(colors)), 1)
+        for key in ("mesh_euler_characteristic", "euler_characteristic"):
+            self.assertEqual(report["surface"][key], sum(part["surface"][key] for part in report["parts"]))
+            self.assertNotEqual(report["surface"][key], 0)
         self.assertNotEqual(objects[0][3][0], objects[1][3][0])
 
     def test_same_mesh_same_bytes(self):

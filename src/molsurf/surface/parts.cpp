@@ -106,6 +106,16 @@ void append(Mesh& mesh, const Mesh& part, const std::string& name)
     }
 }
 
+/// Adds what may not be known.
+template<typename T>
+void add(std::optional<T>& sum, const std::optional<T>& part)
+{
+    if (sum && part)
+        *sum += *part;
+    else
+        sum.reset();
+}
+
 /// Adds all but the statistics of curvature.
 void add(SurfaceReport& sum, const SurfaceReport& part)
 {
@@ -123,13 +133,17 @@ void add(SurfaceReport& sum, const SurfaceReport& part)
         std::max(1.0, double(sum.vertices + part.vertices));
     if (sum.vertices == 0) {
         sum.kind = part.kind;
+        sum.meshArea = sum.meshVolume = 0.0;
         sum.closed = sum.manifold = true;
     } else if (sum.kind != part.kind) {
         sum.kind = "mixed";
     }
     sum.area += part.area;
     sum.volume += part.volume;
-    *sum.eulerCharacteristic += *part.eulerCharacteristic; // no part is of a symmetric unit
+    add(sum.eulerCharacteristic, part.eulerCharacteristic);
+    sum.meshEulerCharacteristic += part.meshEulerCharacteristic;
+    add(sum.meshArea, part.meshArea);
+    add(sum.meshVolume, part.meshVolume);
     sum.components += part.components;
     append(sum.cavities, part.cavities);
     sum.outerArea += part.outerArea;
