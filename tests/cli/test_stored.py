@@ -58,6 +58,19 @@ class Stored(ToolTest):
                 self.check(0, "convert", "a.vdb", "-o", "b.ply", "--force")
                 self.same_shape("a.ply", "b.ply")
 
+    def test_specks_are_in_neither(self):
+        """Pieces of less than a tenth of a voxel, of which these have some dozens."""
+        for words in (["sas", "--voxel", "0.8"], ["vdw", "--voxel", "0.5"], ["gaussian", "--voxel", "0.5"]):
+            self.check(0, DIMER, "--assembly", "1", "--surface", *words, "--fields", "spline", "-o", "a.vdb", "-o", "a.ply",
+                       "--force")
+            self.check(0, "convert", "a.vdb", "-o", "b.ply", "--force")
+            self.same_shape("a.ply", "b.ply")
+
+    def test_values_keep_their_colours(self):
+        self.check(0, CRAMBIN, *FAST, "--color", "bfactor", "--fields", "spline,Cd,value", "-o", "a.vdb")
+        for words in (["--range", "0,5"], ["--palette", "turbo"]):
+            self.check(0, "convert", "a.vdb", *words, "-o", "a.ply", "--force", says="colours are those of the file")
+
     def test_scene_is_undone(self):
         """Of a scaled .vdb the values are rounded twice."""
         self.build("--for", "blender=nm", "--center")

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/balls/sphere_region.h"
 
+#include "molsurf/core/spherical_area.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -75,13 +77,6 @@ void addRimArcs(const std::vector<SphereCap>& caps, int own, RegionScratch& scra
     }
 }
 
-/// The area of the triangle of three directions, positive if they are anticlockwise (van Oosterom
-/// and Strackee).
-double triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c)
-{
-    return 2.0 * std::atan2(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
-}
-
 /// The area that an arc and the great circles from its ends to a point enclose.
 double fan(const RimArc& arc, const SphereCap& cap, const Vec3d& point)
 {
@@ -97,7 +92,7 @@ double fan(const RimArc& arc, const SphereCap& cap, const Vec3d& point)
     Vec3d from = arc.begin;
     for (int k = 1; k <= parts; ++k) {
         const Vec3d to = k == parts ? arc.end : rim.at(start + k * angle);
-        area += triangle(point, from, to);
+        area += sphericalArea(point, from, to);
         from = to;
     }
     return area;

@@ -2,6 +2,7 @@
 #include "molsurf/mesh/integrate.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/spherical_area.h"
 #include "molsurf/spline/curvature.h"
 
 #include <algorithm>
@@ -76,13 +77,6 @@ Vec3d rise(const Point& p, const Point& q)
 {
     const Vec3d e = q.x - p.x;
     return e.dot(q.n) * q.n - e.dot(p.n) * p.n;
-}
-
-/// Signed area of a triangle of unit vectors on the sphere (van Oosterom, Strackee, The solid angle
-/// of a plane triangle, IEEE Trans. Biomed. Eng. 30(2):125-126, 1983).
-double sphericalArea(const Vec3d& a, const Vec3d& b, const Vec3d& c)
-{
-    return 2.0 * std::atan2(a.dot(b.cross(c)), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
 }
 
 class Integrator

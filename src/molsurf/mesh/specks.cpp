@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/mesh/specks.h"
 
+#include "molsurf/core/spherical_area.h"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace molsurf
@@ -33,30 +36,70 @@ std::vector<Coord> enclosedVoxels(const openvdb::FloatGrid::ConstAccessor& surfa
     return found;
 }
 
-/// Changes the signs of the voxels that a piece encloses.
-/// @param[in] cavity  whether the piece is the wall of a cavity
-void fill(const Mesh& mesh, const std::vector<std::uint32_t>& vertices, bool cavity,
-          openvdb::FloatGrid& surface)
+/// A closed piece of a mesh.
+struct Piece {
+    std::vector<std::uint32_t> vertices;
+    std::vector<std::size_t> triangles;
+};
+
+/// How much of all directions a piece covers, seen from a point: 1 within it, 0 outside.
+double coverOf(const Mesh& mesh, const Piece& piece, const Vec3d& x)
+{
+    double sum = 0.0;
+    for (const std::size_t t : piece.triangles) {
+        Vec3d way[3];
+        for (int k = 0; k < 3; ++k)
+            way[k] = (Vec3d(mesh.positions[mesh.triangles[t][k]]) - x).unitSafe();
+        sum += sphericalArea(way[0], way[1], way[2]);
+    }
+    return std::abs(sum) / (4.0 * M_PI);
+}
+
+/// Changes the signs of the voxels that a piece encloses. Those of another piece may be as near.
+void fill(const Mesh& mesh, const Piece& piece, openvdb::FloatGrid& surface)
 {
     const double voxel = surface.voxelSize()[0];
+    const std::vector<std::uint32_t>& vertices = piece.vertices;
     openvdb::CoordBBox box;
     for (const std::uint32_t v : vertices)
         box.expand(Coord::floor(Vec3d(mesh.positions[v]) / voxel));
     box.min() -= Coord(1);
     box.max() += Coord(2);
     openvdb::FloatGrid::Accessor access = surface.getAccessor();
+    std::set<Coord> seen;
+    std::vector<Coord> nearest; // voxels, for a flat piece that lies beside those it encloses
+    double least = std::numeric_limits<double>::max();
+    bool within = false;
+    Vec3d middle(0.0);
+    for (const std::uint32_t v : vertices) middle += Vec3d(mesh.positions[v]);
+    middle /= double(vertices.size());
+    const auto change = [&](const std::vector<Coord>& voxels) {
+        for (const Coord& ijk : voxels) access.setValueOnly(ijk, -access.getValue(ijk));
+    };
     for (const std::uint32_t v : vertices) {
         const Vec3d x = Vec3d(mesh.positions[v]) / voxel;
         constexpr double beside = 1.5; // of vertices, which slide along the surface [voxel]
         const openvdb::CoordBBox about(Coord::ceil(x - Vec3d(beside)),
                                        Coord::floor(x + Vec3d(beside)));
         for (auto corner = about.begin(); corner; ++corner) {
-            if ((access.getValue(*corner) < 0.0f) == cavity) continue;
-            for (const Coord& ijk :
-                 enclosedVoxels(surface.getConstAccessor(), *corner, !cavity, box))
-                access.setValueOnly(ijk, -access.getValue(ijk));
+            if (!seen.insert(*corner).second) continue;
+            std::vector<Coord> voxels = enclosedVoxels(surface.getConstAccessor(), *corner,
+                                                       access.getValue(*corner) < 0.0f, box);
+            seen.insert(voxels.begin(), voxels.end());
+            const bool own = std::any_of(voxels.begin(), voxels.end(), [&](const Coord& ijk) {
+                return coverOf(mesh, piece, voxel * ijk.asVec3d()) > 0.5;
+            });
+            if (own) change(voxels);
+            within = within || own;
+            for (const Coord& ijk : voxels) {
+                const double distance = (voxel * ijk.asVec3d() - middle).length();
+                if (distance >= least) continue;
+                least = distance;
+                nearest = voxels;
+            }
         }
     }
+    if (!within) change(nearest);
 }
 
 } // namespace
@@ -83,17 +126,21 @@ std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
         small[p] = small[p] && normals[p].length() <= rounding * pieces.measures[p].area;
     if (std::find(small.begin(), small.end(), 1) == small.end()) return std::nullopt;
 
-    std::vector<std::vector<std::uint32_t>> specks(count);
+    std::vector<Piece> specks(count);
     std::vector<std::uint32_t> kept, numbers(mesh.positions.size());
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
         numbers[v] = std::uint32_t(kept.size());
         if (small[pieces.of[v]])
-            specks[pieces.of[v]].push_back(v);
+            specks[pieces.of[v]].vertices.push_back(v);
         else
             kept.push_back(v);
     }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::uint32_t p = pieces.of[mesh.triangles[t][0]];
+        if (small[p]) specks[p].triangles.push_back(t);
+    }
     for (std::size_t p = 0; p < count; ++p)
-        if (small[p]) fill(mesh, specks[p], pieces.measures[p].volume < 0.0, surface);
+        if (small[p]) fill(mesh, specks[p], surface);
 
     const auto gone = [&](const auto& t) { return small[pieces.of[t[0]]] != 0; };
     mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), gone),

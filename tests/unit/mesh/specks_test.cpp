@@ -93,6 +93,20 @@ TEST(Specks, GoFromMeshAndLevelSet)
     }
 }
 
+// As in an accessible surface on coarse voxels: the mesh of the file would lack the cavity.
+TEST(Specks, LeaveACavityBesideThem)
+{
+    const auto grid = ball();
+    grid->getAccessor().setValue(Coord(4, 1, 0), 0.01f);
+    for (const Coord& at : {Coord(6, 1, 0), Coord(6, 2, 0)}) grid->getAccessor().setValue(at, 0.4f);
+    Mesh mesh = meshOf(*grid);
+    MeshPieces pieces = piecesOf(mesh);
+    ASSERT_EQ(pieces.measures.size(), 3u);
+    ASSERT_TRUE(dropSpecks(pieces, *grid, mesh).has_value());
+    EXPECT_EQ(pieces.measures.size(), 2u);
+    EXPECT_EQ(meshOf(*grid).triangles.size(), mesh.triangles.size());
+}
+
 TEST(Specks, NothingIsLeftOfASpeckAlone)
 {
     const auto grid = ball();
