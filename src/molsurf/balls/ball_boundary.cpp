@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
+#include <set>
 #include <unordered_map>
 
 namespace molsurf
@@ -112,6 +114,90 @@ bool cornersFit(const std::vector<Arc>& arcs)
         }
     }
     return sum == 0;
+}
+
+/// Whether an arc is no longer than the moves of balls make it where several of them meet in a
+/// point, or as good as that.
+bool isPoint(const Arc& arc, const std::vector<PlacedBall>& balls)
+{
+    constexpr double small = 1e-4; // of the radius of either ball
+    const double length = 2.0 * arc.half * arc.radius;
+    return arc.ends[0] >= 0 && length < small * balls[std::size_t(arc.balls[0])].radius &&
+           length < small * balls[std::size_t(arc.balls[1])].radius;
+}
+
+/// The corners of pieces of the boundary that are points: each ends three arcs that are points.
+/// One probe fits there and cannot move, or just does not fit: the moves would decide.
+std::set<CornerName> pointCorners(const std::vector<BallParts>& all,
+                                  const std::vector<PlacedBall>& balls)
+{
+    std::map<CornerName, std::vector<std::uint32_t>> arcsAt;
+    std::uint32_t count = 0;
+    for (const BallParts& parts : all) {
+        for (const Arc& arc : parts.arcs) {
+            if (!isPoint(arc, balls)) continue;
+            for (int e = 0; e < 2; ++e) arcsAt[cornerAt(arc, e)].push_back(count);
+            ++count;
+        }
+    }
+    DisjointSets pieces(count);
+    for (const auto& [corner, arcs] : arcsAt)
+        for (const std::uint32_t arc : arcs) pieces.join(arcs.front(), arc);
+    std::set<std::uint32_t> open;
+    for (const auto& [corner, arcs] : arcsAt)
+        if (arcs.size() < 3) open.insert(pieces.find(arcs.front()));
+    std::set<CornerName> out;
+    for (const auto& [corner, arcs] : arcsAt)
+        if (open.count(pieces.find(arcs.front())) == 0) out.insert(corner);
+    return out;
+}
+
+/// Whether a sphere that lost all its arcs is not covered, by a direction that is none of a
+/// crystal.
+bool isBare(const std::vector<PlacedBall>& balls, std::size_t n, const std::vector<BallParts>& all,
+            const std::vector<Counts>& counts)
+{
+    const Vec3d direction(0.36137, 0.48291, -0.79764);
+    const std::size_t first = n / BallParts::balls;
+    auto other = all[first].capOthers.begin();
+    for (std::size_t i = first * BallParts::balls; i < n; ++i) other += counts[i].caps;
+    return std::none_of(other, other + counts[n].caps, [&](std::int32_t o) {
+        Cap cap{};
+        relate(balls[n], balls[std::size_t(o)], o, cap);
+        return direction.dot(cap.axis) > cap.cosine * direction.length();
+    });
+}
+
+/// Takes the pieces that are points from what balls have.
+/// @param[in,out] exposed  whether a ball has any part in the boundary
+void dropPoints(const std::vector<PlacedBall>& balls, std::vector<BallParts>& all,
+                std::vector<Counts>& counts, std::vector<std::uint8_t>& exposed)
+{
+    const std::set<CornerName> points = pointCorners(all, balls);
+    if (points.empty()) return;
+    std::set<std::int32_t> touched;
+    for (BallParts& parts : all) {
+        std::vector<Arc> arcs;
+        std::vector<Corner> corners;
+        auto corner = parts.corners.begin();
+        for (const Arc& arc : parts.arcs) {
+            const bool gone = isPoint(arc, balls) && points.count(cornerAt(arc, 0)) > 0;
+            Counts& own = counts[std::size_t(arc.balls[0])];
+            own.arcs -= gone;
+            if (gone) touched.insert(arc.balls, arc.balls + 2);
+            if (!gone) arcs.push_back(arc);
+            for (const std::int32_t end : arc.ends) {
+                if (end <= arc.balls[1]) continue; // another arc keeps the corner
+                own.corners -= gone;
+                if (!gone) corners.push_back(*corner);
+                ++corner;
+            }
+        }
+        parts.arcs = std::move(arcs);
+        parts.corners = std::move(corners);
+    }
+    for (const std::int32_t n : touched)
+        exposed[std::size_t(n)] = isBare(balls, std::size_t(n), all, counts);
 }
 
 /// Numbers the parts of the union that hang together, each of which has a patch.
@@ -221,6 +307,7 @@ BallBoundary boundaryOf(std::vector<PlacedBall> placed, const Progress& progress
             find(n, s, s.parts);
         all[c] = s.parts; // a copy takes no more memory than it needs
     });
+    dropPoints(balls, all, counts, exposed);
     CellVolume cells{};
     for (const BallParts& parts : all) {
         cells.volume += parts.cells.volume;

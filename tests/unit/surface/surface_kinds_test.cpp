@@ -88,6 +88,36 @@ TEST(SolventExcluded, MeshesHaveNearlyTheClosedForm)
     }
 }
 
+// One probe that touches all balls about a hole: mesh and closed form have to agree on whether it
+// is there. A hole that is a little larger has one, a smaller one has not.
+TEST(SolventExcluded, OfAHoleThatAProbeJustFits)
+{
+    const double third = 1.0 / std::sqrt(3.0);
+    std::vector<Vec3d> octahedron, cube, tetrahedron;
+    for (int k = 0; k < 6; ++k) {
+        Vec3d way(0.0);
+        way[k / 2] = k % 2 ? 1.0 : -1.0;
+        octahedron.push_back(way);
+    }
+    for (int k = 0; k < 8; ++k) {
+        cube.push_back(third * Vec3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
+        if (k == 0 || k == 3 || k == 5 || k == 6) tetrahedron.push_back(cube.back());
+    }
+    for (const auto* ways : {&octahedron, &cube, &tetrahedron}) {
+        for (const double distance : {2.99, 3.0, 3.01}) { // of a probe that touches balls of 1.6 Å
+            std::vector<Ball> balls;
+            for (const Vec3d& way : *ways)
+                balls.push_back({Vec3f(distance * way), 1.6f, std::int32_t(balls.size())});
+            const SurfaceReport s =
+                test::runOn(balls, optionsFor(SurfaceKind::SolventExcluded, 0.25)).report.surface;
+            const bool walled = ways->size() > 4; // between four balls it meets those outside
+            EXPECT_EQ(s.cavities.size(), walled && distance > 3.0 ? 1u : 0u) << ways->size();
+            EXPECT_EQ(s.eulerCharacteristic, s.meshEulerCharacteristic) << ways->size();
+            EXPECT_NEAR(*s.meshArea, s.area, 0.01 * s.area) << ways->size() << ' ' << distance;
+        }
+    }
+}
+
 // Against the area and volume of NanoShaper 1.5 at 0.125 Å.
 TEST(SolventExcluded, OfProteins)
 {
