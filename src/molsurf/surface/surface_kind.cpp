@@ -105,11 +105,13 @@ void failIfTooCoarse(const std::string& what, const std::vector<Ball>& balls,
     // Of random molecules those with voxels up to 0.7 radii come out whole.
     const double radius = double(largestRadius(balls));
     if (balls.empty() || options.voxel <= radius) return;
-    throw Error(
-        ErrorKind::Numeric,
-        what.substr(0, what.find(" [hint")) +
-            formatted(": voxels of %.3g Å are too large for the balls [hint: a `voxel` of %.2g]",
-                      options.voxel, 0.5 * radius));
+    constexpr double smallest = 0.05; // voxel that can be asked for [Å]
+    const std::string hint =
+        0.5 * radius >= smallest ? formatted(" [hint: a `voxel` of %.2g]", 0.5 * radius) : "";
+    throw Error(ErrorKind::Numeric,
+                what.substr(0, what.find(" [hint")) +
+                    formatted(": voxels of %.3g Å are too large for the balls", options.voxel) +
+                    hint);
 }
 
 GaussianOptions gaussianOptions(const SurfaceOptions& options)

@@ -315,9 +315,13 @@ void SurfaceRun::mesh()
 
 void SurfaceRun::checkLeft() const
 {
-    if (!scope_.region.whole() || !result_.mesh.triangles.empty()) return;
-    failIfTooCoarse("mesh: nothing of the molecule is left", atoms_.balls, options_);
-    failNothingLeft("mesh", options_.kind);
+    constexpr std::size_t few = 30; // fewer than a ball has whose radius is a voxel
+    const std::size_t triangles = result_.mesh.triangles.size();
+    if (!scope_.region.whole() || triangles >= few) return;
+    failIfTooCoarse(triangles > 0 ? "mesh: a few triangles are no surface of the molecule"
+                                  : "mesh: nothing of the molecule is left",
+                    atoms_.balls, options_);
+    if (triangles == 0) failNothingLeft("mesh", options_.kind);
 }
 
 bool SurfaceRun::fillCavities()
