@@ -222,8 +222,11 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     run.curvatures();
     run.describeCurvature();
     const double area = surface.area;
-    if (isBoundary(options))
+    if (isBoundary(options)) {
+        surface.meshArea = surface.area;
+        surface.meshVolume = surface.volume;
         run.result().ballAreas = takeClosedForm(atoms, grown, progress, surface);
+    }
     checkFit(fit, area / double(placement.order()), surface);
     watch.stop("unit");
     run.freeFields();

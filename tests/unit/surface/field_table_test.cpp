@@ -72,6 +72,9 @@ TEST(FieldTable, SaysWhichWaysGiveWhat)
     EXPECT_EQ(missing(BySymmetry, "curvedness"), "`fields` atom_id");
     EXPECT_EQ(missingIn(BySymmetry, coloredBy(ColorBy::Nothing, {"curvedness"})), "");
     EXPECT_EQ(missing(InClosedForm, "curvedness"), "`surface`");
+    SurfaceOptions totals;
+    totals.curvatureTotals = true;
+    EXPECT_EQ(missingIn(BySymmetry, totals), "`curvatureTotals`");
 }
 
 TEST(ValueField, IsThatOfTheNearestBall)
