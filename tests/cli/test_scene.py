@@ -48,6 +48,14 @@ class Refused(ToolTest):
         self.assertEqual((self.folder / "a.usda").read_text(), "mine")
 
 
+class Copies(ToolTest):
+    def test_without_a_vdb_no_grid_is_asked_for(self):
+        """By symmetry there is none; the mesh and the stage have colours all the same."""
+        self.check(0, DATA / "1a8o.cif.gz", "--assembly", "1", "--by-symmetry", *FAST, "--for", "usd=nm", "-o", "a.usda",
+                   "-o", "a.ply")
+        self.assertIn(b"property uchar red", (self.folder / "a.ply").read_bytes())
+
+
 @needs("openvdb")
 class Grids(ToolTest):
     def grids(self, name):

@@ -107,7 +107,7 @@ void warnOfKinds(Call& call)
 // To be called before completeSurface().
 void completeScene(Call& call)
 {
-    if (call.scene.known()) {
+    if (call.scene.known() && (call.outputs.empty() || call.writes(Grids))) {
         for (const char* field : {"density", "Cd"}) {
             // Copies have colours instead of vertices.
             if (field == std::string("Cd") && call.colorsCopies()) continue;
@@ -240,7 +240,8 @@ void completeGroups(Call& call)
         call.atoms.groupBy = call.colorGroups;
         options.color = ColorBy::Group;
     }
-    if (hasField(options.fields, "Cd") && options.color == ColorBy::Nothing)
+    const bool shown = call.scene.known() && !call.colorsCopies();
+    if ((shown || hasField(options.fields, "Cd")) && options.color == ColorBy::Nothing)
         options.color = ColorBy::Chain;
     const bool labels = std::any_of(options.fields.begin(), options.fields.end(),
                                     [](auto& field) { return findField(field)->needsLabels; });

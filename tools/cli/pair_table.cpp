@@ -65,6 +65,12 @@ std::vector<Pair> assemblyPairs()
              Excludes,
              {"by-symmetry"},
              ": it makes no grid of the whole [hint: --memory 8G in its place makes it in bricks]"},
+            {"memory",
+             Excludes,
+             {"for"},
+             ": the density of a .vdb needs the whole at once [hint: --fields surface,Cd in its "
+             "place]",
+             [](const Call& call) { return !call.writes(Grids); }},
             {"by-symmetry",
              Excludes,
              {{Areas, "contacts", ofResidues},
@@ -152,7 +158,7 @@ std::vector<Pair> runPairs()
 {
     const auto fromModels = [](const Call& call) { return !call.trajectory.empty(); };
     const auto ofPlan = [](const Call& call) { return call.verb == BricksPlan; };
-    const auto notBuild = [](const Call& call) { return call.verb != Build; };
+    const auto ofStored = [](const Call& call) { return call.verb == Convert; };
     const std::vector<Thing> notOfFrames = {"memory", "dry-run", "turntable", "output=-"};
     return {
         {"quiet", Excludes, {"verbose"}},
@@ -161,7 +167,7 @@ std::vector<Pair> runPairs()
         {"trajectory", Excludes, notOfFrames},
         {"model", Excludes, {"frames"}, ": frames are models [hint: --trajectory]", fromModels},
         {"start", IsFor, {"frames", "trajectory"}, "--frames"},
-        {"fields=v", Needs, {"frames", "trajectory"}, ": it is the way between frames", notBuild},
+        {"fields=v", Needs, {"frames", "trajectory"}, ": it is the way between frames", ofStored},
         {{FrameRows}, Needs, {"frames", "trajectory"}, " [hint: -o FILE.residues.csv for areas]"},
         {"turntable", Excludes, {"output=-"}},
         {{Script}, Excludes, {"frames", "trajectory"}},
