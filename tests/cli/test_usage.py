@@ -237,6 +237,17 @@ class Config(ToolTest):
         self.assertRegex(text, r"option.waters +true\n")
         self.assertRegex(text, r"option.lambda +0.03\n")
 
+    def test_switches_have_values(self):
+        for value, on in (("yes", True), ("OFF", False), ("0", False)):
+            self.write(f"waters = {value}\n")
+            self.check(0, CRAMBIN, *FAST, "-o", "a.vdb", "--config", "c.txt", "--force")
+            found = b"option.waters   true" in self.check(0, "info", "a.vdb").stdout
+            self.assertEqual(found, on, value)
+        for line, says in (("waters = maybe", ["--waters", "'maybe'", "true or false"]), ("waters =", "--waters"),
+                           ("config = d.txt", "'config'"), ("help = true", "'help'")):
+            self.write(line + "\n")
+            self.check(2, CRAMBIN, "-o", "b.vdb", "--config", "c.txt", says=says)
+
     def test_unknown_name(self):
         self.write("voxle = 1\n")
         self.check(2, CRAMBIN, "-o", "a.vdb", "--config", "c.txt", says=["c.txt", "voxle"])

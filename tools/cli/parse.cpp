@@ -117,6 +117,17 @@ Verb takeVerb(std::vector<std::string>& words)
                 : hint));
 }
 
+/// Whether a switch is on, by its value in a file of options.
+bool isOn(const std::string& name, const std::string& value)
+{
+    const auto is = [&](std::initializer_list<const char*> words) {
+        return std::find(words.begin(), words.end(), lowered(value)) != words.end();
+    };
+    if (is({"true", "yes", "on", "1"})) return true;
+    if (is({"false", "no", "off", "0"})) return false;
+    misuse("--" + name + ": expected true or false, got '" + value + "'");
+}
+
 /// Adds what was parsed; what is there already stays.
 void add(Verb verb, const po::parsed_options& parsed, GivenOptions& given,
          std::vector<std::string>& inputs)
@@ -131,11 +142,8 @@ void add(Verb verb, const po::parsed_options& parsed, GivenOptions& given,
         const Option* known = findOption(verb, name);
         if (!known && std::find(std::begin(texts), std::end(texts), name) == std::end(texts))
             refuse(verb, "--" + name);
-        const bool on = !(known && known->value) && !option.value.empty()
-                            ? option.value[0] != "false" && option.value[0] != "no" &&
-                                  option.value[0] != "off" && option.value[0] != "0"
-                            : true;
-        if (!on) continue;
+        if (!(known && known->value) && !option.value.empty() && !isOn(name, option.value[0]))
+            continue;
         std::vector<std::string>& values = fresh[name];
         if (known && known->value && !known->repeats && !values.empty())
             misuse("--" + name + " is given twice");
@@ -155,6 +163,10 @@ void readConfig(const std::string& path, const po::options_description& all, Cal
     std::istringstream text(loadBytes(path, call.atoms.maxInput));
     try {
         const auto options = po::parse_config_file(text, all);
+        for (const auto& option : options.options)
+            if (option.string_key == "config" ||
+                std::count(std::begin(texts), std::end(texts), option.string_key) > 0)
+                misuse("'" + option.string_key + "' is for the command line alone");
         add(call.verb, options, call.given, call.inputs);
     } catch (const po::error& e) {
         misuse("--config " + path + ": " + e.what());
