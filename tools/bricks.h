@@ -56,7 +56,8 @@ std::string summary(const Report& report);
 void sayTimes(const Report& report);
 
 /// Says so if the flow did not converge.
+/// @param[in] more  option that lets it make more steps
 /// @return the exit status
-int endOf(const Report& report);
+int endOf(const Report& report, const std::string& more);
 
 } // namespace molsurf::tool

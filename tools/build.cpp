@@ -77,7 +77,8 @@ RunLimits limitsOf(const Call& call)
 std::string summary(const Report& report)
 {
     const SurfaceReport& surface = report.surface;
-    const bool byMesh = surface.kind == "ses" && surface.triangles > 0 && !surface.meshArea;
+    const bool exact = surface.kind == "ses" || surface.kind == "sas" || surface.kind == "vdw";
+    const bool byMesh = exact && surface.triangles > 0 && !surface.meshArea;
     std::string line = formatted("%s%s: area %.1f Å^2, volume %.1f Å^3, ", surface.kind.c_str(),
                                  byMesh ? " by its mesh" : "", surface.area, surface.volume);
     if (surface.piecesKnown) {
@@ -218,14 +219,14 @@ Report buildSurface(Call call, Clock::time_point start, const Companions& compan
 int build(const Call& call, Clock::time_point start)
 {
     if (call.options.grid && (call.memory > 0 || call.dryRun)) return buildInBricks(call, start);
-    return endOf(buildSurface(call, start));
+    return endOf(buildSurface(call, start), call.has("steps") ? "--steps" : "--max-steps");
 }
 
-int endOf(const Report& report)
+int endOf(const Report& report, const std::string& more)
 {
     const auto& evolution = report.evolution;
     if (evolution && !evolution->converged) {
-        say(unrestText(*evolution, report.voxel));
+        say(unrestText(*evolution, report.voxel, more));
         return notConvergedStatus;
     }
     return 0;

@@ -125,7 +125,9 @@ int buildInBricks(Call call, Clock::time_point start)
     one.bricks[0].seconds += limits.besides.seconds;
     const std::size_t whole = one.bricks[0].bytes;
     if (call.memory == 0 || memoryFor(one.bricks[0]) <= call.memory) {
-        if (!call.dryRun) return endOf(buildSurface(call, atoms, report, terminal, start));
+        if (!call.dryRun)
+            return endOf(buildSurface(call, atoms, report, terminal, start),
+                         call.has("steps") ? "--steps" : "--max-steps");
         terminal.erase();
         for (const std::string& line : describePlan(one)) say(line);
         return 0;
@@ -163,7 +165,7 @@ int buildInBricks(Call call, Clock::time_point start)
     malloc_trim(0);
     mergeBricks(call, plan, paths, "one process", meshed, terminal, start, report);
     if (!call.quiet) say(summary(report));
-    return endOf(report);
+    return endOf(report, "--steps");
 }
 
 } // namespace molsurf::tool

@@ -64,7 +64,7 @@ int merge(const Call& call, Clock::time_point start)
         for (const std::string& warning : report.warnings) say("warning: " + warning);
         say(summary(report));
     }
-    return endOf(report);
+    return endOf(report, "bricks plan --steps");
 }
 
 } // namespace molsurf::tool

@@ -85,8 +85,9 @@ bool stillTravels(const std::vector<double>& areas)
 
 } // namespace
 
-std::string unrestText(const EvolutionReport& evolution, double voxel)
+std::string unrestText(const EvolutionReport& evolution, double voxel, const std::string& more)
 {
+    if (evolution.steps == 0) return "not converged: no step was made [hint: more " + more + "]";
     const std::string steps = counted(std::size_t(evolution.steps), "step", "steps");
     if (evolution.displacementTail == 0.0) // the paper's flow solves for no displacement
         return "not converged after " + steps +
@@ -96,7 +97,7 @@ std::string unrestText(const EvolutionReport& evolution, double voxel)
     const double accepted = unit * std::ceil(1.05 * tolerance / unit);
     const std::string hint =
         stillTravels(evolution.area)
-            ? formatted("[hint: --max-steps %d goes on, --tolerance %g accepts that]",
+            ? formatted("[hint: %s %d goes on, --tolerance %g accepts that]", more.c_str(),
                         4 * evolution.steps, accepted)
             : formatted("[hint: --tolerance %g accepts that, a smaller --voxel resolves it]",
                         accepted);

@@ -206,6 +206,9 @@ CASES = {
          "vdb_molsurf convert a.vdb --color element -o a.ply",
          f"vdb_molsurf 1crn.pdb {FAST} --color element --fields spline,Cd -o b.vdb && "
          "vdb_molsurf convert b.vdb --color element -o a.ply"),
+        ("both when it is built",
+         f"vdb_molsurf 1crn.pdb {FAST} --color bfactor --fields spline,Cd -o a.vdb; vdb_molsurf convert a.vdb --palette turbo -o a.ply",
+         f"vdb_molsurf 1crn.pdb {FAST} --color bfactor --palette turbo --fields spline,Cd -o b.vdb && vdb_molsurf convert b.vdb -o b.ply"),
         ("--fields spline when it is built", f"vdb_molsurf one.xyzr {FAST} -o a.vdb; vdb_molsurf convert a.vdb -o a.ply",
          f"vdb_molsurf one.xyzr {FAST} --fields spline -o b.vdb && vdb_molsurf convert b.vdb -o b.ply")],
     "surface/compare.cpp": [
@@ -341,6 +344,8 @@ CASES = {
         ("vdb_molsurf bricks merge plan.json -o surface.vdb", f"{PLAN}; {RUN}; vdb_molsurf bricks merge",
          "vdb_molsurf bricks merge plan.json -o surface.vdb")],
     "tools/cli/pair_table.cpp": [
+        ("--fields surface,Cd in its place", f"vdb_molsurf 1crn.pdb {FAST} --memory 1G --for blender -o a.vdb",
+         f"vdb_molsurf 1crn.pdb {FAST} --memory 1G --fields surface,Cd -o a.vdb"),
         ("--format ply", f"vdb_molsurf one.xyzr {FAST} -o - > a.ply",
          f"vdb_molsurf one.xyzr {FAST} -o - --format ply > a.ply"),
         ("-o FILE.residues.csv for areas", "vdb_molsurf 1crn.pdb -o a.csv", "vdb_molsurf 1crn.pdb -o a.residues.csv"),
@@ -390,6 +395,9 @@ CASES = {
          "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.05 --voxel 0.7 --tolerance 0.03",
          "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.05 --voxel 0.6")],
     "tools/outputs.cpp": [
+        ("more --steps", "vdb_molsurf one.xyzr --voxel 1 --steps 0 -o a.ply", "vdb_molsurf one.xyzr --voxel 1 --steps 4 -o b.ply"),
+        ("--steps 20 goes on", "vdb_molsurf 1a8o.cif.gz --assembly 1 --voxel 1 --regularizer area --lambda 0.5 --steps 5 -o a.ply",
+         "vdb_molsurf 1a8o.cif.gz --assembly 1 --voxel 1 --regularizer area --lambda 0.5 --steps 20 --tolerance 0.1 -o b.ply"),
         (" goes on, ", "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 -o a.ply",
          "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 -o a.ply --force 2>&1 | sed -n 's/.*hint: \\(--max-steps [0-9]*\\).*/\\1/p' > t; "
          "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 $(cat t) -o b.ply",

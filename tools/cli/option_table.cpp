@@ -564,7 +564,7 @@ OptionGroup flowOptions()
 {
     return {"Evolution",
             {setting("lambda", structures), setting("regularizer", structures),
-             setting("flow", structures), setting("max-steps", structures),
+             setting("flow", structures), setting("max-steps", structures & ~BricksPlan),
              with(setting("steps", structures),
                   [](Option& o) {
                       o.preset = std::to_string(defaultBrickSteps) + " in bricks, " +

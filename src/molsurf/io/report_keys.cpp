@@ -25,8 +25,10 @@ constexpr ReportKey keyTable[] = {
     {"surface", "", "The measures of the surface"},
     {"surface.kind", "", "The kind, as variational or ses; mixed, of parts of several kinds"},
     {"surface.area", "Å²",
-     "The area of all walls, those of cavities included. Of ses by symmetry, in bricks and with "
-     "filled cavities that of the mesh, which lacks what is narrower than a voxel"},
+     "The area of all walls, those of cavities included. Of ses by symmetry and with filled "
+     "cavities, and of ses, sas and vdw in bricks and with walls thickened, that of the mesh, "
+     "which lacks "
+     "what is narrower than a voxel"},
     {"surface.volume", "Å³", "The volume inside, cavities left out"},
     {"surface.euler_characteristic", "",
      "The Euler number of all walls: twice their number less twice the tunnels. Of ses, sas "
