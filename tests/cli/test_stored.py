@@ -64,7 +64,10 @@ class Stored(ToolTest):
             self.check(0, DIMER, "--assembly", "1", "--surface", *words, "--fields", "spline", "-o", "a.vdb", "-o", "a.ply",
                        "--force")
             self.check(0, "convert", "a.vdb", "-o", "b.ply", "--force")
-            self.same_shape("a.ply", "b.ply")
+            (names, a, triangles), (_, b, others) = self.ply("a.ply"), self.ply("b.ply")
+            self.assertEqual(len(triangles), len(others))
+            # Beside a speck that went vertices may come in another order.
+            self.assertEqual(sorted(columns(a, names, SHAPE)), sorted(columns(b, names, SHAPE)))
 
     def test_values_keep_their_colours(self):
         self.check(0, CRAMBIN, *FAST, "--color", "bfactor", "--fields", "spline,Cd,value", "-o", "a.vdb")
