@@ -36,16 +36,23 @@ namespace
 {
 
 /// Finds S = 0 between the corners of the cell of a point: the line from the corner nearest to the
-/// point to the nearest one of the other sign.
+/// point to the nearest one of the other sign. Where rounding has given all of them one sign, the
+/// corner where the level set and the spline differ lies on S = 0, as good as that.
 void bisect(SplineSampler& sampler, double voxel, Vec3d& x, Jet& jet)
 {
     constexpr int bisections = 30;
     const Coord cell = Coord::floor(x / voxel);
     Vec3d ends[2] = {x, x};
-    double distance[2] = {1e30, 1e30};
+    double distance[2] = {1e30, 1e30}, least = 1e30;
+    Vec3d zero = x;
     for (int k = 0; k < 8; ++k) {
         const Vec3d corner = cell.offsetBy(k >> 2, k >> 1 & 1, k & 1).asVec3d() * voxel;
-        const int side = sampler.at(corner).value < 0.0 ? 0 : 1;
+        const double value = sampler.at(corner).value;
+        const int side = value < 0.0 ? 0 : 1;
+        if (std::abs(value) < least) {
+            least = std::abs(value);
+            zero = corner;
+        }
         const double d = (corner - x).lengthSqr();
         if (d < distance[side]) {
             distance[side] = d;
@@ -57,6 +64,8 @@ void bisect(SplineSampler& sampler, double voxel, Vec3d& x, Jet& jet)
             x = 0.5 * (ends[0] + ends[1]);
             ends[sampler.at(x).value < 0.0 ? 0 : 1] = x;
         }
+    } else {
+        x = zero;
     }
     jet = sampler.at(x);
 }

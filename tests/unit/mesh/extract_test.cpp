@@ -82,6 +82,25 @@ TEST(MoveToSurface, OfManyPointsGoesTheWayOfOne)
     }
 }
 
+// The level set may have another sign than its spline where both are zero but for rounding.
+TEST(MoveToSurface, FindsAZeroThatHasNoSign)
+{
+    const double voxel = 0.5;
+    const auto field = [](const Vec3d& x) { return 0.2 * x.lengthSqr() + 1e-7; };
+    const Spline spline = test::splineOf(field, field, Vec3d(0.0), 3.0, voxel, 6.0 * voxel);
+    const openvdb::Vec3s start(0.2f, 0.25f, 0.3f); // the gradient leads toward a minimum
+    Mesh mesh;
+    mesh.positions.resize(1);
+    mesh.normals.resize(1);
+    for (const char* name : {"mean", "gauss"}) mesh.scalars.push_back({name, {0.0f}});
+    std::vector<float> slopes(1);
+    float residual = 1.0f;
+    SurfaceVertices vertices{mesh, slopes};
+    moveToSurface(spline, voxel, &start, 1, 0, vertices, &residual);
+    EXPECT_LT(residual, 1e-6f);
+    EXPECT_LT(mesh.positions[0].length(), 1e-6f);
+}
+
 TEST(ExtractMesh, OrientsOutwardWithNormalsAndCurvatures)
 {
     const test::Shape ball = test::sphere(2.7);
