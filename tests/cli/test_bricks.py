@@ -94,6 +94,15 @@ class Bricks(ToolTest):
         self.assertEqual(set(run.values()), {1})
         self.assertTrue(all((b, a) in run for a, b in run), "every edge is run through both ways")
 
+    def test_groups_have_their_colours(self):
+        words = ("--color", "group", "--group-by", "chain", "--surface", "vdw")
+        self.bricks(self.plan(2, *words))
+        self.run_tool("bricks", "merge", "plan.json", "-o", "m.json")
+        self.run_tool("dimer.cif.gz", "--assembly", "1", *FAST, *words, "-o", "w.ply", "-o", "w.json")
+        merged, whole = ([group["color"] for group in self.report(name)["groups"]] for name in ("m.json", "w.json"))
+        self.assertEqual(merged, whole)
+        self.assertEqual(len(set(merged)), 2)
+
     def test_a_finished_brick_is_kept(self):
         plan = self.plan(2)
         self.bricks(plan)

@@ -230,7 +230,8 @@ std::string headerText(const BrickHeader& h)
                              {"leaves", json(g.leaves)}});
     }
     for (const GroupReport& g : h.sums.groups)
-        groups.push_back(Json{{"name", g.name}, {"atoms", g.atoms}, {"area", g.area}});
+        groups.push_back(
+            Json{{"name", g.name}, {"atoms", g.atoms}, {"area", g.area}, {"color", g.color}});
     for (const auto& [stage, time] : h.sums.seconds) seconds.push_back(Json{stage, time});
     const BrickSums& b = h.sums;
     const Json text = {{"plan", h.plan},
@@ -293,6 +294,7 @@ BrickHeader parseHeader(const std::string& text)
         group.name = g.at("name");
         group.atoms = count(g.at("atoms"));
         group.area = jsonNumber<double>(g.at("area"));
+        group.color = g.value("color", "");
         h.sums.groups.push_back(group);
     }
     if (!j.at("evolution").is_null()) h.sums.evolution = evolution(j.at("evolution"));

@@ -247,9 +247,8 @@ SurfaceReport MergedMesh::report() const
     report.triangles = triangles();
     if (triangles() == 0) return report;
     report.closed = report.manifold = true;
-    report.eulerCharacteristic = report.meshEulerCharacteristic =
-        int(std::int64_t(vertices()) - std::int64_t(triangles() * 3 / 2) +
-            std::int64_t(triangles()));
+    report.eulerCharacteristic = report.meshEulerCharacteristic = int(
+        std::int64_t(vertices()) - std::int64_t(triangles() * 3 / 2) + std::int64_t(triangles()));
 
     // Pieces of all bricks, joined where they share a vertex.
     std::vector<PieceMeasure> sums;

@@ -86,6 +86,7 @@ void addGroups(const std::vector<BrickFile>& bricks, Report& report)
         }
         for (std::size_t g = 0; g < part.size(); ++g) {
             report.groups[g].area += part[g].area;
+            if (report.groups[g].color.empty()) report.groups[g].color = part[g].color;
             sum += part[g].area;
         }
     }

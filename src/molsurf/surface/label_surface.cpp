@@ -173,9 +173,17 @@ void labelPart(const BallSet& atoms, const SurfaceOptions& options, double reach
     const std::vector<Group>& groups = atoms.labels->groups;
     const std::vector<double> areas =
         memberAreas(atoms.balls, atoms.labels->groupOf, groups.size(), nearest, result.mesh);
-    for (std::size_t g = 0; g < groups.size(); ++g)
-        result.report.groups.push_back({groups[g].name, groups[g].balls, areas[g], 0.0, ""});
-    result.report.groups.push_back({"other", 0, areas.back(), 0.0, ""});
+    const bool colored = options.color == ColorBy::Group && !atoms.colors.empty();
+    const std::vector<std::int32_t>& groupOf = atoms.labels->groupOf;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const auto ball =
+            std::find(groupOf.begin(), groupOf.end(), std::int32_t(g)) - groupOf.begin();
+        const bool known = colored && std::size_t(ball) < groupOf.size();
+        result.report.groups.push_back({groups[g].name, groups[g].balls, areas[g], 0.0,
+                                        known ? hexOf(atoms.colors[std::size_t(ball)]) : ""});
+    }
+    result.report.groups.push_back(
+        {"other", 0, areas.back(), 0.0, colored ? hexOf(neutralColor) : ""});
 }
 
 } // namespace molsurf
