@@ -132,7 +132,7 @@ struct Call : Settings {
     ContactLevel contacts = ContactLevel::Residue; ///< of tables of contacts
     bool weld = false;                             ///< units of a whole share their vertices
     bool center = false;     ///< the middle of the surface comes to the origin
-    double printScale = 0.0; ///< of .stl, .obj and .3mf [mm/Å]; 0: they are in Å
+    double printScale = 0.0; ///< of .stl, .obj, .wrl and .3mf [mm/Å]; 0: they are in Å
     double wall = 0.0;       ///< least thickness of a print [mm]; 0: none
     DrawOptions picture;
     std::string viewed;          ///< atoms that face the eye, a selection; empty: none

@@ -451,9 +451,10 @@ OptionGroup sceneOptions()
         {shownIn(SceneUnits, host),
          kept(MOLSURF_OF(center), flag("center", "the middle of the surface comes to the origin",
                                        wholes, MOLSURF_OF(center))),
-         shownIn(Millimetres, number("print-scale", "S", ".stl, .obj, .3mf in mm, S of them per Å",
-                                     "", wholes | Convert, 1e-6, 1e6, "mm per Å, from 1e-6 to 1e6",
-                                     MOLSURF_OF(printScale))),
+         shownIn(Millimetres,
+                 number("print-scale", "S", ".stl, .obj, .wrl, .3mf in mm, S of them per Å", "",
+                        wholes | Convert, 1e-6, 1e6, "mm per Å, from 1e-6 to 1e6",
+                        MOLSURF_OF(printScale))),
          with(number("min-wall", "W", "thicken what is thinner than W mm; with --print-scale", "",
                      wholes, 1e-300, 1e300, "a positive number of mm", MOLSURF_OF(wall)),
               [](Option& o) {

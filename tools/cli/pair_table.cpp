@@ -143,7 +143,7 @@ std::vector<Pair> surfacePairs()
         {"crisp",
          IsFor,
          {},
-         "--color chain, group, element or residue",
+         "--color in flat colours, as chain or element",
          [](const Call& call) {
              const bool blended = call.options.color == ColorBy::Value && !call.atoms.coloring.flat;
              return !blended && kindOf(call.options.color).hasBorders != nullptr;
