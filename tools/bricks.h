@@ -55,6 +55,9 @@ std::string summary(const Report& report);
 /// Prints the time of every stage, threads and memory.
 void sayTimes(const Report& report);
 
+/// The option that lets the flow of a call make more steps.
+std::string moreSteps(const Call& call);
+
 /// Says so if the flow did not converge.
 /// @param[in] more  option that lets it make more steps
 /// @return the exit status

@@ -219,7 +219,12 @@ Report buildSurface(Call call, Clock::time_point start, const Companions& compan
 int build(const Call& call, Clock::time_point start)
 {
     if (call.options.grid && (call.memory > 0 || call.dryRun)) return buildInBricks(call, start);
-    return endOf(buildSurface(call, start), call.has("steps") ? "--steps" : "--max-steps");
+    return endOf(buildSurface(call, start), moreSteps(call));
+}
+
+std::string moreSteps(const Call& call)
+{
+    return call.has("steps") ? "--steps" : "--max-steps";
 }
 
 int endOf(const Report& report, const std::string& more)

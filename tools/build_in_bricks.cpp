@@ -126,8 +126,7 @@ int buildInBricks(Call call, Clock::time_point start)
     const std::size_t whole = one.bricks[0].bytes;
     if (call.memory == 0 || memoryFor(one.bricks[0]) <= call.memory) {
         if (!call.dryRun)
-            return endOf(buildSurface(call, atoms, report, terminal, start),
-                         call.has("steps") ? "--steps" : "--max-steps");
+            return endOf(buildSurface(call, atoms, report, terminal, start), moreSteps(call));
         terminal.erase();
         for (const std::string& line : describePlan(one)) say(line);
         return 0;

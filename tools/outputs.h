@@ -52,6 +52,7 @@ void addReading(const Report& read, Report& report);
 
 /// One line on a flow that has not come to rest: where, how far, and what to do.
 /// @param[in] voxel  edge of a voxel [Å]
+/// @param[in] more   option that lets it make more steps
 std::string unrestText(const EvolutionReport& evolution, double voxel, const std::string& more);
 
 /// The name of an input without folder, .gz and extension.
