@@ -230,7 +230,7 @@ class Config(ToolTest):
         (self.folder / "c.txt").write_text(text)
 
     def test_options_come_from_the_file_and_the_command_line_wins(self):
-        self.write("voxel = 0.9\n# a comment\nwaters = true\nlambda = 0.02\n")
+        self.write("\ufeffvoxel = 0.9\n# a comment\nwaters = true\nlambda = 0.02\n")
         self.check(0, CRAMBIN, "-o", "a.vdb", "--config", "c.txt", "--lambda", "0.03")
         text = self.check(0, "info", "a.vdb").stdout.decode()
         self.assertRegex(text, r"option.voxel +0.9\n")

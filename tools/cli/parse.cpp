@@ -160,7 +160,7 @@ void readConfig(const std::string& path, const po::options_description& all, Cal
 {
     const auto limit = call.given.find("max-input");
     if (limit != call.given.end()) findOption(call.verb, "max-input")->set(call, limit->second);
-    std::istringstream text(loadBytes(path, call.atoms.maxInput));
+    std::istringstream text(withoutMark(loadBytes(path, call.atoms.maxInput)));
     try {
         const auto options = po::parse_config_file(text, all);
         for (const auto& option : options.options)

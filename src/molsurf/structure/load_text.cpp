@@ -139,13 +139,19 @@ std::string loadBytes(const std::string& path, std::size_t maxBytes)
     return readBytes(path, Limit(maxBytes));
 }
 
+std::string withoutMark(std::string text)
+{
+    if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
+    return text;
+}
+
 std::string unpackedText(std::string bytes, const std::string& path, std::size_t maxBytes)
 {
     const Limit limit(maxBytes);
     checkSize(bytes.size(), limit, path);
     std::string text = std::move(bytes);
     if (isGzip(text, 0)) text = unpack(std::move(text), path, limit);
-    if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) text.erase(0, 3);
+    text = withoutMark(std::move(text));
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) failAt(path, "is empty");
     return text;
 }

@@ -23,6 +23,9 @@ std::string loadText(const std::string& path, std::size_t maxBytes = 0);
 /// @param[in] path  stands for it in messages
 std::string unpackedText(std::string bytes, const std::string& path, std::size_t maxBytes = 0);
 
+/// A text without the byte order mark that it may begin with, in UTF-8.
+std::string withoutMark(std::string text);
+
 /// The same as it lies on the disk, which may be nothing. From a file or device without an end no
 /// more is read than @a maxBytes and a block.
 std::string loadBytes(const std::string& path, std::size_t maxBytes = 0);
