@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: MPL-2.0
 """Measures how far an answer depends on where the molecule lies on the grid.
 
-    bench/rotations.py PROGRAM STRUCTURE [--count N] [--seed N] [--json FILE] [options of the program ...]
+    bench/rotations.py PROGRAM STRUCTURE [--count N] [--seed N] [--json FILE] [--least N] [options of the program ...]
 
 The structure is turned about its centre at random and shifted by less than an Å, ten times, always in the same way
 for one seed, and the program runs on each. One row for a position tells area, volume, Euler number, cavities,
 components and exit status; the last rows tell means and ranges of area and volume, and how many positions agree on
-each count. FILE gets all areas as a list, all volumes and so on. STRUCTURE is a .pdb, .ent, .cif, .pqr or .xyzr file,
+each count. FILE gets all areas as a list, all volumes and so on. With --least the exit status is 1 if fewer positions
+have the commonest Euler number. STRUCTURE is a .pdb, .ent, .cif, .pqr or .xyzr file,
 or one of them with .gz. Operators of assemblies (REMARK 350) are turned with the atoms in the PDB format only. Its
 coordinates have three decimals, so they are rounded by up to 0.0005 Å. Of surfaces whose area and volume are known in
 closed form those of the mesh are told. Needs numpy.
@@ -114,6 +115,7 @@ def main():
     parser.add_argument("--count", type=int, default=10, help="positions [10]")
     parser.add_argument("--seed", type=int, default=1, help="of the rotations and shifts [1]")
     parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="a list for each of the five")
+    parser.add_argument("--least", type=int, default=0, metavar="N", help="positions of one Euler number")
     args, words = parser.parse_known_args()
     structure, suffix = read(args.structure)
     if "--assembly" in words and not getattr(structure, "operators", None):
@@ -144,7 +146,8 @@ def main():
     print(f"mean:  area {numpy.mean(areas):.3f} Å^2, volume {numpy.mean(volumes):.3f} Å^3")
     print(f"range: area {spread(areas):.4f} %, volume {spread(volumes):.4f} %")
     print(f"most:  Euler number {agreement(eulers)}, cavities {agreement(cavities)}, components {agreement(components)}")
+    return 0 if max(map(eulers.count, eulers)) >= args.least else 1
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -7,6 +7,7 @@
 #     fuzzing     scripts/fuzz.sh: each target for 60 seconds, or SECONDS
 #     asan, tsan  scripts/sanitizers.sh: the unit tests under the sanitizers of addresses and of threads
 #     surfaces    tests/surfaces/random_surfaces.py: 400 surfaces of proteins, each held against its report
+#     poses       bench/rotations.py: Euler numbers that have to be the same in nine of ten poses
 #     calls       tests/surfaces/random_calls.py: 20,000 calls with mutated files and options, under sanitizers
 #     figures     scripts/check_docs.py --figures: the numbers of the pages, some of structures that are in FOLDER
 #     wheel       scripts/wheel.sh: the Python module, its wheel and its tests
@@ -27,6 +28,13 @@ asan() { scripts/sanitizers.sh asan; }
 surfaces() {
   cmake --preset release && cmake --build --preset release --target vdb_molsurf &&
     tests/surfaces/random_surfaces.py build-release/tools/vdb_molsurf --runs 400 "${structures[@]}"
+}
+poses() {
+  local file=(tests/data/{4at1.ent.gz,1a8o.cif.gz,bpti.pdb.gz}) same=0
+  [[ ${#structures[@]} -eq 0 ]] || file+=("${structures[1]}"/{1ehz.cif.gz,1igy.cif.gz,1u19.cif.gz,4hhb.cif.gz})
+  cmake --preset release && cmake --build --preset release --target vdb_molsurf || return 1
+  for f in "${file[@]}"; do bench/rotations.py build-release/tools/vdb_molsurf "$f" --least 9 || same=1; done
+  return $same
 }
 calls() {
   export LSAN_OPTIONS=suppressions=$PWD/tests/lsan.supp:print_suppressions=0 ASAN_OPTIONS=detect_container_overflow=0
@@ -49,12 +57,12 @@ while [[ $# -gt 0 ]]; do
   case $1 in
     --fuzz) seconds=${2:?--fuzz needs seconds} && shift ;;
     --structures) structures=(--structures "${2:?--structures needs a folder}") && shift ;;
-    headers | mutations | fuzzing | asan | tsan | surfaces | calls | figures | wheel | package | site) steps+=("$1") ;;
+    headers | mutations | fuzzing | asan | tsan | surfaces | poses | calls | figures | wheel | package | site) steps+=("$1") ;;
     *) echo "nightly.sh: expected a step or an option, got $1 [hint: see the first lines of this script]" >&2; exit 2 ;;
   esac
   shift
 done
-[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces calls figures wheel package site)
+[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces poses calls figures wheel package site)
 
 scripts/install_deps.sh --test --check clang dpkg-dev
 mkdir -p build-nightly
@@ -63,7 +71,7 @@ for step in "${steps[@]}"; do
   echo "== $step"
   began=$SECONDS verdict=passed
   "$step" < /dev/null > "build-nightly/$step.log" 2>&1 || { verdict=FAILED status=1; }
-  last=$(grep -E '^(.*tests passed.*|.* faults.*|.* killed.*|Made in .*|.* passed.* in .*|.*ninja: no work.*)$' "build-nightly/$step.log" | tail -n 1 || true)
+  last=$(grep -E '^(.*tests passed.*|.* faults.*|most: .*|.* killed.*|Made in .*|.* passed.* in .*|.*ninja: no work.*)$' "build-nightly/$step.log" | tail -n 1 || true)
   table+=("$(printf '%-10s %-7s %3d:%02d  %s' "$step" "$verdict" $(((SECONDS - began) / 60)) $(((SECONDS - began) % 60)) \
     "${last:-$(tail -n 1 "build-nightly/$step.log")}")")
   echo "${table[-1]}"

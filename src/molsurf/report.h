@@ -139,6 +139,9 @@ struct EvolutionReport {
     int frontSteps = 0;
     std::size_t restlessFronts = 0;
     std::optional<Gaps> gaps{}; ///< none where voxels and fronts decide
+    /// How thin walls and necks of the surface were decided; `nearest` is a depth [Å]. None
+    /// where voxels decide.
+    std::optional<Gaps> walls{};
 };
 
 /// A group of atoms and its share of the surface.

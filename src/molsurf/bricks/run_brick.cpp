@@ -4,6 +4,7 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
 #include "molsurf/levelset/round_ridges.h"
+#include "molsurf/levelset/walls.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/influence.h"
@@ -119,7 +120,7 @@ Scope brickScope(const SurfaceOptions& options, const Region& region, const Gaus
     // the one beyond it.
     scope.splineHalo = scope.ridgeHalo = 2;
     if (isUnion(options.kind)) return scope;
-    if (hasFlow(options.kind)) scope.ridgeHalo += leavesFor(ridgeReach(options.voxel));
+    if (hasFlow(options.kind)) scope.ridgeHalo += leavesFor(ridgeReach(options.voxel) + wallReach);
     // S is the distance to closest points, which lie on a spline of their own.
     const auto [inside, outside] = widthsOf(options);
     constexpr double overhang = 2.5; // [voxel]

@@ -87,6 +87,7 @@ Json evolutionJson(const EvolutionReport& evolution)
             {"front_steps", evolution.frontSteps},
             {"restless_fronts", evolution.restlessFronts},
             {"gaps", gapsJson(evolution.gaps)},
+            {"walls", gapsJson(evolution.walls)},
             {"area", evolution.area},
             {"volume", evolution.volume}};
 }

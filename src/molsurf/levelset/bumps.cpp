@@ -42,7 +42,7 @@ void Bumps::addTo(const Coord& origin, float* psi) const
     }
 }
 
-double Bumps::at(const Vec3d& x, Vec3d* gradient) const
+double Bumps::at(const Vec3d& x, Vec3d* gradient, openvdb::Mat3d* hessian) const
 {
     if (leaves_.empty()) return 0.0;
     const auto found = leaves_.find(Coord::floor(x / voxelSize_) & ~(leafDim - 1));
@@ -56,6 +56,11 @@ double Bumps::at(const Vec3d& x, Vec3d* gradient) const
         const double value = bump.amplitude * std::exp(-t);
         sum += value;
         if (gradient) *gradient -= 2.0 * bump.rate * value * way;
+        for (int a = 0; hessian && a < 3; ++a) {
+            for (int b = 0; b < 3; ++b)
+                (*hessian)(a, b) += 4.0 * bump.rate * bump.rate * value * way[a] * way[b];
+            (*hessian)(a, a) -= 2.0 * bump.rate * value;
+        }
     }
     return sum;
 }

@@ -40,7 +40,9 @@ public:
 
     /// Their sum at a point.
     /// @param[in,out] gradient  null, or theirs is added [1/Å]
-    double at(const openvdb::Vec3d& x, openvdb::Vec3d* gradient = nullptr) const;
+    /// @param[in,out] hessian   null, or theirs is added [1/Å^2]
+    double at(const openvdb::Vec3d& x, openvdb::Vec3d* gradient = nullptr,
+              openvdb::Mat3d* hessian = nullptr) const;
 
 private:
     double voxelSize_;

@@ -142,7 +142,7 @@ void GaussianSum::evaluate(const Coord& origin, double reach, float* psi) const
 
 PsiJet GaussianSum::jet(const Vec3d& x) const
 {
-    constexpr double least = -16.0;
+    constexpr double least = -12.0;
     const double scale = 1.0 / (options_.voxelSize * options_.voxelSize);
     double sum = 0.0;
     Vec3d first(0.0);

@@ -4,10 +4,12 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"
 #include "molsurf/grid/leaf_block.h"
+#include "molsurf/levelset/closest_foot.h"
 #include "molsurf/levelset/foot_points.h"
 #include "molsurf/levelset/jets.h"
 #include "molsurf/levelset/kink.h"
 #include "molsurf/levelset/nearest_point.h"
+#include "molsurf/levelset/walls.h"
 #include "molsurf/spline/spline.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -16,6 +18,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
 namespace molsurf
@@ -252,8 +255,9 @@ public:
     }
 
     /// The voxels of a leaf with a kink between them and the next voxel along an axis.
-    /// @param[in] index  the seed of each voxel of the leaf and about it
-    LeafMask kinks(const SeedBlock& index) const
+    /// @param[in]  index  the seed of each voxel of the leaf and about it
+    /// @param[out] turns  those between which the normal turns as much, by curvature too
+    LeafMask kinks(const SeedBlock& index, LeafMask& turns) const
     {
         constexpr int dim = Normals::dim, count = dim * dim * dim;
         std::int32_t own[count];
@@ -267,14 +271,52 @@ public:
                                                    : seeds_[std::size_t(own[i])].n[a];
         }
         constexpr int strides[3] = {SeedBlock::strideX, SeedBlock::strideY, SeedBlock::strideZ};
-        LeafMask turns[3];
-        for (int axis = 0; axis < 3; ++axis) turning(normals, Normals::strides[axis], turns[axis]);
+        LeafMask along[3];
+        for (int axis = 0; axis < 3; ++axis) turning(normals, Normals::strides[axis], along[axis]);
+        turns = along[0] | along[1] | along[2];
         LeafMask out;
-        (turns[0] | turns[1] | turns[2]).forEach([&](int v) {
+        turns.forEach([&](int v) {
             const std::int32_t* p = index.at(v >> 6, v >> 3 & 7, v & 7);
             for (int axis = 0; axis < 3; ++axis) {
-                if (turns[axis].on(v) && isKinkBetween(*p, p[strides[axis]], v)) out.set(v);
+                if (along[axis].on(v) && isKinkBetween(*p, p[strides[axis]], v)) out.set(v);
             }
+        });
+        return out;
+    }
+
+    /// Where the level may be a thin wall or neck: inside near the level, where normals turn.
+    /// @param[in] block  the seed of each voxel of the leaf and about it
+    /// @param[in] index  of each voxel of the domain
+    /// @param[in] level  [voxel]
+    std::vector<ThinPlace> thinPlaces(const SeedBlock& block, const LeafTable& domain,
+                                      const SeedIndex& index, const LeafMask& turns,
+                                      double level) const
+    {
+        constexpr float shallower = 1.5f, deeper = 1.3f; // [voxel]
+        std::vector<ThinPlace> out;
+        turns.forEach([&](int v) {
+            const std::int32_t* p = block.at(v >> 6, v >> 3 & 7, v & 7);
+            const Vec3f off = offset(*p, v);
+            const float above = off.length() + float(level);
+            if (off.dot(seeds_[std::size_t(*p)].n) > 0.0f || above < -shallower || above > deeper)
+                return;
+            std::vector<std::int32_t> own, about;
+            for (int k = 0; k < 8; ++k)
+                own.push_back(p[(k >> 2) * SeedBlock::strideX + (k >> 1 & 1) * SeedBlock::strideY +
+                                (k & 1) * SeedBlock::strideZ]);
+            const Coord voxel = origin_.offsetBy(v >> 6, v >> 3 & 7, v & 7);
+            const std::size_t known = out.size();
+            findThinPlaces(feetOf(std::move(own), 0.0), voxel.asVec3d() + Vec3d(0.5), -level, out);
+            if (out.size() == known) return;
+            for (auto c = openvdb::CoordBBox(voxel.offsetBy(-1), voxel.offsetBy(2)).begin(); c;
+                 ++c) {
+                const std::int32_t n = domain.find(*c);
+                if (n == noLeaf) continue;
+                about.push_back(index.leaf(
+                    std::size_t(n))[openvdb::FloatTree::LeafNodeType::coordToOffset(*c)]);
+            }
+            const std::vector<Vec3d> near = feetOf(std::move(about), 0.5);
+            for (std::size_t i = known; i < out.size(); ++i) out[i].near = near;
         });
         return out;
     }
@@ -372,6 +414,24 @@ private:
         return isKink(chord, side * (b.n - a.n), curvature);
     }
 
+    /// The places of seeds [voxel], without those nearer than `apart` to one before.
+    std::vector<Vec3d> feetOf(std::vector<std::int32_t> seeds, double apart) const
+    {
+        std::sort(seeds.begin(), seeds.end());
+        seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
+        std::vector<Vec3d> out;
+        for (const std::int32_t i : seeds) {
+            if (i == noSeed) continue;
+            const Seed& seed = seeds_[std::size_t(i)];
+            const Vec3d y = coefficients_.table.origin(seed.leaf).asVec3d() + Vec3d(seed.y);
+            const bool known = std::any_of(out.begin(), out.end(), [&](const Vec3d& o) {
+                return (y - o).lengthSqr() < apart * apart;
+            });
+            if (!known) out.push_back(y);
+        }
+        return out;
+    }
+
     Vec3f shift(const Seed& seed) const
     {
         return Vec3f((coefficients_.table.origin(seed.leaf) - origin_).asVec3s());
@@ -436,73 +496,18 @@ private:
         waiting_ = again;
     }
 
-    /// Moves a point onto the zero set along the gradient.
-    /// @return whether it got there
-    bool project(std::int32_t leaf, Vec3d& y, Jet& jet) const
-    {
-        constexpr double tolerance = 1e-5, leastSlope2 = 0.01, longest = 0.5;
-        for (int i = 0; i < 6; ++i) {
-            JetLanes jets;
-            jetBeside(coefficients_, leaf, Vec3f(y), 0, jets);
-            jet = jets.at(0);
-            const double slope2 = jet.gradient.lengthSqr();
-            if (slope2 < leastSlope2) return false;
-            if (std::abs(jet.value) < tolerance) return true;
-            const double fall = jet.value / slope2,
-                         length = std::abs(jet.value) / std::sqrt(slope2);
-            y -= (length > longest ? fall * longest / length : fall) * jet.gradient;
-        }
-        return false;
-    }
-
     /// The distance by a closest point that is sought until it is found: beside creases and ridges
-    /// of the interface, where the surface turns within a voxel, no one step leads there. Newton's
-    /// method along the surface where the squared distance is convex, else descent; each step is
-    /// shortened until the point is nearer.
+    /// of the interface, where the surface turns within a voxel, no one step leads there.
     void settle(std::int32_t index, int v, float* out) const
     {
-        constexpr double close = 3e-3, longest = 0.7, farthest = 3.0; // [voxel]
-        constexpr int steps = 20, halvings = 6;
         const Seed& seed = seeds_[std::size_t(index)];
-        const Vec3d x(placeOf(v) - shift(seed)), start(seed.y);
-        Vec3d y = start;
-        Jet jet;
-        if (!project(seed.leaf, y, jet)) return;
-        double least2 = (x - y).lengthSqr();
-        for (int i = 0; i < steps; ++i) {
-            const double slope = jet.gradient.length();
-            const Vec3d n = jet.gradient / slope, offset = x - y;
-            const double s = n.dot(offset);
-            const Vec3d t = offset - s * n;
-            if (t.lengthSqr() < close * close) break;
-            Vec3d u = std::abs(n.x()) < 0.6 ? n.cross(Vec3d(1.0, 0.0, 0.0))
-                                            : n.cross(Vec3d(0.0, 1.0, 0.0));
-            u.normalize();
-            const Vec3d w = n.cross(u), Hu = jet.hessian * u, Hw = jet.hessian * w;
-            const double k = s / slope;
-            const double a = 1.0 + k * u.dot(Hu), b = k * u.dot(Hw), c = 1.0 + k * w.dot(Hw);
-            const double det = a * c - b * b, tu = t.dot(u), tw = t.dot(w);
-            Vec3d d = a + c > 0.0 && det > 0.01
-                          ? ((c * tu - b * tw) * u + (a * tw - b * tu) * w) / det
-                          : t;
-            const double length = d.length();
-            if (length > longest) d *= longest / length;
-            bool nearer = false;
-            for (int k = 0; k < halvings && !nearer; ++k, d *= 0.4) {
-                Vec3d next = y + d;
-                Jet there;
-                if ((next - start).lengthSqr() > farthest * farthest) continue;
-                if (!project(seed.leaf, next, there)) continue;
-                const double r2 = (x - next).lengthSqr();
-                if (r2 >= least2) continue;
-                nearer = true;
-                least2 = r2;
-                y = next;
-                jet = there;
-            }
-            if (!nearer) break;
-        }
-        out[v] = float(std::sqrt(least2));
+        const Vec3d x(placeOf(v) - shift(seed));
+        const auto jetAt = [&](const Vec3d& y) {
+            JetLanes jets;
+            jetBeside(coefficients_, seed.leaf, Vec3f(y), 0, jets);
+            return jets.at(0);
+        };
+        if (const auto y = closestFoot(jetAt, x, Vec3d(seed.y))) out[v] = float((x - *y).length());
     }
 
     const SparseField& coefficients_;
@@ -623,7 +628,7 @@ void takeDistances(LeafDistances leaf, const LeafMask& negative, const BandWidth
 } // namespace
 
 DistanceBand redistance(SparseField phi, const BandWidths& width, double level,
-                        const Progress& progress, const openvdb::CoordBBox& box)
+                        const Progress& progress, const openvdb::CoordBBox& box, bool thin)
 {
     std::vector<LeafMask> inner(phi.table.size()), outer(phi.table.size());
     parallelFor(phi.table.size(), progress, [&](std::size_t n) {
@@ -661,11 +666,16 @@ DistanceBand redistance(SparseField phi, const BandWidths& width, double level,
     });
 
     band.phi.table = band.kinks = domain;
+    std::vector<std::vector<ThinPlace>> places(domain.size());
     parallelFor(domain.size(), progress, [&](std::size_t n) {
         SeedBlock block;
         block.gather(domain, index, n);
-        band.kinks.active(n) = LeafDistances(coefficients, seeds, domain.origin(n)).kinks(block);
+        const LeafDistances leaf(coefficients, seeds, domain.origin(n));
+        LeafMask turns;
+        band.kinks.active(n) = leaf.kinks(block, turns);
+        if (thin) places[n] = leaf.thinPlaces(block, domain, index, turns, level / phi.voxelSize);
     });
+    for (auto& some : places) std::move(some.begin(), some.end(), std::back_inserter(band.thin));
     band.phi.values = std::move(index).reused<float>();
     const std::vector<bool> innerLeaf = innerLeaves(domain, table, inner);
     parallelFor(domain.size(), progress, [&](std::size_t n) {

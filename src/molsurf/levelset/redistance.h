@@ -29,8 +29,10 @@ namespace molsurf
 /// @param[in] band   how deep and how high the result reaches
 /// @param[in] level  the level set of the result that is wanted, which gets the best distances [Å]
 /// @param[in] box    a box of whole leaves, outside of which no result is wanted
+/// @param[in] thin   whether the thin places of a level inside are wanted
 DistanceBand redistance(SparseField phi, const BandWidths& band, double level,
                         const Progress& progress,
-                        const openvdb::CoordBBox& box = openvdb::CoordBBox::inf());
+                        const openvdb::CoordBBox& box = openvdb::CoordBBox::inf(),
+                        bool thin = false);
 
 } // namespace molsurf

@@ -163,6 +163,8 @@ private:
     void checkLeft() const;
     bool keepsLevelSet() const;
     DistanceBand distanceToBalls();
+    bool decidesWalls() const;
+    void decideWalls();
 
     const BallSet& atoms_;
     const SurfaceOptions& options_;

@@ -225,5 +225,26 @@ TEST(Gaps, BumpsAreInAllSamples)
     EXPECT_GT(largest, 0.1f);
 }
 
+TEST(Bumps, HaveTheirDerivatives)
+{
+    Bumps bumps(0.5);
+    bumps.add({{0.2, 0.1, -0.3}, 0.7, 1.1});
+    bumps.add({{-0.4, 0.3, 0.2}, -0.5, 0.6});
+    constexpr double step = 1e-5;
+    const Vec3d x(0.3, 0.5, -0.1);
+    Vec3d gradient(0.0);
+    Mat3d hessian = Mat3d::zero();
+    bumps.at(x, &gradient, &hessian);
+    for (int a = 0; a < 3; ++a) {
+        Vec3d low = x, high = x, below(0.0), above(0.0);
+        low[a] -= step;
+        high[a] += step;
+        EXPECT_NEAR((bumps.at(high, &above) - bumps.at(low, &below)) / (2.0 * step), gradient[a],
+                    1e-8);
+        for (int b = 0; b < 3; ++b)
+            EXPECT_NEAR((above[b] - below[b]) / (2.0 * step), hessian(a, b), 1e-8);
+    }
+}
+
 } // namespace
 } // namespace molsurf

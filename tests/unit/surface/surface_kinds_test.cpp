@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "support/alpha_shape.h"
 #include "support/mesh_checks.h"
+#include "support/motion.h"
 #include "support/runs.h"
 
 #include <openvdb/tools/Interpolation.h>
@@ -26,25 +27,6 @@ SurfaceOptions optionsFor(SurfaceKind kind, double voxel = 0.5)
     return options;
 }
 
-/// Random rigid motions.
-struct Motion {
-    openvdb::Mat3d turn;
-    Vec3d shift;
-    Vec3f operator()(const Vec3d& x) const { return Vec3f(turn * x + shift); }
-};
-
-Motion randomMotion(std::mt19937& random)
-{
-    std::normal_distribution<double> normal;
-    std::uniform_real_distribution<double> place(-3.0, 3.0);
-    Vec3d a{normal(random), normal(random), normal(random)};
-    Vec3d b{normal(random), normal(random), normal(random)};
-    a.normalize();
-    b -= b.dot(a) * a;
-    b.normalize();
-    return {openvdb::Mat3d(a, b, a.cross(b)), {place(random), place(random), place(random)}};
-}
-
 /// The largest errors of area and volume of an SES over random places and orientations [%].
 std::pair<double, double> worstOf(const std::vector<Vec3d>& centres, double area, double volume,
                                   double voxel, int poses)
@@ -52,7 +34,7 @@ std::pair<double, double> worstOf(const std::vector<Vec3d>& centres, double area
     std::mt19937 random(11);
     std::pair<double, double> worst{0.0, 0.0};
     for (int pose = 0; pose < poses; ++pose) {
-        const Motion move = randomMotion(random);
+        const test::Motion move = test::randomMotion(random);
         std::vector<Ball> balls;
         for (const Vec3d& c : centres) balls.push_back({move(c), 1.7f, 0});
         const SurfaceReport s =
@@ -168,7 +150,7 @@ TEST(UnionSurfaces, TopologyDoesNotTurnWithTheMolecule)
         EXPECT_EQ(first.eulerCharacteristic, test::eulerOfUnion(balls, probe)) << nameOf(kind);
         std::mt19937 random(5);
         for (int pose = 0; pose < 10; ++pose) {
-            const Motion move = randomMotion(random);
+            const test::Motion move = test::randomMotion(random);
             std::vector<Ball> moved = balls;
             for (Ball& ball : moved) ball.center = move(Vec3d(ball.center));
             const SurfaceReport s = test::runOn(moved, options).report.surface;

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/walls.h"
+
+#include "molsurf/core/parallel.h"
+#include "molsurf/levelset/closest_foot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+using openvdb::Vec3d;
+
+namespace
+{
+
+// What voxels hold: so far at least the middle of a closed wall lies inside the surface, and that
+// of an open one outside [voxel].
+constexpr double heldDepth = 0.7, heldHeight = 0.25;
+constexpr double deepest = 1.2; // of a wall that voxels or the rounding of ridges may open [voxel]
+constexpr double bumpRadius = 3.0; // [voxel]
+
+/// What stands for a voxel [voxel]: as voxels come near to the depth, everything would be near.
+double unitAt(double depth)
+{
+    return std::min(depth / 2.8, 1.0); // a probe of 1.4 Å on voxels of 0.5 Å
+}
+
+/// The smallest sphere through two or three points.
+struct Rim {
+    Vec3d centre;
+    double radius;
+    double least; ///< the smallest weight of a point in the centre: negative if it is not amid them
+};
+
+Rim rimOf(const std::vector<Vec3d>& y)
+{
+    if (y.size() == 2) return {0.5 * (y[0] + y[1]), 0.5 * (y[1] - y[0]).length(), 0.5};
+    const double a2 = (y[1] - y[2]).lengthSqr(), b2 = (y[2] - y[0]).lengthSqr(),
+                 c2 = (y[0] - y[1]).lengthSqr();
+    Vec3d w(a2 * (b2 + c2 - a2), b2 * (c2 + a2 - b2), c2 * (a2 + b2 - c2));
+    const double sum = w[0] + w[1] + w[2];
+    if (sum < 1e-6) return {y[0], 0.0, -1.0};
+    w /= sum;
+    const Vec3d centre = w[0] * y[0] + w[1] * y[1] + w[2] * y[2];
+    return {centre, (centre - y[0]).length(), std::min({w[0], w[1], w[2]})};
+}
+
+/// psi with lengths in voxels.
+auto inVoxels(const PsiJetAt& psi, double h)
+{
+    return [&psi, h](const Vec3d& y) {
+        const PsiJet jet = psi(y * h);
+        return Jet{jet.psi, jet.gradient * h, jet.hessian * (h * h)};
+    };
+}
+
+/// The middle of a wall, and what is known of it.
+struct Middle {
+    Vec3d place; // [voxel]
+    double depth;
+    const std::vector<Vec3d>* near;
+    bool operator<(const Middle& o) const { return place < o.place; }
+};
+
+/// The middle that a place leads to: it moves amid the points of the sheets that are closest to it,
+/// until it rests. Lengths are in voxels.
+template<typename JetAt>
+std::optional<Middle> middleFrom(const JetAt& jetAt, const ThinPlace& place, double least,
+                                 double most)
+{
+    constexpr int steps = 20;
+    constexpr double atRest = 1e-3, farthest = 2.5, doubt = 0.3;
+    constexpr double leastWeight = 0.02;
+    std::vector<Vec3d> y = place.sheets;
+    const Vec3d start = rimOf(y).centre;
+    Vec3d x = start;
+    for (int i = 0; i < steps; ++i) {
+        for (Vec3d& foot : y) {
+            const auto found = closestFoot(jetAt, x, foot, 1);
+            if (!found) return {};
+            foot = *found;
+        }
+        const Rim rim = rimOf(y);
+        const double step = (rim.centre - x).length();
+        x = rim.centre;
+        if (rim.least < leastWeight || rim.radius < least - doubt || rim.radius > most + doubt ||
+            (x - start).length() > farthest)
+            return {};
+        if (step < atRest || i == steps - 1) {
+            if (rim.radius < least || rim.radius > most) return {};
+            return Middle{x, rim.radius, &place.near};
+        }
+    }
+    return {};
+}
+
+/// Whether no sheet is nearer to a middle than those that it is amid.
+template<typename JetAt>
+bool isNearest(const JetAt& jetAt, const Middle& middle)
+{
+    constexpr double nearer = 0.01, beyond = 0.5; // [voxel]
+    for (const Vec3d& foot : *middle.near) {
+        if ((foot - middle.place).length() > middle.depth + beyond) continue;
+        const auto found = closestFoot(jetAt, middle.place, foot);
+        if (found && (*found - middle.place).length() < middle.depth - nearer) return false;
+    }
+    return true;
+}
+
+/// S between voxels, linear along each axis.
+double valueAt(const SparseField& S, const Vec3d& x)
+{
+    const Coord low = Coord::floor(x);
+    const Vec3d t = x - low.asVec3d();
+    double sum = 0.0;
+    for (int k = 0; k < 8; ++k) {
+        const Coord step(k >> 2, k >> 1 & 1, k & 1), voxel = low + step;
+        const std::int32_t n = S.table.find(voxel);
+        if (n == noLeaf) continue;
+        double weight = 1.0;
+        for (int a = 0; a < 3; ++a) weight *= step[a] ? t[a] : 1.0 - t[a];
+        sum +=
+            weight *
+            double(S.leaf(std::size_t(n))[openvdb::FloatTree::LeafNodeType::coordToOffset(voxel)]);
+    }
+    return sum;
+}
+
+/// Adds a bump to S: amplitude (1 - t^2)^3, t being the distance in bump radii.
+void addBump(const Vec3d& place, double amplitude, SparseField& S)
+{
+    const Coord low = Coord::ceil(place - Vec3d(bumpRadius)),
+                high = Coord::floor(place + Vec3d(bumpRadius));
+    for (auto voxel = openvdb::CoordBBox(low, high).begin(); voxel; ++voxel) {
+        const double fall =
+            1.0 - ((*voxel).asVec3d() - place).lengthSqr() / (bumpRadius * bumpRadius);
+        const std::int32_t n = S.table.find(*voxel);
+        if (fall <= 0.0 || n == noLeaf) continue;
+        const int v = int(openvdb::FloatTree::LeafNodeType::coordToOffset(*voxel));
+        if (S.table.active(n).on(v)) S.leaf(n)[v] += float(amplitude * fall * fall * fall);
+    }
+}
+
+} // namespace
+
+void findThinPlaces(const std::vector<Vec3d>& feet, const Vec3d& middle, double depth,
+                    std::vector<ThinPlace>& out)
+{
+    const double unit = unitAt(depth), farthest = 1.2 * unit, doubt = 0.5 * unit;
+    const double apart = std::max(0.5 * depth, 1.0);
+    // The mean of the feet on a sheet is about the foot of the middle.
+    struct Sheet {
+        Vec3d first, sum;
+        int count;
+        Vec3d foot() const { return sum / count; }
+    };
+    std::vector<Sheet> sheets;
+    for (const Vec3d& foot : feet) {
+        const auto same = std::find_if(sheets.begin(), sheets.end(), [&](const Sheet& s) {
+            return (foot - s.first).lengthSqr() < apart * apart;
+        });
+        if (same == sheets.end()) {
+            sheets.push_back({foot, foot, 1});
+        } else {
+            same->sum += foot;
+            ++same->count;
+        }
+    }
+    if (sheets.size() < 2) return;
+    const auto add = [&](std::vector<Vec3d> some) {
+        constexpr double leastWeight = -0.2;
+        const Rim rim = rimOf(some);
+        if (rim.least > leastWeight && rim.radius > depth - heldHeight - doubt &&
+            rim.radius < depth + deepest * unit + doubt &&
+            (rim.centre - middle).length() < farthest)
+            out.push_back({std::move(some), {}});
+    };
+    for (std::size_t i = 0; i < sheets.size(); ++i) {
+        for (std::size_t j = i + 1; j < sheets.size(); ++j) {
+            add({sheets[i].foot(), sheets[j].foot()});
+            for (std::size_t k = j + 1; k < sheets.size(); ++k)
+                add({sheets[i].foot(), sheets[j].foot(), sheets[k].foot()});
+        }
+    }
+}
+
+std::vector<Wall> findWalls(const PsiJetAt& psi, const std::vector<ThinPlace>& places,
+                            double offset, double voxelSize, const Progress& progress)
+{
+    constexpr double same = 0.1; // [voxel]
+    const double depth = offset / voxelSize;
+    const auto jetAt = inVoxels(psi, voxelSize);
+    std::vector<std::optional<Middle>> found(places.size());
+    parallelFor(places.size(), progress, [&](std::size_t i) {
+        found[i] =
+            middleFrom(jetAt, places[i], depth - heldHeight, depth + deepest * unitAt(depth));
+    });
+    std::vector<Middle> middles;
+    for (const auto& middle : found)
+        if (middle) middles.push_back(*middle);
+    std::sort(middles.begin(), middles.end());
+    std::vector<Wall> walls;
+    for (const Middle& middle : middles) {
+        bool known = false;
+        for (auto w = walls.rbegin(); w != walls.rend() && !known; ++w) {
+            if (middle.place.x() - w->place.x() > same) break;
+            known = (middle.place - w->place).length() < same;
+        }
+        if (!known && isNearest(jetAt, middle))
+            walls.push_back({middle.place, middle.depth * voxelSize});
+    }
+    return walls;
+}
+
+GapReport decideWalls(const std::vector<Wall>& walls, double offset, SparseField& S)
+{
+    GapReport done;
+    done.nearest = deepest * S.voxelSize;
+    for (const Wall& wall : walls) {
+        const double beyond = wall.depth - offset - thinnestWall, here = valueAt(S, wall.place);
+        ++done.found;
+        done.closed += beyond > 0.0;
+        done.nearest = std::min(done.nearest, std::abs(beyond));
+        const double lacks = beyond > 0.0 ? std::min(-heldDepth * S.voxelSize - here, 0.0)
+                                          : std::max(heldHeight * S.voxelSize - here, 0.0);
+        if (lacks != 0.0) addBump(wall.place, lacks, S);
+    }
+    return done;
+}
+
+} // namespace molsurf

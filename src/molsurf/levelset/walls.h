@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Which thin walls and necks of an offset surface are closed. The topology of what lies deeper
+/// than an offset inside psi = 0 changes where a point is amid its closest points of psi = 0: two
+/// in the middle of a wall, three in that of a neck. Where its depth is near the offset, a grid and
+/// its place would decide; here it is decided by the depth, and the level set is changed there such
+/// that voxels hold what was decided. docs/math.md, section 7.
+
+#include "molsurf/grid/distance_band.h"
+#include "molsurf/levelset/gaps.h"
+#include "molsurf/progress.h"
+
+#include <openvdb/Types.h>
+
+#include <optional>
+#include <vector>
+
+namespace molsurf
+{
+
+/// The middle of a wall or neck.
+struct Wall {
+    openvdb::Vec3d place; ///< [voxel]
+    double depth;         ///< its distance to psi = 0 [Å]
+};
+
+/// A thin wall is open if its middle lies less than this inside the surface [Å].
+constexpr double thinnestWall = 0.06;
+
+/// How many voxels from a voxel the walls may lie that its value depends on, with what tells them.
+constexpr int wallReach = 8;
+
+/// Which feet of a voxel and those about it are of the sheets of a thin wall or neck, if it may be
+/// one.
+/// @param[in] feet    closest points of the interface to neighbouring voxels
+/// @param[in] middle  of these voxels
+/// @param[in] depth   the offset; lengths in voxels
+/// @param[out] out    a place for each two or three of them that may be
+void findThinPlaces(const std::vector<openvdb::Vec3d>& feet, const openvdb::Vec3d& middle,
+                    double depth, std::vector<ThinPlace>& out);
+
+/// Finds the walls and necks that thin places lead to and that are near the decision, each once, in
+/// ascending order of places.
+/// @param[in] psi     that of the interface, with all that was added to it
+/// @param[in] offset  depth of the surface inside psi = 0 [Å]
+std::vector<Wall> findWalls(const PsiJetAt& psi, const std::vector<ThinPlace>& places,
+                            double offset, double voxelSize, const Progress& progress);
+
+/// Decides walls: S gets a bump at each, with which its middle lies clearly inside or outside.
+/// @param[in]     offset  as for findWalls()
+/// @param[in,out] S       the level set of the surface [Å]
+GapReport decideWalls(const std::vector<Wall>& walls, double offset, SparseField& S);
+
+} // namespace molsurf

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/closest_foot.h"
+#include "molsurf/levelset/walls.h"
+#include "support/motion.h"
+#include "support/runs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+#include <vector>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Mat3d;
+using openvdb::Vec3d;
+
+constexpr double probe = 1.4, radius = 1.7, R = radius + probe;
+constexpr double C = M_LN2 / (0.5 * R); // of the default tolerance
+
+/// Atoms in a ring about the origin, in the middle of which psi = 0 lies `depth` above and below.
+std::vector<Vec3d> ring(int atoms, double depth)
+{
+    const double around = std::sqrt(R * R - depth * depth + std::log(double(atoms)) / C);
+    std::vector<Vec3d> out;
+    for (int i = 0; i < atoms; ++i) {
+        const double angle = 2.0 * M_PI * i / atoms;
+        out.emplace_back(around * std::cos(angle), around * std::sin(angle), 0.0);
+    }
+    return out;
+}
+
+std::vector<Ball> ballsAt(const std::vector<Vec3d>& centres, const test::Motion& move)
+{
+    std::vector<Ball> out;
+    for (const Vec3d& c : centres) out.push_back({move(c), float(radius), 0});
+    return out;
+}
+
+/// psi of a ring.
+PsiJetAt psiOf(const std::vector<Vec3d>& centres)
+{
+    return [centres](const Vec3d& x) {
+        double sum = 0.0;
+        Vec3d first(0.0);
+        Mat3d second = Mat3d::zero();
+        for (const Vec3d& c : centres) {
+            const Vec3d f = -2.0 * C * (x - c);
+            const double e = std::exp(C * (R * R - (x - c).lengthSqr()));
+            sum += e;
+            first += e * f;
+            for (int a = 0; a < 3; ++a)
+                for (int b = 0; b < 3; ++b)
+                    second(a, b) += e * (f[a] * f[b] - (a == b ? 2.0 * C : 0.0));
+        }
+        const Vec3d gradient = first / sum;
+        second *= 1.0 / sum;
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b) second(a, b) -= gradient[a] * gradient[b];
+        return PsiJet{std::log(sum), gradient, second};
+    };
+}
+
+TEST(ClosestFoot, OfAnEllipsoidIsNoFartherThanAnyOfItsPoints)
+{
+    const Vec3d axes(6.0, 4.0, 3.0);
+    const auto jetAt = [&](const Vec3d& y) {
+        Jet jet{-3.0, Vec3d(0.0), Mat3d::zero()};
+        for (int a = 0; a < 3; ++a) {
+            jet.value += 3.0 * y[a] * y[a] / (axes[a] * axes[a]);
+            jet.gradient[a] = 6.0 * y[a] / (axes[a] * axes[a]);
+            jet.hessian(a, a) = 6.0 / (axes[a] * axes[a]);
+        }
+        return jet;
+    };
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < 50; ++i) {
+        Vec3d way{normal(random), normal(random), normal(random)};
+        way.normalize();
+        const Vec3d foot = axes * way; // a point of it, and its normal
+        Vec3d n = way / axes;
+        n.normalize();
+        const Vec3d x = foot + 1.0 * n, start = foot + 0.5 * Vec3d(n.y(), n.z(), n.x());
+        const auto found = closestFoot(jetAt, x, start);
+        ASSERT_TRUE(found);
+        EXPECT_LT((*found - foot).length(), 0.01);
+    }
+    EXPECT_FALSE(closestFoot(jetAt, Vec3d(0.0), Vec3d(0.0))); // no slope there
+}
+
+TEST(ThinPlaces, LieAmidTwoOrThreeSheets)
+{
+    const double depth = 5.6;
+    const auto count = [&](const std::vector<Vec3d>& feet, const Vec3d& middle) {
+        std::vector<ThinPlace> out;
+        findThinPlaces(feet, middle, depth, out);
+        return out.size();
+    };
+    const double c = std::sqrt(0.75);
+    const std::vector<Vec3d> wall{{0, 0, depth}, {0.2, 0, depth}, {0, 0.3, -depth}};
+    const std::vector<Vec3d> neck{
+        {depth, 0, 0}, {-0.5 * depth, c * depth, 0}, {-0.5 * depth, -c * depth, 0}};
+    EXPECT_EQ(count(wall, {0.3, 0.2, 0.1}), 1u);
+    EXPECT_EQ(count(wall, {2.0, 0.0, 0.0}), 0u);          // the voxels are elsewhere
+    EXPECT_EQ(count({wall[0], wall[1]}, Vec3d(0.0)), 0u); // one sheet
+    EXPECT_EQ(count(neck, {0.3, 0.2, 0.4}), 1u);          // pairs of them are too near
+    const std::vector<Vec3d> ridge{{depth, 0, 0}, {0, depth, 0}, {c * depth, 0.5 * depth, 0}};
+    EXPECT_EQ(count(ridge, Vec3d(0.0)), 0u);
+    std::vector<Vec3d> thick = wall;
+    for (Vec3d& y : thick) y *= 1.6;
+    EXPECT_EQ(count(thick, Vec3d(0.0)), 0u);
+}
+
+TEST(Walls, AreFoundOnceAndWhereNoOtherSheetIsNearer)
+{
+    const double h = 0.5;
+    for (const int atoms : {5, 6}) {
+        const double depth = 1.45;
+        const PsiJetAt psi = psiOf(ring(atoms, depth));
+        const Vec3d up(0.3, -0.2, depth / h), down(-0.2, 0.4, -depth / h);
+        std::vector<ThinPlace> places{{{up, down}, {up, down}}, {{down, up}, {}}};
+        const std::vector<Wall> walls = findWalls(psi, places, probe, h, Progress());
+        ASSERT_EQ(walls.size(), 1u);
+        EXPECT_LT(walls[0].place.length(), 3e-3);
+        EXPECT_NEAR(walls[0].depth, depth, 1e-5);
+        EXPECT_TRUE(findWalls(psi, places, probe + 0.3, h, Progress()).empty()); // wide open
+        EXPECT_TRUE(findWalls(psi, places, probe - 0.7, h, Progress()).empty()); // thick
+    }
+    // The ends of an ellipsoid are not closest to its centre.
+    const Vec3d axes(1.45, 1.0, 1.0); // [Å]
+    const PsiJetAt psi = [&](const Vec3d& x) {
+        PsiJet jet{3.0, Vec3d(0.0), Mat3d::zero()};
+        for (int a = 0; a < 3; ++a) {
+            jet.psi -= 3.0 * x[a] * x[a] / (axes[a] * axes[a]);
+            jet.gradient[a] = -6.0 * x[a] / (axes[a] * axes[a]);
+            jet.hessian(a, a) = -6.0 / (axes[a] * axes[a]);
+        }
+        return jet;
+    };
+    ThinPlace ends{{{2.9, 0.0, 0.0}, {-2.9, 0.0, 0.0}}, {}};
+    EXPECT_EQ(findWalls(psi, {ends}, probe, h, Progress()).size(), 1u);
+    ends.near = {{0.0, 2.0, 0.0}};
+    EXPECT_TRUE(findWalls(psi, {ends}, probe, h, Progress()).empty());
+}
+
+/// The Euler number of the default surface.
+long long eulerNumberOf(const std::vector<Ball>& balls, double voxel)
+{
+    SurfaceOptions options;
+    options.voxel = voxel;
+    const Report report = test::runOn(balls, options).report;
+    EXPECT_TRUE(report.surface.closed);
+    return *report.surface.eulerCharacteristic;
+}
+
+// The hole of a ring is open or closed by how thin its wall would be, on all voxels and in all
+// poses.
+TEST(Walls, OfARingAreOpenOrClosedInAllPoses)
+{
+    std::mt19937 random(17);
+    for (const int atoms : {5, 6}) {
+        for (const double voxel : {0.7, 0.5, 0.3}) {
+            for (const double beyond : {-0.08, -0.03, -0.01, 0.01, 0.03, 0.1}) {
+                const std::vector<Vec3d> centres = ring(atoms, probe + thinnestWall + beyond);
+                for (int pose = 0; pose < 3; ++pose) {
+                    EXPECT_EQ(eulerNumberOf(ballsAt(centres, test::randomMotion(random)), voxel),
+                              beyond > 0.0 ? 2 : 0)
+                        << atoms << " " << voxel << " " << beyond;
+                }
+            }
+        }
+    }
+}
+
+// Of molecules of 130 atoms in random places, which have a few walls each.
+TEST(Walls, OfRandomMoleculesAreTheSameInAllPoses)
+{
+    constexpr int molecules = 20, poses = 3;
+    std::mt19937 random(23);
+    int same = 0;
+    for (int i = 0; i < molecules; ++i) {
+        const std::vector<Ball> balls = test::randomBalls(130, 17.0, Vec3d(0.0), unsigned(i));
+        std::set<long long> numbers;
+        for (int pose = 0; pose < poses; ++pose) {
+            const test::Motion move = test::randomMotion(random);
+            std::vector<Ball> moved = balls;
+            for (Ball& ball : moved) ball.center = move(Vec3d(ball.center));
+            numbers.insert(eulerNumberOf(moved, 0.5));
+        }
+        same += numbers.size() == 1;
+    }
+    EXPECT_GE(same, molecules - 2);
+}
+
+} // namespace
+} // namespace molsurf
