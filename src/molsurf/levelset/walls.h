@@ -14,7 +14,6 @@
 
 #include <openvdb/Types.h>
 
-#include <optional>
 #include <vector>
 
 namespace molsurf
@@ -32,12 +31,12 @@ constexpr double thinnestWall = 0.06;
 /// How many voxels from a voxel the walls may lie that its value depends on, with what tells them.
 constexpr int wallReach = 8;
 
-/// Which feet of a voxel and those about it are of the sheets of a thin wall or neck, if it may be
-/// one.
-/// @param[in] feet    closest points of the interface to neighbouring voxels
-/// @param[in] middle  of these voxels
-/// @param[in] depth   the offset; lengths in voxels
-/// @param[out] out    a place for each two or three of them that may be
+/// Finds two or three sheets of the interface that a thin wall or neck may lie between, by some
+/// voxels. Lengths are in voxels.
+/// @param[in] feet     closest points of the interface to these voxels
+/// @param[in] middle   of the voxels
+/// @param[in] depth    the offset
+/// @param[in,out] out  a place is added for each set of sheets
 void findThinPlaces(const std::vector<openvdb::Vec3d>& feet, const openvdb::Vec3d& middle,
                     double depth, std::vector<ThinPlace>& out);
 
