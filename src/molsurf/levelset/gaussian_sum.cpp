@@ -241,7 +241,7 @@ void GaussianSum::decideGaps(Candidates& leaves, const Progress& progress)
 {
     const double h = options_.voxelSize, reach = std::max(1.5 * h, 0.75);
     const double cell = 0.5 * h;
-    const float nearest = float(std::max(1.2 * h, 0.6)), limit = float(farthestGap) + 0.8f;
+    const float nearest = float(std::max(1.6 * h, 0.8)), limit = float(farthestGap) + 0.8f;
     std::vector<Coord> origins;
     for (std::size_t n = 0; n < leaves.table.size(); ++n)
         if (leaves.places[n] >= 0) origins.push_back(leaves.table.origin(n));

@@ -180,6 +180,22 @@ TEST(Gaps, OfACageAreOpenOrClosedInAllPoses)
     }
 }
 
+// In the middle between voxels all eight are as far from it as can be.
+TEST(Gaps, OfACageThatStandsSquareOnTheVoxelsAreFoundWhereverItIs)
+{
+    std::mt19937 random(8);
+    Pose pose(random);
+    pose.turn = Mat3d::identity();
+    for (const double place : {0.0, 0.1, 0.25}) {
+        pose.shift = Vec3d(place);
+        GaussianSum sum(cage(-0.36, pose), optionsWith(0.5, tension));
+        sum.band(3, Progress());
+        ASSERT_TRUE(sum.gaps());
+        EXPECT_EQ(sum.gaps()->found, 9u) << place;
+        EXPECT_EQ(sum.gaps()->closed, 1u) << place;
+    }
+}
+
 // Without the rule the voxels decide: the test above is one.
 TEST(Gaps, AreLeftToTheVoxelsWithoutARule)
 {
