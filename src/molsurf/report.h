@@ -139,8 +139,8 @@ struct EvolutionReport {
     int frontSteps = 0;
     std::size_t restlessFronts = 0;
     std::optional<Gaps> gaps{}; ///< none where voxels and fronts decide
-    /// How thin walls and necks of the surface were decided; `nearest` is a depth [Å]. None
-    /// where voxels decide.
+    /// How thin walls and necks of the surface were decided: `closed` are those thicker than the
+    /// least, `nearest` is a depth [Å]. None where voxels decide.
     std::optional<Gaps> walls{};
 };
 

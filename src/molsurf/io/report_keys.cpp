@@ -123,9 +123,8 @@ constexpr ReportKey keyTable[] = {
     {"evolution.gaps.nearest", "",
      "How near to the decision the nearest one is, as a value of psi"},
     {"evolution.walls", "",
-     "How thin walls and necks were decided by psi; null where gaps are, and on voxels above 0.75 "
-     "Å or "
-     "two thirds of the probe"},
+     "How thin walls and necks were decided by psi; null where gaps are, and on voxels above "
+     "0.75 Å or two thirds of the probe"},
     {"evolution.walls.found", "", "The number of those near the decision"},
     {"evolution.walls.closed", "", "The number of those that are thicker than 0.12 Å"},
     {"evolution.walls.nearest", "Å", "How near to the decision the nearest one is, as a depth"},

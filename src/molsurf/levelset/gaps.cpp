@@ -28,16 +28,8 @@ std::vector<Gap> distinct(std::vector<Gap> gaps)
     std::sort(gaps.begin(), gaps.end(),
               [](const Gap& a, const Gap& b) { return a.place < b.place; });
     std::vector<Gap> out;
-    for (const Gap& gap : gaps) {
-        const bool known = [&] {
-            for (auto o = out.rbegin(); o != out.rend(); ++o) {
-                if (gap.place.x() - o->place.x() > same) return false;
-                if ((gap.place - o->place).length() < same) return true;
-            }
-            return false;
-        }();
-        if (!known) out.push_back(gap);
-    }
+    for (const Gap& gap : gaps)
+        if (!standsAmong(out, gap.place, same)) out.push_back(gap);
     return out;
 }
 

@@ -52,6 +52,15 @@ constexpr double farthestGap = 1.6;
 /// [Å], and if there is one.
 std::optional<Gap> gapNear(const PsiJetAt& jet, const openvdb::Vec3d& from, double reach);
 
+/// Whether one of some that ascend by places, the last of which has no larger x, is at a place.
+template<typename Placed>
+bool standsAmong(const std::vector<Placed>& some, const openvdb::Vec3d& place, double same)
+{
+    for (auto o = some.rbegin(); o != some.rend() && place.x() - o->place.x() <= same; ++o)
+        if ((place - o->place).length() < same) return true;
+    return false;
+}
+
 using GapReport = EvolutionReport::Gaps;
 
 /// Decides gaps. Where one is closed, psi becomes positive about it, and where it is open it

@@ -205,12 +205,7 @@ std::vector<Wall> findWalls(const PsiJetAt& psi, const std::vector<ThinPlace>& p
     std::sort(middles.begin(), middles.end());
     std::vector<Wall> walls;
     for (const Middle& middle : middles) {
-        bool known = false;
-        for (auto w = walls.rbegin(); w != walls.rend() && !known; ++w) {
-            if (middle.place.x() - w->place.x() > same) break;
-            known = (middle.place - w->place).length() < same;
-        }
-        if (!known && isNearest(jetAt, middle))
+        if (!standsAmong(walls, middle.place, same) && isNearest(jetAt, middle))
             walls.push_back({middle.place, middle.depth * voxelSize});
     }
     return walls;

@@ -4,6 +4,7 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/flow/evolve.h"
+#include "molsurf/levelset/round_ridges.h"
 #include "molsurf/surface/whole_only.h"
 
 #include <algorithm>
@@ -112,6 +113,13 @@ void failIfTooCoarse(const std::string& what, const std::vector<Ball>& balls,
                 what.substr(0, what.find(" [hint")) +
                     formatted(": voxels of %.3g Å are too large for the balls", options.voxel) +
                     hint);
+}
+
+bool decidesWalls(const SurfaceOptions& options)
+{
+    constexpr double leastOffset = 1.5; // [voxel]
+    return hasFlow(options.kind) && decidesGaps(options.evolution) &&
+           offsetOf(options) >= leastOffset * options.voxel && ridgeReach(options.voxel) > 0;
 }
 
 GaussianOptions gaussianOptions(const SurfaceOptions& options)

@@ -76,6 +76,10 @@ bool isBoundary(const SurfaceOptions& options);
 /// areas of its balls, are known in closed form, and nothing is asked for that needs voxels.
 bool hasClosedForm(const SurfaceOptions& options);
 
+/// Tells whether psi decides which thin walls of a surface are closed: where it decides gaps, and
+/// voxels hold what it decides.
+bool decidesWalls(const SurfaceOptions& options);
+
 /// Gives the half width of the band of S that the spline is fitted on [Å].
 double splineWidthOf(const SurfaceOptions& options);
 

@@ -237,11 +237,12 @@ void SurfaceRun::distance()
             result_.report.evolution->finalEnergy = interfaceEnergy(
                 carrier, *sum_, weightsOf(options_.evolution), scope_.region, progress_);
         }
+        if (!decidesWalls(options_)) sum_.reset();
         if (!options_.fillCavities) band_.psi = LeafField();
         band_.phi =
             keepsLevelSet() ? clipped(std::move(band_.phi), near, progress_) : SparseField();
         S_ = redistance(clipped(std::move(carrier), near, progress_), widthsOf(options_), -offset,
-                        progress_, scope_.region.grown(scope_.ridgeHalo), decidesWalls());
+                        progress_, scope_.region.grown(scope_.ridgeHalo), decidesWalls(options_));
     }
     if (offset > 0.0) {
         parallelFor(S_.phi.table.size(), progress_, [&](std::size_t n) {
@@ -250,23 +251,14 @@ void SurfaceRun::distance()
     }
     if (hasFlow(options_.kind)) roundRidges(S_, progress_);
     decideWalls();
-    sum_.reset();
     if (options_.minWall > 0.0)
         thickenWalls(S_, options_.minWall, splineWidthOf(options_), progress_);
     watch_.stop("redistance");
 }
 
-/// Whether psi decides thin walls: where it decides gaps, and voxels hold what it decides.
-bool SurfaceRun::decidesWalls() const
-{
-    constexpr double leastOffset = 1.5; // [voxel]
-    return hasFlow(options_.kind) && sum_ && decidesGaps(options_.evolution) &&
-           offsetOf(options_) >= leastOffset * options_.voxel && ridgeReach(options_.voxel) > 0;
-}
-
 void SurfaceRun::decideWalls()
 {
-    if (!decidesWalls()) return;
+    if (!decidesWalls(options_)) return;
     const PsiJetAt psi = [&](const openvdb::Vec3d& x) {
         PsiJet jet = sum_->jet(x);
         jet.psi += bumps_.at(x, &jet.gradient, &jet.hessian);
@@ -277,6 +269,7 @@ void SurfaceRun::decideWalls()
     const GapReport decisions = molsurf::decideWalls(walls, offset, S_.phi);
     if (scope_.region.whole()) result_.report.evolution->walls = decisions;
     S_.thin = {};
+    sum_.reset();
 }
 
 namespace

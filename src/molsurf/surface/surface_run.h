@@ -163,7 +163,6 @@ private:
     void checkLeft() const;
     bool keepsLevelSet() const;
     DistanceBand distanceToBalls();
-    bool decidesWalls() const;
     void decideWalls();
 
     const BallSet& atoms_;
