@@ -3,14 +3,14 @@
 # whose path has a space, without HOME, with LANG=C:
 #     scripts/fresh_machine.sh [--user] [--commit COMMIT] [--share FOLDER] [--suite SUITE] [--then COMMAND]... [COMMAND]...
 #     scripts/fresh_machine.sh --list
-# Without a COMMAND it runs the two of README.md, as they stand there (--list prints them). --then adds one that runs
+# Without a COMMAND it runs the three of README.md, as printed there (--list prints them). --then adds one that runs
 # after them. --user runs them as a user who has sudo, and otherwise they run as root, without sudo. COMMIT is HEAD
 # unless it is named. FOLDER of this machine is /srv/shared there. SUITE is another release of Debian: trixie is 13.
 #
 # It ends with the minutes of each command, and with status 1 at the first one that fails. It needs root (or sudo),
 # 8 GB of free memory and debootstrap, which it installs. The system is in memory, in a mount and a process namespace
 # of its own: nothing of it is left when the script ends or is killed. The bare system, before any command, is kept in
-# build-fresh/ for a week. Debian's mirror, apt's settings and proxies are those of this machine.
+# build-fresh/ for a week. Debian's mirror, the settings of apt and pip, and proxies are those of this machine.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -18,7 +18,7 @@ root=$PWD/build-fresh/root        # a file system in memory lies over it, which 
 suite=bookworm
 place="/srv/a folder/vdb_molsurf" # in the fresh machine
 path=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
-proxies=(http_proxy https_proxy ftp_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY)
+proxies=(http_proxy https_proxy ftp_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY PIP_INDEX_URL)
 
 fail() {
   echo "fresh_machine.sh: $*" >&2
@@ -28,8 +28,8 @@ fail() {
 # The commands of README.md, a line each.
 readme_commands() {
   local found
-  found=$(sed -n '/^## Two commands/,/^## /s/^    \(scripts\/[^ ]*\)$/\1/p' README.md)
-  [[ $(wc -l <<< "$found") -eq 2 ]] || fail "README.md: expected two commands under 'Two commands to begin', got: $found"
+  found=$(sed -n '/^## Three commands/,/^## /{/^    /,/^$/s/^    //p}' README.md | head -n 3)
+  [[ $(wc -l <<< "$found") -eq 3 ]] || fail "README.md: expected three commands under 'Three commands to begin', got: $found"
   echo "$found"
 }
 
@@ -56,6 +56,16 @@ copy_settings() {
   [[ -f /etc/apt/sources.list ]] || rm -f "$root/etc/apt/sources.list"
 }
 
+# Where pip of this machine finds packages, and the certificates that it trusts.
+copy_pip_settings() {
+  local bundle=${PIP_CERT:-${SSL_CERT_FILE:-}} to=/etc/ssl/certs/fresh-machine.crt
+  [[ ! -f /etc/pip.conf ]] || cp /etc/pip.conf "$root/etc/"
+  [[ -f $bundle ]] || return 0
+  mkdir -p "$root${to%/*}"
+  cp "$bundle" "$root$to"
+  variables+=("PIP_CERT=$to")
+}
+
 # Makes the bare system in $root, of the tarball if that is not too old.
 make_base() {
   local base=$PWD/build-fresh/$suite.tar
@@ -78,6 +88,7 @@ inside() {
   mount -t tmpfs -o mode=755,size=80% fresh "$root" || fail "a file system in memory cannot be mounted"
   make_base
   copy_settings
+  copy_pip_settings
   mount -t proc proc "$root/proc"
   mount --rbind /sys "$root/sys"
   mount --rbind /dev "$root/dev"
@@ -149,7 +160,7 @@ commit=$(git rev-parse --verify --quiet "$commit^{commit}") || fail "there is no
 [[ -z $(git status --porcelain) ]] || echo "fresh_machine.sh: note: uncommitted changes are not in the clone"
 
 as_root=()
-[[ $EUID -eq 0 ]] || as_root=(sudo --preserve-env="$(IFS=,; echo "${proxies[*]}")")
+[[ $EUID -eq 0 ]] || as_root=(sudo --preserve-env="$(IFS=,; echo "${proxies[*]},PIP_CERT,SSL_CERT_FILE")")
 if ! command -v debootstrap > /dev/null; then
   "${as_root[@]}" apt-get update -q
   "${as_root[@]}" apt-get install -q -y --no-install-recommends debootstrap

@@ -1,9 +1,9 @@
 #!/bin/bash
 # Installs packages of Debian 12, those of this list and no others:
 #     scripts/install_deps.sh [--test] [--check] [--optional] [PACKAGE...]
-# What building needs, always; with --test what all tests need; with --check what formatting and the
-# benchmarks need; with --optional the programs of others that some tests run, which are skipped
-# without. Does nothing, and needs no rights, if all of it is there.
+# What the program and the Python module need to be built, always; with --test what all tests need; with --check
+# what formatting and the benchmarks need; with --optional the programs of others that some tests run, which are
+# skipped without. Does nothing, and needs no rights, if all of it is there.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -14,10 +14,11 @@ packages=(
   gemmi-dev tao-pegtl-dev libstb-dev # gemmi's headers include the other two without saying so
   nlohmann-json3-dev libpng-dev libfreetype-dev fonts-dejavu-core zlib1g-dev libssl-dev libembree-dev
   lib3mf-dev
+  python3-dev python3-venv # of the Python module, whose other tools pip loads
 )
 test=(libgtest-dev libcgal-dev pkg-config python3 python3-openvdb python3-numpy python3-biopython libopenvdb-tools)
 check=(clang-format libbenchmark-dev universal-ctags)
-optional=(blender chromium freesasa groff pymol snakemake strace) # 1.4 GB
+optional=(blender chromium fish freesasa groff pymol snakemake strace zsh) # 1.4 GB
 # Node.js may be there from elsewhere, whose packages do not go together with Debian's.
 command -v node > /dev/null || optional+=(nodejs)
 command -v npm > /dev/null || optional+=(npm)
