@@ -5,9 +5,8 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/mesh/surface_vertices.h"
 #include "molsurf/mesh/triangle_shape.h"
+#include "molsurf/mesh/volume_mesher.h"
 #include "molsurf/spline/curvature.h"
-
-#include <openvdb/tools/VolumeToMesh.h>
 
 #include <tbb/parallel_invoke.h>
 
@@ -65,7 +64,7 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
                  ExtractStats& stats)
 {
     openvdb::tools::VolumeToMesh mesher;
-    mesher(surface);
+    meshVolume(surface, mesher);
     stopIfCancelled(progress);
     const openvdb::Vec3s* starts = mesher.pointList().get();
     openvdb::tools::PolygonPoolList& pools = mesher.polygonPoolList(); // quads alone, by leaf
