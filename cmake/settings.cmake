@@ -7,7 +7,7 @@ function(molsurf_settings target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   target_compile_definitions(${target} PRIVATE MOLSURF_VERSION="${PROJECT_VERSION}")
   # Selects and square roots of the kernels vectorise only without errno and traps; NaN keeps its meaning.
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wno-psabi $<$<BOOL:${MOLSURF_WERROR}>:-Werror>
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wno-psabi $<$<BOOL:${MOLSURF_WERROR}>:-Werror>
                                            -fno-math-errno -fno-trapping-math)
   if(NOT target STREQUAL molsurf_internal)
     target_precompile_headers(${target} REUSE_FROM molsurf_internal)

@@ -14,11 +14,11 @@ namespace molsurf::tool
 /// What a call may have: an option, one value of an option, or a file of some formats.
 struct Thing {
     /// @param[in] typed  "color", or with a value "color=copy"
-    Thing(const char* typed, const char* title = nullptr) : words(typed), title(title) {}
-    /// @param[in] holds  what the file holds, as a set of Holds
+    Thing(const char* typed, const char* name = nullptr) : words(typed), title(name) {}
+    /// @param[in] some   what the file holds, as a set of Holds
     /// @param[in] table  the table of areas that it has; "": any or none
-    Thing(Holds holds, const char* table = "", const char* title = nullptr)
-        : words(table), title(title), holds(holds)
+    Thing(Holds some, const char* table = "", const char* name = nullptr)
+        : words(table), title(name), holds(some)
     {
     }
 

@@ -344,8 +344,8 @@ void checkHeader(BrickHeader& h, std::uint64_t end)
         grid.values = at;
         skip(grid.leaves, sizeof(StoredLeaf), "leaves lie outside of it");
     }
-    for (const auto* names : {&h.layout.scalars, &h.layout.labels})
-        check(std::all_of(names->begin(), names->end(), isName),
+    for (const auto* columns : {&h.layout.scalars, &h.layout.labels})
+        check(std::all_of(columns->begin(), columns->end(), isName),
               "vertices have values without names");
     follow(h.vertices, h.meshed() ? h.layout.vertexSize() : 0, "vertices lie elsewhere");
     if (h.meshed()) follow(h.triangles, 12, "triangles lie elsewhere");

@@ -14,7 +14,7 @@ namespace molsurf
 namespace
 {
 
-using Block = LeafBlock<float, 2>;
+using EnergyBlock = LeafBlock<float, 2>;
 
 /// The cubic through the values at -1, 0, 1, 2 along a line, at t.
 double cubic(const float* p, int step, double t)
@@ -45,9 +45,9 @@ struct Crossings {
 };
 
 /// The crossings of the edges that begin at voxels of a leaf.
-void findCrossings(const Block& phi, const LeafMask& active, Crossings& out)
+void findCrossings(const EnergyBlock& phi, const LeafMask& active, Crossings& out)
 {
-    constexpr int steps[3] = {Block::strideX, Block::strideY, Block::strideZ};
+    constexpr int steps[3] = {EnergyBlock::strideX, EnergyBlock::strideY, EnergyBlock::strideZ};
     out.points.clear();
     out.weights.clear();
     active.forEach([&](int v) {
@@ -84,7 +84,7 @@ double interfaceEnergy(const SparseField& phi, const GaussianSum& sum, const Wei
         double own = 0.0;
         const LeafMask near = phi.table.active(n) & within(phi.leaf(n), float(1.8 * h));
         if (!near.any() || !region.owned.isInside(phi.table.origin(n))) return own;
-        Block block;
+        EnergyBlock block;
         block.gather(phi, n);
         findCrossings(block, near, crossings);
         if (crossings.points.empty()) return own;

@@ -29,9 +29,9 @@ MOLSURF_KERNEL void waysInRow(const LeafChange& __restrict leaf, int first, int 
         const bool was = (a < 0.0f) != (b < 0.0f), is = (c < 0.0f) != (d < 0.0f);
         const float before = a / (was ? a - b : 1.0f), after = c / (is ? c - d : 1.0f);
         const float moved = std::abs((after - before) * (c - d));
-        const float first = (a < 0.0f) != (c < 0.0f) ? std::abs(c - a) : 0.0f;
-        const float second = (b < 0.0f) != (d < 0.0f) ? std::abs(d - b) : 0.0f;
-        const float along = inverse * (was ? moved : larger(first, second));
+        const float one = (a < 0.0f) != (c < 0.0f) ? std::abs(c - a) : 0.0f;
+        const float other = (b < 0.0f) != (d < 0.0f) ? std::abs(d - b) : 0.0f;
+        const float along = inverse * (was ? moved : larger(one, other));
         way[z] = is ? along : -1.0f;
     }
 }

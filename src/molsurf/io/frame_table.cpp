@@ -69,7 +69,7 @@ FrameTable readFrameTable(const std::string& path)
 void writeFrameTable(const FrameTable& table, OutputFile& file)
 {
     std::string text = std::string(title) + "\n";
-    for (const auto& [file, row] : table) text += row.line + "\n";
+    for (const auto& [number, row] : table) text += row.line + "\n";
     file.write(text);
 }
 

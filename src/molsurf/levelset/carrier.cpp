@@ -54,16 +54,16 @@ void levelsAtFeet(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi
     });
 }
 
-using Block = LeafBlock<float, 3>;
-constexpr int blockSize = Block::dim * Block::dim * Block::dim;
+using MeanBlock = LeafBlock<float, 3>;
+constexpr int blockSize = MeanBlock::dim * MeanBlock::dim * MeanBlock::dim;
 
 /// Sums with the weights (1, 2, 1) along each axis, at voxels that are `rim` or more steps from the
 /// ends along x and y; those at the ends of rows get nothing of use.
 MOLSURF_KERNEL void spread(const float* __restrict in, int rim, float* __restrict scratch,
                            float* __restrict out)
 {
-    constexpr int X = Block::strideX, Y = Block::strideY;
-    const int low = rim, high = Block::dim - rim;
+    constexpr int X = MeanBlock::strideX, Y = MeanBlock::strideY;
+    const int low = rim, high = MeanBlock::dim - rim;
     for (int x = low - 1; x <= high; ++x) {
         const int end = std::min(X * x + Y * (high + 1), blockSize - 1);
         for (int i = std::max(X * x + Y * (low - 1), 1); i < end; ++i)
@@ -96,9 +96,9 @@ MOLSURF_KERNEL void settleMeans(float* __restrict sum, float* __restrict weight,
                                 const float* __restrict sums, const float* __restrict weights,
                                 float keep)
 {
-    constexpr int X = Block::strideX, Y = Block::strideY;
-    for (int x = rim; x < Block::dim - rim; ++x) {
-        for (int i = X * x + Y * rim; i < X * x + Y * (Block::dim - rim); ++i) {
+    constexpr int X = MeanBlock::strideX, Y = MeanBlock::strideY;
+    for (int x = rim; x < MeanBlock::dim - rim; ++x) {
+        for (int i = X * x + Y * rim; i < X * x + Y * (MeanBlock::dim - rim); ++i) {
             const float has = weights[i] > 0.0f ? 1.0f : 0.0f;
             const float mean = sums[i] / larger(weights[i], 1e-6f);
             sum[i] += (1.0f - keep * weight[i]) * has * (mean - sum[i]);
@@ -118,7 +118,8 @@ MOLSURF_KERNEL void carry(const float* __restrict levels, const float* __restric
     constexpr int rim = 3;
     constexpr float leastShare = 0.6f; // of the distance
     for (int row = 0; row < 64; ++row) {
-        const int first = (row / 8 + rim) * Block::strideX + (row % 8 + rim) * Block::strideY + rim;
+        const int first =
+            (row / 8 + rim) * MeanBlock::strideX + (row % 8 + rim) * MeanBlock::strideY + rim;
         for (int z = 0; z < 8; ++z) {
             const int i = 8 * row + z;
             // Far from the interface, where the level is not known, the bottom of the valley
@@ -159,7 +160,7 @@ SparseField smoothCarrier(const SparseField& phi, CarrierSource source, double w
     });
     const float limit = float(2.0 * width), lambda = float(source.lambda);
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        Block v;
+        MeanBlock v;
         v.gather(table, levels, n);
         alignas(64) float sum[blockSize], weight[blockSize], sums[blockSize], weights[blockSize],
             scratch[blockSize];

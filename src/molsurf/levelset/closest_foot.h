@@ -68,7 +68,7 @@ std::optional<openvdb::Vec3d> closestFoot(const JetAt& jetAt, const openvdb::Vec
         const double length = d.length();
         if (length > longest) d *= longest / length;
         bool nearer = false;
-        for (int k = 0; k < halvings && !nearer; ++k, d *= 0.4) {
+        for (int halving = 0; halving < halvings && !nearer; ++halving, d *= 0.4) {
             Vec3d next = y + d;
             Jet there;
             if ((next - start).lengthSqr() > farthest * farthest) continue;

@@ -279,8 +279,8 @@ void GaussianSum::decideGaps(Candidates& leaves, const Progress& progress)
             if (step.length() > nearest) return;
             const float rise = 0.5f * step.dot(openvdb::Vec3s(d.x, d.y, d.z));
             if (std::abs(*p - rise) > limit) return;
-            const Vec3d at = Vec3d(v >> 6, v >> 3 & 7, v & 7) * h - Vec3d(step);
-            starts.push_back({Coord::floor(at / cell), step.length(), v});
+            const Vec3d stationary = Vec3d(v >> 6, v >> 3 & 7, v & 7) * h - Vec3d(step);
+            starts.push_back({Coord::floor(stationary / cell), step.length(), v});
         });
         std::sort(starts.begin(), starts.end());
         for (std::size_t i = 0; i < starts.size(); ++i) {

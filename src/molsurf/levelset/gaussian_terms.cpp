@@ -279,16 +279,16 @@ void sumTerms(const GaussianTerms& terms, const GaussianBounds& bounds, Gaussian
 MOLSURF_KERNEL PsiSample sampleTerms(const GaussianTerms& terms, float x, float y, float z,
                                      std::vector<float>& scratch)
 {
-    constexpr std::size_t lanes = floatLanes;
-    if (scratch.size() < terms.count + lanes) scratch.resize(2 * (terms.count + lanes));
+    constexpr std::size_t width = floatLanes;
+    if (scratch.size() < terms.count + width) scratch.resize(2 * (terms.count + width));
     float* exponent = scratch.data();
-    alignas(32) float top[lanes], sum[lanes] = {}, sumX[lanes] = {}, sumY[lanes] = {},
-                                  sumZ[lanes] = {};
-    std::fill_n(top, lanes, GaussianTerms::noExponent);
+    alignas(32) float top[width], sum[width] = {}, sumX[width] = {}, sumY[width] = {},
+                                  sumZ[width] = {};
+    std::fill_n(top, width, GaussianTerms::noExponent);
     const float *cx = terms.x.data(), *cy = terms.y.data(), *cz = terms.z.data();
     const float *decay = terms.decay.data(), *level = terms.level.data();
-    for (std::size_t k = 0; k < terms.count; k += lanes) {
-        for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t k = 0; k < terms.count; k += width) {
+        for (std::size_t l = 0; l < width; ++l) {
             const std::size_t i = k + l;
             const float u = x - cx[i], v = y - cy[i], w = z - cz[i];
             exponent[i] = level[i] - decay[i] * (u * u + v * v + w * w);
@@ -298,11 +298,11 @@ MOLSURF_KERNEL PsiSample sampleTerms(const GaussianTerms& terms, float x, float 
     float largest = top[0];
     for (const float t : top) largest = larger(largest, t);
     const float least = largest - negligible;
-    for (std::size_t k = 0; k < terms.count; k += lanes) {
+    for (std::size_t k = 0; k < terms.count; k += width) {
         float near = exponent[k];
-        for (std::size_t l = 1; l < lanes; ++l) near = larger(near, exponent[k + l]);
+        for (std::size_t l = 1; l < width; ++l) near = larger(near, exponent[k + l]);
         if (near < least) continue;
-        for (std::size_t l = 0; l < lanes; ++l) {
+        for (std::size_t l = 0; l < width; ++l) {
             const std::size_t i = k + l;
             const float e = fastExp(exponent[i] - largest), pull = -2.0f * decay[i] * e;
             sum[l] += e;
@@ -312,7 +312,7 @@ MOLSURF_KERNEL PsiSample sampleTerms(const GaussianTerms& terms, float x, float 
         }
     }
     float all = 0.0f, gx = 0.0f, gy = 0.0f, gz = 0.0f;
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < width; ++l) {
         all += sum[l];
         gx += sumX[l];
         gy += sumY[l];

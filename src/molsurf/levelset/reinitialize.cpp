@@ -15,8 +15,8 @@ namespace molsurf
 namespace
 {
 
-using Block = LeafBlock<float, 2>;
-constexpr int X = Block::strideX, Y = Block::strideY;
+using WideBlock = LeafBlock<float, 2>;
+constexpr int alongX = WideBlock::strideX, alongY = WideBlock::strideY;
 
 /// Time step in units of h: the scheme is stable up to 1/sqrt(3).
 constexpr float timeStep = 0.5f;
@@ -61,7 +61,7 @@ MOLSURF_KERNEL void eulerStep(const float* __restrict block, const LeafMask& mov
     for (int z = 0; z < leafDim; ++z) bit[z] = rowBits[z];
     for (int row = 0; row < 64; ++row) {
         const int bits = moving.row(row);
-        const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
+        const float* p = block + (row / 8 + 2) * alongX + (row % 8 + 2) * alongY + 2;
         const Floats value = load(p);
         const Floats limited = clamped(value, -farthest, farthest);
         if (bits == 0) {
@@ -70,7 +70,8 @@ MOLSURF_KERNEL void eulerStep(const float* __restrict block, const LeafMask& mov
         }
         const Floats sign = value < 0.0f ? splat(-1.0f) : splat(1.0f);
         Floats slope2 = {};
-        for (const int stride : {X, Y, 1}) slope2 = addUpwind(slope2, p, stride, sign, zero);
+        for (const int stride : {alongX, alongY, 1})
+            slope2 = addUpwind(slope2, p, stride, sign, zero);
         const Floats slope = squareRoot(inverse2 * slope2);
         const Floats change = timeStep * voxel * (slope - 1.0f), change2 = change * change;
         const Floats next =
@@ -88,10 +89,10 @@ MOLSURF_KERNEL void nextToInterface(const float* __restrict block, const LeafMas
     for (int half = 0; half < 16; ++half) { // of a plane
         Ints found = {};
         for (int y = 4 * (half & 1); y < 4 * (half & 1) + 4; ++y) {
-            const float* p = block + (half / 2 + 2) * X + (y + 2) * Y + 2;
+            const float* p = block + (half / 2 + 2) * alongX + (y + 2) * alongY + 2;
             const Floats here = load(p);
-            Floats low = load(p + X), high = low;
-            for (const int step : {-X, Y, -Y, 1, -1}) {
+            Floats low = load(p + alongX), high = low;
+            for (const int step : {-alongX, alongY, -alongY, 1, -1}) {
                 const Floats next = load(p + step);
                 low = smaller(next, low);
                 high = larger(next, high);
@@ -114,7 +115,7 @@ MOLSURF_KERNEL void taylorDistance(const float* __restrict block, const LeafMask
     for (int row = 0; row < 64; ++row) {
         const int bits = mask.row(row);
         if (bits == 0) continue;
-        const float* p = block + (row / 8 + 2) * X + (row % 8 + 2) * Y + 2;
+        const float* p = block + (row / 8 + 2) * alongX + (row % 8 + 2) * alongY + 2;
         alignas(32) float distance[8];
         for (int z = 0; z < 8; ++z) {
             const Derivatives d = derivatives<2>(p + z, inverse);
@@ -150,7 +151,7 @@ void reinitialize(SparseField& phi, const Reinitialization& options, const Progr
     for (int i = 0; i < options.iterations; ++i) {
         // scratch <- phi after one step; interface voxels keep the value that step 0 has given them
         parallelFor(table.size(), progress, [&](std::size_t n) {
-            Block block;
+            WideBlock block;
             block.gather(phi, n);
             scratch.prefetchAfter(n);
             LeafMask& fixed = interface[n];

@@ -123,9 +123,9 @@ Table readTable(const std::string& path, std::size_t maxBytes)
         const std::string last(fields.back());
         char* end = nullptr;
         const float value = std::strtof(last.c_str(), &end);
-        const bool text = end != last.c_str() + last.size();
-        if (text && out.empty()) continue; // names of the columns
-        const bool number = !text && std::isfinite(value);
+        const bool isText = end != last.c_str() + last.size();
+        if (isText && out.empty()) continue; // names of the columns
+        const bool number = !isText && std::isfinite(value);
         int residue = 0;
         char insertion = ' ';
         bool good = number && (fields.size() == 3 || fields.size() == 4);

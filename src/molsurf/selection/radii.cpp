@@ -321,8 +321,8 @@ double RadiiSet::find(const std::string& residue, const std::string& atom,
 {
     constexpr double none = -1.0;
     if (!atoms.empty()) {
-        for (const std::string& name : {residue, parentResidue(residue), std::string("*")}) {
-            const auto found = atoms.find({name, atom});
+        for (const std::string& of : {residue, parentResidue(residue), std::string("*")}) {
+            const auto found = atoms.find({of, atom});
             if (found != atoms.end()) return found->second;
         }
     }

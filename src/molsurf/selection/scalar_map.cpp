@@ -55,11 +55,11 @@ ScalarMap readDx(const std::string& path, std::size_t maxBytes)
                                           inQuotes(std::string(lines.line())));
     };
     const auto vectorOf = [&](const Fields& fields, std::size_t first) {
-        Vec3d out(0.0);
+        Vec3d vector(0.0);
         for (std::size_t a = 0; a < 3; ++a)
-            if (fields.size() != first + 3 || !parseWhole(fields[first + a], out[int(a)]))
+            if (fields.size() != first + 3 || !parseWhole(fields[first + a], vector[int(a)]))
                 fail("three numbers");
-        return out;
+        return vector;
     };
     while (lines.next()) {
         const Fields fields = splitFields(lines.line());

@@ -55,8 +55,8 @@ Setting count(const char* name, const char* value, std::string text, const char*
                 {},   double(low),        double(high)};
     row.set = countSetter(name, low, high, of);
     row.get = [=](const Settings& s) -> SettingValue {
-        const std::optional<int> value = of(s);
-        return value ? std::to_string(*value) : std::string(none);
+        const std::optional<int> given = of(s);
+        return given ? std::to_string(*given) : std::string(none);
     };
     return row;
 }
