@@ -117,9 +117,9 @@ int brick(const Call& call)
     terminal.erase();
     if (!call.quiet) {
         const PlannedBrick& planned = manifest.plan.bricks[call.brick - 1];
-        say(path + formatted(": %.2f s, %.3f GiB of memory (%.3f planned)", secondsSince(start),
-                             double(peakMemory()) / double(1 << 30),
-                             double(planned.bytes) / double(1 << 30)));
+        say(path + formatted(": %.2f s, %s of memory (%s planned)", secondsSince(start),
+                             sizeText(double(peakMemory())).c_str(),
+                             sizeText(double(planned.bytes)).c_str()));
     }
     return 0;
 }

@@ -84,11 +84,6 @@ void checkOutputs(const Call& call)
                                               endingsOf(~0u, BricksMerge, " or "));
 }
 
-std::string sizeText(std::size_t bytes)
-{
-    return formatted("%.3g GiB", double(bytes) / double(1 << 30));
-}
-
 } // namespace
 
 bool goesInBricks(const Call& call)
@@ -112,9 +107,9 @@ int buildInBricks(Call call, Clock::time_point start)
     BallSet atoms = readBalls(call, terminal, report);
     const std::size_t reading = peakMemory();
     if (call.memory > 0 && reading > call.memory)
-        throw Error(ErrorKind::Input, "reading took " + sizeText(reading) +
-                                          " of memory, --memory is " + sizeText(call.memory) +
-                                          " [hint: --memory " +
+        throw Error(ErrorKind::Input, "reading took " + sizeText(double(reading)) +
+                                          " of memory, --memory is " +
+                                          sizeText(double(call.memory)) + " [hint: --memory " +
                                           std::to_string(reading / 1000000 * 12 / 10) + "M]");
     if (call.memory == 0) checkBalls(atoms.balls, call.options, Pieces::One, availableMemory());
     BrickPlan one = planWhole(atoms, call.options, terminal);
@@ -136,7 +131,7 @@ int buildInBricks(Call call, Clock::time_point start)
     const BrickPlan plan = planBricks(atoms, call.options, {0, call.memory, true}, terminal);
     terminal.erase();
     if (call.dryRun || !call.quiet) {
-        say("the whole takes about " + sizeText(whole) + "; in bricks:");
+        say("the whole takes about " + sizeText(double(whole)) + "; in bricks:");
         for (const std::string& line : describePlan(plan)) say(line);
     }
     if (call.dryRun) return 0;
@@ -156,8 +151,8 @@ int buildInBricks(Call call, Clock::time_point start)
         if (!plan.keepsMemory) malloc_trim(0);
         if (!call.verbose) continue;
         terminal.erase();
-        say(formatted("brick %zu of %zu, %.2f s, %.3f GiB at most", k, plan.bricks.size(),
-                      secondsSince(start), double(peakMemory()) / double(1 << 30)));
+        say(formatted("brick %zu of %zu, %.2f s, %s at most", k, plan.bricks.size(),
+                      secondsSince(start), sizeText(double(peakMemory())).c_str()));
     }
     atoms = BallSet();
     releasePages();

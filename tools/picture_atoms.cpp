@@ -89,10 +89,9 @@ void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surf
     }
     const double bytes = bytesOfModel(shown), available = double(availableMemory());
     if (bytes > available)
-        throw Error(ErrorKind::Input,
-                    formatted("--show: these atoms take about %.3g GiB of memory, and there are "
-                              "%.3g, expected fewer atoms",
-                              bytes / double(1 << 30), available / double(1 << 30)));
+        throw Error(ErrorKind::Input, "--show: these atoms take about " + sizeText(bytes) +
+                                          " of memory, and there are " + sizeText(available) +
+                                          ", expected fewer atoms");
     picture.model = std::make_shared<AtomModel>(atomModel(shown, progress));
 }
 

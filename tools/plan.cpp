@@ -17,8 +17,8 @@ namespace molsurf::tool
 
 std::string costText(const PlannedBrick& cost)
 {
-    return formatted("about %.3g voxels, %.3g GiB of memory at most, %.3g s on one core",
-                     double(cost.voxels), double(cost.bytes) / double(1 << 30), cost.seconds);
+    return formatted("about %.3g voxels, %s of memory at most, %.3g s on one core",
+                     double(cost.voxels), sizeText(double(cost.bytes)).c_str(), cost.seconds);
 }
 
 std::vector<std::string> describePlan(const BrickPlan& plan)

@@ -269,7 +269,7 @@ class Areas(ToolTest):
 
     def test_what_is_of_grids_is_of_grids_with_a_report_alone(self):
         words = ["--surface", "sas", "--voxel", "1"]
-        self.check(0, CRAMBIN, *words, "-o", "a.json", "--dry-run", says="GiB of memory")
+        self.check(0, CRAMBIN, *words, "-o", "a.json", "--dry-run", says="MiB of memory")
         self.assertEqual(self.names(), [])
         self.check(0, ASPARTATE, "--surface", "sas", "--voxel", "0.7", "-o", "a.json", "--memory", "80M", says="in bricks")
         self.assertTrue(self.report("a.json")["surface"]["closed"])

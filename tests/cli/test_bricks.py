@@ -13,7 +13,7 @@ import time
 import unittest
 import zlib
 
-from tool import CRAMBIN, DATA, FAST, TOOL, ToolTest, read_ply
+from tool import CRAMBIN, DATA, FAST, TOOL, ToolTest, read_ply, size_of
 
 STEPS = ["--steps", "4"]
 HEAD = 32  # bytes of a brick before its sections
@@ -242,11 +242,11 @@ class Memory(ToolTest):
     def too_little_for(self, *words):
         """Bytes that the whole does not fit into, and bricks of it do."""
         said = self.check(0, *words, "--dry-run").stderr.decode()
-        return int(0.9 * 2**30 * float(said.split(" GiB")[0].split()[-1]))
+        return int(0.9 * size_of(said))
 
     def test_dry_run(self):
         text = self.dry(*FAST)
-        self.assertRegex(text, r"327 atoms, 1 brick, about \S+ voxels, \S+ GiB of memory at most, "
+        self.assertRegex(text, r"327 atoms, 1 brick, about \S+ voxels, \S+ MiB of memory at most, "
                                r"\S+ s on one core")
         self.assertEqual(self.names(), [])
 

@@ -9,15 +9,10 @@ import subprocess
 import time
 import unittest
 
-from tool import CRAMBIN, DATA, FAST, TOOL, ToolTest
+from tool import CRAMBIN, DATA, FAST, TOOL, ToolTest, size_of
 
 LITTLE = 110e6  # bytes, of which the program itself takes 40 MB
 SOON = 1.0  # seconds of all processors
-
-
-def estimate_of(said):
-    """The bytes that a dry run tells."""
-    return 2**30 * float(said.split(" GiB")[0].split()[-1])
 
 
 class Limits(ToolTest):
@@ -103,7 +98,7 @@ class Limits(ToolTest):
                     lines.append(f"{x:.2f} {y:.2f} {z:.2f} 1.7\n")
             self.balls(name, lines)
             for voxel in (0.05, 0.5):
-                self.refuse(name, "--voxel", voxel, "-o", "a.vdb", says=["GiB of memory"])
+                self.refuse(name, "--voxel", voxel, "-o", "a.vdb", says=["iB of memory"])
 
     def test_more_hours_than_allowed(self):
         for words in ((), ("--memory", "60M")):
@@ -115,7 +110,7 @@ class Limits(ToolTest):
         (self.folder / "far.xyzr").write_text(
             "".join(f"{rng.uniform(0, 9e5)} {rng.uniform(0, 9e5)} {rng.uniform(0, 9e5)} 1.7\n" for _ in range(300)))
         said = self.check(0, "far.xyzr", "--surface", "sas", "--dry-run").stderr.decode()
-        estimate = estimate_of(said)
+        estimate = size_of(said)
         self.check(0, "far.xyzr", "--surface", "sas", "-o", "a.ply", "-o", "a.json")
         peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
         self.assertTrue(0.7 < estimate / peak < 1.5, (estimate, peak))
@@ -125,7 +120,7 @@ class Limits(ToolTest):
             self.check(0, DATA / "4at1.ent.gz", *words, "-o", "a.vdb", "--force")
             said = self.check(0, "convert", "a.vdb", "--dry-run", "-o", "b.json").stderr.decode()
             self.assertNotIn("b.json", self.names())
-            estimate = estimate_of(said)
+            estimate = size_of(said)
             self.check(0, "convert", "a.vdb", "-o", "a.json", "--force")
             peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
             self.assertTrue(0.7 < estimate / peak < 2, (estimate, peak))
@@ -136,7 +131,7 @@ class Limits(ToolTest):
         for width in (600, 2400):
             words = ("convert", "a.vdb", "-o", "a.png", "-o", "a.json", "--size", width)
             said = self.check(0, *words, "--force", "--dry-run").stderr.decode()
-            estimate = estimate_of(said)
+            estimate = size_of(said)
             self.check(0, *words, "--force")
             peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
             self.assertTrue(0.7 < estimate / peak < 1.5, (width, estimate, peak))
@@ -146,7 +141,7 @@ class Limits(ToolTest):
         said = self.check(0, *words, "--dry-run").stderr.decode()
         self.check(0, *words)
         peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
-        self.assertTrue(0.7 < estimate_of(said) / peak < 1.5, (said, peak))
+        self.assertTrue(0.7 < size_of(said) / peak < 1.5, (said, peak))
         self.check(1, *words, "--force", "--max-hours", "1e-4", says="hours")
 
     def test_compare_says_what_it_takes(self):
@@ -158,12 +153,12 @@ class Limits(ToolTest):
             self.assertNotIn("b.json", self.names())
             self.check(0, "compare", *words, "-o", "a.json", "--force")
             peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
-            self.assertTrue(0.7 < estimate_of(said) / peak < 1.5, (words, said, peak))
+            self.assertTrue(0.7 < size_of(said) / peak < 1.5, (words, said, peak))
             self.refuse("compare", *words, "--max-hours", "1e-5", says=["hours", "--max-hours"])
 
     def test_compare_refuses_what_is_too_large(self):
         self.check(1, "compare", CRAMBIN, CRAMBIN, "--voxel", "0.05", "--epsilon", "10", "--probe", "90",
-                   says=["GiB of memory, and there are"])
+                   says=["iB of memory, and there are"])
 
     def test_a_run_ends_at_its_hours(self):
         """Its estimate is far below them: the paper's flow goes on without an end."""
@@ -177,8 +172,8 @@ class Limits(ToolTest):
     def test_a_dry_run_answers_in_any_case(self):
         self.balls("giant.xyzr", ["0 0 0 1000\n"])
         for words in (("--probe", "100", "--voxel", "0.05"), ("--max-hours", "1e-6")):
-            self.check(0, CRAMBIN, "--dry-run", "-o", "a.vdb", *words, says="GiB of memory")
-        self.check(0, "giant.xyzr", "--dry-run", "-o", "a.vdb", "--voxel", "1", says="GiB of memory")
+            self.check(0, CRAMBIN, "--dry-run", "-o", "a.vdb", *words, says="iB of memory")
+        self.check(0, "giant.xyzr", "--dry-run", "-o", "a.vdb", "--voxel", "1", says="iB of memory")
 
     def test_many_copies_of_an_atom(self):
         lines = ["REMARK 350 BIOMOLECULE: 1\n", "REMARK 350 APPLY THE FOLLOWING TO CHAINS: A\n"]

@@ -4,6 +4,7 @@
 import csv
 import os
 import pathlib
+import re
 import struct
 import subprocess
 import tempfile
@@ -15,6 +16,15 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 DATA = ROOT / "tests" / "data"
 CRAMBIN = DATA / "1crn.pdb"
 FAST = ["--voxel", "1"]  # coarse, for tests that look at anything but the surface
+
+
+UNITS = {"MiB": 2**20, "GiB": 2**30}
+
+
+def size_of(said):
+    """The bytes of the first size in a text, such as "57.3 MiB"."""
+    number, unit = re.search(r"([\d.e+]+) (MiB|GiB)", said).groups()
+    return UNITS[unit] * float(number)
 
 
 class ToolTest(unittest.TestCase):

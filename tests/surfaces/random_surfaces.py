@@ -148,9 +148,10 @@ def draw(rng, files):
 def estimate(program, words):
     """(bytes, processor seconds) by --dry-run."""
     said = subprocess.run([program, *words, "--dry-run"], capture_output=True, text=True).stderr.split()
-    if "GiB" not in said:
-        return math.inf, math.inf
-    return float(said[said.index("GiB") - 1]) * 2**30, float(said[-5])
+    for unit, bytes_ in (("MiB", 2**20), ("GiB", 2**30)):
+        if unit in said:
+            return float(said[said.index(unit) - 1]) * bytes_, float(said[-5])
+    return math.inf, math.inf
 
 
 def main():

@@ -435,10 +435,10 @@ public:
     {
         throw Error(
             ErrorKind::Input,
-            formatted("`memory`: %s needs %.2f GiB, and there are %.2f [hint: `memory` %.1fG, or a "
-                      "larger `voxel`]",
-                      what, bytes / double(1 << 30), double(memory) / double(1 << 30),
-                      std::ceil(11.0 * bytes / double(1 << 30)) / 10.0));
+            formatted("`memory`: %s needs %s, and there are %s [hint: `memory` %.0fM, or a larger "
+                      "`voxel`]",
+                      what, sizeText(bytes).c_str(), sizeText(double(memory)).c_str(),
+                      std::ceil(1.1 * bytes / double(1 << 20))));
     }
 
 private:
@@ -570,9 +570,8 @@ void checkCost(const PlannedBrick& surface, const RunLimits& limits)
     cost.bytes += limits.besides.bytes;
     cost.seconds += limits.besides.seconds;
     if (cost.bytes > limits.memory) {
-        const std::string text = formatted(
-            "the surface takes about %.3g GiB of memory, and there are %.3g",
-            double(cost.bytes) / double(1 << 30), double(limits.memory) / double(1 << 30));
+        const std::string text = "the surface takes about " + sizeText(double(cost.bytes)) +
+                                 " of memory, and there are " + sizeText(double(limits.memory));
         std::string hint = limits.hint;
         if (limits.bricks && bytesToMerge * double(cost.voxels) < 0.5 * double(limits.memory)) {
             hint += formatted(", or `memory` %.2gG, which makes it in bricks",

@@ -28,6 +28,13 @@ std::string formatted(const char* form, ...)
     return text;
 }
 
+std::string sizeText(double bytes)
+{
+    constexpr double mebi = 1 << 20, gibi = 1 << 30, few = 999.5; // of three digits
+    return bytes < few * mebi ? formatted("%.3g MiB", bytes / mebi)
+                              : formatted("%.3g GiB", bytes / gibi);
+}
+
 std::string lowered(std::string text)
 {
     for (char& letter : text)

@@ -47,6 +47,9 @@ std::string shortest(double number);
 /// "1 atom", "2 atoms".
 std::string counted(std::size_t count, const std::string& one, const std::string& many);
 
+/// A size of memory or of a file in its unit, three digits: "57.3 MiB", "1.21 GiB".
+std::string sizeText(double bytes);
+
 /// Text by a form as of printf().
 __attribute__((format(printf, 1, 2))) std::string formatted(const char* form, ...);
 

@@ -70,10 +70,9 @@ void checkBalls(const std::vector<Ball>& balls, const SurfaceOptions& options, P
     if (bytes <= share * double(memory)) return;
     constexpr double margin = 3.0; // what it takes above the least
     const double voxel = options.voxel * std::sqrt(margin * bytes / double(memory));
-    const std::string text = formatted(
-        "a ball of radius %.6g Å takes at least %.3g GiB at a voxel of %g Å, and there are "
-        "%.3g GiB",
-        radius, bytes / double(1 << 30), options.voxel, double(memory) / double(1 << 30));
+    const std::string text =
+        formatted("a ball of radius %.6g Å takes at least %s at a voxel of %g Å, and there are %s",
+                  radius, sizeText(bytes).c_str(), options.voxel, sizeText(double(memory)).c_str());
     throw Error(ErrorKind::Input,
                 voxel <= maxVoxel ? text + formatted(" [hint: `voxel` %.2g]", voxel + 0.05) : text);
 }
