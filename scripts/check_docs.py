@@ -45,6 +45,8 @@ PRINTED = {
     "docs/cli-help.txt": ("vdb_molsurf", "--help"),
     "docs/man/vdb_molsurf.1": ("vdb_molsurf", "--man"),
     "docs/man/vdb_molsurf.bash": ("vdb_molsurf", "--bash-completion"),
+    "docs/man/vdb_molsurf.zsh": ("vdb_molsurf", "--zsh-completion"),
+    "docs/man/vdb_molsurf.fish": ("vdb_molsurf", "--fish-completion"),
     "docs/man/vdb_molsurf_msms.1": ("vdb_molsurf_msms", "--man"),
     "docs/man/vdb_molsurf_nanoshaper.1": ("vdb_molsurf_nanoshaper", "--man"),
 }
@@ -102,11 +104,12 @@ class Program:
 
     @classmethod
     def ask(cls, path):
-        """Every word of the usage is tried as a verb, and every two as a verb of two words."""
+        """Every word of the overview is tried as a verb, and every two as a verb of two words."""
         def text(*words):
-            return subprocess.run([path, *words, "--help"], capture_output=True, text=True).stdout
+            return subprocess.run([path, *words, "--help-all"], capture_output=True, text=True).stdout
         main, verbs = text(), {}
-        for line in main.split("\n\n")[0].splitlines():
+        overview = subprocess.run([path, "help"], capture_output=True, text=True).stdout
+        for line in (line for line in overview.splitlines() if line.startswith("vdb_molsurf ")):
             words = [part.split("|") for part in re.split(r"[\s,]+", line)[1:]
                      if re.fullmatch(r"[a-z]+(\|[a-z]+)*", part)]
             for verb in [(w,) for part in words for w in part] + [

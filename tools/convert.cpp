@@ -2,6 +2,7 @@
 #include "verbs.h"
 
 #include "bricks.h"
+#include "input_files.h"
 #include "outputs.h"
 #include "terminal.h"
 #include "write_result.h"
@@ -60,6 +61,10 @@ int convert(const Call& asked, Clock::time_point start)
     Terminal terminal(asked.progress);
     Clock::time_point lapStart = Clock::now();
     terminal.update("read", 0.0);
+    failIfNoFile(asked.input);
+    if (asked.input != "-" && !isVdbFile(asked.input))
+        throw Error(ErrorKind::Input, asked.input + ": is no .vdb file [hint: vdb_molsurf " +
+                                          asked.input + " -o FILE makes a surface of a structure]");
     PlannedBrick cost;
     const VdbFile file = readVdb(asked.input, [&](const VdbContent& content) {
         cost = costOfStored(content);

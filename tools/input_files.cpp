@@ -3,13 +3,54 @@
 
 #include "cli/option_table.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <filesystem>
+
 namespace molsurf::tool
 {
+
+namespace
+{
+
+/// Whether a name is that of an entry of the Protein Data Bank: 1crn, or pdb_00001crn.
+bool isEntry(const std::string& name)
+{
+    const std::string small = lowered(name);
+    const bool longName = small.size() == 12 && small.compare(0, 4, "pdb_") == 0;
+    const std::string id = longName ? small.substr(4) : small;
+    const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
+    return (longName || (id.size() == 4 && id[0] >= '1' && id[0] <= '9')) &&
+           std::all_of(id.begin(), id.end(), isLetter);
+}
+
+} // namespace
+
+void failIfNoFile(const std::string& path)
+{
+    if (path == "-") return;
+    std::error_code problem;
+    const auto status = std::filesystem::status(path, problem);
+    if (std::filesystem::is_directory(status))
+        throw Error(ErrorKind::Input, path +
+                                          ": is a folder, expected a file [hint: vdb_molsurf "
+                                          "batch " +
+                                          path + " -O DIR reads all structures in it]");
+    if (status.type() != std::filesystem::file_type::not_found) return;
+    std::string hint;
+    if (path.find("://") != std::string::npos)
+        hint = " [hint: it is an address; curl -LO " + path + " loads the file first]";
+    else if (isEntry(path))
+        hint = " [hint: it is the name of an entry of the Protein Data Bank; curl -LO "
+               "https://files.rcsb.org/download/" +
+               path + ".cif.gz loads the file first]";
+    throw Error(ErrorKind::Input, path + ": cannot be opened: No such file or directory" + hint);
+}
 
 InputFiles::InputFiles(const Call& call)
 {

@@ -16,6 +16,12 @@
 namespace molsurf::tool
 {
 
+/// Refuses a path that names no file that can hold atoms, with what people do who meet it first: a
+/// name of the Protein Data Bank, an address, a folder.
+/// @throws Error(ErrorKind::Input)
+void failIfNoFile(const std::string& path);
+
+/// The files that a call reads, none of which it may replace.
 class InputFiles
 {
 public:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+#include "input_files.h"
 #include "outputs.h"
 #include "picture_atoms.h"
 #include "verbs.h"
@@ -18,6 +19,7 @@ DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& te
                          DrawOptions* picture)
 {
     terminal.update("read", 0.0);
+    failIfNoFile(path);
     if (path != "-" && isVdbFile(path))
         throw Error(ErrorKind::Input,
                     path + ": it is an OpenVDB file, expected atoms [hint: vdb_molsurf convert " +

@@ -73,6 +73,7 @@ NEEDS = {
     "blender": (program("blender"), "scripts/install_deps.sh blender"),
     "bpy": (lambda: runs(BPY_PYTHON, "-c", "import bpy"), "pip install bpy, and BPY_PYTHON=<that Python>"),
     "chromium": (lambda: CHROMIUM, "scripts/install_deps.sh chromium"),
+    "fish": (program("fish"), "scripts/install_deps.sh fish"),
     "freesasa": (program("freesasa"), "scripts/install_deps.sh freesasa"),
     "gltf-validator": (
         lambda: NODE and runs(NODE, "-e", "require('gltf-validator')", env=NODE_ENVIRONMENT),
@@ -91,6 +92,7 @@ NEEDS = {
                "scripts/install_deps.sh strace, and the right to trace"),
     "usd": (lambda: runs(USD_PYTHON, "-c", "from pxr import UsdValidation"),
             "pip install usd-core, and USD_PYTHON=<that Python>"),
+    "zsh": (program("zsh"), "scripts/install_deps.sh zsh"),
     "full": (lambda: os.path.exists("/dev/full"), "a system with /dev/full"),
     "mount": (can_mount, "the right to mount a file system, as root has it"),
     "memory": (lambda: runs(os.environ["VDB_MOLSURF"], "--version", preexec_fn=small_address_space),

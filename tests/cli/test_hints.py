@@ -150,8 +150,8 @@ CASES = {
         ("--force", f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv",
          f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv --force")],
     "bricks/plan_bricks.cpp": [
-        ("--memory 0.1G, or a larger --voxel", "vdb_molsurf 1crn.pdb --voxel 2 --memory 56M -o a.ply",
-         "vdb_molsurf 1crn.pdb --voxel 2 --memory 0.1G -o a.ply"),
+        ("--memory 65M, or a larger --voxel", "vdb_molsurf 1crn.pdb --voxel 2 --memory 56M -o a.ply",
+         "vdb_molsurf 1crn.pdb --voxel 2 --memory 65M -o a.ply"),
         ("or a larger --voxel", "vdb_molsurf 1crn.pdb --memory 62M --voxel 0.1 -o a.ply",
          "vdb_molsurf 1crn.pdb --memory 62M --voxel 2 -o a.ply")],
     "bricks/plan_bricks.h": [
@@ -248,6 +248,8 @@ CASES = {
         ("name, select, color, copies", f"vdb_molsurf 1crn.pdb --groups groups.json {FAST} -o a.ply",
          f"sed -i s/colour/color/ groups.json; vdb_molsurf 1crn.pdb --groups groups.json {FAST} -o a.ply")],
     "tools/input_files.cpp": [
+        ("vdb_molsurf batch some -O DIR", "mkdir some; vdb_molsurf some -o a.ply",
+         f"mkdir some; cp two.xyzr some; vdb_molsurf batch some -O dir {FAST}"),
         ("another name", "cp 1crn.pdb a.pdb; vdb_molsurf a.pdb -o a.pdb --force", "vdb_molsurf a.pdb -o b.pdb")],
     "tools/read_balls.cpp": [
         ("vdb_molsurf convert a.vdb -o FILE", f"vdb_molsurf one.xyzr {FAST} -o a.vdb; vdb_molsurf a.vdb -o a.ply",
@@ -300,6 +302,8 @@ CASES = {
         ("--contacts atom", "vdb_molsurf residue.pdb --contacts residue -o a.contacts.csv",
          "vdb_molsurf residue.pdb --contacts atom -o b.contacts.csv")],
     "tools/convert.cpp": [
+        ("vdb_molsurf two.xyzr -o FILE makes a surface", "vdb_molsurf convert two.xyzr -o a.ply",
+         f"vdb_molsurf two.xyzr {FAST} -o a.ply"),
         ("a surface of a larger --voxel, or a larger --max-hours",
          "vdb_molsurf 1crn.pdb --voxel 0.2 --surface sas -o a.vdb; "
          "vdb_molsurf convert a.vdb -j 64 -o a.ply --max-hours 1e-5",
@@ -326,8 +330,15 @@ CASES = {
          f"vdb_molsurf moved.pdb --instances --assembly 1 {FAST} -o a.ply",
          *(f"vdb_molsurf moved.pdb --instances --assembly 1 {FAST} -o a.{kind}"
            for kind in ("glb", "usda", "html", "png", "json"))),
-        ("vdb_molsurf molecule.pdb -o surface.vdb", "vdb_molsurf 1crn.pdb two.xyzr -o surface.vdb",
-         f"vdb_molsurf 1crn.pdb {FAST} -o surface.vdb"),
+        ("vdb_molsurf molecule.pdb -o surface.vdb; vdb_molsurf --help lists the options", "vdb_molsurf -o surface.vdb",
+         f"vdb_molsurf 1crn.pdb {FAST} -o surface.vdb", "vdb_molsurf --help"),
+        ("vdb_molsurf batch - -O DIR", "vdb_molsurf 1crn.pdb two.xyzr -o surface.vdb",
+         f"ls 1crn.pdb two.xyzr | vdb_molsurf batch - -O dir {FAST}"),
+        ("-o a/surface.ply", "mkdir a; vdb_molsurf 1crn.pdb -o a/", f"mkdir -p a; vdb_molsurf 1crn.pdb {FAST} -o a/surface.ply"),
+        ("-o x.vdb, -o x.json; --help lists the formats", "vdb_molsurf 1crn.pdb -o x",
+         f"vdb_molsurf 1crn.pdb {FAST} -o x.vdb", f"vdb_molsurf 1crn.pdb {FAST} -o x.json", "vdb_molsurf --help | grep .ply"),
+        (".png; --help lists the formats", "vdb_molsurf 1crn.pdb -o x.pdf", f"vdb_molsurf 1crn.pdb {FAST} -o x.png"),
+        ("--help lists the formats", "vdb_molsurf 1crn.pdb -o x.qqqqq", "vdb_molsurf --help | grep .ply"),
         ("vdb_molsurf batch list.txt -O surfaces", "vdb_molsurf batch", "vdb_molsurf batch list.txt -O surfaces"),
         ("-O DIR", "vdb_molsurf batch list.txt", "vdb_molsurf batch list.txt -O DIR"),
         ("vdb_molsurf compare a.vdb b.ply -o difference.ply", "vdb_molsurf compare solid.ply",
@@ -382,7 +393,11 @@ CASES = {
          f"vdb_molsurf 1a8o.cif.gz --assembly 1 --group-by copy --color group {FAST} -o a.ply"),
         ("--group-by class --color group", f"vdb_molsurf 1a8o.cif.gz --assembly 1 --color class --group-by chain {FAST} -o a.ply",
          f"vdb_molsurf 1a8o.cif.gz --assembly 1 --group-by class --color group {FAST} -o a.ply")],
+    "structure/detect_format.cpp": [
+        ("unzip it first", "python3 -m zipfile -c a.zip 1crn.pdb; vdb_molsurf a.zip -o a.ply",
+         f"python3 -m zipfile -c a.zip 1crn.pdb; rm 1crn.pdb; python3 -m zipfile -e a.zip .; vdb_molsurf 1crn.pdb {FAST} -o a.ply")],
     "tools/cli/parse.cpp": [
+        ("did you mean --version?", "vdb_molsurf -version", "vdb_molsurf --version"),
         ("vdb_molsurf help", "vdb_molsurf bricks", "vdb_molsurf help | grep 'bricks plan'"),
         ("vdb_molsurf convert --help", "vdb_molsurf convert a.vdb --qqqqqq", "vdb_molsurf convert --help"),
         ("vdb_molsurf --help", "vdb_molsurf 1crn.pdb -o", "vdb_molsurf --help | grep -e '-o,'")],
@@ -446,6 +461,7 @@ UNTRIED = {
     "surface/unit_mesh.cpp": {"a .glb file": "it takes a mesh of 2^32 vertices"},
     "surface/unit_run.cpp": {"a smaller `voxel`": "no unit is known that gives it",
                              "edges of": "no unit is known that gives it"},
+    "tools/input_files.cpp": {"an address": "it takes the network", "Protein Data Bank": "it takes the network"},
     "tools/main.cpp": {"a larger --voxel": "what has memory by the estimate seldom ends so"},
     "tools/outputs.cpp": {" accepts that, a smaller --voxel resolves it": "no small molecule is known that gives it"},
     "tools/msms/main.cpp": {"error: not enough": "what has memory by the estimate seldom ends so",

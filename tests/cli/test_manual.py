@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
-"""The manual page and the completion of bash tell of every option."""
+"""The manual page and the completions of three shells have every option."""
 
+import os
 import pathlib
 import re
 import subprocess
@@ -15,7 +16,7 @@ MANUAL = pathlib.Path(__file__).resolve().parents[2] / "docs/man"
 
 class Manual(ToolTest):
     def options(self, verb):
-        text = self.check(0, *verb.split(), "--help").stdout.decode()
+        text = self.check(0, *verb.split(), "--help-all").stdout.decode()
         return re.findall(r"^  (?:-\w, |    )(--[a-z-]+)", text, re.MULTILINE)
 
     def complete(self, *words):
@@ -64,6 +65,58 @@ class Manual(ToolTest):
         for word in self.complete("a.pdb", "--fields", ""):
             self.check(1, "none.pdb", "-o", "a.vdb", "--fields", word, "--frames", "1", "--color", "bfactor",
                        says="none.pdb")
+
+    def test_completions_are_those_of_the_program(self):
+        for shell in ("zsh", "fish"):
+            self.assertEqual(self.check(0, f"--{shell}-completion").stdout.decode(),
+                             (MANUAL / f"vdb_molsurf.{shell}").read_text())
+
+    @needs("fish")
+    def test_fish(self):
+        def offered(line):
+            script = f"source '{MANUAL}/vdb_molsurf.fish'; complete -C '{line}'"
+            done = subprocess.run(["fish", "--no-config", "-c", script], cwd=self.folder, capture_output=True,
+                                  text=True, timeout=60, env={**os.environ, "HOME": str(self.folder)})
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            return [row.split("\t")[0] for row in done.stdout.splitlines()]
+        for verb in VERBS:
+            line = f"vdb_molsurf {verb or 'a.pdb'} --"
+            self.assertEqual(sorted(offered(line)), sorted(self.options(verb)), verb)
+        self.assertEqual(offered("vdb_molsurf a.pdb --surface va"), ["variational"])
+        self.assertEqual(offered("vdb_molsurf bricks m"), ["merge"])
+
+    @needs("zsh")
+    def test_zsh(self):
+        """compadd says what it is given: a zsh in a pseudo-terminal completes a line."""
+        (self.folder / "_vdb_molsurf").write_text((MANUAL / "vdb_molsurf.zsh").read_text())
+        (self.folder / "run").write_text(ZSH)
+
+        def offered(line):
+            subprocess.run(["zsh", "-f", "run", line], cwd=self.folder, capture_output=True, timeout=60)
+            got = self.folder / "got"
+            words = got.read_text().split()
+            got.unlink()
+            return words
+        self.assertEqual(offered("vdb_molsurf a.pdb --surface va"), ["variational"])
+        self.assertEqual(offered("vdb_molsurf bricks m"), ["merge"])
+        self.assertLessEqual({"--voxel", "--surface"}, set(offered("vdb_molsurf compare a b --")))
+
+
+# Prints what a zsh offers for a line. The rows of _describe are two arrays: options with and without their texts.
+ZSH = r"""
+zmodload zsh/zpty
+zpty z zsh -f -i
+zpty -w z "PS1=; fpath=($PWD \$fpath); autoload -Uz compinit; compinit -u -D; bindkey '^I' complete-word"
+zpty -w z 'compadd() { local -a offered; builtin compadd -O offered "$@"; print -l -- $offered >> got }'
+zpty -w z '_describe() { print -l -- ${${(P)2}%%:*} > got }'
+zpty -w z 'touch ready'
+for i in {1..100}; do [[ -e ready ]] && break; sleep 0.1; done
+rm ready
+zpty -w -n z "$1"$'\t'
+for i in {1..100}; do [[ -s got ]] && break; sleep 0.1; done
+sleep 0.1
+zpty -d z
+"""
 
 
 if __name__ == "__main__":

@@ -146,7 +146,7 @@ class Stored(ToolTest):
 
     def test_wrong_calls(self):
         self.check(2, "convert", says="one .vdb")
-        self.check(2, "convert", "a.vdb", "b.vdb", "-o", "a.ply", says="got 'a.vdb' and 'b.vdb'")
+        self.check(2, "convert", "a.vdb", "b.vdb", "-o", "a.ply", says="got 'a.vdb', 'b.vdb'")
         self.check(2, "convert", "a.vdb", says="-o FILE")
         self.check(2, "convert", "a.vdb", "-o", "b.vdb", says="color")
         self.check(2, "convert", "a.vdb", "-o", "b.vdb", says="--color")

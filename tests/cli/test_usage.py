@@ -4,6 +4,7 @@
 import os
 import subprocess
 import unittest
+import zipfile
 
 from needs import needs
 from tool import CRAMBIN, FAST, ROOT, TOOL, ToolTest
@@ -29,6 +30,7 @@ class ShortWords(ToolTest):
     def test_help_of_a_verb(self):
         for verb in (["compare"], ["bricks", "run"], ["BATCH"]):
             self.assertEqual(self.check(0, "help", *verb).stdout, self.check(0, *verb, "--help").stdout)
+        self.assertEqual(self.check(0, "help", "options").stdout, self.check(0, "--help-all").stdout)
         overview = self.check(0, "help").stdout.decode()
         for verb in ("batch", "compare", "convert", "bricks plan", "bricks run", "bricks merge", "info"):
             self.assertIn(f"vdb_molsurf {verb} ", overview)
@@ -53,7 +55,32 @@ class WrongCalls(ToolTest):
         self.refuse("-o", "a.vdb", says="INPUT")
 
     def test_nothing_at_all(self):
-        self.refuse(says="INPUT")
+        self.refuse(says=["INPUT", "vdb_molsurf --help"])
+
+    def test_what_people_type_first(self):
+        """One line each, with what to do instead."""
+        self.check(1, "1crn", "-o", "a.ply", says=["1crn: cannot be opened", "download/1crn.cif.gz"])
+        self.check(1, "pdb_00001crn", "-o", "a.ply", says="Protein Data Bank")
+        self.check(1, "https://example.org/1crn.pdb", "-o", "a.ply", says="curl -LO https://example.org/1crn.pdb")
+        self.assertNotIn(b"hint", self.check(1, "1crn.pdb", "-o", "a.ply").stderr)
+        (self.folder / "some").mkdir()
+        self.check(1, "some", "-o", "a.ply", says=["is a folder", "vdb_molsurf batch some -O DIR"])
+        self.check(2, "a.pdb", "b.pdb", "c.pdb", "d.pdb", "-o", "a.ply",
+                   says=["'a.pdb', 'b.pdb', 'c.pdb', ... (4)", "vdb_molsurf batch - -O DIR"])
+        self.check(2, CRAMBIN, "-o", "x.pdf", says=[".pdf is no format", "[hint: .png"])
+        self.check(2, CRAMBIN, "-o", "x.pny", says="did you mean ply?")
+        self.check(2, CRAMBIN, "-o", "x", says="[hint: -o x.vdb")
+        self.check(2, CRAMBIN, "-o", "some/", says=["is a folder", "-o some/surface.ply"])
+        self.check(2, CRAMBIN, "-o", "some", says="is a folder")
+        self.check(2, "-version", says="did you mean --version?")
+        self.check(2, "-help", says="did you mean --help?")
+        self.check(1, CRAMBIN, "--memory", "1M", "-o", "a.ply", says=["MiB of memory, --memory is 1 MiB", "[hint: --memory "])
+        self.check(1, CRAMBIN, "--trajectory", "none.dcd", "-o", "a.csv", says="none.dcd: cannot be opened: No such file")
+        self.check(1, "convert", CRAMBIN, "-o", "a.ply", says=["is no .vdb file", f"vdb_molsurf {CRAMBIN} -o FILE"])
+        with zipfile.ZipFile(self.folder / "1crn.zip", "w") as archive:
+            archive.write(CRAMBIN)
+        self.check(1, "1crn.zip", "-o", "a.ply", says=["zip", "unzip"])
+        self.assertEqual(self.names(), ["1crn.zip", "some"])
 
     def test_two_inputs(self):
         self.refuse(CRAMBIN, "b.pdb", "-o", "a.vdb", says="b.pdb")
@@ -109,7 +136,7 @@ class WrongCalls(ToolTest):
         self.refuse(CRAMBIN, "-o", "a", says=["-o a", ".vdb"])
 
     def test_unknown_extension(self):
-        self.refuse(CRAMBIN, "-o", "a.xyz", says=["a.xyz", ".vdb"])
+        self.refuse(CRAMBIN, "-o", "a.xyz", says=["a.xyz", ".xyz is no format", "--help"])
 
     def test_same_output_twice(self):
         self.refuse(CRAMBIN, "-o", "a.ply", "-o", "./a.ply", says="twice")
@@ -207,8 +234,20 @@ class Information(ToolTest):
         self.assertIn(b"3 not converged", self.check(0, "--help").stdout)
 
     def test_help_fits_a_terminal(self):
-        for line in self.check(0, "--help").stdout.decode().splitlines():
-            self.assertLessEqual(len(line), 100)
+        """Two screens of it: three examples, and the way to the rest."""
+        text = self.check(0, "--help").stdout.decode()
+        self.assertLessEqual(len(text.splitlines()), 80)
+        self.assertEqual(text.split("\nVerbs")[0].count("\n  vdb_molsurf "), 3)
+        self.assertIn("vdb_molsurf --help-all", text)
+        for line in text.splitlines() + self.check(0, "--help-all").stdout.decode().splitlines():
+            self.assertLessEqual(len(line), 100, line)
+
+    def test_help_all_has_what_help_has(self):
+        for verb in ([], ["batch"], ["compare"], ["convert"], ["bricks", "plan"]):
+            few, all_ = (set(self.check(0, *verb, word).stdout.decode().splitlines())
+                         for word in ("--help", "--help-all"))
+            options = {line for line in few if line.startswith("      --") or line.startswith("  -")}
+            self.assertLess(options, all_)
 
     def test_info_help(self):
         self.assertIn(b"info FILE", self.check(0, "info", "--help").stdout)

@@ -21,7 +21,9 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <set>
+#include <sstream>
 
 namespace molsurf::tool
 {
@@ -41,6 +43,13 @@ std::string endOf(const std::string& path)
     return findFormat(both.substr(1)) ? both.substr(1) : end.substr(1);
 }
 
+/// The words between spaces.
+std::vector<std::string> wordsOf(const std::string& text)
+{
+    std::istringstream stream(text);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
 /// Refuses a name as x.residues.json, whose file would hold something else.
 void checkTable(const std::string& path, const std::string& word)
 {
@@ -50,6 +59,35 @@ void checkTable(const std::string& path, const std::string& word)
         std::count(areaTables().begin(), areaTables().end(), table) > 0)
         misuse("-o " + path + ": there are no " + table + " as ." + word + " [hint: -o FILE." +
                table + ".csv, or -o FILE.json --areas " + table + "]");
+}
+
+/// Refuses a name that ends in no format.
+/// @param[in] word  its extension; may be empty
+[[noreturn]] void refuseName(const Call& call, const std::string& path, const std::string& word)
+{
+    std::error_code ignored;
+    const std::string many = call.verb == Build ? ", or vdb_molsurf batch LIST -O " + path : "";
+    if (path.back() == '/' || fs::is_directory(path, ignored))
+        misuse("-o " + path + ": is a folder, expected a file [hint: -o " +
+               (fs::path(path) / "surface.ply").string() + many + "]");
+    std::vector<std::string> known;
+    for (const Format& format : formatTable())
+        if (format.verbs & call.verb) known.push_back(format.word);
+    if (word.empty())
+        misuse("-o " + path + ": expected a name whose ending says what to write [hint: -o " +
+               path + "." + known.front() + ", -o " + path + ".json; --help lists the formats]");
+    std::string hint = didYouMean(word, known);
+    for (const auto& [others, ours] :
+         {std::pair("pdf jpg jpeg svg tif tiff gif eps webp bmp", "png"),
+          std::pair("gltf fbx dae blend abc", "glb"), std::pair("step stp gcode amf", "3mf")}) {
+        const std::vector<std::string>& words = wordsOf(others);
+        const Format* format = findFormat(ours);
+        if (std::count(words.begin(), words.end(), word) > 0 && (format->verbs & call.verb))
+            hint = std::string(" [hint: .") + ours + "; --help lists the formats]";
+    }
+    if (hint.empty()) hint = " [hint: --help lists the formats]";
+    misuse("-o " + path + ": ." + word + " is no format that " + infoOf(call.verb).name +
+           " writes" + hint);
 }
 
 /// The files of --output.
@@ -67,23 +105,37 @@ std::vector<Output> outputsOf(const Call& call)
         const std::string word = path == "-" ? call.format : endOf(path);
         if (path != "-") checkTable(path, word);
         const Format* format = findFormat(word);
-        const std::string some = endingsOf(~0u, call.verb, " or ");
-        if (!format) misuse("-o " + path + ": expected a name that ends in " + some);
+        if (!format) refuseName(call, path, word);
         if ((format->verbs & call.verb) == 0)
-            misuse("-o " + path + ": " + infoOf(call.verb).name + " writes " + some);
+            misuse("-o " + path + ": " + infoOf(call.verb).name + " writes " +
+                   endingsOf(~0u, call.verb, " or "));
         outputs.push_back({path, format});
     }
     return outputs;
+}
+
+/// What to do with many structures.
+const char* manyHint(const Call& call)
+{
+    return call.verb & Build
+               ? " [hint: ls FILES | vdb_molsurf batch - -O DIR makes a surface of each]"
+               : "";
 }
 
 /// The only input.
 /// @param[in] what  "build: expected one INPUT", for example
 void takeInput(Call& call, const std::string& what, const std::string& hint)
 {
-    if (call.inputs.size() == 2 && !call.inputs[0].empty())
-        misuse(what + ", got '" + call.inputs[0] + "' and '" + call.inputs[1] + "'" + hint);
-    if (call.inputs.size() != 1)
-        misuse(what + ", got " + std::to_string(call.inputs.size()) + hint);
+    constexpr std::size_t few = 3; // that are named
+    if (call.inputs.size() > 1) {
+        std::vector<std::string> names;
+        for (const std::string& name : call.inputs)
+            if (names.size() < few) names.push_back("'" + name + "'");
+        const std::string more =
+            call.inputs.size() > few ? ", ... (" + std::to_string(call.inputs.size()) + ")" : "";
+        misuse(what + ", got " + joinWords(names, ", ") + more + manyHint(call));
+    }
+    if (call.inputs.empty()) misuse(what + ", got none" + hint);
     if (call.inputs[0].empty()) misuse(what + ", got an empty word" + hint);
     call.input = call.inputs[0];
 }
@@ -297,7 +349,9 @@ void completeSurface(Call& call)
 
 void completeBuild(Call& call)
 {
-    takeInput(call, "expected one INPUT", " [hint: vdb_molsurf molecule.pdb -o surface.vdb]");
+    takeInput(
+        call, "expected one INPUT",
+        " [hint: vdb_molsurf molecule.pdb -o surface.vdb; vdb_molsurf --help lists the options]");
     if (!call.dryRun || !call.paths.empty()) call.outputs = outputsOf(call);
     completeFrames(call);
     completeInstances(call);

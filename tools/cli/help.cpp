@@ -12,32 +12,14 @@ namespace molsurf::tool
 namespace
 {
 
-/// Options that every verb has.
-const OptionGroup& information()
-{
-    static const OptionGroup group = {
-        "Information",
-        {{"list-radii", 0, nullptr, "print the radii sets and stop", "", Build},
-         {"version", 'V', nullptr, "print the version and stop", "", 0xff},
-         {"help", 'h', nullptr, "print this text and stop", "", 0xff}}};
-    return group;
-}
+/// The options that --help shows: those that most calls have, and what people ask for first.
+constexpr const char* common[] = {"output", "folder", "formats", "force",   "select",  "assembly",
+                                  "hetero", "waters", "radii",   "probe",   "surface", "voxel",
+                                  "color",  "size",   "memory",  "dry-run", "bricks",  "threads"};
 
-/// The groups that have options of a verb, with these alone.
-std::vector<OptionGroup> groupsOf(Verb verb)
+bool isCommon(const Option& option)
 {
-    std::vector<OptionGroup> all = optionTable();
-    all.push_back(information());
-    for (OptionGroup& group : all) {
-        std::vector<Option>& options = group.options;
-        options.erase(std::remove_if(options.begin(), options.end(),
-                                     [=](const Option& o) { return !(o.verbs & verb); }),
-                      options.end());
-    }
-    all.erase(std::remove_if(all.begin(), all.end(),
-                             [](const OptionGroup& group) { return group.options.empty(); }),
-              all.end());
-    return all;
+    return std::find(std::begin(common), std::end(common), option.name) != std::end(common);
 }
 
 std::string textOf(const Option& option)
@@ -73,6 +55,19 @@ std::string statusOf(const VerbInfo& info)
     return all + "130 interrupted.";
 }
 
+/// The verbs but the first one, a line each.
+std::string verbLines()
+{
+    std::string text = "\nVerbs (vdb_molsurf help VERB)\n";
+    for (const VerbInfo& info : verbTable()) {
+        if (info.verb == Build) continue;
+        std::string line = std::string("  ") + info.name;
+        line.resize(16, ' ');
+        text += line + std::string(info.text) + "\n";
+    }
+    return text;
+}
+
 } // namespace
 
 std::string overview()
@@ -82,25 +77,27 @@ std::string overview()
         text += "vdb_molsurf " + nameOf(info) + info.synopsis + "\n    " + info.text + "\n";
     for (std::size_t at = 0; (at = text.find(",\n", at)) != std::string::npos; ++at)
         text.replace(at, 2, ",\n    ");
-    return text + "\nvdb_molsurf help VERB tells the options of a verb.\n";
+    return text +
+           "\nvdb_molsurf help VERB prints the common options of a verb, vdb_molsurf help options "
+           "all options.\n";
 }
 
-std::string helpText(Verb verb)
+std::string helpText(Verb verb, bool all)
 {
     const VerbInfo& info = infoOf(verb);
-    std::string text = "vdb_molsurf " + nameOf(info) + info.synopsis + "\n";
-    if (verb == Build) {
-        for (const VerbInfo& other : verbTable())
-            if (other.verb != Build)
-                text += std::string("vdb_molsurf ") + other.name + " " + other.synopsis + "\n";
-        text += "vdb_molsurf help [VERB]\n";
+    std::string text = "vdb_molsurf " + nameOf(info) + info.synopsis + "\n\n" + info.text + "\n" +
+                       info.more + "Lengths are in Å. Defaults are in brackets.\n";
+    for (const Example& example : info.examples)
+        text += std::string(&example == info.examples.data() ? "\nExamples\n" : "") + "  " +
+                example.command + "\n      " + example.text + "\n";
+    if (verb == Build) text += verbLines();
+    for (const OptionGroup& group : optionGroups(verb)) {
+        std::string lines;
+        for (const Option& option : group.options)
+            if (all || isCommon(option)) lines += helpLine(option);
+        if (!lines.empty()) text += std::string("\n") + group.title + "\n" + lines;
     }
-    text += std::string("\n") + info.text + "\n" + info.more +
-            "Lengths are in Å. Defaults are in brackets.\n";
-    for (const OptionGroup& group : groupsOf(verb)) {
-        text += std::string("\n") + group.title + "\n";
-        for (const Option& option : group.options) text += helpLine(option);
-    }
+    if (!all) text += "\nAll options: vdb_molsurf " + nameOf(info) + "--help-all\n";
     return text + "\n" + wrapped("Exit status: " + statusOf(info), 88) + "\n";
 }
 
@@ -133,14 +130,6 @@ std::string takersOf(const Option& option)
     return names.size() == verbTable().size() ? "all" : joinWords(names, ", ");
 }
 
-/// All groups, those that are not in the table of options too.
-std::vector<OptionGroup> allGroups()
-{
-    std::vector<OptionGroup> all = optionTable();
-    all.push_back(information());
-    return all;
-}
-
 std::string manItem(const Option& option)
 {
     std::string head = option.letter ? std::string("\\fB\\-") + option.letter + "\\fR, " : "";
@@ -165,70 +154,21 @@ std::string manPage()
         page += std::string(".TP\n\\fB") + info.name + "\\fR\n" + escaped(info.text) + "\n" +
                 escaped(info.more);
     page += ".SH OPTIONS\nThe verbs that take an option stand behind it.\n";
-    for (const OptionGroup& group : allGroups()) {
+    for (const OptionGroup& group : optionGroups(0xff)) {
         page += ".SS " + escaped(group.title) + "\n";
         for (const Option& option : group.options) page += manItem(option);
     }
+    std::string examples;
+    for (const VerbInfo& info : verbTable())
+        for (const Example& example : info.examples)
+            examples += ".TP\n" + escaped(example.command) + "\n" + escaped(example.text) + "\n";
     return page +
            ".SH EXIT STATUS\n"
            "0 done, 1 failed, 2 wrong usage, 3 not converged (files are written) or a result "
            "failed\n"
            "its own checks (none are), 130 interrupted.\n"
-           ".SH EXAMPLES\n.nf\nvdb_molsurf 1crn.pdb \\-o 1crn.vdb \\-o 1crn.ply\n"
-           "vdb_molsurf top.pdb \\-\\-trajectory run.dcd \\-\\-frames 1\\-100:5 \\-o run.vdb "
-           "\\-o run.csv\nvdb_molsurf convert 1crn.vdb \\-o 1crn.stl\n.fi\n";
-}
-
-std::string bashCompletion()
-{
-    std::string firsts = "help", seconds, words, lists;
-    for (const VerbInfo& info : verbTable()) {
-        const std::string name = info.name;
-        const std::size_t space = name.find(' ');
-        const std::string first = name.substr(0, space);
-        if ((" " + firsts + " ").find(" " + first + " ") == std::string::npos)
-            firsts += " " + first;
-        if (space != std::string::npos)
-            seconds += (seconds.empty() ? "" : " ") + name.substr(space + 1);
-        std::string all;
-        for (const OptionGroup& group : groupsOf(info.verb)) {
-            for (const Option& option : group.options) {
-                all += (all.empty() ? "--" : " --") + std::string(option.name);
-                if (option.letter) all += std::string(" -") + option.letter;
-                if (!option.words.empty())
-                    words += "        \"" + name + "\":--" + option.name + ") words=\"" +
-                             joinWords(option.words, " ") + "\" ;;\n";
-            }
-        }
-        lists += "        \"" + name + "\") options=\"" + all + "\" ;;\n";
-    }
-    std::string alternatives = firsts;
-    std::replace(alternatives.begin(), alternatives.end(), ' ', '|');
-    return "# bash completion of vdb_molsurf " MOLSURF_VERSION "\n"
-           "_vdb_molsurf()\n{\n"
-           "    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}\n"
-           "    local verb=build options= words=\n"
-           "    case ${COMP_WORDS[1]} in\n"
-           "        bricks) verb=\"bricks ${COMP_WORDS[2]}\" ;;\n"
-           "        " +
-           alternatives + ") verb=${COMP_WORDS[1]} ;;\n    esac\n    case $verb:$before in\n" +
-           words + "    esac\n    case $verb in\n" + lists +
-           "    esac\n"
-           "    if [[ $COMP_CWORD == 2 && ${COMP_WORDS[1]} == bricks ]]; then\n"
-           "        COMPREPLY=($(compgen -W \"" +
-           seconds +
-           "\" -- \"$word\"))\n"
-           "    elif [[ -n $words ]]; then\n"
-           "        COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
-           "    elif [[ $word == -* ]]; then\n"
-           "        COMPREPLY=($(compgen -W \"$options\" -- \"$word\"))\n"
-           "    else\n"
-           "        COMPREPLY=($(compgen -f -- \"$word\"))\n"
-           "        [[ $COMP_CWORD == 1 ]] && COMPREPLY+=($(compgen -W \"" +
-           firsts +
-           "\" -- \"$word\"))\n"
-           "    fi\n}\n"
-           "complete -o filenames -F _vdb_molsurf vdb_molsurf\n";
+           ".SH EXAMPLES\n" +
+           examples;
 }
 
 std::string optionsPage()
@@ -249,7 +189,7 @@ std::string optionsPage()
         page += "\n### " + std::string(info.name) + "\n\n```\nvdb_molsurf " + nameOf(info) +
                 info.synopsis + "\n```\n\n" + info.text + "\n" + info.more +
                 "Exit status: " + statusOf(info) + "\n";
-    for (const OptionGroup& group : allGroups()) {
+    for (const OptionGroup& group : optionGroups(0xff)) {
         page += std::string("\n## ") + group.title +
                 "\n\n| option | meaning | default | verbs |\n|---|---|---|---|\n";
         for (const Option& option : group.options)

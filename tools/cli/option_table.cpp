@@ -642,6 +642,26 @@ const std::vector<OptionGroup>& optionTable()
     return all;
 }
 
+std::vector<OptionGroup> optionGroups(unsigned verb)
+{
+    std::vector<OptionGroup> groups = optionTable();
+    groups.push_back({"Information",
+                      {{"list-radii", 0, nullptr, "print the radii sets and stop", "", Build},
+                       {"version", 'V', nullptr, "print the version and stop", "", 0xff},
+                       {"help", 'h', nullptr, "print the common options and stop", "", 0xff},
+                       {"help-all", 0, nullptr, "print all options and stop", "", 0xff}}});
+    for (OptionGroup& group : groups) {
+        std::vector<Option>& options = group.options;
+        options.erase(std::remove_if(options.begin(), options.end(),
+                                     [=](const Option& o) { return !(o.verbs & verb); }),
+                      options.end());
+    }
+    groups.erase(std::remove_if(groups.begin(), groups.end(),
+                                [](const OptionGroup& group) { return group.options.empty(); }),
+                 groups.end());
+    return groups;
+}
+
 const Option* findOption(Verb verb, const std::string& name)
 {
     for (const OptionGroup& group : optionTable())

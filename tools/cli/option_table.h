@@ -49,6 +49,10 @@ struct OptionGroup {
 /// The whole table.
 const std::vector<OptionGroup>& optionTable();
 
+/// The groups that have options of a verb, with these only, and with help and version; Verb(0xff):
+/// those of all verbs.
+std::vector<OptionGroup> optionGroups(unsigned verb);
+
 /// The option of a verb, or null.
 const Option* findOption(Verb verb, const std::string& name);
 

@@ -26,7 +26,19 @@ namespace
 {
 
 /// Options that end the program after a text.
-constexpr const char* texts[] = {"help", "version", "list-radii"};
+constexpr const char* texts[] = {"help", "help-all", "version", "list-radii"};
+
+/// Options that print what the tables of the program hold: files of the project come from them.
+struct Page {
+    const char* option;
+    std::string (*text)();
+};
+constexpr Page pages[] = {{"--man", manPage},
+                          {"--bash-completion", bashCompletion},
+                          {"--zsh-completion", zshCompletion},
+                          {"--fish-completion", fishCompletion},
+                          {"--options-page", optionsPage},
+                          {"--report-page", reportPage}};
 
 po::options_description describe(Verb verb)
 {
@@ -42,7 +54,8 @@ po::options_description describe(Verb verb)
                 all.add_options()(names.c_str(), po::bool_switch());
         }
     }
-    all.add_options()("help,h", po::bool_switch())("version,V", po::bool_switch());
+    all.add_options()("help,h", po::bool_switch())("help-all", po::bool_switch())(
+        "version,V", po::bool_switch());
     if (verb == Build) all.add_options()("list-radii", po::bool_switch());
     all.add_options()("input", po::value<std::vector<std::string>>());
     return all;
@@ -98,9 +111,10 @@ Verb takeVerb(std::vector<std::string>& words)
 {
     const std::string name = typed.substr(std::min(typed.find_first_not_of('-'), typed.size()));
     std::vector<std::string> known, others;
+    for (const char* text : texts) known.push_back(std::string("--") + text);
     for (const OptionGroup& group : optionTable()) {
         for (const Option& option : group.options) {
-            if (option.verbs & verb) known.push_back(std::string("--") + option.name);
+            if (option.verbs & verb) known.push_back("--" + std::string(option.name));
             if (option.name != name) continue;
             for (const VerbInfo& info : verbTable())
                 if (option.verbs & info.verb) others.push_back(info.name);
@@ -109,7 +123,10 @@ Verb takeVerb(std::vector<std::string>& words)
     if (!others.empty())
         misuse("--" + name + " is for " + joinWords(others, ", ") + ", not for " +
                infoOf(verb).name);
-    const std::string hint = didYouMean("--" + name, known);
+    // "-version": one hyphen too few.
+    const bool exact = std::count(known.begin(), known.end(), "--" + name) > 0;
+    const std::string hint =
+        exact ? " [hint: did you mean --" + name + "?]" : didYouMean("--" + name, known);
     misuse("unknown option '" + typed + "'" +
            (hint.empty()
                 ? std::string(" [hint: vdb_molsurf ") +
@@ -209,17 +226,18 @@ Parsed parse(int argc, const char* const* argv)
     std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     Call call;
     for (int i = 0; i < argc; ++i) call.command += (i ? " " : "") + quoted(argv[i]);
-    if (words.size() == 1 && words[0] == "--man") return {{}, manPage()};
-    if (words.size() == 1 && words[0] == "--bash-completion") return {{}, bashCompletion()};
-    if (words.size() == 1 && words[0] == "--options-page") return {{}, optionsPage()};
-    if (words.size() == 1 && words[0] == "--report-page") return {{}, reportPage()};
+    if (words.size() == 1) {
+        for (const Page& page : pages)
+            if (words[0] == page.option) return {{}, page.text()};
+    }
     if (!words.empty() && lowered(words[0]) == "help") {
         words.erase(words.begin());
         if (words.empty()) return {{}, overview()};
+        if (lowered(words[0]) == "options" && words.size() == 1) return {{}, helpText(Build, true)};
         const Verb verb = takeVerb(words);
         if (!words.empty())
             misuse("help: expected a verb, got '" + words[0] + "'" + didYouMean(words[0], verbs()));
-        return {{}, helpText(verb)};
+        return {{}, helpText(verb, false)};
     }
     call.verb = takeVerb(words);
 
@@ -237,7 +255,8 @@ Parsed parse(int argc, const char* const* argv)
     } catch (const po::error& e) {
         misuse(std::string(e.what()) + " [hint: vdb_molsurf --help]");
     }
-    if (call.has("help")) return {{}, helpText(call.verb)};
+    if (call.has("help-all")) return {{}, helpText(call.verb, true)};
+    if (call.has("help")) return {{}, helpText(call.verb, false)};
     if (call.has("version")) return {{}, "vdb_molsurf " MOLSURF_VERSION "\n"};
     if (call.has("list-radii")) return {{}, describeRadii()};
     if (call.has("config")) readConfig(call.given["config"].back(), all, call);

@@ -31,16 +31,19 @@ void setOptions(const GivenOptions& given, Call& call);
 /// All verbs, a line each.
 std::string overview();
 
-/// What --help prints for a verb.
-std::string helpText(Verb verb);
+/// What --help prints for a verb: its common options, or what --help-all prints.
+std::string helpText(Verb verb, bool all);
 
 /// The manual page, for man.
 std::string manPage();
 
-/// The completion of bash.
-std::string bashCompletion();
-
 /// The options of all verbs as Markdown: docs/options.md.
 std::string optionsPage();
+
+// completion.cpp: what shells offer for the word under the cursor.
+
+std::string bashCompletion();
+std::string zshCompletion();
+std::string fishCompletion();
 
 } // namespace molsurf::tool

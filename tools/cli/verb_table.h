@@ -12,14 +12,21 @@
 namespace molsurf::tool
 {
 
+/// A command line that people can take as it is printed, and what it makes.
+struct Example {
+    const char* command;
+    const char* text;
+};
+
 /// One verb.
 struct VerbInfo {
     Verb verb;
-    const char* name;     ///< "compare", "bricks plan"
-    const char* synopsis; ///< what follows the name
-    const char* text;     ///< what it does, one line for the manual and the list of verbs
-    const char* more;     ///< further lines of its help text; may be empty
-    const char* status;   ///< its exit status, beside those that all have; may be empty
+    const char* name;              ///< "compare", "bricks plan"
+    const char* synopsis;          ///< what follows the name
+    const char* text;              ///< what it does, one line for the manual and the list of verbs
+    const char* more;              ///< further lines of its help text; may be empty
+    const char* status;            ///< its exit status, beside those that all have; may be empty
+    std::vector<Example> examples; ///< may be empty
     /// Makes what is meant of what was given, and refuses what makes no sense.
     /// @throws Error(ErrorKind::Usage)
     void (*complete)(Call& call);

@@ -209,6 +209,8 @@ const Refusal refusals[] = {
     {"a topology of Amber, which has no coordinates",
      " [hint: cpptraj or ambpdb makes FILE.pdb or FILE.pqr of it and of its coordinates]",
      [](const Sample& s) { return s.ends(".prmtop") || s.ends(".parm7") || s.word == "%VERSION"; }},
+    {"a zip archive", " [hint: unzip it first]",
+     [](const Sample& s) { return s.text.substr(0, 4) == "PK\3\4"; }},
     {"JSON", " [use .cif or .pdb]", [](const Sample& s) { return s.word.substr(0, 1) == "{"; }},
     {"a binary file", "", [](const Sample& s) { return s.binary; }}};
 

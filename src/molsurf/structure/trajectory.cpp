@@ -4,7 +4,9 @@
 #include "molsurf/error.h"
 #include "molsurf/structure/read_xtc.h"
 
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 
 namespace molsurf
@@ -14,8 +16,9 @@ Trajectory::Trajectory(const std::string& path) : path_(path)
 {
     std::error_code problem;
     if (std::filesystem::is_directory(path, problem)) fail("it is a folder");
+    errno = 0;
     file_.open(path, std::ios::binary);
-    if (!file_) fail("cannot be opened");
+    if (!file_) fail(std::string("cannot be opened: ") + std::strerror(errno));
     size_ = std::filesystem::file_size(path, problem);
     if (problem) fail("cannot be read: " + problem.message());
 }

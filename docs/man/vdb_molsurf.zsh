@@ -1,0 +1,436 @@
+#compdef vdb_molsurf
+# zsh completion of vdb_molsurf 1.0.0
+local verb=build
+local -a options
+case $words[2] in
+    bricks) verb="bricks $words[3]" ;;
+    help|build|batch|compare|convert|bricks|info) verb=$words[2] ;;
+esac
+case "$verb:$words[CURRENT-1]" in
+    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
+    "build:--start") compadd -- 'cold' 'warm'; return ;;
+    "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
+    "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
+    "build:--coarse") compadd -- 'atom' 'residue'; return ;;
+    "build:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
+    "build:--split") compadd -- 'group'; return ;;
+    "build:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "build:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
+    "build:--value-of") compadd -- 'atom' 'residue'; return ;;
+    "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces'; return ;;
+    "build:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
+    "build:--for") compadd -- 'blender' 'houdini' 'usd'; return ;;
+    "build:--view") compadd -- 'auto'; return ;;
+    "build:--background") compadd -- 'transparent'; return ;;
+    "build:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
+    "build:--show") compadd -- 'sticks' 'balls' 'spheres' 'tube'; return ;;
+    "build:--legend") compadd -- 'auto' 'on' 'off'; return ;;
+    "build:--regularizer") compadd -- 'gradient' 'area'; return ;;
+    "build:--flow") compadd -- 'newton' 'paper'; return ;;
+    "batch:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
+    "batch:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
+    "batch:--coarse") compadd -- 'atom' 'residue'; return ;;
+    "batch:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
+    "batch:--split") compadd -- 'group'; return ;;
+    "batch:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "batch:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
+    "batch:--value-of") compadd -- 'atom' 'residue'; return ;;
+    "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces'; return ;;
+    "batch:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
+    "batch:--for") compadd -- 'blender' 'houdini' 'usd'; return ;;
+    "batch:--view") compadd -- 'auto'; return ;;
+    "batch:--background") compadd -- 'transparent'; return ;;
+    "batch:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
+    "batch:--show") compadd -- 'sticks' 'balls' 'spheres' 'tube'; return ;;
+    "batch:--legend") compadd -- 'auto' 'on' 'off'; return ;;
+    "batch:--regularizer") compadd -- 'gradient' 'area'; return ;;
+    "batch:--flow") compadd -- 'newton' 'paper'; return ;;
+    "compare:--format") compadd -- 'vdb' 'ply' 'json'; return ;;
+    "compare:--color") compadd -- 'distance' 'signed-distance'; return ;;
+    "compare:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
+    "compare:--coarse") compadd -- 'atom' 'residue'; return ;;
+    "compare:--regularizer") compadd -- 'gradient' 'area'; return ;;
+    "compare:--flow") compadd -- 'newton' 'paper'; return ;;
+    "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'view'; return ;;
+    "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
+    "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
+    "convert:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature'; return ;;
+    "convert:--view") compadd -- 'auto'; return ;;
+    "convert:--background") compadd -- 'transparent'; return ;;
+    "convert:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
+    "convert:--legend") compadd -- 'auto' 'on' 'off'; return ;;
+    "bricks plan:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
+    "bricks plan:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
+    "bricks plan:--coarse") compadd -- 'atom' 'residue'; return ;;
+    "bricks plan:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
+    "bricks plan:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "bricks plan:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
+    "bricks plan:--value-of") compadd -- 'atom' 'residue'; return ;;
+    "bricks plan:--regularizer") compadd -- 'gradient' 'area'; return ;;
+    "bricks plan:--flow") compadd -- 'newton' 'paper'; return ;;
+    "bricks merge:--format") compadd -- 'vdb' 'ply' 'json'; return ;;
+esac
+if [[ $CURRENT == 3 && $words[2] == bricks ]]; then
+    compadd -- plan run merge
+    return
+fi
+if [[ $words[CURRENT] == -* ]]; then
+    case $verb in
+    "build") options=(
+      '--output:file to write; repeats; the extension says what\:'
+      '-o:file to write; repeats; the extension says what\:'
+      '--format:what -o - writes\: one of'
+      '--force:replace existing files'
+      '--select:gemmi selections joined by |, e.g. "/1/A/53-132|*;polymer"'
+      '--model:number of the model in the file'
+      '--assembly:biological assembly to build; none\: as in the file;'
+      '--instances:the surface of each distinct copy of the assembly once\:'
+      '--by-symmetry:the joint surface of the whole assembly from one unit,'
+      '--weld:with --by-symmetry\: units share the vertices of their borders'
+      '--copies:copies of the assembly\: numbers such as 1,7,20-25, or'
+      '--altloc:alternate location to take, or all'
+      '--no-hydrogens:drop hydrogens'
+      '--ions:keep free ions of the solution'
+      '--hetero:keep all ligands, ions, buffers and lipids; otherwise'
+      '--no-hetero:drop all ligands and ions'
+      '--waters:keep waters'
+      '--radii:van der Waals radii\: a name of --list-radii, or a file'
+      '--probe:probe radius [Å]'
+      '--max-input:bytes that INPUT may have, unpacked, such as 10G'
+      '--frames:a surface for every S-th frame from A to B\: models of'
+      '--trajectory:.dcd or .xtc with the frames, its atoms those of INPUT'
+      '--start:cold\: each frame as a run of its own; warm\: its flow'
+      '--surface:variational; ses\: solvent-excluded; sas\:'
+      '--voxel:edge of a voxel [Å], 0.05 to 10'
+      '--lod:with --instances\: voxels such as 1,2,4 in the place of'
+      '--blobbiness:decay of the Gaussians of --surface gaussian'
+      '--fill-cavities:drop the inner walls'
+      '--fields:grids of the .vdb, by commas, or all of'
+      '--vdb-half:floats of the .vdb in 16 bits, within 0.05 %\: half the size'
+      '--curvature-totals:integrate curvature over the surface, for the report'
+      '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
+      '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
+      '--coarse:beads in the place of atoms\: residue (its backbone and'
+      '--match-volume:resolutions keep the volume of the fine surface'
+      '--groups:groups of atoms\: JSON, or lines NAME SELECTION [COLOUR]'
+      '--group-by:groups by chain, entity, class (a chain'\''s copies),'
+      '--split:a level set and a closed mesh for every group, alone'
+      '--surface-of:this group alone, by another --surface; repeats; the'
+      '--interfaces:buried areas between groups, for the report'
+      '--color:colours of the mesh and the grid Cd\: chain, group,'
+      '--range:values at the ends of the colours'
+      '--palette:colours of values and curvatures, low ones first\: viridis,'
+      '--value-of:whose values\: atom, or residue (the mean of its atoms)'
+      '--flat-values:a point has the value of one atom, not a blend of nearby ones'
+      '--outward:potentials are taken A outside of the surface [Å]'
+      '--crisp:mesh files\: triangles are cut where colours meet'
+      '--areas:tables for the report, by commas\: atoms, residues,'
+      '--contacts:contact areas between atoms, residues or chains\: atom,'
+      '--for:blender, houdini or usd\: a .vdb with density and Cd as'
+      '--center:the middle of the surface comes to the origin'
+      '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
+      '--min-wall:thicken what is thinner than W mm; with --print-scale'
+      '--view:a direction X,Y,Z toward the eye; atoms that face it, as'
+      '--turn:turned by so many degrees about the upright'
+      '--size:width in pixels; the height follows the shape'
+      '--background:as #rrggbb or #rgb, a name such as black, or transparent'
+      '--plain-color:of a surface without --color'
+      '--style:soft; glossy\: with highlights; outline\: as drawn with a'
+      '--show:atoms beside the surface, whole and opaque, such as'
+      '--opacity:of the surface, seen from the front'
+      '--all-walls:--opacity shows what is behind the nearest wall, too'
+      '--clip:cuts away what is nearer to the eye than the middle'
+      '--depth-cue:distant parts fade to the background'
+      '--legend:on or off; auto\: beside colours, if 600 pixels wide'
+      '--scale-bar:a bar below the picture that shows a length'
+      '--dpi:pixels an inch when it is printed; --size stays'
+      '--turntable:N pictures round the upright\: name.0001.png, ...'
+      '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
+      '--regularizer:gradient or area'
+      '--flow:newton, or paper\: the paper'\''s own scheme, for comparison'
+      '--max-steps:steps at most'
+      '--steps:so many steps, converged or not'
+      '--tolerance:converged when a step moves the surface by less than T'
+      '--spline-level:spline on voxels of 2^L times the edge; 0, 1 or 2'
+      '--memory:memory at most, such as 4G\: in bricks, one by one, if'
+      '--max-hours:refuse what is estimated to take more hours'
+      '--dry-run:say what it takes, and stop'
+      '--threads:threads at most'
+      '-j:threads at most'
+      '--quiet:print errors only'
+      '-q:print errors only'
+      '--verbose:print the time of every stage'
+      '-v:print the time of every stage'
+      '--no-progress:no progress bar'
+      '--config:options as lines "name = value"; the command line wins'
+      '--list-radii:print the radii sets and stop'
+      '--version:print the version and stop'
+      '-V:print the version and stop'
+      '--help:print the common options and stop'
+      '-h:print the common options and stop'
+      '--help-all:print all options and stop') ;;
+    "batch") options=(
+      '--folder:where the files go, with the names of the structures'
+      '-O:where the files go, with the names of the structures'
+      '--formats:files to write, by commas, of'
+      '--force:do all again, and replace existing files'
+      '--select:gemmi selections joined by |, e.g. "/1/A/53-132|*;polymer"'
+      '--model:number of the model in the file'
+      '--assembly:biological assembly to build; none\: as in the file;'
+      '--copies:copies of the assembly\: numbers such as 1,7,20-25, or'
+      '--altloc:alternate location to take, or all'
+      '--no-hydrogens:drop hydrogens'
+      '--ions:keep free ions of the solution'
+      '--hetero:keep all ligands, ions, buffers and lipids; otherwise'
+      '--no-hetero:drop all ligands and ions'
+      '--waters:keep waters'
+      '--radii:van der Waals radii\: a name of --list-radii, or a file'
+      '--probe:probe radius [Å]'
+      '--max-input:bytes that INPUT may have, unpacked, such as 10G'
+      '--surface:variational; ses\: solvent-excluded; sas\:'
+      '--voxel:edge of a voxel [Å], 0.05 to 10'
+      '--blobbiness:decay of the Gaussians of --surface gaussian'
+      '--fill-cavities:drop the inner walls'
+      '--fields:grids of the .vdb, by commas, or all of'
+      '--vdb-half:floats of the .vdb in 16 bits, within 0.05 %\: half the size'
+      '--curvature-totals:integrate curvature over the surface, for the report'
+      '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
+      '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
+      '--coarse:beads in the place of atoms\: residue (its backbone and'
+      '--match-volume:resolutions keep the volume of the fine surface'
+      '--groups:groups of atoms\: JSON, or lines NAME SELECTION [COLOUR]'
+      '--group-by:groups by chain, entity, class (a chain'\''s copies),'
+      '--split:a level set and a closed mesh for every group, alone'
+      '--surface-of:this group alone, by another --surface; repeats; the'
+      '--interfaces:buried areas between groups, for the report'
+      '--color:colours of the mesh and the grid Cd\: chain, group,'
+      '--range:values at the ends of the colours'
+      '--palette:colours of values and curvatures, low ones first\: viridis,'
+      '--value-of:whose values\: atom, or residue (the mean of its atoms)'
+      '--flat-values:a point has the value of one atom, not a blend of nearby ones'
+      '--outward:potentials are taken A outside of the surface [Å]'
+      '--areas:tables for the report, by commas\: atoms, residues,'
+      '--contacts:contact areas between atoms, residues or chains\: atom,'
+      '--for:blender, houdini or usd\: a .vdb with density and Cd as'
+      '--center:the middle of the surface comes to the origin'
+      '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
+      '--min-wall:thicken what is thinner than W mm; with --print-scale'
+      '--view:a direction X,Y,Z toward the eye; atoms that face it, as'
+      '--turn:turned by so many degrees about the upright'
+      '--size:width in pixels; the height follows the shape'
+      '--background:as #rrggbb or #rgb, a name such as black, or transparent'
+      '--plain-color:of a surface without --color'
+      '--style:soft; glossy\: with highlights; outline\: as drawn with a'
+      '--show:atoms beside the surface, whole and opaque, such as'
+      '--opacity:of the surface, seen from the front'
+      '--all-walls:--opacity shows what is behind the nearest wall, too'
+      '--clip:cuts away what is nearer to the eye than the middle'
+      '--depth-cue:distant parts fade to the background'
+      '--legend:on or off; auto\: beside colours, if 600 pixels wide'
+      '--scale-bar:a bar below the picture that shows a length'
+      '--dpi:pixels an inch when it is printed; --size stays'
+      '--turntable:N pictures round the upright\: name.0001.png, ...'
+      '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
+      '--regularizer:gradient or area'
+      '--flow:newton, or paper\: the paper'\''s own scheme, for comparison'
+      '--max-steps:steps at most'
+      '--steps:so many steps, converged or not'
+      '--tolerance:converged when a step moves the surface by less than T'
+      '--spline-level:spline on voxels of 2^L times the edge; 0, 1 or 2'
+      '--max-hours:refuse what is estimated to take more hours'
+      '--threads:threads at most'
+      '-j:threads at most'
+      '--quiet:print errors only'
+      '-q:print errors only'
+      '--verbose:print the time of every stage'
+      '-v:print the time of every stage'
+      '--no-progress:no progress bar'
+      '--config:options as lines "name = value"; the command line wins'
+      '--version:print the version and stop'
+      '-V:print the version and stop'
+      '--help:print the common options and stop'
+      '-h:print the common options and stop'
+      '--help-all:print all options and stop') ;;
+    "compare") options=(
+      '--output:file to write; repeats; the extension says what\:'
+      '-o:file to write; repeats; the extension says what\:'
+      '--format:what -o - writes\: one of'
+      '--force:replace existing files'
+      '--color:distance (viridis) or signed-distance (blue\: A is'
+      '--range:distance at the end of the colours [Å]'
+      '--select:gemmi selections joined by |, e.g. "/1/A/53-132|*;polymer"'
+      '--model:number of the model in the file'
+      '--assembly:biological assembly to build; none\: as in the file;'
+      '--copies:copies of the assembly\: numbers such as 1,7,20-25, or'
+      '--altloc:alternate location to take, or all'
+      '--no-hydrogens:drop hydrogens'
+      '--ions:keep free ions of the solution'
+      '--hetero:keep all ligands, ions, buffers and lipids; otherwise'
+      '--no-hetero:drop all ligands and ions'
+      '--waters:keep waters'
+      '--radii:van der Waals radii\: a name of --list-radii, or a file'
+      '--probe:probe radius [Å]'
+      '--max-input:bytes that INPUT may have, unpacked, such as 10G'
+      '--surface:variational; ses\: solvent-excluded; sas\:'
+      '--voxel:edge of a voxel [Å], 0.05 to 10'
+      '--blobbiness:decay of the Gaussians of --surface gaussian'
+      '--fill-cavities:drop the inner walls'
+      '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
+      '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
+      '--coarse:beads in the place of atoms\: residue (its backbone and'
+      '--match-volume:resolutions keep the volume of the fine surface'
+      '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
+      '--regularizer:gradient or area'
+      '--flow:newton, or paper\: the paper'\''s own scheme, for comparison'
+      '--max-steps:steps at most'
+      '--steps:so many steps, converged or not'
+      '--tolerance:converged when a step moves the surface by less than T'
+      '--spline-level:spline on voxels of 2^L times the edge; 0, 1 or 2'
+      '--max-hours:refuse what is estimated to take more hours'
+      '--dry-run:say what it takes, and stop'
+      '--threads:threads at most'
+      '-j:threads at most'
+      '--quiet:print errors only'
+      '-q:print errors only'
+      '--verbose:print the time of every stage'
+      '-v:print the time of every stage'
+      '--no-progress:no progress bar'
+      '--config:options as lines "name = value"; the command line wins'
+      '--version:print the version and stop'
+      '-V:print the version and stop'
+      '--help:print the common options and stop'
+      '-h:print the common options and stop'
+      '--help-all:print all options and stop') ;;
+    "convert") options=(
+      '--output:file to write; repeats; the extension says what\:'
+      '-o:file to write; repeats; the extension says what\:'
+      '--format:what -o - writes\: one of'
+      '--force:replace existing files'
+      '--fields:curvatures for the vertices of a .ply or .glb, by commas,'
+      '--range:values at the ends of the colours'
+      '--palette:colours of values and curvatures, low ones first\: viridis,'
+      '--color:chain, group, element, residue (or residue-type),'
+      '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
+      '--view:a direction X,Y,Z toward the eye; atoms that face it, as'
+      '--turn:turned by so many degrees about the upright'
+      '--size:width in pixels; the height follows the shape'
+      '--background:as #rrggbb or #rgb, a name such as black, or transparent'
+      '--plain-color:of a surface without --color'
+      '--style:soft; glossy\: with highlights; outline\: as drawn with a'
+      '--opacity:of the surface, seen from the front'
+      '--all-walls:--opacity shows what is behind the nearest wall, too'
+      '--clip:cuts away what is nearer to the eye than the middle'
+      '--depth-cue:distant parts fade to the background'
+      '--legend:on or off; auto\: beside colours, if 600 pixels wide'
+      '--scale-bar:a bar below the picture that shows a length'
+      '--dpi:pixels an inch when it is printed; --size stays'
+      '--turntable:N pictures round the upright\: name.0001.png, ...'
+      '--max-hours:refuse what is estimated to take more hours'
+      '--dry-run:say what it takes, and stop'
+      '--threads:threads at most'
+      '-j:threads at most'
+      '--quiet:print errors only'
+      '-q:print errors only'
+      '--verbose:print the time of every stage'
+      '-v:print the time of every stage'
+      '--no-progress:no progress bar'
+      '--config:options as lines "name = value"; the command line wins'
+      '--version:print the version and stop'
+      '-V:print the version and stop'
+      '--help:print the common options and stop'
+      '-h:print the common options and stop'
+      '--help-all:print all options and stop') ;;
+    "bricks plan") options=(
+      '--output:the manifest, a name that ends in .json'
+      '-o:the manifest, a name that ends in .json'
+      '--force:replace existing files'
+      '--select:gemmi selections joined by |, e.g. "/1/A/53-132|*;polymer"'
+      '--model:number of the model in the file'
+      '--assembly:biological assembly to build; none\: as in the file;'
+      '--copies:copies of the assembly\: numbers such as 1,7,20-25, or'
+      '--altloc:alternate location to take, or all'
+      '--no-hydrogens:drop hydrogens'
+      '--ions:keep free ions of the solution'
+      '--hetero:keep all ligands, ions, buffers and lipids; otherwise'
+      '--no-hetero:drop all ligands and ions'
+      '--waters:keep waters'
+      '--radii:van der Waals radii\: a name of --list-radii, or a file'
+      '--probe:probe radius [Å]'
+      '--max-input:bytes that INPUT may have, unpacked, such as 10G'
+      '--surface:variational; ses\: solvent-excluded; sas\:'
+      '--voxel:edge of a voxel [Å], 0.05 to 10'
+      '--blobbiness:decay of the Gaussians of --surface gaussian'
+      '--fields:grids of the .vdb, by commas, or all of'
+      '--vdb-half:floats of the .vdb in 16 bits, within 0.05 %\: half the size'
+      '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
+      '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
+      '--coarse:beads in the place of atoms\: residue (its backbone and'
+      '--groups:groups of atoms\: JSON, or lines NAME SELECTION [COLOUR]'
+      '--group-by:groups by chain, entity, class (a chain'\''s copies),'
+      '--color:colours of the mesh and the grid Cd\: chain, group,'
+      '--range:values at the ends of the colours'
+      '--palette:colours of values and curvatures, low ones first\: viridis,'
+      '--value-of:whose values\: atom, or residue (the mean of its atoms)'
+      '--flat-values:a point has the value of one atom, not a blend of nearby ones'
+      '--outward:potentials are taken A outside of the surface [Å]'
+      '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
+      '--regularizer:gradient or area'
+      '--flow:newton, or paper\: the paper'\''s own scheme, for comparison'
+      '--steps:so many steps, converged or not'
+      '--tolerance:converged when a step moves the surface by less than T'
+      '--bricks:how many bricks, about as large each'
+      '--memory:or as many bricks as it takes for each to need no more,'
+      '--threads:threads at most'
+      '-j:threads at most'
+      '--quiet:print errors only'
+      '-q:print errors only'
+      '--no-progress:no progress bar'
+      '--config:options as lines "name = value"; the command line wins'
+      '--version:print the version and stop'
+      '-V:print the version and stop'
+      '--help:print the common options and stop'
+      '-h:print the common options and stop'
+      '--help-all:print all options and stop') ;;
+    "bricks run") options=(
+      '--force:do it again if it is done'
+      '--max-hours:refuse what is estimated to take more hours'
+      '--threads:threads at most'
+      '-j:threads at most'
+      '--quiet:print errors only'
+      '-q:print errors only'
+      '--no-progress:no progress bar'
+      '--version:print the version and stop'
+      '-V:print the version and stop'
+      '--help:print the common options and stop'
+      '-h:print the common options and stop'
+      '--help-all:print all options and stop') ;;
+    "bricks merge") options=(
+      '--output:file to write; repeats; the extension says what\:'
+      '-o:file to write; repeats; the extension says what\:'
+      '--format:what -o - writes\: one of'
+      '--force:replace existing files'
+      '--threads:threads at most'
+      '-j:threads at most'
+      '--quiet:print errors only'
+      '-q:print errors only'
+      '--verbose:print the time of every stage'
+      '-v:print the time of every stage'
+      '--no-progress:no progress bar'
+      '--version:print the version and stop'
+      '-V:print the version and stop'
+      '--help:print the common options and stop'
+      '-h:print the common options and stop'
+      '--help-all:print all options and stop') ;;
+    "info") options=(
+      '--max-input:bytes that INPUT may have, unpacked, such as 10G'
+      '--version:print the version and stop'
+      '-V:print the version and stop'
+      '--help:print the common options and stop'
+      '-h:print the common options and stop'
+      '--help-all:print all options and stop') ;;
+    esac
+    _describe option options
+    return
+fi
+(( CURRENT == 2 )) && compadd -- help build batch compare convert bricks info
+_files
