@@ -192,3 +192,34 @@ def test_what_was_written_into_views_is_checked(crambin, tmp_path):
     m = ms.read(DATA / "1crn.pdb")
     m.radii[3] = 0
     assert message(lambda: m.surface(), ms.InputError).startswith("ball 3: expected a radius above 0")
+
+
+def test_what_people_write_first(tmp_path, crambin):
+    """Messages say what to write instead."""
+    with pytest.raises(TypeError, match=r"'surface' \[hint: did you mean kind\?\]"):
+        crambin.surface(surface="ses")
+    with pytest.raises(TypeError, match=r"'lambda' \[hint: did you mean lambda_\?\]"):
+        ms.surface([[0.0, 0, 0]], 2.0, **{"lambda": 0.1})
+    exact = crambin.surface(kind="sas", grid=False)
+    for name in ("vertices", "faces", "normals"):
+        with pytest.raises(AttributeError, match=r"no mesh \[hint: grid=True\]"):
+            getattr(exact, name)
+    assert "0 vertices" in repr(exact)
+    made = crambin.surface(voxel=1)
+    made.save(tmp_path / "a.ply")
+    made.save(tmp_path / "a.ply")
+    with pytest.raises(ms.OutputError, match="replace=True replaces it"):
+        made.save(tmp_path / "a.ply", replace=False)
+    with pytest.raises(ms.OutputError, match="replace=True replaces it"):
+        made.to_vdb(tmp_path / "a.vdb") or made.to_vdb(tmp_path / "a.vdb", replace=False)
+
+
+def test_adapters_are_given_a_path():
+    mdtraj, mdanalysis = pytest.importorskip("mdtraj"), pytest.importorskip("MDAnalysis")
+    from vdb_molsurf import biopython, mdanalysis as for_mdanalysis, mdtraj as for_mdtraj
+    with pytest.raises(TypeError, match=r"got str \[hint: mdtraj.load"):
+        for_mdtraj.shrake_rupley("a.pdb")
+    with pytest.raises(TypeError, match=r"got str \[hint: MDAnalysis.Universe"):
+        for_mdanalysis.SurfaceAnalysis("a.pdb")
+    with pytest.raises(TypeError, match=r"got str \[hint: Bio.PDB"):
+        biopython.compute("a.pdb")

@@ -36,7 +36,9 @@ TYPES = {"switch": "bool", "whole": "int", "number": "float", "text": "str", "wo
 
 def unknown(word, known):
     """The error of a keyword that nobody knows."""
-    near = difflib.get_close_matches(str(word).lower(), known, 1, 0.6)
+    options = {"surface": "kind", "lambda": "lambda_"}  # those of the command line that have another name here
+    other = options.get(str(word).lower().lstrip("-"))
+    near = [other] if other in known else difflib.get_close_matches(str(word).lower(), known, 1, 0.6)
     return TypeError(f"unknown keyword '{str(word)[:40]}'" + (f" [hint: did you mean {near[0]}?]" if near else ""))
 
 

@@ -122,26 +122,32 @@ class Surface:
         self._core, self._made = core, made
 
     def __repr__(self):
-        return (f"<Surface {self.kind}: {self._core.atoms} atoms, {len(self.vertices)} vertices, "
-                f"{len(self.faces)} faces, area {self.area:.1f} Å², volume {self.volume:.1f} Å³>")
+        return (f"<Surface {self.kind}: {self._core.atoms} atoms, {len(self._core.vertices)} vertices, "
+                f"{len(self._core.faces)} faces, area {self.area:.1f} Å², volume {self.volume:.1f} Å³>")
 
     def __reduce__(self):
         return _unpickled, (self._core.state(), self._made)
 
+    def _meshed(self, name):
+        """What the mesh has by this name."""
+        if len(self._core.vertices) == 0:
+            raise AttributeError(f"{name}: a surface without a grid has no mesh [hint: grid=True]")
+        return getattr(self._core, name)
+
     @property
     def vertices(self):
         """Positions of the vertices, (n, 3) float32 [Å]."""
-        return self._core.vertices
+        return self._meshed("vertices")
 
     @property
     def faces(self):
         """Vertices of the triangles, counter-clockwise from outside, (m, 3) int32."""
-        return self._core.faces
+        return self._meshed("faces")
 
     @property
     def normals(self):
         """Unit normals of the vertices, outward, (n, 3) float32."""
-        return self._core.normals
+        return self._meshed("normals")
 
     @property
     def vertex_data(self):
@@ -269,7 +275,14 @@ class Surface:
 
     def save(self, path, *, replace=True):
         """Writes a file; its extension says what: that of a mesh (.ply, .obj, .stl, ...), .vdb, .json, .png, or .html, a page."""
-        self._core.save(os.fspath(path), bool(replace), 1200, "")
+        self._save(path, replace, 1200, "")
+
+    def _save(self, path, replace, width, scene):
+        """Writes a file; messages name the keywords of Python."""
+        try:
+            self._core.save(os.fspath(path), bool(replace), width, scene)
+        except _core.OutputError as error:
+            raise type(error)(str(error).replace("`force` replaces it", "replace=True replaces it")) from None
 
     def to_vdb(self, path, scene=None, *, replace=True):
         """Writes the grids as a .vdb for "blender", "houdini" or "usd", perhaps with "=SCALE"; None: in Å, as they are.
@@ -279,7 +292,7 @@ class Surface:
         path = os.fspath(path)
         if not path.endswith(".vdb"):
             raise ValueError("to_vdb: expected a name that ends in .vdb")
-        self._core.save(path, bool(replace), 1200, "" if scene is None else str(scene))
+        self._save(path, replace, 1200, "" if scene is None else str(scene))
 
     def view(self, height=480):
         """The page of save("name.html") as what a notebook shows: a surface to turn, with its colours and atoms."""
@@ -287,7 +300,7 @@ class Surface:
 
     def _repr_html_(self):
         rows = [("kind", self.kind), ("area", f"{self.area:.2f} Å²"), ("volume", f"{self.volume:.2f} Å³"),
-                ("vertices", f"{len(self.vertices)}"), ("faces", f"{len(self.faces)}")]
+                ("vertices", f"{len(self._core.vertices)}"), ("faces", f"{len(self._core.faces)}")]
         return "<table>" + "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows) + "</table>"
 
     def picture(self, path, width=1200, *, replace=True):
@@ -295,7 +308,7 @@ class Surface:
         path = os.fspath(path)
         if not path.endswith(".png"):
             raise ValueError("picture: expected a name that ends in .png")
-        self._core.save(path, bool(replace), int(width), "")
+        self._save(path, replace, int(width), "")
 
 
 class Page:

@@ -20,7 +20,8 @@ def compute(entity, level="A", probe_radius=1.4, radii="bondi"):
     if level not in LEVELS:
         raise ValueError(f"level: expected {', '.join(LEVELS)}, got '{str(level)[:40]}'")
     if not hasattr(entity, "get_atoms"):
-        raise TypeError(f"entity: expected one of Bio.PDB, got {type(entity).__name__}")
+        raise TypeError(f"entity: expected one of Bio.PDB, got {type(entity).__name__} "
+                        "[hint: Bio.PDB.PDBParser().get_structure(\"name\", FILE)]")
     if level != "A" and LEVELS.index(level) > LEVELS.index(entity.level):
         raise ValueError(f"level: expected one up to {entity.level}, that of the entity, got {level}")
     atoms = list(entity.get_atoms())
@@ -64,7 +65,8 @@ def residue_depth(entity, probe_radius=1.4, radii="bondi", voxel=0.5):
     """
     model = next(iter(entity)) if getattr(entity, "level", "") == "S" else entity
     if not hasattr(model, "get_atoms"):
-        raise TypeError(f"entity: expected one of Bio.PDB, got {type(entity).__name__}")
+        raise TypeError(f"entity: expected one of Bio.PDB, got {type(entity).__name__} "
+                        "[hint: Bio.PDB.PDBParser().get_structure(\"name\", FILE)]")
     atoms = list(model.get_atoms())
     known = _adapters.radii_of(radii, [atom.get_name() for atom in atoms],
                                [atom.get_parent().get_resname().strip() for atom in atoms],

@@ -32,6 +32,11 @@ class SurfaceAnalysis(AnalysisBase):
         return "serial", "multiprocessing", "dask"
 
     def __init__(self, atomgroup, kind="sas", radii="bondi", **options):
+        if not hasattr(atomgroup, "positions") and hasattr(atomgroup, "atoms"):
+            atomgroup = atomgroup.atoms  # a Universe
+        if not hasattr(atomgroup, "positions"):
+            raise TypeError(f"atomgroup: expected atoms of MDAnalysis, got {type(atomgroup).__name__} "
+                            "[hint: MDAnalysis.Universe(FILE).select_atoms(\"protein\")]")
         super().__init__(atomgroup.universe.trajectory)
         if len(atomgroup) == 0:
             raise ValueError("atomgroup: expected at least one atom, got none")

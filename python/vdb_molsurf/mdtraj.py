@@ -16,6 +16,8 @@ def shrake_rupley(traj, probe_radius=0.14, mode="atom", radii="bondi"):
     """
     if mode not in ("atom", "residue"):
         raise ValueError(f"mode: expected atom or residue, got '{str(mode)[:40]}'")
+    if not hasattr(traj, "topology") or not hasattr(traj, "xyz"):
+        raise TypeError(f"traj: expected a trajectory of MDTraj, got {type(traj).__name__} [hint: mdtraj.load(FILE)]")
     atoms = list(traj.topology.atoms)
     if isinstance(radii, str):
         known = _adapters.radii_of(radii, [atom.name for atom in atoms], [atom.residue.name for atom in atoms],
