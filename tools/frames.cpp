@@ -221,7 +221,8 @@ private:
         for (const auto& [output, file] : areas_)
             table.temporaries.push_back(temporaryName(output.path));
         prepareOutputs(calls_[i], table.temporaries);
-        terminal_.setPrefix("frame " + std::to_string(i + 1) + "/" + std::to_string(size()) + ": ");
+        terminal_.begin(i, size(),
+                        "frame " + std::to_string(i + 1) + "/" + std::to_string(size()) + ": ");
         std::vector<openvdb::Vec3f> displacement;
         if (moves_) displacement = source_.displacement(i);
         const BallSet& balls = source_.balls(i);

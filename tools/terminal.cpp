@@ -72,25 +72,69 @@ Terminal::~Terminal()
     erase();
 }
 
+void Terminal::begin(std::size_t i, std::size_t count, const std::string& prefix)
+{
+    const std::lock_guard<std::mutex> lock(drawing_);
+    run_ = i;
+    runs_ = count;
+    prefix_ = prefix;
+    stages_.clear();
+    stage_.clear();
+}
+
+void Terminal::expect(std::vector<StageShare> stages, double seconds)
+{
+    const std::lock_guard<std::mutex> lock(drawing_);
+    stages_ = std::move(stages);
+    seconds_ = seconds;
+    at_ = 0;
+}
+
 void Terminal::update(const char* stage, double fraction)
 {
     if (!bar_) return;
     const Clock::time_point now = Clock::now();
-    if (stage_ != stage) {
+    const std::lock_guard<std::mutex> lock(drawing_);
+    const bool next = stage_ != stage;
+    fraction_ = std::clamp(fraction, 0.0, 1.0);
+    if (next) {
         stage_ = stage;
         stageStart_ = now;
-    } else if (now - lastDrawn_ < betweenDraws) {
-        return;
+        // A stage that has been is a part of the one that goes on.
+        for (std::size_t i = at_; i < stages_.size(); ++i) {
+            if (stage_ != stages_[i].stage) continue;
+            at_ = i;
+            break;
+        }
     }
-    lastDrawn_ = now;
+    if (next || now - lastDrawn_ >= betweenDraws) draw(now);
+}
 
+double Terminal::done(Clock::time_point now) const
+{
+    if (stages_.empty()) return (double(run_) + (runs_ > 1 ? 0.0 : fraction_)) / double(runs_);
+    double before = 0.0;
+    for (std::size_t i = 0; i < at_; ++i) before += stages_[i].share;
+    const double share = stages_[at_].share;
+    // It comes near to the end of a stage as its time goes by, and never to it.
+    const double expected = std::max(share * seconds_, 1e-3);
+    const double spent = std::chrono::duration<double>(now - stageStart_).count();
+    const double inner = std::max(fraction_, 1.0 - std::exp(-1.5 * spent / expected));
+    return (double(run_) + before + share * inner) / double(runs_);
+}
+
+void Terminal::draw(Clock::time_point now) const
+{
+    lastDrawn_ = now;
     constexpr int width = 24;
-    const double done = std::clamp(fraction, 0.0, 1.0);
+    const double done = this->done(now);
     const int full = int(done * width);
     std::string line = "\r\033[K[" + std::string(std::size_t(full), '#') +
                        std::string(std::size_t(width - full), '.') + "]";
-    line += formatted(" %3.0f %%  ", 100.0 * done) + printable(prefix_) + stage;
-    const double spent = std::chrono::duration<double>(now - stageStart_).count();
+    line += formatted(" %3.0f %%  ", 100.0 * done) + printable(prefix_) + stage_;
+    const bool whole = !stages_.empty() || runs_ > 1;
+    const double spent =
+        std::chrono::duration<double>(now - (whole ? start_ : stageStart_)).count();
     if (done > 0.02 && done < 1.0 && spent > 0.5)
         line += ", " + duration(spent * (1.0 - done) / done) + " left";
     std::fputs(line.c_str(), stderr);
@@ -100,6 +144,11 @@ void Terminal::update(const char* stage, double fraction)
 
 bool Terminal::cancelled() const
 {
+    if (bar_ && drawing_.try_lock()) {
+        const std::lock_guard<std::mutex> lock(drawing_, std::adopt_lock);
+        const Clock::time_point now = Clock::now();
+        if (drawn_ && now - lastDrawn_ >= betweenDraws) draw(now);
+    }
     return stopRequested() || overdue();
 }
 
@@ -139,6 +188,7 @@ bool Terminal::overdue() const
 
 void Terminal::erase()
 {
+    const std::lock_guard<std::mutex> lock(drawing_);
     if (!drawn_) return;
     std::fputs("\r\033[K", stderr);
     std::fflush(stderr);

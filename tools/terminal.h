@@ -9,7 +9,9 @@
 #include <atomic>
 #include <chrono>
 #include <limits>
+#include <mutex>
 #include <string>
+#include <vector>
 
 namespace molsurf::tool
 {
@@ -21,8 +23,15 @@ std::string withOptionNames(const std::string& message);
 /// Prints "vdb_molsurf: ..." (programName) as one line on standard error, whatever the text holds.
 void say(const std::string& text);
 
-/// A progress bar on standard error, if that is a terminal: stage, per cent, time left in the
-/// stage. It is drawn at most ten times a second. Also tells the run to stop after a signal.
+/// A stage of a run, and its share of the time; the shares of a run add up to 1.
+struct StageShare {
+    const char* stage;
+    double share;
+};
+
+/// A progress bar on standard error, if that is a terminal: stage, per cent and time left of the
+/// run where its stages are known, of the stage elsewhere. It is drawn at most ten times a second,
+/// and moves while a stage lasts. Also tells the run to stop after a signal.
 class Terminal : public Progress
 {
 public:
@@ -33,8 +42,14 @@ public:
     void update(const char* stage, double fraction) override;
     bool cancelled() const override;
 
-    /// What is put before the names of stages from now on: "frame 3/38: ".
-    void setPrefix(const std::string& prefix) { prefix_ = prefix; }
+    /// Begins run i of so many, counted from 0: all of them share the bar.
+    /// @param[in] prefix  what is put before the names of stages from now on: "frame 3/38: "
+    void begin(std::size_t i, std::size_t count, const std::string& prefix);
+
+    /// Makes the bar that of a run.
+    /// @param[in] stages   in their order
+    /// @param[in] seconds  that it is estimated to take, by the clock
+    void expect(std::vector<StageShare> stages, double seconds);
 
     /// Ends the run when it has taken more than this from now on.
     /// @param[in] processor  time of all threads [s]; infinite: no limit
@@ -56,10 +71,20 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
+    double done(Clock::time_point now) const;
+    void draw(Clock::time_point now) const;
+
     bool bar_;
-    bool drawn_ = false;
+    mutable std::mutex drawing_; // of what follows: cancelled() draws from any thread
+    mutable bool drawn_ = false;
+    mutable Clock::time_point lastDrawn_;
     std::string stage_, prefix_;
-    Clock::time_point stageStart_, lastDrawn_;
+    double fraction_ = 0.0; // of the stage
+    std::vector<StageShare> stages_;
+    std::size_t at_ = 0;             // the stage among them
+    std::size_t run_ = 0, runs_ = 1; // of begin()
+    double seconds_ = 0.0;           // of expect()
+    Clock::time_point start_ = Clock::now(), stageStart_ = start_;
     Clock::time_point latest_ = Clock::time_point::max();
     std::clock_t most_ = std::numeric_limits<std::clock_t>::max();
     mutable std::atomic<Clock::rep> looked_{0}; // when the time of all threads was asked for

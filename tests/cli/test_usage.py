@@ -2,6 +2,7 @@
 """Wrong calls have status 2, say why in one line, and leave nothing behind."""
 
 import os
+import re
 import subprocess
 import unittest
 import zipfile
@@ -339,7 +340,9 @@ class Talk(ToolTest):
     def test_bar_on_a_terminal_is_erased(self):
         text = self.on_terminal()
         self.assertIn("[...", text)
-        self.assertIn(" 0 %  write", text)
+        self.assertRegex(text, r" 9\d %  write")
+        done = [int(share) for share in re.findall(r"(\d+) %  ", text)]
+        self.assertEqual(done[1:], sorted(done[1:]))  # one bar for the run, behind "read"
         for line in text.split("\n"):  # what is still there after the last erasure
             self.assertNotIn("%", line.split("\x1b[K")[-1])
 
