@@ -12,6 +12,8 @@ folder of the root; numbered sections such as "docs/math.md, section 7", and ADR
 those of the help, and the files that a program prints (PRINTED) have to be what it prints; --renew writes these.
 Prints one line for each fault, and exits with 1 if there is one.
 
+The pages of the site (scripts/docs.sh) have to be in the menu of mkdocs.yml, and to link to what is copied into it.
+
 With --installed the pages below a folder are checked instead (cmake/install_guide.cmake installs them): they link to
 what is there, and name no other file of the project.
 
@@ -210,6 +212,26 @@ def default_faults(text, program):
             yield place, f"the default of {option} is {' or '.join(sorted(known))}, not {said}"
 
 
+def site_faults(root):
+    """(page, place, fault) of the site: pages that the menu lacks, and links to files that scripts/docs.sh does not copy."""
+    script, menu = root / "scripts" / "docs.sh", root / "mkdocs.yml"
+    copied = re.search(r"^copied=\((.*?)\)", script.read_text(), re.M | re.S)[1].split()
+    inside = {path.relative_to(root).as_posix() for name in copied
+              for path in (root / name, *(root / name).rglob("*")) if path.is_file()}
+    inside |= {parent.as_posix() for name in inside for parent in pathlib.PurePosixPath(name).parents}
+    listed = re.findall(r"([\w./-]+\.md)$", menu.read_text(), re.M)
+    for name in sorted(set(listed) - inside):
+        yield menu, 0, f"the menu leads to nothing: {name}"
+    for name in sorted(name for name in inside if name.endswith(".md")):
+        page = root / name
+        if name not in listed:
+            yield page, 0, "the menu of mkdocs.yml lacks this page"
+        for found in re.finditer(r"\]\(([^)\s#]+)(?:#[^)\s]*)?\)", page.read_text()):
+            target = os.path.normpath(page.parent / found[1])
+            if not re.match(r"\w+:", found[1]) and os.path.exists(target) and os.path.relpath(target, root) not in inside:
+                yield page, found.start(), f"scripts/docs.sh does not copy {found[1]} into the site"
+
+
 def check(root, program):
     """Lines that tell of the faults."""
     tree, lines = Tree(root), []
@@ -221,6 +243,8 @@ def check(root, program):
                 if "//" in text else ""
         lines += [f"{path.relative_to(root)}:{text.count(chr(10), 0, place) + 1}: {fault}"
                   for place, fault in sorted(set(faults_of(text, path, tree, program)))]
+    lines += [f"{page.relative_to(root)}:{page.read_text().count(chr(10), 0, place) + 1}: {fault}"
+              for page, place, fault in site_faults(root)]
     return lines
 
 

@@ -1,19 +1,21 @@
 #!/bin/bash
 # Builds the documentation as a site in build-docs/site, which can be read without a network and without
 # a server: open build-docs/site/index.html. (The search box alone needs one: /usr/bin/python3 -m http.server -d
-# build-docs/site.) Installs mkdocs and its theme from Debian 12 if they are not there.
+# build-docs/site.) Installs mkdocs and its theme from Debian 12 if there is no mkdocs.
 # Ends with an error if a link between pages or to a picture leads to nothing, if a page is not in the
 # menu, or if a page would load something from the network.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/install_deps.sh mkdocs mkdocs-material
+command -v mkdocs > /dev/null || scripts/install_deps.sh mkdocs mkdocs-material
 
 rm -rf build-docs
 mkdir -p build-docs/pages
-cp -r README.md CONTRIBUTING.md SECURITY.md CHANGELOG.md LICENSE docs build-docs/pages/
-mkdir -p build-docs/pages/scripts/workflow
-cp scripts/workflow/config.yaml build-docs/pages/scripts/workflow/
+# What pages link to, beside each other; scripts/check_docs.py holds the links against this list.
+copied=(README.md CONTRIBUTING.md SECURITY.md CHANGELOG.md LICENSE docs scripts/workflow/config.yaml
+  scripts/blender/make_addon.sh scripts/blender/open_in_blender.py scripts/blender/place_copies.py
+  scripts/houdini/load_in_houdini.py scripts/pymol/molsurf.py)
+cp -r --parents "${copied[@]}" build-docs/pages/
 mkdocs build >build-docs/log 2>&1 || { cat build-docs/log >&2; exit 1; }
 
 cd build-docs

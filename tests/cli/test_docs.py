@@ -21,6 +21,8 @@ TREE = {
     "README.md": "[Formulas](docs/math.md#1-symbols), [guides](docs)\n",
     "CONTRIBUTING.md": "Run `scripts/run.sh`.\n\n    scripts/run.sh --all\n",
     "scripts/run.sh": "",
+    "scripts/docs.sh": "copied=(README.md CONTRIBUTING.md\n  docs)\n",
+    "mkdocs.yml": "nav:\n  - README.md\n  - CONTRIBUTING.md\n  - docs/math.md\n  - Guide: docs/guide.md\n  - docs/adr/0001.md\n",
     "docs/math.md": "# Formulas\n\n## 1. Symbols\n\n`Options::voxel` is `h`, see section 2.\n\n## 2. Field\n",
     "docs/adr/0001.md": "`core/options.h`, `core/options`, `options.h`, `gatherLeaf()`, `Options`, (../math.md), section 1\n",
     "docs/guide.md": "`--voxel H` (0.5); `--surface` is `variational` by default\n\n"
@@ -52,6 +54,8 @@ FAULTS = [
     ("docs/guide.md", "See ADR 0002.", "there is no ADR 0002"),
     ("docs/guide.md", "| option | default |\n|---|---|\n| `--surface KIND` | ses |",
      "the default of --surface is variational, not ses"),
+    ("docs/guide.md", "[x](../scripts/run.sh)", "scripts/docs.sh does not copy ../scripts/run.sh into the site"),
+    ("mkdocs.yml", "  - docs/none.md", "the menu leads to nothing: docs/none.md"),
     ("src/molsurf/core/options.h", "// docs/math.md, section 4", "math.md has no section 4"),
     ("src/molsurf/core/options.h", "/// docs/adr/0002.md tells why.", "there is no docs/adr/0002.md"),
 ]
@@ -86,8 +90,13 @@ class Docs(unittest.TestCase):
                 line = TREE[name].count("\n") + 2
                 found = self.faults(name, text)
                 self.assertEqual(len(found), 1, found)
-                self.assertRegex(found[0], rf"^{name}:({line}|{line + 2}): ")
+                self.assertRegex(found[0], rf"^{name}:({line}|{line + 2}|1): ")
                 self.assertTrue(found[0].endswith(": " + fault), found)
+
+    def test_a_page_that_the_menu_lacks(self):
+        TREE["docs/new.md"] = "New.\n"
+        self.addCleanup(TREE.pop, "docs/new.md")
+        self.assertEqual(self.faults(), ["docs/new.md:1: the menu of mkdocs.yml lacks this page"])
 
     def test_installed_pages(self):
         """They link to and name what is installed; the tree has more."""
