@@ -3,7 +3,7 @@
 # Left out are pages about the sources themselves, links to those, comments, and what stands between the comments
 # "sources" and "end of sources". scripts/check_docs.py --installed holds what is left against what is there.
 cmake_minimum_required(VERSION 3.25)
-set(about_sources architecture packages paper reliability)
+set(about_sources architecture install packages paper reliability)
 set(other CONTRIBUTING SECURITY CHANGELOG adr/[a-zA-Z0-9-]+ ${about_sources})
 list(JOIN other "|" other)
 file(REMOVE_RECURSE ${TO})

@@ -28,6 +28,10 @@ CITATION.cff|version:
 codemeta.json|"version": "
 debian/changelog|vdb-molsurf (
 packaging/conda/meta.yaml|version: 
+packaging/Dockerfile|org.opencontainers.image.version="
+packaging/vdb_molsurf.def|org.opencontainers.image.version 
+README.md|vdb-molsurf_
+docs/install.md|vdb-molsurf_
 EOF
   return $wrong
 }
