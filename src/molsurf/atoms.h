@@ -63,7 +63,7 @@ struct GroupBy {
     int residues = 0; ///< >= 1 for Kind::Residues, unused elsewhere
 };
 
-/// Values of atoms that colours can show. docs/settings.md.
+/// Values of atoms that colours can show. docs/colors.md.
 struct ValueBy {
     enum class Kind {
         BFactor,
@@ -178,7 +178,7 @@ struct ResolutionRule {
 /// The range of ResolutionRule::resolution [Å].
 constexpr double minResolution = 1.0, maxResolution = 50.0;
 
-/// The ligands and ions that count as molecule. docs/structural_biology.md, Which atoms count.
+/// The ligands and ions that count as molecule. docs/structural_biology.md, Which atoms, which radii.
 enum class Hetero {
     None,  ///< polymers alone
     Bound, ///< what touches a polymer, but for buffers, lipids, detergents, and ions of alkali
