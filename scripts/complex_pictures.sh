@@ -42,5 +42,5 @@ unit() # FOLD COLOUR AXIS
 unit 3 '#d55e00' 0,-0.3568,0.9342
 unit 5 '#0072b2' 0.5257,0,0.8507
 
-"$tool" "$structures/1m4x.cif.gz" --assembly 1 --instances --color copy --size 800 --legend off --force -q \
+"$tool" "$structures/1m4x.cif.gz" --assembly 1 --by-symmetry --color radius --voxel 1 --size 800 --force -q \
   -o "$out/pbcv1.png"
