@@ -33,7 +33,8 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SOURCES = ("src", "tools", "tests", "bench")
 # Folders that a run, a build or a user makes; paths into them are not held against the tree.
-MADE = re.compile(r"(build|example|install|paper|surfaces|assembly|batch|bricks|pdb|structures)\b")
+MADE = re.compile(r"(build|example|install|paper|surfaces|assembly|batch|bricks|pdb|structures"
+                  r"|accuracy|art|bio|colors|compare|complexes|formats|frames|gallery|many|performance|settings|standins|start|viewers)\b")
 # Namespaces of other people.
 FOREIGN = {"std", "openvdb", "tbb", "gemmi", "boost", "CGAL", "molsurf"}
 # Names in backticks that look like ours, and are another program's or a file's.
@@ -62,7 +63,7 @@ class Tree:
         self.paths = []
         for folder, folders, files in os.walk(root):
             folders[:] = [f for f in folders if f == ".ci" or not (f.startswith((".", "__")) or (
-                pathlib.Path(folder) == root and re.match("build|example$|install$|paper$", f)))]
+                pathlib.Path(folder) == root and MADE.match(f)))]
             place = pathlib.Path(folder).relative_to(root)
             self.paths += [(place / name).as_posix() for name in folders + files]
         self.names = {pathlib.PurePosixPath(path).name for path in self.paths}

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MPL-2.0
-"""Draws the pictures of docs/gallery.md by the commands that stand under them.
+"""Draws the pictures of docs/gallery.md by the commands below them.
 
     scripts/gallery.py build-release/tools/vdb_molsurf [NAME ...]
 
@@ -23,10 +23,10 @@ FOLDER = ROOT / "docs" / "pictures" / "gallery"
 def commands(page):
     """The words of the command of each picture, by the picture's name."""
     found = {}
-    for name, command in re.findall(r"\(pictures/gallery/(\w+)\.png\)\s*```sh\n(.*?)\n```", page, re.DOTALL):
+    for name, command in re.findall(r"\(pictures/gallery/(\w+)\.png\)\s*```sh\n(?:mkdir [^\n]*\n)?(.*?)\n```", page, re.DOTALL):
         words = shlex.split(command)
-        if words[0] != "vdb_molsurf" or words[-2:] != ["-o", f"{name}.png"]:
-            sys.exit(f"gallery.py: expected vdb_molsurf ... -o {name}.png, got {command}")
+        if words[0] != "vdb_molsurf" or words[-2:] != ["-o", f"gallery/{name}.png"]:
+            sys.exit(f"gallery.py: expected vdb_molsurf ... -o gallery/{name}.png, got {command}")
         found[name] = words[1:-1]
     return found
 

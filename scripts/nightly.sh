@@ -9,6 +9,7 @@
 #     surfaces    tests/surfaces/random_surfaces.py: 400 surfaces of proteins, each held against its report
 #     poses       bench/rotations.py: Euler numbers that have to be the same in nine of ten poses
 #     calls       tests/surfaces/random_calls.py: 20,000 calls with mutated files and options, under sanitizers
+#     guides      the printed commands of README.md and of all guides, one after the other in one clone
 #     figures     scripts/check_docs.py --figures: the numbers of the pages, some of structures that are in FOLDER
 #     wheel       scripts/wheel.sh: the Python module, its wheel and its tests
 #     package     scripts/package.sh: Debian's packages, built and tried in bare systems
@@ -43,6 +44,11 @@ calls() {
       --seed {} --keep build-nightly/calls
 }
 tsan() { scripts/sanitizers.sh tsan; }
+guides() {
+  cmake --preset release && cmake --build --preset release --target vdb_molsurf vdb_molsurf_msms vdb_molsurf_nanoshaper &&
+    MOLSURF_ALL_GUIDES=1 VDB_MOLSURF=build-release/tools/vdb_molsurf \
+      /usr/bin/python3 -B tests/cli/test_readme.py -v Readme.test_pages_in_one_clone
+}
 figures() {
   cmake --preset release && cmake --build --preset release --target vdb_molsurf &&
     scripts/install_deps.sh gemmi pdb2pqr apbs-data && scripts/paper_structures.sh paper &&
@@ -57,12 +63,12 @@ while [[ $# -gt 0 ]]; do
   case $1 in
     --fuzz) seconds=${2:?--fuzz needs seconds} && shift ;;
     --structures) structures=(--structures "${2:?--structures needs a folder}") && shift ;;
-    headers | mutations | fuzzing | asan | tsan | surfaces | poses | calls | figures | wheel | package | site) steps+=("$1") ;;
+    headers | mutations | fuzzing | asan | tsan | surfaces | poses | calls | guides | figures | wheel | package | site) steps+=("$1") ;;
     *) echo "nightly.sh: expected a step or an option, got $1 [hint: see the first lines of this script]" >&2; exit 2 ;;
   esac
   shift
 done
-[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces poses calls figures wheel package site)
+[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces poses calls guides figures wheel package site)
 
 scripts/install_deps.sh --test --check clang dpkg-dev
 mkdir -p build-nightly

@@ -16,10 +16,15 @@ from tool import ROOT, TOOL, ToolTest
 
 README = ROOT / "README.md"
 DOCS = ROOT / "docs"
+INDEX = DOCS / "index.md"
 PAGES = [README, *sorted(DOCS.rglob("*.md"))]
-# These have commands to run. Others may, too: every page with a block of shell is run.
-GUIDES = ("README", "accuracy", "artists", "compare", "complexes", "formats", "gallery", "msms", "nanoshaper", "next_door", "performance", "pipelines",
-          "settings", "structural_biology", "trajectories")
+# The folder that the commands of each page write into; git ignores it. Every page with a block of shell is run.
+FOLDERS = {"README": "start", "accuracy": "accuracy", "artists": "art", "colors": "colors", "compare": "compare",
+           "complexes": "complexes", "formats": "formats", "gallery": "gallery", "other_programs": "viewers",
+           "performance": "performance", "pipelines": "many", "settings": "settings", "stand_ins": "standins",
+           "structural_biology": "bio", "trajectories": "frames"}
+# Those that one clone runs in every build; all of them do with MOLSURF_ALL_GUIDES (scripts/nightly.sh).
+FEW = ("README", "settings", "other_programs", "compare")
 
 
 def blocks(language, page):
@@ -34,8 +39,8 @@ def prose(page):
 
 def promised(block):
     """The files that a block writes; of frames the first."""
-    words = shlex.split(block, comments=True)
-    files = [after for word, after in zip(words, words[1:]) if word in ("-o", ">")]
+    words = shlex.split(block.replace("\\\n", " ").replace(";", " ;"), comments=True)
+    files = [after for word, after in zip(words, words[1:]) if word in ("-o", ">", "2>")]
     if "--frames" in words:
         files = [re.sub(r"\.(?!csv$)(\w+)$", r".0001.\1", name) for name in files]
     return [name for name in files if name != "-"]
@@ -90,13 +95,26 @@ class Readme(ToolTest):
         return json.loads((self.folder / "report.json").read_text())["surface"]
 
     def test_every_page_is_here(self):
-        """The readme leads to every page of docs/, and its table of decisions to every decision."""
+        """The readme leads to docs/index.md, that to every page of docs/, and the table of decisions to every decision."""
+        self.assertIn("](docs/index.md)", README.read_text())
         for page in PAGES[1:]:
-            start = README if page.parent == DOCS else page.parent / "README.md"
+            start = INDEX if page.parent == DOCS else page.parent / "README.md"
             if page != start:
                 name = page.relative_to(start.parent).as_posix()
                 self.assertIn(f"]({name})", start.read_text())
-        self.assertEqual({page.stem for page in PAGES if blocks("sh", page)}, set(GUIDES))
+        self.assertEqual({page.stem for page in PAGES if blocks("sh", page)}, set(FOLDERS))
+
+    def test_pages_do_not_collide(self):
+        """No file is written twice, and every page writes into its own folder, which git ignores."""
+        ignored = (ROOT / ".gitignore").read_text().splitlines()
+        written = set()
+        for page in PAGES:
+            for block in blocks("sh", page):
+                for name in promised(block):
+                    self.assertNotIn(name, written, page.name)
+                    self.assertEqual(name.split("/")[0], FOLDERS[page.stem], name)
+                    written.add(name)
+        self.assertEqual([name for name in FOLDERS.values() if f"/{name}/" not in ignored], [])
 
     def test_readme_is_short(self):
         self.assertLess(len(prose(README).split()), 1300)
@@ -115,6 +133,15 @@ class Readme(ToolTest):
                 self.assertTrue(promised(block) or done.stdout, "neither a file nor an answer")
                 for name in promised(block):
                     self.assertGreater((self.folder / name).stat().st_size, 0, name)
+
+    def test_pages_in_one_clone(self):
+        """The commands of several pages, README first and then in the order of docs/index.md, leave only what git ignores."""
+        order = [README, *(DOCS / name for name in re.findall(r"\]\((\w+\.md)\)", INDEX.read_text()))]
+        before = set(self.names())
+        for page in order:
+            if page.stem in (FOLDERS if os.environ.get("MOLSURF_ALL_GUIDES") else FEW):
+                self.run_commands(page)
+        self.assertLessEqual(set(self.names()) - before, set(FOLDERS.values()))
 
     def test_cpp_is_compiled_elsewhere(self):
         """The lines of each example are lines of a program that the package test compiles."""
