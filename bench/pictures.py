@@ -7,7 +7,7 @@
 For each scene it leaves the pictures of both programs and one with both side by side (with ImageMagick) in FOLDER, and
 prints a row each: the median of processor seconds and of wall time, from the file to the picture. PyMOL (Debian: pymol)
 traces with shadows and 2 x 2 rays a pixel, as vdb_molsurf does; its ambient occlusion is a scene of its
-own. Look at the pictures: docs/performance.md tells what there is to see.
+own. Look at the pictures: bench/history.md lists what there is to see.
 """
 
 import argparse
