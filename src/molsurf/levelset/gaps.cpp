@@ -21,7 +21,7 @@ double rounded(double x)
     return std::round(x * 0x1p16) * 0x1p-16;
 }
 
-/// One of each, in ascending order of places.
+/// Sorts by place and removes duplicates.
 std::vector<Gap> distinct(std::vector<Gap> gaps)
 {
     constexpr double same = 1e-3; // [Å]

@@ -17,8 +17,8 @@ using openvdb::Vec3d;
 namespace
 {
 
-// What voxels hold: so far at least the middle of a closed wall lies inside the surface, and that
-// of an open one outside [voxel].
+// Least depth of the middle of a closed wall inside the surface, and of an open one outside, that
+// the grid still resolves [voxel].
 constexpr double heldDepth = 0.7, heldHeight = 0.25;
 constexpr double deepest = 1.2; // of a wall that voxels or the rounding of ridges may open [voxel]
 constexpr double bumpRadius = 3.0; // [voxel]
