@@ -33,7 +33,7 @@ def cases(capsid):
 
 
 def run(tool, words, folder):
-    """Seconds, peak memory [MB] and report."""
+    """Seconds, processor seconds, peak memory [MB] and report."""
     report = os.path.join(folder, "r.json")
     start = time.monotonic()
     process = subprocess.Popen([tool, *words, "-o", os.path.join(folder, "r.vdb"), "-o", report, "--force", "-q"],
@@ -43,7 +43,7 @@ def run(tool, words, folder):
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode not in (0, 3):  # 3: the flow still creeps, the files are written
         raise RuntimeError(f"{' '.join(words)}: status {process.returncode}")
-    return seconds, usage.ru_maxrss / 1024.0, json.load(open(report))
+    return seconds, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0, json.load(open(report))
 
 
 def plot(rows, voxel, path):
@@ -53,12 +53,12 @@ def plot(rows, voxel, path):
     atoms = [row["atoms"] for row in rows]
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4), constrained_layout=True)
     large = [row for row in rows if row["atoms"] >= 1e5] or rows
-    for axes, key, unit in ((left, "seconds", "s"), (right, "megabytes", "MB")):
+    for axes, key, unit in ((left, "processor", "CPU s"), (right, "megabytes", "MB")):
         axes.loglog(atoms, [row[key] for row in rows], "o-", color="#1f6fb2")
         slope = statistics.median(row[key] / row["atoms"] for row in large)
         axes.loglog(atoms, [slope * n for n in atoms], "--", color="0.6", label=f"{slope * 1e6:,.4g} {unit} a million atoms")
         axes.set_xlabel("atoms")
-        axes.set_ylabel(f"{key} ({unit})" if key == "megabytes" else "seconds")
+        axes.set_ylabel(f"{key} ({unit})" if key == "megabytes" else "processor seconds")
         axes.set_ylim(min(row[key] for row in rows) / 2, max(row[key] for row in rows) * 2)
         axes.grid(True, which="major", alpha=0.3)
         axes.legend(loc="upper left", frameon=False)
@@ -78,7 +78,7 @@ def main():
     options = parser.parse_args()
     tool = os.path.abspath(options.tool)
     rows = []
-    print("| molecule | atoms | s | s a million atoms | MB | bytes an active voxel | steps | triangles |")
+    print("| molecule | atoms | s | CPU s | CPU s a million atoms | MB | bytes an active voxel | triangles |")
     print("|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         for name, words in cases(options.capsid):
@@ -88,14 +88,14 @@ def main():
             runs = [run(tool, words, folder)]
             while runs[0][0] < 10.0 and len(runs) < options.runs:
                 runs.append(run(tool, words, folder))
-            seconds, megabytes = (statistics.median(r[k] for r in runs) for k in (0, 1))
-            report = runs[0][2]
-            row = {"name": name, "atoms": report["atoms"], "seconds": seconds, "megabytes": megabytes,
+            seconds, processor, megabytes = (statistics.median(r[k] for r in runs) for k in range(3))
+            report = runs[0][3]
+            row = {"name": name, "atoms": report["atoms"], "seconds": seconds, "processor": processor, "megabytes": megabytes,
                    "voxels": report["grid"]["active_voxels"], "steps": report["evolution"]["steps"],
-                   "triangles": report["surface"]["triangles"], "all": [r[:2] for r in runs]}
+                   "triangles": report["surface"]["triangles"], "all": [r[:3] for r in runs]}
             rows.append(row)
-            print(f"| {name} | {row['atoms']:,} | {seconds:.2f} | {seconds / row['atoms'] * 1e6:.1f} | {megabytes:.0f} | "
-                  f"{megabytes * 1024 * 1024 / row['voxels']:.0f} | {row['steps']} | {row['triangles']:,} |", flush=True)
+            print(f"| {name} | {row['atoms']:,} | {seconds:.2f} | {processor:.2f} | {processor / row['atoms'] * 1e6:.1f} | "
+                  f"{megabytes:.0f} | {megabytes * 1024 * 1024 / row['voxels']:.0f} | {row['triangles']:,} |", flush=True)
             if options.json:
                 json.dump(rows, open(options.json, "w"), indent=1)
     if options.output:

@@ -23,15 +23,22 @@ struct UsdInstances {
     std::vector<const Mesh*> coarser{};
 };
 
-/// Writes USD as text: a PointInstancer whose prototypes are the parts of the mesh, each about the
-/// middle of its own box, so that what an orientation is off by is seen at a prototype's size and
-/// not at that of the assembly. Orientations stand twice: `orientations` in half precision, which
-/// every USD knows, and `orientationsf`, which newer ones take instead. Up is z.
+/// Writes USD as text. The file keeps these rules, which tests/cli/usda.py checks:
 ///
-/// A prototype is a mesh for each pair of a part and a colour; they refer to the vertices of the
-/// part, which are in the file once. Its colour is displayColor in linear light, and a
-/// UsdPreviewSurface says the same. Levels of detail are variants lod0 (the finest, selected),
-/// lod1, ... of the set "lod". docs/artists.md has the rules that the file keeps.
+/// - defaultPrim is an Xform of kind component; upAxis is Z; metersPerUnit is 1e-10 over the scale,
+///   which is then the xformOp:scale of the prim. Every extent is present; that of the copies is as
+///   USD computes it, around the turned boxes.
+/// - The copies are one PointInstancer with ids, protoIndices, positions, and orientations with the
+///   real part first, in half precision, which every USD knows, and as `orientationsf`, which newer
+///   ones take instead. A prototype is centred on its own box, so that the error of an orientation
+///   shows at a prototype's size and not at that of the assembly.
+/// - A prototype is a mesh (subdivisionScheme none, normals by vertex) for each pair of a part and a
+///   colour; they refer to the vertices of the part, which are in a class once.
+/// - A colour is the prototype's displayColor in linear light, and a UsdPreviewSurface bound by the
+///   applied MaterialBindingAPI. Colours of vertices are displayColor by vertex, which the material
+///   reads. (A colour for each point of the instancer would be shorter; not every program shows it.)
+/// - Levels of detail are the variants lod0 (the finest, selected), lod1, ... of the set "lod", which
+///   choose prototypes and extent.
 ///
 /// @param[in] mesh  with normals; positions below 1e6 Å
 /// @throws Error(ErrorKind::Output) if the file cannot be written
