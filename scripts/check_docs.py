@@ -75,6 +75,8 @@ class Tree:
         for path in self.paths:
             if path.endswith((".h", ".cpp")) and path.split("/")[0] in SOURCES:
                 self.read_code((root / path).read_text())
+            elif path.endswith(".py") and path.startswith("python/"):
+                self.words.update(re.findall(r"\w+", (root / path).read_text()))
 
     def read_code(self, text):
         text = re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'\\?.\'', " ", text, flags=re.DOTALL)
