@@ -178,7 +178,7 @@ struct ResolutionRule {
 /// The range of ResolutionRule::resolution [Å].
 constexpr double minResolution = 1.0, maxResolution = 50.0;
 
-/// The ligands and ions that count as molecule. docs/structural_biology.md, Which atoms, which radii.
+/// The ligands and ions that count as molecule. docs/structural_biology.md, Which atoms.
 enum class Hetero {
     None,  ///< polymers alone
     Bound, ///< what touches a polymer, but for buffers, lipids, detergents, and ions of alkali

@@ -32,12 +32,12 @@ struct UsdInstances {
 ///   real part first, in half precision, which every USD knows, and as `orientationsf`, which newer
 ///   ones take instead. A prototype is centred on its own box, so that the error of an orientation
 ///   shows at a prototype's size and not at that of the assembly.
-/// - A prototype is a mesh (subdivisionScheme none, normals by vertex) for each pair of a part and a
-///   colour; they refer to the vertices of the part, which are in a class once.
+/// - A prototype is a mesh (subdivisionScheme none, normals by vertex) for each pair of a part and
+///   a colour; they refer to the vertices of the part, which are in a class once.
 /// - A colour is the prototype's displayColor in linear light, and a UsdPreviewSurface bound by the
 ///   applied MaterialBindingAPI. Colours of vertices are displayColor by vertex, which the material
-///   reads. (A colour for each point of the instancer would be shorter; not every program shows it.)
-/// - Levels of detail are the variants lod0 (the finest, selected), lod1, ... of the set "lod", which
+///   reads. (Not every program shows a colour for each point of the instancer.)
+/// - Levels of detail are the variants lod0 (the finest, selected), lod1, ... of the set "lod". They
 ///   choose prototypes and extent.
 ///
 /// @param[in] mesh  with normals; positions below 1e6 Å

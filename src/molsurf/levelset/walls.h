@@ -33,8 +33,8 @@ constexpr int wallReach = 8;
 
 /// Finds two or three sheets of the interface that may bound a thin wall or neck, from the feet of
 /// some voxels. Feet nearer to each other than half the depth are of one sheet, which their mean
-/// represents. The centre of the smallest sphere through the sheets has to be within 1.2 voxels, and
-/// its radius between the depth less 0.75 and plus 1.7 voxels. Lengths are in voxels.
+/// represents. The centre of the smallest sphere through the sheets has to be within 1.2 voxels,
+/// and its radius between the depth less 0.75 and plus 1.7 voxels. Lengths are in voxels.
 /// @param[in] feet     closest points of the interface to these voxels
 /// @param[in] middle   of the voxels
 /// @param[in] depth    the offset
