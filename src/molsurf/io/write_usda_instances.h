@@ -37,8 +37,8 @@ struct UsdInstances {
 /// - A colour is the prototype's displayColor in linear light, and a UsdPreviewSurface bound by the
 ///   applied MaterialBindingAPI. Colours of vertices are displayColor by vertex, which the material
 ///   reads. (Not every program shows a colour for each point of the instancer.)
-/// - Levels of detail are the variants lod0 (the finest, selected), lod1, ... of the set "lod". They
-///   choose prototypes and extent.
+/// - Levels of detail are the variants lod0 (the finest, selected), lod1, ... of the set "lod";
+///   they choose prototypes and extent.
 ///
 /// @param[in] mesh  with normals; positions below 1e6 Å
 /// @throws Error(ErrorKind::Output) if the file cannot be written
