@@ -49,6 +49,10 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
 /// "1a8o.cif.gz: mmCIF, 1 model, 644 atoms; used 1112 atoms (2 copies); dropped 88 water".
 std::string describeSelection(const Structure& structure, const BallSet& selection);
 
+/// One line on the elements that a file does not name:
+/// "elements of 152 atoms were told by names; 2 unknown: X1, X2".
+std::string describeGuesses(const Structure& structure);
+
 /// The built-in radii sets, one paragraph each: name, source, and the radii by element [Å].
 std::string describeRadii();
 

@@ -6,7 +6,9 @@
 
 #include <gemmi/numb.hpp>
 
+#include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -54,6 +56,57 @@ void mergeByModel(std::map<int, std::vector<Atom>> further, Structure& structure
     }
 }
 
+/// A sphere and the residues that it stands for.
+struct Span {
+    int model, begin, end;
+    std::int32_t asym;
+    std::size_t index; ///< in the rows
+};
+
+/// Marks the spheres of residues for all of which the model has finer ones, or atoms.
+/// @param[in] finest  residues by model and asym that atoms stand for
+/// @return how many there are
+std::size_t markCoarser(std::vector<Span> spans,
+                        std::map<std::pair<int, std::int32_t>, std::set<int>> covered,
+                        std::vector<AtomRole>& roles)
+{
+    constexpr int longest = 100000; // residues of a sphere that are looked at
+    std::stable_sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
+        return a.end - a.begin < b.end - b.begin;
+    });
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < spans.size();) {
+        const int length = spans[i].end - spans[i].begin;
+        std::size_t next = i; // spheres of one scale do not hide each other
+        for (; next < spans.size() && spans[next].end - spans[next].begin == length; ++next) {
+            const Span& span = spans[next];
+            const auto& numbers = covered[{span.model, span.asym}];
+            bool all = length < longest && !numbers.empty();
+            for (int n = span.begin; all && n <= span.end; ++n) all = numbers.count(n) > 0;
+            if (!all) continue;
+            roles[span.index] = AtomRole::CoarserScale;
+            ++count;
+        }
+        for (; i < next && length < longest; ++i)
+            for (int n = spans[i].begin; n <= spans[i].end; ++n)
+                covered[{spans[i].model, spans[i].asym}].insert(n);
+        i = next;
+    }
+    return count;
+}
+
+/// The residues that the atoms of a structure stand for, by model and asym.
+std::map<std::pair<int, std::int32_t>, std::set<int>> residuesOfAtoms(const Structure& structure)
+{
+    std::map<std::pair<int, std::int32_t>, std::set<int>> out;
+    for (const Model& model : structure.models)
+        for (std::size_t i = model.begin; i < model.end; ++i) {
+            const Residue& residue = residueOf(structure, structure.atoms[i]);
+            out[{model.number, residue.asym}].insert(residue.number);
+        }
+    return out;
+}
+
 } // namespace
 
 bool hasSpheres(const gemmi::cif::Block& block)
@@ -73,7 +126,9 @@ void addSpheres(gemmi::cif::Block& block, const std::string& path, Structure& st
     const Sequences sequences = sequencesIn(block);
     NameTable chains, asyms;
     for (const std::string& name : structure.chains) chains.index(name, structure.chains);
-    std::map<int, std::vector<Atom>> further;
+    for (const std::string& name : structure.asyms) asyms.index(name, structure.asyms);
+    std::vector<Atom> atoms;
+    std::vector<Span> spans;
     std::size_t rows = 0;
     for (auto row : block.find(spheres, columns)) {
         ++rows;
@@ -88,16 +143,31 @@ void addSpheres(gemmi::cif::Block& block, const std::string& path, Structure& st
         Residue residue{};
         parseInteger(first, residue.number);
         residue.insertionCode = ' ';
+        residue.kind = ResidueKind::Bead;
         residue.chain = chains.index(text(Asym), structure.chains);
         residue.asym = asyms.index(text(Asym), structure.asyms);
         const auto known = sequences.find({text(Entity), first});
         if (first == last && known != sequences.end()) residue.name = known->second;
         const openvdb::Vec3d at(gemmi::cif::as_number(row[X]), gemmi::cif::as_number(row[Y]),
                                 gemmi::cif::as_number(row[Z]));
-        further[model].push_back({at, first == last ? first : first + "-" + last,
-                                  std::int32_t(structure.residues.size()), 0, '\0', 1.0f, 0.0f,
-                                  radius});
+        int end = residue.number;
+        parseInteger(last, end);
+        spans.push_back({model, residue.number, end, residue.asym, rows - 1});
+        atoms.push_back({at, first == last ? first : first + "-" + last,
+                         std::int32_t(structure.residues.size()), 0, '\0', 1.0f, 0.0f, radius});
         structure.residues.push_back(std::move(residue));
+    }
+    std::vector<AtomRole> roles(rows, AtomRole::Atom);
+    const std::size_t coarser = markCoarser(spans, residuesOfAtoms(structure), roles);
+    if (coarser > 0)
+        structure.warnings.push_back(
+            "the model is there at more than one scale: " + std::to_string(coarser) +
+            " spheres are of residues that finer ones stand for, and are "
+            "left out");
+    std::map<int, std::vector<Atom>> further;
+    for (std::size_t i = 0; i < rows; ++i) {
+        atoms[i].role = roles[i];
+        further[spans[i].model].push_back(std::move(atoms[i]));
     }
     structure.hasRadii = structure.atoms.empty();
     mergeByModel(std::move(further), structure);

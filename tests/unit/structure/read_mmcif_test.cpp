@@ -48,8 +48,8 @@ TEST(ReadMmcif, AgreesWithThePdbFileOfTheEntry)
         EXPECT_EQ(cif.atoms[i].element, pdb.atoms[i].element) << i;
     }
     for (std::size_t i = 0; i < cif.residues.size(); ++i) {
-        EXPECT_EQ(cif.residues[i].water, pdb.residues[i].water) << i;
-        EXPECT_EQ(cif.residues[i].hetero, pdb.residues[i].hetero) << i;
+        EXPECT_EQ(cif.residues[i].water(), pdb.residues[i].water()) << i;
+        EXPECT_EQ(cif.residues[i].hetero(), pdb.residues[i].hetero()) << i;
         EXPECT_EQ(cif.residues[i].number, pdb.residues[i].number) << i;
     }
 }
@@ -76,7 +76,7 @@ TEST(ReadMmcif, ReadsQuotedNamesAndComments)
     EXPECT_EQ(s.atoms[2].name, "O3'");
     EXPECT_EQ(s.chains[0], "B");
     EXPECT_EQ(s.asyms[0], "C");
-    EXPECT_FALSE(s.residues[0].hetero);
+    EXPECT_FALSE(s.residues[0].hetero());
 }
 
 TEST(ReadMmcif, MakesUpColumnsThatMayBeMissing)
@@ -107,9 +107,9 @@ TEST(ReadMmcif, GuessesLigandsWithoutEntities)
                                                  "HETATM 3 ZN ZN . ZN A . 9 9 9 1 0 101 A 1\n"
                                                  "HETATM 4 O O . HOH A . 0 9 9 1 0 201 A 1\n"));
     ASSERT_EQ(s.residues.size(), 4u);
-    EXPECT_FALSE(s.residues[1].hetero);
-    EXPECT_TRUE(s.residues[2].hetero);
-    EXPECT_TRUE(s.residues[3].water);
+    EXPECT_FALSE(s.residues[1].hetero());
+    EXPECT_TRUE(s.residues[2].hetero());
+    EXPECT_TRUE(s.residues[3].water());
 }
 
 TEST(ReadMmcif, RefusesWhatHasNoAtoms)
