@@ -28,8 +28,9 @@ const std::vector<VerbInfo>& verbTable()
     static const std::vector<VerbInfo> all = {
         {Build, "build", "INPUT -o FILE [-o FILE ...] [options]",
          "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .bcif .gro\n"
-         ".psf .sdf .mol .mol2 .pqr .xyzr .xyzrn, each also .gz, or - for standard input): a\n"
-         "level set as OpenVDB grid, meshes, pictures, a report. With --frames one a frame.",
+         ".psf .sdf .mol .mol2 .pdbqt .xyz .pqr .xyzr .xyzrn, each also .gz, .bz2 or .xz,\n"
+         "or - for standard input): a level set as OpenVDB grid, meshes, pictures, a report. With "
+         "--frames one a frame.",
          "", checkedStatus, completeBuild,
          [](const Call& call, auto start) {
              return call.frames.empty() ? build(call, start) : frames(call, start);

@@ -12,6 +12,7 @@
 #include "molsurf/structure/symmetry.h"
 #include "molsurf/structure/text_fields.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -144,28 +145,33 @@ struct KindCount {
 };
 
 /// The line of a table that an atom counts in.
-std::string kindOf(const Structure& structure, const Atom& atom, const std::vector<Role>& roles)
+std::string kindOf(const Structure& structure, const Atom& atom, const std::vector<Role>& roles,
+                   bool polymer)
 {
     const Residue& residue = residueOf(structure, atom);
     if (residue.name == "DUM" || atom.name == "DUM") return "dummy";
     if (atom.role == AtomRole::Particle) return std::string(kindWord(ResidueKind::Particle));
     if (atom.role == AtomRole::CoarserScale) return "coarser scale";
     const bool free = roles[std::size_t(atom.residue)] == Role::FreeIon;
-    if (residue.kind == ResidueKind::Ion) return free ? "free ion" : "bound ion";
+    if (residue.kind == ResidueKind::Ion && polymer) return free ? "free ion" : "bound ion";
     return std::string(kindWord(residue.kind));
 }
 
 /// A line for each kind of residues: atoms, residues, and their names.
 std::string describeKinds(const Structure& structure, const Model& model)
 {
-    constexpr const char* order[] = {"protein", "nucleic",   "modified",      "bead",   "sugar",
-                                     "ligand",  "bound ion", "free ion",      "buffer", "lipid",
-                                     "water",   "particle",  "coarser scale", "dummy"};
+    constexpr const char* order[] = {"protein", "nucleic",   "modified", "bead",          "sugar",
+                                     "ligand",  "bound ion", "free ion", "ion",           "buffer",
+                                     "lipid",   "water",     "particle", "coarser scale", "dummy"};
     const std::vector<Role> roles = rolesIn(structure, model);
+    const bool polymer =
+        std::any_of(structure.atoms.begin() + std::ptrdiff_t(model.begin),
+                    structure.atoms.begin() + std::ptrdiff_t(model.end),
+                    [&](const Atom& atom) { return residueOf(structure, atom).polymer(); });
     std::map<std::string, KindCount> counts;
     for (std::size_t i = model.begin; i < model.end; ++i) {
         const Atom& atom = structure.atoms[i];
-        KindCount& count = counts[kindOf(structure, atom, roles)];
+        KindCount& count = counts[kindOf(structure, atom, roles, polymer)];
         ++count.atoms;
         count.residues.insert(atom.residue);
         const bool particle = atom.role == AtomRole::Particle;

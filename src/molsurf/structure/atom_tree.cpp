@@ -70,8 +70,8 @@ private:
         const bool standard = isStandardResidue(from.name);
         for (const gemmi::Atom& atom : from.atoms) {
             out_.atoms.push_back({openvdb::Vec3d(atom.pos.x, atom.pos.y, atom.pos.z), atom.name,
-                                  residueIndex, elementOf(atom, standard), atom.altloc, atom.occ,
-                                  atom.b_iso, -1.0});
+                                  residueIndex, elementOf(atom, standard), atom.altloc,
+                                  AtomRole::Atom, atom.occ, atom.b_iso, -1.0});
         }
     }
 
@@ -121,12 +121,13 @@ bool AtomTree::isSame(std::int32_t residue, const AtomLine& atom, std::int32_t c
     const Residue& at = out_.residues[std::size_t(residue)];
     return at.number == atom.number && at.insertionCode == atom.insertionCode &&
            at.chain == chain && at.name == atom.residue &&
-           segments_[std::size_t(residue)] == atom.segment;
+           segments_[std::size_t(residue)] == segment_;
 }
 
 std::int32_t AtomTree::residueOf(const AtomLine& atom)
 {
     const std::int32_t chain = chains_.index(std::string(atom.chain), out_.chains);
+    segment_ = segmentTable_.index(std::string(atom.segment), segmentNames_);
     const auto count = std::int32_t(out_.residues.size());
     if (count > modelBegin_ && isSame(count - 1, atom, chain)) {
         const bool again =
@@ -153,7 +154,7 @@ std::int32_t AtomTree::residueOf(const AtomLine& atom)
                    kind != NameClass::Nucleotide && kind != NameClass::ModifiedNucleotide &&
                    !atom.name.empty();
     out_.residues.push_back(std::move(residue));
-    segments_.emplace_back(atom.segment);
+    segments_.push_back(segment_);
     firsts_.push_back(std::int32_t(out_.atoms.size()));
     return count;
 }
@@ -179,7 +180,7 @@ void AtomTree::add(const AtomLine& atom)
     if (out_.models.empty()) startModel(1);
     const std::int32_t residue = residueOf(atom);
     out_.atoms.push_back({atom.position, std::string(atom.name), residue, elementOf(atom),
-                          atom.altloc, atom.occupancy, atom.bFactor, atom.radius, atom.role});
+                          atom.altloc, atom.role, atom.occupancy, atom.bFactor, atom.radius});
 }
 
 Structure AtomTree::finish()

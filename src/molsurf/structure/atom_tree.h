@@ -49,7 +49,7 @@ class AtomTree
 public:
     void startModel(int number);
     void add(const AtomLine& atom);
-    std::size_t size() const { return out_.atoms.size(); }
+    void reserve(std::size_t atoms) { out_.atoms.reserve(atoms); }
 
     /// Says why no surface can be made of the current model.
     void spoil(const std::string& problem) { out_.models.back().problem = problem; }
@@ -63,10 +63,13 @@ private:
 
     Structure out_;
     NameTable chains_;
-    std::vector<std::string> segments_; ///< one a residue
-    std::vector<std::int32_t> firsts_;  ///< one a residue: its first atom
-    std::int32_t modelBegin_ = 0;       ///< first residue of the model
-    bool lastRepeats_ = false;          ///< whether the last residue may begin again
+    NameTable segmentTable_;
+    std::vector<std::string> segmentNames_;
+    std::int32_t segment_ = 0;           ///< of the atom that is added
+    std::vector<std::int32_t> segments_; ///< one a residue
+    std::vector<std::int32_t> firsts_;   ///< one a residue: its first atom
+    std::int32_t modelBegin_ = 0;        ///< first residue of the model
+    bool lastRepeats_ = false;           ///< whether the last residue may begin again
     std::unordered_map<std::string, std::uint8_t> guesses_; ///< by names and mass
 };
 

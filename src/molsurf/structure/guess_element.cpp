@@ -90,12 +90,12 @@ std::uint8_t ofIon(const ElementEvidence& evidence)
 bool isPlainSymbol(string_view letters)
 {
     return isIn(
-        " CL BR FE ZN MG MN SI SE AS AL AG AU LI LA LU RB RH RU RE PT PR TI TL TB TE TM GA GD "
+        " CL BR FE ZN MG MN SI SE AS AL AG AU LI LA LU RB RH RU RE PT TI TL TB TE TM GA GD "
         "GE ZR MO IR XE KR EU ER YB CU AR NI TH ",
         letters);
 }
 
-/// Symbols of two letters that are read as such only if the name's place or its letters say so.
+/// Symbols of two letters that are read as such only if the name's place says so.
 bool isPossibleSymbol(string_view letters)
 {
     return isIn(" CA CD CE CO CS NA NB ND NE HG HO HF OS PB PD BA BE BI IN SB SM SN SR SC CR ",
@@ -108,10 +108,8 @@ std::uint8_t ofTwoLetters(const ElementEvidence& evidence)
     const bool first = !evidence.atom.empty() && isLetter(evidence.atom[0]);
     if (letters.size() != 2 || !first) return 0;
     const std::string symbol(letters);
-    const bool spelt = isCapital(letters[0]) && !isCapital(letters[1]); // "Cu1"
     if (isPlainSymbol(letters)) return elementNumber(symbol);
-    if ((spelt || evidence.inFirstColumn) && isPossibleSymbol(letters))
-        return elementNumber(symbol);
+    if (evidence.inFirstColumn && isPossibleSymbol(letters)) return elementNumber(symbol);
     // A molecule that is named by its metal: "CO" of CO3, "CD" of CD1.
     const bool named = evidence.residue.substr(0, 2) == letters &&
                        (evidence.residue.size() == 2 || !isLetter(evidence.residue[2]));
@@ -148,7 +146,8 @@ std::uint8_t guessElement(const ElementEvidence& evidence)
     if (const std::uint8_t element = ofMass(evidence.mass)) return element;
     if (const std::uint8_t element = ofTwoLetters(evidence)) return element;
     if (const std::uint8_t element = firstLetter(letters)) return element;
-    return letters.size() == 2 ? elementNumber(std::string(letters)) : 0;
+    const string_view two = letters.substr(0, 2); // "ZND"
+    return isPlainSymbol(two) ? elementNumber(std::string(two)) : 0;
 }
 
 std::uint8_t guessElement(const std::string& atomName, const std::string& residueName)

@@ -154,7 +154,8 @@ void addSpheres(gemmi::cif::Block& block, const std::string& path, Structure& st
         parseInteger(last, end);
         spans.push_back({model, residue.number, end, residue.asym, rows - 1});
         atoms.push_back({at, first == last ? first : first + "-" + last,
-                         std::int32_t(structure.residues.size()), 0, '\0', 1.0f, 0.0f, radius});
+                         std::int32_t(structure.residues.size()), 0, '\0', AtomRole::Atom, 1.0f,
+                         0.0f, radius});
         structure.residues.push_back(std::move(residue));
     }
     std::vector<AtomRole> roles(rows, AtomRole::Atom);

@@ -229,6 +229,7 @@ Structure readPqr(const std::string& text, const std::string& path)
 Structure readXyzr(const std::string& text, const std::string& path)
 {
     AtomTree tree;
+    tree.reserve(std::size_t(std::count(text.begin(), text.end(), '\n')) + 1);
     constexpr std::array<const char*, 4> names{"x", "y", "z", "radius"};
     Identity id;
     Fields fields;

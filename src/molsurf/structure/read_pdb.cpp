@@ -60,6 +60,7 @@ class LayoutFinder
 public:
     void add(string_view line)
     {
+        ++atoms_;
         if (column(line, 20) != ' ') wide_.emplace(line.substr(17, 5));
         if (!layout_.placedNames || !isLetter(column(line, 12)) || column(line, 15) != ' ') return;
         if (!isLetter(column(line, 13)) && elementIn(line).empty()) layout_.placedNames = false;
@@ -85,7 +86,10 @@ public:
         return layout_;
     }
 
+    std::size_t atoms() const { return atoms_; }
+
 private:
+    std::size_t atoms_ = 0;
     Layout layout_;
     std::set<std::string, std::less<>> wide_; ///< columns 18-22 of residues with a letter in 21
 };
@@ -130,6 +134,8 @@ public:
         for (LineReader lines(text); lines.next();)
             if (isAtomRecord(lines.line())) finder.add(lines.line());
         layout_ = finder.layout();
+        constexpr std::size_t shortest = 54; // of the line of an atom
+        tree_.reserve(std::min(finder.atoms(), text.size() / shortest + 1));
         stopIfCancelled(progress);
         for (LineReader lines(text); lines.next();) record(lines);
         stopIfCancelled(progress);

@@ -5,7 +5,6 @@
 #include "molsurf/structure/element.h"
 #include "molsurf/structure/text_fields.h"
 
-#include <cctype>
 #include <map>
 
 namespace molsurf
@@ -47,22 +46,42 @@ XyzColumns columnsOf(string_view comment)
     return out;
 }
 
+/// The letters at the beginning of a word.
+string_view lettersAtBegin(string_view word)
+{
+    std::size_t end = 0;
+    while (end < word.size() && isLetter(word[end])) ++end;
+    return word.substr(0, end);
+}
+
 /// "C", "CL", "c", "C12", "6": the atomic number, or 0.
 int elementOfSpecies(string_view species)
 {
     int number = 0;
     if (parseInteger(species, number)) return number >= 0 && number <= maxElement ? number : 0;
-    std::string letters;
-    for (const char c : species) {
-        if (!std::isalpha(static_cast<unsigned char>(c))) break;
-        letters += c;
+    return elementNumber(std::string(lettersAtBegin(species)));
+}
+
+/// Whether the atoms are given by their names, as MDTraj writes them: then CA is no calcium. Some
+/// of the names, as CB or OG1, are no symbols.
+bool hasNames(const std::string& text)
+{
+    Fields fields;
+    for (LineReader lines(text); lines.next();) {
+        splitFields(lines.line(), fields);
+        double number = 0.0;
+        if (fields.size() < 4 || !parseNumber(fields[1], number) || !parseNumber(fields[3], number))
+            continue;
+        const string_view letters = lettersAtBegin(fields[0]);
+        const int element = elementOfSpecies(fields[0]);
+        if (letters.size() > 1 && element == 0 && elementOfSpecies(letters.substr(0, 1)) != 0)
+            return true;
     }
-    const int whole = elementNumber(letters);
-    return whole != 0 || letters.empty() ? whole : elementNumber(letters.substr(0, 1));
+    return false;
 }
 
 /// Reads a frame whose number of atoms is the current line.
-void readFrame(LineReader& lines, const std::string& path, int count, AtomTree& tree)
+void readFrame(LineReader& lines, const std::string& path, int count, bool names, AtomTree& tree)
 {
     const auto next = [&](const std::string& expected) {
         if (!lines.next())
@@ -87,11 +106,11 @@ void readFrame(LineReader& lines, const std::string& path, int count, AtomTree& 
             failAtLine(path, lines, "expected element, x, y and z, got " + inQuotes(lines.line()));
         AtomLine atom;
         const string_view species = fields[columns.species];
-        atom.element = elementOfSpecies(species);
-        atom.guess = false;
+        if (!names) atom.element = elementOfSpecies(species);
+        atom.guess = names;
+        const char* const symbol = elementSymbol(std::uint8_t(atom.element));
         const std::string name =
-            std::string(atom.element != 0 ? elementSymbol(std::uint8_t(atom.element)) : "X") +
-            std::to_string(++serials[atom.element]);
+            names ? std::string(species) : symbol + std::to_string(++serials[atom.element]);
         atom.residue = "UNL"; // as the Protein Data Bank calls an unknown ligand
         atom.name = name;
         atom.number = 1;
@@ -106,6 +125,7 @@ void readFrame(LineReader& lines, const std::string& path, int count, AtomTree& 
 Structure readXyz(const std::string& text, const std::string& path)
 {
     AtomTree tree;
+    const bool names = hasNames(text);
     LineReader lines(text);
     for (int model = 1; lines.next();) {
         const string_view line = trimmed(lines.line());
@@ -114,7 +134,7 @@ Structure readXyz(const std::string& text, const std::string& path)
         if (!parseInteger(line, count) || count < 0)
             failAtLine(path, lines, "expected the number of atoms, got " + inQuotes(line));
         tree.startModel(model++);
-        readFrame(lines, path, count, tree);
+        readFrame(lines, path, count, names, tree);
     }
     return tree.finish();
 }

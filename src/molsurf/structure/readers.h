@@ -72,6 +72,7 @@ Structure readMol2(const std::string& text, const std::string& path);
 /// Reads an .xyz file: the number of atoms, a comment, and a line with element, x, y and z for
 /// each; further frames are models. The comment may name the columns
 /// (Properties=species:S:1:pos:R:3).
+/// Where some words are no symbols (CB), all are names of atoms.
 /// @throws Error(ErrorKind::Input) with the line, if it is not as described
 Structure readXyz(const std::string& text, const std::string& path);
 

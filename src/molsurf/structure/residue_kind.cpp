@@ -238,7 +238,8 @@ private:
         if (name == NameClass::AminoAcid) return linkKind(r, ResidueKind::Protein);
         const Composition all = compositionOf(members);
         if (all.atoms == 0 && members.size() > 0) return ResidueKind::Particle;
-        if (name == NameClass::Nucleotide && (members.has("P") || members.hasPrimed()))
+        const bool chainName = at(r).name.size() < 3 && !at(r).hetatm && all.ionic == 0;
+        if (name == NameClass::Nucleotide && (chainName || members.has("P") || members.hasPrimed()))
             return linkKind(r, ResidueKind::Nucleic);
         const bool waterName = name == NameClass::Water || at(r).entity == EntityHint::Water;
         if (waterName && all.carbons == 0 && all.oxygens <= 1 && all.others == 0)

@@ -66,10 +66,10 @@ struct Atom {
     std::int32_t residue;    ///< index into Structure::residues
     std::uint8_t element;    ///< atomic number; 0 if unknown; hydrogen and deuterium are 1
     char altloc;             ///< '\0' if the atom has no alternate location
+    AtomRole role;           ///< what it is if it is no atom
     float occupancy;         ///< in [0, 1]
     float bFactor;           ///< [Å^2]
     double radius;           ///< the file's own [Å]; < 0 if it gives none
-    AtomRole role = AtomRole::Atom;
 };
 
 /// A rigid motion  x -> rotation x + translation  [Å].

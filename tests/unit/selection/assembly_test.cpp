@@ -24,7 +24,8 @@ Structure threeChains()
     s.chains = s.asyms = {"A", "B", "C"};
     for (std::int32_t i = 0; i < 3; ++i) {
         s.residues.push_back({"GLY", i, i, 1, ' '});
-        s.atoms.push_back({openvdb::Vec3d(1, 2, 3 + i), "CA", i, 6, '\0', 1, 0, -1});
+        s.atoms.push_back(
+            {openvdb::Vec3d(1, 2, 3 + i), "CA", i, 6, '\0', AtomRole::Atom, 1, 0, -1});
     }
     s.models = {{1, 0, 3}};
     return s;

@@ -27,8 +27,8 @@ Structure withAssembly(std::vector<Operator> operators)
     s.source = "made";
     s.chains = s.asyms = {"A"};
     s.residues.push_back({"GLY", 0, 0, 1, ' '});
-    s.atoms.push_back({Vec3d(6, 50, 70), "C", 0, 6, '\0', 1, 0, -1});
-    s.atoms.push_back({Vec3d(8, 51, 71), "O", 0, 8, '\0', 1, 0, -1});
+    s.atoms.push_back({Vec3d(6, 50, 70), "C", 0, 6, '\0', AtomRole::Atom, 1, 0, -1});
+    s.atoms.push_back({Vec3d(8, 51, 71), "O", 0, 8, '\0', AtomRole::Atom, 1, 0, -1});
     s.models = {{1, 0, 2}};
     s.assemblies = {assemblyOf(std::move(operators))};
     return s;

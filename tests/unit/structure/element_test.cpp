@@ -79,6 +79,8 @@ TEST(GuessElement, OfLigandsByTwoLettersThenOne)
     EXPECT_EQ(guess("NA", "NAG"), "N");
     EXPECT_EQ(guess("CA", "LIG", -1.0, true), "Ca"); // in the columns of calcium
     EXPECT_EQ(guess("CO", "COB"), "Co");
+    EXPECT_EQ(guess("Ca4", "PA"), "C"); // a carbon with a letter
+    EXPECT_EQ(guess("ZND", "ZNM"), "Zn");
     for (const char* none : {"", "X1", "Q", "*", "1"}) EXPECT_EQ(guess(none, "LIG"), "X") << none;
 }
 

@@ -190,6 +190,10 @@ TEST(ReadXyz, ReadsFramesAndColumns)
     EXPECT_EQ(s.atoms[4].position, openvdb::Vec3d(7, 8, 9));
     EXPECT_EQ(s.atoms[4].name, "Cl2");
     EXPECT_EQ(s.residues[0].name, "UNL");
+    const Structure named = readLigand("4\n\nCA 0 0 0\nCB 2 0 0\nNE 4 0 0\nCL 6 0 0\n");
+    const std::vector<int> byName{6, 6, 7, 17};
+    for (std::size_t i = 0; i < byName.size(); ++i)
+        EXPECT_EQ(named.atoms[i].element, byName[i]) << i;
     EXPECT_HAS(ligandError("2\n\nO 0 0 0\nH 0 x 0\n", "a.xyz"),
                "line 4: expected element, x, y and z");
     EXPECT_HAS(ligandError("2\n\nO 0 0 0\n", "a.xyz"),
