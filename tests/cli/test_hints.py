@@ -446,7 +446,7 @@ UNTRIED = {
                                     "gmx editconf": "it takes GROMACS", "cpptraj": "it takes AmberTools",
                                     "ParmEd": "it takes ParmEd", "structconvert": "it takes RDKit",
                                     "the file of the coordinates": "it takes the Protein Data Bank",
-                                    "unzip": "it takes unzip", "unzstd": "it takes zstd", "uncompress": "it takes gzip"},
+                                    "unzip": "it takes unzip", "tar -xf": "it takes a tar archive", "unzstd": "it takes zstd", "uncompress": "it takes gzip"},
     "structure/read_ligand.cpp": {"Open Babel": "it takes Open Babel"},
     "surface/check_balls.cpp": {"`voxel`": "cli.hints.memory follows it"},
     "surface/check_mesh.cpp": {"a smaller `voxel`": "no atoms are known that give it"},

@@ -19,7 +19,7 @@ DOCS = ROOT / "docs"
 PAGES = [README, *sorted(DOCS.rglob("*.md"))]
 # These have commands to run. Others may, too: every page with a block of shell is run.
 GUIDES = ("README", "accuracy", "artists", "compare", "complexes", "formats", "gallery", "msms", "nanoshaper", "next_door", "performance", "pipelines",
-          "settings", "structural_biology", "trajectories")
+          "settings", "structural_biology", "structures", "trajectories")
 
 
 def blocks(language, page):

@@ -131,7 +131,9 @@ class Symmetry(ToolTest):
 
     def test_info(self):
         text = self.check(0, "info", DIMER).stdout.decode()
-        for line in (r"format +mmCIF", r"models +1", r"chains +1 \(A\)", r"atoms +644 \(88 water, .*",
+        for line in (r"format +mmCIF", r"models +1", r"chains +1 \(A\)", r"atoms +644 \(0 hydrogen\)",
+                     r"protein +524 atoms in 66 residues", r"modified +32 atoms in 4 residues \(MSE\)",
+                     r"water +88 atoms in 88 residues \(HOH\)",
                      r"copies +2 of chains A", r"atoms +1288", r"point group +C2",
                      r"symmetry +1 two-fold axis", r"fold:2 +axis \(.*\), copies 1-2"):
             self.assertRegex(text, rf"\n    {line}\n")

@@ -29,7 +29,8 @@ const std::vector<VerbInfo>& verbTable()
         {Build, "build", "INPUT -o FILE [-o FILE ...] [options]",
          "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .bcif .gro\n"
          ".psf .sdf .mol .mol2 .pdbqt .xyz .pqr .xyzr .xyzrn, each also .gz, .bz2 or .xz,\n"
-         "or - for standard input): a level set as OpenVDB grid, meshes, pictures, a report. With "
+         "or - for standard input): a level set as OpenVDB grid,\n"
+         "meshes, pictures, a report. With "
          "--frames one a frame.",
          "", checkedStatus, completeBuild,
          [](const Call& call, auto start) {

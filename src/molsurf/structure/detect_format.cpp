@@ -284,6 +284,11 @@ const Refusal refusals[] = {
     {"JSON", " [use .cif or .pdb]", [](const Sample& s) { return s.word.substr(0, 1) == "{"; }},
     {"a ZIP archive", " [hint: unzip it]",
      [](const Sample& s) { return beginsAs(s, "PK\x03\x04"); }},
+    {"a tar archive", " [hint: tar -xf takes the files out]",
+     [](const Sample& s) {
+         constexpr std::size_t place = 257; // of the magic
+         return s.text.size() > place && s.text.compare(place, 5, "ustar") == 0;
+     }},
     {"packed by zstd", " [hint: unzstd unpacks it; .gz, .bz2 and .xz are read]",
      [](const Sample& s) { return beginsAs(s, "\x28\xB5\x2F\xFD"); }},
     {"packed by compress", " [hint: uncompress unpacks it; .gz, .bz2 and .xz are read]",

@@ -89,10 +89,9 @@ std::uint8_t ofIon(const ElementEvidence& evidence)
 /// often (CA, CD, HG, NA, OS, ...) are not among them.
 bool isPlainSymbol(string_view letters)
 {
-    return isIn(
-        " CL BR FE ZN MG MN SI SE AS AL AG AU LI LA LU RB RH RU RE PT TI TL TB TE TM GA GD "
-        "GE ZR MO IR XE KR EU ER YB CU AR NI TH ",
-        letters);
+    return isIn(" CL BR FE ZN MG MN SI SE AS AL AG AU LI LA LU RB RH RU RE PT TI TL TB TE TM GA GD "
+                "GE ZR MO IR XE KR EU ER YB CU AR NI TH ",
+                letters);
 }
 
 /// Symbols of two letters that are read as such only if the name's place says so.

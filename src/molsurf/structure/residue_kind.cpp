@@ -59,13 +59,15 @@ private:
 
 /// The atoms of a residue by their elements, without particles and second locations.
 struct Composition {
-    std::size_t atoms = 0, carbons = 0, oxygens = 0, hydrogens = 0, others = 0, ionic = 0;
+    std::size_t atoms = 0, carbons = 0, oxygens = 0, hydrogens = 0, nitrogens = 0, phosphorus = 0,
+                others = 0, ionic = 0;
     bool oneElement = true;
 };
 
 Composition compositionOf(const Members& members)
 {
-    constexpr std::uint8_t hydrogen = 1, carbon = 6, oxygen = 8;
+    constexpr std::uint8_t hydrogen = 1, carbon = 6, nitrogen = 7, oxygen = 8,
+                           phosphorusElement = 15;
     Composition out;
     const Atom* first = nullptr;
     for (std::size_t i = 0; i < members.size(); ++i) {
@@ -77,6 +79,8 @@ Composition compositionOf(const Members& members)
         out.carbons += atom.element == carbon;
         out.oxygens += atom.element == oxygen;
         out.hydrogens += atom.element == hydrogen;
+        out.nitrogens += atom.element == nitrogen;
+        out.phosphorus += atom.element == phosphorusElement;
         out.others += atom.element != carbon && atom.element != oxygen && atom.element != hydrogen;
         out.ionic += isIonic(atom.element);
         out.oneElement = out.oneElement && atom.element == first->element;
@@ -260,11 +264,9 @@ private:
     /// The kind of what is no link of a chain.
     static ResidueKind moleculeKind(NameClass name, const Members& members, const Composition& all)
     {
-        constexpr std::size_t tail = 10; // carbons of a lipid whose name is cut
         if (name == NameClass::Buffer) return ResidueKind::Buffer;
         if (name == NameClass::Lipid) return ResidueKind::Lipid;
-        if (name == NameClass::CutLipid && all.carbons >= tail && all.ionic == 0)
-            return ResidueKind::Lipid;
+        if (name == NameClass::CutLipid && isCutLipid(all)) return ResidueKind::Lipid;
         if (name == NameClass::AmberLipid && (members.has("P31") || isTail(members, all)))
             return ResidueKind::Lipid;
         if (name == NameClass::Sugar) return ResidueKind::Sugar;
@@ -276,6 +278,15 @@ private:
             2 * all.oxygens >= all.carbons)
             return ResidueKind::Sugar;
         return ResidueKind::Ligand;
+    }
+
+    /// Whether a molecule with the cut name of a lipid is one: it has no metal or halogen, at most
+    /// one nitrogen and phosphorus, and a tail.
+    static bool isCutLipid(const Composition& all)
+    {
+        constexpr std::size_t least = 6, withoutPhosphate = 10; // carbons
+        return all.ionic == 0 && all.nitrogens <= 1 && all.phosphorus <= 1 &&
+               all.carbons >= (all.phosphorus > 0 ? least : withoutPhosphate);
     }
 
     /// A tail of Amber's lipids: hydrocarbon, or an acyl group.

@@ -180,5 +180,87 @@ TEST(ReadMmcif, ReadsNonCrystallographicSymmetry)
     EXPECT_EQ(operators[1].translation, openvdb::Vec3d(100, -20.5, 3));
 }
 
+/// The author's numbers of all residues.
+std::vector<int> numbersOf(const Structure& s)
+{
+    std::vector<int> out;
+    for (const Residue& residue : s.residues) out.push_back(residue.number);
+    return out;
+}
+
+TEST(ReadMmcif, LabelsStandInForNumbersThatAreMissing)
+{
+    for (const char* null : {".", "?"}) {
+        const std::string none(null);
+        const Structure s =
+            readMmcif(atomSite(full, "ATOM 1 C CA . GLY A 5 1 2 3 1 0 " + none + " A 1\n" +
+                                         "ATOM 2 C CA . GLY A 6 4 2 3 1 0 " + none + " A 1\n" +
+                                         "HETATM 3 O O . HOH B . 9 9 9 1 0 " + none + " A 1\n" +
+                                         "HETATM 4 H H1 . HOH B . 9 9 8 1 0 " + none + " A 1\n" +
+                                         "HETATM 5 O O . HOH B . 0 9 9 1 0 " + none + " A 1\n"));
+        EXPECT_EQ(numbersOf(s), (std::vector<int>{5, 6, 1, 2}));
+    }
+}
+
+TEST(ReadMmcif, PairsAreALoopOfOneRow)
+{
+    const Structure s = readMmcif("data_one\n_atom_site.id 1\n_atom_site.type_symbol ZN\n"
+                                  "_atom_site.label_atom_id ZN\n_atom_site.label_comp_id ZN\n"
+                                  "_atom_site.label_asym_id A\n_atom_site.Cartn_x 1.0\n"
+                                  "_atom_site.Cartn_y 2.0\n_atom_site.Cartn_z 3.0\n"
+                                  "_atom_site.auth_seq_id 5\n");
+    ASSERT_EQ(s.atoms.size(), 1u);
+    EXPECT_EQ(s.atoms[0].element, 30);
+    EXPECT_EQ(s.residues[0].number, 5);
+    EXPECT_EQ(s.residues[0].kind, ResidueKind::Ion);
+}
+
+TEST(ReadMmcif, KnowsStructureFactorsAndPredictions)
+{
+    EXPECT_HAS(mmcifError("data_sf\nloop_\n_refln.index_h\n_refln.index_k\n1 2\n"),
+               "it has structure factors");
+    const std::string site = atomSite(full, "ATOM 1 C CA . GLY A 5 1 2 3 1 0 5 A 1\n");
+    EXPECT_FALSE(readMmcif(site).plddt);
+    EXPECT_TRUE(readMmcif(site + "_ma_qa_metric.name pLDDT\n").plddt);
+    EXPECT_FALSE(readMmcif(site + "_ma_qa_metric.name PAE\n").plddt);
+}
+
+/// Spheres of residues "1-10" in the given order, with radius 2, along x.
+std::string spheres(const std::vector<std::pair<int, int>>& spans)
+{
+    std::string text = "data_X\nloop_\n";
+    for (const char* column : {"id", "entity_id", "seq_id_begin", "seq_id_end", "asym_id",
+                               "Cartn_x", "Cartn_y", "Cartn_z", "object_radius", "model_id"})
+        text += std::string("_ihm_sphere_obj_site.") + column + "\n";
+    int id = 0;
+    for (const auto& [begin, end] : spans) {
+        ++id;
+        text += std::to_string(id) + " 1 " + std::to_string(begin) + " " + std::to_string(end) +
+                " A " + std::to_string(9 * id) + " 0 0 2 1\n";
+    }
+    return text;
+}
+
+/// The spheres that are left out, from 1, and the warnings.
+std::string coarser(const std::vector<std::pair<int, int>>& spans)
+{
+    const Structure s = readMmcif(spheres(spans));
+    std::string out;
+    for (std::size_t i = 0; i < s.atoms.size(); ++i)
+        if (s.atoms[i].role == AtomRole::CoarserScale) out += std::to_string(i + 1) + " ";
+    for (const std::string& warning : s.warnings) out += warning.substr(0, 22);
+    return out;
+}
+
+TEST(ReadMmcif, OfTwoScalesTheFinerOneCounts)
+{
+    EXPECT_EQ(coarser({{1, 1}, {2, 2}, {3, 3}}), "");
+    EXPECT_EQ(coarser({{1, 3}, {1, 1}, {2, 2}, {3, 3}}), "1 the model is there at ");
+    EXPECT_EQ(coarser({{1, 5}, {6, 10}, {1, 10}, {11, 20}}), "3 the model is there at ");
+    EXPECT_EQ(coarser({{1, 5}, {1, 10}}), "the model overlaps its");
+    EXPECT_EQ(coarser({{1, 5}, {1, 5}}), ""); // two states
+    EXPECT_EQ(coarser({{1, 2000000000}, {-2000000000, 2000000000}, {5, 4}}).substr(0, 2), "th");
+}
+
 } // namespace
 } // namespace molsurf::test

@@ -95,8 +95,10 @@ TEST(ResidueKind, OfLipidsByTheirNames)
         EXPECT_EQ(nameClass(name), NameClass::Lipid) << name;
     for (const char* name : {"ASPP", "GLUP", "NALA", "HSPC", "AGLC", "LYSH", "POPX"})
         EXPECT_NE(nameClass(name), NameClass::Lipid) << name;
-    EXPECT_EQ(kinds(records("POP P C1 C2 C3 C4 C5 C6 C7 C8 C9")), "ligand");
-    EXPECT_EQ(kinds(records("POP P C1 C2 C3 C4 C5 C6 C7 C8 C9 C10")), "lipid");
+    EXPECT_EQ(kinds(records("POP P C1 C2 C3 C4 C5")), "ligand");
+    EXPECT_EQ(kinds(records("POP P C1 C2 C3 C4 C5 C6")), "lipid");
+    EXPECT_EQ(kinds(records("DPP C1 C2 C3 C4 C5 C6 C7 C8 C9 C10")), "lipid");
+    EXPECT_EQ(kinds(records("SAP P C1 C2 C3 C4 C5 C6 N1 N2 N3")), "ligand"); // a nucleotide
 }
 
 /// The names of the particles that are no atoms.
