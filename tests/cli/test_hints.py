@@ -448,6 +448,7 @@ UNTRIED = {
                                     "the file of the coordinates": "it takes the Protein Data Bank",
                                     "unzip": "it takes unzip", "tar -xf": "it takes a tar archive", "unzstd": "it takes zstd", "uncompress": "it takes gzip"},
     "structure/read_ligand.cpp": {"Open Babel": "it takes Open Babel"},
+    "structure/read_xyz.cpp": {"Open Babel": "it takes Open Babel"},
     "surface/check_balls.cpp": {"`voxel`": "cli.hints.memory follows it"},
     "surface/check_mesh.cpp": {"a smaller `voxel`": "no atoms are known that give it"},
     "surface/compare.cpp": {"write .ply instead": "the program refuses it before the library does"},

@@ -657,6 +657,14 @@ std::string describeGuesses(const Structure& structure)
            " unknown: " + joined({names.begin(), names.end()}, most);
 }
 
+/// How many atoms of the file the balls are made of.
+static std::size_t atomsOfFile(const Structure& structure, const BallSet& selection)
+{
+    std::vector<char> used(structure.atoms.size());
+    for (const Ball& ball : selection.balls) used[std::size_t(ball.atom)] = 1;
+    return std::size_t(std::count(used.begin(), used.end(), char{1}));
+}
+
 std::string describeSelection(const Structure& structure, const BallSet& selection)
 {
     const auto some = [](std::size_t n, const std::string& what) {
@@ -683,7 +691,8 @@ std::string describeSelection(const Structure& structure, const BallSet& selecti
         text += " of " + some(placement.copies, "prototype") + " for " +
                 std::to_string(placement.instances.size()) + " copies";
     } else if (placement.copies > 1)
-        text += " (" + std::to_string(placement.copies) + " copies)";
+        text += " (" + std::to_string(placement.copies) + " copies of " +
+                std::to_string(atomsOfFile(structure, selection)) + " in the file)";
     if (selection.beads > 0) {
         text += ", of them " + some(selection.beads, "bead") + " for " +
                 some(selection.beadAtoms, "atom");
