@@ -30,8 +30,7 @@ const std::vector<VerbInfo>& verbTable()
          "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .bcif .gro\n"
          ".psf .sdf .mol .mol2 .pdbqt .xyz .pqr .xyzr .xyzrn, each also .gz, .bz2 or .xz,\n"
          "or - for standard input): a level set as OpenVDB grid,\n"
-         "meshes, pictures, a report. With "
-         "--frames one a frame.",
+         "meshes, pictures, a report. With --frames one a frame.",
          "", checkedStatus, completeBuild,
          [](const Call& call, auto start) {
              return call.frames.empty() ? build(call, start) : frames(call, start);

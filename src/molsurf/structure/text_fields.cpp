@@ -123,7 +123,10 @@ void refuseMisspeltAtom(const std::string& path, const LineReader& lines)
         word += char(std::toupper(static_cast<unsigned char>(c)));
     }
     if (word.size() < shortest || word.size() > longest) return;
-    if (editDistance(word, "ATOM") > 1 && editDistance(word, "HETATM") > 2) return;
+    std::string sorted = word;
+    std::sort(sorted.begin(), sorted.end());
+    const bool turned = sorted == "AMOT"; // "ATMO"
+    if (!turned && editDistance(word, "ATOM") > 1 && editDistance(word, "HETATM") > 2) return;
     std::size_t numbers = 0;
     for (const std::string_view field : splitFields(line)) {
         double value = 0.0;

@@ -210,7 +210,7 @@ TEST(ReadPdb, EndEndsAFrame)
 TEST(ReadPdb, RefusesAMisspeltAtom)
 {
     for (const char* record :
-         {"ATAM  ", "ATON  ", "ATM   ", "Atom  ", "HETATN", "HETTAM", "hetatm"})
+         {"ATAM  ", "ATMO  ", "ATON  ", "ATM   ", "Atom  ", "HETATN", "HETTAM", "hetatm"})
         EXPECT_HAS(pdbError(atom + record + atom.substr(6)), "line 2: expected ATOM or HETATM")
             << record;
     for (const char* record : {"SIGATM", "ANISOU", "REMARK", "CONECT"})
