@@ -12,8 +12,7 @@ namespace molsurf
 namespace
 {
 
-/// Atomic number; corrects names such as CA that stand one column too far left in a file without
-/// elements, where they read as calcium.
+/// Atomic number; corrects an alpha carbon whose element is given as calcium.
 std::uint8_t elementOf(const gemmi::Atom& atom, bool standardResidue)
 {
     const int number = atom.element.atomic_number();
@@ -68,10 +67,16 @@ private:
         const auto residueIndex = static_cast<std::int32_t>(out_.residues.size());
         out_.residues.push_back(std::move(residue));
         const bool standard = isStandardResidue(from.name);
+        const bool unknown = from.name == "UNX"; // whose atoms UNK are no uranium
         for (const gemmi::Atom& atom : from.atoms) {
+            std::uint8_t element = elementOf(atom, standard);
+            if (atom.element == gemmi::El::X && !unknown) {
+                element = guessElement(atom.name, from.name);
+                if (out_.models.empty()) ++out_.guessed;
+            }
             out_.atoms.push_back({openvdb::Vec3d(atom.pos.x, atom.pos.y, atom.pos.z), atom.name,
-                                  residueIndex, elementOf(atom, standard), atom.altloc,
-                                  AtomRole::Atom, atom.occ, atom.b_iso, -1.0});
+                                  residueIndex, element, atom.altloc, AtomRole::Atom, atom.occ,
+                                  atom.b_iso, -1.0});
         }
     }
 

@@ -130,14 +130,14 @@ void completeAtomSite(Block& block, const std::string& path)
         const char* tag;
         const char* value;
     };
-    constexpr std::array<Default, 3> defaults{
-        {{"label_alt_id", "."}, {"occupancy", "1"}, {"B_iso_or_equiv", "0"}}};
+    constexpr std::array<Default, 4> defaults{
+        {{"label_alt_id", "."}, {"occupancy", "1"}, {"B_iso_or_equiv", "0"}, {"type_symbol", "?"}}};
     std::vector<Default> missing;
     for (const Default& column : defaults) {
         if (!has(column.tag)) missing.push_back(column);
     }
     const bool copySequence = !has("auth_seq_id") && has("label_seq_id");
-    for (const char* tag : {"id", "type_symbol", "label_asym_id", "Cartn_y", "Cartn_z"}) {
+    for (const char* tag : {"id", "label_asym_id", "Cartn_y", "Cartn_z"}) {
         if (!has(tag)) failAt(path, std::string("_atom_site has no column ") + tag);
     }
     if (!copySequence && !has("auth_seq_id")) failAt(path, "_atom_site has no column auth_seq_id");

@@ -117,7 +117,7 @@ TEST(ReadMmcif, RefusesWhatHasNoAtoms)
     EXPECT_HAS(mmcifError("data_X\n_cell.length_a 10\n"), "no atoms: expected _atom_site.Cartn_x");
     EXPECT_HAS(mmcifError("data_X\nloop_\n_chem_comp_atom.atom_id\nC1\n"), "chemical component");
     EXPECT_HAS(mmcifError("data_X\nloop_\n_atom_site_label\nC1\n"), "small-molecule CIF");
-    EXPECT_HAS(mmcifError(atomSite("id Cartn_x Cartn_y", "1 2 3\n")), "no column type_symbol");
+    EXPECT_HAS(mmcifError(atomSite("id Cartn_x Cartn_y", "1 2 3\n")), "no column label_asym_id");
 }
 
 TEST(ReadMmcif, RefusesWhatIsCutShortOrBroken)
@@ -200,6 +200,27 @@ TEST(ReadMmcif, LabelsStandInForNumbersThatAreMissing)
                                          "HETATM 5 O O . HOH B . 0 9 9 1 0 " + none + " A 1\n"));
         EXPECT_EQ(numbersOf(s), (std::vector<int>{5, 6, 1, 2}));
     }
+}
+
+TEST(ReadMmcif, GuessesElementsThatAreMissing)
+{
+    const std::string rows = "ATOM 1 ? CA . ALA A 1 1 2 3 1 0 1 A 1\n"
+                             "HETATM 2 . CL1 . LIG B . 9 2 3 1 0 2 A 1\n"
+                             "HETATM 3 ? M . HOH C . 5 2 3 1 0 3 A 1\n"
+                             "HETATM 4 O O . HOH C . 5 2 3 1 0 3 A 1\n"
+                             "HETATM 5 X UNK . UNX D . 0 9 3 1 0 4 A 1\n";
+    const Structure s = readMmcif(atomSite(full, rows));
+    const std::vector<int> elements{6, 17, 0, 8, 0};
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        EXPECT_EQ(s.atoms[i].element, elements[i]) << i;
+    EXPECT_EQ(s.guessed, 3u);
+    EXPECT_EQ(s.atoms[2].role, AtomRole::Particle);
+    EXPECT_EQ(readMmcif(atomSite("id label_atom_id label_comp_id label_asym_id label_seq_id "
+                                 "Cartn_x Cartn_y Cartn_z",
+                                 "1 SD MET A 5 1 2 3\n"))
+                  .atoms[0]
+                  .element,
+              16);
 }
 
 TEST(ReadMmcif, PairsAreALoopOfOneRow)

@@ -140,6 +140,9 @@ TEST(Particles, AreNamedByTheColumnsOfElements)
     EXPECT_EQ(particles(line + "EP\n"), "X1");
     EXPECT_EQ(particles(line + "VS\n"), "X1");
     EXPECT_EQ(particles(line + " C\n"), "");
+    const std::string unknown = "HETATM    1  UNK UNX A   1       0.000   0.000   0.000  1.00  0.00"
+                                "           X\n";
+    EXPECT_EQ(readStructure(TempFile("a.pdb", unknown).path()).atoms[0].element, 0); // no uranium
 }
 
 } // namespace
