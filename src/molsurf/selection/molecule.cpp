@@ -5,6 +5,7 @@
 #include "molsurf/structure/symmetry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <set>
 #include <string>
@@ -27,25 +28,25 @@ struct LigandAtoms {
     std::vector<std::size_t> atoms;
 };
 
-/// The motions of each asym in an assembly; without one the identity.
+/// The places of atoms: in the file, or in all copies of an assembly.
 class MoleculeCopies
 {
 public:
     MoleculeCopies(const Structure& structure, const Assembly* assembly)
-        : structure_(structure), ofAsym_(structure.asyms.size()), whole_(assembly == nullptr)
+        : structure_(structure), assembly_(assembly), partsOf_(structure.asyms.size())
     {
         if (!assembly) return;
         for (const AssemblyPart& part : assembly->parts) {
             const std::set<std::string> names(part.chains.begin(), part.chains.end());
-            for (std::size_t a = 0; a < ofAsym_.size(); ++a)
+            for (std::size_t a = 0; a < partsOf_.size(); ++a)
                 if (names.empty() || names.count(structure.asyms[a]) > 0)
-                    for (const Operator& op : part.operators) ofAsym_[a].push_back(&op);
+                    partsOf_[a].push_back(&part);
         }
     }
 
     bool has(const Residue& residue) const
     {
-        return whole_ || !ofAsym_[std::size_t(residue.asym)].empty();
+        return !assembly_ || !partsOf_[std::size_t(residue.asym)].empty();
     }
 
     /// Calls with every place that an atom has.
@@ -53,15 +54,21 @@ public:
     void forEach(std::size_t atom, const Call& call) const
     {
         const Atom& from = structure_.atoms[atom];
-        if (whole_) return call(from.position);
-        for (const Operator* op : ofAsym_[std::size_t(residueOf(structure_, from).asym)])
-            call(moved(*op, from.position));
+        if (!assembly_) return call(from.position);
+        constexpr double farthest = 1e6; // [Å], as far as an index reaches
+        for (const AssemblyPart* part : partsOf_[std::size_t(residueOf(structure_, from).asym)])
+            for (const Operator& op : part->operators) {
+                const openvdb::Vec3d x = moved(op, from.position);
+                if (std::abs(x.x()) < farthest && std::abs(x.y()) < farthest &&
+                    std::abs(x.z()) < farthest)
+                    call(x);
+            }
     }
 
 private:
     const Structure& structure_;
-    std::vector<std::vector<const Operator*>> ofAsym_;
-    bool whole_;
+    const Assembly* assembly_;
+    std::vector<std::vector<const AssemblyPart*>> partsOf_; ///< of each asym
 };
 
 /// The role of what touches nothing.
@@ -79,14 +86,13 @@ Role roleAlone(ResidueKind kind)
     }
 }
 
-/// The molecules of a model that may be a part of the molecule, and the places of its polymers.
+/// The molecules of a model that may be a part of the molecule, and the atoms of its polymers.
 /// @param[out] roles  of those that are looked at
 std::vector<LigandAtoms> waitingIn(const Structure& structure, const Model& model,
                                    const MoleculeCopies& copies, std::vector<Role>& roles,
-                                   std::vector<Ball>& near)
+                                   std::vector<std::size_t>& polymer)
 {
     std::vector<LigandAtoms> out;
-    std::vector<std::size_t> polymer;
     for (std::size_t i = model.begin; i < model.end; ++i) {
         const Atom& atom = structure.atoms[i];
         const Residue& residue = residueOf(structure, atom);
@@ -103,49 +109,87 @@ std::vector<LigandAtoms> waitingIn(const Structure& structure, const Model& mode
         out.back().atoms.push_back(i);
     }
     if (polymer.empty()) std::fill(roles.begin(), roles.end(), Role::Molecule);
-    if (polymer.empty() || out.empty()) return {};
-    for (const std::size_t i : polymer)
-        copies.forEach(i, [&](const openvdb::Vec3d& x) {
-            near.push_back({x, 0.0, std::int32_t(i)});
-        });
     return out;
 }
+
+/// Lets the molecules that wait join what touches them. There are few of them, so that an index of
+/// them takes less than one of the polymers and their copies.
+class Joining
+{
+public:
+    Joining(const MoleculeCopies& copies, const std::vector<LigandAtoms>& groups,
+            std::vector<Role>& roles)
+        : copies_(copies), groups_(groups), roles_(roles), joined_(groups.size()),
+          index_(placesOf(copies, groups), {0.0, ofLigand, ofLigand})
+    {
+    }
+
+    /// Lets in what touches these atoms, and what touches that, and so on.
+    void run(const std::vector<std::size_t>& atoms)
+    {
+        for (const std::size_t i : atoms) {
+            if (count_ == groups_.size()) return;
+            touch(i);
+        }
+        while (!queue_.empty()) {
+            const std::size_t group = queue_.back();
+            queue_.pop_back();
+            for (const std::size_t i : groups_[group].atoms) touch(i);
+        }
+    }
+
+private:
+    static constexpr double ofIon = 3.0, ofLigand = 4.0; // where they touch [Å]
+
+    /// Balls whose `atom` is the index of their group.
+    static std::vector<Ball> placesOf(const MoleculeCopies& copies,
+                                      const std::vector<LigandAtoms>& groups)
+    {
+        std::vector<Ball> out;
+        for (std::size_t g = 0; g < groups.size(); ++g)
+            for (const std::size_t i : groups[g].atoms)
+                copies.forEach(i, [&](const openvdb::Vec3d& x) {
+                    out.push_back({x, 0.0, std::int32_t(g)});
+                });
+        return out;
+    }
+
+    void touch(std::size_t atom)
+    {
+        copies_.forEach(atom, [&](const openvdb::Vec3d& x) {
+            index_.forEachNear(x, x, ofLigand, [&](const Ball& other, std::int32_t) {
+                const auto group = std::size_t(other.atom);
+                if (joined_[group]) return;
+                Role& role = roles_[std::size_t(groups_[group].residue)];
+                const double reach = role == Role::FreeIon ? ofIon : ofLigand;
+                if ((other.center - x).lengthSqr() > reach * reach) return;
+                role = Role::Molecule;
+                joined_[group] = 1;
+                ++count_;
+                queue_.push_back(group);
+            });
+        });
+    }
+
+    const MoleculeCopies& copies_;
+    const std::vector<LigandAtoms>& groups_;
+    std::vector<Role>& roles_;
+    std::vector<char> joined_; ///< one a group
+    std::size_t count_ = 0;    ///< of groups that have joined
+    std::vector<std::size_t> queue_;
+    BallIndex index_;
+};
 
 } // namespace
 
 std::vector<Role> rolesIn(const Structure& structure, const Model& model, const Assembly* assembly)
 {
-    constexpr double ofIon = 3.0, ofLigand = 4.0; // where they touch [Å]
     std::vector<Role> roles(structure.residues.size(), Role::Molecule);
     if (structure.hasRadii || structure.beads != BeadKind::None) return roles;
     const MoleculeCopies copies(structure, assembly);
-    std::vector<Ball> near; // atoms of the molecule
-    std::vector<LigandAtoms> waiting = waitingIn(structure, model, copies, roles, near);
-    // What touches the molecule belongs to it, and what touches that, and so on.
-    while (!near.empty() && !waiting.empty()) {
-        const BallIndex index(near, {0.0, ofLigand, ofLigand});
-        near.clear();
-        const auto joins = [&](const LigandAtoms& group) {
-            Role& role = roles[std::size_t(group.residue)];
-            const double reach = role == Role::FreeIon ? ofIon : ofLigand;
-            bool touches = false;
-            for (const std::size_t i : group.atoms)
-                copies.forEach(i, [&](const openvdb::Vec3d& x) {
-                    if (touches) return;
-                    index.forEachNear(x, x, reach, [&](const Ball& other, std::int32_t) {
-                        touches = touches || (other.center - x).lengthSqr() <= reach * reach;
-                    });
-                });
-            if (!touches) return false;
-            role = Role::Molecule;
-            for (const std::size_t i : group.atoms)
-                copies.forEach(i, [&](const openvdb::Vec3d& x) {
-                    near.push_back({x, 0.0, std::int32_t(i)});
-                });
-            return true;
-        };
-        waiting.erase(std::remove_if(waiting.begin(), waiting.end(), joins), waiting.end());
-    }
+    std::vector<std::size_t> polymer;
+    const std::vector<LigandAtoms> waiting = waitingIn(structure, model, copies, roles, polymer);
+    if (!polymer.empty() && !waiting.empty()) Joining(copies, waiting, roles).run(polymer);
     return roles;
 }
 

@@ -143,14 +143,18 @@ private:
         const std::size_t count = structure_.residues.size();
         previous_.assign(count, -1);
         next_.assign(count, -1);
+        std::vector<std::int32_t> last(structure_.chains.size(), -1);
+        std::vector<const Model*> modelOf(structure_.chains.size(), nullptr); // of `last`
         for (const Model& model : structure_.models) {
-            std::vector<std::int32_t> last(structure_.chains.size(), -1);
             std::int32_t seen = -1;
             for (std::size_t i = model.begin; i < model.end; ++i) {
                 const std::int32_t r = structure_.atoms[i].residue;
                 if (r == seen) continue;
                 seen = r;
-                std::int32_t& before = last[std::size_t(at(r).chain)];
+                const auto chain = std::size_t(at(r).chain);
+                std::int32_t& before = last[chain];
+                if (modelOf[chain] != &model) before = -1;
+                modelOf[chain] = &model;
                 if (previous_[std::size_t(r)] >= 0 || before == r) continue;
                 previous_[std::size_t(r)] = before;
                 if (before >= 0) next_[std::size_t(before)] = r;
