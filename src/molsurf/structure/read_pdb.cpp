@@ -181,7 +181,8 @@ private:
         atom.residue = columns(line, 17, four ? 4 : 3);
         atom.name = columns(line, 12, 4);
         atom.segment = columns(line, 72, 4);
-        if (elementIn(line).empty() && line.size() > 76) atom.segment = {}; // line numbers of 1990
+        const bool old = elementIn(line).empty() && !columns(line, 76, 4).empty();
+        if (old) atom.segment = {}; // the name of the entry, before 1992
         atom.number = residueNumber(columns(line, 22, 4));
         atom.insertionCode = column(line, 26);
         atom.hetatm = line[0] == 'H';

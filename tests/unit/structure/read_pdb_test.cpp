@@ -261,6 +261,14 @@ TEST(ReadPdb, AtomsStayInTheOrderOfTheFile)
     EXPECT_EQ(s.chains.size(), 2u);
 }
 
+TEST(ReadPdb, SegmentsKeepResiduesApart)
+{
+    const std::string head = atom.substr(0, 72);
+    EXPECT_EQ(readPdb(head + "PROA    \n" + head + "PROB    \n").residues.size(), 2u);
+    EXPECT_EQ(readPdb(head + "PROA\n" + head + "PROB\n").residues.size(), 2u);
+    EXPECT_EQ(readPdb(head + "1ABC   8\n" + head + "1ABD   9\n").residues.size(), 1u);
+}
+
 TEST(ReadPdb, EqualNumbersOfMoleculesAreResiduesOfTheirOwn)
 {
     EXPECT_EQ(readPdb(wide("CLA A", 1, " CLA") + wide("CLA A", 1, " CLA")).residues.size(), 2u);
