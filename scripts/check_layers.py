@@ -29,7 +29,7 @@ ONLY = {
 
 # Where a library may be included: what is not named here may be included anywhere.
 LIBRARIES = {
-    "gemmi/": ["src/molsurf/structure/", "src/molsurf/selection/", "src/molsurf/io/write_structure.cpp"],
+    "gemmi/": ["src/molsurf/structure/", "src/molsurf/io/write_structure.cpp"],
     "nlohmann/": ["src/molsurf/io/", "src/molsurf/picture/", "src/molsurf/bricks/", "src/molsurf/selection/groups.cpp",
                   "src/molsurf/structure/binary_cif.cpp"],
     "png.h": ["src/molsurf/picture/write_png.cpp"],

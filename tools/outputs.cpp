@@ -110,7 +110,11 @@ std::string unrestText(const EvolutionReport& evolution, double voxel, const std
 std::string inputStem(const std::string& input)
 {
     std::filesystem::path name = std::filesystem::path(input).filename();
-    if (name.extension() == ".gz") name = name.stem();
+    for (const char* const packed : {".gz", ".bz2", ".xz"})
+        if (name.extension() == packed) {
+            name = name.stem();
+            break;
+        }
     return name.stem().string();
 }
 

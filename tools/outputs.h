@@ -55,7 +55,7 @@ void addReading(const Report& read, Report& report);
 /// @param[in] more   option that lets it make more steps
 std::string unrestText(const EvolutionReport& evolution, double voxel, const std::string& more);
 
-/// The name of an input without folder, .gz and extension.
+/// The name of an input without folder, .gz, .bz2 or .xz, and extension.
 std::string inputStem(const std::string& input);
 
 /// Finds out whether an output can be written.

@@ -127,7 +127,10 @@ def _items(sources):
 
 
 def _is_structure(name):
-    return name.lower().removesuffix(".gz").endswith(ENDINGS)
+    name = name.lower()
+    for packed in (".gz", ".bz2", ".xz"):
+        name = name.removesuffix(packed)
+    return name.endswith(ENDINGS)
 
 
 def _checked(options):

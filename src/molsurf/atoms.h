@@ -247,10 +247,11 @@ struct SelectOptions {
 
 /// A number of atoms that are left out for one reason.
 struct Excluded {
-    std::string reason; ///< "not selected", "water", "ligand or ion", "free ion (CL, NA)", "buffer
-                        ///< or lipid (GOL)", "ligand apart (NAG)", "hydrogen", "hydrogen in radii
-                        ///< of heavy atoms", "dummy", "alternate location", "zero radius",
-                        ///< "duplicate", "not in the assembly"
+    /// "not selected", "water", "ligand or ion", "free ion (CL, NA)", "buffer (GOL)", "lipid
+    /// (POPC)", "ligand apart (NAG)", "particle that is no atom", "sphere of a coarser scale",
+    /// "hydrogen", "hydrogen in radii of heavy atoms", "dummy", "alternate location", "zero
+    /// radius", "duplicate", "not in the assembly"
+    std::string reason;
     std::size_t count;
 };
 

@@ -15,7 +15,8 @@
 namespace molsurf
 {
 
-/// How the names of files of atoms end: ".pdb", ".cif", ... Each may have a further ".gz".
+/// How the names of files of atoms end: ".pdb", ".cif", ... Each may have a further ".gz",
+/// ".bz2" or ".xz".
 std::vector<std::string> structureEndings();
 
 /// How the names of mesh files end: ".ply", ".obj", ...

@@ -61,7 +61,7 @@ class Areas(ToolTest):
         # A lone alanine and an unknown residue; an insertion code; an alternate location.
         self.write("a.pdb", "ATOM      1  CA AALA B  52A     1.000   2.000   3.000  0.60  9.00           C  \n"
                    + atom(2, 30.0, residue="XYZ", number=-3, chain="C", name="Q1"))
-        self.check(0, "a.pdb", *SAS, "-o", "a.residues.csv", "-o", "a.atoms.csv")
+        self.check(0, "a.pdb", *SAS, "--hetero", "-o", "a.residues.csv", "-o", "a.atoms.csv")
         first, second = self.table("a.residues.csv")
         self.assertEqual([first[c] for c in RESIDUE], ["B", "ALA", "52", "A", "B"])
         self.assertEqual([second[c] for c in RESIDUE], ["C", "XYZ", "-3", "", "C"])

@@ -26,10 +26,10 @@ def positions(path):
             path.read_text().splitlines() if line.startswith(("ATOM", "HETATM"))]
 
 
-def dcd(frames, order="<", cell=False, fixed=(), promised=None):
-    """A DCD file as CHARMM writes it."""
+def dcd(frames, order="<", cell=False, fixed=(), promised=None, marker="i"):
+    """A DCD file as CHARMM writes it; with markers of 8 bytes, q, as some compilers have it."""
     def record(content):
-        mark = struct.pack(order + "i", len(content))
+        mark = struct.pack(order + marker, len(content))
         return mark + content + mark
 
     atoms = len(frames[0])
@@ -120,14 +120,16 @@ class Frames(ToolTest):
         fixed = [[frame[0]] + [p for p in frame[1:]] for frame in frames]
         for frame in fixed:
             frame[0] = frames[0][0]
-        kinds = {"little": dcd(frames), "big": dcd(frames, ">"), "cell": dcd(frames, cell=True)}
+        kinds = {"little": dcd(frames), "big": dcd(frames, ">"), "cell": dcd(frames, cell=True), "wide": dcd(frames, marker="q"),
+                 "wide big": dcd(frames, ">", cell=True, marker="q")}
         meshes = {}
         for kind, data in kinds.items():
             (self.folder / "t.dcd").write_bytes(data)
             self.check(0, CRAMBIN, *FAST, "--trajectory", "t.dcd", "-o", f"{kind}.stl",
                        says="3 frames")
             meshes[kind] = [(self.folder / f"{kind}.000{n}.stl").read_bytes() for n in (1, 2, 3)]
-        self.assertEqual(meshes["little"], meshes["big"])
+        for kind in kinds:
+            self.assertEqual(meshes["little"], meshes[kind], kind)
         self.assertEqual(meshes["little"], meshes["cell"])
         self.assertEqual(len(set(meshes["little"])), 3)
         self.check(0, CRAMBIN, *FAST, "-o", "one.stl")

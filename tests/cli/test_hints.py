@@ -126,6 +126,13 @@ CASES = {
          "vdb_molsurf 1crn.pdb --fields all --voxel 1 -o a.vdb")],
     "structure/structure_list.cpp": [
         ("vdb_molsurf one.xyzr -o FILE", "vdb_molsurf batch one.xyzr -O out", f"vdb_molsurf one.xyzr {FAST} -o a.ply")],
+    "selection/selection_syntax.cpp": [
+        ("for example /1/A/53-132 or *;polymer", f"vdb_molsurf 1crn.pdb --select A/x {FAST} -o a.ply",
+         f"vdb_molsurf 1crn.pdb --select /1/A/5-32 {FAST} -o a.ply",
+         f"vdb_molsurf 1crn.pdb --select '*;polymer' {FAST} -o b.ply")],
+    "structure/detect_format.cpp": [
+        ("give the structure, and this file with --trajectory", "vdb_molsurf 1d3z.xtc -o a.ply",
+         f"vdb_molsurf 1d3z.pdb.gz --model 1 --trajectory 1d3z.xtc --frames 1 {FAST} -o a.ply")],
     "structure/load_text.cpp": [
         ("--max-input 10G", "vdb_molsurf 1crn.pdb -o a.ply --max-input 9K",
          f"vdb_molsurf 1crn.pdb {FAST} -o a.ply --max-input 10G")],
@@ -451,8 +458,12 @@ UNTRIED = {
     "io/write_volume.cpp": {"larger voxels": "it takes a box of 2^31 points"},
     "selection/select_balls.cpp": {"`trajectory` FILE.dcd": "cli.formats follows it"},
     "structure/detect_format.cpp": {"take .bcif.gz": "it takes the Protein Data Bank", "in PyMOL": "it takes PyMOL",
-                                    "gmx editconf": "it takes GROMACS", "cpptraj": "it takes AmberTools"},
+                                    "gmx editconf": "it takes GROMACS", "cpptraj": "it takes AmberTools",
+                                    "ParmEd": "it takes ParmEd", "structconvert": "it takes RDKit",
+                                    "the file of the coordinates": "it takes the Protein Data Bank",
+                                    "unzip": "it takes unzip", "tar -xf": "it takes a tar archive", "unzstd": "it takes zstd", "uncompress": "it takes gzip"},
     "structure/read_ligand.cpp": {"Open Babel": "it takes Open Babel"},
+    "structure/read_xyz.cpp": {"Open Babel": "it takes Open Babel"},
     "surface/check_balls.cpp": {"`voxel`": "cli.hints.memory follows it"},
     "surface/check_mesh.cpp": {"a smaller `voxel`": "no atoms are known that give it"},
     "surface/compare.cpp": {"write .ply instead": "the program refuses it before the library does"},

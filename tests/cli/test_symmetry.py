@@ -131,7 +131,9 @@ class Symmetry(ToolTest):
 
     def test_info(self):
         text = self.check(0, "info", DIMER).stdout.decode()
-        for line in (r"format +mmCIF", r"models +1", r"chains +1 \(A\)", r"atoms +644 \(88 water, .*",
+        for line in (r"format +mmCIF", r"models +1", r"chains +1 \(A\)", r"atoms +644 \(0 hydrogen\)",
+                     r"protein +524 atoms in 66 residues", r"modified +32 atoms in 4 residues \(MSE\)",
+                     r"water +88 atoms in 88 residues \(HOH\)",
                      r"copies +2 of chains A", r"atoms +1288", r"point group +C2",
                      r"symmetry +1 two-fold axis", r"fold:2 +axis \(.*\), copies 1-2"):
             self.assertRegex(text, rf"\n    {line}\n")
@@ -139,7 +141,7 @@ class Symmetry(ToolTest):
         self.assertRegex(self.check(0, "info", "atom.pdb").stdout.decode(), r"assemblies +none\n")
         dummy = "HETATM    2  N   DUM  4325     -40.000   0.000  15.200                      \n"
         self.write("membrane.pdb", ATOM + dummy)
-        self.assertRegex(self.check(0, "info", "membrane.pdb").stdout.decode(), r"atoms +2 \(0 water, 0 ligand or ion, .*1 dummy\)")
+        self.assertRegex(self.check(0, "info", "membrane.pdb").stdout.decode(), r"atoms +2 \(0 hydrogen\)\n.*(.*\n)*? +dummy +1 atom in 1 residue")
         self.write("nameless.pdb", ATOM.replace(" A ", "   "))
         self.assertRegex(self.check(0, "info", "nameless.pdb").stdout.decode(), r"chains +1 \(_\)\n")
         self.check(1, "info", CRAMBIN, "none.pdb", says="none.pdb")

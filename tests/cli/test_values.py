@@ -39,7 +39,7 @@ class Values(ToolTest):
             for i, residue in enumerate(residues)))
 
     def colored(self, word, *words):
-        self.check(0, "a.pdb", *FAST, "--color", word, *words, "-o", "a.ply", "--force")
+        self.check(0, "a.pdb", *FAST, "--hetero", "--color", word, *words, "-o", "a.ply", "--force")
 
     def test_hydrophobicity(self):
         self.apart(["ILE", "ARG", "GLY", "HEM"])

@@ -44,8 +44,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         case 'v': {
             Structure structure;
             structure.chains = structure.asyms = {"A"};
-            structure.residues = {{"GLY", 0, 0, 1, ' ', false, false}};
-            structure.atoms = {{openvdb::Vec3d(0.0), "CA", 0, 6, '\0', 1, 0, -1}};
+            structure.residues = {{"GLY", 0, 0, 1, ' '}};
+            structure.atoms = {{openvdb::Vec3d(0.0), "CA", 0, 6, '\0', AtomRole::Atom, 1, 0, -1}};
             std::vector<std::string> warnings;
             ballValues(structure, {{openvdb::Vec3f(0.0f), 1.7f, 0}}, {ValueBy::Kind::Table, path},
                        SelectOptions::Coloring(), openvdb::Vec3d(0.0), 0, warnings);

@@ -28,8 +28,9 @@ VerbInfo buildVerb()
         "build",
         "INPUT -o FILE [-o FILE ...] [options]",
         "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .bcif .gro\n"
-        ".psf .sdf .mol .mol2 .pqr .xyzr .xyzrn, each also .gz, or - for standard input): a\n"
-        "level set as OpenVDB grid, meshes, pictures, a report. With --frames one a frame.",
+        ".psf .sdf .mol .mol2 .pdbqt .xyz .pqr .xyzr .xyzrn, each also .gz, .bz2 or .xz, or -\n"
+        "for standard input): a level set as OpenVDB grid, meshes, pictures, a report. With\n"
+        "--frames one a frame.",
         "",
         checkedStatus,
         {{"vdb_molsurf 1crn.pdb -o 1crn.vdb -o 1crn.ply",

@@ -54,30 +54,47 @@ void balance(BallValues& out)
     out.high = most;
 }
 
-/// Whether B factors are those of a predicted model: the same within each residue, in [0, 100].
-bool arePredicted(const Structure& structure)
+/// Whether the B factors of the chains are as those of predicted models: the same within each
+/// residue, in [0, 100]. Ligands and waters may have one an atom.
+bool lookPredicted(const Structure& structure)
 {
     std::map<std::int32_t, float> ofResidue;
     std::size_t repeated = 0;
     bool varied = false;
     for (const Atom& atom : structure.atoms) {
+        if (!residueOf(structure, atom).polymer() || atom.role != AtomRole::Atom) continue;
         if (!(atom.bFactor >= 0.0f && atom.bFactor <= 100.0f)) return false;
         const auto [found, isNew] = ofResidue.emplace(atom.residue, atom.bFactor);
         if (!isNew && found->second != atom.bFactor) return false;
         repeated += !isNew;
-        varied = varied || atom.bFactor != structure.atoms[0].bFactor;
+        varied = varied || atom.bFactor != ofResidue.begin()->second;
     }
     return varied && repeated >= ofResidue.size();
 }
 
-/// @param[in] asGiven  whether they are taken for B factors in any case
-BallValues bFactors(const Structure& structure, bool asGiven, std::vector<std::string>& warnings)
+/// What B factors are multiplied by to be pLDDT from 0 to 100: 100 where they are from 0 to 1, as
+/// of ESMFold; 0: they are none.
+float plddtScale(const Structure& structure)
 {
-    BallValues out{"bfactor", "B factor", "Å²", "viridis", 0.0, 1.0, {}};
-    if (asGiven || !arePredicted(structure)) return out;
-    warnings.push_back("B factors are the same within every residue and from 0 to 100: taken as "
-                       "the pLDDT of a predicted model [hint: with `range` they are B "
-                       "factors]");
+    if (!structure.plddt && !lookPredicted(structure)) return 0.0f;
+    float most = 0.0f;
+    for (const Atom& atom : structure.atoms) {
+        if (structure.plddt && !(atom.bFactor >= 0.0f && atom.bFactor <= 100.0f)) return 0.0f;
+        most = std::max(most, atom.bFactor);
+    }
+    return most <= 1.0f ? 100.0f : 1.0f;
+}
+
+/// @param[in] scale  as plddtScale() gives it
+BallValues bFactors(const Structure& structure, float scale, std::vector<std::string>& warnings)
+{
+    if (scale == 0.0f) return {"bfactor", "B factor", "Å²", "viridis", 0.0, 1.0, {}};
+    const std::string why = structure.plddt
+                                ? "the file says that its B factors are pLDDT: taken as those"
+                                : "B factors are the same within every residue and from 0 to " +
+                                      std::string(scale > 1.0f ? "1" : "100") +
+                                      ": taken as the pLDDT of a predicted model";
+    warnings.push_back(why + " [hint: with `range` they are B factors]");
     return {"plddt", "pLDDT", "", "plddt", 0.0, 100.0, {}};
 }
 
@@ -98,7 +115,7 @@ std::vector<float> placesInChains(const Structure& structure)
     std::map<std::int32_t, std::vector<std::size_t>> ofChain;
     for (std::size_t r = 0; r < structure.residues.size(); ++r) {
         const Residue& residue = structure.residues[r];
-        if (!residue.water && !residue.hetero) ofChain[residue.chain].push_back(r);
+        if (!residue.water() && !residue.hetero()) ofChain[residue.chain].push_back(r);
     }
     std::vector<float> out(structure.residues.size(), missing);
     for (const auto& [chain, residues] : ofChain)
@@ -346,8 +363,10 @@ BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls
                                           (by.kind == Kind::BFactor ? "B factors" : "occupancies") +
                                           ", which a PDB or mmCIF file has");
     if (by.kind == Kind::BFactor) {
-        out = filled(bFactors(structure, coloring.range.has_value(), warnings),
-                     [&](const Ball& ball) { return atomOf(ball).bFactor; });
+        const float scale = coloring.range ? 0.0f : plddtScale(structure);
+        out = filled(bFactors(structure, scale, warnings), [&](const Ball& ball) {
+            return atomOf(ball).bFactor * (scale > 0.0f ? scale : 1.0f);
+        });
         spreads = out.name == word;
     } else if (by.kind == Kind::Occupancy) {
         out = filled({word, "Occupancy", "", "viridis", 0.0, 1.0, {}},

@@ -30,7 +30,8 @@ std::string textOf(const ValueBy& by);
 
 /// Gives every ball a value.
 ///
-/// - bfactor: of the file; if they are the same within every residue and in [0, 100], as predicted
+/// - bfactor: of the file; if they are the same within every residue of a chain and in [0, 100] or
+/// [0, 1], as predicted
 ///   models have their pLDDT there, they are taken as that, and a warning says so.
 /// - occupancy: of the file.
 /// - charge: of a PQR file [e].

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 
 namespace molsurf
 {
@@ -61,34 +63,76 @@ std::map<Key, std::size_t> ranked(const std::map<Key, Mean>& means)
     return ranks;
 }
 
-/// Marks the atoms [begin, end) of one site that are kept.
-void chooseInResidue(const Structure& structure, const Indices& atoms, std::size_t begin,
-                     std::size_t end, std::vector<char>& keep)
-{
+/// The alternatives of a residue.
+struct Site {
     std::map<char, Mean> labels;
     std::map<std::int32_t, Mean> residues;
+    std::map<std::string, std::map<char, std::size_t>> byName; ///< positions of atoms with a label
+};
+
+Site siteOf(const Structure& structure, const Indices& atoms, std::size_t begin, std::size_t end)
+{
+    Site site;
     for (std::size_t i = begin; i < end; ++i) {
         const Atom& atom = atomAt(structure, atoms[i]);
         if (atom.altloc == '\0') continue;
-        addTo(labels, atom.altloc, atom.occupancy);
-        addTo(residues, atom.residue, atom.occupancy);
+        addTo(site.labels, atom.altloc, atom.occupancy);
+        addTo(site.residues, atom.residue, atom.occupancy);
     }
-    const auto labelRank = ranked(labels);
-    const auto residueRank = ranked(residues);
-    std::map<std::string, std::size_t> best; // position in `atoms` by atom name
+    return site;
+}
+
+/// Labels of a site that share the name of an atom, and whether their names are the same.
+struct Rivals {
+    std::set<std::pair<char, char>> pairs; ///< that share a name
+    bool different = false;                ///< whether the names of a pair differ
+};
+
+Rivals rivalsIn(const Site& site)
+{
+    Rivals out;
+    std::map<std::pair<char, char>, std::size_t> shared;
+    std::map<char, std::size_t> names;
+    for (const auto& [name, locations] : site.byName)
+        for (const auto& [label, i] : locations) {
+            ++names[label];
+            for (const auto& [other, k] : locations)
+                if (label != other) ++shared[{label, other}];
+        }
+    for (const auto& [pair, count] : shared) {
+        out.pairs.insert(pair);
+        out.different = out.different || names[pair.first] != count || names[pair.second] != count;
+    }
+    return out;
+}
+
+/// Marks the atoms [begin, end) of one site that are kept. Where the readings have different atoms,
+/// one of them is kept as a whole, or atoms of one would lie beside those of another.
+void chooseInResidue(const Structure& structure, const Indices& atoms, std::size_t begin,
+                     std::size_t end, std::vector<char>& keep)
+{
+    Site site = siteOf(structure, atoms, begin, end);
+    const auto labelRank = ranked(site.labels);
+    const auto residueRank = ranked(site.residues);
+    char first = '\0'; // label of the best rank in the residue that is kept
     for (std::size_t i = begin; i < end; ++i) {
         const Atom& atom = atomAt(structure, atoms[i]);
         keep[i] = atom.altloc == '\0';
         if (keep[i] || residueRank.at(atom.residue) != 0) continue;
-        const auto found = best.emplace(atom.name, i);
-        if (found.second) continue;
-        const Atom& rival = atomAt(structure, atoms[found.first->second]);
-        const bool better = atom.occupancy != rival.occupancy
-                                ? atom.occupancy > rival.occupancy
-                                : labelRank.at(atom.altloc) < labelRank.at(rival.altloc);
-        if (better) found.first->second = i;
+        site.byName[atom.name].emplace(atom.altloc, i);
+        if (first == '\0' || labelRank.at(atom.altloc) < labelRank.at(first)) first = atom.altloc;
     }
-    for (const auto& chosen : best) keep[chosen.second] = 1;
+    const Rivals rivals = rivalsIn(site);
+    for (const auto& [name, locations] : site.byName) {
+        const auto better = [&](const auto& a, const auto& b) {
+            const float mine = atomAt(structure, atoms[a.second]).occupancy;
+            const float other = atomAt(structure, atoms[b.second]).occupancy;
+            if (!rivals.different && mine != other) return mine > other;
+            return labelRank.at(a.first) < labelRank.at(b.first);
+        };
+        const auto best = std::min_element(locations.begin(), locations.end(), better);
+        keep[best->second] = !rivals.different || rivals.pairs.count({first, best->first}) == 0;
+    }
 }
 
 } // namespace

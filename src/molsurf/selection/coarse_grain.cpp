@@ -95,9 +95,9 @@ private:
             const CoarseRule& how = rules_[r];
             if (how.level == CoarseRule::Level::Atom) {
                 for (const std::size_t i : chosen) beads_.push_back({i});
-            } else if (residue.water) {
+            } else if (residue.water()) {
                 beads_.push_back(chosen);
-            } else if (residue.hetero) {
+            } else if (residue.hetero()) {
                 cut(unitsOf(chosen),
                     how.level == CoarseRule::Level::Residue ? ligandAtoms : how.atoms);
             } else if (how.level == CoarseRule::Level::Residue) {

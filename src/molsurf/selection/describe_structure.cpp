@@ -5,12 +5,18 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/choose_copies.h"
+#include "molsurf/selection/molecule.h"
+#include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
+#include "molsurf/structure/residue_kind.h"
 #include "molsurf/structure/symmetry.h"
 #include "molsurf/structure/text_fields.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <vector>
 
 namespace molsurf
 {
@@ -35,7 +41,7 @@ PartAtoms atomsOf(const Structure& structure, const AssemblyPart& part)
         const Residue& residue = residueOf(structure, atom);
         if (!names.empty() && !names.count(structure.asyms[std::size_t(residue.asym)])) continue;
         ++atoms.count;
-        if (residue.water) continue;
+        if (residue.water()) continue;
         atoms.centroid += atom.position;
         ++dry;
     }
@@ -131,6 +137,62 @@ std::string describe(const Structure& structure, const Assembly& assembly)
     return out;
 }
 
+/// Counts of one line of the table of residues.
+struct KindCount {
+    std::size_t atoms = 0;
+    std::set<std::int32_t> residues;
+    std::map<std::string, std::size_t> names; ///< atoms by the name of their residue
+};
+
+/// The line of a table that an atom counts in.
+std::string kindOf(const Structure& structure, const Atom& atom, const std::vector<Role>& roles,
+                   bool polymer)
+{
+    const Residue& residue = residueOf(structure, atom);
+    if (residue.name == "DUM" || atom.name == "DUM") return "dummy";
+    if (atom.role == AtomRole::Particle) return std::string(kindWord(ResidueKind::Particle));
+    if (atom.role == AtomRole::CoarserScale) return "coarser scale";
+    const bool free = roles[std::size_t(atom.residue)] == Role::FreeIon;
+    if (residue.kind == ResidueKind::Ion && polymer) return free ? "free ion" : "bound ion";
+    return std::string(kindWord(residue.kind));
+}
+
+/// A line for each kind of residues: atoms, residues, and their names.
+std::string describeKinds(const Structure& structure, const Model& model)
+{
+    constexpr const char* order[] = {"protein", "nucleic",   "modified", "bead",          "sugar",
+                                     "ligand",  "bound ion", "free ion", "ion",           "buffer",
+                                     "lipid",   "water",     "particle", "coarser scale", "dummy"};
+    const std::vector<Role> roles = rolesIn(structure, model);
+    const bool polymer =
+        std::any_of(structure.atoms.begin() + std::ptrdiff_t(model.begin),
+                    structure.atoms.begin() + std::ptrdiff_t(model.end),
+                    [&](const Atom& atom) { return residueOf(structure, atom).polymer(); });
+    std::map<std::string, KindCount> counts;
+    for (std::size_t i = model.begin; i < model.end; ++i) {
+        const Atom& atom = structure.atoms[i];
+        KindCount& count = counts[kindOf(structure, atom, roles, polymer)];
+        ++count.atoms;
+        count.residues.insert(atom.residue);
+        const bool particle = atom.role == AtomRole::Particle;
+        ++count.names[particle ? atom.name : residueOf(structure, atom).name];
+    }
+    std::string out;
+    for (const char* const kind : order) {
+        const auto found = counts.find(kind);
+        if (found == counts.end()) continue;
+        constexpr std::size_t most = 6; // names
+        std::vector<std::string> names;
+        for (const auto& [name, atoms] : found->second.names)
+            if (!name.empty()) names.push_back(name);
+        const bool listed = !names.empty() && std::string(kind) != "protein";
+        out += infoLine(kind, counted(found->second.atoms, "atom", "atoms") + " in " +
+                                  counted(found->second.residues.size(), "residue", "residues") +
+                                  (listed ? " (" + joined(names, most) + ")" : ""));
+    }
+    return out;
+}
+
 } // namespace
 
 std::string describeStructure(const std::string& path, std::size_t maxInput)
@@ -146,22 +208,17 @@ std::string describeStructure(const std::string& path, std::size_t maxInput)
     if (structure.beads == BeadKind::Martini3) out += infoLine("beads", "Martini 3");
     if (structure.beads == BeadKind::Unnamed) out += infoLine("beads", "one or a few a residue");
     const Model& first = structure.models[0];
-    std::size_t water = 0, hetero = 0, hydrogen = 0, dummy = 0;
+    std::size_t hydrogen = 0;
     std::set<std::int32_t> used;
     for (std::size_t i = first.begin; i < first.end; ++i) {
-        const Residue& residue = residueOf(structure, structure.atoms[i]);
-        water += residue.water;
-        const bool isDummy = residue.name == "DUM" || structure.atoms[i].name == "DUM";
-        dummy += isDummy;
-        hetero += residue.hetero && !isDummy;
         hydrogen += structure.atoms[i].element == 1;
-        used.insert(residue.chain);
+        used.insert(residueOf(structure, structure.atoms[i]).chain);
     }
     out += infoLine("chains", std::to_string(used.size()) + " (" + namesOf(structure, used) + ")");
     out += infoLine("atoms", std::to_string(first.end - first.begin) + " (" +
-                                 std::to_string(water) + " water, " + std::to_string(hetero) +
-                                 " ligand or ion, " + std::to_string(hydrogen) + " hydrogen" +
-                                 (dummy > 0 ? ", " + std::to_string(dummy) + " dummy)" : ")"));
+                                 std::to_string(hydrogen) + " hydrogen)");
+    out += describeKinds(structure, first);
+    if (structure.guessed > 0) out += infoLine("elements", describeGuesses(structure));
     for (const std::string& warning : structure.warnings) out += infoLine("warning", warning);
     if (structure.assemblies.empty()) out += infoLine("assemblies", "none");
     for (const Assembly& assembly : structure.assemblies) out += describe(structure, assembly);

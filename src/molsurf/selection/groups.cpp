@@ -177,7 +177,7 @@ std::vector<std::string> sequences(const Structure& structure)
 {
     std::vector<std::string> out(structure.chains.size());
     for (const Residue& residue : structure.residues) {
-        if (!residue.water) out[std::size_t(residue.chain)] += residue.name + " ";
+        if (!residue.water()) out[std::size_t(residue.chain)] += residue.name + " ";
     }
     return out;
 }

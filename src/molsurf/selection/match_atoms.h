@@ -19,10 +19,8 @@ struct AtomMatch {
     std::vector<std::string> warnings; ///< alternatives that match nothing, while others do
 };
 
-/// Evaluates gemmi's (MMDB's) selection syntax, alternatives joined by '|':
-/// "/1/A/53-132/CA[C]:A", "A,B", "(ALA,GLY)", "A;b<5", "*;polymer", "*;!solvent". Chains are named
-/// as in Structure::chains. [H] selects deuterium too, [D] nothing. "polymer" is what is neither
-/// water nor hetero, "solvent" is water. All models are searched.
+/// Evaluates an expression of parseSelection(), alternatives joined by '|'. Chains are named as in
+/// Structure::chains. [H] selects deuterium too, [D] nothing. All models are searched.
 ///
 /// @throws Error(ErrorKind::Usage) if the expression does not parse
 /// @throws Error(ErrorKind::Input) if it matches no atom

@@ -2,40 +2,19 @@
 #include "molsurf/selection/molecule.h"
 
 #include "molsurf/balls/ball_index.h"
+#include "molsurf/structure/symmetry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <set>
 #include <string>
-#include <string_view>
 
 namespace molsurf
 {
 
 namespace
 {
-
-/// Names that the Protein Data Bank gives to what is added to a solution, and names of lipids in
-/// simulations.
-constexpr std::string_view additives[] = {
-    // salts and buffers
-    "SO4", "SO3", "PO4", "PO3", "2HP", "PI", "NO3", "CO3", "BCT", "NH4", "SCN", "AZI", "CAC", "ACT",
-    "ACY", "FMT", "CIT", "FLC", "TLA", "TAR", "MLI", "MLA", "SIN", "OXL", "MLT", "TRS", "BTB",
-    "EPE", "MES", "MPO", "NHE", "PIN", "CXS", "IMD", "GAI", "URE",
-    // solvents and cryoprotectants
-    "GOL", "EDO", "PGO", "PDO", "MPD", "MRD", "DMS", "DMF", "EOH", "MOH", "IPA", "IOH", "TBU",
-    "BU1", "BU3", "DIO", "CCN", "ACN", "HEZ", "PEG", "PGE", "PG4", "PG0", "P6G", "P33", "P4G",
-    "1PE", "2PE", "7PE", "PE3", "PE4", "PE8", "12P", "15P", "XPE", "BME", "DTT", "DTU", "DTV",
-    "TCE",
-    // detergents and lipids
-    "LDA", "LMT", "BOG", "BNG", "HTG", "DMU", "UMQ", "SDS", "C8E", "HTO", "D10", "D12", "OCT",
-    "HEX", "OLA", "OLB", "OLC", "MPG", "DLPC", "DMPC", "DOPC", "DOPE", "DOPG", "DOPS", "DPPC",
-    "DPPE", "DPPG", "DSPC", "POPC", "POPE", "POPG", "POPS", "POP", "DPP", "DOP", "DMP", "CHL1",
-    "TRIO"};
-
-bool isAdditive(const std::string& name)
-{
-    return std::find(std::begin(additives), std::end(additives), name) != std::end(additives);
-}
 
 /// Whether ions of an element stay in solution: alkali metals and halogens.
 bool staysFree(std::uint8_t element)
@@ -44,75 +23,173 @@ bool staysFree(std::uint8_t element)
     return std::find(std::begin(free), std::end(free), element) != std::end(free);
 }
 
-/// Metals and halogens: of one atom alone they are ions.
-bool isIonic(std::uint8_t z)
-{
-    const bool nonmetal = z <= 2 || (z >= 5 && z <= 8) || z == 10 || (z >= 14 && z <= 16) ||
-                          z == 18 || (z >= 32 && z <= 34) || z == 36 || z == 52 || z == 54;
-    return !nonmetal;
-}
-
 struct LigandAtoms {
     std::int32_t residue;
     std::vector<std::size_t> atoms;
 };
 
-} // namespace
-
-std::vector<Role> rolesIn(const Structure& structure, const Model& model)
+/// The places of atoms: in the file, or in all copies of an assembly.
+class MoleculeCopies
 {
-    constexpr double ofIon = 3.0, ofLigand = 4.0; // where they touch [Å]
-    std::vector<Role> roles(structure.residues.size(), Role::Molecule);
-    if (structure.hasRadii || structure.beads != BeadKind::None) return roles;
-    std::vector<Ball> near; // atoms of the molecule
-    std::vector<LigandAtoms> others;
+public:
+    MoleculeCopies(const Structure& structure, const Assembly* assembly)
+        : structure_(structure), assembly_(assembly), partsOf_(structure.asyms.size())
+    {
+        if (!assembly) return;
+        for (const AssemblyPart& part : assembly->parts) {
+            const std::set<std::string> names(part.chains.begin(), part.chains.end());
+            for (std::size_t a = 0; a < partsOf_.size(); ++a)
+                if (names.empty() || names.count(structure.asyms[a]) > 0)
+                    partsOf_[a].push_back(&part);
+        }
+    }
+
+    bool has(const Residue& residue) const
+    {
+        return !assembly_ || !partsOf_[std::size_t(residue.asym)].empty();
+    }
+
+    /// Calls with every place that an atom has.
+    template<typename Call>
+    void forEach(std::size_t atom, const Call& call) const
+    {
+        const Atom& from = structure_.atoms[atom];
+        if (!assembly_) return call(from.position);
+        constexpr double farthest = 1e6; // [Å], as far as an index reaches
+        for (const AssemblyPart* part : partsOf_[std::size_t(residueOf(structure_, from).asym)])
+            for (const Operator& op : part->operators) {
+                const openvdb::Vec3d x = moved(op, from.position);
+                if (std::abs(x.x()) < farthest && std::abs(x.y()) < farthest &&
+                    std::abs(x.z()) < farthest)
+                    call(x);
+            }
+    }
+
+private:
+    const Structure& structure_;
+    const Assembly* assembly_;
+    std::vector<std::vector<const AssemblyPart*>> partsOf_; ///< of each asym
+};
+
+/// The role of what touches nothing.
+Role roleAlone(ResidueKind kind)
+{
+    switch (kind) {
+    case ResidueKind::Ion:
+        return Role::FreeIon;
+    case ResidueKind::Buffer:
+        return Role::Buffer;
+    case ResidueKind::Lipid:
+        return Role::Lipid;
+    default:
+        return Role::Apart;
+    }
+}
+
+/// The molecules of a model that may be a part of the molecule, and the atoms of its polymers.
+/// @param[out] roles  of those that are looked at
+std::vector<LigandAtoms> waitingIn(const Structure& structure, const Model& model,
+                                   const MoleculeCopies& copies, std::vector<Role>& roles,
+                                   std::vector<std::size_t>& polymer)
+{
+    std::vector<LigandAtoms> out;
     for (std::size_t i = model.begin; i < model.end; ++i) {
         const Atom& atom = structure.atoms[i];
         const Residue& residue = residueOf(structure, atom);
-        if (residue.water) continue;
-        if (!residue.hetero) {
-            near.push_back({atom.position, 0.0, std::int32_t(i)});
+        if (residue.water() || atom.role != AtomRole::Atom || !copies.has(residue)) continue;
+        if (residue.polymer()) {
+            polymer.push_back(i);
             continue;
         }
-        if (others.empty() || others.back().residue != atom.residue)
-            others.push_back({atom.residue, {}});
-        others.back().atoms.push_back(i);
+        Role& role = roles[std::size_t(atom.residue)];
+        role = roleAlone(residue.kind);
+        if (role == Role::Buffer || role == Role::Lipid) continue;
+        if (role == Role::FreeIon && staysFree(atom.element)) continue;
+        if (out.empty() || out.back().residue != atom.residue) out.push_back({atom.residue, {}});
+        out.back().atoms.push_back(i);
     }
-    if (near.empty()) return roles;
-    std::vector<LigandAtoms> waiting;
-    for (LigandAtoms& group : others) {
-        const Atom& first = structure.atoms[group.atoms.front()];
-        const bool ion = group.atoms.size() == 1 && isIonic(first.element);
-        Role& role = roles[std::size_t(group.residue)];
-        // Records ATOM are those of polymers, but simulations write everything so.
-        const bool hetatm = structure.residues[std::size_t(group.residue)].hetatm;
-        role = ion ? Role::FreeIon : hetatm ? Role::Apart : Role::Molecule;
-        if (isAdditive(structure.residues[std::size_t(group.residue)].name)) role = Role::Additive;
-        if (role == Role::Additive || (ion && staysFree(first.element))) continue;
-        waiting.push_back(std::move(group));
+    if (polymer.empty()) std::fill(roles.begin(), roles.end(), Role::Molecule);
+    return out;
+}
+
+/// Lets the molecules that wait join what touches them. There are few of them, so that an index of
+/// them takes less than one of the polymers and their copies.
+class Joining
+{
+public:
+    Joining(const MoleculeCopies& copies, const std::vector<LigandAtoms>& groups,
+            std::vector<Role>& roles)
+        : copies_(copies), groups_(groups), roles_(roles), joined_(groups.size()),
+          index_(placesOf(copies, groups), {0.0, ofLigand, ofLigand})
+    {
     }
-    // What touches the molecule belongs to it, and what touches that, and so on.
-    while (!near.empty() && !waiting.empty()) {
-        const BallIndex index(near, {0.0, ofLigand, ofLigand});
-        near.clear();
-        const auto joins = [&](const LigandAtoms& group) {
-            Role& role = roles[std::size_t(group.residue)];
-            const double reach = role == Role::FreeIon ? ofIon : ofLigand;
-            bool touches = false;
-            for (const std::size_t i : group.atoms) {
-                const openvdb::Vec3d& x = structure.atoms[i].position;
-                index.forEachNear(x, x, reach, [&](const Ball& other, std::int32_t) {
-                    touches = touches || (other.center - x).lengthSqr() <= reach * reach;
+
+    /// Lets in what touches these atoms, and what touches that, and so on.
+    void run(const std::vector<std::size_t>& atoms)
+    {
+        for (const std::size_t i : atoms) {
+            if (count_ == groups_.size()) return;
+            touch(i);
+        }
+        while (!queue_.empty()) {
+            const std::size_t group = queue_.back();
+            queue_.pop_back();
+            for (const std::size_t i : groups_[group].atoms) touch(i);
+        }
+    }
+
+private:
+    static constexpr double ofIon = 3.0, ofLigand = 4.0; // where they touch [Å]
+
+    /// Balls whose `atom` is the index of their group.
+    static std::vector<Ball> placesOf(const MoleculeCopies& copies,
+                                      const std::vector<LigandAtoms>& groups)
+    {
+        std::vector<Ball> out;
+        for (std::size_t g = 0; g < groups.size(); ++g)
+            for (const std::size_t i : groups[g].atoms)
+                copies.forEach(i, [&](const openvdb::Vec3d& x) {
+                    out.push_back({x, 0.0, std::int32_t(g)});
                 });
-            }
-            if (!touches) return false;
-            role = Role::Molecule;
-            for (const std::size_t i : group.atoms)
-                near.push_back({structure.atoms[i].position, 0.0, std::int32_t(i)});
-            return true;
-        };
-        waiting.erase(std::remove_if(waiting.begin(), waiting.end(), joins), waiting.end());
+        return out;
     }
+
+    void touch(std::size_t atom)
+    {
+        copies_.forEach(atom, [&](const openvdb::Vec3d& x) {
+            index_.forEachNear(x, x, ofLigand, [&](const Ball& other, std::int32_t) {
+                const auto group = std::size_t(other.atom);
+                if (joined_[group]) return;
+                Role& role = roles_[std::size_t(groups_[group].residue)];
+                const double reach = role == Role::FreeIon ? ofIon : ofLigand;
+                if ((other.center - x).lengthSqr() > reach * reach) return;
+                role = Role::Molecule;
+                joined_[group] = 1;
+                ++count_;
+                queue_.push_back(group);
+            });
+        });
+    }
+
+    const MoleculeCopies& copies_;
+    const std::vector<LigandAtoms>& groups_;
+    std::vector<Role>& roles_;
+    std::vector<char> joined_; ///< one a group
+    std::size_t count_ = 0;    ///< of groups that have joined
+    std::vector<std::size_t> queue_;
+    BallIndex index_;
+};
+
+} // namespace
+
+std::vector<Role> rolesIn(const Structure& structure, const Model& model, const Assembly* assembly)
+{
+    std::vector<Role> roles(structure.residues.size(), Role::Molecule);
+    if (structure.hasRadii || structure.beads != BeadKind::None) return roles;
+    const MoleculeCopies copies(structure, assembly);
+    std::vector<std::size_t> polymer;
+    const std::vector<LigandAtoms> waiting = waitingIn(structure, model, copies, roles, polymer);
+    if (!polymer.empty() && !waiting.empty()) Joining(copies, waiting, roles).run(polymer);
     return roles;
 }
 

@@ -15,19 +15,25 @@ namespace molsurf
 /// What a residue is to the molecule.
 enum class Role : std::uint8_t {
     Molecule, ///< a part of it: a polymer, or a ligand or an ion that touches one
-    FreeIon,  ///< an ion of one atom that belongs to the solution
-    Additive, ///< buffer, cryoprotectant, lipid or detergent, by name
-    Apart     ///< a ligand that touches no polymer, nor a ligand that does
+    FreeIon,  ///< an ion that belongs to the solution
+    Buffer,   ///< a buffer, salt, solvent or cryoprotectant
+    Lipid,    ///< a lipid or detergent
+    Apart     ///< a ligand or sugar that touches no polymer, nor a ligand that does
 };
 
 /// The role of each residue of a model. A ligand is a part of the molecule if one of its atoms lies
 /// within 4 Å of a polymer, or of such a ligand; so is an ion within 3 Å, but for those of Li, Na,
-/// K, Rb, Cs, F, Cl, Br and I. Water is not looked at.
+/// K, Rb, Cs, F, Cl, Br and I. Water is not looked at, nor are particles that are no atoms.
 ///
-/// A residue of ATOM records that is neither an ion nor an additive is a part of it, too. Where
-/// there is no polymer, and in files of beads or with radii of their own, which somebody has
+/// With an assembly all of its copies are looked at, and not the coordinates of the file: a ligand
+/// that touches in one copy is a part of the molecule in all. What the assembly does not list is
+/// `Molecule`.
+///
+/// Where there is no polymer, and in files of beads or with radii of their own, which somebody has
 /// prepared, all is the molecule.
+/// @param[in] assembly  nullptr: none
 /// @return one a residue of the structure; those of other models are `Molecule`
-std::vector<Role> rolesIn(const Structure& structure, const Model& model);
+std::vector<Role> rolesIn(const Structure& structure, const Model& model,
+                          const Assembly* assembly = nullptr);
 
 } // namespace molsurf

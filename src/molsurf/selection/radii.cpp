@@ -6,6 +6,7 @@
 #include "molsurf/error.h"
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/select_balls.h"
+#include "molsurf/structure/guess_element.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/text_fields.h"
 

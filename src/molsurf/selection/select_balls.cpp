@@ -347,22 +347,30 @@ std::string describeDrops(const std::vector<Excluded>& drops)
     return joined(parts);
 }
 
-/// "free ion (CL, NA)": of the atoms that have a role.
-std::string describeRole(const Structure& structure, const std::string& what,
-                         const std::vector<Role>& roles, Role role, const Indices& atoms)
+/// "free ion (CL, NA)": with the names of the residues that some atoms belong to.
+template<typename IsOne>
+std::string describeRole(const Structure& structure, const std::string& what, const Indices& atoms,
+                         const IsOne& isOne)
 {
     constexpr std::size_t most = 6;
     std::set<std::string> names;
-    for (const std::int32_t i : atoms) {
-        const Atom& atom = structure.atoms[std::size_t(i)];
-        if (roles[std::size_t(atom.residue)] == role) names.insert(residueOf(structure, atom).name);
-    }
+    for (const std::int32_t i : atoms)
+        if (isOne(i)) names.insert(residueOf(structure, structure.atoms[std::size_t(i)]).name);
     std::vector<std::string> some(names.begin(), names.end());
     if (some.size() > most) {
         some.resize(most);
         some.push_back("...");
     }
     return what + " (" + joined(some) + ")";
+}
+
+/// The assembly that is asked for, if it can be built; otherwise nullptr.
+const Assembly* assemblyOf(const Structure& structure, const SelectOptions& options)
+{
+    for (const Assembly& assembly : structure.assemblies)
+        if (options.assembly && assembly.name == *options.assembly && assembly.problem.empty())
+            return &assembly;
+    return nullptr;
 }
 
 /// Leaves out ligands and ions that do not count.
@@ -373,21 +381,32 @@ void dropHetero(const Structure& structure, const SelectOptions& options, const 
         return residueOf(structure, structure.atoms[std::size_t(i)]);
     };
     if (options.hetero == Hetero::None)
-        return filter.drop("ligand or ion", [&](std::int32_t i) { return residueAt(i).hetero; });
-    const bool polymer =
-        std::any_of(filter.atoms().begin(), filter.atoms().end(),
-                    [&](std::int32_t i) { return !residueAt(i).hetero && !residueAt(i).water; });
+        return filter.drop("ligand or ion", [&](std::int32_t i) { return residueAt(i).hetero(); });
+    const bool polymer = std::any_of(filter.atoms().begin(), filter.atoms().end(),
+                                     [&](std::int32_t i) { return residueAt(i).polymer(); });
     if (options.hetero == Hetero::All || !polymer) return;
-    const std::vector<Role> roles = rolesIn(structure, model);
+    const std::vector<Role> roles = rolesIn(structure, model, assemblyOf(structure, options));
     const auto drop = [&](Role role, const char* what) {
-        const std::string reason = describeRole(structure, what, roles, role, filter.atoms());
-        filter.drop(reason, [&](std::int32_t i) {
+        const auto isOne = [&](std::int32_t i) {
             return roles[std::size_t(structure.atoms[std::size_t(i)].residue)] == role;
-        });
+        };
+        filter.drop(describeRole(structure, what, filter.atoms(), isOne), isOne);
     };
     if (!options.ions) drop(Role::FreeIon, "free ion");
-    drop(Role::Additive, "buffer or lipid");
+    drop(Role::Buffer, "buffer");
+    drop(Role::Lipid, "lipid");
     drop(Role::Apart, "ligand apart");
+}
+
+/// Leaves out what is in the file in the place of atoms.
+void dropParticles(const Structure& structure, Filter& filter)
+{
+    const auto drop = [&](AtomRole role, const char* what) {
+        filter.drop(what,
+                    [&](std::int32_t i) { return structure.atoms[std::size_t(i)].role == role; });
+    };
+    drop(AtomRole::Particle, "particle that is no atom");
+    drop(AtomRole::CoarserScale, "sphere of a coarser scale");
 }
 
 void applyFilters(const Structure& structure, const SelectOptions& options, const AtomMatch& match,
@@ -403,7 +422,8 @@ void applyFilters(const Structure& structure, const SelectOptions& options, cons
     filter.drop("dummy", [&](std::int32_t i) {
         return atomAt(i).name == "DUM" || residueAt(i).name == "DUM";
     });
-    if (!options.waters) filter.drop("water", [&](std::int32_t i) { return residueAt(i).water; });
+    dropParticles(structure, filter);
+    if (!options.waters) filter.drop("water", [&](std::int32_t i) { return residueAt(i).water(); });
     dropHetero(structure, options, model, filter);
     if (!options.hydrogens) {
         filter.drop("hydrogen", [&](std::int32_t i) { return atomAt(i).element == 1; });
@@ -566,6 +586,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     const AtomMatch match =
         options.select.empty() ? AtomMatch() : matchAtoms(structure, options.select);
     const Model& model = chooseModel(structure, options, match.models);
+    if (!model.problem.empty()) failInput(structure, model.problem);
     BallSet out;
     out.model = model.number;
     out.warnings = structure.warnings;
@@ -615,6 +636,35 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     return out;
 }
 
+std::string describeGuesses(const Structure& structure)
+{
+    std::set<std::string> names;
+    std::size_t unknown = 0;
+    const bool beads = structure.beads != BeadKind::None;
+    const Model& model = structure.models.front();
+    for (std::size_t i = model.begin; i < model.end && !beads; ++i) {
+        const Atom& atom = structure.atoms[i];
+        if (atom.element != 0 || atom.role != AtomRole::Atom) continue;
+        ++unknown;
+        names.insert(atom.name);
+    }
+    std::string text = "elements of " + counted(structure.guessed, "atom", "atoms") +
+                       " were told by names" + (structure.placed ? "" : " and masses");
+    if (beads) text = "the file names no elements";
+    if (unknown == 0) return text;
+    constexpr std::size_t most = 6;
+    return text + "; " + std::to_string(unknown) +
+           " unknown: " + joined({names.begin(), names.end()}, most);
+}
+
+/// How many atoms of the file the balls are made of.
+static std::size_t atomsOfFile(const Structure& structure, const BallSet& selection)
+{
+    std::vector<char> used(structure.atoms.size());
+    for (const Ball& ball : selection.balls) used[std::size_t(ball.atom)] = 1;
+    return std::size_t(std::count(used.begin(), used.end(), char{1}));
+}
+
 std::string describeSelection(const Structure& structure, const BallSet& selection)
 {
     const auto some = [](std::size_t n, const std::string& what) {
@@ -641,7 +691,8 @@ std::string describeSelection(const Structure& structure, const BallSet& selecti
         text += " of " + some(placement.copies, "prototype") + " for " +
                 std::to_string(placement.instances.size()) + " copies";
     } else if (placement.copies > 1)
-        text += " (" + std::to_string(placement.copies) + " copies)";
+        text += " (" + std::to_string(placement.copies) + " copies of " +
+                std::to_string(atomsOfFile(structure, selection)) + " in the file)";
     if (selection.beads > 0) {
         text += ", of them " + some(selection.beads, "bead") + " for " +
                 some(selection.beadAtoms, "atom");
@@ -656,6 +707,7 @@ std::string describeSelection(const Structure& structure, const BallSet& selecti
         }
     }
     if (!selection.drops.empty()) text += "; dropped " + describeDrops(selection.drops);
+    if (structure.guessed > 0) text += "; " + describeGuesses(structure);
     return text;
 }
 

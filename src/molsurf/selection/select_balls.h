@@ -46,8 +46,13 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
                     const Progress& progress = Progress());
 
 /// One line that says what was read, used and dropped, by kind and count:
-/// "1a8o.cif.gz: mmCIF, 1 model, 644 atoms; used 1112 atoms (2 copies); dropped 88 water".
+/// "1a8o.cif.gz: mmCIF, 1 model, 644 atoms; used 1112 atoms (2 copies of 556 in the file); dropped
+/// 88 water". The atoms of the file that are used and those that are dropped add up to the model.
 std::string describeSelection(const Structure& structure, const BallSet& selection);
+
+/// One line on the elements that a file does not name:
+/// "elements of 152 atoms were told by names; 2 unknown: X1, X2".
+std::string describeGuesses(const Structure& structure);
 
 /// The built-in radii sets, one paragraph each: name, source, and the radii by element [Å].
 std::string describeRadii();

@@ -2,12 +2,8 @@
 #include "molsurf/structure/atom_tree.h"
 
 #include "molsurf/structure/element.h"
-#include "molsurf/structure/gemmi_model.h"
-#include "molsurf/structure/name_table.h"
-#include "molsurf/structure/residue_kind.h"
-
-#include <gemmi/polyheur.hpp>
-#include <gemmi/resinfo.hpp>
+#include "molsurf/structure/guess_element.h"
+#include "molsurf/structure/residue_names.h"
 
 #include <cctype>
 
@@ -16,37 +12,7 @@ namespace molsurf
 namespace
 {
 
-/// True if two residues are bonded as neighbours in a protein or a nucleic acid.
-bool areBonded(const gemmi::Residue& first, const gemmi::Residue& second)
-{
-    return gemmi::are_connected(first, second, gemmi::PolymerType::PeptideL) ||
-           gemmi::are_connected(first, second, gemmi::PolymerType::Rna);
-}
-
-/// True if a residue belongs to a polymer. Where the file names no entities, gemmi guesses, and we
-/// add what its guess leaves out: caps, and residues that follow a modified one or a stray TER.
-bool isInPolymer(const gemmi::Chain& chain, std::size_t index, bool entitiesKnown)
-{
-    const gemmi::Residue& residue = chain.residues[index];
-    if (residue.entity_type == gemmi::EntityType::Polymer) return true;
-    if (entitiesKnown) return false;
-    if (residue.het_flag != 'H' && isStandardResidue(residue.name)) return true;
-    const bool toPrevious = index > 0 && areBonded(chain.residues[index - 1], residue);
-    return toPrevious ||
-           (index + 1 < chain.residues.size() && areBonded(residue, chain.residues[index + 1]));
-}
-
-/// Whether a residue looks like a link of a polymer by itself.
-bool mayBeLink(const gemmi::Residue& residue)
-{
-    const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(residue.name);
-    if (!info.found()) return residue.get_ca() || residue.get_p();
-    return (info.is_amino_acid() || info.is_nucleic_acid()) &&
-           !(info.is_standard() && residue.het_flag == 'H');
-}
-
-/// Atomic number; corrects names such as CA that stand one column too far left in a file without
-/// elements, where they read as calcium.
+/// Atomic number; corrects an alpha carbon whose element is given as calcium.
 std::uint8_t elementOf(const gemmi::Atom& atom, bool standardResidue)
 {
     const int number = atom.element.atomic_number();
@@ -61,49 +27,61 @@ std::uint8_t elementOf(const gemmi::Atom& atom, bool standardResidue)
     return static_cast<std::uint8_t>(number);
 }
 
+EntityHint hintOf(const gemmi::Residue& residue)
+{
+    switch (residue.entity_type) {
+    case gemmi::EntityType::Polymer:
+        return EntityHint::Polymer;
+    case gemmi::EntityType::Water:
+        return EntityHint::Water;
+    default:
+        return EntityHint::Other;
+    }
+}
+
 /// Copies gemmi's tree into our tables.
 class Converter
 {
 public:
-    Converter(Structure& out, bool asyms, bool entitiesKnown)
-        : out_(out), asymsKnown_(asyms), entitiesKnown_(entitiesKnown)
-    {
-    }
+    Converter(Structure& out, bool entitiesKnown) : out_(out), entitiesKnown_(entitiesKnown) {}
 
     void add(const gemmi::Model& model, int number)
     {
         const std::size_t begin = out_.atoms.size();
-        for (const gemmi::Chain& chain : model.chains) {
-            for (std::size_t i = 0; i < chain.residues.size(); ++i) add(chain, i);
-        }
+        for (const gemmi::Chain& chain : model.chains)
+            for (const gemmi::Residue& residue : chain.residues) add(chain, residue);
         if (out_.atoms.size() > begin) out_.models.push_back({number, begin, out_.atoms.size()});
     }
 
 private:
-    void add(const gemmi::Chain& chain, std::size_t index)
+    void add(const gemmi::Chain& chain, const gemmi::Residue& from)
     {
-        const gemmi::Residue& from = chain.residues[index];
         Residue residue{};
         residue.name = from.name;
         residue.chain = chains_.index(chain.name, out_.chains);
-        residue.asym = asyms_.index(asymsKnown_ ? from.subchain : chain.name, out_.asyms);
+        residue.asym = asyms_.index(from.subchain, out_.asyms);
         residue.number = from.seqid.num ? *from.seqid.num : 0;
         residue.insertionCode = from.seqid.icode;
-        residue.water = isWaterName(from.name) || from.entity_type == gemmi::EntityType::Water;
         residue.hetatm = from.het_flag == 'H';
-        residue.hetero = !residue.water && !isInPolymer(chain, index, entitiesKnown_);
+        if (entitiesKnown_) residue.entity = hintOf(from);
         const auto residueIndex = static_cast<std::int32_t>(out_.residues.size());
         out_.residues.push_back(std::move(residue));
         const bool standard = isStandardResidue(from.name);
+        const bool unknown = from.name == "UNX"; // whose atoms UNK are no uranium
         for (const gemmi::Atom& atom : from.atoms) {
+            std::uint8_t element = elementOf(atom, standard);
+            if (atom.element == gemmi::El::X && !unknown) {
+                element = guessElement(atom.name, from.name);
+                if (out_.models.empty()) ++out_.guessed;
+            }
             out_.atoms.push_back({openvdb::Vec3d(atom.pos.x, atom.pos.y, atom.pos.z), atom.name,
-                                  residueIndex, elementOf(atom, standard), atom.altloc, atom.occ,
+                                  residueIndex, element, atom.altloc, AtomRole::Atom, atom.occ,
                                   atom.b_iso, -1.0});
         }
     }
 
     Structure& out_;
-    bool asymsKnown_, entitiesKnown_;
+    bool entitiesKnown_;
     NameTable chains_, asyms_;
 };
 
@@ -120,33 +98,11 @@ std::size_t countAtoms(const gemmi::Structure& structure)
 
 } // namespace
 
-bool isStandardResidue(const std::string& name)
-{
-    const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(name);
-    return (info.is_amino_acid() || info.is_nucleic_acid()) && info.is_standard();
-}
-
-void guessPolymers(gemmi::Structure& tree, bool all)
-{
-    std::vector<gemmi::Residue*> guessed;
-    for (gemmi::Model& model : tree.models)
-        for (gemmi::Chain& chain : model.chains)
-            for (gemmi::Residue& residue : chain.residues)
-                if (all || residue.entity_type == gemmi::EntityType::Unknown)
-                    guessed.push_back(&residue);
-    gemmi::add_entity_types(tree, all);
-    for (gemmi::Residue* residue : guessed) { // from 0.6 on short polymers go on with what follows
-        if (residue->entity_type != gemmi::EntityType::Polymer || mayBeLink(*residue)) continue;
-        residue->entity_type =
-            residue->is_water() ? gemmi::EntityType::Water : gemmi::EntityType::NonPolymer;
-    }
-}
-
-void copyTree(const gemmi::Structure& tree, const std::vector<int>& numbers, bool asyms,
-              bool entitiesKnown, Structure& out)
+void copyTree(const gemmi::Structure& tree, const std::vector<int>& numbers, bool entitiesKnown,
+              Structure& out)
 {
     out.atoms.reserve(countAtoms(tree));
-    Converter converter(out, asyms, entitiesKnown);
+    Converter converter(out, entitiesKnown);
     std::size_t withAtoms = 0;
     for (const gemmi::Model& model : tree.models) {
         if (model.chains.empty()) continue;
@@ -156,43 +112,89 @@ void copyTree(const gemmi::Structure& tree, const std::vector<int>& numbers, boo
 
 void AtomTree::startModel(int number)
 {
-    if (!tree_.models.empty() && tree_.models.back().chains.empty()) {
-        numbers_.back() = number;
-        return;
+    std::vector<Model>& models = out_.models;
+    if (!models.empty()) models.back().end = out_.atoms.size();
+    if (!models.empty() && models.back().begin == models.back().end)
+        models.back() = {number, out_.atoms.size(), out_.atoms.size()};
+    else
+        models.push_back({number, out_.atoms.size(), out_.atoms.size()});
+    modelBegin_ = std::int32_t(out_.residues.size());
+}
+
+bool AtomTree::isSame(std::int32_t residue, const AtomLine& atom, std::int32_t chain) const
+{
+    const Residue& at = out_.residues[std::size_t(residue)];
+    return at.number == atom.number && at.insertionCode == atom.insertionCode &&
+           at.chain == chain && at.name == atom.residue &&
+           segments_[std::size_t(residue)] == segment_;
+}
+
+std::int32_t AtomTree::residueOf(const AtomLine& atom)
+{
+    const std::int32_t chain = chains_.index(std::string(atom.chain), out_.chains);
+    segment_ = segmentTable_.index(std::string(atom.segment), segmentNames_);
+    const auto count = std::int32_t(out_.residues.size());
+    if (count > modelBegin_ && isSame(count - 1, atom, chain)) {
+        const bool again =
+            lastRepeats_ && atom.altloc == '\0' &&
+            out_.atoms[std::size_t(firsts_[std::size_t(count - 1)])].name == atom.name;
+        if (!again) return count - 1;
+    } else {
+        for (std::int32_t r = count - 1; r >= modelBegin_; --r) { // alternatives that alternate
+            const Residue& before = out_.residues[std::size_t(r)];
+            if (before.chain != chain || before.number != atom.number ||
+                before.insertionCode != atom.insertionCode || atom.altloc == '\0')
+                break;
+            if (isSame(r, atom, chain)) return r;
+        }
     }
-    tree_.models.emplace_back(ModelNumber{number});
-    numbers_.push_back(number);
+    Residue residue{};
+    residue.name = atom.residue;
+    residue.chain = residue.asym = chain;
+    residue.number = atom.number;
+    residue.insertionCode = atom.insertionCode;
+    residue.hetatm = atom.hetatm;
+    const NameClass kind = nameClass(atom.residue);
+    lastRepeats_ = kind != NameClass::AminoAcid && kind != NameClass::ModifiedAminoAcid &&
+                   kind != NameClass::Nucleotide && kind != NameClass::ModifiedNucleotide &&
+                   !atom.name.empty();
+    out_.residues.push_back(std::move(residue));
+    segments_.push_back(segment_);
+    firsts_.push_back(std::int32_t(out_.atoms.size()));
+    return count;
+}
+
+std::uint8_t AtomTree::elementOf(const AtomLine& atom)
+{
+    if (atom.element != 0 || !atom.guess || atom.role != AtomRole::Atom)
+        return std::uint8_t(atom.element);
+    if (out_.models.size() == 1) ++out_.guessed;
+    std::string key(atom.residue);
+    key.append(1, atom.inFirstColumn ? '\2' : '\1').append(atom.name);
+    if (atom.mass >= 0.0) key.append(1, '\1').append(std::to_string(atom.mass));
+    const auto found = guesses_.find(key);
+    if (found != guesses_.end()) return found->second;
+    const std::uint8_t element =
+        guessElement({atom.name, atom.residue, atom.mass, atom.inFirstColumn});
+    guesses_.emplace(std::move(key), element);
+    return element;
 }
 
 void AtomTree::add(const AtomLine& atom)
 {
-    if (tree_.models.empty()) startModel(1);
-    std::vector<gemmi::Chain>& chains = tree_.models.back().chains;
-    if (chains.empty() || chains.back().name != atom.chain)
-        chains.emplace_back(std::string(atom.chain));
-    std::vector<gemmi::Residue>& residues = chains.back().residues;
-    const bool same = !residues.empty() && residues.back().name == atom.residue &&
-                      residues.back().seqid.num.value == atom.number &&
-                      residues.back().seqid.icode == atom.insertionCode;
-    if (!same) {
-        gemmi::Residue& residue = residues.emplace_back();
-        residue.name = atom.residue;
-        residue.seqid.num = atom.number;
-        residue.seqid.icode = atom.insertionCode;
-        residue.het_flag = atom.hetatm ? 'H' : 'A';
-    }
-    gemmi::Atom& to = residues.back().atoms.emplace_back();
-    to.name = atom.name;
-    to.element = gemmi::Element(static_cast<gemmi::El>(atom.element));
-    to.pos = {atom.position.x(), atom.position.y(), atom.position.z()};
+    if (out_.models.empty()) startModel(1);
+    const std::int32_t residue = residueOf(atom);
+    out_.atoms.push_back({atom.position, std::string(atom.name), residue, elementOf(atom),
+                          atom.altloc, atom.role, atom.occupancy, atom.bFactor, atom.radius});
 }
 
 Structure AtomTree::finish()
 {
-    guessPolymers(tree_, false);
-    Structure out;
-    copyTree(tree_, numbers_, false, false, out);
-    return out;
+    if (!out_.models.empty()) out_.models.back().end = out_.atoms.size();
+    if (!out_.models.empty() && out_.models.back().begin == out_.models.back().end)
+        out_.models.pop_back();
+    out_.asyms = out_.chains;
+    return std::move(out_);
 }
 
 } // namespace molsurf

@@ -2,60 +2,75 @@
 #pragma once
 
 /// @file
-/// gemmi's tree of models, chains and residues: how readers make it, and what we make of it.
+/// Makes a structure: atom by atom, or of gemmi's tree of models, chains and residues.
 
+#include "molsurf/structure/name_table.h"
 #include "molsurf/structure/structure.h"
 
 #include <gemmi/model.hpp>
 
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace molsurf
 {
 
-/// Guesses what belongs to a polymer.
-/// @param[in] all  of all residues; otherwise of those of which nothing is known
-void guessPolymers(gemmi::Structure& tree, bool all);
-
-/// Copies a tree into the tables of a structure: models, atoms, residues, chains.
-///
+/// Copies gemmi's tree into the tables of a structure: models, atoms, residues, chains.
 /// @param[in] numbers        of the models that have chains, in order
-/// @param[in] asyms          whether residues have asyms of their own, as in mmCIF; otherwise these
-///                           are the chains
-/// @param[in] entitiesKnown  whether the file says what belongs to a polymer; otherwise that is
-///                           guessed from names and bonds
-void copyTree(const gemmi::Structure& tree, const std::vector<int>& numbers, bool asyms,
-              bool entitiesKnown, Structure& out);
+/// @param[in] entitiesKnown  whether the file says what the entities are
+void copyTree(const gemmi::Structure& tree, const std::vector<int>& numbers, bool entitiesKnown,
+              Structure& out);
 
 /// One atom as a reader finds it.
 struct AtomLine {
     std::string_view chain, residue, name;
-    int number = 0; ///< of the residue
+    std::string_view segment; ///< of one chain; residues of two segments are different ones
+    int number = 0;           ///< of the residue
     char insertionCode = ' ';
     bool hetatm = false;
-    int element = 0; ///< atomic number; 0 if unknown
+    char altloc = '\0';
+    int element = 0;            ///< atomic number; 0 if unknown
+    bool guess = true;          ///< whether guessElement() finds an element that is unknown
+    bool inFirstColumn = false; ///< see ElementEvidence
+    AtomRole role = AtomRole::Atom;
+    double mass = -1.0; ///< [u]; < 0: unknown
     openvdb::Vec3d position{0.0};
+    float occupancy = 1.0f, bFactor = 0.0f;
+    double radius = -1.0; ///< [Å]; < 0: the file has none
 };
 
-/// Makes a structure atom by atom. Models, chains and residues begin where their numbers or names
-/// change.
+/// Makes a structure atom by atom, in the order of the file. A residue begins where its chain,
+/// number or names change, and where the first atom of a molecule other than a link of a chain
+/// comes again. Alternatives of one residue may alternate.
 class AtomTree
 {
 public:
     void startModel(int number);
     void add(const AtomLine& atom);
+    void reserve(std::size_t atoms) { out_.atoms.reserve(atoms); }
 
-    /// The structure, in which guesses tell what belongs to a polymer.
+    /// Says why no surface can be made of the current model.
+    void spoil(const std::string& problem) { out_.models.back().problem = problem; }
+
     Structure finish();
 
 private:
-    gemmi::Structure tree_;
-    std::vector<int> numbers_;
-};
+    std::uint8_t elementOf(const AtomLine& atom);
+    bool isSame(std::int32_t residue, const AtomLine& atom, std::int32_t chain) const;
+    std::int32_t residueOf(const AtomLine& atom);
 
-/// True for the amino acids and nucleotides that have no other form.
-bool isStandardResidue(const std::string& name);
+    Structure out_;
+    NameTable chains_;
+    NameTable segmentTable_;
+    std::vector<std::string> segmentNames_;
+    std::int32_t segment_ = 0;           ///< of the atom that is added
+    std::vector<std::int32_t> segments_; ///< one a residue
+    std::vector<std::int32_t> firsts_;   ///< one a residue: its first atom
+    std::int32_t modelBegin_ = 0;        ///< first residue of the model
+    bool lastRepeats_ = false;           ///< whether the last residue may begin again
+    std::unordered_map<std::string, std::uint8_t> guesses_; ///< by names and mass
+};
 
 } // namespace molsurf

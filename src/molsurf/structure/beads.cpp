@@ -31,7 +31,13 @@ bool isNumbered(string_view name, string_view word)
 
 bool isWaterBead(string_view name)
 {
-    return isOneOf(name, {"W", "WF", "WP", "WM", "SW", "TW", "PW"});
+    return isOneOf(name, {"W", "WF", "SW", "TW", "PW"});
+}
+
+/// Charges beside the beads of polarizable Martini: of amino acids and of water. They have no size.
+bool isCharge(string_view name)
+{
+    return isOneOf(name, {"SCP", "SCN", "WP", "WM"});
 }
 
 /// Names of beads that no atom has.
@@ -72,15 +78,43 @@ bool has(const std::vector<const Atom*>& atoms, string_view name)
     return std::any_of(atoms.begin(), atoms.end(), [&](const Atom* a) { return a->name == name; });
 }
 
+/// The sites of a Go model lie where the beads of the backbone lie, and have no size. (Proteins
+/// have one for each BB, by the name CA.)
+bool isGoSite(const Atom& atom, const std::vector<const Atom*>& residue)
+{
+    constexpr double same = 0.1; // [Å]
+    if (isCertainBead(atom.name)) return false;
+    return std::any_of(residue.begin(), residue.end(), [&](const Atom* other) {
+        return other->name.substr(0, 2) == "BB" &&
+               (other->position - atom.position).length() < same;
+    });
+}
+
+/// The particles of a file of beads that are none.
+std::vector<std::size_t> extrasOf(const Structure& structure)
+{
+    const auto residues = residuesOf(structure);
+    std::vector<std::size_t> out;
+    const Model& model = structure.models.front();
+    for (std::size_t i = model.begin; i < model.end; ++i) {
+        const Atom& atom = structure.atoms[i];
+        if (isCharge(atom.name) || isGoSite(atom, residues.at(atom.residue))) out.push_back(i);
+    }
+    return out;
+}
+
 bool isMartini(const Structure& structure)
 {
     const Model& model = structure.models.front();
     std::size_t beads = 0, certain = 0;
     for (std::size_t i = model.begin; i < model.end; ++i) {
-        beads += isBead(structure.atoms[i].name);
+        beads += isBead(structure.atoms[i].name) || isCharge(structure.atoms[i].name);
         certain += isCertainBead(structure.atoms[i].name);
     }
-    return certain > 0 && 10 * beads >= 9 * (model.end - model.begin);
+    if (certain == 0) return false;
+    const std::size_t atoms = model.end - model.begin;
+    if (10 * beads >= 9 * atoms) return true;
+    return 10 * (2 * beads) >= 9 * atoms && 10 * (beads + extrasOf(structure).size()) >= 9 * atoms;
 }
 
 bool isMartini2(const Structure& structure)
@@ -106,7 +140,7 @@ bool isUnnamed(const Structure& structure)
     std::size_t residues = 0;
     for (const auto& [index, atoms] : residuesOf(structure)) {
         const Residue& residue = structure.residues[std::size_t(index)];
-        if (residue.water) continue;
+        if (residue.water()) continue;
         if (!gemmi::find_tabulated_residue(residue.name).is_amino_acid() || !has(atoms, "CA") ||
             has(atoms, "N") || has(atoms, "C")) {
             return false;
@@ -138,12 +172,17 @@ void markBeads(Structure& structure)
 {
     structure.beads = findBeads(structure);
     if (structure.beads != BeadKind::Martini2 && structure.beads != BeadKind::Martini3) return;
+    const std::vector<std::size_t> extras = extrasOf(structure);
+    const std::size_t first = structure.models.front().begin;
+    for (const Model& model : structure.models)
+        for (const std::size_t i : extras)
+            if (model.begin + i - first < model.end)
+                structure.atoms[model.begin + i - first].role = AtomRole::Particle;
     for (Atom& atom : structure.atoms) {
         atom.element = 0;
         if (!isWaterBead(atom.name)) continue;
         Residue& residue = structure.residues[std::size_t(atom.residue)];
-        residue.water = true;
-        residue.hetero = false;
+        residue.kind = ResidueKind::Water;
     }
 }
 

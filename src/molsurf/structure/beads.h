@@ -10,8 +10,9 @@ namespace molsurf
 {
 
 /// Finds out whether the atoms of a structure are beads and sets Structure::beads. Martini beads
-/// lose their element, and those that are waters (W, WF, SW, TW, PW) are marked as such. The first
-/// model decides, by these criteria.
+/// lose their element, and those that are waters (W, WF, SW, TW, PW) are marked as such. The
+/// charges of polarizable beads (SCP, SCN, WP, WM) and the sites of a Go model, which lie where BB
+/// lies, become AtomRole::Particle. The first model decides, by these criteria.
 ///
 /// Martini: at least 9 of 10 atoms have names of Martini beads (BB, SC1, W, NC3, PO4, GL1, C1A,
 /// D2A, ROH, R1, NA, ...), and one of them a name that no atom has (BB, SC1, W, PO4, GL1, ...). It

@@ -3,6 +3,7 @@
 
 #include "molsurf/core/words.h"
 #include "molsurf/structure/binary_cif.h"
+#include "molsurf/structure/element.h"
 #include "molsurf/structure/readers.h"
 #include "molsurf/structure/text_fields.h"
 
@@ -10,6 +11,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <initializer_list>
 #include <string_view>
 
 namespace molsurf
@@ -23,7 +25,8 @@ std::string lowerExtension(const std::string& path)
 {
     const std::filesystem::path name(path);
     const std::string extension = lowered(name.extension().string());
-    return extension == ".gz" ? lowered(name.stem().extension().string()) : extension;
+    const bool packed = extension == ".gz" || extension == ".bz2" || extension == ".xz";
+    return packed ? lowered(name.stem().extension().string()) : extension;
 }
 
 bool startsWithNoCase(string_view text, string_view lowerPrefix)
@@ -176,6 +179,34 @@ bool isGro(const Sample& sample)
            line.substr(20).find('.') != string_view::npos;
 }
 
+/// True if the first line is a number alone and the third one a symbol and coordinates.
+bool isXyz(const Sample& sample)
+{
+    LineReader lines(sample.text);
+    int atoms = 0;
+    if (!lines.next() || !parseInteger(trimmed(lines.line()), atoms) || atoms < 0) return false;
+    if (sample.ends(".xyz") || !lines.next() || !lines.next()) return sample.ends(".xyz");
+    const Fields fields = splitFields(lines.line());
+    double number = 0.0;
+    return fields.size() >= 4 && std::isalpha(static_cast<unsigned char>(fields[0][0])) &&
+           elementNumber(std::string(fields[0])) != 0 &&
+           std::all_of(fields.begin() + 1, fields.begin() + 4,
+                       [&](string_view f) { return parseNumber(f, number); });
+}
+
+/// True for records that only files of AutoDock have.
+bool isPdbqt(const Sample& sample)
+{
+    if (!sample.hasRecords) return false;
+    if (sample.ends(".pdbqt")) return true;
+    if (sample.ends(".pdb") || sample.ends(".ent") || sample.ends(".pqr")) return false;
+    for (LineReader lines(sample.text); lines.next();) {
+        const string_view line = trimmed(lines.line());
+        if (line == "ROOT" || line == "ENDROOT" || line.substr(0, 8) == "TORSDOF ") return true;
+    }
+    return false;
+}
+
 bool isPdb(const Sample& sample)
 {
     return sample.hasRecords;
@@ -198,6 +229,29 @@ bool has(const Sample& sample, string_view word)
     return string_view(sample.text).substr(0, 4096).find(word) != string_view::npos;
 }
 
+/// Coordinates of CHARMM: lines of a title that begin with a star, and a number alone.
+bool isCharmmCard(const Sample& sample)
+{
+    LineReader lines(sample.text);
+    std::size_t titles = 0;
+    while (lines.next() && lines.line().substr(0, 1) == "*") ++titles;
+    const Fields fields = splitFields(lines.line());
+    int atoms = 0;
+    return titles > 0 && !fields.empty() && parseInteger(fields[0], atoms);
+}
+
+/// Whether a file begins with some bytes.
+bool beginsAs(const Sample& sample, string_view bytes)
+{
+    return string_view(sample.text).substr(0, bytes.size()) == bytes;
+}
+
+bool endsWithOneOf(const Sample& sample, std::initializer_list<const char*> endings)
+{
+    return std::any_of(endings.begin(), endings.end(),
+                       [&](const char* ending) { return sample.ends(ending); });
+}
+
 const Refusal refusals[] = {
     {"an OpenVDB file", "", [](const Sample& s) { return s.text.substr(0, 4) == " BDV"; }},
     {"MMTF, which the Protein Data Bank no longer has", " [hint: take .bcif.gz of the same entry]",
@@ -206,12 +260,39 @@ const Refusal refusals[] = {
      [](const Sample& s) { return s.ends(".pse") || s.ends(".psw"); }},
     {"a run input of GROMACS", " [hint: gmx editconf writes FILE.gro of it]",
      [](const Sample& s) { return s.ends(".tpr"); }},
+    {"a trajectory, which has no names",
+     " [hint: give the structure, and this file with `trajectory`; MDAnalysis and mdtraj turn "
+     "other "
+     "kinds into .dcd]",
+     [](const Sample& s) {
+         return endsWithOneOf(s, {".dcd", ".xtc", ".trr", ".nc", ".ncdf", ".netcdf", ".h5"});
+     }},
     {"a topology of Amber, which has no coordinates",
      " [hint: cpptraj or ambpdb makes FILE.pdb or FILE.pqr of it and of its coordinates]",
      [](const Sample& s) { return s.ends(".prmtop") || s.ends(".parm7") || s.word == "%VERSION"; }},
-    {"a zip archive", " [hint: unzip it first]",
-     [](const Sample& s) { return s.text.substr(0, 4) == "PK\3\4"; }},
+    {"a file of coordinates of CHARMM, which has no elements",
+     " [hint: MDAnalysis and ParmEd turn it into FILE.pdb]", isCharmmCard},
+    {"a file of coordinates without names",
+     " [hint: cpptraj or ambpdb makes FILE.pdb of it and of its topology]",
+     [](const Sample& s) {
+         return endsWithOneOf(s, {".crd", ".inpcrd", ".rst", ".rst7", ".rst74", ".ncrst", ".coor"});
+     }},
+    {"a file of Maestro", " [hint: Maestro, structconvert or RDKit write FILE.pdb or FILE.sdf]",
+     [](const Sample& s) { return s.ends(".mae") || s.ends(".maegz") || s.ends(".cms"); }},
+    {"a map of reflections, structure factors", " [hint: take the file of the coordinates]",
+     [](const Sample& s) { return s.ends(".mtz") || beginsAs(s, "MTZ "); }},
     {"JSON", " [use .cif or .pdb]", [](const Sample& s) { return s.word.substr(0, 1) == "{"; }},
+    {"a ZIP archive", " [hint: unzip it]",
+     [](const Sample& s) { return beginsAs(s, "PK\x03\x04"); }},
+    {"a tar archive", " [hint: tar -xf takes the files out]",
+     [](const Sample& s) {
+         constexpr std::size_t place = 257; // of the magic
+         return s.text.size() > place && s.text.compare(place, 5, "ustar") == 0;
+     }},
+    {"packed by zstd", " [hint: unzstd unpacks it; .gz, .bz2 and .xz are read]",
+     [](const Sample& s) { return beginsAs(s, "\x28\xB5\x2F\xFD"); }},
+    {"packed by compress", " [hint: uncompress unpacks it; .gz, .bz2 and .xz are read]",
+     [](const Sample& s) { return beginsAs(s, "\x1F\x9D"); }},
     {"a binary file", "", [](const Sample& s) { return s.binary; }}};
 
 /// A reader that does not keep the text and is too fast to be ended.
@@ -245,6 +326,7 @@ const std::vector<StructureFormatRow>& structureFormats()
          readText<readPsf>},
         {F::Gro, "gro", {".gro"}, isGro, readText<readGro>},
         {F::Mmcif, "mmCIF", {".cif", ".mmcif"}, isMmcif, readMmcif},
+        {F::Pdbqt, "PDBQT", {".pdbqt"}, isPdbqt, readPdbqt},
         {F::Pqr, "PQR", {".pqr"}, isPqr, readText<readPqr>},
         {F::Pdb, "PDB", {".pdb", ".ent"}, isPdb, readPdb},
         {F::Xyzrn,
@@ -256,7 +338,8 @@ const std::vector<StructureFormatRow>& structureFormats()
          "xyzr",
          {".xyzr"},
          [](const Sample& s) { return looksLikeBall(s.first); },
-         readText<readXyzr>}};
+         readText<readXyzr>},
+        {F::Xyz, "xyz", {".xyz"}, isXyz, readText<readXyz>}};
     return table;
 }
 

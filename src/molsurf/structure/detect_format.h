@@ -14,7 +14,20 @@ namespace molsurf
 {
 
 /// The formats of readStructure().
-enum class StructureFormat { Mmcif, BinaryCif, Mol2, Sdf, Psf, Gro, Pqr, Pdb, Xyzrn, Xyzr };
+enum class StructureFormat {
+    Mmcif,
+    BinaryCif,
+    Mol2,
+    Sdf,
+    Psf,
+    Gro,
+    Xyz,
+    Pqr,
+    Pdbqt,
+    Pdb,
+    Xyzrn,
+    Xyzr
+};
 
 struct StructureSample;
 
@@ -36,11 +49,12 @@ const StructureFormatRow& rowOf(StructureFormat format);
 /// "PDB, mmCIF, ... or xyzrn", for messages.
 std::string structureFormatNames();
 
-/// Whether a name, which may have a further ".gz", ends as those of files of atoms do.
+/// Whether a name, which may have a further ".gz", ".bz2" or ".xz", ends as those of files of atoms
+/// do.
 bool hasStructureEnding(const std::string& path);
 
-/// Finds the format of a text from its first lines; the extension of `path` (a ".gz" left out)
-/// decides where they leave a choice.
+/// Finds the format of a text from its first lines; the extension of `path` (a ".gz", ".bz2" or
+/// ".xz" left out) decides where they leave a choice.
 ///
 /// @throws Error(ErrorKind::Input) if the text is none of them: it says what the text looks like
 StructureFormat detectFormat(const std::string& path, const std::string& text);

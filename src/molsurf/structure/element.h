@@ -24,11 +24,6 @@ const char* elementSymbol(std::uint8_t number);
 /// element.
 std::uint8_t elementNumber(const std::string& symbol);
 
-/// Atomic number that an atom name suggests where the file names no element (PQR, xyzr, .gro): the
-/// first letter, or the whole name if it is also the residue's ("ZN" of ZN is zinc, "CA" of ALA
-/// carbon, "SOD" of SOD, which is CHARMM's name of an ion, sodium).
-std::uint8_t guessElement(const std::string& atomName, const std::string& residueName);
-
 /// Van der Waals radius in gemmi's table [Å].
 /// @param[in] number  atomic number, in [1, maxElement]
 double gemmiRadius(std::uint8_t number);

@@ -4,16 +4,24 @@
 #include "molsurf/error.h"
 #include "molsurf/structure/text_fields.h"
 
+#include <boost/iostreams/device/array.hpp>
+#include <boost/iostreams/filter/bzip2.hpp>
+#include <boost/iostreams/filter/lzma.hpp>
+#include <boost/iostreams/filtering_streambuf.hpp>
+#include <boost/iostreams/operations.hpp>
 #include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace molsurf
 {
@@ -132,6 +140,115 @@ std::string unpack(std::string bytes, const std::string& path, const Limit& limi
     return text;
 }
 
+bool beginsWith(const std::string& bytes, std::string_view magic)
+{
+    return std::string_view(bytes).substr(0, magic.size()) == magic;
+}
+
+/// Unpacks bytes by a filter of Boost.Iostreams.
+template<typename Filter>
+std::string unpackBy(const Filter& filter, const char* kind, const std::string& bytes,
+                     const std::string& path, const Limit& limit)
+{
+    namespace io = boost::iostreams;
+    std::string text;
+    try {
+        io::filtering_istreambuf stream;
+        stream.push(filter);
+        stream.push(io::array_source(bytes.data(), bytes.size()));
+        std::vector<char> buffer(std::size_t{1} << 16);
+        for (std::streamsize got = 0;
+             (got = io::read(stream, buffer.data(), std::streamsize(buffer.size()))) > 0;) {
+            text.append(buffer.data(), std::size_t(got));
+            checkSize(text.size(), limit, path);
+            if (text.size() > limit.unsuspected && text.size() / limit.ratio > bytes.size())
+                failTooLarge(path, std::string("its ") + kind + " data unpack to more than " +
+                                       std::to_string(limit.ratio) +
+                                       " times their size, which no file of atoms does");
+        }
+    } catch (const std::ios_base::failure&) {
+        failAt(path, std::string("has damaged ") + kind +
+                         " data, or is cut short [copy or download it again]");
+    }
+    return text;
+}
+
+/// Unpacks what is packed by gzip, bzip2 or xz.
+std::string unpackAny(std::string bytes, const std::string& path, const Limit& limit)
+{
+    namespace io = boost::iostreams;
+    if (isGzip(bytes, 0)) return unpack(std::move(bytes), path, limit);
+    if (beginsWith(bytes, "BZh"))
+        return unpackBy(io::bzip2_decompressor(), "bzip2", bytes, path, limit);
+    if (beginsWith(bytes, std::string_view("\xFD"
+                                           "7zXZ\0",
+                                           6)))
+        return unpackBy(io::lzma_decompressor(), "xz", bytes, path, limit);
+    return bytes;
+}
+
+void appendUtf8(std::uint32_t code, std::string& out)
+{
+    const auto tail = [&](int shift) { out += char(0x80 | (code >> shift & 0x3f)); };
+    if (code < 0x80) {
+        out += char(code);
+    } else if (code < 0x800) {
+        out += char(0xc0 | code >> 6);
+        tail(0);
+    } else if (code < 0x10000) {
+        out += char(0xe0 | code >> 12);
+        tail(6);
+        tail(0);
+    } else {
+        out += char(0xf0 | code >> 18);
+        tail(12);
+        tail(6);
+        tail(0);
+    }
+}
+
+/// UTF-16 behind its byte order mark, as UTF-8.
+std::string fromUtf16(const std::string& text, bool bigEndian, const std::string& path)
+{
+    if (text.size() % 2 != 0)
+        failAt(path, "is cut short: its UTF-16 text has an odd number of bytes");
+    const auto unit = [&](std::size_t i) {
+        const auto first = static_cast<unsigned char>(text[i]);
+        const auto second = static_cast<unsigned char>(text[i + 1]);
+        return std::uint32_t(bigEndian ? first << 8 | second : second << 8 | first);
+    };
+    std::string out;
+    for (std::size_t i = 2; i < text.size(); i += 2) {
+        std::uint32_t code = unit(i);
+        const bool high = code >= 0xd800 && code < 0xdc00;
+        if (high && i + 2 < text.size() && unit(i + 2) >= 0xdc00 && unit(i + 2) < 0xe000) {
+            code = 0x10000 + ((code - 0xd800) << 10) + (unit(i + 2) - 0xdc00);
+            i += 2;
+        }
+        appendUtf8(code, out);
+    }
+    return out;
+}
+
+/// Makes every end of a line LF where some are CR alone. Binary files stay as they are.
+void endLinesByLf(std::string& text)
+{
+    constexpr std::size_t head = 4096, lastAscii = 0x7f;
+    const auto first = static_cast<unsigned char>(text.empty() ? 0 : text[0]);
+    if (first > lastAscii || text.substr(0, head).find('\0') != std::string::npos) return;
+    bool lone = false;
+    for (std::size_t i = text.find('\r'); i != std::string::npos && !lone;
+         i = text.find('\r', i + 1))
+        lone = i + 1 >= text.size() || text[i + 1] != '\n';
+    if (!lone) return;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') continue;
+        text[kept++] = text[i] == '\r' ? '\n' : text[i];
+    }
+    text.resize(kept);
+}
+
 } // namespace
 
 std::string loadBytes(const std::string& path, std::size_t maxBytes)
@@ -150,8 +267,11 @@ std::string unpackedText(std::string bytes, const std::string& path, std::size_t
     const Limit limit(maxBytes);
     checkSize(bytes.size(), limit, path);
     std::string text = std::move(bytes);
-    if (isGzip(text, 0)) text = unpack(std::move(text), path, limit);
+    text = unpackAny(std::move(text), path, limit);
+    if (beginsWith(text, "\xFF\xFE") || beginsWith(text, "\xFE\xFF"))
+        text = fromUtf16(text, text[0] == '\xFE', path);
     text = withoutMark(std::move(text));
+    endLinesByLf(text);
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) failAt(path, "is empty");
     return text;
 }

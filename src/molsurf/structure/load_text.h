@@ -10,13 +10,14 @@
 namespace molsurf
 {
 
-/// Reads a file, or standard input for "-", and unpacks it if it starts with the gzip magic bytes.
-/// Members of a concatenated gzip file are joined. A leading UTF-8 byte order mark is removed.
+/// Reads a file, or standard input for "-", and unpacks it if it starts as those of gzip, bzip2 or
+/// xz do. Members of a concatenated gzip file are joined. A leading byte order mark is removed, and
+/// the UTF-16 behind it becomes UTF-8. Lines that end with CR alone end with LF.
 ///
 /// @param[in] maxBytes  that the text may have, unpacked [byte]; 0: 4 GiB, and where it is above
 ///                      16 MiB no more than 200 times what it was packed
 /// @throws Error(ErrorKind::Input) if the file does not exist, is a folder, cannot be read, is
-///         empty or larger than it may be, or if its gzip data are damaged or cut short
+///         empty or larger than it may be, or if its packed data are damaged or cut short
 std::string loadText(const std::string& path, std::size_t maxBytes = 0);
 
 /// The text of a file that is in memory; otherwise as above.

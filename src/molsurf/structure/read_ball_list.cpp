@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/readers.h"
 
+#include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/element.h"
-#include "molsurf/structure/name_table.h"
-#include "molsurf/structure/residue_kind.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
@@ -90,64 +89,33 @@ struct Identity {
     int number = 0;
     char insertionCode = ' ';
     bool hetero = false;
+    int element = 0; ///< atomic number; 0: the file has none
 };
 
-/// Appends atoms to a structure, and residues when their identity changes.
-class Builder
+/// Adds an atom with a radius.
+void addBall(AtomTree& tree, const Identity& id, const openvdb::Vec3d& position, double radius)
 {
-public:
-    explicit Builder(Structure& out) : out_(out) { out_.hasRadii = true; }
+    AtomLine atom;
+    atom.chain = id.chain;
+    atom.residue = id.residue;
+    atom.name = id.atom;
+    atom.number = id.number;
+    atom.insertionCode = id.insertionCode;
+    atom.hetatm = id.hetero;
+    atom.element = id.element;
+    atom.position = position;
+    atom.radius = radius;
+    tree.add(atom);
+}
 
-    void startModel(int number)
-    {
-        const std::size_t here = out_.atoms.size();
-        if (!out_.models.empty()) {
-            Model& last = out_.models.back();
-            last.end = here;
-            if (last.begin == here) out_.models.pop_back();
-        }
-        out_.models.push_back({number, here, here});
-        newResidue_ = true;
-    }
-
-    void add(const Identity& id, const openvdb::Vec3d& position, double radius)
-    {
-        if (out_.models.empty()) startModel(1);
-        if (newResidue_ || !isSameResidue(id)) addResidue(id);
-        out_.atoms.push_back({position, id.atom, residue_, guessElement(id.atom, id.residue), '\0',
-                              1.0f, 0.0f, radius});
-    }
-
-    void finish()
-    {
-        if (!out_.models.empty()) out_.models.back().end = out_.atoms.size();
-        out_.asyms = out_.chains;
-    }
-
-private:
-    bool isSameResidue(const Identity& id) const
-    {
-        const Residue& last = out_.residues.back();
-        return last.number == id.number && last.name == id.residue &&
-               last.insertionCode == id.insertionCode &&
-               out_.chains[std::size_t(last.chain)] == id.chain;
-    }
-
-    void addResidue(const Identity& id)
-    {
-        const std::int32_t chain = chains_.index(id.chain, out_.chains);
-        const bool water = isWaterName(id.residue);
-        residue_ = static_cast<std::int32_t>(out_.residues.size());
-        out_.residues.push_back({id.residue, chain, chain, id.number, id.insertionCode, water,
-                                 id.hetero && !water, id.hetero});
-        newResidue_ = false;
-    }
-
-    Structure& out_;
-    NameTable chains_;
-    std::int32_t residue_ = 0;
-    bool newResidue_ = true;
-};
+/// The structure, whose atoms all have radii. What names tell of elements is not worth a line.
+Structure finished(AtomTree& tree)
+{
+    Structure out = tree.finish();
+    out.hasRadii = true;
+    out.guessed = 0;
+    return out;
+}
 
 /// "52A" -> 52 and 'A'; false, and `id` as it was, if it does not start with an integer.
 bool parseResidueNumber(string_view field, Identity& id)
@@ -173,6 +141,21 @@ Identity pqrIdentity(const Fields& fields, std::size_t size, bool hetero)
         parseResidueNumber(last.substr(1), id);
     }
     return id;
+}
+
+/// Takes the symbol of an element off the end of a line, as Open Babel writes it; 0 if there is
+/// none.
+int takeElement(Fields& fields)
+{
+    double number = 0.0;
+    constexpr std::size_t least = 10; // serial atom residue number x y z charge radius element
+    if (fields.size() < least || parseNumber(fields.back(), number) ||
+        !parseNumber(fields[fields.size() - 2], number) ||
+        !parseNumber(fields[fields.size() - 3], number))
+        return 0;
+    const int element = elementNumber(std::string(fields.back()));
+    if (element != 0) fields.pop_back();
+    return element;
 }
 
 /// What a name in an xyzrn file says of the atom; see readStructure().
@@ -203,8 +186,8 @@ Identity identityIn(string_view name)
 
 Structure readPqr(const std::string& text, const std::string& path)
 {
-    Structure out;
-    Builder builder(out);
+    AtomTree tree;
+    std::vector<float> charges;
     constexpr std::array<const char*, 5> names{"x", "y", "z", "charge", "radius"};
     int model = 0;
     for (LineReader lines(text); lines.next();) {
@@ -213,14 +196,18 @@ Structure readPqr(const std::string& text, const std::string& path)
             const Fields fields = splitFields(line);
             ++model;
             if (fields.size() > 1) parseInteger(fields[1], model);
-            builder.startModel(model);
+            tree.startModel(model);
         }
-        if (!isAtomRecord(line)) continue;
+        if (!isAtomRecord(line)) {
+            refuseMisspeltAtom(path, lines);
+            continue;
+        }
         const Place place{path, lines};
         const bool hetero = line[0] == 'H';
         Fields fields = splitFields(line.substr(hetero ? 6 : 4));
         constexpr std::size_t leftColumns = 4; // serial, atom, residue, number
         constexpr std::size_t columns = leftColumns + names.size();
+        const int element = takeElement(fields);
         if (fields.size() < columns) {
             fields = splitGlued(fields, std::min(leftColumns - 1, fields.size()));
         }
@@ -229,18 +216,20 @@ Structure readPqr(const std::string& text, const std::string& path)
                             inQuotes(line));
         }
         const auto [x, y, z, charge, radius] = lastNumbers(fields, names, place);
-        out.charges.push_back(float(charge));
-        builder.add(pqrIdentity(fields, fields.size() - names.size(), hetero), {x, y, z}, radius);
+        charges.push_back(float(charge));
+        Identity id = pqrIdentity(fields, fields.size() - names.size(), hetero);
+        id.element = element;
+        addBall(tree, id, {x, y, z}, radius);
     }
-    builder.finish();
+    Structure out = finished(tree);
+    out.charges = std::move(charges);
     return out;
 }
 
 Structure readXyzr(const std::string& text, const std::string& path)
 {
-    Structure out;
-    out.atoms.reserve(std::size_t(std::count(text.begin(), text.end(), '\n')) + 1);
-    Builder builder(out);
+    AtomTree tree;
+    tree.reserve(std::size_t(std::count(text.begin(), text.end(), '\n')) + 1);
     constexpr std::array<const char*, 4> names{"x", "y", "z", "radius"};
     Identity id;
     Fields fields;
@@ -258,16 +247,15 @@ Structure readXyzr(const std::string& text, const std::string& path)
         } else if (!id.chain.empty() || !id.atom.empty()) {
             id = Identity();
         }
-        builder.add(id, {x, y, z}, radius);
+        addBall(tree, id, {x, y, z}, radius);
     }
-    builder.finish();
-    return out;
+    return finished(tree);
 }
 
 Structure readXyzrn(const std::string& text, const std::string& path)
 {
-    Structure out;
-    Builder builder(out);
+    AtomTree tree;
+    std::vector<std::string> labels;
     constexpr std::array<const char*, 4> names{"x", "y", "z", "radius"};
     Fields fields;
     for (LineReader lines(text); lines.next();) {
@@ -278,10 +266,11 @@ Structure readXyzrn(const std::string& text, const std::string& path)
             fail(place, "expected x y z radius number name, got " + inQuotes(lines.line()));
         const auto [x, y, z, radius] = numbersFrom(fields, 0, names, place);
         const string_view name = fields.size() > names.size() ? fields.back() : string_view();
-        builder.add(identityIn(name), {x, y, z}, radius);
-        out.labels.emplace_back(name);
+        addBall(tree, identityIn(name), {x, y, z}, radius);
+        labels.emplace_back(name);
     }
-    builder.finish();
+    Structure out = finished(tree);
+    out.labels = std::move(labels);
     return out;
 }
 

@@ -13,7 +13,6 @@ namespace
 
 constexpr std::size_t dcdHeaderSize = 84;         // "CORD" and 20 words
 constexpr std::uint32_t largestRecord = 1u << 30; // of a record [byte]
-constexpr std::uint64_t marks = 8;                // two markers of a record [byte]
 
 std::uint32_t turned(std::uint32_t w)
 {
@@ -21,7 +20,8 @@ std::uint32_t turned(std::uint32_t w)
 }
 
 /// A .dcd file, read frame by frame. Of either byte order, with or without unit cells, fixed atoms
-/// and a fourth dimension (which is passed over); record markers of 4 bytes.
+/// and a fourth dimension (which is passed over); record markers of 4 or 8 bytes, as Fortran's
+/// compilers write them.
 class DcdFile : public Trajectory
 {
 public:
@@ -55,31 +55,41 @@ private:
         return swapped_ ? turned(value) : value;
     }
 
+    /// The marker of a record that comes next: its length.
+    std::uint64_t mark()
+    {
+        char bytes[8] = {};
+        if (!file_.read(bytes, mark_)) fail("cut short");
+        if (mark_ == 4) return word(bytes);
+        const std::uint64_t first = word(bytes), second = word(bytes + 4);
+        return swapped_ ? first << 32 | second : second << 32 | first;
+    }
+
     /// The content of the record that comes next.
     std::vector<char> record()
     {
-        char mark[4];
-        if (!file_.read(mark, 4)) fail("cut short");
-        const std::uint32_t size = word(mark);
+        const std::uint64_t size = mark();
         if (size > largestRecord)
             fail("expected a record of DCD, got one of " + std::to_string(size) + " bytes");
         if (size > size_ - std::uint64_t(file_.tellg())) fail("cut short");
         std::vector<char> content(size);
-        if (!file_.read(content.data(), size) || !file_.read(mark, 4)) fail("cut short");
-        if (word(mark) != size)
-            fail("a record of DCD ends with another length than it begins with");
+        if (!file_.read(content.data(), std::streamsize(size))) fail("cut short");
+        if (mark() != size) fail("a record of DCD ends with another length than it begins with");
         return content;
     }
 
     void readHeader()
     {
-        char first[8] = {};
-        file_.read(first, 8);
-        const bool known = file_ && std::memcmp(first + 4, "CORD", 4) == 0;
-        swapped_ = known && word(first) != dcdHeaderSize;
-        if (!known || word(first) != dcdHeaderSize)
-            fail("expected a trajectory in the DCD format, with record markers of 4 bytes, or in "
-                 "XTC");
+        char first[12] = {};
+        file_.read(first, sizeof first);
+        const bool narrow = file_ && std::memcmp(first + 4, "CORD", 4) == 0;
+        const bool wide = file_ && std::memcmp(first + 8, "CORD", 4) == 0;
+        mark_ = wide && !narrow ? 8 : 4;
+        swapped_ = first[0] == 0; // 84 is a byte in front or behind
+        file_.clear();
+        file_.seekg(0);
+        if ((!narrow && !wide) || mark() != dcdHeaderSize)
+            fail("expected a trajectory in the DCD format or in XTC");
         file_.seekg(0);
         const std::vector<char> header = record();
         const auto control = [&](std::size_t i) { return word(&header[4 + 4 * i]); };
@@ -119,6 +129,7 @@ private:
     {
         const std::uint64_t count = first || free_.empty() ? atoms_ : free_.size();
         constexpr std::uint64_t cellBytes = 48;
+        const auto marks = std::uint64_t(2 * mark_); // of a record
         return (cell_ ? cellBytes + marks : 0) + (fourth_ ? 4u : 3u) * (4 * count + marks);
     }
 
@@ -136,6 +147,7 @@ private:
         return out;
     }
 
+    std::streamsize mark_ = 4; ///< bytes of a marker
     bool swapped_ = false, cell_ = false, fourth_ = false;
     std::size_t frames_ = 0;
     std::vector<std::size_t> free_; ///< atoms that move; empty: all

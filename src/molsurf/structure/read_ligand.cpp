@@ -3,11 +3,14 @@
 
 #include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/element.h"
+#include "molsurf/structure/guess_element.h"
+#include "molsurf/structure/residue_names.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -33,7 +36,11 @@ public:
             while (trimmed(lines_.line()) != "$$$$" && lines_.next()) {
             }
         }
-        return tree_.finish();
+        Structure out = tree_.finish();
+        const auto isDrawn = [](const Model& m) { return !m.problem.empty(); };
+        if (!out.models.empty() && std::all_of(out.models.begin(), out.models.end(), isDrawn))
+            failAt(path_, out.models[0].problem);
+        return out;
     }
 
 private:
@@ -83,9 +90,9 @@ private:
             }
         }
         if (drawn_ && flat_ && atoms_ > 1)
-            failAt(path_, "line " + std::to_string(line) +
-                              ": the molecule is drawn in two dimensions, expected three [hint: "
-                              "Open Babel (gen3d) and RDKit (EmbedMolecule) make conformers]");
+            tree_.spoil("line " + std::to_string(line) +
+                        ": the molecule is drawn in two dimensions, expected three [hint: "
+                        "Open Babel (gen3d) and RDKit (EmbedMolecule) make conformers]");
     }
 
     void readV2000Atom()
@@ -144,6 +151,8 @@ private:
         flat_ = flat_ && position.z() == 0.0;
         AtomLine atom;
         atom.element = elementNumber(std::string(symbol));
+        atom.guess = false;
+        if (isParticleSymbol(symbol)) atom.role = AtomRole::Particle;
         const std::string name = std::string(symbol) + std::to_string(++serials_[atom.element]);
         atom.residue = "UNL"; // as the Protein Data Bank calls an unknown ligand
         atom.name = name;
@@ -161,23 +170,48 @@ private:
     bool drawn_ = false, flat_ = true;
 };
 
-/// A substructure of a .mol2 file: "ALA12" is residue ALA 12.
+/// A residue of a .mol2 file.
 struct Substructure {
     std::string name;
     int number = 0;
     char insertionCode = ' ';
 };
 
-Substructure substructureOf(string_view id, string_view name)
+/// A line of the section SUBSTRUCTURE.
+struct SubstructureLine {
+    std::string chain, residue; ///< empty if it has none
+};
+
+/// How many letters of "SO4404" or "ALA12" are the name of the residue: those of `known`, if the
+/// text begins so; else the longest known name that digits follow; else all but the digits at the
+/// end.
+std::size_t nameLength(string_view text, std::size_t digits, const std::string& known)
+{
+    const auto isNumber = [&](std::size_t from) {
+        const std::size_t begin = from + (from < text.size() && text[from] == '-');
+        return begin < text.size() &&
+               std::all_of(text.begin() + std::ptrdiff_t(begin), text.end(), isDigit);
+    };
+    if (!known.empty() && text.substr(0, known.size()) == known && isNumber(known.size()))
+        return known.size();
+    for (std::size_t n = std::min<std::size_t>(5, text.size()); n > digits; --n)
+        if (isDigit(text[n - 1]) && isNumber(n) &&
+            nameClass(text.substr(0, n)) != NameClass::Unknown)
+            return n;
+    return digits;
+}
+
+Substructure substructureOf(string_view id, string_view name, const std::string& known)
 {
     Substructure out;
     parseInteger(id, out.number);
     std::size_t end = name.size();
     const bool code = end > 2 && std::isalpha(static_cast<unsigned char>(name[end - 1])) &&
-                      std::isdigit(static_cast<unsigned char>(name[end - 2]));
+                      isDigit(name[end - 2]);
     std::size_t digits = end -= code;
-    while (digits > 0 && std::isdigit(static_cast<unsigned char>(name[digits - 1]))) --digits;
+    while (digits > 0 && isDigit(name[digits - 1])) --digits;
     if (digits > 0 && name[digits - 1] == '-') --digits; // ALA-5
+    digits = nameLength(name.substr(0, end), digits, known);
     int number = 0;
     if (digits > 0 && digits < end && parseInteger(name.substr(digits, end - digits), number)) {
         out.number = number;
@@ -188,6 +222,18 @@ Substructure substructureOf(string_view id, string_view name)
     return out;
 }
 
+/// Whether a type can be one of SYBYL: "C.ar", "H", "Cl".
+bool isSybyl(string_view type)
+{
+    const string_view symbol = type.substr(0, type.find('.'));
+    if (symbol.size() < type.size() || symbol == "LP" || symbol == "Du") return true;
+    const auto isUpper = [](char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; };
+    if (symbol.empty() || !isUpper(symbol[0]) || (symbol.size() == 2 && isUpper(symbol[1])))
+        return false;
+    return elementNumber(std::string(symbol)) != 0 || symbol == "Any" || symbol == "Hal" ||
+           symbol == "Het" || symbol == "Hev";
+}
+
 /// Reads the sections of a .mol2 file.
 class Mol2Reader
 {
@@ -196,7 +242,7 @@ public:
 
     Structure read()
     {
-        readChains();
+        readAhead();
         std::string section;
         int model = 0;
         for (LineReader lines(text_); lines.next();) {
@@ -215,8 +261,11 @@ public:
     }
 
 private:
-    /// Finds the chains of substructures, which come after the atoms.
-    void readChains()
+    enum Column { Id, Name, X, Y, Z, Type, SubstId, SubstName, Charge };
+
+    /// Finds what comes after the atoms, the chains and names of substructures, and whether the
+    /// types of a molecule are those of SYBYL.
+    void readAhead()
     {
         std::string section;
         int model = 0;
@@ -227,17 +276,24 @@ private:
                 model += section == "@<TRIPOS>MOLECULE";
                 continue;
             }
-            constexpr std::size_t chain = 5; // id name root_atom type dictionary chain
+            if (section == "@<TRIPOS>ATOM") {
+                const Fields fields = splitFields(line);
+                if (fields.size() > Type && !isSybyl(fields[Type])) foreign_.insert(model);
+                continue;
+            }
+            constexpr std::size_t chain = 5, residue = 6; // id name root_atom type dictionary
             if (section != "@<TRIPOS>SUBSTRUCTURE") continue;
             const Fields fields = splitFields(line);
-            if (fields.size() > chain && fields[chain] != "****")
-                chains_[{model, std::string(fields[0])}] = fields[chain];
+            if (fields.size() <= chain) continue;
+            SubstructureLine& known = substructures_[{model, std::string(fields[0])}];
+            if (fields[chain] != "****") known.chain = fields[chain];
+            if (fields.size() > residue && fields[residue] != "****")
+                known.residue = fields[residue];
         }
     }
 
     void add(const LineReader& lines, int model)
     {
-        enum Column { Id, Name, X, Y, Z, Type, SubstId, SubstName, Charge };
         const Fields fields = splitFields(lines.line());
         AtomLine atom;
         bool good = fields.size() > Type;
@@ -249,31 +305,50 @@ private:
         if (!good)
             failAtLine(path_, lines,
                        "expected number, name, x, y, z and type, got " + inQuotes(lines.line()));
-        const string_view type = fields[Type].substr(0, fields[Type].find('.'));
-        if (type == "LP") return; // a lone pair
-        Substructure residue;
-        if (fields.size() > SubstName) residue = substructureOf(fields[SubstId], fields[SubstName]);
-        std::string chain;
+        SubstructureLine known;
         if (fields.size() > SubstId) {
-            const auto known = chains_.find({model, std::string(fields[SubstId])});
-            if (known != chains_.end()) chain = known->second;
+            const auto found = substructures_.find({model, std::string(fields[SubstId])});
+            if (found != substructures_.end()) known = found->second;
         }
+        Substructure residue;
+        if (fields.size() > SubstName)
+            residue = substructureOf(fields[SubstId], fields[SubstName], known.residue);
         double charge = 0.0;
         if (fields.size() > Charge && parseNumber(fields[Charge], charge))
             charges_.push_back(float(charge));
-        atom.chain = chain;
+        atom.chain = known.chain;
         atom.residue = residue.name;
         atom.name = fields[Name];
         atom.number = residue.number;
         atom.insertionCode = residue.insertionCode;
         atom.hetatm = !isStandardResidue(residue.name);
-        atom.element = elementNumber(std::string(type));
+        findElement(fields[Type], foreign_.count(model) > 0, atom);
         tree_.add(atom);
+    }
+
+    /// By the type, if it is one of SYBYL; of others by the names of ions, then by the type.
+    static void findElement(string_view type, bool foreign, AtomLine& atom)
+    {
+        const string_view symbol = type.substr(0, type.find('.'));
+        if (symbol == "LP" || symbol == "Du") {
+            atom.role = AtomRole::Particle;
+            return;
+        }
+        if (!foreign || symbol.size() < type.size()) {
+            atom.element = elementNumber(std::string(symbol));
+            return;
+        }
+        const bool ion = nameClass(atom.residue) == NameClass::Ion;
+        if (!ion) atom.element = elementOfForceFieldType(type);
+        if (!ion && atom.element == 0 && isSybyl(type))
+            atom.element = elementNumber(std::string(type));
+        if (type == "EP" || type == "lp") atom.role = AtomRole::Particle;
     }
 
     const std::string &text_, &path_;
     AtomTree tree_;
-    std::map<std::pair<int, std::string>, std::string> chains_; ///< by model and substructure
+    std::map<std::pair<int, std::string>, SubstructureLine> substructures_; ///< by model and number
+    std::set<int> foreign_; ///< models whose types are not SYBYL's
     std::vector<float> charges_;
 };
 

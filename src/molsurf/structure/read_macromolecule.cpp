@@ -8,13 +8,11 @@
 #include "molsurf/structure/binary_cif.h"
 #include "molsurf/structure/gemmi_model.h"
 #include "molsurf/structure/ihm_spheres.h"
-#include "molsurf/structure/pdb_text.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <gemmi/cif.hpp>
 #include <gemmi/mmcif.hpp>
 #include <gemmi/numb.hpp>
-#include <gemmi/pdb.hpp>
 
 #include <algorithm>
 #include <array>
@@ -62,8 +60,65 @@ Block& blockWithAtoms(gemmi::cif::Document& document, const std::string& path, S
     for (const Block& block : document.blocks) {
         if (block.has_tag("_chem_comp_atom.atom_id")) hint = " [it describes a chemical component]";
         if (block.has_tag("_atom_site_label")) hint = " [it is a small-molecule CIF]";
+        if (block.has_tag("_refln.index_h") || block.has_tag("_diffrn_refln.index_h"))
+            hint =
+                " [it has structure factors, the reflections of a crystal; hint: take the file of "
+                "the coordinates]";
     }
     failAt(path, "no atoms: expected _atom_site.Cartn_x and others of mmCIF, got none" + hint);
+}
+
+/// Makes a loop of one row of a category whose values are given as pairs.
+void makeLoop(Block& block, const std::string& category)
+{
+    std::vector<std::string> tags, values;
+    auto& items = block.items;
+    const auto isPair = [&](const gemmi::cif::Item& item) {
+        return item.type == gemmi::cif::ItemType::Pair &&
+               gemmi::istarts_with(item.pair[0], category);
+    };
+    for (const gemmi::cif::Item& item : items) {
+        if (!isPair(item)) continue;
+        tags.push_back(item.pair[0]);
+        values.push_back(item.pair[1]);
+    }
+    if (tags.empty()) return;
+    items.erase(std::remove_if(items.begin(), items.end(), isPair), items.end());
+    items.emplace_back(gemmi::cif::LoopArg{});
+    items.back().loop.tags = std::move(tags);
+    items.back().loop.values = std::move(values);
+}
+
+/// Fills in the author's numbers that are "." or "?": by label_seq_id, and where there is none
+/// either by counting, on from one molecule to the next.
+void completeNumbers(gemmi::cif::Loop& loop)
+{
+    const int author = loop.find_tag("_atom_site.auth_seq_id");
+    const int label = loop.find_tag("_atom_site.label_seq_id");
+    const int asym = loop.find_tag("_atom_site.label_asym_id");
+    const int atom = loop.find_tag("_atom_site.label_atom_id");
+    const auto isNull = [](const std::string& text) { return text == "." || text == "?"; };
+    std::string chain, first; // of the molecule that is counted
+    int count = 0;
+    const std::size_t width = loop.width();
+    for (std::size_t begin = 0; begin + width <= loop.values.size(); begin += width) {
+        const auto value = [&](int column) -> std::string& {
+            return loop.values[begin + std::size_t(column)];
+        };
+        if (!isNull(value(author))) continue;
+        if (label >= 0 && !isNull(value(label))) {
+            value(author) = value(label);
+            continue;
+        }
+        if (value(asym) != chain) count = 0;
+        const std::string name = atom >= 0 ? value(atom) : std::string();
+        if (value(asym) != chain || name == first) {
+            ++count;
+            first = name;
+        }
+        chain = value(asym);
+        value(author) = std::to_string(count);
+    }
 }
 
 /// Adds the columns without which gemmi's reader finds no atoms, if they can be made up.
@@ -75,19 +130,21 @@ void completeAtomSite(Block& block, const std::string& path)
         const char* tag;
         const char* value;
     };
-    constexpr std::array<Default, 3> defaults{
-        {{"label_alt_id", "."}, {"occupancy", "1"}, {"B_iso_or_equiv", "0"}}};
+    constexpr std::array<Default, 4> defaults{
+        {{"label_alt_id", "."}, {"occupancy", "1"}, {"B_iso_or_equiv", "0"}, {"type_symbol", "?"}}};
     std::vector<Default> missing;
     for (const Default& column : defaults) {
         if (!has(column.tag)) missing.push_back(column);
     }
     const bool copySequence = !has("auth_seq_id") && has("label_seq_id");
-    for (const char* tag : {"id", "type_symbol", "label_asym_id", "Cartn_y", "Cartn_z"}) {
+    for (const char* tag : {"id", "label_asym_id", "Cartn_y", "Cartn_z"}) {
         if (!has(tag)) failAt(path, std::string("_atom_site has no column ") + tag);
     }
     if (!copySequence && !has("auth_seq_id")) failAt(path, "_atom_site has no column auth_seq_id");
-    if (!item || (missing.empty() && !copySequence)) return;
+    if (!item) return;
     gemmi::cif::Loop& loop = item->loop;
+    if (!copySequence) completeNumbers(loop);
+    if (missing.empty() && !copySequence) return;
     const int sequence = loop.find_tag("_atom_site.label_seq_id");
     const std::size_t rows = loop.length(), width = loop.width();
     std::vector<std::string> values;
@@ -102,6 +159,7 @@ void completeAtomSite(Block& block, const std::string& path)
         loop.tags.push_back(std::string("_atom_site.") + column.tag);
     if (copySequence) loop.tags.push_back("_atom_site.auth_seq_id");
     loop.values = std::move(values);
+    if (copySequence) completeNumbers(loop);
 }
 
 /// Columns of a matrix and a vector in a table of operators.
@@ -190,6 +248,15 @@ std::vector<Assembly> readAssemblies(Block& block)
     return assemblies;
 }
 
+/// Whether a block says that its B factors are pLDDT, as AlphaFold and ModelCIF do.
+bool namesPlddt(Block& block)
+{
+    for (const char* column : {"name", "type"})
+        for (const std::string& text : block.find_values(std::string("_ma_qa_metric.") + column))
+            if (gemmi::to_lower(text).find("plddt") != std::string::npos) return true;
+    return false;
+}
+
 /// Takes out what the atoms do not need: faster, and nothing in it can fail.
 void keepOnlyAtoms(Block& block)
 {
@@ -209,19 +276,19 @@ void keepOnlyAtoms(Block& block)
 /// The atoms of a block, with what gemmi reads of it.
 void addAtoms(Block& block, const std::string& path, const Progress& progress, Structure& out)
 {
+    makeLoop(block, "_atom_site.");
     completeAtomSite(block, path);
     const bool entitiesKnown = block.has_tag("_entity.type");
     keepOnlyAtoms(block);
     gemmi::Structure tree = gemmi::make_structure_from_block(block);
     stopIfCancelled(progress);
-    if (!entitiesKnown) guessPolymers(tree, true);
     std::vector<int> numbers;
     for (const gemmi::Model& model : tree.models) {
         if (model.chains.empty()) continue;
         numbers.push_back(numbers.empty() ? 1 : numbers.back() + 1);
         setNumber(numbers.back(), model);
     }
-    copyTree(tree, numbers, true, entitiesKnown, out);
+    copyTree(tree, numbers, entitiesKnown, out);
 }
 
 Structure structureOf(gemmi::cif::Document& document, const std::string& path,
@@ -231,6 +298,7 @@ Structure structureOf(gemmi::cif::Document& document, const std::string& path,
     Structure out;
     Block& block = blockWithAtoms(document, path, out);
     out.assemblies = readAssemblies(block);
+    out.plddt = namesPlddt(block);
     Block spheres("");
     if (hasSpheres(block)) spheres.items = block.items;
     if (block.has_tag("_atom_site.Cartn_x")) addAtoms(block, path, progress, out);
@@ -259,7 +327,7 @@ Structure readDocument(std::string all, const std::string& path, const Progress&
 /// The categories that structureOf() reads.
 bool isRead(const std::string& category)
 {
-    constexpr std::array<const char*, 10> read{"_atom_site",
+    constexpr std::array<const char*, 11> read{"_atom_site",
                                                "_entity",
                                                "_struct_asym",
                                                "_pdbx_struct_oper_list",
@@ -268,38 +336,13 @@ bool isRead(const std::string& category)
                                                "_ihm_sphere_obj_site",
                                                "_entity_poly_seq",
                                                "_chem_comp_atom",
-                                               "_atom_site_label"};
+                                               "_atom_site_label",
+                                               "_ma_qa_metric"};
     return std::any_of(read.begin(), read.end(),
                        [&](const char* name) { return gemmi::iequal(category, name); });
 }
 
 } // namespace
-
-Structure readPdb(std::string text, const std::string& path, const Progress& progress)
-{
-    if (text.back() != '\n') text += '\n';
-    PdbRecords records = preparePdb(text, path);
-    stopIfCancelled(progress);
-    gemmi::Structure parsed;
-    try {
-        parsed = gemmi::read_pdb_from_memory(text.data(), text.size(), path);
-        guessPolymers(parsed, false);
-    } catch (const std::exception& error) {
-        failAt(path, oneLine(error, path));
-    }
-    std::string().swap(text);
-    stopIfCancelled(progress);
-    const auto found =
-        std::count_if(parsed.models.begin(), parsed.models.end(),
-                      [](const gemmi::Model& model) { return !model.chains.empty(); });
-    if (std::size_t(found) > records.models.size())
-        failAt(path, "is damaged: it has atoms in lines that are no records of them");
-    Structure out;
-    copyTree(parsed, records.models, false, false, out);
-    out.assemblies = std::move(records.assemblies);
-    out.warnings = std::move(records.warnings);
-    return out;
-}
 
 Structure readMmcif(std::string text, const std::string& path, const Progress& progress)
 {

@@ -2,14 +2,10 @@
 #include "molsurf/structure/readers.h"
 
 #include "molsurf/structure/atom_tree.h"
-#include "molsurf/structure/element.h"
 #include "molsurf/structure/text_fields.h"
-
-#include <gemmi/elem.hpp>
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 namespace molsurf
 {
@@ -59,7 +55,6 @@ AtomLine groAtom(const LineReader& lines, std::size_t width, const std::string& 
                            inQuotes(line));
         atom.position[int(axis)] = perNanometre * value;
     }
-    atom.element = guessElement(std::string(atom.name), std::string(atom.residue));
     return atom;
 }
 
@@ -94,18 +89,6 @@ void readGroFrame(LineReader& lines, const std::string& path, AtomTree& tree)
                        inQuotes(lines.line()));
 }
 
-/// The element of a mass [u], if it is that of one to 0.1 %, else of a name. (A CH2 group is 0.14 %
-/// heavier than nitrogen.)
-int elementOfMass(double mass, string_view name, string_view residue)
-{
-    constexpr double tolerance = 1e-3;
-    for (int z = 1; z <= maxElement; ++z) {
-        const double weight = gemmi::molecular_weight(static_cast<gemmi::El>(z));
-        if (weight > 0.0 && std::abs(mass - weight) < tolerance * weight) return z;
-    }
-    return guessElement(std::string(name), std::string(residue));
-}
-
 AtomLine psfAtom(const LineReader& lines, const std::string& path)
 {
     enum Column { Serial, Segment, Number, Residue, Name, Type, Charge, Mass, Count };
@@ -130,7 +113,9 @@ AtomLine psfAtom(const LineReader& lines, const std::string& path)
     atom.chain = fields[Segment];
     atom.residue = fields[Residue];
     atom.name = fields[Name];
-    atom.element = elementOfMass(mass, atom.name, atom.residue);
+    constexpr double lightest = 0.5; // [u]: lone pairs have none, Drude particles 0.4
+    if (mass < lightest) atom.role = AtomRole::Particle;
+    atom.mass = mass;
     return atom;
 }
 

@@ -6,6 +6,7 @@
 #include "molsurf/structure/beads.h"
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/load_text.h"
+#include "molsurf/structure/residue_kind.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <cmath>
@@ -57,13 +58,15 @@ Structure parseAndCheck(StructureFormat format, std::string text, const std::str
     structure.source = path == "-" ? path : std::filesystem::path(path).filename().string();
     structure.format = row.name;
     if (structure.atoms.empty()) {
-        const bool records = format == StructureFormat::Pdb || format == StructureFormat::Pqr;
+        const bool records = format == StructureFormat::Pdb || format == StructureFormat::Pdbqt ||
+                             format == StructureFormat::Pqr;
         throw Error(ErrorKind::Input,
                     displayName(path) + ": no atoms: read as " + structure.format + ", expected " +
                         (records ? "ATOM or HETATM records" : "coordinates") + ", got none");
     }
     checkCoordinates(structure, path);
     numberModels(structure);
+    classifyResidues(structure);
     if (!structure.hasRadii) markBeads(structure);
     return structure;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Reads the files of structureFormats(), each also .gz, and standard input.
+/// Reads the files of structureFormats(), each also .gz, .bz2 or .xz, and standard input.
 
 #include "molsurf/progress.h"
 #include "molsurf/structure/detect_format.h"
@@ -17,13 +17,16 @@ namespace molsurf
 /// Reads a structure.
 ///
 /// The format is found from the content; the extension decides only where the content leaves a
-/// choice (PDB or PQR). gzip is known by its first bytes, whatever the name.
+/// choice (PDB or PQR). What is packed is known by its first bytes, whatever
+/// the name.
 ///
 /// The readers accept more than the descriptions of the formats allow:
 /// - PDB: columns 73-80 of pre-1992 files, which hold the entry name and a line number, are
-///   ignored. Atoms after the first END are ignored with a warning. Hybrid-36 numbers are read.
-///   In standard residues an element that no such residue has (a CA in column 13) is corrected.
-/// - mmCIF: label_alt_id, occupancy, B_iso_or_equiv and auth_seq_id may be missing.
+///   ignored. END ends a model, as VMD writes frames. Hybrid-36 numbers are read. Columns 18-21 are
+///   the name of a residue where programs use them so. In standard residues an element that no such
+///   residue has (a CA in column 13) is corrected; guessElement() finds those that are missing.
+/// - mmCIF: label_alt_id, occupancy, B_iso_or_equiv and auth_seq_id may be missing, or a number be
+///   "." or "?", for which label_seq_id stands in. One atom may be given as pairs.
 /// - PQR: columns are separated by blanks, the chain column is optional, numbers may be glued by
 ///   a minus sign. END and TER do not end the file, so files may be concatenated.
 /// - xyzr: the last four columns are x y z r. Three columns before them are chain, residue number
@@ -33,7 +36,9 @@ namespace molsurf
 ///   number, insertion code or x, residue, atom, anything) gives these; other names are kept only.
 ///
 /// - Integrative models: see addSpheres(). Atoms beside the spheres have no radii of their own.
-/// - .gro, .psf, .sdf, .mol and .mol2: see their readers.
+/// - PDBQT, .gro, .psf, .sdf, .mol, .mol2 and .xyz: see their readers.
+///
+/// classifyResidues() then says what each residue is, and markBeads() finds beads.
 ///
 /// @param[in] maxBytes  that the text may have; see loadText()
 /// @param[in] progress  may end the reading between its stages: unpacking, parsing, making atoms

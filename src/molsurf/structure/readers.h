@@ -12,14 +12,22 @@
 namespace molsurf
 {
 
-// read_macromolecule: PDB, mmCIF and BinaryCIF by way of gemmi.
+// read_pdb: PDB and PDBQT.
 
 /// Reads the text of a PDB file; see readStructure() for what is accepted.
-/// @param[in] text  consumed, to save memory
 /// @param[in] progress  may end the reading between its stages
-/// @throws Error(ErrorKind::Input) if it cannot be read; a text without atoms gives none
+/// @throws Error(ErrorKind::Input) with the line, if the coordinates of an atom are no numbers, or
+/// if
+///         a record is nearly ATOM; a text without atoms gives none
 /// @throws Cancelled if the progress object says so
 Structure readPdb(std::string text, const std::string& path, const Progress& progress);
+
+/// Reads the text of a PDBQT file of AutoDock: a PDB file with charges in columns 71-76 and types
+/// of AutoDock from column 78 on, which tell the elements. Each MODEL is a pose.
+/// @throws Error as readPdb()
+Structure readPdbqt(std::string text, const std::string& path, const Progress& progress);
+
+// read_macromolecule: mmCIF and BinaryCIF by way of gemmi.
 
 /// Reads the text of an mmCIF file: the first data block that has atoms, or spheres of an
 /// integrative model.
@@ -55,10 +63,18 @@ Structure readXyzrn(const std::string& text, const std::string& path);
 Structure readSdf(const std::string& text, const std::string& path);
 
 /// Reads the molecules of a .mol2 file; each is a model. Residues are its substructures, with
-/// numbers and chains if they are given; atoms have charges if all lines have one. Types ("C.3")
-/// tell the elements; lone pairs are left out.
+/// numbers, names and chains if they are given; atoms have charges if all lines have one. The types
+/// of SYBYL ("C.3") tell the elements; where a molecule has those of GAFF, Amber or CHARMM, these
+/// and the names do. Lone pairs and dummies are particles.
 /// @throws Error(ErrorKind::Input) with the line, if it is not as described
 Structure readMol2(const std::string& text, const std::string& path);
+
+/// Reads an .xyz file: the number of atoms, a comment, and a line with element, x, y and z for
+/// each; further frames are models. The comment may name the columns
+/// (Properties=species:S:1:pos:R:3).
+/// Where some words are no symbols (CB), all are names of atoms.
+/// @throws Error(ErrorKind::Input) with the line, if it is not as described
+Structure readXyz(const std::string& text, const std::string& path);
 
 // read_simulation: the files of GROMACS, and of CHARMM, X-PLOR and NAMD.
 

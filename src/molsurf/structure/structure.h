@@ -16,6 +16,24 @@
 namespace molsurf
 {
 
+/// What a residue is; classifyResidues() decides. docs/structures.md has the table.
+enum class ResidueKind : std::uint8_t {
+    Protein,  ///< a standard amino acid of a chain
+    Nucleic,  ///< a standard nucleotide of a chain
+    Modified, ///< another link or the cap of a chain
+    Water,
+    Ion,    ///< an atom alone; rolesIn() tells free ones from bound ones
+    Buffer, ///< salts, buffers, solvents, cryoprotectants, by name
+    Lipid,  ///< lipids and detergents
+    Sugar,
+    Ligand,   ///< any other molecule
+    Particle, ///< has no atoms: virtual sites, Drude particles, lone pairs
+    Bead      ///< stands for several atoms, and its name says no more
+};
+
+/// What a file says of the entity that a residue belongs to.
+enum class EntityHint : std::uint8_t { None, Polymer, Water, Other };
+
 /// A residue's identity, and what decides whether its atoms are kept.
 struct Residue {
     std::string name;    ///< "ALA", "HOH"
@@ -23,9 +41,22 @@ struct Residue {
     std::int32_t asym;   ///< index into Structure::asyms: the name that assemblies use
     std::int32_t number; ///< sequence number in the file
     char insertionCode;  ///< ' ' if none
-    bool water;          ///< by its name: HOH, WAT, DOD, TIP3, SOL, ...
-    bool hetero;         ///< ligand or ion: not water, and not part of a polymer chain
     bool hetatm = false; ///< whether its record in the file is HETATM
+    ResidueKind kind = ResidueKind::Protein;
+    EntityHint entity = EntityHint::None;
+
+    bool water() const { return kind == ResidueKind::Water; }
+    /// A link of a chain, or a bead.
+    bool polymer() const { return kind <= ResidueKind::Modified || kind == ResidueKind::Bead; }
+    /// Ligands, ions and what else is neither water nor of a chain.
+    bool hetero() const { return !water() && !polymer(); }
+};
+
+/// What is in a file in the place of an atom.
+enum class AtomRole : std::uint8_t {
+    Atom,        ///< or a bead
+    Particle,    ///< none: a virtual site, a Drude particle, a lone pair
+    CoarserScale ///< a sphere of residues for which the model has finer ones
 };
 
 /// One atom.
@@ -35,6 +66,7 @@ struct Atom {
     std::int32_t residue;    ///< index into Structure::residues
     std::uint8_t element;    ///< atomic number; 0 if unknown; hydrogen and deuterium are 1
     char altloc;             ///< '\0' if the atom has no alternate location
+    AtomRole role;           ///< what it is if it is no atom
     float occupancy;         ///< in [0, 1]
     float bFactor;           ///< [Å^2]
     double radius;           ///< the file's own [Å]; < 0 if it gives none
@@ -65,6 +97,7 @@ struct Assembly {
 struct Model {
     int number; ///< as in the file
     std::size_t begin, end;
+    std::string problem = {}; ///< why no surface can be made of it; empty if one can
 };
 
 /// The kind of particles that the atoms of a file are: atoms or beads, see markBeads().
@@ -86,12 +119,14 @@ struct Structure {
     std::vector<std::string> asyms;  ///< label_asym_id in mmCIF; elsewhere the same as chains
     std::vector<Assembly> assemblies;
     BeadKind beads = BeadKind::None;
-    std::vector<float> charges;        ///< of the atoms of a PQR or .mol2 file [e]; else empty
-    std::vector<std::string> labels;   ///< of the atoms of an xyzrn file: the last column as it
-                                       ///< stands there; else empty
-    bool hasRadii = false;             ///< true if every atom has the file's own radius
-    bool placed = true;                ///< false if the atoms have no places yet, which then are
-                                       ///< all 0
+    std::vector<float> charges;      ///< of the atoms of a PQR or .mol2 file [e]; else empty
+    std::vector<std::string> labels; ///< of the atoms of an xyzrn file: the last column as it
+                                     ///< stands there; else empty
+    bool hasRadii = false;           ///< true if every atom has the file's own radius
+    bool placed = true;              ///< false if the atoms have no places yet, which then are
+                                     ///< all 0
+    bool plddt = false;      ///< whether the file says that B factors are the pLDDT of a prediction
+    std::size_t guessed = 0; ///< atoms of the first model whose elements come from names or masses
     std::vector<std::string> warnings; ///< one line each: parts of the file that were ignored
 };
 

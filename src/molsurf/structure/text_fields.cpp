@@ -4,6 +4,7 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstring>
 
@@ -15,6 +16,22 @@ namespace
 bool isBlank(char c)
 {
     return c == ' ' || c == '\t' || c == '\r';
+}
+
+/// The number of letters to change, to add or to leave out.
+std::size_t editDistance(std::string_view a, std::string_view b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t corner = row[0]++;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t swapped = corner + (a[i] != b[j]);
+            corner = row[j + 1];
+            row[j + 1] = std::min({corner + 1, row[j] + 1, swapped});
+        }
+    }
+    return row.back();
 }
 
 template<typename Number>
@@ -72,6 +89,16 @@ bool parseInteger(std::string_view field, int& value)
     return parse(field, value);
 }
 
+bool isDigit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+bool isLetter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
 std::string_view trimmed(std::string_view text)
 {
     while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
@@ -84,6 +111,30 @@ bool isAtomRecord(std::string_view line)
     if (line.substr(0, 6) == "HETATM") return true;
     return line.substr(0, 4) == "ATOM" && line.size() > 4 &&
            (isBlank(line[4]) || std::isdigit(static_cast<unsigned char>(line[4])));
+}
+
+void refuseMisspeltAtom(const std::string& path, const LineReader& lines)
+{
+    const std::string_view line = lines.line();
+    constexpr std::size_t shortest = 3, longest = 7; // of the words
+    std::string word;
+    for (const char c : line) {
+        if (!std::isalpha(static_cast<unsigned char>(c)) || word.size() > longest) break;
+        word += char(std::toupper(static_cast<unsigned char>(c)));
+    }
+    if (word.size() < shortest || word.size() > longest) return;
+    std::string sorted = word;
+    std::sort(sorted.begin(), sorted.end());
+    const bool turned = sorted == "AMOT"; // "ATMO"
+    if (!turned && editDistance(word, "ATOM") > 1 && editDistance(word, "HETATM") > 2) return;
+    std::size_t numbers = 0;
+    for (const std::string_view field : splitFields(line)) {
+        double value = 0.0;
+        numbers += field.find('.') != std::string_view::npos && parseNumber(field, value);
+    }
+    if (numbers >= 3)
+        failAtLine(path, lines,
+                   "expected ATOM or HETATM before coordinates, got " + inQuotes(line));
 }
 
 std::string inQuotes(std::string_view text)

@@ -44,12 +44,21 @@ bool parseNumber(std::string_view field, double& value);
 /// The same for an integer.
 bool parseInteger(std::string_view field, int& value);
 
+/// True for 0 to 9 and for a to z and A to Z, whatever the locale.
+bool isDigit(char c);
+bool isLetter(char c);
+
 /// Without the blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 
 /// True for an ATOM or HETATM line of a PDB or PQR file; the serial number may be glued to the
 /// name.
 bool isAtomRecord(std::string_view line);
+
+/// Refuses a line that has coordinates and begins with a word that is nearly ATOM or HETATM, as
+/// "ATAM" or "Atom". Such an atom would be lost.
+/// @throws Error(ErrorKind::Input) that names the line
+void refuseMisspeltAtom(const std::string& path, const LineReader& lines);
 
 /// A text for an error message: in quotes, one line, at most 60 characters.
 std::string inQuotes(std::string_view text);

@@ -61,6 +61,19 @@ TEST(Altloc, AnAtomWithOneLocationStays)
     EXPECT_EQ(chosen(atom("CA", 'B', "SER", 1, 0.2) + atom("CB", 'A', "SER", 1, 0.5)), "CA:B CB:A");
 }
 
+// Atoms of one reading beside those of another would be bonded to none.
+TEST(Altloc, ReadingsWithAtomsOfTheirOwnStayWhole)
+{
+    const std::string a = atom("CB", 'A', "SER", 8, 0.5) + atom("OG", 'A', "SER", 8, 0.5);
+    const std::string b = atom("CB", 'B', "SER", 8, 0.5) + atom("OG", 'B', "SER", 8, 0.5) +
+                          atom("HG", 'B', "SER", 8, 0.43);
+    EXPECT_EQ(chosen(atom("N", ' ', "SER", 8, 1) + a + b), "N CB:A OG:A");
+    EXPECT_EQ(chosen(atom("CB", 'A', "SER", 8, 0.4) + atom("OG", 'A', "SER", 8, 0.4) + b),
+              "CB:B OG:B HG:B");
+    // A label that shares no atom with another stays beside it.
+    EXPECT_EQ(chosen(a + b + atom("N", 'C', "SER", 8, 0.3)), "CB:A OG:A N:C");
+}
+
 TEST(Altloc, OfDifferentResiduesOneStays)
 {
     const std::string text = atom("N", 'A', "SER", 22, 0.2) + atom("N", 'B', "SER", 22, 0.2) +

@@ -23,8 +23,9 @@ Structure threeChains()
     s.source = "made";
     s.chains = s.asyms = {"A", "B", "C"};
     for (std::int32_t i = 0; i < 3; ++i) {
-        s.residues.push_back({"GLY", i, i, 1, ' ', false, false});
-        s.atoms.push_back({openvdb::Vec3d(1, 2, 3 + i), "CA", i, 6, '\0', 1, 0, -1});
+        s.residues.push_back({"GLY", i, i, 1, ' '});
+        s.atoms.push_back(
+            {openvdb::Vec3d(1, 2, 3 + i), "CA", i, 6, '\0', AtomRole::Atom, 1, 0, -1});
     }
     s.models = {{1, 0, 3}};
     return s;
@@ -47,7 +48,7 @@ TEST(Assembly, OfTheDimer)
         EXPECT_EQ(dry.balls.size(), 1112u) << name;
         EXPECT_EQ(dry.placement.copies, 2u);
         EXPECT_EQ(dry.placement.begin, (std::vector<std::size_t>{0, 556, 1112}));
-        EXPECT_HAS(describeSelection(s, dry), "used 1112 atoms (2 copies); dropped 88 water");
+        EXPECT_HAS(describeSelection(s, dry), "used 1112 atoms (2 copies of 556 in the file); dropped 88 water");
         options.waters = true;
         EXPECT_EQ(selectBalls(s, options).balls.size(), 1288u) << name;
     }

@@ -211,7 +211,7 @@ TEST(CoarseGrain, WatersIonsAndLigands)
     const BallSet all = beadsOf(wet, {"100"}, options);
     std::size_t waters = 0;
     for (const Ball& b : all.balls) {
-        waters += wet.residues[std::size_t(atomOf(wet, b).residue)].water;
+        waters += wet.residues[std::size_t(atomOf(wet, b).residue)].water();
     }
     EXPECT_EQ(waters, 58u);
 }

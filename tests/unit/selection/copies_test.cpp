@@ -26,9 +26,9 @@ Structure withAssembly(std::vector<Operator> operators)
     Structure s;
     s.source = "made";
     s.chains = s.asyms = {"A"};
-    s.residues.push_back({"GLY", 0, 0, 1, ' ', false, false});
-    s.atoms.push_back({Vec3d(6, 50, 70), "C", 0, 6, '\0', 1, 0, -1});
-    s.atoms.push_back({Vec3d(8, 51, 71), "O", 0, 8, '\0', 1, 0, -1});
+    s.residues.push_back({"GLY", 0, 0, 1, ' '});
+    s.atoms.push_back({Vec3d(6, 50, 70), "C", 0, 6, '\0', AtomRole::Atom, 1, 0, -1});
+    s.atoms.push_back({Vec3d(8, 51, 71), "O", 0, 8, '\0', AtomRole::Atom, 1, 0, -1});
     s.models = {{1, 0, 2}};
     s.assemblies = {assemblyOf(std::move(operators))};
     return s;
@@ -129,7 +129,7 @@ TEST(Copies, OfAPartWithItsOwnOperatorsComeAlong)
 {
     Structure s = withAssembly(cyclic(4));
     s.chains = s.asyms = {"A", "B"};
-    s.residues.push_back({"GLY", 1, 1, 2, ' ', false, false});
+    s.residues.push_back({"GLY", 1, 1, 2, ' '});
     s.atoms[1].residue = 1;
     s.assemblies[0].parts[0].chains = {"A"};
     std::vector<Operator> others = cyclic(4);

@@ -73,7 +73,8 @@ TEST_F(MatchAtoms, RefusesWhatMatchesNothingAndShowsTheSyntax)
 TEST_F(MatchAtoms, RefusesWhatDoesNotParse)
 {
     for (const char* text :
-         {"//(ALA,GLY)", "A:1-20", "//*/CA:A,B/", "A;b<x", "[Zz]", "A;ligand", "", "A|", "/x/A"}) {
+         {"//(ALA,GLY)", "A:1-20", "//*/CA:A,B/", "A;b<x", "[Zz]", "A;ligands", "", "A|", "A/-",
+          "A/+1", "A/1,3", "\"A", "A:1-20", "A//N*", "///CA", "/x/A"}) {
         EXPECT_HAS(errorOf(ErrorKind::Usage, [&] { matchAtoms(structure_, text); }), "selection ");
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 
+#include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 
@@ -82,7 +83,7 @@ TEST(Molecule, HasNoBuffersAndTheFirstLineNamesThem)
     const TempFile file("a.pdb", content);
     const Structure s = readStructure(file.path());
     EXPECT_HAS(describeSelection(s, selectBalls(s, {})),
-               "dropped 1 free ion (CL), 2 buffer or lipid (GOL, SO4)");
+               "dropped 1 free ion (CL), 2 buffer (GOL, SO4)");
     SelectOptions options;
     options.ions = true; // buffers stay out
     EXPECT_EQ(kept(content, options), (Names{"GLY", "CL"}));
@@ -103,6 +104,68 @@ TEST(Molecule, OfAFileWithRadiiIsAll)
     const TempFile file("a.pqr", "ATOM 1 N GLY 1 0.0 0.0 0.0 0.0 1.5\n"
                                  "ATOM 2 NA NA 2 9.0 0.0 0.0 1.0 1.2\n");
     EXPECT_EQ(selectBalls(readStructure(file.path()), {}).balls.size(), 2u);
+}
+
+// As OpenMM, Phenix and Biopython write files: TER behind every chain, and ATOM for all.
+TEST(Molecule, DoesNotDependOnTerAndRecords)
+{
+    const std::string rest = record("ATOM", 3, " C1", "LIG", 2, 30.0, "C") +
+                             record("ATOM", 4, "CL", " CL", 3, 60.0, "CL") +
+                             record("ATOM", 5, " P", "DPP", 4, 90.0, "P");
+    EXPECT_EQ(kept(polymer + "TER\n" + rest), Names{"GLY"});
+    SelectOptions options;
+    options.hetero = Hetero::None;
+    EXPECT_EQ(kept(polymer + rest + "TER\n", options), Names{"GLY"});
+}
+
+/// A structure of a glycine at 0 and a ligand at x, of which an assembly makes a copy moved by 20
+/// Å.
+Structure withCopy(double x)
+{
+    const TempFile file("a.pdb", polymer + record("HETATM", 3, " C1", "LIG", 2, x, "C"));
+    Structure s = readStructure(file.path());
+    Operator here{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, openvdb::Vec3d(0.0), "1"};
+    Operator there = here;
+    there.translation = openvdb::Vec3d(20.0, 0.0, 0.0);
+    s.assemblies.push_back({"1", {{{}, {here, there}}}, ""});
+    return s;
+}
+
+// The ligand of copy 1 lies at the glycine of copy 2.
+TEST(Molecule, OfAnAssemblyIsDecidedInTheAssembly)
+{
+    SelectOptions options;
+    EXPECT_EQ(selectBalls(withCopy(17.0), options).balls.size(), 2u);
+    options.assembly = "1";
+    EXPECT_EQ(selectBalls(withCopy(17.0), options).balls.size(), 6u);
+    EXPECT_EQ(selectBalls(withCopy(10.0), options).balls.size(), 4u);
+    options.copies = parseCopies("1"); // what counts does not change with the copies that are used
+    EXPECT_EQ(selectBalls(withCopy(17.0), options).balls.size(), 3u);
+}
+
+TEST(Molecule, OfUsedAndDroppedAtomsIsTheFile)
+{
+    const std::string text = polymer + record("HETATM", 3, "CL", " CL", 2, 60.0, "CL") +
+                             record("HETATM", 4, " O", "HOH", 3, 90.0, "O") +
+                             record("HETATM", 5, " EP", "LIG", 4, 5.0, "EP") +
+                             record("HETATM", 6, " C1", "LIG", 4, 5.0, "C") +
+                             record("HETATM", 7, " C1", "OLA", 5, 5.0, "C") +
+                             record("HETATM", 8, " DUM", "DUM", 6, 5.0, "") +
+                             record("HETATM", 9, " C1", "UNL", 7, 50.0, "C") +
+                             record("HETATM", 10, " S", "SO4", 8, 5.0, "S");
+    const TempFile file("a.pdb", text);
+    const Structure s = readStructure(file.path());
+    for (const Hetero hetero : {Hetero::None, Hetero::Bound, Hetero::All})
+        for (const bool waters : {false, true}) {
+            SelectOptions options;
+            options.hetero = hetero;
+            options.waters = waters;
+            const BallSet chosen = selectBalls(s, options);
+            std::size_t all = chosen.balls.size();
+            for (const Excluded& drop : chosen.drops) all += drop.count;
+            EXPECT_EQ(all, s.atoms.size()) << describeSelection(s, chosen);
+        }
+    EXPECT_HAS(describeSelection(s, selectBalls(s, {})), "1 particle that is no atom, 1 water");
 }
 
 // 4AT1 holds two zinc ions, each bound by four cysteines, and two ATP.

@@ -167,7 +167,8 @@ TEST(SelectBalls, PassesOnTheWarningsOfTheFile)
 {
     const std::string atom =
         "ATOM      1  CA  GLY A   1       1.000   2.000   3.000  1.00  0.00           C\n";
-    const BallSet selection = selectBalls(readText("a.pdb", atom + "END\n" + atom), {});
+    const BallSet selection =
+        selectBalls(readText("a.pdb", "MTRIX1   2  0.000000 what\n" + atom), {});
     ASSERT_EQ(selection.warnings.size(), 1u);
 }
 

@@ -54,10 +54,10 @@ TEST(Beads, MartiniBeadsHaveNoElementAndKnowWater)
     ASSERT_EQ(s.beads, BeadKind::Martini2);
     std::size_t waters = 0;
     for (const Atom& atom : s.atoms) EXPECT_EQ(atom.element, 0) << atom.name;
-    for (const Residue& residue : s.residues) waters += residue.water;
+    for (const Residue& residue : s.residues) waters += residue.water();
     EXPECT_EQ(waters, 2u);
-    EXPECT_FALSE(s.residues[0].hetero);
-    EXPECT_TRUE(s.residues.back().hetero);
+    EXPECT_FALSE(s.residues[0].hetero());
+    EXPECT_TRUE(s.residues.back().hetero());
 }
 
 TEST(Beads, NamedByAtoms)

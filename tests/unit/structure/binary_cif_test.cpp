@@ -83,8 +83,8 @@ TEST(BinaryCif, AgreesWithTheMmcifFileOfTheEntry)
         const Residue &a = binary.residues[i], &b = text.residues[i];
         EXPECT_EQ(a.name, b.name) << i;
         EXPECT_EQ(a.number, b.number) << i;
-        EXPECT_EQ(a.hetero, b.hetero) << i;
-        EXPECT_EQ(a.water, b.water) << i;
+        EXPECT_EQ(a.hetero(), b.hetero()) << i;
+        EXPECT_EQ(a.water(), b.water()) << i;
     }
     EXPECT_EQ(binary.chains, text.chains);
     EXPECT_EQ(binary.asyms, text.asyms);

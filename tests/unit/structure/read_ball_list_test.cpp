@@ -40,9 +40,9 @@ TEST(ReadPqr, ReadsWithAndWithoutChain)
     EXPECT_EQ(s.residues[0].name, "NTER");
     EXPECT_EQ(s.residues[1].number, 5);
     EXPECT_EQ(s.residues[1].insertionCode, 'A');
-    EXPECT_TRUE(s.residues[2].hetero);
-    EXPECT_TRUE(s.residues[3].water);
-    EXPECT_FALSE(s.residues[3].hetero);
+    EXPECT_TRUE(s.residues[2].hetero());
+    EXPECT_TRUE(s.residues[3].water());
+    EXPECT_FALSE(s.residues[3].hetero());
 }
 
 TEST(ReadPqr, SplitsNumbersGluedByAMinusSign)
@@ -135,7 +135,7 @@ TEST(ReadXyzrn, TakesTheNameAsItStands)
     EXPECT_EQ(residue(1).number, 2);
     EXPECT_EQ(residue(1).insertionCode, 'A');
     EXPECT_EQ(chain(1), "B");
-    EXPECT_TRUE(residue(2).water);
+    EXPECT_TRUE(residue(2).water());
     EXPECT_EQ(residue(2).insertionCode, ' ');
     EXPECT_EQ(chain(2), "C");
     EXPECT_EQ(residue(3).name, "GLY");

@@ -42,7 +42,7 @@ void expectAtoms(const Structure& s)
 {
     const std::vector<openvdb::Vec3d> positions{{1.25, -0.5, 2.0}, {-3.0, 0.0, 0.125}, {0, 4.5, 0}};
     const std::vector<int> elements{6, 17, 1};
-    ASSERT_EQ(s.atoms.size(), 3u);
+    ASSERT_GE(s.atoms.size(), 3u);
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(s.atoms[i].position, positions[i]) << i;
         EXPECT_EQ(s.atoms[i].element, elements[i]) << i;
@@ -57,7 +57,7 @@ TEST(ReadSdf, ReadsBothVersions)
         expectAtoms(s);
         EXPECT_EQ(s.atoms[1].name, "Cl1");
         ASSERT_EQ(s.residues.size(), 1u);
-        EXPECT_TRUE(s.residues[0].hetero);
+        EXPECT_TRUE(s.residues[0].hetero());
     }
 }
 
@@ -109,12 +109,96 @@ TEST(ReadMol2, ReadsAtomsResiduesChainsAndCharges)
     EXPECT_EQ(s.residues[0].name, "ALA");
     EXPECT_EQ(s.residues[0].number, -5);
     EXPECT_EQ(s.residues[0].insertionCode, 'A');
-    EXPECT_FALSE(s.residues[0].hetero);
+    EXPECT_FALSE(s.residues[0].hetero());
     EXPECT_EQ(s.residues[1].name, "ATP");
     EXPECT_EQ(s.residues[1].number, 501);
-    EXPECT_TRUE(s.residues[1].hetero);
+    EXPECT_TRUE(s.residues[1].hetero());
     EXPECT_EQ(s.chains, (std::vector<std::string>{"B", ""}));
-    EXPECT_EQ(s.charges, (std::vector<float>{0.25f, -1.0f, 0.75f}));
+    EXPECT_EQ(s.charges, (std::vector<float>{0.25f, -1.0f, 0.75f, 0.0f}));
+    ASSERT_EQ(s.atoms.size(), 4u);
+    EXPECT_EQ(s.atoms[3].role, AtomRole::Particle); // a lone pair
+}
+
+/// Elements of atoms X1, X2, ... of a molecule by their types.
+std::vector<int> elementsOf(const std::vector<std::string>& types, const std::string& names = "")
+{
+    std::string text = "@<TRIPOS>MOLECULE\nname\n";
+    text += "@<TRIPOS>ATOM\n";
+    for (std::size_t i = 0; i < types.size(); ++i)
+        text += std::to_string(i + 1) + " " +
+                (names.empty() ? "X" + std::to_string(i + 1) : names) + " " + std::to_string(i) +
+                " 0 0 " + types[i] + " 1 LIG 0.0\n";
+    std::vector<int> out;
+    for (const Atom& atom : readLigand(text).atoms) out.push_back(atom.element);
+    return out;
+}
+
+TEST(ReadMol2, TypesOfForceFieldsAreNoElements)
+{
+    EXPECT_EQ(elementsOf({"ca", "os", "ho", "nb", "nh", "cl", "br", "c3", "sh", "p5", "i", "f"}),
+              (std::vector<int>{6, 8, 1, 7, 7, 17, 35, 6, 16, 15, 53, 9}));
+    EXPECT_EQ(elementsOf({"CT", "CA", "OS", "HO", "NB", "CL", "SH", "C0", "MG"}),
+              (std::vector<int>{6, 6, 8, 1, 7, 17, 16, 20, 12}));
+    EXPECT_EQ(elementsOf({"CG2R61", "HGA1", "OG311", "NG2S1", "CLGR1", "BRGR1", "SG311"}),
+              (std::vector<int>{6, 1, 8, 7, 17, 35, 16}));
+    EXPECT_EQ(elementsOf({"C.ar", "Ca", "Os", "Ho", "O.co2", "Cl"}),
+              (std::vector<int>{6, 20, 76, 67, 8, 17})); // those of SYBYL
+    EXPECT_EQ(elementsOf({"opls_800"}, "CL1"), (std::vector<int>{8}));
+}
+
+TEST(ReadMol2, NamesOfResiduesMayEndWithDigits)
+{
+    const auto residue = [](const std::string& name, const std::string& line) {
+        const Structure s = readLigand("@<TRIPOS>MOLECULE\nname\n@<TRIPOS>ATOM\n1 C 0 0 0 C.3 1 " +
+                                       name + " 0.0\n" + line);
+        return s.residues[0].name + " " + std::to_string(s.residues[0].number);
+    };
+    const std::string section = "@<TRIPOS>SUBSTRUCTURE\n";
+    EXPECT_EQ(residue("PG4501", section + "1 PG4501 1 RESIDUE 1 A PG4\n"), "PG4 501");
+    EXPECT_EQ(residue("X12345", section + "1 X12345 1 RESIDUE 1 A X12\n"), "X12 345");
+    EXPECT_EQ(residue("SO4404", ""), "SO4 404");
+    EXPECT_EQ(residue("ALA12", ""), "ALA 12");
+    EXPECT_EQ(residue("LIG1", ""), "LIG 1");
+}
+
+TEST(ReadSdf, ADrawingBesideConformersIsRefusedWhereItIsAskedFor)
+{
+    const std::string head =
+        "name\n  made    01010100003D\n\n  2  1  0  0  0  0            999 V2000\n";
+    const std::string rest = "    0.0000    0.0000    0.0000 C   0  0\n"
+                             "    1.4000    0.0000    0.5000 O   0  0\nM  END\n$$$$\n";
+    std::string drawn = head + rest;
+    drawn.replace(drawn.find("3D"), 2, "2D").replace(drawn.find("0.5000"), 6, "0.0000");
+    const Structure s = readLigand(head + rest + drawn);
+    ASSERT_EQ(s.models.size(), 2u);
+    EXPECT_EQ(s.models[0].problem, "");
+    EXPECT_HAS(s.models[1].problem, "drawn in two dimensions");
+    EXPECT_HAS(ligandError(drawn), "drawn in two dimensions");
+}
+
+TEST(ReadXyz, ReadsFramesAndColumns)
+{
+    const Structure s =
+        readLigand("2\nwater\nO 0 0 0\nH 0.9 0 0\n3\nProperties=id:I:1:species:S:1:pos:R:3\n"
+                   "1 Cl 1 2 3\n2 CA 4 5 6\n3 17 7 8 9\n\n");
+    EXPECT_EQ(s.format, "xyz");
+    ASSERT_EQ(s.models.size(), 2u);
+    const std::vector<int> elements{8, 1, 17, 20, 17};
+    ASSERT_EQ(s.atoms.size(), elements.size());
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        EXPECT_EQ(s.atoms[i].element, elements[i]) << i;
+    EXPECT_EQ(s.atoms[4].position, openvdb::Vec3d(7, 8, 9));
+    EXPECT_EQ(s.atoms[4].name, "Cl2");
+    EXPECT_EQ(s.residues[0].name, "UNL");
+    const Structure named = readLigand("4\n\nCA 0 0 0\nCB 2 0 0\nNE 4 0 0\nCL 6 0 0\n");
+    const std::vector<int> byName{6, 6, 7, 17};
+    for (std::size_t i = 0; i < byName.size(); ++i)
+        EXPECT_EQ(named.atoms[i].element, byName[i]) << i;
+    EXPECT_HAS(ligandError("2\n\nO 0 0 0\nH 0 x 0\n", "a.xyz"),
+               "line 4: expected element, x, y and z");
+    EXPECT_HAS(ligandError("2\n\nO 0 0 0\n", "a.xyz"),
+               "cut short after line 3: expected atom 2 of 2");
+    EXPECT_HAS(ligandError("two\n\nO 0 0 0\n", "a.xyz"), "expected");
 }
 
 TEST(ReadMol2, MoleculesAreModelsAndWrongLinesAreNamed)

@@ -48,8 +48,8 @@ TEST(ReadMmcif, AgreesWithThePdbFileOfTheEntry)
         EXPECT_EQ(cif.atoms[i].element, pdb.atoms[i].element) << i;
     }
     for (std::size_t i = 0; i < cif.residues.size(); ++i) {
-        EXPECT_EQ(cif.residues[i].water, pdb.residues[i].water) << i;
-        EXPECT_EQ(cif.residues[i].hetero, pdb.residues[i].hetero) << i;
+        EXPECT_EQ(cif.residues[i].water(), pdb.residues[i].water()) << i;
+        EXPECT_EQ(cif.residues[i].hetero(), pdb.residues[i].hetero()) << i;
         EXPECT_EQ(cif.residues[i].number, pdb.residues[i].number) << i;
     }
 }
@@ -76,7 +76,7 @@ TEST(ReadMmcif, ReadsQuotedNamesAndComments)
     EXPECT_EQ(s.atoms[2].name, "O3'");
     EXPECT_EQ(s.chains[0], "B");
     EXPECT_EQ(s.asyms[0], "C");
-    EXPECT_FALSE(s.residues[0].hetero);
+    EXPECT_FALSE(s.residues[0].hetero());
 }
 
 TEST(ReadMmcif, MakesUpColumnsThatMayBeMissing)
@@ -107,9 +107,9 @@ TEST(ReadMmcif, GuessesLigandsWithoutEntities)
                                                  "HETATM 3 ZN ZN . ZN A . 9 9 9 1 0 101 A 1\n"
                                                  "HETATM 4 O O . HOH A . 0 9 9 1 0 201 A 1\n"));
     ASSERT_EQ(s.residues.size(), 4u);
-    EXPECT_FALSE(s.residues[1].hetero);
-    EXPECT_TRUE(s.residues[2].hetero);
-    EXPECT_TRUE(s.residues[3].water);
+    EXPECT_FALSE(s.residues[1].hetero());
+    EXPECT_TRUE(s.residues[2].hetero());
+    EXPECT_TRUE(s.residues[3].water());
 }
 
 TEST(ReadMmcif, RefusesWhatHasNoAtoms)
@@ -117,7 +117,7 @@ TEST(ReadMmcif, RefusesWhatHasNoAtoms)
     EXPECT_HAS(mmcifError("data_X\n_cell.length_a 10\n"), "no atoms: expected _atom_site.Cartn_x");
     EXPECT_HAS(mmcifError("data_X\nloop_\n_chem_comp_atom.atom_id\nC1\n"), "chemical component");
     EXPECT_HAS(mmcifError("data_X\nloop_\n_atom_site_label\nC1\n"), "small-molecule CIF");
-    EXPECT_HAS(mmcifError(atomSite("id Cartn_x Cartn_y", "1 2 3\n")), "no column type_symbol");
+    EXPECT_HAS(mmcifError(atomSite("id Cartn_x Cartn_y", "1 2 3\n")), "no column label_asym_id");
 }
 
 TEST(ReadMmcif, RefusesWhatIsCutShortOrBroken)
@@ -178,6 +178,109 @@ TEST(ReadMmcif, ReadsNonCrystallographicSymmetry)
     EXPECT_EQ(operators[1].name, "2");
     EXPECT_EQ(operators[1].rotation[0], (std::array<double, 3>{0, -1, 0}));
     EXPECT_EQ(operators[1].translation, openvdb::Vec3d(100, -20.5, 3));
+}
+
+/// The author's numbers of all residues.
+std::vector<int> numbersOf(const Structure& s)
+{
+    std::vector<int> out;
+    for (const Residue& residue : s.residues) out.push_back(residue.number);
+    return out;
+}
+
+TEST(ReadMmcif, LabelsStandInForNumbersThatAreMissing)
+{
+    for (const char* null : {".", "?"}) {
+        const std::string none(null);
+        const Structure s =
+            readMmcif(atomSite(full, "ATOM 1 C CA . GLY A 5 1 2 3 1 0 " + none + " A 1\n" +
+                                         "ATOM 2 C CA . GLY A 6 4 2 3 1 0 " + none + " A 1\n" +
+                                         "HETATM 3 O O . HOH B . 9 9 9 1 0 " + none + " A 1\n" +
+                                         "HETATM 4 H H1 . HOH B . 9 9 8 1 0 " + none + " A 1\n" +
+                                         "HETATM 5 O O . HOH B . 0 9 9 1 0 " + none + " A 1\n"));
+        EXPECT_EQ(numbersOf(s), (std::vector<int>{5, 6, 1, 2}));
+    }
+}
+
+TEST(ReadMmcif, GuessesElementsThatAreMissing)
+{
+    const std::string rows = "ATOM 1 ? CA . ALA A 1 1 2 3 1 0 1 A 1\n"
+                             "HETATM 2 . CL1 . LIG B . 9 2 3 1 0 2 A 1\n"
+                             "HETATM 3 ? M . HOH C . 5 2 3 1 0 3 A 1\n"
+                             "HETATM 4 O O . HOH C . 5 2 3 1 0 3 A 1\n"
+                             "HETATM 5 X UNK . UNX D . 0 9 3 1 0 4 A 1\n";
+    const Structure s = readMmcif(atomSite(full, rows));
+    const std::vector<int> elements{6, 17, 0, 8, 0};
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        EXPECT_EQ(s.atoms[i].element, elements[i]) << i;
+    EXPECT_EQ(s.guessed, 3u);
+    EXPECT_EQ(s.atoms[2].role, AtomRole::Particle);
+    EXPECT_EQ(readMmcif(atomSite("id label_atom_id label_comp_id label_asym_id label_seq_id "
+                                 "Cartn_x Cartn_y Cartn_z",
+                                 "1 SD MET A 5 1 2 3\n"))
+                  .atoms[0]
+                  .element,
+              16);
+}
+
+TEST(ReadMmcif, PairsAreALoopOfOneRow)
+{
+    const Structure s = readMmcif("data_one\n_atom_site.id 1\n_atom_site.type_symbol ZN\n"
+                                  "_atom_site.label_atom_id ZN\n_atom_site.label_comp_id ZN\n"
+                                  "_atom_site.label_asym_id A\n_atom_site.Cartn_x 1.0\n"
+                                  "_atom_site.Cartn_y 2.0\n_atom_site.Cartn_z 3.0\n"
+                                  "_atom_site.auth_seq_id 5\n");
+    ASSERT_EQ(s.atoms.size(), 1u);
+    EXPECT_EQ(s.atoms[0].element, 30);
+    EXPECT_EQ(s.residues[0].number, 5);
+    EXPECT_EQ(s.residues[0].kind, ResidueKind::Ion);
+}
+
+TEST(ReadMmcif, KnowsStructureFactorsAndPredictions)
+{
+    EXPECT_HAS(mmcifError("data_sf\nloop_\n_refln.index_h\n_refln.index_k\n1 2\n"),
+               "it has structure factors");
+    const std::string site = atomSite(full, "ATOM 1 C CA . GLY A 5 1 2 3 1 0 5 A 1\n");
+    EXPECT_FALSE(readMmcif(site).plddt);
+    EXPECT_TRUE(readMmcif(site + "_ma_qa_metric.name pLDDT\n").plddt);
+    EXPECT_FALSE(readMmcif(site + "_ma_qa_metric.name PAE\n").plddt);
+}
+
+/// Spheres of residues "1-10" in the given order, with radius 2, along x.
+std::string spheres(const std::vector<std::pair<int, int>>& spans)
+{
+    std::string text = "data_X\nloop_\n";
+    for (const char* column : {"id", "entity_id", "seq_id_begin", "seq_id_end", "asym_id",
+                               "Cartn_x", "Cartn_y", "Cartn_z", "object_radius", "model_id"})
+        text += std::string("_ihm_sphere_obj_site.") + column + "\n";
+    int id = 0;
+    for (const auto& [begin, end] : spans) {
+        ++id;
+        text += std::to_string(id) + " 1 " + std::to_string(begin) + " " + std::to_string(end) +
+                " A " + std::to_string(9 * id) + " 0 0 2 1\n";
+    }
+    return text;
+}
+
+/// The spheres that are left out, from 1, and the warnings.
+std::string coarser(const std::vector<std::pair<int, int>>& spans)
+{
+    const Structure s = readMmcif(spheres(spans));
+    std::string out;
+    for (std::size_t i = 0; i < s.atoms.size(); ++i)
+        if (s.atoms[i].role == AtomRole::CoarserScale) out += std::to_string(i + 1) + " ";
+    for (const std::string& warning : s.warnings) out += warning.substr(0, 22);
+    return out;
+}
+
+TEST(ReadMmcif, OfTwoScalesTheFinerOneCounts)
+{
+    EXPECT_EQ(coarser({{1, 1}, {2, 2}, {3, 3}}), "");
+    EXPECT_EQ(coarser({{1, 3}, {1, 1}, {2, 2}, {3, 3}}), "1 the model is there at ");
+    EXPECT_EQ(coarser({{1, 5}, {6, 10}, {1, 10}, {11, 20}}), "3 the model is there at ");
+    EXPECT_EQ(coarser({{1, 5}, {1, 10}}), "the model overlaps its");
+    EXPECT_EQ(coarser({{1, 5}, {1, 5}}), ""); // two states
+    EXPECT_EQ(coarser({{1, 2000000000}, {-2000000000, 2000000000}, {5, 4}}).substr(0, 2), "th");
 }
 
 } // namespace

@@ -19,10 +19,10 @@ std::string pdbError(const std::string& text, const std::string& name = "a.pdb")
     return errorOf(ErrorKind::Input, [&] { readPdb(text, name); });
 }
 
-std::size_t countResidues(const Structure& s, bool Residue::*flag)
+std::size_t countResidues(const Structure& s, bool (Residue::*flag)() const)
 {
     return static_cast<std::size_t>(std::count_if(s.residues.begin(), s.residues.end(),
-                                                  [&](const Residue& r) { return r.*flag; }));
+                                                  [&](const Residue& r) { return (r.*flag)(); }));
 }
 
 std::size_t countElement(const Structure& s, int element)
@@ -182,8 +182,8 @@ TEST(ReadPdb, TellsCapsAndIonsFromTheChain)
         "HETATM    7  O   HOH A 201       9.000   9.000   0.000  1.00  0.00           O  \n");
     ASSERT_EQ(s.residues.size(), 5u);
     const std::vector<bool> hetero{false, false, false, true, false};
-    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(s.residues[i].hetero, hetero[i]) << i;
-    EXPECT_TRUE(s.residues[4].water);
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(s.residues[i].hetero(), hetero[i]) << i;
+    EXPECT_TRUE(s.residues[4].water());
 }
 
 TEST(ReadPdb, AStrayTerMakesNoLigands)
@@ -194,13 +194,107 @@ TEST(ReadPdb, AStrayTerMakesNoLigands)
     EXPECT_EQ(countResidues(s, &Residue::hetero), 0u);
 }
 
-TEST(ReadPdb, WarnsOfAtomsAfterEnd)
+// VMD writes frames so.
+TEST(ReadPdb, EndEndsAFrame)
 {
-    EXPECT_TRUE(readPdb(atom + "END\n\n").warnings.empty());
-    const Structure s = readPdb(atom + "END\n" + atom);
-    EXPECT_EQ(s.atoms.size(), 1u);
-    ASSERT_EQ(s.warnings.size(), 1u);
-    EXPECT_HAS(s.warnings[0], "after END in line 3");
+    EXPECT_EQ(readPdb(atom + "END\n\n").models.size(), 1u);
+    const Structure s = readPdb("CRYST1\n" + atom + "END\nCRYST1\n" + atom + "TER\nEND\n" + atom);
+    ASSERT_EQ(s.models.size(), 3u);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(s.models[std::size_t(i)].number, i + 1);
+        EXPECT_EQ(s.models[std::size_t(i)].end, std::size_t(i) + 1);
+    }
+    EXPECT_EQ(readPdb("MODEL 4\n" + atom + "ENDMDL\nEND\n").models[0].number, 4);
+}
+
+TEST(ReadPdb, RefusesAMisspeltAtom)
+{
+    for (const char* record :
+         {"ATAM  ", "ATMO  ", "ATON  ", "ATM   ", "Atom  ", "HETATN", "HETTAM", "hetatm"})
+        EXPECT_HAS(pdbError(atom + record + atom.substr(6)), "line 2: expected ATOM or HETATM")
+            << record;
+    for (const char* record : {"SIGATM", "ANISOU", "REMARK", "CONECT"})
+        EXPECT_EQ(readPdb(atom + record + atom.substr(6)).atoms.size(), 1u) << record;
+}
+
+/// A record whose residue's name and chain stand in columns 18 to 22.
+std::string wide(const std::string& name, int number, const std::string& atomName = " C1 ")
+{
+    char line[100];
+    std::snprintf(line, sizeof line, "ATOM      1 %s %s%4d    %8.3f   0.000   0.000  1.00  0.00\n",
+                  atomName.c_str(), name.c_str(), number, 10.0 * number);
+    return line;
+}
+
+/// "M/POPC W/TIP3": chains and names of all residues.
+std::string residuesOf(const Structure& s)
+{
+    std::string out;
+    for (const Residue& r : s.residues)
+        out += (out.empty() ? "" : " ") + s.chains[std::size_t(r.chain)] + "/" + r.name;
+    return out;
+}
+
+TEST(ReadPdb, NamesOfFourLettersReachIntoColumn21)
+{
+    EXPECT_EQ(residuesOf(readPdb(wide("POPCM", 1) + wide("DOPEM", 2) + wide("PIPXM", 3) +
+                                 wide("HSD A", 4))),
+              "M/POPC M/DOPE M/PIPX A/HSD");
+    EXPECT_EQ(residuesOf(readPdb(wide("XYZQ ", 1))), "/XYZQ");
+    EXPECT_EQ(residuesOf(readPdb(wide("NALAA", 1) + wide("CGLYA", 2))), "A/NALA A/CGLY");
+}
+
+TEST(ReadPdb, ChainsOfTwoLettersBeginInColumn21)
+{
+    EXPECT_EQ(residuesOf(readPdb(wide("ALAAB", 1) + wide("HOHAB", 2) + wide("LIGAB", 3))),
+              "AB/ALA AB/HOH AB/LIG");
+    // TIP in chain 3W and ALA in chain 3W: the second one decides.
+    EXPECT_EQ(residuesOf(readPdb(wide("ALA3W", 1) + wide("TIP3W", 2))), "3W/ALA 3W/TIP");
+    EXPECT_EQ(residuesOf(readPdb(wide("LIGAB", 3))), "AB/LIG");
+}
+
+TEST(ReadPdb, AtomsStayInTheOrderOfTheFile)
+{
+    const Structure s = readPdb(wide("ALA A", 1) + wide("ALA B", 2) + wide("HOH A", 3));
+    ASSERT_EQ(s.atoms.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(s.atoms[i].position.x(), 10.0 * double(i + 1));
+    EXPECT_EQ(s.chains.size(), 2u);
+}
+
+TEST(ReadPdb, SegmentsKeepResiduesApart)
+{
+    const std::string head = atom.substr(0, 72);
+    EXPECT_EQ(readPdb(head + "PROA    \n" + head + "PROB    \n").residues.size(), 2u);
+    EXPECT_EQ(readPdb(head + "PROA\n" + head + "PROB\n").residues.size(), 2u);
+    EXPECT_EQ(readPdb(head + "1ABC   8\n" + head + "1ABD   9\n").residues.size(), 1u);
+}
+
+TEST(ReadPdb, EqualNumbersOfMoleculesAreResiduesOfTheirOwn)
+{
+    EXPECT_EQ(readPdb(wide("CLA A", 1, " CLA") + wide("CLA A", 1, " CLA")).residues.size(), 2u);
+    EXPECT_EQ(readPdb(wide("ALA A", 1, " N  ") + wide("ALA A", 1, " N  ")).residues.size(), 1u);
+}
+
+// AutoDock's types begin in column 78.
+TEST(ReadPdbqt, TypesTellElementsAndChargesAreRead)
+{
+    const char* types[] = {"A ", "OA", "NA", "HD", "Cl", "Br", "SA", "CG0", "G0", "Zn"};
+    std::string text = "ROOT\n";
+    for (const char* type : types) {
+        const std::string line =
+            "ATOM      1  X1  LIG A   1       0.000   0.000   0.000  1.00  0.00  "
+            "  -0.250 ";
+        text += line + type + "\n";
+    }
+    const Structure s = readPdb(text + "ENDROOT\nTORSDOF 0\n", "a.txt");
+    EXPECT_EQ(s.format, "PDBQT");
+    const std::vector<int> elements{6, 8, 7, 1, 17, 35, 16, 6, 0, 30};
+    ASSERT_EQ(s.atoms.size(), elements.size());
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        EXPECT_EQ(s.atoms[i].element, elements[i]) << types[i];
+    EXPECT_EQ(s.atoms[8].role, AtomRole::Particle); // glue of an open ring
+    ASSERT_EQ(s.charges.size(), elements.size());
+    EXPECT_FLOAT_EQ(s.charges[0], -0.25f);
 }
 
 TEST(ReadPdb, ReadsAssembly)

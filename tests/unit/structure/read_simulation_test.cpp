@@ -40,9 +40,9 @@ TEST(ReadGro, ReadsNanometresAndNames)
         EXPECT_EQ(s.atoms[i].element, elements[i]) << i;
     ASSERT_EQ(s.residues.size(), 4u);
     EXPECT_EQ(s.residues[0].name, "ALA");
-    EXPECT_FALSE(s.residues[0].hetero);
-    EXPECT_TRUE(s.residues[1].hetero);
-    EXPECT_TRUE(s.residues[3].water);
+    EXPECT_FALSE(s.residues[0].hetero());
+    EXPECT_TRUE(s.residues[1].hetero());
+    EXPECT_TRUE(s.residues[3].water());
     EXPECT_FALSE(s.hasRadii);
 }
 
@@ -97,9 +97,9 @@ TEST(ReadPsf, ReadsAtomsWithoutPlaces)
     ASSERT_EQ(s.residues.size(), 5u);
     EXPECT_EQ(s.residues[1].number, 2);
     EXPECT_EQ(s.residues[1].insertionCode, 'A');
-    EXPECT_FALSE(s.residues[1].hetero);
-    EXPECT_TRUE(s.residues[2].hetero);
-    EXPECT_TRUE(s.residues[4].water);
+    EXPECT_FALSE(s.residues[1].hetero());
+    EXPECT_TRUE(s.residues[2].hetero());
+    EXPECT_TRUE(s.residues[4].water());
 }
 
 TEST(ReadPsf, NamesTheLineThatIsWrong)

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The elements of atoms in files that do not name them.
+
+#include "molsurf/structure/structure.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace molsurf
+{
+
+/// What is known of an atom whose element is to be found.
+struct ElementEvidence {
+    std::string_view atom, residue; ///< names
+    double mass = -1.0;             ///< [u]; < 0: unknown
+    bool inFirstColumn = false;     ///< whether the name begins in column 13 of a PDB file whose
+                                    ///< other names are placed by their elements
+};
+
+/// Finds the atomic number of an atom. It asks, in this order:
+/// 1. names of ions, amino acids, nucleotides, waters and hemes: "SOD" of SOD is sodium, "CA" of
+///    HSD carbon, "NA" of HEME nitrogen;
+/// 2. the mass, if it is that of an element to 0.1 % (a CH2 group is 0.14 % heavier than nitrogen);
+/// 3. two letters, if no other reading is common: "CL1", "BR2", "FE", "ZN", "Cu1";
+/// 4. the first letter.
+/// @return 0 if nothing fits
+std::uint8_t guessElement(const ElementEvidence& evidence);
+
+/// The same of the names alone.
+std::uint8_t guessElement(const std::string& atomName, const std::string& residueName);
+
+/// The element of a type of atoms in a .mol2 file, if it is one of GAFF, Amber or CHARMM's CGenFF:
+/// "ca" is carbon, "os" oxygen, "cl" chlorine. 0: it is none of them.
+std::uint8_t elementOfForceFieldType(std::string_view type);
+
+/// The element of a type of AutoDock: "A" is carbon, "OA" oxygen, "HD" hydrogen; 0 if there is
+/// none.
+std::uint8_t elementOfAutoDockType(std::string_view type);
+
+/// True for what files write in the place of an element of a particle that is no atom: "EP", "VS",
+/// "LP".
+bool isParticleSymbol(std::string_view symbol);
+
+/// True for names of particles that are no atoms, in any residue: "EP1", "LPA", "EPW".
+bool isParticleName(std::string_view atom);
+
+} // namespace molsurf

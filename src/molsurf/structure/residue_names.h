@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The names of residues, as the Protein Data Bank and the force fields of CHARMM, Amber, GROMACS
+/// and OPLS write them.
+
+#include <cstdint>
+#include <string_view>
+
+namespace molsurf
+{
+
+/// What a residue's name alone says.
+enum class NameClass : std::uint8_t {
+    Unknown,
+    AminoAcid,         ///< one of the standard ones, by any name
+    ModifiedAminoAcid, ///< "MSE", "SEP", and those of D form
+    Nucleotide,        ///< one of the standard ones, by any name
+    ModifiedNucleotide,
+    Cap,        ///< the end of a chain: "ACE", "NME"
+    Water,      ///< "HOH", "TIP3", "SOL"
+    Ion,        ///< "CLA", "NA+", "ZN2"; see ionElement()
+    Buffer,     ///< salts, buffers, solvents, cryoprotectants
+    Lipid,      ///< lipids and detergents
+    CutLipid,   ///< "POP": a lipid's name without its last letters, or another molecule
+    AmberLipid, ///< "PC", "OL": a head or a tail of Amber's lipids, or another molecule
+    Sugar
+};
+
+/// The class of a name. Names of ions may have charges.
+NameClass nameClass(std::string_view residue);
+
+/// The atomic number of the ion that a residue or an atom is named by; 0 if there is none. "SOD",
+/// "NA", "NA+" and "Na+" are sodium, "CAL", "CA2+" calcium.
+std::uint8_t ionElement(std::string_view name);
+
+/// True for the names of water: "HOH", "TIP3", "SOL", ...
+bool isWaterName(std::string_view residue);
+
+/// True for the amino acids and nucleotides that have no other form, by any of their names.
+bool isStandardResidue(std::string_view residue);
+
+} // namespace molsurf
