@@ -3,11 +3,14 @@
 # -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without.
 set(molsurf_precompiled ${CMAKE_CURRENT_LIST_DIR}/precompiled)
 
+# A unity build puts the constants of several files before the functions of each, so GCC looks there for local names
+# that hide local ones only; -DMOLSURF_WERROR=ON, with each file by itself, looks for all (preset dev).
 function(molsurf_settings target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   target_compile_definitions(${target} PRIVATE MOLSURF_VERSION="${PROJECT_VERSION}")
   # Selects and square roots of the kernels vectorise only without errno and traps; NaN keeps its meaning.
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wno-psabi $<$<BOOL:${MOLSURF_WERROR}>:-Werror>
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wno-psabi $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>
+                                           $<$<BOOL:${MOLSURF_WERROR}>:-Werror> $<$<BOOL:${MOLSURF_WERROR}>:-Wshadow>
                                            -fno-math-errno -fno-trapping-math)
   if(NOT target STREQUAL molsurf_internal)
     target_precompile_headers(${target} REUSE_FROM molsurf_internal)

@@ -46,7 +46,7 @@ def cases():
         yield ([("plan", plan)] + [("brick", f"p.json {k}") for k in (1, 2, 3)] +
                [("merge", "p.json -o m.vdb -o m.ply -o m.json")])
     yield ["@4at1.ent.gz --voxel 1 --memory 90M --color chain --fields Cd -o a.vdb -o a.ply -o a.json"]
-    for more in ["", " --start warm --fields v"]:
+    for more in ["", " --fields v"]:
         yield ["@1d3z.pdb.gz --voxel 1 --frames 1-3 -o f.vdb -o f.ply -o f.json -o f.csv" + more]
     yield ["@1d3z.pdb.gz --trajectory @1d3z.xtc --frames 1-3 --voxel 1 -o f.vdb -o f.glb"]
     dimer = "@1a8o.cif.gz --assembly 1 --voxel 1"

@@ -65,7 +65,7 @@ Call callOf(PlanManifest manifest, const std::string& path)
     setOptions(manifest.options, call);
     completeSurface(call);
     checkPlan(manifest.plan, call.options);
-    call.options.evolution.steps = manifest.plan.steps;
+    if (!restsInClosedForm(call.options)) call.options.evolution.steps = manifest.plan.steps;
     checkWay(InBricks, call.options);
     return call;
 }

@@ -174,8 +174,8 @@ bool isEstimated(const SurfaceOptions& options)
 } // namespace
 
 Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& terminal,
-                 Clock::time_point start, WarmStart* warm,
-                 const std::function<void(MolecularSurface&)>& extend, const Companions& companions)
+                 Clock::time_point start, const std::function<void(MolecularSurface&)>& extend,
+                 const Companions& companions)
 {
     stopIfAsked();
     if (call.options.grid) {
@@ -191,7 +191,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     if (balls.placement.prototypes() > 1) call.options.split = true;
     MolecularSurface result;
     try {
-        result = makeSurface(balls, call.options, &terminal, warm);
+        result = makeSurface(balls, call.options, &terminal);
     } catch (const Cancelled&) {
         terminal.failIfOverdue(" [hint: a larger --voxel or --max-hours, or fewer --max-steps]");
         throw;
@@ -221,8 +221,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
 Report buildSurface(const Call& call, const BallSet& balls, const Report& read, Terminal& terminal,
                     Clock::time_point start, const Companions& companions)
 {
-    const Report report =
-        surfaceOf(call, balls, read, terminal, start, nullptr, nullptr, companions);
+    const Report report = surfaceOf(call, balls, read, terminal, start, nullptr, companions);
     if (call.verbose) sayTimes(report);
     if (!call.quiet) say(summary(report));
     return report;

@@ -102,13 +102,13 @@ openvdb::Vec3d centerOf(const std::vector<Ball>& balls)
     return box.getCenter();
 }
 
-std::string describe(const FrameRow& row, const Report& report, bool warm)
+std::string describe(const FrameRow& row, const Report& report)
 {
     std::string line = formatted("frame %d: area %.1f Å^2, volume %.1f Å^3, Euler %d", row.frame,
                                  report.surface.area, report.surface.volume, row.euler);
     if (report.evolution)
         line += ", " + counted(std::size_t(report.evolution->steps), "step", "steps") +
-                (warm ? " (warm)" : "") + (row.rests ? "" : ", not converged");
+                (row.rests ? "" : ", not converged");
     return line + formatted(", %.2f s", report.seconds.back().second);
 }
 
@@ -179,7 +179,6 @@ public:
             make(i);
             return;
         }
-        warm_ = WarmStart();
         const auto known = table_.find(i + 1);
         euler_.reset();
         if (known == table_.end()) return;
@@ -229,7 +228,6 @@ private:
         std::vector<BallSet> shown;
         for (const auto& source : shown_) shown.push_back(source->balls(i));
         showAtoms(call_, std::move(shown), balls, terminal_, calls_[i].picture);
-        const bool begun = call_.warm && !warm_.empty();
         Report read;
         read.warnings = call_.warnings;
         read.seconds = {{"read", secondsSince(start)}};
@@ -241,18 +239,17 @@ private:
         };
         FrameRow row;
         table.add = [&](const Report& report, OutputFiles& files) {
-            table_[i + 1] = row = frameRow(i + 1, source_.number(i), begun, options_, report);
+            table_[i + 1] = row = frameRow(i + 1, source_.number(i), options_, report);
             if (tableName_.empty()) return;
             files.push_back(std::make_unique<OutputFile>(tableName_, true));
             writeFrameTable(table_, *files.back());
         };
-        const Report report = surfaceOf(calls_[i], balls, read, terminal_, start,
-                                        call_.warm ? &warm_ : nullptr, extend, table);
+        const Report report = surfaceOf(calls_[i], balls, read, terminal_, start, extend, table);
         creeping_ += !row.rests;
         if (euler_ && *euler_ != row.euler)
             changes_ += (changes_.empty() ? "" : ", ") + std::to_string(row.frame);
         euler_ = row.euler;
-        if (!call_.quiet) say(describe(row, report, begun));
+        if (!call_.quiet) say(describe(row, report));
     }
 
     Call call_;
@@ -269,7 +266,6 @@ private:
     std::vector<AreaFile> areas_; // of all frames
     std::vector<Call> calls_;
     std::vector<bool> done_;
-    WarmStart warm_;
     std::size_t creeping_ = 0;
     std::optional<int> euler_; // of the frame before
     std::string changes_;      // of the topology: frames

@@ -87,6 +87,12 @@ bool stillTravels(const std::vector<double>& areas)
 
 std::string unrestText(const EvolutionReport& evolution, double voxel, const std::string& more)
 {
+    if (evolution.steps == 0 && evolution.energy.empty()) // in closed form
+        return formatted(
+            "not at rest: %.3g %% of the surface lies more than %.2g Å from it; the files "
+            "are written [hint: --flow newton makes steps, a smaller --voxel resolves "
+            "it, --tolerance %.2g accepts it]",
+            100.0 * evolution.unsettledShare, 0.1 * voxel, 1.1 * evolution.toleranceMet);
     if (evolution.steps == 0) return "not converged: no step was made [hint: more " + more + "]";
     const std::string steps = counted(std::size_t(evolution.steps), "step", "steps");
     if (evolution.displacementTail == 0.0) // the paper's flow solves for no displacement

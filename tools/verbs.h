@@ -47,11 +47,10 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
                     std::chrono::steady_clock::time_point start, const Companions& companions = {});
 
 /// The part of that which says little: runs and writes. prepareOutputs() has been called.
-/// @param[in]     call    with --center and a frame the centre of the scene is taken, else chosen
-/// @param[in,out] warm    as makeSurface() takes it
-/// @param[in]     extend  changes the result before it is written; may be empty
+/// @param[in] call    with --center and a frame the centre of the scene is taken, else chosen
+/// @param[in] extend  changes the result before it is written; may be empty
 Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& terminal,
-                 std::chrono::steady_clock::time_point start, WarmStart* warm = nullptr,
+                 std::chrono::steady_clock::time_point start,
                  const std::function<void(MolecularSurface&)>& extend = nullptr,
                  const Companions& companions = {});
 

@@ -9,7 +9,6 @@ _vdb_molsurf()
     esac
     case $verb:$before in
         "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face mrc dx cxc pml html json png view atoms.csv residues.csv contacts.csv interfaces.csv pdb cif residues.pdb residues.cif" ;;
-        "build":--start) words="cold warm" ;;
         "build":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "build":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value v" ;;
         "build":--coarse) words="atom residue" ;;
@@ -27,7 +26,7 @@ _vdb_molsurf()
         "build":--show) words="sticks balls spheres tube" ;;
         "build":--legend) words="auto on off" ;;
         "build":--regularizer) words="gradient area" ;;
-        "build":--flow) words="newton paper" ;;
+        "build":--flow) words="rest newton paper" ;;
         "batch":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "batch":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value v" ;;
         "batch":--coarse) words="atom residue" ;;
@@ -45,13 +44,13 @@ _vdb_molsurf()
         "batch":--show) words="sticks balls spheres tube" ;;
         "batch":--legend) words="auto on off" ;;
         "batch":--regularizer) words="gradient area" ;;
-        "batch":--flow) words="newton paper" ;;
+        "batch":--flow) words="rest newton paper" ;;
         "compare":--format) words="vdb ply json" ;;
         "compare":--color) words="distance signed-distance" ;;
         "compare":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "compare":--coarse) words="atom residue" ;;
         "compare":--regularizer) words="gradient area" ;;
-        "compare":--flow) words="newton paper" ;;
+        "compare":--flow) words="rest newton paper" ;;
         "convert":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face mrc dx cxc pml html json png view" ;;
         "convert":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value v" ;;
         "convert":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
@@ -68,11 +67,11 @@ _vdb_molsurf()
         "bricks plan":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "bricks plan":--value-of) words="atom residue" ;;
         "bricks plan":--regularizer) words="gradient area" ;;
-        "bricks plan":--flow) words="newton paper" ;;
+        "bricks plan":--flow) words="rest newton paper" ;;
         "bricks merge":--format) words="vdb ply json" ;;
     esac
     case $verb in
-        "build") options="--output -o --format --force --select --model --assembly --instances --by-symmetry --weld --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --frames --trajectory --start --surface --voxel --lod --blobbiness --fill-cavities --fields --vdb-half --curvature-totals --epsilon --resolution --coarse --match-volume --groups --group-by --split --surface-of --interfaces --color --range --palette --value-of --flat-values --outward --crisp --areas --contacts --for --center --print-scale --min-wall --view --turn --size --background --plain-color --style --show --opacity --all-walls --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --memory --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --list-radii --version -V --help -h --help-all" ;;
+        "build") options="--output -o --format --force --select --model --assembly --instances --by-symmetry --weld --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --frames --trajectory --surface --voxel --lod --blobbiness --fill-cavities --fields --vdb-half --curvature-totals --epsilon --resolution --coarse --match-volume --groups --group-by --split --surface-of --interfaces --color --range --palette --value-of --flat-values --outward --crisp --areas --contacts --for --center --print-scale --min-wall --view --turn --size --background --plain-color --style --show --opacity --all-walls --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --memory --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --list-radii --version -V --help -h --help-all" ;;
         "batch") options="--folder -O --formats --force --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fill-cavities --fields --vdb-half --curvature-totals --epsilon --resolution --coarse --match-volume --groups --group-by --split --surface-of --interfaces --color --range --palette --value-of --flat-values --outward --areas --contacts --for --center --print-scale --min-wall --view --turn --size --background --plain-color --style --show --opacity --all-walls --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --max-hours --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h --help-all" ;;
         "compare") options="--output -o --format --force --color --range --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fill-cavities --epsilon --resolution --coarse --match-volume --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h --help-all" ;;
         "convert") options="--output -o --format --force --fields --range --palette --color --print-scale --view --turn --size --background --plain-color --style --opacity --all-walls --clip --depth-cue --legend --scale-bar --dpi --turntable --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h --help-all" ;;

@@ -8,7 +8,6 @@ case $words[2] in
 esac
 case "$verb:$words[CURRENT-1]" in
     "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
-    "build:--start") compadd -- 'cold' 'warm'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
     "build:--coarse") compadd -- 'atom' 'residue'; return ;;
@@ -26,7 +25,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--show") compadd -- 'sticks' 'balls' 'spheres' 'tube'; return ;;
     "build:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "build:--regularizer") compadd -- 'gradient' 'area'; return ;;
-    "build:--flow") compadd -- 'newton' 'paper'; return ;;
+    "build:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
     "batch:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "batch:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
     "batch:--coarse") compadd -- 'atom' 'residue'; return ;;
@@ -44,13 +43,13 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--show") compadd -- 'sticks' 'balls' 'spheres' 'tube'; return ;;
     "batch:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "batch:--regularizer") compadd -- 'gradient' 'area'; return ;;
-    "batch:--flow") compadd -- 'newton' 'paper'; return ;;
+    "batch:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
     "compare:--format") compadd -- 'vdb' 'ply' 'json'; return ;;
     "compare:--color") compadd -- 'distance' 'signed-distance'; return ;;
     "compare:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "compare:--coarse") compadd -- 'atom' 'residue'; return ;;
     "compare:--regularizer") compadd -- 'gradient' 'area'; return ;;
-    "compare:--flow") compadd -- 'newton' 'paper'; return ;;
+    "compare:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
     "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'view'; return ;;
     "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
     "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
@@ -67,7 +66,7 @@ case "$verb:$words[CURRENT-1]" in
     "bricks plan:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "bricks plan:--value-of") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--regularizer") compadd -- 'gradient' 'area'; return ;;
-    "bricks plan:--flow") compadd -- 'newton' 'paper'; return ;;
+    "bricks plan:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
     "bricks merge:--format") compadd -- 'vdb' 'ply' 'json'; return ;;
 esac
 if [[ $CURRENT == 3 && $words[2] == bricks ]]; then
@@ -99,7 +98,6 @@ if [[ $words[CURRENT] == -* ]]; then
       '--max-input:bytes that INPUT may have, unpacked, such as 10G'
       '--frames:a surface for every S-th frame from A to B\: models of'
       '--trajectory:.dcd or .xtc with the frames, its atoms those of INPUT'
-      '--start:cold\: each frame as a run of its own; warm\: its flow'
       '--surface:variational; ses\: solvent-excluded; sas\:'
       '--voxel:edge of a voxel [Å], 0.05 to 10'
       '--lod:with --instances\: voxels such as 1,2,4 in the place of'
@@ -147,7 +145,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--turntable:N pictures round the upright\: name.0001.png, ...'
       '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
       '--regularizer:gradient or area'
-      '--flow:newton, or paper\: the paper'\''s own scheme, for comparison'
+      '--flow:rest\: in closed form, where no front moves, else newton;'
       '--max-steps:steps at most'
       '--steps:so many steps, converged or not'
       '--tolerance:converged when a step moves the surface by less than T'
@@ -232,7 +230,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--turntable:N pictures round the upright\: name.0001.png, ...'
       '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
       '--regularizer:gradient or area'
-      '--flow:newton, or paper\: the paper'\''s own scheme, for comparison'
+      '--flow:rest\: in closed form, where no front moves, else newton;'
       '--max-steps:steps at most'
       '--steps:so many steps, converged or not'
       '--tolerance:converged when a step moves the surface by less than T'
@@ -281,7 +279,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--match-volume:resolutions keep the volume of the fine surface'
       '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
       '--regularizer:gradient or area'
-      '--flow:newton, or paper\: the paper'\''s own scheme, for comparison'
+      '--flow:rest\: in closed form, where no front moves, else newton;'
       '--max-steps:steps at most'
       '--steps:so many steps, converged or not'
       '--tolerance:converged when a step moves the surface by less than T'
@@ -375,7 +373,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--outward:potentials are taken A outside of the surface [Å]'
       '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
       '--regularizer:gradient or area'
-      '--flow:newton, or paper\: the paper'\''s own scheme, for comparison'
+      '--flow:rest\: in closed form, where no front moves, else newton;'
       '--steps:so many steps, converged or not'
       '--tolerance:converged when a step moves the surface by less than T'
       '--bricks:how many bricks, about as large each'

@@ -47,8 +47,9 @@ enum class Regularizer {
     Area      ///< h = 1
 };
 
-/// The ways to step the flow. docs/math.md, section 4.
+/// The ways to bring the interface to rest. docs/math.md, section 4.
 enum class Flow {
+    Rest,   ///< in closed form where no front moves and no number of steps is given, else Newton
     Newton, ///< solves for the displacement of the whole interface that brings it to rest
     Paper   ///< the scheme of the paper, for comparison: one time step for all voxels
 };
@@ -58,7 +59,7 @@ struct EvolveOptions {
     double lambda = 0.01; ///< weight of the regulariser, in [0, 1e6]; [Å^2] for
                           ///< Regularizer::Gradient, no unit for Regularizer::Area
     Regularizer regularizer = Regularizer::Gradient;
-    Flow flow = Flow::Newton;
+    Flow flow = Flow::Rest;
     std::optional<int> maxSteps; ///< largest number of steps, >= 0; none: 50 for the Newton flow,
                                  ///< which ends earlier where it stalls, and 200 for the paper's
     std::optional<int> steps;    ///< number of steps, >= 0, whether the flow converges or not;
@@ -70,7 +71,7 @@ struct EvolveOptions {
     /// this, and is below eight times this (or below 0.04) at 99.9 % of the interface [voxel], > 0.
     /// In a first step it counts for a quarter, and for a third where fronts move, with
     /// sqrt(lambda/2) above 0.11 Å. It is never meant for less than 0.001 voxel, (h/0.5 Å)^2 times
-    /// that above 0.5 Å.
+    /// that above 0.5 Å. In closed form it is a length, 2 Å times the tolerance: judgeRest().
     double tolerance = 0.01;
 };
 

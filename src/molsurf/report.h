@@ -102,7 +102,8 @@ struct SurfaceReport {
 
 /// The history of the flow. Its interface is that of the evolving level set, near the
 /// solvent-accessible surface. Energy, area and volume have an entry for the initial interface and
-/// one for each step; the displacement and the speed have one for each step.
+/// one for each step; the displacement and the speed have one for each step. At rest in closed form
+/// there is no step, and all of them are empty.
 struct EvolutionReport {
     /// How the gaps of a molecule were decided: cavities, tunnels and slits that are open or closed
     /// by a little.
@@ -120,8 +121,8 @@ struct EvolutionReport {
     std::vector<double> volume; ///< volume inside the interface [Å^3]
     std::vector<double> meanDisplacement; ///< mean way of the interface in the step [Å]
     std::vector<double> maxSpeed;         ///< largest |F| near the interface in the step [1/Å]
-    /// The way of the interface in the last step [Å]: its root mean square, and what 99.9 % of the
-    /// interface does not exceed.
+    /// The way of the interface in the last step, or to rest where it is so in closed form [Å]: its
+    /// root mean square, and what 99.9 % of the interface does not exceed.
     double displacementRms = 0.0, displacementTail = 0.0;
     double toleranceMet = 0.0; ///< the smallest EvolveOptions::tolerance that it meets [voxel]
     /// How much the area may still change on the way to rest, an estimate as a share of the area

@@ -81,23 +81,6 @@ struct Voxels {
 /// @throws Error(ErrorKind::Input) if they are not
 Voxels voxelsOf(const openvdb::FloatGrid& grid);
 
-/// A start for the flow of the next frame of a trajectory: how far the surface of the frame before
-/// moved from its initial place to rest.
-class WarmStart
-{
-public:
-    struct State;
-    WarmStart();
-    ~WarmStart();
-    WarmStart(WarmStart&& other) noexcept;
-    WarmStart& operator=(WarmStart&& other) noexcept;
-
-    /// Returns whether no run has left anything here yet.
-    bool empty() const { return !state; }
-
-    std::unique_ptr<State> state; ///< of use to the library alone
-};
-
 /// How far around a symmetric unit balls have an influence on its surface, for
 /// SelectOptions::surroundings [Å].
 double surroundingsOf(const SurfaceOptions& options);
@@ -106,12 +89,9 @@ double surroundingsOf(const SurfaceOptions& options);
 ///
 /// One build of the library gives the same bits for every number of threads.
 ///
-/// @param[in]     balls     at least one; positions and radii are finite
-/// @param[in]     options   every option in its range, see checkOptions()
-/// @param[in]     progress  follows the run and may end it; null: nobody does
-/// @param[in,out] warm      an optional start from the previous frame, made with nearly the same
-///                          balls and the same options; this run replaces it by its own. Surfaces
-///                          of parts and kinds without a flow ignore it.
+/// @param[in] balls     at least one; positions and radii are finite
+/// @param[in] options   every option in its range, see checkOptions()
+/// @param[in] progress  follows the run and may end it; null: nobody does
 /// @throws Error(ErrorKind::Usage) if an option is out of its range, or the balls lack the labels,
 ///         groups or values that SurfaceOptions::color shows
 /// @throws Error(ErrorKind::Input) if a ball cannot be used; the message has its index
@@ -119,7 +99,7 @@ double surroundingsOf(const SurfaceOptions& options);
 /// @throws Error(ErrorKind::Check) if the result contradicts itself
 /// @throws Cancelled if the progress object says so
 MolecularSurface makeSurface(const BallSet& balls, const SurfaceOptions& options = {},
-                             Progress* progress = nullptr, WarmStart* warm = nullptr);
+                             Progress* progress = nullptr);
 
 /// Makes the surface of balls without labels, resolutions or colours; otherwise as above.
 MolecularSurface makeSurface(const std::vector<Ball>& balls, const SurfaceOptions& options = {},

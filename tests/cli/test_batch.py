@@ -104,7 +104,7 @@ class Batch(ToolTest):
 
     def test_not_converged(self):
         (self.folder / "list").write_text(f"{CRAMBIN}\n")
-        self.batch(3, "--max-steps", "1", "--formats", "json", says="1 not converged")
+        self.batch(3, "--flow", "newton", "--max-steps", "1", "--formats", "json", says="1 not converged")
         self.assertEqual(self.files(), ["1crn.json", "summary.csv", "summary.json"])
 
     def test_names_are_no_formulas(self):

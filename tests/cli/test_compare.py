@@ -221,7 +221,7 @@ class Output(CompareTest):
                    says=["warning", "--lambda", "--waters", "without effect"])
 
     def test_a_structure_that_does_not_settle(self):
-        self.check(3, "compare", CRAMBIN, "a.obj", "--voxel", "1", "--max-steps", "1", "-o",
+        self.check(3, "compare", CRAMBIN, "a.obj", "--voxel", "1", "--flow", "newton", "--max-steps", "1", "-o",
                    "d.json", says=["not converged", "1crn.pdb"])
         self.assertIn("d.json", self.names())
 
@@ -260,7 +260,7 @@ class WrongCalls(CompareTest):
         self.check(2, CRAMBIN, "-o", "a.ply", "--range", "1", says="--range")
 
     def test_help(self):
-        text = self.check(0, "compare", "--help").stdout.decode()
+        text = self.check(0, "compare", "--help-all").stdout.decode()
         for word in ("compare A B", "--range", "--voxel", "3 not converged"):
             self.assertIn(word, text)
         self.assertNotIn("--fields", text)

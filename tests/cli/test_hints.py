@@ -400,9 +400,6 @@ CASES = {
          f"vdb_molsurf 1a8o.cif.gz --assembly 1 --group-by copy --color group {FAST} -o a.ply"),
         ("--group-by class --color group", f"vdb_molsurf 1a8o.cif.gz --assembly 1 --color class --group-by chain {FAST} -o a.ply",
          f"vdb_molsurf 1a8o.cif.gz --assembly 1 --group-by class --color group {FAST} -o a.ply")],
-    "structure/detect_format.cpp": [
-        ("unzip it first", "python3 -m zipfile -c a.zip 1crn.pdb; vdb_molsurf a.zip -o a.ply",
-         f"python3 -m zipfile -c a.zip 1crn.pdb; rm 1crn.pdb; python3 -m zipfile -e a.zip .; vdb_molsurf 1crn.pdb {FAST} -o a.ply")],
     "tools/cli/parse.cpp": [
         ("did you mean --version?", "vdb_molsurf -version", "vdb_molsurf --version"),
         ("vdb_molsurf help", "vdb_molsurf bricks", "vdb_molsurf help | grep 'bricks plan'"),
@@ -413,18 +410,22 @@ CASES = {
          f"vdb_molsurf two.xyzr {FAST} -o b.vdb && vdb_molsurf compare b.vdb two.xyzr {FAST}"),
         ("-o .ply", "vdb_molsurf compare open.ply solid.ply -o a.vdb",
          "vdb_molsurf compare open.ply solid.ply -o a.ply"),
-        ("a larger --tolerance or a smaller --voxel", "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.05 --voxel 0.7",
-         "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.05 --voxel 0.7 --tolerance 0.03",
-         "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.05 --voxel 0.6")],
+        ("a larger --tolerance or a smaller --voxel", "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.1 --voxel 0.8",
+         "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.1 --voxel 0.8 --tolerance 0.03",
+         "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.1 --voxel 0.4")],
     "tools/outputs.cpp": [
         ("more --steps", "vdb_molsurf one.xyzr --voxel 1 --steps 0 -o a.ply", "vdb_molsurf one.xyzr --voxel 1 --steps 4 -o b.ply"),
         ("--steps 20 goes on", "vdb_molsurf 1a8o.cif.gz --assembly 1 --voxel 1 --regularizer area --lambda 0.5 --steps 5 -o a.ply",
          "vdb_molsurf 1a8o.cif.gz --assembly 1 --voxel 1 --regularizer area --lambda 0.5 --steps 20 --tolerance 0.1 -o b.ply"),
-        (" goes on, ", "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 -o a.ply",
-         "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 -o a.ply --force 2>&1 | sed -n 's/.*hint: \\(--max-steps [0-9]*\\).*/\\1/p' > t; "
-         "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 $(cat t) -o b.ply",
-         "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 -o a.ply --force 2>&1 | sed -n 's/.*\\(--tolerance [0-9.]*\\).*/\\1/p' > t; "
-         "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 $(cat t) -o c.ply"),
+        (" goes on, ", "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 --flow newton -o a.ply",
+         "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 --flow newton -o a.ply --force 2>&1 | sed -n 's/.*hint: \\(--max-steps [0-9]*\\).*/\\1/p' > t; "
+         "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 --flow newton $(cat t) -o b.ply",
+         "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 --flow newton -o a.ply --force 2>&1 | sed -n 's/.*\\(--tolerance [0-9.]*\\).*/\\1/p' > t; "
+         "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 --flow newton $(cat t) -o c.ply"),
+        ("--flow newton makes steps", "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.8 -o a.ply",
+         "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.8 --flow newton -o b.ply", "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.4 -o c.ply",
+         "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.8 -o a.ply --force 2>&1 | sed -n 's/.*\\(--tolerance [0-9.]*\\).*/\\1/p' > t; "
+         "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.8 $(cat t) -o d.ply"),
         ("--flow newton", "vdb_molsurf 1crn.pdb --voxel 1 --flow paper --max-steps 5 -o a.ply",
          "vdb_molsurf 1crn.pdb --voxel 1 --flow newton -o b.ply")],
     "tools/msms/call.cpp": [

@@ -185,7 +185,7 @@ class Limits(ToolTest):
                              % (row + 1, n + 1, *unit, shift[row]))
         lines.append("ATOM      1  CA  ALA A   1       0.000   0.000   0.000  1.00  0.00           C\n")
         self.balls("copies.pdb", lines)
-        self.check(0, "copies.pdb", "--assembly", "1", "--voxel", "10", "-o", "a.json",
+        self.check(0, "copies.pdb", "--assembly", "1", "--voxel", "10", "--surface", "sas", "-o", "a.json",
                    says="100000 atoms")
 
 

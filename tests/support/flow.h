@@ -7,9 +7,12 @@
 #include "molsurf/flow/evolve.h"
 #include "molsurf/flow/initial_surface.h"
 #include "molsurf/flow/refine.h"
+#include "molsurf/flow/rest.h"
 #include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/spline/spline.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -17,10 +20,36 @@ namespace molsurf::test
 {
 
 struct Evolved {
-    NarrowBand band;
+    NarrowBand band; ///< in closed form phi is the carrier
     EvolutionReport report;
     Spline spline; ///< of phi
 };
+
+/// The interface at rest in closed form.
+/// @param[in] offset  that is added to the way from psi to its level, outward [Å]: 0 is rest
+/// @param[out] last   null, or takes the ways to rest
+inline Evolved restOf(const GaussianSum& field, SparseField psi, double epsilon,
+                      const EvolveOptions& options, double offset, Displacements* last)
+{
+    const Progress progress;
+    const Weights weights = weightsOf(options);
+    const float slope = float(2.0 * M_LN2 / epsilon);
+    LeafField carrier(psi.table.size());
+    for (std::size_t n = 0; n < psi.table.size(); ++n)
+        std::fill_n(carrier.leaf(n), leafSize, slope);
+    LeafField levels = levelsAtRest(psi, carrier, weights, progress);
+    for (std::size_t n = 0; n < psi.table.size(); ++n)
+        for (int v = 0; v < leafSize; ++v) levels.leaf(n)[v] -= float(offset) * slope;
+    const Displacements ways = waysToRest(psi, {levels, carrier}, field, weights, {}, progress);
+    if (last) *last = ways;
+    Evolved out;
+    judgeRest(ways, options, psi.voxelSize, out.report);
+    carryLevels(psi, levels, bandWidthVox * psi.voxelSize, carrier, progress);
+    out.band.psi = std::move(psi.values);
+    out.band.phi = {std::move(psi.table), std::move(carrier), psi.voxelSize};
+    out.spline = {prefilter(out.band.phi, progress)};
+    return out;
+}
 
 /// @param[out] last  null, or takes the displacements of the last step
 inline Evolved evolveBalls(const std::vector<Ball>& balls, double epsilon, double voxel,
@@ -38,6 +67,9 @@ inline Evolved evolveBalls(const std::vector<Ball>& balls, double epsilon, doubl
         out.band.phi = refined(coarse.band.phi, openvdb::CoordBBox::inf(), progress);
         out.band.psi = field.evaluate(out.band.phi.table, progress).values;
     } else {
+        if (restsInClosedForm(options))
+            return restOf(field, field.band(restBandVox(voxel), progress), epsilon, options, 0.0,
+                          last);
         SparseField psi = field.band(bandWidthVox, progress);
         out.band.phi =
             initialSurface(psi, bandWidthVox * voxel,

@@ -123,7 +123,6 @@ struct Call : Settings {
     bool force = false;
     std::string frames;     ///< of --frames; empty: none
     std::string trajectory; ///< a .dcd or .xtc with the frames; empty: models are
-    bool warm = false;      ///< a frame begins at the surface of the one before
     std::string groupsFile;
     std::vector<double> lod; ///< voxels of levels of detail [Å], the finest first; empty: one
     Scene scene;             ///< of the .vdb and the node of the .glb

@@ -327,11 +327,7 @@ OptionGroup frameOptions()
               "name.csv: a table of all",
               Build, MOLSURF_OF(frames)),
          ofFile(text("trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
-                     Build, MOLSURF_OF(trajectory))),
-         either("start",
-                "cold: each frame as a run of its own; warm: its flow\n"
-                "begins at the surface of the one before",
-                "warm", "cold", Build, MOLSURF_OF(warm))}};
+                     Build, MOLSURF_OF(trajectory)))}};
 }
 
 OptionGroup surfaceOptions()

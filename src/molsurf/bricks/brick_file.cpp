@@ -363,6 +363,7 @@ void checkHeader(BrickHeader& h, std::uint64_t end)
     if (!h.sums.evolution) return;
     const EvolutionReport& e = *h.sums.evolution;
     const auto steps = std::size_t(e.steps);
+    if (e.steps == 0 && e.energy.empty() && e.area.empty() && e.volume.empty()) return; // no flow
     check(e.steps >= 0 && e.energy.size() == steps + 1 && e.area.size() == steps + 1 &&
               e.volume.size() == steps + 1 && e.meanDisplacement.size() == steps &&
               e.maxSpeed.size() == steps,

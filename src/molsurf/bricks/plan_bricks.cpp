@@ -467,6 +467,7 @@ double secondsOf(const std::vector<PlannedBrick>& bricks)
 /// The number of steps that all bricks make.
 int stepsOf(const SurfaceOptions& options)
 {
+    if (restsInClosedForm(options)) return 0;
     if (options.evolution.steps) return *options.evolution.steps;
     return startsCoarse(options) ? defaultFrontSteps : defaultBrickSteps;
 }
@@ -683,7 +684,7 @@ void computeBrick(const BallSet& balls, const SurfaceOptions& options, const Bri
                   std::shared_ptr<const SparseField>& coarse, Progress& progress)
 {
     SurfaceOptions fixed = options;
-    fixed.evolution.steps = plan.steps;
+    if (!restsInClosedForm(fixed)) fixed.evolution.steps = plan.steps;
     checkExtent(plan, Influence(balls, fixed).extent());
     Scope scope = scopeOf(plan, number - 1, fixed);
     Report ofCoarse;

@@ -131,7 +131,7 @@ Scope brickScope(const SurfaceOptions& options, const Region& region, const Gaus
         scope.ridgeHalo + leavesFor(std::max(inside, outside) / options.voxel + overhang);
     // What a step does at a voxel depends on the three voxels about it, and less by some orders of
     // magnitude on those of earlier steps, farther out (docs/adr/0013-bricks.md).
-    scope.flowHalo = scope.distanceHalo + flowLeaves;
+    scope.flowHalo = scope.distanceHalo + (restsInClosedForm(options) ? 1 : flowLeaves);
     return scope;
 }
 
@@ -162,7 +162,7 @@ Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope&
     MolecularSurface& result = run.result();
     if (!atoms.balls.empty()) {
         run.density();
-        run.flow(nullptr);
+        run.flow();
         run.distance();
     }
     run.spline();

@@ -154,6 +154,12 @@ MOLSURF_INLINE bool any(Ints condition)
 {
     return bitsOf(condition) != 0;
 }
+MOLSURF_INLINE bool any(Longs condition)
+{
+    Ints halves;
+    std::memcpy(&halves, &condition, sizeof halves);
+    return bitsOf(halves) != 0;
+}
 
 /// Makes its thread take denormal numbers (below 1e-38 in float) for 0 while it lives. Products of
 /// exponentials run into them, and many processors take a hundred times as long there.
@@ -228,6 +234,27 @@ MOLSURF_INLINE T fastExp(T x)
     const auto bits = (truncated(k) + 127) << 23; // 2^k
     T scale;
     static_assert(sizeof scale == sizeof bits);
+    std::memcpy(&scale, &bits, sizeof scale);
+    return p * scale;
+}
+
+/// The same in double, relative error below 1e-15, for |x| <= 700; four at a time.
+MOLSURF_INLINE Doubles fastExp(Doubles x)
+{
+    const double shifter = 6755399441055744.0; // 1.5 * 2^52: adding it rounds to an integer
+    x = x < -700.0 ? Doubles{} - 700.0 : x;
+    x = x > 700.0 ? Doubles{} + 700.0 : x;
+    const Doubles shifted = x * 1.4426950408889634 + shifter, k = shifted - shifter;
+    const Doubles r = (x - k * 0.693145751953125) - k * 1.42860682030941723212e-6;
+    Doubles p = Doubles{} + 1.0 / 6227020800.0; // 1/13!
+    for (const double c :
+         {1.0 / 479001600.0, 1.0 / 39916800.0, 1.0 / 3628800.0, 1.0 / 362880.0, 1.0 / 40320.0,
+          1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0})
+        p = p * r + c;
+    Longs bits;
+    std::memcpy(&bits, &shifted, sizeof bits);
+    bits = (bits + 1023) << 52; // 2^k: the low bits of shifted are k
+    Doubles scale;
     std::memcpy(&scale, &bits, sizeof scale);
     return p * scale;
 }

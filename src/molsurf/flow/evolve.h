@@ -34,6 +34,10 @@ Weights weightsOf(const EvolveOptions& options);
 /// first order.
 bool makesNewtonSteps(const EvolveOptions& options);
 
+/// Whether the interface at rest is known in closed form (flow/rest.h): no front moves, and no
+/// number of steps is given.
+bool restsInClosedForm(const EvolveOptions& options);
+
 /// Whether the flow starts from its rest on voxels twice as large. It does so where lambda is so
 /// large that fronts move far, as the surface closes pockets and gaps: that takes as many steps as
 /// it is voxels.
@@ -70,6 +74,15 @@ EvolutionReport evolve(NarrowBand& band, const PsiSource& source, const EvolveOp
 /// Estimates how much the area will still change, from that of the last step and its ways.
 /// @param[in,out] report  judged, with all its sums; areaError is set
 void estimateAreaError(const EvolveOptions& options, EvolutionReport& report);
+
+/// Finds whether an interface in closed form is at rest: whether the way from it to rest has a root
+/// mean square below 2 Å times the tolerance, and is below eight times that at 99.9 % of it; on
+/// voxels above 1 Å (h/Å)^2 times as much.
+/// @param[in]     ways       from it to rest, see waysToRest()
+/// @param[in]     voxelSize  edge h of a voxel [Å]
+/// @param[in,out] report     converged, the ways and areaError are set
+void judgeRest(const Displacements& ways, const EvolveOptions& options, double voxelSize,
+               EvolutionReport& report);
 
 /// Whether a flow has come as near to rest as its voxels let it: in eight steps neither the root
 /// mean square nor the quantile of its ways has fallen by a tenth, nor have area and

@@ -15,7 +15,7 @@ namespace molsurf
 namespace
 {
 
-constexpr const char* title = "file,frame,start,converged,steps,atoms,area,volume,"
+constexpr const char* title = "file,frame,converged,steps,atoms,area,volume,"
                               "euler_characteristic,components,cavities,seconds,options";
 
 // Parses one line; false if it is none of a table.
@@ -24,11 +24,11 @@ bool parse(const std::string& line, FrameTable& table)
     const std::vector<std::string> cells = splitWords(line);
     std::size_t file = 0;
     FrameRow row;
-    if (cells.size() != 13 || !parseWhole(cells[0], file) || !parseWhole(cells[1], row.frame) ||
-        !parseWhole(cells[8], row.euler))
+    if (cells.size() != 12 || !parseWhole(cells[0], file) || !parseWhole(cells[1], row.frame) ||
+        !parseWhole(cells[7], row.euler))
         return false;
-    row.rests = cells[3] != "no";
-    row.options = cells[12];
+    row.rests = cells[2] != "no";
+    row.options = cells[11];
     row.line = line;
     table[file] = row;
     return true;
@@ -36,14 +36,12 @@ bool parse(const std::string& line, FrameTable& table)
 
 } // namespace
 
-FrameRow frameRow(std::size_t file, int frame, bool warm, const std::string& options,
-                  const Report& report)
+FrameRow frameRow(std::size_t file, int frame, const std::string& options, const Report& report)
 {
     const SurfaceReport& s = report.surface;
     FrameRow row{frame, s.eulerCharacteristic.value_or(0),
                  !report.evolution || report.evolution->converged, options, ""};
-    row.line = digits(file) + "," + digits(frame) + "," + (warm ? "warm" : "cold") + "," +
-               (row.rests ? "yes" : "no") + "," +
+    row.line = digits(file) + "," + digits(frame) + "," + (row.rests ? "yes" : "no") + "," +
                digits(report.evolution ? report.evolution->steps : 0) + "," + digits(report.atoms) +
                "," + digits(s.area) + "," + digits(s.volume) + "," + digits(row.euler) + "," +
                digits(s.components) + "," + digits(s.cavities.size()) + "," +

@@ -26,9 +26,7 @@ struct FrameRow {
 /// By the number of the files, from 1.
 using FrameTable = std::map<std::size_t, FrameRow>;
 
-/// @param[in] warm  whether the flow began at the surface of the frame before
-FrameRow frameRow(std::size_t file, int frame, bool warm, const std::string& options,
-                  const Report& report);
+FrameRow frameRow(std::size_t file, int frame, const std::string& options, const Report& report);
 
 /// Reads what writeFrameTable() wrote; empty if the file does not exist.
 /// @throws Error(ErrorKind::Output) if it is another file

@@ -73,23 +73,24 @@ Json gapsJson(const std::optional<EvolutionReport::Gaps>& gaps)
 
 Json evolutionJson(const EvolutionReport& evolution)
 {
-    return {{"steps", evolution.steps},
-            {"converged", evolution.converged},
-            {"energy", evolution.energy},
-            {"mean_displacement", evolution.meanDisplacement},
-            {"max_speed", evolution.maxSpeed},
-            {"final_energy", evolution.finalEnergy},
-            {"displacement_rms", evolution.displacementRms},
-            {"displacement_tail", evolution.displacementTail},
-            {"area_error", evolution.areaError},
-            {"unsettled_share", evolution.unsettledShare},
-            {"crevice_voxels", evolution.unresolvedGapVoxels},
-            {"front_steps", evolution.frontSteps},
-            {"restless_fronts", evolution.restlessFronts},
-            {"gaps", gapsJson(evolution.gaps)},
-            {"walls", gapsJson(evolution.walls)},
-            {"area", evolution.area},
-            {"volume", evolution.volume}};
+    return {
+        {"steps", evolution.steps},
+        {"converged", evolution.converged},
+        {"energy", evolution.energy},
+        {"mean_displacement", evolution.meanDisplacement},
+        {"max_speed", evolution.maxSpeed},
+        {"final_energy", evolution.finalEnergy},
+        {"displacement_rms", evolution.displacementRms},
+        {"displacement_tail", evolution.displacementTail},
+        {"area_error", evolution.areaError},
+        {"unsettled_share", evolution.unsettledShare},
+        {"crevice_voxels", evolution.energy.empty() ? Json() : Json(evolution.unresolvedGapVoxels)},
+        {"front_steps", evolution.frontSteps},
+        {"restless_fronts", evolution.restlessFronts},
+        {"gaps", gapsJson(evolution.gaps)},
+        {"walls", gapsJson(evolution.walls)},
+        {"area", evolution.area},
+        {"volume", evolution.volume}};
 }
 
 Json groupsJson(const std::vector<GroupReport>& groups)

@@ -12,14 +12,14 @@ using openvdb::Vec3d;
 namespace
 {
 
-constexpr double felt = 16.0; // beyond this exponent a bump is not felt
+constexpr double bumpFelt = 16.0; // beyond this exponent a bump is not felt
 
 } // namespace
 
 void Bumps::add(const Bump& bump)
 {
     const double edge = leafDim * voxelSize_;
-    const Vec3d reach(std::sqrt(felt / bump.rate));
+    const Vec3d reach(std::sqrt(bumpFelt / bump.rate));
     const Coord low = Coord::floor((bump.place - reach) / edge);
     const Coord high = Coord::floor((bump.place + reach) / edge);
     for (auto leaf = openvdb::CoordBBox(low, high).begin(); leaf; ++leaf)
@@ -37,7 +37,7 @@ void Bumps::addTo(const Coord& origin, float* psi) const
         for (int v = 0; v < leafSize; ++v) {
             const Coord voxel = origin.offsetBy(v >> 6, v >> 3 & 7, v & 7);
             const double t = bump.rate * (voxel.asVec3d() * voxelSize_ - bump.place).lengthSqr();
-            if (t < felt) psi[v] += float(bump.amplitude * std::exp(-t));
+            if (t < bumpFelt) psi[v] += float(bump.amplitude * std::exp(-t));
         }
     }
 }
@@ -52,7 +52,7 @@ double Bumps::at(const Vec3d& x, Vec3d* gradient, openvdb::Mat3d* hessian) const
         const Bump& bump = bumps_[std::size_t(i)];
         const Vec3d way = x - bump.place;
         const double t = bump.rate * way.lengthSqr();
-        if (t >= felt) continue;
+        if (t >= bumpFelt) continue;
         const double value = bump.amplitude * std::exp(-t);
         sum += value;
         if (gradient) *gradient -= 2.0 * bump.rate * value * way;

@@ -15,8 +15,8 @@ namespace molsurf
 namespace
 {
 
-constexpr float unknown = 1e9f; // v where it is not known
-constexpr float near = 0.7f;    // of the interface: where v is taken [voxel]
+constexpr float unknown = 1e9f;       // v where it is not known
+constexpr float nearInterface = 0.7f; // of the interface: where v is taken [voxel]
 
 /// How much the distance carries the interface rather than psi: 1 where the interface has left the
 /// valley of the metric, as it does where it spans a gap. Levels of psi mean nothing to it there.
@@ -151,7 +151,7 @@ SparseField smoothCarrier(const SparseField& phi, CarrierSource source, double w
     SparseField out{table, std::move(source.slope), phi.voxelSize};
     parallelFor(table.size(), progress, [&](std::size_t n) {
         std::fill_n(levels.leaf(n), leafSize, unknown);
-        const LeafMask mask = table.active(n) & within(phi.leaf(n), near * voxelSize);
+        const LeafMask mask = table.active(n) & within(phi.leaf(n), nearInterface * voxelSize);
         if (source.onPsiZero || !mask.any()) return;
         LeafBlock<float, 1> f, p;
         f.gather(table, phi.values, n);

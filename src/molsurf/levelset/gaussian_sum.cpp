@@ -49,6 +49,13 @@ std::vector<Coord> leavesWithin(std::vector<Coord> places, int reach, const Prog
     return origins;
 }
 
+/// 1, 2, 3, ...
+std::uint64_t numberOfSum()
+{
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
 } // namespace
 
 GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& options,
@@ -82,7 +89,7 @@ double GaussianExtent::cutoff(double reach) const
 
 GaussianSum::GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& options,
                          const std::vector<Decay>& decays)
-    : options_(options),
+    : number_(numberOfSum()), options_(options),
       extent_(options.extent ? *options.extent : extentOf(balls, options, decays)),
       index_(balls, {1.25, options.probe, 2.0, extent_.maxRadius}), bumps_(options.voxelSize)
 {
@@ -140,41 +147,40 @@ void GaussianSum::evaluate(const Coord& origin, double reach, float* psi) const
     bumps_.addTo(origin, psi);
 }
 
+void GaussianSum::gatherJetTerms(const Coord& cell, JetTerms& terms) const
+{
+    const double h = options_.voxelSize, scale = 1.0 / (h * h);
+    const Vec3d low = cell.asVec3d(), high = low + Vec3d(1.0), middle = low + Vec3d(0.5);
+    const double halfDiagonal = 0.5 * std::sqrt(3.0);
+    terms.clear();
+    index_.forEachRun(
+        low, high, extent_.cutoff(0.0) - extent_.maxRadius,
+        [&](std::int32_t begin, std::int32_t end) {
+            for (auto k = std::size_t(begin); k < std::size_t(end); ++k) {
+                const Vec3d x(lists_.x[k], lists_.y[k], lists_.z[k]);
+                const double felt = h * std::sqrt(double(lists_.felt2[k])) + halfDiagonal;
+                if ((middle - x).lengthSqr() > felt * felt) continue;
+                terms.add(x, scale * double(lists_.decay[k]), double(lists_.level[k]));
+            }
+        });
+    terms.fillUp();
+}
+
 PsiJet GaussianSum::jet(const Vec3d& x) const
 {
-    constexpr double least = -12.0;
-    const double scale = 1.0 / (options_.voxelSize * options_.voxelSize);
-    double sum = 0.0;
-    Vec3d first(0.0);
-    double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0, rates = 0.0;
-    const auto add = [&](std::size_t i) {
-        const Vec3d d = x - Vec3d(lists_.x[i], lists_.y[i], lists_.z[i]);
-        const double C = scale * double(lists_.decay[i]);
-        const double t = double(lists_.level[i]) - C * d.lengthSqr();
-        if (t < least) return;
-        const double e = std::exp(t);
-        const Vec3d f = 2.0 * C * d, ef = e * f;
-        sum += e;
-        rates += 2.0 * C * e;
-        first -= ef;
-        xx += ef.x() * f.x();
-        xy += ef.x() * f.y();
-        xz += ef.x() * f.z();
-        yy += ef.y() * f.y();
-        yz += ef.y() * f.z();
-        zz += ef.z() * f.z();
+    struct Near {
+        std::uint64_t sum = 0; // 0: none
+        Coord cell;
+        JetTerms terms;
     };
-    index_.forEachRun(x, x, extent_.cutoff(0.0) - extent_.maxRadius,
-                      [&](std::int32_t begin, std::int32_t end) {
-                          for (std::int32_t i = begin; i < end; ++i) add(std::size_t(i));
-                      });
-    if (sum == 0.0) return {double(lowestPsi), Vec3d(0.0), openvdb::Mat3d::zero()};
-    const Vec3d gradient = first / sum;
-    openvdb::Mat3d hessian(xx - rates, xy, xz, xy, yy - rates, yz, xz, yz, zz - rates);
-    hessian *= 1.0 / sum;
-    for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b) hessian(a, b) -= gradient[a] * gradient[b];
-    return {std::log(sum), gradient, hessian};
+    thread_local Near near;
+    const Coord cell = Coord::floor(x);
+    if (near.sum != number_ || near.cell != cell) {
+        gatherJetTerms(cell, near.terms);
+        near.sum = number_;
+        near.cell = cell;
+    }
+    return near.terms.jetAt(x);
 }
 
 std::size_t GaussianSum::productCount(const Coord& origin, double reach) const

@@ -14,9 +14,9 @@ using openvdb::Coord;
 namespace
 {
 
-constexpr int cube = 4, plane = cube * cube;
-static_assert(plane % floatLanes == 0 && leafDim % cube == 0);
-constexpr float cubeHalf = 0.5f * (cube - 1); // of the box of its voxels' centres
+constexpr int cubeEdge = 4, plane = cubeEdge * cubeEdge;
+static_assert(plane % floatLanes == 0 && leafDim % cubeEdge == 0);
+constexpr float cubeHalf = 0.5f * (cubeEdge - 1); // of the box of its voxels' centres
 
 /// Appends i + k to a list of m for every lane k that is on.
 /// @return the new length
@@ -86,16 +86,16 @@ MOLSURF_KERNEL void nearestInCube(const float* x, const float* y, const float* z
     for (int part = 0; part < plane; part += floatLanes) { // of each plane
         Floats vy, vz;
         for (int k = 0; k < floatLanes; ++k) {
-            vy[k] = cy + float((part + k) / cube);
-            vz[k] = cz + float((part + k) % cube);
+            vy[k] = cy + float((part + k) / cubeEdge);
+            vz[k] = cz + float((part + k) % cubeEdge);
         }
-        Floats nearest[cube];
-        Ints which[cube] = {};
+        Floats nearest[cubeEdge];
+        Ints which[cubeEdge] = {};
         for (Floats& d : nearest) d = splat(1e30f);
         for (int i = 0; i < count; ++i) {
             const Floats dy = vy - y[i], dz = vz - z[i];
             const Floats aside = dy * dy + dz * dz;
-            for (int k = 0; k < cube; ++k) {
+            for (int k = 0; k < cubeEdge; ++k) {
                 const float dx = x[i] - cx - float(k);
                 const Floats d2 = aside + dx * dx;
                 const Ints nearer = d2 < nearest[k];
@@ -103,7 +103,7 @@ MOLSURF_KERNEL void nearestInCube(const float* x, const float* y, const float* z
                 which[k] = nearer ? splat(i) : which[k];
             }
         }
-        for (int k = 0; k < cube; ++k) {
+        for (int k = 0; k < cubeEdge; ++k) {
             store(least + plane * k + part, nearest[k]);
             store(best + plane * k + part, which[k]);
         }
@@ -235,11 +235,11 @@ void nearestPoints(const LeafPoints& points, const Coord& origin, const LeafMask
         const int bx = b >> 2, by = b >> 1 & 1, bz = b & 1;
         const std::uint64_t columns = std::uint64_t(0x0f0f0f0f) << (32 * by + 4 * bz);
         std::uint64_t any = 0;
-        for (int x = 0; x < cube; ++x) any |= mask.words[cube * bx + x] & columns;
+        for (int x = 0; x < cubeEdge; ++x) any |= mask.words[cubeEdge * bx + x] & columns;
         if (any == 0) continue;
 
-        const float cx = float(cube * bx) - 3.5f, cy = float(cube * by) - 3.5f,
-                    cz = float(cube * bz) - 3.5f;
+        const float cx = float(cubeEdge * bx) - 3.5f, cy = float(cubeEdge * by) - 3.5f,
+                    cz = float(cubeEdge * bz) - 3.5f;
         constexpr float half = cubeHalf;
         float distance2;
         const int y0 = nearestOf(s.x.data(), s.y.data(), s.z.data(), count, cx + half, cy + half,
@@ -251,14 +251,15 @@ void nearestPoints(const LeafPoints& points, const Coord& origin, const LeafMask
             s.nearY[i] = s.y[s.nearIndex[i]];
             s.nearZ[i] = s.z[s.nearIndex[i]];
         }
-        std::int32_t best[cube * plane];
-        float least[cube * plane];
+        std::int32_t best[cubeEdge * plane];
+        float least[cubeEdge * plane];
         nearestInCube(s.nearX.data(), s.nearY.data(), s.nearZ.data(), near, cx, cy, cz, best,
                       least);
         const float reach2 = float(reach * reach);
-        for (int k = 0; k < cube * plane; ++k) {
-            const int v = 64 * (cube * bx + k / plane) + 8 * (cube * by + k / cube % cube) +
-                          cube * bz + k % cube;
+        for (int k = 0; k < cubeEdge * plane; ++k) {
+            const int v = 64 * (cubeEdge * bx + k / plane) +
+                          8 * (cubeEdge * by + k / cubeEdge % cubeEdge) + cubeEdge * bz +
+                          k % cubeEdge;
             if (mask.on(v)) out[v] = least[k] <= reach2 ? s.index[s.nearIndex[best[k]]] : -1;
         }
     }

@@ -29,16 +29,18 @@ std::vector<double> slopesOf(const std::vector<Ball>& balls, const GaussianOptio
     return slopes;
 }
 
-/// The slopes of the balls, at each voxel weighted by their terms of the sum: psi of the sum with
-/// the slopes as factors, less psi.
+} // namespace
+
+// The slopes of the balls, at each voxel weighted by their terms of the sum: psi of the sum with
+// the slopes as factors, less psi.
 LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
-                     const std::optional<GaussianExtent>& extent, const NarrowBand& band,
+                     const std::optional<GaussianExtent>& extent, const PsiOnLeaves& psi,
                      const Bumps& bumps, const Progress& progress)
 {
+    const LeafTable& table = psi.table;
     GaussianOptions gaussian = gaussianOptions(options);
     std::vector<Decay> decays = hasFlow(options.kind) ? atoms.decays : std::vector<Decay>();
     const std::vector<double> slopes = slopesOf(atoms.balls, gaussian, decays);
-    const LeafTable& table = band.phi.table;
     const auto ends = std::minmax_element(slopes.begin(), slopes.end());
     const double least = *ends.first, most = *ends.second;
     if (most - least < 1e-4 * most) {
@@ -56,21 +58,20 @@ LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
     LeafField field = sum.evaluate(table, progress).values;
     parallelFor(table.size(), progress, [&](std::size_t n) {
         float* value = field.leaf(n); // of the weighted sum; then the slope
-        const float* psi = band.psi.leaf(n);
+        const float* own = psi.values.leaf(n);
         for (int v = 0; v < leafSize; ++v)
             value[v] =
-                std::clamp(float(most) * std::exp(value[v] - psi[v]), float(least), float(most));
+                std::clamp(float(most) * std::exp(value[v] - own[v]), float(least), float(most));
     });
     return field;
 }
-
-} // namespace
 
 SparseField carrierOf(const BallSet& atoms, const SurfaceOptions& options,
                       const std::optional<GaussianExtent>& extent, const NarrowBand& band,
                       const Bumps& bumps, const Progress& progress)
 {
-    LeafField slope = slopeField(atoms, options, extent, band, bumps, progress);
+    LeafField slope =
+        slopeField(atoms, options, extent, {band.phi.table, band.psi}, bumps, progress);
     const EvolveOptions& evolution = options.evolution;
     const bool valley = hasFlow(options.kind) && evolution.regularizer == Regularizer::Gradient;
     return smoothCarrier(

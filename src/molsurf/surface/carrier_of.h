@@ -14,6 +14,19 @@
 namespace molsurf
 {
 
+/// psi on the leaves of a table.
+struct PsiOnLeaves {
+    const LeafTable& table;
+    const LeafField& values;
+};
+
+/// |grad psi| where the balls around are flat, at each voxel [1/Å].
+/// @param[in] extent  of all balls, if these are some of them
+/// @param[in] psi     of the balls, with bumps
+LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
+                     const std::optional<GaussianExtent>& extent, const PsiOnLeaves& psi,
+                     const Bumps& bumps, const Progress& progress);
+
 /// Makes the smooth carrier of an interface: see smoothCarrier().
 /// @param[in] extent  of all balls, if these are some of them
 /// @param[in] band    the interface, and psi

@@ -119,6 +119,25 @@ void fillInLevelSet(const std::vector<LeafMask>& cavities, const LeafTable& S, S
     fillVoxels(connectedTo(phi.table, outside, start), bandWidthVox * phi.voxelSize, phi, progress);
 }
 
+void fillInCarrier(const std::vector<LeafMask>& cavities, const LeafTable& S, SparseField& carrier,
+                   const Progress& progress)
+{
+    constexpr float leastShare = 0.6f; // of the distance
+    const float h = float(carrier.voxelSize), width = float(bandWidthVox) * h;
+    SparseField phi = copied(carrier);
+    reinitialize(phi, width, 2 * bandWidthVox, progress);
+    fillInLevelSet(cavities, S, phi, progress);
+    // Where the interface is no longer near, voxels are as far from it as the distance says.
+    parallelFor(phi.table.size(), progress, [&](std::size_t n) {
+        for (int v = 0; v < leafSize; ++v) {
+            const float distance = phi.leaf(n)[v], side = distance < 0.0f ? -1.0f : 1.0f;
+            const float depth = side * distance - h;
+            float& value = carrier.leaf(n)[v];
+            if (depth > 0.0f) value = side * std::max(side * value, leastShare * depth);
+        }
+    });
+}
+
 void fillInDistance(const std::vector<LeafMask>& cavities, SparseField& S, const Progress& progress)
 {
     SparseField filled = copied(S);

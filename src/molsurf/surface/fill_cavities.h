@@ -25,6 +25,11 @@ std::vector<LeafMask> cavityVoxels(const Mesh& mesh, const SparseField& S,
 void fillInLevelSet(const std::vector<LeafMask>& cavities, const LeafTable& S, SparseField& phi,
                     const Progress& progress);
 
+/// The same in the carrier of an interface, which is no distance.
+/// @param[in,out] carrier  as of carryLevels() [Å]
+void fillInCarrier(const std::vector<LeafMask>& cavities, const LeafTable& S, SparseField& carrier,
+                   const Progress& progress);
+
 /// Closes the cavities of a surface in its own distance, which changes about them alone.
 /// @param[in] cavities  one mask a leaf of S
 void fillInDistance(const std::vector<LeafMask>& cavities, SparseField& S,

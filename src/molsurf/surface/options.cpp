@@ -31,7 +31,7 @@ const char* nameOf(Regularizer regularizer)
 
 const char* nameOf(Flow flow)
 {
-    return flow == Flow::Newton ? "newton" : "paper";
+    return flow == Flow::Rest ? "rest" : flow == Flow::Newton ? "newton" : "paper";
 }
 
 void checkOptions(const SurfaceOptions& options)

@@ -30,12 +30,11 @@ namespace
 {
 
 /// The surface of all balls.
-MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
-                          WarmStart* warm)
+MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
     SurfaceRun run(atoms, options, Scope(), progress);
     run.density();
-    run.flow(warm);
+    run.flow();
     run.distance();
     run.spline();
     run.levelSet();
@@ -77,10 +76,9 @@ MolecularSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& opti
 }
 
 /// The surface of all balls, which are computed in spatial order.
-MolecularSurface runInOrder(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
-                            WarmStart* warm)
+MolecularSurface runInOrder(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
-    MolecularSurface result = runWhole(inSpatialOrder(atoms), options, progress, warm);
+    MolecularSurface result = runWhole(inSpatialOrder(atoms), options, progress);
     if (!options.ballAreas) result.ballAreas.clear(); // known for groups
     if (result.ballAreas.empty()) return result;
     const std::vector<std::int32_t> order = spatialOrder(atoms.balls);
@@ -138,7 +136,7 @@ MolecularSurface makeSurface(const std::vector<Ball>& balls, const SurfaceOption
 }
 
 MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options,
-                             Progress* listener, WarmStart* warm)
+                             Progress* listener)
 {
     Progress nobody;
     Progress& progress = listener ? *listener : nobody;
@@ -150,7 +148,7 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
         once.matchVolume = false;
         progress.update("match", 0.0);
         matchVolumes(matched, once, progress);
-        return makeSurface(matched, once, &progress, warm);
+        return makeSurface(matched, once, &progress);
     }
     checkBalls(atoms.balls, options, Pieces::One, availableMemory());
     if ((options.ofParts() || options.interfaces) &&
@@ -175,7 +173,7 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
     } else if (options.ofParts()) {
         result = runParts(atoms, wanted, progress);
     } else {
-        result = runInOrder(atoms, wanted, progress, warm);
+        result = runInOrder(atoms, wanted, progress);
     }
     openvdb::GridPtrVec colors;
     if (shown && hasField(options.fields, "Cd"))

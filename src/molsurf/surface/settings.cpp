@@ -587,8 +587,10 @@ std::vector<Setting> flowSettings()
                       of(&EvolveOptions::lambda))),
         word("regularizer", "KIND", "gradient or area", of(&EvolveOptions::regularizer),
              std::vector<Regularizer>{Regularizer::Gradient, Regularizer::Area}),
-        word("flow", "KIND", "newton, or paper: the paper's own scheme, for comparison",
-             of(&EvolveOptions::flow), std::vector<Flow>{Flow::Newton, Flow::Paper}),
+        word("flow", "KIND",
+             "rest: in closed form, where no front moves, else newton;\n"
+             "newton: by steps; paper: the paper's scheme, to compare",
+             of(&EvolveOptions::flow), std::vector<Flow>{Flow::Rest, Flow::Newton, Flow::Paper}),
         shown("50; paper: 200", count("max-steps", "N", "steps at most", "default of the flow",
                                       steps, of(&EvolveOptions::maxSteps))),
         shown("until it converges",

@@ -4,6 +4,7 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/flow/evolve.h"
+#include "molsurf/flow/rest.h"
 #include "molsurf/levelset/round_ridges.h"
 #include "molsurf/surface/whole_only.h"
 
@@ -115,6 +116,18 @@ void failIfTooCoarse(const std::string& what, const std::vector<Ball>& balls,
                     hint);
 }
 
+EvolveOptions flowOptions(const SurfaceOptions& options)
+{
+    EvolveOptions evolution = options.evolution;
+    evolution.splineLevel = options.splineLevel;
+    return evolution;
+}
+
+bool restsInClosedForm(const SurfaceOptions& options)
+{
+    return hasFlow(options.kind) && restsInClosedForm(flowOptions(options));
+}
+
 bool decidesWalls(const SurfaceOptions& options)
 {
     constexpr double leastOffset = 1.5; // [voxel]
@@ -125,7 +138,9 @@ bool decidesWalls(const SurfaceOptions& options)
 GaussianOptions gaussianOptions(const SurfaceOptions& options)
 {
     // Stencils reach a voxel beyond the band, along diagonals.
-    const double h = options.voxel, reach = (bandWidthVox + 1.5) * h;
+    const double h = options.voxel;
+    const int width = restsInClosedForm(options) ? restBandVox(h) : bandWidthVox;
+    const double reach = (width + 1.5) * h;
     if (isGaussian(rowOf(options.kind))) return {0.0, 0.0, options.blobbiness, h, reach};
     return {options.probe, options.epsilon, 0.0, h, reach};
 }

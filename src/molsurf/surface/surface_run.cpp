@@ -6,6 +6,7 @@
 #include "molsurf/flow/initial_surface.h"
 #include "molsurf/flow/interface_energy.h"
 #include "molsurf/flow/refine.h"
+#include "molsurf/flow/rest.h"
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/levelset/round_ridges.h"
@@ -51,18 +52,6 @@ SurfaceRun::SurfaceRun(const BallSet& atoms, const SurfaceOptions& options, cons
     band_.phi.voxelSize = S_.phi.voxelSize = options.voxel;
 }
 
-namespace
-{
-
-EvolveOptions flowOptions(const SurfaceOptions& options)
-{
-    EvolveOptions evolution = options.evolution;
-    evolution.splineLevel = options.splineLevel;
-    return evolution;
-}
-
-} // namespace
-
 void SurfaceRun::density()
 {
     if (isUnion(options_.kind)) return;
@@ -79,13 +68,18 @@ void SurfaceRun::density()
         refineCoarseRest();
         return;
     }
-    SparseField psi = sum_->band(bandWidthVox, progress_, scope_.region.grown(scope_.flowHalo));
+    const int width = restsInClosedForm(options_) ? restBandVox(options_.voxel) : bandWidthVox;
+    SparseField psi = sum_->band(width, progress_, scope_.region.grown(scope_.flowHalo));
     bumps_ = sum_->bumps();
     if (psi.table.size() == 0 && scope_.region.whole()) {
         failIfTooCoarse("density: no voxel lies inside the surface", atoms_.balls, options_);
         failNothingLeft("density", options_.kind);
     }
     watch_.stop("density");
+    if (restsInClosedForm(options_)) {
+        carrier_ = std::move(psi);
+        return;
+    }
 
     progress_.update("initial", 0.0);
     const bool shifted = evolves && makesNewtonSteps(options_.evolution);
@@ -103,7 +97,7 @@ SparseField restOnCoarserVoxels(const BallSet& atoms, const SurfaceOptions& opti
     wide.evolution = coarseFlow(options.evolution);
     SurfaceRun run(atoms, wide, Scope(), progress);
     run.density();
-    run.flow(nullptr);
+    run.flow();
     for (const auto& [stage, seconds] : run.result_.report.seconds)
         report.addSeconds(stage, seconds);
     return std::move(run.band_.phi);
@@ -125,81 +119,37 @@ void SurfaceRun::refineCoarseRest()
     watch_.stop("initial");
 }
 
-/// How far the surface at rest lies from the one that the flow began at, in the band.
-struct WarmStart::State {
-    SparseField correction; ///< phi at rest minus that of psi = 0 [Å]
-};
-
-WarmStart::WarmStart() = default;
-WarmStart::~WarmStart() = default;
-WarmStart::WarmStart(WarmStart&& other) noexcept = default;
-WarmStart& WarmStart::operator=(WarmStart&& other) noexcept = default;
-
-namespace
+void SurfaceRun::rest()
 {
-
-/// Adds to the surface of psi = 0 what the flow of the frame before added to its own.
-/// @param[in]     warm  empty: nothing is added
-/// @param[in,out] phi   signed distance in the band of the flow [Å]
-void addCorrection(const WarmStart& warm, SparseField& phi, const Progress& progress)
-{
-    if (warm.empty()) return;
-    constexpr int repairs = 2; // the sum is nearly a distance
-    const float width = float(bandWidthVox * phi.voxelSize);
-    const SparseField& correction = warm.state->correction;
-    parallelFor(phi.table.size(), progress, [&](std::size_t n) {
-        const std::int32_t m = correction.table.find(phi.table.origin(n));
-        if (m == noLeaf) return;
-        for (int v = 0; v < leafSize; ++v)
-            phi.leaf(n)[v] = std::clamp(phi.leaf(n)[v] + correction.leaf(m)[v], -width, width);
-    });
-    reinitialize(phi, width, repairs, progress);
+    const EvolveOptions evolution = flowOptions(options_);
+    const Weights weights = weightsOf(evolution);
+    progress_.update("evolve", 0.0);
+    SparseField& psi = carrier_;
+    LeafField slope =
+        slopeField(atoms_, options_, scope_.extent, {psi.table, psi.values}, bumps_, progress_);
+    const LeafField levels = levelsAtRest(psi, slope, weights, progress_);
+    displacements_ = waysToRest(psi, {levels, slope}, *sum_, weights, scope_.region, progress_);
+    EvolutionReport& report = result_.report.evolution.emplace();
+    judgeRest(displacements_, evolution, options_.voxel, report);
+    if (scope_.region.whole()) report.gaps = sum_->gaps();
+    carryLevels(psi, levels, bandWidthVox * options_.voxel, slope, progress_);
+    carrier_.values = std::move(slope);
+    watch_.stop("evolve");
 }
 
-/// Keeps for the next frame how far the flow went, where both ends are known.
-/// @param[in] cold  the level set of psi = 0 [Å]
-/// @param[in] phi   the level set at rest [Å]
-WarmStart correctionOf(const SparseField& cold, const SparseField& phi, const Progress& progress)
+void SurfaceRun::flow()
 {
-    const float width = float(bandWidthVox * phi.voxelSize) * 0.999f;
-    WarmStart warm;
-    warm.state = std::make_unique<WarmStart::State>();
-    SparseField& correction = warm.state->correction;
-    correction = {phi.table, LeafField(phi.table.size()), phi.voxelSize};
-    parallelFor(phi.table.size(), progress, [&](std::size_t n) {
-        float* out = correction.leaf(n);
-        std::fill_n(out, leafSize, 0.0f);
-        const std::int32_t m = cold.table.find(phi.table.origin(n));
-        if (m == noLeaf) return;
-        const float *from = cold.leaf(m), *to = phi.leaf(n);
-        for (int v = 0; v < leafSize; ++v)
-            if (std::abs(from[v]) < width && std::abs(to[v]) < width) out[v] = to[v] - from[v];
-    });
-    return warm;
-}
-
-} // namespace
-
-void SurfaceRun::flow(WarmStart* warm)
-{
-    if (hasFlow(options_.kind)) {
-        progress_.update("evolve", 0.0);
-        SparseField cold;
-        if (warm) {
-            cold = copied(band_.phi);
-            addCorrection(*warm, band_.phi, progress_);
-        }
-        const double reach = gaussianOptions(options_).reach;
-        const auto source = [&](const openvdb::Coord& origin, float* psi) {
-            sum_->evaluate(origin, reach, psi);
-        };
-        const EvolveOptions evolution = flowOptions(options_);
-        result_.report.evolution = evolve(band_, source, evolution, progress_, scope_.region,
-                                          scope_.flowHalo, &displacements_);
-        if (scope_.region.whole()) result_.report.evolution->gaps = sum_->gaps();
-        if (warm) *warm = correctionOf(cold, band_.phi, progress_);
-        watch_.stop("evolve");
-    }
+    if (carrier_.table.size() > 0) return rest();
+    if (!hasFlow(options_.kind)) return;
+    progress_.update("evolve", 0.0);
+    const double reach = gaussianOptions(options_).reach;
+    const auto source = [&](const openvdb::Coord& origin, float* psi) {
+        sum_->evaluate(origin, reach, psi);
+    };
+    result_.report.evolution = evolve(band_, source, flowOptions(options_), progress_,
+                                      scope_.region, scope_.flowHalo, &displacements_);
+    if (scope_.region.whole()) result_.report.evolution->gaps = sum_->gaps();
+    watch_.stop("evolve");
 }
 
 /// Whether the evolved level set is still needed when S is known.
@@ -232,12 +182,16 @@ void SurfaceRun::distance()
         S_ = distanceToBalls();
     } else {
         const openvdb::CoordBBox near = scope_.region.grown(scope_.distanceHalo);
-        SparseField carrier = carrierOf(atoms_, options_, scope_.extent, band_, bumps_, progress_);
+        SparseField carrier =
+            carrier_.table.size() == 0
+                ? carrierOf(atoms_, options_, scope_.extent, band_, bumps_, progress_)
+            : keepsLevelSet() ? copied(carrier_)
+                              : std::move(carrier_);
         if (options_.energy && sum_ && result_.report.evolution) {
             result_.report.evolution->finalEnergy = interfaceEnergy(
                 carrier, *sum_, weightsOf(options_.evolution), scope_.region, progress_);
         }
-        if (!decidesWalls(options_)) sum_.reset();
+        if (!decidesWalls(options_) && !options_.fillCavities) sum_.reset();
         if (!options_.fillCavities) band_.psi = LeafField();
         band_.phi =
             keepsLevelSet() ? clipped(std::move(band_.phi), near, progress_) : SparseField();
@@ -259,17 +213,13 @@ void SurfaceRun::distance()
 void SurfaceRun::decideWalls()
 {
     if (!decidesWalls(options_)) return;
-    const PsiJetAt psi = [&](const openvdb::Vec3d& x) {
-        PsiJet jet = sum_->jet(x);
-        jet.psi += bumps_.at(x, &jet.gradient, &jet.hessian);
-        return jet;
-    };
+    const PsiJetAt psi = [&](const openvdb::Vec3d& x) { return sum_->jetWithBumps(x); };
     const double offset = offsetOf(options_);
     const std::vector<Wall> walls = findWalls(psi, S_.thin, offset, options_.voxel, progress_);
     const GapReport decisions = molsurf::decideWalls(walls, offset, S_.phi);
     if (scope_.region.whole()) result_.report.evolution->walls = decisions;
     S_.thin = {};
-    sum_.reset();
+    if (!options_.fillCavities) sum_.reset(); // whose surface is made a second time
 }
 
 namespace
@@ -350,7 +300,8 @@ bool SurfaceRun::fillCavities()
     if (isUnion(options_.kind)) {
         fillInDistance(cavities, S_.phi, progress_);
     } else {
-        fillInLevelSet(cavities, S_.phi.table, band_.phi, progress_);
+        carrier_.table.size() > 0 ? fillInCarrier(cavities, S_.phi.table, carrier_, progress_)
+                                  : fillInLevelSet(cavities, S_.phi.table, band_.phi, progress_);
         distance();
     }
     return true;
@@ -495,7 +446,10 @@ openvdb::FloatGrid::Ptr SurfaceRun::sasGrid()
                                 {width, width}, progress_, scope_.region.owned)
                     .phi;
     }
-    auto grid = toLevelSet(evolved ? band_.phi : exact, width, progress_);
+    if (carrier_.table.size() > 0)
+        exact =
+            redistance(copied(carrier_), {width, width}, 0.0, progress_, scope_.region.owned).phi;
+    auto grid = toLevelSet(exact.table.size() > 0 ? exact : band_.phi, width, progress_);
     grid->setName("sas");
     return grid;
 }
@@ -515,6 +469,7 @@ void SurfaceRun::grids()
 void SurfaceRun::freeFields()
 {
     band_ = NarrowBand();
+    carrier_ = SparseField();
     S_.phi = SparseField();
     spline_ = Spline();
     if (!scope_.keepsMemory) releasePages();

@@ -79,9 +79,8 @@ public:
     /// @throws Error(ErrorKind::Numeric) if a whole molecule has no voxel inside
     void density();
 
-    /// Moves the level set to rest, if the surface is variational.
-    /// @param[in,out] warm  null, or see makeSurface()
-    void flow(WarmStart* warm);
+    /// Brings the interface to rest, if the surface is variational.
+    void flow();
 
     /// Computes S, the signed distance to the surface, in a band that holds the coefficients of
     /// every point of it.
@@ -149,7 +148,7 @@ public:
     ExtractStats& stats() { return stats_; }
     const Spline& currentSpline() const { return spline_; }
 
-    /// The displacements of the last step of the flow.
+    /// The displacements of the last step of the flow, or the ways to rest.
     const Displacements& displacements() const { return displacements_; }
 
     /// Counts vertices by the gradient there.
@@ -160,6 +159,7 @@ private:
     friend SparseField restOnCoarserVoxels(const BallSet&, const SurfaceOptions&, Progress&,
                                            Report&);
     void refineCoarseRest();
+    void rest();
     void checkLeft() const;
     bool keepsLevelSet() const;
     DistanceBand distanceToBalls();
@@ -173,8 +173,9 @@ private:
     MolecularSurface result_;
     Stopwatch watch_;
     std::optional<GaussianSum> sum_;
-    Bumps bumps_;     ///< that it adds to psi
-    NarrowBand band_; ///< the level set that a smooth surface is offset from
+    Bumps bumps_;         ///< that it adds to psi
+    NarrowBand band_;     ///< the level set that a smooth surface is offset from
+    SparseField carrier_; ///< psi, then the interface, where it rests in closed form
     Displacements displacements_;
     DistanceBand S_;
     Spline spline_;

@@ -24,7 +24,7 @@ namespace
 
 constexpr double converged = 1e-4; // of a border vertex, from the surface and the border [voxel]
 constexpr double reach = 1.5;      // how far it may move from where an edge crosses [voxel]
-constexpr int steps = 12;
+constexpr int cutSteps = 12;
 
 constexpr std::int32_t strongest = -1; // of the other owners
 
@@ -55,7 +55,7 @@ public:
             return e.value;
         };
         const double below = at(own), above = at(foreign);
-        zeroBetween(below, above, {steps, 0.0, 1e-7}, [&](double t) {
+        zeroBetween(below, above, {cutSteps, 0.0, 1e-7}, [&](double t) {
             x = own + t * (foreign - own);
             return at(x);
         });
@@ -86,13 +86,13 @@ public:
     }
 
 private:
-    /// Newton's method of least steps for S = 0 and further equations. Where it fails, x stays on
-    /// the border but off the surface.
+    /// Newton's method of least cutSteps for S = 0 and further equations. Where it fails, x stays
+    /// on the border but off the surface.
     template<typename F>
     void settle(Vec3d& x, Jet& jet, const F& further)
     {
         const Vec3d start = x;
-        for (int i = 0; i < steps; ++i) {
+        for (int i = 0; i < cutSteps; ++i) {
             jet = sampler_.at(x);
             Mat3d rows = Mat3d::zero();
             Vec3d values(jet.value, 0.0, 0.0);

@@ -185,7 +185,7 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     const Placement::Unit& unit = *placement.unit;
     SurfaceRun run(atoms, options, Scope(), progress);
     run.density();
-    run.flow(nullptr);
+    run.flow();
     run.distance();
     run.spline();
     run.levelSet();

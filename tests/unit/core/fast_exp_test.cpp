@@ -29,6 +29,21 @@ TEST(FastExp, ClampsBeyondItsRange)
     EXPECT_GT(fastExp(-87.0f), 0.0f);
 }
 
+TEST(FastExp, InDoubleIsWithinAFewUlp)
+{
+    double worst = 0.0;
+    for (double x = -700.0; x < 699.9; x += 4 * 0.00317) {
+        const Doubles at = {x, x + 0.00317, x + 2 * 0.00317, x + 3 * 0.00317}, e = fastExp(at);
+        for (int l = 0; l < doubleLanes; ++l)
+            worst = std::max(worst, std::abs(e[l] / std::exp(at[l]) - 1.0));
+    }
+    EXPECT_LT(worst, 1e-15);
+    const Doubles ends = {0.0, -1e9, 1e9, 1.0}, e = fastExp(ends);
+    EXPECT_EQ(e[0], 1.0);
+    EXPECT_GT(e[1], 0.0);
+    EXPECT_TRUE(std::isfinite(e[2]));
+}
+
 TEST(FastLog, IsAsExactAsFloatAllows)
 {
     double worst = 0.0;

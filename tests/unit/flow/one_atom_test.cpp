@@ -92,6 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Slow, OneAtom, testing::ValuesIn(cases + 3, cases + 7),
 TEST(Flow, ReportsItsHistory)
 {
     EvolveOptions options;
+    options.flow = Flow::Newton;
     const test::Evolved out = test::evolveBalls({atom}, 0.5, 0.25, options);
     const EvolutionReport& r = out.report;
     EXPECT_TRUE(r.converged);

@@ -2,6 +2,9 @@
 #include "support/exact_minimum.h"
 #include "support/fields.h"
 #include "support/flow.h"
+#include "support/molecules.h"
+
+#include "molsurf/flow/interface_energy.h"
 
 #include <gtest/gtest.h>
 
@@ -79,6 +82,58 @@ TEST_P(Rest, IsTheMinimumAtTheDefaultTolerance)
         if (getenv("VERBOSE"))
             printf("%s %s lambda %g h %g: %d steps, rms %.5f\n", molecule.name, nameOf(regularizer),
                    lambda, voxel, out.report.steps, error);
+    }
+}
+
+// The check of an interface in closed form knows the way to rest, whatever it is.
+TEST(ClosedForm, KnowsHowFarRestIs)
+{
+    const std::vector<Ball> balls = test::balls("1crn.pdb");
+    const EvolveOptions options;
+    ASSERT_TRUE(restsInClosedForm(options));
+    for (const double voxel : {0.5, 0.25}) {
+        GaussianOptions gaussian;
+        gaussian.voxelSize = voxel;
+        gaussian.reach = (bandWidthVox + 1.5) * voxel;
+        GaussianSum field(balls, gaussian);
+        for (const double offset : {0.0, 0.03, -0.03, 0.1}) {
+            Displacements ways;
+            const test::Evolved out =
+                test::restOf(field, field.band(restBandVox(voxel), Progress()), gaussian.epsilon,
+                             options, offset, &ways);
+            if (offset == 0.0) {
+                EXPECT_LT(ways.rms() * voxel, voxel == 0.5 ? 0.0016 : 0.0005);
+                EXPECT_LT(ways.quantile(0.999) * voxel, voxel == 0.5 ? 0.016 : 0.006);
+            } else { // psi is steeper than that of a plane in few places, less so in creases
+                EXPECT_NEAR(ways.mean() * voxel, std::abs(offset), 0.25 * std::abs(offset));
+            }
+            EXPECT_EQ(out.report.converged, offset == 0.0) << offset;
+        }
+    }
+}
+
+// One formula, and the flow that it stands for: less energy than after its steps.
+TEST(ClosedForm, HasNoMoreEnergyThanTheFlowLeaves)
+{
+    for (const double lambda : {0.003, 0.01, 0.02}) {
+        for (const Regularizer regularizer : {Regularizer::Gradient, Regularizer::Area}) {
+            EvolveOptions options;
+            options.lambda = lambda;
+            options.regularizer = regularizer;
+            const double voxel = 0.5;
+            const std::vector<Ball> balls = test::balls("1a8o.cif.gz");
+            GaussianOptions gaussian;
+            gaussian.voxelSize = voxel;
+            GaussianSum field(balls, gaussian);
+            double energy[2];
+            for (const Flow flow : {Flow::Rest, Flow::Newton}) {
+                options.flow = flow;
+                const test::Evolved out = test::evolveBalls(balls, 0.5, voxel, options);
+                energy[flow == Flow::Newton] =
+                    interfaceEnergy(out.band.phi, field, weightsOf(options), {}, Progress());
+            }
+            EXPECT_LT(energy[0], energy[1] * (1.0 + 1e-5)) << lambda << nameOf(regularizer);
+        }
     }
 }
 

@@ -22,7 +22,9 @@ std::vector<Ball> pairOf(float distance)
 TEST(Stop, GapsThatTheVoxelsDoNotResolveAreCounted)
 {
     const auto gaps = [](float distance) {
-        return test::evolveBalls(pairOf(distance), 0.5, 0.5, {}).report.unresolvedGapVoxels;
+        EvolveOptions options;
+        options.flow = Flow::Newton;
+        return test::evolveBalls(pairOf(distance), 0.5, 0.5, options).report.unresolvedGapVoxels;
     };
     EXPECT_EQ(gaps(4.0f), 0u); // a neck
     EXPECT_GT(gaps(7.4f), 3u); // a gap
@@ -35,6 +37,7 @@ TEST(Stop, GapsThatTheVoxelsDoNotResolveAreCounted)
 TEST(Stop, GivesUpWhereNothingFallsAnyMore)
 {
     EvolveOptions options;
+    options.flow = Flow::Newton;
     options.tolerance = 1e-9;
     const std::vector<Ball> balls = test::balls("1crn.pdb");
     const EvolutionReport early = test::evolveBalls(balls, 0.1, 0.5, options).report;
@@ -76,6 +79,7 @@ TEST(Stop, AllowsWhatCoarseVoxelsDoNotResolve)
 {
     const auto report = [](double tolerance, float way, double voxelSize) {
         EvolveOptions options;
+        options.flow = Flow::Newton;
         options.tolerance = tolerance;
         Displacements d;
         for (int i = 0; i < 1000; ++i) d.add(way);
@@ -99,6 +103,7 @@ TEST(Stop, AllowsWhatCoarseVoxelsDoNotResolve)
 TEST(Stop, IsStricterWhereFrontsMove)
 {
     EvolveOptions options;
+    options.flow = Flow::Newton;
     Displacements d;
     for (int i = 0; i < 1000; ++i) d.add(0.005f);
     EvolutionReport report;
@@ -124,6 +129,7 @@ TEST(Stop, EstimatesHowMuchTheAreaStillChanges)
     estimateAreaError({}, report);
     EXPECT_NEAR(report.areaError, 0.02, 1e-12);
     EvolveOptions options;
+    options.flow = Flow::Newton;
     options.lambda = 0.1;
     estimateAreaError(options, report);
     EXPECT_NEAR(report.areaError, 0.06, 1e-12);
@@ -146,8 +152,10 @@ TEST(Stop, IsByTheCrossingsOfTheInterface)
 {
     constexpr double h = 0.25;
     Displacements last;
+    EvolveOptions options;
+    options.flow = Flow::Newton;
     const EvolutionReport report =
-        test::evolveBalls({{Vec3f(0.1f, 0.2f, 0.3f), 1.7f, 0}}, 0.5, h, {}, &last).report;
+        test::evolveBalls({{Vec3f(0.1f, 0.2f, 0.3f), 1.7f, 0}}, 0.5, h, options, &last).report;
     const double crossings = 1.5 * report.area.back() / (h * h);
     EXPECT_NEAR(double(last.count) / crossings, 7.0 / 8.0, 0.03);
 }
@@ -184,6 +192,7 @@ TEST(Stop, GivesUpOnlyIfAllStandsStill)
 TEST(Stop, OnCoarserVoxelsComesNearerToRest)
 {
     EvolveOptions options;
+    options.flow = Flow::Newton;
     options.steps = 3;
     const EvolveOptions coarse = coarseFlow(options);
     EXPECT_LT(coarse.tolerance, options.tolerance);
@@ -196,6 +205,7 @@ TEST(Stop, OnCoarserVoxelsComesNearerToRest)
 TEST(Stop, TheToleranceThatIsAdvisedIsMet)
 {
     EvolveOptions options;
+    options.flow = Flow::Newton;
     options.lambda = 0.3;
     options.maxSteps = 3;
     const std::vector<Ball> balls = test::balls("1crn.pdb");
@@ -210,6 +220,7 @@ TEST(Stop, TheToleranceThatIsAdvisedIsMet)
 TEST(Stop, ComesWhileNothingCloses)
 {
     EvolveOptions options;
+    options.flow = Flow::Newton;
     options.lambda = 0.1;
     const test::Evolved out = test::evolveBalls(pairOf(6.4f), 0.5, 0.5, options);
     EXPECT_TRUE(out.report.converged);

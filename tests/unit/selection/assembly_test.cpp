@@ -48,7 +48,8 @@ TEST(Assembly, OfTheDimer)
         EXPECT_EQ(dry.balls.size(), 1112u) << name;
         EXPECT_EQ(dry.placement.copies, 2u);
         EXPECT_EQ(dry.placement.begin, (std::vector<std::size_t>{0, 556, 1112}));
-        EXPECT_HAS(describeSelection(s, dry), "used 1112 atoms (2 copies of 556 in the file); dropped 88 water");
+        EXPECT_HAS(describeSelection(s, dry),
+                   "used 1112 atoms (2 copies of 556 in the file); dropped 88 water");
         options.waters = true;
         EXPECT_EQ(selectBalls(s, options).balls.size(), 1288u) << name;
     }

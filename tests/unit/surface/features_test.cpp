@@ -79,24 +79,5 @@ TEST(Run, GivesAtomGrids)
         EXPECT_EQ(id->tree().getValue(it.getCoord()), 7);
 }
 
-// The same balls once more begin where they came to rest: nearly all of the way is behind them.
-TEST(WarmStart, BeginsAtRest)
-{
-    const std::vector<Ball> balls = test::balls("1crn.pdb");
-    SurfaceOptions options;
-    options.evolution.lambda = 0.1;
-    Progress progress;
-    BallSet atoms;
-    atoms.balls = balls;
-    WarmStart warm;
-    EXPECT_TRUE(warm.empty());
-    const EvolutionReport cold = *makeSurface(atoms, options, &progress, &warm).report.evolution;
-    EXPECT_FALSE(warm.empty());
-    const EvolutionReport again = *makeSurface(atoms, options, &progress, &warm).report.evolution;
-    const double way = cold.energy.front() - cold.energy.back();
-    EXPECT_LT(again.energy.front() - cold.energy.back(), 0.05 * way);
-    EXPECT_LT(again.steps, cold.steps);
-}
-
 } // namespace
 } // namespace molsurf

@@ -138,8 +138,9 @@ TEST(Properties, AShiftByWholeVoxelsIsLostInRounding)
     });
     std::sort(changes.begin(), changes.end());
     EXPECT_LT(changes[changes.size() / 2], 1e-5);
-    EXPECT_LT(changes[changes.size() * 95 / 100], 1e-4);
-    EXPECT_LT(*std::max_element(variational.begin(), variational.end()), 1e-4);
+    EXPECT_LT(changes[changes.size() * 95 / 100], 2e-4);
+    // Rounding of psi shows in its second differences, and these in the level at rest.
+    EXPECT_LT(*std::max_element(variational.begin(), variational.end()), 2e-4);
 }
 
 // Where the molecule lies against the voxels changes what is measured on a mesh.
