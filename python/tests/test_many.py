@@ -13,7 +13,7 @@ import time
 
 import numpy as np
 import pytest
-from conftest import DATA
+from conftest import DATA, ROOT
 
 import vdb_molsurf as ms
 
@@ -328,3 +328,25 @@ def test_dask(folder, tmp_path):
     [part] = ms.shards(folder)
     assert rows == ms.measure(part, **FAST)
     assert ended == [False] + [True] * 4 + [False, True, False]
+
+
+def test_the_table_of_snakemake(folder):
+    """It is made anew if keywords or inputs have changed, without pyarrow as well."""
+    pytest.importorskip("snakemake")
+
+    def table(probe):
+        subprocess.run([sys.executable, "-m", "snakemake", "-s", ROOT / "scripts" / "workflow" / "table" / "Snakefile",
+                        "--cores", "2", "--config", f"structures={folder}", "size=4", "format=csv",
+                        f'surface={{"kind": "sas", "voxel": 2.0, "probe": {probe}}}'], cwd=folder, check=True)
+        parts = sorted((folder / "table").iterdir())
+        return [path.read_text() for path in parts], [path.stat().st_mtime_ns for path in parts]
+    first, written = table(1.4)
+    assert [len(part.splitlines()) for part in first] == [5, 5] and table(1.4) == (first, written)
+    (folder / "0.pdb").write_bytes((folder / "1.pdb").read_bytes())
+    changed, again = table(1.4)
+    assert changed[0] != first[0] and changed[1] == first[1] and again[1] == written[1]
+    (folder / "0.pdb").unlink()
+    for name in ("1.pdb", "2.pdb", "3.pdb", "4.pdb"):
+        (folder / name).unlink()
+    [last], _ = table(1.5)
+    assert len(last.splitlines()) == 4
