@@ -211,6 +211,7 @@ def test_what_is_the_same_is_not_made_again(folder, tmp_path, monkeypatch):
     (folder / "5.pdb").write_bytes((folder / "4.pdb").read_bytes())
     assert ms.measure(part, calls, folder=tmp_path / "table", **SAS)[5]["area"] == rows[4]["area"]
     assert len((tmp_path / "calls").read_text().splitlines()) == 8
+    assert ms.measure(part, calls, folder=tmp_path / "table", kind="sas", voxel=1, select=None)[0] == rows[0]
     assert "mean" in ms.measure(part, measure_names, folder=tmp_path / "table", **SAS)[0]
 
 
@@ -301,6 +302,15 @@ def test_parts_of_an_earlier_size_are_removed(folder, tmp_path):
     for size, parts in ((3, 3), (8, 1)):
         rows = list(ms.map(folder, workers=1, size=size, folder=tmp_path / "t", format="csv", **SAS))
         assert len(rows) == 8 and len(os.listdir(tmp_path / "t")) == parts
+
+
+def test_what_killed_processes_left_is_removed(folder, tmp_path):
+    list(ms.map(folder, workers=1, folder=tmp_path / "t", format="csv", **SAS))
+    left = tmp_path / "t" / ".part-00000000.csv.host.0123"
+    left.touch()
+    os.utime(left, (1, 1))
+    list(ms.map(folder, workers=1, folder=tmp_path / "t", format="csv", **SAS))
+    assert os.listdir(tmp_path / "t") == ["part-00000000.csv"]
 
 
 def test_an_archive_is_searched_once(folder, monkeypatch):

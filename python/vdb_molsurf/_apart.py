@@ -83,7 +83,7 @@ def _sizes():
         return [int(word) * os.sysconf("SC_PAGE_SIZE") for word in file.read().split()[:2]]
 
 
-def limit_memory(memory):
+def limit_memory(memory, threads):
     """Lets this process take so many bytes at most, and be the first that the system ends when there are none left."""
     with contextlib.suppress(OSError):
         with open("/proc/self/oom_score_adj", "w") as file:
@@ -91,7 +91,8 @@ def limit_memory(memory):
     if memory is not None:
         space, taken = _sizes()
         hard = resource.getrlimit(resource.RLIMIT_AS)[1]
-        limit = max(space - taken, 0) + memory
+        of_thread = 72 << 20  # address space that a thread takes and does not fill
+        limit = max(space - taken, 0) + memory + of_thread * ((threads or os.cpu_count() or 1) - 1)
         resource.setrlimit(resource.RLIMIT_AS, (limit if hard == resource.RLIM_INFINITY else min(limit, hard), hard))
 
 
@@ -199,7 +200,7 @@ def serve(pipe):
         except Exception:  # noqa: BLE001: whatever a module raises
             pipe.send(False)
             return
-        limit_memory(memory)
+        limit_memory(memory, options["threads"])
         pipe.send(True)
         while True:
             item, content = pipe.recv()

@@ -31,17 +31,13 @@ def of_input(item, content=None):
         return None
 
 
-def of_options(version, options):
-    """The SHA-256 of the version and of the keywords, with the contents of files that they name ("table=FILE")."""
-    seen = [version]
-    for name, value in sorted(options.items()):
-        if name in ("threads", "progress"):
-            continue
-        seen.append((name, value))
-        for text in _texts(value):
-            for path in (text, text.partition("=")[2]):
-                if path and os.path.isfile(path):
-                    seen.append((path, of_file(path)))
+def of_options(version, pairs):
+    """The SHA-256 of the version and of settings with their values, and of files that these name ("table=FILE")."""
+    seen = [version, sorted(pairs)]
+    for text in (text for _, texts in sorted(pairs) for text in texts if isinstance(text, str)):
+        for path in (text, text.partition("=")[2]):
+            if path and os.path.isfile(path):
+                seen.append((path, of_file(path)))
     return of_value(seen)
 
 
@@ -50,16 +46,6 @@ def of_value(value):
     parts = _Parts()
     parts.add(value)
     return parts.digest.hexdigest()
-
-
-def _texts(value):
-    if isinstance(value, (str, os.PathLike)):
-        yield os.fspath(value)
-    elif isinstance(value, dict):
-        yield from _texts(list(value.values()))
-    elif isinstance(value, (list, tuple)):
-        for part in value:
-            yield from _texts(part)
 
 
 class _Parts:

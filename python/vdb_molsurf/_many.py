@@ -11,7 +11,7 @@ import typing
 
 from . import _apart, _core, _digest, _options, _parts
 from ._molecule import read
-from ._surface import surface
+from ._surface import _threads, surface
 
 ENDINGS = tuple(_core.structure_endings())
 LASTING = ("InputError", "OptionError", "NumericError", "ValueError")  # errors that the same input has again
@@ -105,7 +105,7 @@ def map(sources, function=None, workers=None, size=100, folder=None, *, format="
 
     Raises what measure() raises, and ImportError without pyarrow if a folder is given for Parquet.
     """
-    _checked(options)
+    options = _checked(options)
     limits = (_apart.bytes_of(memory), _apart.hours_of(max_hours))
     workers = workers or len(os.sched_getaffinity(0))
     if folder is not None:
@@ -117,7 +117,7 @@ def map(sources, function=None, workers=None, size=100, folder=None, *, format="
 
 def _mapped(more, workers, limits, job):
     waiting, count = collections.deque(), 0
-    pool = _pool(workers, limits)
+    pool = _pool(workers, limits, job[3]["threads"])
     try:
         for shard in more:
             count += 1
@@ -129,6 +129,8 @@ def _mapped(more, workers, limits, job):
             rows, pool = _finished(waiting, pool, workers, limits, job)
             yield from rows
         _, folder, ending, _ = job
+        if folder is not None:
+            _parts.remove_left(folder, f"part-*.{ending}")
         while folder is not None and os.path.exists(_part(folder, count, ending)):
             os.remove(_part(folder, count, ending))
             count += 1
@@ -186,10 +188,17 @@ def _is_structure(name):
 
 
 def _checked(options):
-    options = {"threads": 1, **options}
-    known = {name: value for name, value in options.items() if name not in _options.MORE}
-    _options.given(known, "atoms", _options.MORE)
-    return options
+    """The keywords, which are known, with threads."""
+    _settings(options)
+    return {**options, "threads": _threads(options.get("threads", 1))}
+
+
+def _settings(options):
+    """What keywords say, in one way: settings with their values as texts, without what changes no number."""
+    pairs = _options.given({name: value for name, value in options.items() if name not in _options.MORE}, "atoms",
+                           _options.MORE)
+    return pairs + [(name, [value]) for name, value in options.items()
+                    if name in _options.MORE and name not in ("threads", "progress")]
 
 
 def _surface_of(item, content, options):
@@ -230,7 +239,7 @@ def row_of(item, content, function, options, hours=None):
 
 def _rows(shard, function, folder, format, options, make):
     """The rows of a shard, those of its part that are still true and those that `make` makes."""
-    origin = {"options": _digest.of_options(_core.__version__, options),
+    origin = {"options": _digest.of_options(_core.__version__, _settings(options)),
               "function": function and _digest.of_value(function), "version": _core.__version__, "units": _parts.UNITS}
     path = None
     if folder is not None:
@@ -309,10 +318,10 @@ def _member(item):
     return archive.read(name)
 
 
-def _pool(workers, limits):
+def _pool(workers, limits, threads):
     memory, _ = limits
     return concurrent.futures.ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), _apart.limit_memory,
-                                                  (memory or _apart.free_memory(),))
+                                                  (memory or _apart.free_memory(), threads))
 
 
 def _in_pool(shard, hours, function, folder, format, options):
@@ -339,7 +348,7 @@ def _finished(waiting, pool, workers, limits, job):
     except concurrent.futures.process.BrokenProcessPool:
         rows = _alone(shard, limits, job)
         pool.shutdown(wait=False, cancel_futures=True)
-        pool = _pool(workers, limits)
+        pool = _pool(workers, limits, job[3]["threads"])
         waiting.popleft()
         again = [(other, _submitted(pool, other, limits, job)) for other, _ in waiting]
         waiting.clear()
@@ -355,7 +364,7 @@ def _alone(shard, limits, job):
     checked = _checked(options)
 
     def make(item, content):
-        with _pool(1, limits) as pool:
+        with _pool(1, limits, checked["threads"]) as pool:
             try:
                 return pool.submit(row_of, item, content, function, checked, limits[1]).result()
             except concurrent.futures.process.BrokenProcessPool:

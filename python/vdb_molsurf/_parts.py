@@ -39,7 +39,7 @@ def write_rows(path, rows):
     """Writes a part, whole or not at all, and returns its rows as read_rows() would."""
     write = _csv if path.endswith(".csv") else _parquet
     folder, name = os.path.split(path)
-    remove_left(folder, name)
+    remove_left(folder, glob.escape(name))
     temporary = os.path.join(folder, f".{name}.{socket.gethostname()[:40]}.{secrets.token_hex(6)}")
     try:
         with open(temporary, "xb") as file:
@@ -55,12 +55,12 @@ def write_rows(path, rows):
     return read_rows(path)
 
 
-def remove_left(folder, name):
-    """Removes what killed processes have left of a part: no one holds its lock."""
-    for left in glob.glob(os.path.join(glob.escape(folder), f".{glob.escape(name)}.*")):
+def remove_left(folder, pattern):
+    """Removes what killed processes have left of parts: no one holds the lock."""
+    for left in glob.glob(os.path.join(glob.escape(os.fspath(folder)), f".{pattern}.*")):
         try:
             with open(left, "rb") as file:
-                if time.time() - os.fstat(file.fileno()).st_mtime > 10:
+                if time.time() - os.fstat(file.fileno()).st_mtime > 1:
                     fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
                     os.remove(left)
         except OSError:
