@@ -53,9 +53,10 @@ def measure(shard, function=None, folder=None, *, format="parquet", memory=None,
     shard: one of shards(), or (number, inputs).
     function: is called with each Surface; what its dict holds is added to the row.
     folder: is made; the rows are written there as part-NNNNNNNN.parquet, by pyarrow, whole or not at all. Rows of a part
-    that is there are taken if input, options, function and version are the same; others are made anew, as are damaged
-    parts and errors that may pass (memory, time, a file that is missing). Workers may write parts of one table, or the
-    same part, at the same time. Columns of a function have one type: bool, float64, or text.
+    that is there are taken if contents of the input and function are the same; others are made anew, as are damaged parts
+    and errors that may pass (memory, time, a file that is missing). Other options, another version, and a part that has
+    none of the inputs are refused. Workers may write parts of one table, or the same part, at the same time. Columns of a
+    function have one type: bool, float64, or text.
     format: "parquet", or "csv", which needs no other package and has the same columns.
     memory: bytes that the process of an input may take, from 1M: a number or text such as "4G". None: what is free on the
     machine, in its control group or in the worker of Dask.
