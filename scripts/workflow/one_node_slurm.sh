@@ -13,7 +13,8 @@ usage() {
 }
 
 install_packages() {
-  local packages=(slurm-wlm munge snakemake) as_root=()
+  local packages=(slurm-wlm munge) as_root=()
+  command -v snakemake >/dev/null || packages+=(snakemake)
   dpkg --status "${packages[@]}" >/dev/null 2>&1 && return
   [[ $EUID -eq 0 ]] || as_root=(sudo)
   "${as_root[@]}" apt-get update -q

@@ -40,7 +40,7 @@ brick_process() {
   local pid
   for pid in $(pgrep -x vdb_molsurf); do
     if [[ $(readlink "/proc/$pid/cwd") == "$work/$1" &&
-      $(tr '\0' ' ' 2>/dev/null <"/proc/$pid/cmdline") == *" brick bricks/plan.json $2 "* ]]; then
+      $(tr '\0' ' ' 2>/dev/null <"/proc/$pid/cmdline") == *" bricks run bricks/plan.json $2 "* ]]; then
       echo "$pid"
       return
     fi
@@ -60,7 +60,7 @@ number=4
 mkdir "$work/alone"
 cp "$work/whole/bricks/plan.json" "$work/alone"
 TIMEFORMAT=%U
-seconds=$({ time "$tool" brick "$work/alone/plan.json" $number -j 1 -q >/dev/null 2>&1; } 2>&1)
+seconds=$({ time "$tool" bricks run "$work/alone/plan.json" $number -j 1 -q >/dev/null 2>&1; } 2>&1)
 half=$(awk "BEGIN { print int($seconds / 2 * $(getconf CLK_TCK)) }")
 [[ $half -gt 10 ]] || fail "a brick of $seconds s is too short to be killed in the middle"
 

@@ -2,9 +2,11 @@
 """The Snakemake workflow, on this machine; scripts/workflow/test_slurm.sh tests it on Slurm."""
 
 import csv
+import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import subprocess
 import unittest
@@ -52,6 +54,15 @@ class Workflow(ToolTest):
         again = {name for name, time in self.made().items() if before[name] != time}
         self.assertEqual({name for name in again if name.startswith("bricks")}, {"bricks/plan.2.brick"})
 
+    def test_other_options_after_a_failure(self):
+        """What was made with other options is never taken for the result."""
+        for voxel, more, status in ((1.5, "", 0), (2, " --split chain", 1), (2, "", 0), (1.5, "", 0)):
+            self.flow(status, "assembly", "--config", f"input={CRAMBIN}", "cut=--bricks 2",
+                      f"options=--steps 2 --voxel {voxel}{more}")
+            if status == 0:
+                made = json.loads((self.folder / "assembly" / "1crn.json").read_text())
+                self.assertEqual(made["voxel"], voxel)
+
     def batch(self, status, *words, says=()):
         self.flow(status, "batch", "--keep-going", "--config", "options=--voxel 1", "formats=[ply]", *words,
                   says=says)
@@ -82,6 +93,29 @@ class Workflow(ToolTest):
         self.assertEqual({row["status"] for row in self.table().values()}, {"done"})
         self.assertEqual({name: self.made()[name] for name in before}, before)
 
+    def test_names_with_braces(self):
+        folder = self.folder / "structures"
+        folder.mkdir()
+        shutil.copy(CRAMBIN, folder / "brace{x}.pdb")
+        self.batch(0, says="1 structures, 0 failed")
+        self.assertIn("batch/brace(x).ply", self.made())
+        before = self.made()
+        self.batch(0)
+        self.assertEqual(self.made(), before)
+        (folder / "brace{x}.pdb").touch()
+        self.batch(0)
+        self.assertNotEqual(self.made(), before)
+
+    def test_many_structures_are_listed_once(self):
+        folder = self.folder / "structures"
+        folder.mkdir()
+        for k in range(2000):
+            (folder / f"{k}.xyzr").touch()
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.batch(0, "--dry-run", "--quiet")
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.assertLess(after.ru_utime - before.ru_utime, 10)  # 2 seconds; 18 if each lists the folder again
+
     def test_not_converged_is_no_failure(self):
         self.batch(0, f"structures={CRAMBIN}", "options=--voxel 1 --max-steps 1")
         self.assertEqual(self.table()["1crn.pdb"]["status"], "not converged")
@@ -89,6 +123,15 @@ class Workflow(ToolTest):
     def test_nothing_to_do_is_a_mistake(self):
         self.batch(1, "structures=none/*", says="no structure files match none/*")
         self.batch(1, f"structures={DATA}/1a8o*", says="would have files of one name")
+
+    def test_verbs_of_the_test_on_slurm(self):
+        """test_slurm.sh looks for processes by their words, and nightly.sh runs all of it."""
+        script = (WORKFLOW / "test_slurm.sh").read_text()
+        words = re.search(r'== \*" (.*) bricks/plan.json \$2 "\*', script)[1]
+        self.assertIn(f"{{config[tool]}} {words} {{input.plan}} {{wildcards.number}}", (WORKFLOW / "Snakefile").read_text())
+        self.assertIn(f'"$tool" {words} "$work/alone', script)
+        for name in ("config.yaml", "config.v8+.yaml"):
+            self.assertIn("status.sh", (WORKFLOW / "slurm" / name).read_text())
 
     def test_commands_of_the_guide(self):
         """Those of docs/pipelines.md, but for the ones that need Slurm."""
