@@ -31,8 +31,9 @@ run(${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${pc}/.. ${WORK}/by_pkg_config ${WOR
 run(${prefix}/bin/vdb_molsurf --version)
 run(${prefix}/bin/vdb_molsurf_msms --version)
 run(${PYTHON} -B ${SOURCE}/../../scripts/check_docs.py --installed ${prefix}/share/doc/vdb_molsurf)
-file(READ ${prefix}/share/doc/vdb_molsurf/README.md guide)
-foreach(named man/man1/vdb_molsurf.1 man/man1/vdb_molsurf_msms.1 bash-completion/completions/vdb_molsurf)
+file(READ ${SOURCE}/../../docs/install.md guide)
+foreach(named man/man1/vdb_molsurf.1 man/man1/vdb_molsurf_msms.1 bash-completion/completions/vdb_molsurf
+        zsh/site-functions/_vdb_molsurf fish/vendor_completions.d/vdb_molsurf.fish)
   cmake_path(GET named PARENT_PATH folder)
   string(REPLACE "/man1" "" folder ${folder})
   if(NOT EXISTS ${prefix}/share/${named} OR NOT guide MATCHES "PREFIX/share/${folder}")
