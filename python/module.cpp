@@ -167,6 +167,7 @@ MadeSurface surfaceOf(std::shared_ptr<BallSet> balls, const std::string& source,
         balls->balls[i].atom = std::int32_t(i);
     }
     out.result = run(how, [&](Progress& progress) {
+        checkMemory(*balls, options, 0, progress);
         MolecularSurface made = makeSurface(*balls, options, &progress);
         out.atom = takeAtoms(fileIds, made);
         return made;

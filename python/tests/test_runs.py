@@ -154,3 +154,12 @@ def test_damaged_pickles_are_errors(crambin):
     for damaged in (b"", state[:40], state[:-9], b"\xff" * 64):
         with pytest.raises(ValueError):
             _core.Molecule.__new__(_core.Molecule).__setstate__(damaged)
+
+
+def test_more_memory_than_there_is_is_refused(crambin):
+    """Before it is taken: the whole machine would be."""
+    positions = np.mgrid[0:60, 0:60, 0:60].reshape(3, -1).T * 6.0
+    with pytest.raises(ms.InputError, match=r"the surface takes about .* GiB of memory, and there are .*`voxel`"):
+        ms.surface(positions, 1.7, voxel=0.05)
+    with pytest.raises(ms.InputError, match="GiB of memory"):
+        ms.surface([[0.0, 0, 0]], 5000.0, kind="sas", voxel=0.05)

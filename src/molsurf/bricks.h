@@ -58,6 +58,16 @@ struct BrickLimits {
     bool oneProcess = false;
 };
 
+/// Refuses a surface in one piece that is estimated to take more memory than there is, before
+/// makeSurface() takes it.
+///
+/// @param[in] memory    [byte]; 0: what the machine, its control group and the process may have
+/// @param[in] progress  may end the estimate
+/// @throws Error(ErrorKind::Input) with both numbers
+/// @throws Cancelled if the progress object says so
+void checkMemory(const BallSet& atoms, const SurfaceOptions& options, std::size_t memory = 0,
+                 const Progress& progress = Progress());
+
 /// Plans bricks: cuts space along planes between leaves into boxes with about the same area of
 /// surface, across the longest edge first.
 ///

@@ -611,6 +611,14 @@ double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunL
     return cost.seconds + limits.besides.seconds;
 }
 
+void checkMemory(const BallSet& atoms, const SurfaceOptions& options, std::size_t memory,
+                 const Progress& progress)
+{
+    constexpr double anyHours = std::numeric_limits<double>::infinity();
+    if (options.grid)
+        checkCost(atoms, options, {memory > 0 ? memory : availableMemory(), anyHours, 1}, progress);
+}
+
 PlannedBrick costOfStored(const VdbContent& content)
 {
     const double leaves = double(content.leaves);
