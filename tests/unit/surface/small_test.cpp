@@ -54,11 +54,11 @@ TEST(SmallMolecules, HaveClosedManifoldSurfaces)
 TEST(SmallMolecules, OneAtomIsABallOfItsExactRadius)
 {
     const double radius = test::minimalRadius(3.1, {}) - 1.4;
-    for (const double voxel : {0.5, 0.25}) {
+    for (const double voxel : {0.5, 0.25, 0.1, 0.05}) {
         SurfaceOptions options;
         options.voxel = voxel;
         const SurfaceReport s = test::runOn({{corner, 1.7f, 0}}, options).report.surface;
-        const double bound = voxel == 0.5 ? 0.01 : 0.003; // Å, of the radius
+        const double bound = 0.004 * voxel * voxel; // Å, of the radius: second order
         EXPECT_NEAR(std::sqrt(s.area / (4.0 * M_PI)), radius, bound);
         EXPECT_NEAR(std::cbrt(s.volume * 3.0 / (4.0 * M_PI)), radius, bound);
     }
