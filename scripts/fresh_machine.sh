@@ -58,7 +58,7 @@ copy_settings() {
 
 # Where pip of this machine finds packages, and the certificates that it trusts.
 copy_pip_settings() {
-  local bundle=${PIP_CERT:-${SSL_CERT_FILE:-}} to=/etc/ssl/certs/fresh-machine.crt
+  local bundle=${PIP_CERT:-${SSL_CERT_FILE:-}} to=/etc/fresh-machine.crt
   [[ ! -f /etc/pip.conf ]] || cp /etc/pip.conf "$root/etc/"
   [[ -f $bundle ]] || return 0
   mkdir -p "$root${to%/*}"
