@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "verbs.h"
 
+#include "batch_journal.h"
 #include "cli/option_table.h"
 #include "input_files.h"
 #include "outputs.h"
@@ -9,8 +10,7 @@
 
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
-#include "molsurf/io/batch_summary.h"
-#include "molsurf/io/temporary_file.h"
+#include "molsurf/io/output_file.h"
 #include "molsurf/structure/structure_list.h"
 
 #include <algorithm>
@@ -29,21 +29,14 @@ namespace
 
 // One structure of the list and the files that it gets.
 struct Task {
-    std::string input;
+    std::string input, name;
     std::vector<Output> outputs;
 };
-
-// The files that tell what was done.
-std::vector<std::string> summaryPaths(const Call& call)
-{
-    const fs::path folder = call.folder;
-    return {(folder / "summary.json").string(), (folder / "summary.csv").string()};
-}
 
 // Refuses to write what is read, and the files of a structure that is called summary.
 void checkNames(const Call& call, const std::vector<Task>& tasks)
 {
-    const std::vector<std::string> own = summaryPaths(call);
+    const std::vector<std::string> own = BatchJournal::paths(call.folder);
     InputFiles inputs(call);
     for (const Task& task : tasks) inputs.add(task.input);
     for (const std::string& path : own) inputs.refuse(path);
@@ -73,7 +66,7 @@ std::vector<Task> tasksOf(const Call& call)
         const std::string stem = inputStem(input);
         const auto [other, fresh] = taken.emplace(stem, input);
         if (stem.empty() || !fresh) failTwice(call, input, other->second, stem + ".*");
-        Task task{input, {}};
+        Task task{input, stem, {}};
         for (const Output& kind : call.outputs)
             task.outputs.push_back(
                 {(fs::path(call.folder) / stem).string() + kind.path, kind.format});
@@ -83,40 +76,29 @@ std::vector<Task> tasksOf(const Call& call)
     return tasks;
 }
 
-bool allExist(const std::vector<Output>& outputs)
+std::size_t existing(const std::vector<Output>& outputs)
 {
-    return std::all_of(outputs.begin(), outputs.end(), [](const Output& output) {
+    return std::size_t(std::count_if(outputs.begin(), outputs.end(), [](const Output& output) {
         std::error_code ignored;
         return fs::exists(output.path, ignored);
-    });
+    }));
 }
 
-// What is known of each task.
-using Entries = std::vector<std::optional<BatchEntry>>;
-
-void addSummary(const Call& call, const std::string& options, const Entries& table,
-                OutputFiles& files)
-{
-    BatchSummary summary{options, {}};
-    for (const auto& entry : table)
-        if (entry) summary.entries.push_back(*entry);
-    for (const std::string& path : summaryPaths(call))
-        files.push_back(std::make_unique<OutputFile>(path, true));
-    writeSummaryJson(summary, *files[files.size() - 2]);
-    writeSummaryCsv(summary, *files.back());
-}
-
-void save(const Call& call, const std::string& options, const Entries& table)
-{
-    OutputFiles files;
-    addSummary(call, options, table, files);
-    commitUndisturbed(files);
-}
-
-BatchEntry doneEntry(const Task& task, const Report& report)
+BatchEntry beginEntry(const Task& task)
 {
     BatchEntry entry;
+    entry.name = task.name;
     entry.input = task.input;
+    entry.status = "begun";
+    try {
+        entry.sha256 = sha256OfFile(task.input);
+    } catch (const Error&) { // as the reader will say
+    }
+    return entry;
+}
+
+BatchEntry doneEntry(BatchEntry entry, const Report& report)
+{
     const bool rests = !report.evolution || report.evolution->converged;
     entry.status = rests ? "done" : "not converged";
     entry.atoms = report.atoms;
@@ -129,47 +111,45 @@ BatchEntry doneEntry(const Task& task, const Report& report)
     return entry;
 }
 
-// Does one task. Its files and its line of the summary appear together, so that a run that is
-// killed can go on. A failure has a line only.
-void perform(const Call& call, const std::string& options, const Task& task,
-             std::optional<BatchEntry>& entry, const Entries& table)
+// Does one task, unless this run or another has done it with the same content of its input. Files
+// that a run has begun may be replaced, others only with --force.
+// @param[out] kept  done before
+BatchEntry perform(const Call& call, const Task& task, BatchJournal& journal, bool& kept)
 {
+    BatchEntry entry = beginEntry(task);
+    const BatchEntry* before = journal.find(task.name);
+    const bool same = before && before->sha256 == entry.sha256 && !entry.sha256.empty();
+    kept = !call.force && same && before->status != "failed" && before->status != "begun" &&
+           existing(task.outputs) == task.outputs.size();
+    if (kept) return *before;
+    if (before && !same && before->input != task.input && before->status != "failed" &&
+        !call.force) {
+        entry.status = "failed";
+        entry.message = task.name + ".* are of " + before->input +
+                        ", which has another content [hint: another folder, or --force]";
+        return entry;
+    }
     Call one = call;
     one.input = task.input;
     one.outputs = task.outputs;
     one.warnings.clear();
     one.quiet = !call.verbose;
-    Companions summary;
-    for (const std::string& path : summaryPaths(call))
-        summary.temporaries.push_back(temporaryName(path));
-    summary.add = [&](const Report& report, OutputFiles& files) {
-        entry = doneEntry(task, report);
-        addSummary(call, options, table, files);
-    };
-    std::string problem;
+    one.force = call.force || journal.hasBegun(task.name) || existing(task.outputs) == 0;
     try {
-        buildSurface(one, Clock::now(), summary);
-        return;
+        if (one.force) journal.append(entry);
+        entry = doneEntry(entry, buildSurface(one, Clock::now()));
     } catch (const Error& e) {
-        problem = withOptionNames(e.what());
+        entry.status = "failed";
+        entry.message = withOptionNames(e.what());
     } catch (const std::bad_alloc&) {
-        problem = "out of memory";
+        entry.status = "failed";
+        entry.message = "out of memory";
+    } catch (const Cancelled&) {
+        journal.writeTables();
+        throw;
     }
-    entry = BatchEntry();
-    entry->input = task.input;
-    entry->status = "failed";
-    entry->message = problem;
-    save(call, options, table);
-}
-
-// Fills in what an earlier call has done.
-void takeOver(const BatchSummary& before, const std::vector<Task>& tasks, Entries& table)
-{
-    for (std::size_t i = 0; i < tasks.size(); ++i) {
-        if (!allExist(tasks[i].outputs)) continue;
-        for (const BatchEntry& entry : before.entries)
-            if (entry.input == tasks[i].input && entry.status != "failed") table[i] = entry;
-    }
+    journal.append(entry);
+    return entry;
 }
 
 std::string describe(const BatchEntry& entry)
@@ -209,31 +189,24 @@ int batch(const Call& call)
     fs::create_directories(call.folder, problem);
     if (problem)
         throw Error(ErrorKind::Output, "cannot make " + call.folder + ": " + problem.message());
-    for (const std::string& path : summaryPaths(call)) checkWritable(path, true);
-    const fs::path folder = call.folder;
-    const std::optional<BatchSummary> before = readSummary((folder / "summary.json").string());
-    if (before && before->options != options && !call.force)
-        throw Error(ErrorKind::Output, call.folder + " holds surfaces with other options (" +
-                                           before->options +
-                                           ") [hint: another folder, or --force]");
+    for (const std::string& path : BatchJournal::paths(call.folder)) checkWritable(path, true);
+    BatchJournal journal(call.folder, {MOLSURF_VERSION, options, {}}, call.force);
     if (!call.quiet)
         for (const std::string& warning : call.warnings) say("warning: " + warning);
 
-    Entries table(tasks.size());
-    if (before && !call.force) takeOver(*before, tasks, table);
-    const auto kept = std::size_t(
-        std::count_if(table.begin(), table.end(), [](const auto& entry) { return bool(entry); }));
-    std::size_t failed = 0, creeping = 0;
+    std::size_t kept = 0, failed = 0, creeping = 0;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-        const bool fresh = !table[i];
-        if (fresh) perform(call, options, tasks[i], table[i], table);
-        failed += table[i]->status == "failed";
-        creeping += table[i]->status == "not converged";
-        if (fresh && !call.quiet)
+        bool before = false;
+        const BatchEntry entry = perform(call, tasks[i], journal, before);
+        kept += before;
+        failed += entry.status == "failed";
+        creeping += entry.status == "not converged";
+        if (!before && !call.quiet)
             say(std::to_string(i + 1) + "/" + std::to_string(tasks.size()) + " " + tasks[i].input +
-                ": " + describe(*table[i]));
+                ": " + describe(entry));
     }
-    save(call, options, table);
+    journal.writeTables();
+    const fs::path folder = call.folder;
     if (call.quiet && failed > 0)
         say("error: " + std::to_string(failed) + " of " +
             counted(tasks.size(), "structure", "structures") + " failed; the table is " +

@@ -48,5 +48,6 @@ def lasting(path):
 
 
 def state(folder):
-    """All files of a folder."""
-    return {path.name: lasting(path) for path in folder.iterdir() if path.is_file()}
+    """All files of a folder, but the journal of a batch: it also has what was begun twice."""
+    return {path.name: lasting(path) for path in folder.iterdir()
+            if path.is_file() and path.name != "summary.jsonl"}

@@ -211,7 +211,7 @@ class Areas(ToolTest):
         self.write("list", "1crn.pdb\n")
         self.check(0, "batch", "list", "-O", "out", *SAS, "--formats", "residues.csv,pdb")
         self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
-                         ["1crn.pdb", "1crn.residues.csv", "summary.csv", "summary.json"])
+                         ["1crn.pdb", "1crn.residues.csv", "summary.csv", "summary.json", "summary.jsonl"])
         self.check(0, CRAMBIN, *SAS, "-o", "one.residues.csv", "-o", "one.pdb")
         for one, other in ("one.residues.csv", "out/1crn.residues.csv"), ("one.pdb", "out/1crn.pdb"):
             self.assertEqual((self.folder / one).read_bytes(), (self.folder / other).read_bytes())

@@ -2,10 +2,13 @@
 """Many structures in one call."""
 
 import csv
+import hashlib
 import json
+import subprocess
+import time
 import unittest
 
-from tool import CRAMBIN, DATA, FAST, ToolTest
+from tool import CRAMBIN, DATA, FAST, TOOL, ToolTest
 
 DIMER = DATA / "1a8o.cif.gz"
 
@@ -40,7 +43,7 @@ class Batch(ToolTest):
         self.assertEqual(self.files(),
                          sorted(f"{name}.{kind}" for name in ("1crn", "1a8o")
                                 for kind in ("vdb", "ply", "json")) +
-                         ["summary.csv", "summary.json"])
+                         ["summary.csv", "summary.json", "summary.jsonl"])
         rows = self.table()
         self.assertEqual([row["status"] for row in rows], ["done", "failed", "done"])
         self.assertIn("no atoms", rows[1]["message"])
@@ -67,13 +70,86 @@ class Batch(ToolTest):
                 self.assertEqual((self.folder / "out" / name).stat().st_mtime_ns, time, name)
         self.assertEqual([row["status"] for row in self.table()], ["done"] * 3)
 
+    def area(self, name):
+        return next(float(row["area"]) for row in self.table() if row["input"].endswith(name))
+
+    def test_an_input_that_has_changed_is_done_anew(self):
+        source = self.folder / "x.pdb"
+        (self.folder / "list").write_text("x.pdb\n")
+        for content, says in ((CRAMBIN, "x.pdb: done"), (CRAMBIN, "1 done before"), (DATA / "1ubq.pdb", "x.pdb: done")):
+            source.write_bytes(content.read_bytes())
+            self.batch(0, "--formats", "json", says=says)
+            report = json.loads((self.folder / "out" / "x.json").read_text())
+            self.assertEqual(report["surface"]["area"], self.area("x.pdb"))
+            self.assertEqual(self.table()[0]["sha256"], hashlib.sha256(content.read_bytes()).hexdigest())
+        self.assertEqual(report["atoms"], 602)
+
+    def test_lists_share_a_folder(self):
+        for name in ("crambin", "ubiquitin"):
+            (self.folder / name).write_text(f"{CRAMBIN if name == 'crambin' else DATA / '1ubq.pdb'}\n")
+            self.check(0, "batch", name, "-O", "out", *FAST, "--formats", "json", says="0 failed")
+        self.assertEqual([row["atoms"] for row in self.table()], ["327", "602"])
+        self.check(0, "batch", "crambin", "-O", "out", *FAST, "--formats", "json", says="1 done before")
+        self.assertEqual(len(self.table()), 2)
+        # The name is taken by another content.
+        (self.folder / "other").mkdir()
+        (self.folder / "other" / "1ubq.pdb").write_bytes(CRAMBIN.read_bytes())
+        (self.folder / "list").write_text("other/1ubq.pdb\n")
+        self.batch(1, "--formats", "json", says=["1ubq.* are of", "another content", "--force"])
+        self.assertEqual([row["atoms"] for row in self.table()], ["327", "602"])
+        self.batch(0, "--formats", "json", "--force", says="0 failed")
+        self.assertEqual([row["atoms"] for row in self.table()], ["327", "327"])
+
+    def small(self, count):
+        for i in range(count):
+            (self.folder / f"t{i}.xyzr").write_text(f"{i} 0 0 1.7\n")
+        return [f"t{i}.xyzr" for i in range(count)]
+
+    def test_runs_at_once_share_a_folder(self):
+        names = self.small(40)
+        runs = []
+        for part in range(2):
+            (self.folder / f"list{part}").write_text("\n".join(names[part::2]))
+            runs.append(subprocess.Popen([TOOL, "batch", f"list{part}", "-O", "out", "--voxel", "2", "--surface", "sas",
+                                          "--formats", "json", "-q"], cwd=self.folder))
+        self.assertEqual([run.wait() for run in runs], [0, 0])
+        self.assertEqual(sorted(row["input"] for row in self.table()), sorted(names))
+        self.assertEqual({row["status"] for row in self.table()}, {"done"})
+
+    def test_killed_and_begun_again(self):
+        names = self.small(60)
+        (self.folder / "list").write_text("\n".join(names))
+        call = ["batch", "list", "-O", "out", "--voxel", "2", "--surface", "sas", "--formats", "json"]
+        for wait in (0.05, 0.1, 0.15, 0.2):
+            run = subprocess.Popen([TOOL, *call, "-q"], cwd=self.folder)
+            time.sleep(wait)
+            run.kill()
+            run.wait()
+        with open(self.folder / "out" / "summary.jsonl", "a") as journal:
+            journal.write('{"name":"t1","inp')  # as of a run that was killed while it wrote
+        self.check(0, *call, says="60 structures")
+        self.assertEqual([(row["input"], row["status"]) for row in self.table()], [(name, "done") for name in names])
+        self.check(0, *call, says="60 done before")
+        self.assertEqual(self.files(), sorted([name.replace("xyzr", "json") for name in names] +
+                                              ["summary.csv", "summary.json", "summary.jsonl"]))
+
+    def test_files_of_others_are_left(self):
+        (self.folder / "out").mkdir()
+        (self.folder / "out" / "t0.json").write_text("mine")
+        self.small(1)
+        (self.folder / "list").write_text("t0.xyzr\n")
+        for _ in range(2):
+            self.batch(1, "--formats", "json", says=["t0.json", "--force"])
+        self.assertEqual((self.folder / "out" / "t0.json").read_text(), "mine")
+        self.assertEqual(self.table()[0]["status"], "failed")
+
     def test_folder_of_structures(self):
         (self.folder / "all").mkdir()
         (self.folder / "all" / "b.pdb").write_bytes(CRAMBIN.read_bytes())
         (self.folder / "all" / "a.xyzr").write_text("0 0 0 1.7\n")
         (self.folder / "all" / "notes.txt").write_text("not a structure\n")
         self.check(0, "batch", "all", "-O", "out", *FAST, "--formats", "json")
-        self.assertEqual(self.files(), ["a.json", "b.json", "summary.csv", "summary.json"])
+        self.assertEqual(self.files(), ["a.json", "b.json", "summary.csv", "summary.json", "summary.jsonl"])
         (self.folder / "none").mkdir()
         self.check(1, "batch", "none", "-O", "other", says="no structures")
 
@@ -105,7 +181,7 @@ class Batch(ToolTest):
     def test_not_converged(self):
         (self.folder / "list").write_text(f"{CRAMBIN}\n")
         self.batch(3, "--flow", "newton", "--max-steps", "1", "--formats", "json", says="1 not converged")
-        self.assertEqual(self.files(), ["1crn.json", "summary.csv", "summary.json"])
+        self.assertEqual(self.files(), ["1crn.json", "summary.csv", "summary.json", "summary.jsonl"])
 
     def test_names_are_no_formulas(self):
         names = ["=1+1.pdb", "+a.pdb", "-a, b.pdb", "@c.pdb", "a=b.pdb"]
@@ -123,7 +199,7 @@ class Batch(ToolTest):
         self.batch(1, says=["summary.pdb and the summary would both be written to out/summary.json"])
         self.assertFalse((self.folder / "out").exists())
         self.batch(0, "--formats", "ply")
-        self.assertEqual(self.files(), ["summary.csv", "summary.json", "summary.ply"])
+        self.assertEqual(self.files(), ["summary.csv", "summary.json", "summary.jsonl", "summary.ply"])
 
     def test_files_that_are_read_are_not_written(self):
         (self.folder / "out").mkdir()
@@ -148,9 +224,9 @@ class Batch(ToolTest):
         self.check(1, "batch", "list", "-O", "out", says="list")
         self.assertFalse((self.folder / "out").exists())
         (self.folder / "out").mkdir()
-        (self.folder / "out" / "summary.json").write_text("{}")
+        (self.folder / "out" / "summary.jsonl").write_text("{}\n")
         (self.folder / "list").write_text(f"{CRAMBIN}\n")
-        self.check(1, "batch", "list", "-O", "out", says="no summary")
+        self.check(1, "batch", "list", "-O", "out", says="no journal of a batch")
 
 
 if __name__ == "__main__":

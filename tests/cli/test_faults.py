@@ -191,10 +191,10 @@ class Commit(ToolTest):
         for name in "xy":
             shutil.copy(CRAMBIN, self.folder / f"{name}.pdb")
         (self.folder / "list").write_text("x.pdb\ny.pdb\n")
-        done = signalled_at("renameat2", 1, "INT", ["batch", "list", "-O", "out", *FAST], self.folder)
+        done = signalled_at("rename", 1, "INT", ["batch", "list", "-O", "out", *FAST], self.folder)
         self.assertEqual(done.returncode, 130, done.stderr)
         self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir()),
-                         ["summary.csv", "summary.json", "x.json", "x.ply", "x.vdb"])
+                         ["summary.csv", "summary.json", "summary.jsonl", "x.json", "x.ply", "x.vdb"])
 
     @needs("preload")
     def test_kill_where_the_file_system_lacks_something(self):

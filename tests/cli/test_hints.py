@@ -276,6 +276,10 @@ CASES = {
         ("another name", "cp residue.pdb summary.pdb; echo summary.pdb > l; "
          f"vdb_molsurf batch l -O out --formats json {FAST}",
          f"mv summary.pdb other.pdb; echo other.pdb > l; vdb_molsurf batch l -O out --formats json {FAST}"),
+        ("another folder, or --force", "mkdir a; cp two.xyzr a/one.xyzr; echo a/one.xyzr > l; "
+         f"for i in list.txt l; do vdb_molsurf batch $i -O out {FAST}; done",
+         f"vdb_molsurf batch l -O new {FAST}", f"vdb_molsurf batch l -O out {FAST} --force")],
+    "tools/batch_journal.cpp": [
         ("another folder, or --force", "for v in 2 1; do vdb_molsurf batch list.txt -O out --voxel $v; done",
          "vdb_molsurf batch list.txt -O new --voxel 1", "vdb_molsurf batch list.txt -O out --voxel 1 --force")],
     "tools/brick.cpp": [

@@ -30,7 +30,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             readGroups(path);
             break;
         case 's':
-            readSummary(path);
+            readJournalLine(std::string(data + 1, data + size));
+            readJournalHeader(std::string(data + 1, data + size), path);
             break;
         case 'f':
             readFrameTable(path);

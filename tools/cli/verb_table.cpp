@@ -54,7 +54,8 @@ VerbInfo batchVerb()
         "LIST names a structure file a line, - is standard input; empty lines and lines with #\n"
         "do not count. A folder in its place means all structures in it.\n"
         "A failed structure is reported; the others continue. DIR/summary.csv and summary.json\n"
-        "have a line each; the same command once more makes those that are missing or failed.\n",
+        "have a line each; the same command once more makes those that are missing, failed or\n"
+        "of an input that has changed. Several lists may share DIR, also at the same time.\n",
         "1 some failed, 3 some did not converge (their files are written)",
         {{"vdb_molsurf batch structures/ -O surfaces --surface sas --formats json",
           "a report for each structure of a folder, and a table of all"}},

@@ -2,10 +2,13 @@
 #pragma once
 
 /// @file
-/// The results of a run over many structures, as a table in JSON and CSV.
+/// The results of runs over many structures, as tables in JSON and CSV, and as the journal that
+/// these are made of: a line of JSON for the options, then one for each structure that is begun or
+/// ended.
 
 #include "molsurf/io/output_file.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,8 +18,10 @@ namespace molsurf
 
 /// One structure.
 struct BatchEntry {
-    std::string input;
-    std::string status;  ///< "done", "not converged" or "failed"
+    std::string name;    ///< of its files, without extension
+    std::string input;   ///< the structure file
+    std::string sha256;  ///< of that file; empty if it could not be read
+    std::string status;  ///< "done", "not converged" or "failed"; in a journal also "begun"
     std::string message; ///< why it failed
     std::size_t atoms = 0;
     double area = 0.0;   ///< [Å^2]
@@ -29,6 +34,7 @@ struct BatchEntry {
 
 /// All of them.
 struct BatchSummary {
+    std::string version; ///< of the program
     std::string options; ///< those that the surfaces depend on
     std::vector<BatchEntry> entries;
 };
@@ -40,8 +46,18 @@ void writeSummaryJson(const BatchSummary& summary, OutputFile& file);
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeSummaryCsv(const BatchSummary& summary, OutputFile& file);
 
-/// Reads what writeSummaryJson() wrote; nothing if there is no such file.
+/// The first line of a journal: version and options.
+std::string journalHeader(const BatchSummary& summary);
+
+/// Another line of it.
+std::string journalLine(const BatchEntry& entry);
+
+/// Reads the first line of a journal.
+/// @param[in] path  for the message
 /// @throws Error(ErrorKind::Input) if it is another file
-std::optional<BatchSummary> readSummary(const std::string& path);
+BatchSummary readJournalHeader(const std::string& line, const std::string& path);
+
+/// Reads another line of it; nothing if it is damaged, as of a run that was killed while it wrote.
+std::optional<BatchEntry> readJournalLine(const std::string& line);
 
 } // namespace molsurf
