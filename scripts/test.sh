@@ -13,10 +13,10 @@ if [[ ${1:-} == --all ]]; then
 fi
 echo "== 1 of 3: packages of Debian that building and testing need; a minute or two if none is there"
 scripts/install_deps.sh "${sets[@]}"
-echo "== 2 of 3: the library, the programs and the tests; 12 minutes on 2 cores when nothing is built, half of it for the tests"
+echo "== 2 of 3: the library, the programs and the tests; 6 minutes on 2 cores when nothing is built, half of it for the tests"
 cmake --preset release -DMOLSURF_BUILD_TESTS=ON "$@"
 cmake --build --preset release
-echo "== 3 of 3: the tests; 4 minutes on 2 cores"
+echo "== 3 of 3: the tests; 5 minutes on 2 cores"
 status=0
 ctest --preset release --parallel "$(nproc)" --output-junit "$PWD/build-release/tests.xml" || status=$?
 /usr/bin/python3 scripts/not_tested.py build-release/tests.xml
