@@ -161,5 +161,5 @@ def test_more_memory_than_there_is_is_refused(crambin):
     positions = np.mgrid[0:60, 0:60, 0:60].reshape(3, -1).T * 6.0
     with pytest.raises(ms.InputError, match=r"the surface takes about .* GiB of memory, and there are .*`voxel`"):
         ms.surface(positions, 1.7, voxel=0.05)
-    with pytest.raises(ms.InputError, match="GiB of memory"):
+    with pytest.raises(ms.InputError, match=r"GiB at a voxel of 0.05 .*`voxel`"):
         ms.surface([[0.0, 0, 0]], 5000.0, kind="sas", voxel=0.05)
