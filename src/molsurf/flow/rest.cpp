@@ -63,6 +63,7 @@ MOLSURF_KERNEL void levelRows(const float* __restrict block, const float* __rest
 {
     using Block = LeafBlock<float, 1>;
     constexpr float least = 0.3f, most = 2.0f; // e^v, as times that of a flat interface
+    constexpr float any = 1e30f;               // level
     const float near = float(farFrom(double(voxel)));
     const float inverse = 1.0f / voxel;
     for (int row = 0; row < 64; ++row) {
@@ -94,8 +95,8 @@ MOLSURF_KERNEL void levelRows(const float* __restrict block, const float* __rest
             const float mixed = level + off * off * (3.0f - 2.0f * off) * (flat - level);
             // At the rim stencils see no neighbours: no level there puts a voxel on the other side.
             const float half = 0.5f * p[z];
-            const float outside = distance > voxel ? larger(mixed, half) : mixed;
-            levels[8 * row + z] = distance < -voxel ? smaller(outside, half) : outside;
+            const float low = distance > voxel ? half : -any, high = distance < -voxel ? half : any;
+            levels[8 * row + z] = clamped(mixed, low, high); // nested choices would not vectorise
         }
     }
 }
