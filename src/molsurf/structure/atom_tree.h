@@ -41,6 +41,18 @@ struct AtomLine {
     double radius = -1.0; ///< [Å]; < 0: the file has none
 };
 
+/// An atom of a file without residues: it is of UNL, as the Protein Data Bank calls an unknown
+/// ligand.
+inline AtomLine unknownLigandAtom(const openvdb::Vec3d& position)
+{
+    AtomLine atom;
+    atom.residue = "UNL";
+    atom.number = 1;
+    atom.hetatm = true;
+    atom.position = position;
+    return atom;
+}
+
 /// Makes a structure atom by atom, in the order of the file. A residue begins where its chain,
 /// number or names change, and where the first atom of a molecule other than a link of a chain
 /// comes again. Alternatives of one residue may alternate.

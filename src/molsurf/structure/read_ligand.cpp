@@ -149,16 +149,12 @@ private:
     {
         ++atoms_;
         flat_ = flat_ && position.z() == 0.0;
-        AtomLine atom;
+        AtomLine atom = unknownLigandAtom(position);
         atom.element = elementNumber(std::string(symbol));
         atom.guess = false;
         if (isParticleSymbol(symbol)) atom.role = AtomRole::Particle;
         const std::string name = std::string(symbol) + std::to_string(++serials_[atom.element]);
-        atom.residue = "UNL"; // as the Protein Data Bank calls an unknown ligand
         atom.name = name;
-        atom.number = 1;
-        atom.hetatm = true;
-        atom.position = position;
         tree_.add(atom);
     }
 

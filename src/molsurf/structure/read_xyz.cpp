@@ -104,18 +104,14 @@ void readFrame(LineReader& lines, const std::string& path, int count, bool names
         }
         if (!good)
             failAtLine(path, lines, "expected element, x, y and z, got " + inQuotes(lines.line()));
-        AtomLine atom;
+        AtomLine atom = unknownLigandAtom(position);
         const string_view species = fields[columns.species];
         if (!names) atom.element = elementOfSpecies(species);
         atom.guess = names;
         const char* const symbol = elementSymbol(std::uint8_t(atom.element));
         const std::string name =
             names ? std::string(species) : symbol + std::to_string(++serials[atom.element]);
-        atom.residue = "UNL"; // as the Protein Data Bank calls an unknown ligand
         atom.name = name;
-        atom.number = 1;
-        atom.hetatm = true;
-        atom.position = position;
         tree.add(atom);
     }
 }
