@@ -128,6 +128,11 @@ bool restsInClosedForm(const SurfaceOptions& options)
     return hasFlow(options.kind) && restsInClosedForm(flowOptions(options));
 }
 
+int psiBandVox(const SurfaceOptions& options)
+{
+    return restsInClosedForm(options) ? restBandVox(options.voxel) : bandWidthVox;
+}
+
 bool decidesWalls(const SurfaceOptions& options)
 {
     constexpr double leastOffset = 1.5; // [voxel]
@@ -139,8 +144,7 @@ GaussianOptions gaussianOptions(const SurfaceOptions& options)
 {
     // Stencils reach a voxel beyond the band, along diagonals.
     const double h = options.voxel;
-    const int width = restsInClosedForm(options) ? restBandVox(h) : bandWidthVox;
-    const double reach = (width + 1.5) * h;
+    const double reach = (psiBandVox(options) + 1.5) * h;
     if (isGaussian(rowOf(options.kind))) return {0.0, 0.0, options.blobbiness, h, reach};
     return {options.probe, options.epsilon, 0.0, h, reach};
 }

@@ -87,6 +87,9 @@ EvolveOptions flowOptions(const SurfaceOptions& options);
 /// Tells whether a surface is at rest in closed form, without a step.
 bool restsInClosedForm(const SurfaceOptions& options);
 
+/// Width of the band that psi is computed in, on each side of psi = 0 [voxel].
+int psiBandVox(const SurfaceOptions& options);
+
 /// Gives the half width of the band of S that the spline is fitted on [Å].
 double splineWidthOf(const SurfaceOptions& options);
 

@@ -68,8 +68,8 @@ void SurfaceRun::density()
         refineCoarseRest();
         return;
     }
-    const int width = restsInClosedForm(options_) ? restBandVox(options_.voxel) : bandWidthVox;
-    SparseField psi = sum_->band(width, progress_, scope_.region.grown(scope_.flowHalo));
+    SparseField psi =
+        sum_->band(psiBandVox(options_), progress_, scope_.region.grown(scope_.flowHalo));
     bumps_ = sum_->bumps();
     if (psi.table.size() == 0 && scope_.region.whole()) {
         failIfTooCoarse("density: no voxel lies inside the surface", atoms_.balls, options_);
