@@ -219,21 +219,21 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
 }
 
 Report buildSurface(const Call& call, const BallSet& balls, const Report& read, Terminal& terminal,
-                    Clock::time_point start, const Companions& companions)
+                    Clock::time_point start)
 {
-    const Report report = surfaceOf(call, balls, read, terminal, start, nullptr, companions);
+    const Report report = surfaceOf(call, balls, read, terminal, start);
     if (call.verbose) sayTimes(report);
     if (!call.quiet) say(summary(report));
     return report;
 }
 
-Report buildSurface(Call call, Clock::time_point start, const Companions& companions)
+Report buildSurface(Call call, Clock::time_point start)
 {
-    prepareOutputs(call, companions.temporaries);
+    prepareOutputs(call);
     Terminal terminal(call.progress);
     Report read;
     const BallSet balls = readBalls(call, terminal, read);
-    return buildSurface(call, balls, read, terminal, start, companions);
+    return buildSurface(call, balls, read, terminal, start);
 }
 
 int build(const Call& call, Clock::time_point start)

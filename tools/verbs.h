@@ -38,13 +38,12 @@ struct Companions {
 
 /// The same without its last word on standard error, but for errors.
 /// @return the report, complete
-Report buildSurface(Call call, std::chrono::steady_clock::time_point start,
-                    const Companions& companions = {});
+Report buildSurface(Call call, std::chrono::steady_clock::time_point start);
 
 /// The part of it behind the atoms.
 /// @param[in] read  what readBalls() has put in the report
 Report buildSurface(const Call& call, const BallSet& balls, const Report& read, Terminal& terminal,
-                    std::chrono::steady_clock::time_point start, const Companions& companions = {});
+                    std::chrono::steady_clock::time_point start);
 
 /// The part of that which says little: runs and writes. prepareOutputs() has been called.
 /// @param[in] call    with --center and a frame the centre of the scene is taken, else chosen
