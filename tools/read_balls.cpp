@@ -28,9 +28,11 @@ DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& te
         throw Error(
             ErrorKind::Input,
             path + ": it is a mesh, expected atoms [hint: vdb_molsurf compare measures meshes]");
-    const Structure structure = readStructure(path, call.atoms.maxInput);
+    const Structure structure = readStructure(path, call.atoms.maxInput, terminal, call.memory);
     stopIfAsked();
-    BallSet balls = selectBalls(structure, call.atoms, probeOf(call.options), terminal);
+    SelectOptions options = call.atoms;
+    options.memory = call.memory;
+    BallSet balls = selectBalls(structure, options, probeOf(call.options), terminal);
     std::string description = describeSelection(structure, balls);
     if (picture) {
         const auto chosen = [&](const std::string& select) {

@@ -240,6 +240,9 @@ struct SelectOptions {
     /// The bytes that the file's text may have, unpacked; 0: 4 GiB, and no more than 200 times its
     /// packed size.
     std::size_t maxInput = 0;
+    /// The bytes that the process may take while it reads; 0: what the machine, its control group
+    /// and the process may have.
+    std::size_t memory = 0;
 
     /// Tells whether motions repeat the balls that are made.
     bool repeats() const { return instances || bySymmetry; }

@@ -2,6 +2,7 @@
 #include "molsurf/structure/atom_tree.h"
 
 #include "molsurf/structure/element.h"
+#include "molsurf/structure/gemmi_model.h"
 #include "molsurf/structure/guess_element.h"
 #include "molsurf/structure/residue_names.h"
 
@@ -39,52 +40,6 @@ EntityHint hintOf(const gemmi::Residue& residue)
     }
 }
 
-/// Copies gemmi's tree into our tables.
-class Converter
-{
-public:
-    Converter(Structure& out, bool entitiesKnown) : out_(out), entitiesKnown_(entitiesKnown) {}
-
-    void add(const gemmi::Model& model, int number)
-    {
-        const std::size_t begin = out_.atoms.size();
-        for (const gemmi::Chain& chain : model.chains)
-            for (const gemmi::Residue& residue : chain.residues) add(chain, residue);
-        if (out_.atoms.size() > begin) out_.models.push_back({number, begin, out_.atoms.size()});
-    }
-
-private:
-    void add(const gemmi::Chain& chain, const gemmi::Residue& from)
-    {
-        Residue residue{};
-        residue.name = from.name;
-        residue.chain = chains_.index(chain.name, out_.chains);
-        residue.asym = asyms_.index(from.subchain, out_.asyms);
-        residue.number = from.seqid.num ? *from.seqid.num : 0;
-        residue.insertionCode = from.seqid.icode;
-        residue.hetatm = from.het_flag == 'H';
-        if (entitiesKnown_) residue.entity = hintOf(from);
-        const auto residueIndex = static_cast<std::int32_t>(out_.residues.size());
-        out_.residues.push_back(std::move(residue));
-        const bool standard = isStandardResidue(from.name);
-        const bool unknown = from.name == "UNX"; // whose atoms UNK are no uranium
-        for (const gemmi::Atom& atom : from.atoms) {
-            std::uint8_t element = elementOf(atom, standard);
-            if (atom.element == gemmi::El::X && !unknown) {
-                element = guessElement(atom.name, from.name);
-                if (out_.models.empty()) ++out_.guessed;
-            }
-            out_.atoms.push_back({openvdb::Vec3d(atom.pos.x, atom.pos.y, atom.pos.z), atom.name,
-                                  residueIndex, element, atom.altloc, AtomRole::Atom, atom.occ,
-                                  atom.b_iso, -1.0});
-        }
-    }
-
-    Structure& out_;
-    bool entitiesKnown_;
-    NameTable chains_, asyms_;
-};
-
 std::size_t countAtoms(const gemmi::Structure& structure)
 {
     std::size_t atoms = 0;
@@ -98,15 +53,46 @@ std::size_t countAtoms(const gemmi::Structure& structure)
 
 } // namespace
 
-void copyTree(const gemmi::Structure& tree, const std::vector<int>& numbers, bool entitiesKnown,
-              Structure& out)
+void TreeCopier::add(const gemmi::Structure& tree, bool goesOn)
 {
-    out.atoms.reserve(countAtoms(tree));
-    Converter converter(out, entitiesKnown);
-    std::size_t withAtoms = 0;
+    if (out_.atoms.empty()) out_.atoms.reserve(countAtoms(tree));
+    std::vector<Model>& models = out_.models;
     for (const gemmi::Model& model : tree.models) {
         if (model.chains.empty()) continue;
-        converter.add(model, numbers.at(withAtoms++));
+        int number = models.empty() ? 1 : models.back().number + 1;
+        setNumber(number, model);
+        if (!goesOn || models.empty() || models.back().number != number)
+            models.push_back({number, out_.atoms.size(), out_.atoms.size()});
+        goesOn = false;
+        for (const gemmi::Chain& chain : model.chains)
+            for (const gemmi::Residue& residue : chain.residues) add(chain, residue);
+        models.back().end = out_.atoms.size();
+    }
+}
+
+void TreeCopier::add(const gemmi::Chain& chain, const gemmi::Residue& from)
+{
+    Residue residue{};
+    residue.name = from.name;
+    residue.chain = chains_.index(chain.name, out_.chains);
+    residue.asym = asyms_.index(from.subchain, out_.asyms);
+    residue.number = from.seqid.num ? *from.seqid.num : 0;
+    residue.insertionCode = from.seqid.icode;
+    residue.hetatm = from.het_flag == 'H';
+    if (entitiesKnown_) residue.entity = hintOf(from);
+    const auto residueIndex = static_cast<std::int32_t>(out_.residues.size());
+    out_.residues.push_back(std::move(residue));
+    const bool standard = isStandardResidue(from.name);
+    const bool unknown = from.name == "UNX"; // whose atoms UNK are no uranium
+    for (const gemmi::Atom& atom : from.atoms) {
+        std::uint8_t element = elementOf(atom, standard);
+        if (atom.element == gemmi::El::X && !unknown) {
+            element = guessElement(atom.name, from.name);
+            if (out_.models.size() == 1) ++out_.guessed;
+        }
+        out_.atoms.push_back({openvdb::Vec3d(atom.pos.x, atom.pos.y, atom.pos.z), atom.name,
+                              residueIndex, element, atom.altloc, AtomRole::Atom, atom.occ,
+                              atom.b_iso, -1.0});
     }
 }
 

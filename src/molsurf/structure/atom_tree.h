@@ -17,11 +17,24 @@
 namespace molsurf
 {
 
-/// Copies gemmi's tree into the tables of a structure: models, atoms, residues, chains.
-/// @param[in] numbers        of the models that have chains, in order
-/// @param[in] entitiesKnown  whether the file says what the entities are
-void copyTree(const gemmi::Structure& tree, const std::vector<int>& numbers, bool entitiesKnown,
-              Structure& out);
+/// Copies gemmi's trees into the tables of a structure: models, atoms, residues, chains. A tree may
+/// be a piece of what another began, with chains of its own.
+class TreeCopier
+{
+public:
+    /// @param[in] entitiesKnown  whether the file says what the entities are
+    TreeCopier(Structure& out, bool entitiesKnown) : out_(out), entitiesKnown_(entitiesKnown) {}
+
+    /// @param[in] goesOn  whether the first model goes on with the last one, if its number is that
+    void add(const gemmi::Structure& tree, bool goesOn);
+
+private:
+    void add(const gemmi::Chain& chain, const gemmi::Residue& from);
+
+    Structure& out_;
+    bool entitiesKnown_;
+    NameTable chains_, asyms_;
+};
 
 /// One atom as a reader finds it.
 struct AtomLine {

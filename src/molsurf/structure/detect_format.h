@@ -39,6 +39,8 @@ struct StructureFormatRow {
     /// Whether a text is of this format and not of one of those behind it.
     bool (*matches)(const StructureSample& sample);
     Structure (*read)(std::string text, const std::string& path, const Progress& progress);
+    /// Memory that reading a text and choosing its atoms takes beside it [byte].
+    double (*bytesFor)(const std::string& text);
 };
 
 /// All of them, in the order in which a text is held against them.

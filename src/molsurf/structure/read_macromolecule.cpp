@@ -6,6 +6,7 @@
 #include "molsurf/structure/assembly_operators.h"
 #include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/binary_cif.h"
+#include "molsurf/structure/cif_rows.h"
 #include "molsurf/structure/gemmi_model.h"
 #include "molsurf/structure/ihm_spheres.h"
 #include "molsurf/structure/text_fields.h"
@@ -18,7 +19,9 @@
 #include <array>
 #include <cctype>
 #include <exception>
+#include <functional>
 #include <map>
+#include <stdexcept>
 
 namespace molsurf
 {
@@ -98,7 +101,8 @@ void completeNumbers(gemmi::cif::Loop& loop)
     const int asym = loop.find_tag("_atom_site.label_asym_id");
     const int atom = loop.find_tag("_atom_site.label_atom_id");
     const auto isNull = [](const std::string& text) { return text == "." || text == "?"; };
-    std::string chain, first; // of the molecule that is counted
+    const int model = loop.find_tag("_atom_site.pdbx_PDB_model_num");
+    std::string chain, first, ofModel; // of the molecule that is counted
     int count = 0;
     const std::size_t width = loop.width();
     for (std::size_t begin = 0; begin + width <= loop.values.size(); begin += width) {
@@ -110,13 +114,14 @@ void completeNumbers(gemmi::cif::Loop& loop)
             value(author) = value(label);
             continue;
         }
-        if (value(asym) != chain) count = 0;
+        if (value(asym) != chain || (model >= 0 && value(model) != ofModel)) count = 0;
         const std::string name = atom >= 0 ? value(atom) : std::string();
-        if (value(asym) != chain || name == first) {
+        if (count == 0 || name == first) {
             ++count;
             first = name;
         }
         chain = value(asym);
+        if (model >= 0) ofModel = value(model);
         value(author) = std::to_string(count);
     }
 }
@@ -273,26 +278,65 @@ void keepOnlyAtoms(Block& block)
     items.erase(std::remove_if(items.begin(), items.end(), std::not_fn(isNeeded)), items.end());
 }
 
-/// The atoms of a block, with what gemmi reads of it.
-void addAtoms(Block& block, const std::string& path, const Progress& progress, Structure& out)
+/// Makes atoms of a block's rows, with what gemmi reads of it; the next rows are those of other
+/// chains.
+class AtomAdder
 {
-    makeLoop(block, "_atom_site.");
-    completeAtomSite(block, path);
-    const bool entitiesKnown = block.has_tag("_entity.type");
-    keepOnlyAtoms(block);
-    gemmi::Structure tree = gemmi::make_structure_from_block(block);
-    stopIfCancelled(progress);
-    std::vector<int> numbers;
-    for (const gemmi::Model& model : tree.models) {
-        if (model.chains.empty()) continue;
-        numbers.push_back(numbers.empty() ? 1 : numbers.back() + 1);
-        setNumber(numbers.back(), model);
+public:
+    AtomAdder(const Block& block, const std::string& path, Structure& out)
+        : path_(path), copier_(out, block.has_tag("_entity.type"))
+    {
     }
-    copyTree(tree, numbers, entitiesKnown, out);
+
+    void add(Block& block, const Progress& progress)
+    {
+        makeLoop(block, "_atom_site.");
+        completeAtomSite(block, path_);
+        keepOnlyAtoms(block);
+        const gemmi::Structure tree = gemmi::make_structure_from_block(block);
+        stopIfCancelled(progress);
+        copier_.add(tree, goesOn_);
+        goesOn_ = true;
+    }
+
+private:
+    const std::string& path_;
+    TreeCopier copier_;
+    bool goesOn_ = false;
+};
+
+/// The atoms of a block that has but the first of some rows in a text.
+/// @throws std::runtime_error if that is no such block, or if a row cannot be read
+void addPieces(Block& block, const std::string& text, const CifRows& rows, const std::string& path,
+               const Progress& progress, Structure& out)
+{
+    std::string head = "data_piece\nloop_\n";
+    for (const std::string& tag : rows.tags) head += tag + "\n";
+    AtomAdder atoms(block, path, out);
+    keepOnlyAtoms(block);
+    gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop();
+    if (!loop || loop->length() != 1)
+        throw std::runtime_error("the rows are those of another loop");
+    loop->values.clear();
+    out.atoms.reserve(rows.rows);
+    for (std::size_t k = 0; k + 1 < rows.cuts.size(); ++k) {
+        const std::string piece =
+            head + text.substr(rows.cuts[k], rows.cuts[k + 1] - rows.cuts[k]) + "\n";
+        gemmi::cif::Document document =
+            gemmi::cif::read_memory(piece.data(), piece.size(), path.c_str());
+        Block one("");
+        for (const gemmi::cif::Item& item : block.items)
+            if (!(item.type == gemmi::cif::ItemType::Loop && item.loop.values.empty()))
+                one.items.push_back(item);
+        one.items.push_back(std::move(document.sole_block().items.at(0)));
+        atoms.add(one, progress);
+    }
 }
 
+/// @param[in] addRows  adds the atoms of the table _atom_site
 Structure structureOf(gemmi::cif::Document& document, const std::string& path,
-                      const Progress& progress)
+                      const Progress& progress,
+                      const std::function<void(Block& block, Structure& out)>& addRows)
 {
     stopIfCancelled(progress);
     Structure out;
@@ -301,9 +345,22 @@ Structure structureOf(gemmi::cif::Document& document, const std::string& path,
     out.plddt = namesPlddt(block);
     Block spheres("");
     if (hasSpheres(block)) spheres.items = block.items;
-    if (block.has_tag("_atom_site.Cartn_x")) addAtoms(block, path, progress, out);
+    if (block.has_tag("_atom_site.Cartn_x")) addRows(block, out);
     if (hasSpheres(spheres)) addSpheres(spheres, path, out);
     return out;
+}
+
+/// An mmCIF text whose rows of atoms are read piece by piece: a document of all of them takes
+/// twelve times the memory of the text.
+/// @throws std::exception if something is not as it was expected
+Structure readInPieces(const std::string& text, const CifRows& rows, const std::string& path,
+                       const Progress& progress)
+{
+    const std::string rest = text.substr(0, rows.firstEnd) + text.substr(rows.cuts.back());
+    gemmi::cif::Document document = gemmi::cif::read_memory(rest.data(), rest.size(), path.c_str());
+    return structureOf(document, path, progress, [&](Block& block, Structure& out) {
+        addPieces(block, text, rows, path, progress, out);
+    });
 }
 
 /// The structure of a document that is parsed from text or bytes.
@@ -314,7 +371,9 @@ Structure readDocument(std::string all, const std::string& path, const Progress&
     try {
         gemmi::cif::Document document = parse(all);
         std::string().swap(all);
-        return structureOf(document, path, progress);
+        return structureOf(document, path, progress, [&](Block& block, Structure& out) {
+            AtomAdder(block, path, out).add(block, progress);
+        });
     } catch (const Error&) {
         throw;
     } catch (const Cancelled&) {
@@ -344,8 +403,37 @@ bool isRead(const std::string& category)
 
 } // namespace
 
+namespace
+{
+constexpr std::size_t rowsOfPiece = 20000; // which take 30 MB
+}
+
+double bytesForMmcif(const std::string& text)
+{
+    // A document has 32 bytes for each value of a row, and twice that while it grows.
+    constexpr double ofDocument = 21.0, ofStructure = 3.0, perRow = 1.7e3;
+    const std::optional<CifRows> rows = findCifRows(text, rowsOfPiece);
+    if (!rows) return ofDocument * double(text.size());
+    return ofStructure * double(text.size()) + perRow * double(rows->longest);
+}
+
 Structure readMmcif(std::string text, const std::string& path, const Progress& progress)
 {
+    return readMmcifInPieces(std::move(text), path, progress, rowsOfPiece);
+}
+
+Structure readMmcifInPieces(std::string text, const std::string& path, const Progress& progress,
+                            std::size_t enough)
+{
+    const std::optional<CifRows> rows = findCifRows(text, enough);
+    if (rows && rows->cuts.size() > 2) {
+        try {
+            return readInPieces(text, *rows, path, progress);
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const std::exception&) { // read as a whole it gives the line
+        }
+    }
     return readDocument(std::move(text), path, progress, [&](const std::string& all) {
         return gemmi::cif::read_memory(all.data(), all.size(), path.c_str());
     });

@@ -2,6 +2,7 @@
 #include "molsurf/structure/read_structure.h"
 
 #include "molsurf/core/cancel.h"
+#include "molsurf/core/memory.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/beads.h"
 #include "molsurf/structure/detect_format.h"
@@ -49,10 +50,13 @@ void numberModels(Structure& structure)
 }
 
 Structure parseAndCheck(StructureFormat format, std::string text, const std::string& path,
-                        const Progress& progress)
+                        std::size_t memory, const Progress& progress)
 {
     stopIfCancelled(progress);
     const StructureFormatRow& row = rowOf(format);
+    constexpr std::size_t small = 100000; // bytes of a text that needs no estimate
+    if (text.size() > small)
+        checkMemoryFor(displayName(path) + ": reading it takes", row.bytesFor(text), memory);
     Structure structure = row.read(std::move(text), path, progress);
     stopIfCancelled(progress);
     structure.source = path == "-" ? path : std::filesystem::path(path).filename().string();
@@ -85,24 +89,25 @@ std::string describeAtom(const Structure& structure, std::size_t index)
     return atom.name.empty() ? text : text + ")";
 }
 
-Structure readStructure(const std::string& path, std::size_t maxBytes, const Progress& progress)
+Structure readStructure(const std::string& path, std::size_t maxBytes, const Progress& progress,
+                        std::size_t memory)
 {
     std::string text = loadText(path, maxBytes);
     const StructureFormat format = detectFormat(path, text);
-    return parseAndCheck(format, std::move(text), path, progress);
+    return parseAndCheck(format, std::move(text), path, memory, progress);
 }
 
 Structure parseStructure(std::string bytes, const std::string& path, std::size_t maxBytes,
-                         const Progress& progress)
+                         const Progress& progress, std::size_t memory)
 {
     std::string text = unpackedText(std::move(bytes), path, maxBytes);
     const StructureFormat format = detectFormat(path, text);
-    return parseAndCheck(format, std::move(text), path, progress);
+    return parseAndCheck(format, std::move(text), path, memory, progress);
 }
 
 Structure readStructureAs(StructureFormat format, const std::string& path, std::size_t maxBytes)
 {
-    return parseAndCheck(format, loadText(path, maxBytes), path, Progress());
+    return parseAndCheck(format, loadText(path, maxBytes), path, 0, Progress());
 }
 
 } // namespace molsurf

@@ -42,17 +42,19 @@ namespace molsurf
 ///
 /// @param[in] maxBytes  that the text may have; see loadText()
 /// @param[in] progress  may end the reading between its stages: unpacking, parsing, making atoms
-/// @throws Error(ErrorKind::Input) if the file does not exist, is a folder, is empty, too large or
+/// @param[in] memory    that the process may take [byte]; see SelectOptions::memory
+/// @throws Error(ErrorKind::Input) if reading is estimated to take more memory, or if the file does
+///         not exist, is a folder, is empty, too large or
 ///         cut short, is not a structure, has no model or no atom, or has a coordinate that is not
 ///         finite or lies beyond 1e6 Å
 /// @throws Cancelled if the progress object says so
 Structure readStructure(const std::string& path, std::size_t maxBytes = 0,
-                        const Progress& progress = Progress());
+                        const Progress& progress = Progress(), std::size_t memory = 0);
 
 /// Reads a structure from a file in memory; otherwise as above.
 /// @param[in] path  stands for it in messages
 Structure parseStructure(std::string bytes, const std::string& path, std::size_t maxBytes = 0,
-                         const Progress& progress = Progress());
+                         const Progress& progress = Progress(), std::size_t memory = 0);
 
 /// Reads a structure whose format is known, whatever its content looks like; otherwise as above.
 Structure readStructureAs(StructureFormat format, const std::string& path,

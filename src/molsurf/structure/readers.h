@@ -35,6 +35,14 @@ Structure readPdbqt(std::string text, const std::string& path, const Progress& p
 /// @throws Error(ErrorKind::Input) if it cannot be read, or if no data block has atoms
 Structure readMmcif(std::string text, const std::string& path, const Progress& progress);
 
+/// Memory that reading such a text takes beside it [byte].
+double bytesForMmcif(const std::string& text);
+
+/// The same as readMmcif().
+/// @param[in] enough  atoms that are parsed at once, or more where a chain has more
+Structure readMmcifInPieces(std::string text, const std::string& path, const Progress& progress,
+                            std::size_t enough);
+
 /// The same of a BinaryCIF file.
 Structure readBinaryCif(std::string bytes, const std::string& path, const Progress& progress);
 

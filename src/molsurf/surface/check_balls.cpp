@@ -5,27 +5,12 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <string>
 
 namespace molsurf
 {
-
-std::size_t availableMemory()
-{
-    std::size_t bytes = std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGE_SIZE));
-    rlimit limit;
-    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-        bytes = std::min(bytes, std::size_t(limit.rlim_cur));
-    std::size_t ofGroup = 0; // "max" where there is none
-    if (std::ifstream("/sys/fs/cgroup/memory.max") >> ofGroup) bytes = std::min(bytes, ofGroup);
-    return bytes;
-}
 
 namespace
 {

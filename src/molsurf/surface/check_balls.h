@@ -5,6 +5,7 @@
 /// Checks balls before anything is computed of them.
 
 #include "molsurf/ball.h"
+#include "molsurf/core/memory.h"
 #include "molsurf/options.h"
 
 #include <cstddef>
@@ -12,10 +13,6 @@
 
 namespace molsurf
 {
-
-/// Memory that a process on this machine may have: all of it, or the limit of the control group or
-/// of `ulimit -v` [byte].
-std::size_t availableMemory();
 
 /// Tells what is in memory at once: a surface in one piece, or no more of it than its bricks'
 /// merge needs.

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
+#include "molsurf/structure/cif_rows.h"
+#include "molsurf/structure/load_text.h"
 #include "molsurf/structure/read_structure.h"
+#include "molsurf/structure/readers.h"
 #include "unit/structure/temp_file.h"
 
 #include <algorithm>
@@ -281,6 +284,92 @@ TEST(ReadMmcif, OfTwoScalesTheFinerOneCounts)
     EXPECT_EQ(coarser({{1, 5}, {1, 10}}), "the model overlaps its");
     EXPECT_EQ(coarser({{1, 5}, {1, 5}}), ""); // two states
     EXPECT_EQ(coarser({{1, 2000000000}, {-2000000000, 2000000000}, {5, 4}}).substr(0, 2), "th");
+}
+
+/// Expects that a text gives the same structure in pieces of a row or more as in one.
+void expectSameInPieces(const std::string& text)
+{
+    const Structure whole = readMmcifInPieces(text, "a.cif", Progress(), 1000000000);
+    const Structure s = readMmcifInPieces(text, "a.cif", Progress(), 1);
+    ASSERT_EQ(s.atoms.size(), whole.atoms.size());
+    for (std::size_t i = 0; i < s.atoms.size(); ++i) {
+        const Atom &a = s.atoms[i], &b = whole.atoms[i];
+        EXPECT_EQ(a.position, b.position);
+        EXPECT_EQ(a.name + a.altloc, b.name + b.altloc);
+        EXPECT_EQ(a.residue, b.residue);
+        EXPECT_EQ(a.element, b.element);
+        EXPECT_EQ(a.bFactor, b.bFactor);
+    }
+    ASSERT_EQ(s.residues.size(), whole.residues.size());
+    for (std::size_t i = 0; i < s.residues.size(); ++i) {
+        const Residue &a = s.residues[i], &b = whole.residues[i];
+        EXPECT_EQ(std::tie(a.name, a.chain, a.asym, a.number, a.insertionCode, a.hetatm, a.entity),
+                  std::tie(b.name, b.chain, b.asym, b.number, b.insertionCode, b.hetatm, b.entity));
+    }
+    ASSERT_EQ(s.models.size(), whole.models.size());
+    for (std::size_t i = 0; i < s.models.size(); ++i) {
+        const Model &a = s.models[i], &b = whole.models[i];
+        EXPECT_EQ(std::tie(a.number, a.begin, a.end), std::tie(b.number, b.begin, b.end));
+    }
+    EXPECT_EQ(s.chains, whole.chains);
+    EXPECT_EQ(s.asyms, whole.asyms);
+    EXPECT_EQ(s.guessed, whole.guessed);
+    EXPECT_EQ(s.warnings, whole.warnings);
+    EXPECT_EQ(s.assemblies.size(), whole.assemblies.size());
+}
+
+std::size_t piecesOf(const std::string& text)
+{
+    const auto rows = findCifRows(text, 1);
+    return rows ? rows->cuts.size() - 1 : 0;
+}
+
+TEST(ReadMmcif, InPiecesIsTheSame)
+{
+    expectSameInPieces(loadText(dataFile("1a8o.cif.gz")));
+    const std::string chains = "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n"
+                               "ATOM 2 C 'C A' . GLY A 1 1 2 4 1 0 . A 1\n"
+                               "ATOM 3 C \"C'\" . GLY B 1 1 2 5 1 0 1 B 1\n"
+                               "HETATM 4 X ZN . ZN C . 1 2 6 1 0 ? A 1\n"
+                               "ATOM 5 C CA . GLY A 1 1 2 3 1 0 1 A 3\n"
+                               "ATOM 6 C CA . GLY B 1 1 2 3 1 0 1 B 3\n";
+    const std::string text = atomSite(full, chains);
+    EXPECT_EQ(piecesOf(text), 5u);
+    expectSameInPieces(text);
+    expectSameInPieces(text + "loop_\n_entity.id\n_entity.type\n1 polymer\n");
+}
+
+TEST(ReadMmcif, RowsThatCannotBeCutAreReadAsAWhole)
+{
+    const std::string first = "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n";
+    const std::string second = "ATOM 2 C CA . GLY B 1 1 2 4 1 0 1 B 1\n";
+    const std::string broken = "ATOM 2 C CA . GLY B 1 1 2\n4 1 0 1 B 1\n";
+    const std::string model = "ATOM 3 C CA . GLY A 1 1 2 4 1 0 1 A 2\n";
+    const std::string note = "# a comment\n";
+    for (const std::string& rows : {first + broken, first + note + second, first + model + second,
+                                    "\n" + first + "\n" + second}) {
+        const Structure s = readMmcifInPieces(atomSite(full, rows), "a.cif", Progress(), 1);
+        EXPECT_EQ(s.chains, (std::vector<std::string>{"A", "B"}));
+        EXPECT_EQ(s.atoms.size(),
+                  rows.find(" 2\n") == std::string::npos || rows == first + broken ? 2u : 3u);
+        expectSameInPieces(atomSite(full, rows));
+    }
+    EXPECT_EQ(piecesOf(atomSite(full, first + broken)), 0u);
+    EXPECT_EQ(piecesOf(atomSite(full, first + model + second)), 0u) << "a model comes back";
+    const std::string quoted = "data_X\n_struct.title\n;\nloop_\n_atom_site.label_asym_id\nA\n;\n";
+    expectSameInPieces(quoted + atomSite(full, first + second).substr(7));
+}
+
+TEST(ReadMmcif, AnErrorInAPieceNamesItsLine)
+{
+    const std::string text = atomSite(full, "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n"
+                                            "ATOM 2 C CA . GLY B 1 1 2 4 1 0 1 B 1\n") +
+                             "loop_\n_entity.id\n_entity.type\n1\n";
+    const auto errorIn = [&](std::size_t rows) {
+        return errorOf(ErrorKind::Input,
+                       [&] { readMmcifInPieces(text, "a.cif", Progress(), rows); });
+    };
+    EXPECT_EQ(errorIn(1), errorIn(1000000));
 }
 
 } // namespace
