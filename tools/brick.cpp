@@ -7,6 +7,7 @@
 #include "stop.h"
 #include "verbs.h"
 
+#include "molsurf/bricks/atoms_file.h"
 #include "molsurf/bricks/brick_file.h"
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/bricks/plan_file.h"
@@ -25,7 +26,32 @@ std::string brickPath(const std::string& planPath, std::size_t number)
     return (path.parent_path() / path.stem()).string() + "." + std::to_string(number) + ".brick";
 }
 
-Call callOf(PlanManifest manifest, const std::string& path)
+std::string atomsPath(const std::string& planPath)
+{
+    return std::filesystem::path(planPath).replace_extension(".atoms").string();
+}
+
+namespace
+{
+
+void checkFile(const PlanInput& file, PlanFiles how)
+{
+    std::error_code ignored;
+    const bool there = std::filesystem::is_regular_file(file.path, ignored);
+    if (!there && how == PlanFiles::Sizes) return;
+    if (!there)
+        throw Error(ErrorKind::Input, "cannot find " + file.path +
+                                          ", which the plan was made of [hint: it has to lie "
+                                          "where it lay, seen from the plan]");
+    if (std::filesystem::file_size(file.path, ignored) != file.bytes ||
+        (how == PlanFiles::Hashes && sha256OfFile(file.path) != file.sha256))
+        throw Error(ErrorKind::Input, file.path + " has changed since the plan was made "
+                                                  "[hint: make a new one]");
+}
+
+} // namespace
+
+Call callOf(PlanManifest manifest, const std::string& path, PlanFiles files)
 {
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     const auto resolved = [&](const std::string& file) { return (folder / file).string(); };
@@ -49,16 +75,7 @@ Call callOf(PlanManifest manifest, const std::string& path)
     if (manifest.version != MOLSURF_VERSION)
         throw Error(ErrorKind::Input, "the plan was made by version " + manifest.version +
                                           ", this is " MOLSURF_VERSION);
-    std::error_code ignored;
-    for (const PlanInput& file : manifest.files) {
-        if (!std::filesystem::is_regular_file(file.path, ignored))
-            throw Error(ErrorKind::Input, "cannot find " + file.path +
-                                              ", which the plan was made of [hint: it has to lie "
-                                              "where it lay, seen from the plan]");
-        if (sha256OfFile(file.path) != file.sha256)
-            throw Error(ErrorKind::Input, file.path + " has changed since the plan was made "
-                                                      "[hint: make a new one]");
-    }
+    for (const PlanInput& file : manifest.files) checkFile(file, files);
     Call call;
     call.verb = BricksPlan;
     call.input = manifest.input;
@@ -100,20 +117,23 @@ int brick(const Call& call)
         if (!call.quiet) say(path + " is done already");
         return 0;
     }
-    Call build = callOf(manifest, call.input);
+    Call build = callOf(manifest, call.input, PlanFiles::Sizes);
     build.outputs = {{path, findFormat("vdb")}};
     build.force = true;
     build.quiet = call.quiet;
-    build.inputs = {call.input};
+    build.inputs = {call.input, atomsPath(call.input)};
     prepareOutputs(build);
     Terminal terminal(call.progress);
     const Clock::time_point start = Clock::now();
-    Report report;
     checkCost(manifest.plan.bricks[call.brick - 1], limitsOf(call));
-    BallSet atoms = readBalls(build, terminal, report);
-    colorBalls(build.options, terminal, atoms);
+    const AtomsFile atoms(atomsPath(call.input));
+    if (sha256OfText(atoms.index()) != manifest.atomsIndex)
+        throw Error(ErrorKind::Input,
+                    atomsPath(call.input) + " belongs to another plan [hint: make a new one]");
+    checkExtent(manifest.plan, atoms.extent());
     std::shared_ptr<const SparseField> coarse;
-    computeBrick(atoms, build.options, manifest.plan, call.brick, id, path, true, coarse, terminal);
+    computeBrick([&](const openvdb::BBoxd& space) { return atoms.within(space); }, build.options,
+                 manifest.plan, call.brick, id, path, true, coarse, terminal);
     terminal.erase();
     if (!call.quiet) {
         const PlannedBrick& planned = manifest.plan.bricks[call.brick - 1];

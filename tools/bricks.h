@@ -30,9 +30,19 @@ std::vector<std::string> describePlan(const BrickPlan& plan);
 /// The file of brick `number` (from 1) of a plan.
 std::string brickPath(const std::string& planPath, std::size_t number);
 
+/// The file of the atoms of a plan.
+std::string atomsPath(const std::string& planPath);
+
+/// How the files that a plan was made of are held against it.
+enum class PlanFiles {
+    Sizes, ///< those that are there, by their sizes: a brick needs none of them
+    Hashes ///< all, by their contents
+};
+
 /// The call that a plan was made with, as a build.
 /// @param[in] path  of the plan, from whose folder its files are found
-Call callOf(PlanManifest manifest, const std::string& path);
+/// @throws Error(ErrorKind::Input) if a file has changed since the plan was made
+Call callOf(PlanManifest manifest, const std::string& path, PlanFiles files);
 
 /// Joins bricks and writes the outputs of a call.
 /// @param[in]     paths   of all bricks, in their order

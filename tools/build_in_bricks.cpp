@@ -3,6 +3,7 @@
 #include "stop.h"
 #include "verbs.h"
 
+#include "molsurf/bricks/atoms_file.h"
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
@@ -18,6 +19,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 namespace molsurf::tool
 {
@@ -56,10 +58,11 @@ public:
     {
         return path_ + "/" + std::to_string(number) + ".brick";
     }
+    std::string atoms() const { return path_ + "/all.atoms"; }
     // The folder and all that may lie in it, in the order in which it can be removed.
     std::vector<std::string> content(std::size_t bricks) const
     {
-        std::vector<std::string> names;
+        std::vector<std::string> names = {atoms(), temporaryName(atoms())};
         for (std::size_t k = 1; k <= bricks; ++k) {
             names.push_back(brick(k));
             names.push_back(temporaryName(brick(k)));
@@ -72,6 +75,14 @@ private:
     std::string beside_, path_;
     int lock_ = -1;
 };
+
+void writeAtomsTo(const std::string& path, const BallSet& atoms, const BrickPlan& plan,
+                  const Progress& progress)
+{
+    OutputFile file(path, true);
+    writeAtoms(atoms, extentOf(plan), file, progress);
+    file.commit();
+}
 
 void checkOutputs(const Call& call)
 {
@@ -128,7 +139,7 @@ int buildInBricks(Call call, Clock::time_point start)
     }
     checkWay(InBricks, call.options);
     checkOutputs(call);
-    const BrickPlan plan = planBricks(atoms, call.options, {0, call.memory, true}, terminal);
+    const BrickPlan plan = planBricks(atoms, call.options, {0, call.memory, true, true}, terminal);
     terminal.erase();
     if (call.dryRun || !call.quiet) {
         say("the whole takes about " + sizeText(double(whole)) + "; in bricks:");
@@ -140,13 +151,16 @@ int buildInBricks(Call call, Clock::time_point start)
     prepareOutputs(call, folder.content(plan.bricks.size()));
     folder.make();
     colorBalls(call.options, terminal, atoms);
+    writeAtomsTo(folder.atoms(), std::exchange(atoms, BallSet()), plan, terminal);
+    const AtomsFile onDisk(folder.atoms());
+    const auto near = [&](const openvdb::BBoxd& space) { return onDisk.within(space); };
     const bool meshed = call.writes(Triangles);
     std::vector<std::string> paths;
     std::shared_ptr<const SparseField> coarse;
     for (std::size_t k = 1; k <= plan.bricks.size(); ++k) {
         stopIfAsked();
         paths.push_back(folder.brick(k));
-        computeBrick(atoms, call.options, plan, k, "one process", paths.back(), meshed, coarse,
+        computeBrick(near, call.options, plan, k, "one process", paths.back(), meshed, coarse,
                      terminal);
         if (!plan.keepsMemory) malloc_trim(0);
         if (!call.verbose) continue;
@@ -154,7 +168,6 @@ int buildInBricks(Call call, Clock::time_point start)
         say(formatted("brick %zu of %zu, %.2f s, %s at most", k, plan.bricks.size(),
                       secondsSince(start), sizeText(double(peakMemory())).c_str()));
     }
-    atoms = BallSet();
     releasePages();
     malloc_trim(0);
     mergeBricks(call, plan, paths, "one process", meshed, terminal, start, report);

@@ -43,7 +43,7 @@ void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std:
 int merge(const Call& call, Clock::time_point start)
 {
     const PlanManifest manifest = readManifest(call.input);
-    Call build = callOf(manifest, call.input);
+    Call build = callOf(manifest, call.input, PlanFiles::Hashes);
     build.outputs = call.outputs;
     build.force = call.force;
     build.quiet = call.quiet;

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "bricks.h"
 #include "cli/option_table.h"
+#include "input_files.h"
 #include "sha256.h"
 #include "verbs.h"
 
+#include "molsurf/bricks/atoms_file.h"
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/bricks/plan_file.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/io/temporary_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -70,26 +73,37 @@ GivenOptions planned(const Call& call)
 
 int plan(Call call)
 {
-    prepareOutputs(call);
+    const std::string atomsFile = atomsPath(call.outputs[0].path);
+    InputFiles(call).refuse(atomsFile);
+    checkWritable(atomsFile, call.force);
+    prepareOutputs(call, {temporaryName(atomsFile)});
+    call.atoms.names = false; // bricks use none
     Terminal terminal(call.progress);
     Report report;
     PlanManifest manifest;
-    const BallSet atoms = readBalls(call, terminal, report);
+    BallSet atoms = readBalls(call, terminal, report);
     manifest.version = MOLSURF_VERSION;
     manifest.input = fromPlan(call, call.input);
     manifest.options = planned(call);
     manifest.voxel = call.options.voxel;
-    manifest.files.push_back({manifest.input, sha256OfFile(call.input)});
+    const auto add = [&](const std::string& path) {
+        manifest.files.push_back(
+            {fromPlan(call, path), sha256OfFile(path), std::filesystem::file_size(path)});
+    };
+    add(call.input);
     for (const OptionFile& file : filesOf(call.verb, call.given))
-        if (file.option->stored)
-            manifest.files.push_back({fromPlan(call, file.path), sha256OfFile(file.path)});
-    manifest.plan =
-        planBricks(atoms, call.options, {std::size_t(call.bricks), call.memory}, terminal);
+        if (file.option->stored) add(file.path);
+    manifest.plan = planBricks(atoms, call.options,
+                               {std::size_t(call.bricks), call.memory, false, true}, terminal);
+    colorBalls(call.options, terminal, atoms);
     terminal.erase();
 
     OutputFiles files;
+    files.push_back(std::make_unique<OutputFile>(atomsFile, call.force));
+    manifest.atomsIndex =
+        sha256OfText(writeAtoms(atoms, extentOf(manifest.plan), *files[0], terminal));
     files.push_back(std::make_unique<OutputFile>(call.outputs[0].path, call.force));
-    writeManifest(manifest, *files[0]);
+    writeManifest(manifest, *files[1]);
     commitUndisturbed(files);
     if (!call.quiet) {
         for (const std::string& line : describePlan(manifest.plan)) say(line);

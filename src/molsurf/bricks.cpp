@@ -5,6 +5,7 @@
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/io/commit.h"
+#include "molsurf/surface/influence.h"
 
 #include <optional>
 
@@ -33,7 +34,9 @@ void makeBrick(const BallSet& balls, const SurfaceOptions& options, const BrickP
     if (options.color != ColorBy::Nothing && colored.colors.empty())
         colored.colors = ballColors(balls, options.color, progress);
     std::shared_ptr<const SparseField> coarse;
-    computeBrick(colored, options, plan, number, libraryPlan, path, true, coarse, progress);
+    checkExtent(plan, Influence(balls, options).extent());
+    const auto near = [&](const openvdb::BBoxd& space) { return ballsIn(colored, space); };
+    computeBrick(near, options, plan, number, libraryPlan, path, true, coarse, progress);
 }
 
 Report mergeBricks(const std::vector<std::string>& bricks, const BrickPlan& plan,

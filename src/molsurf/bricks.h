@@ -56,6 +56,9 @@ struct BrickLimits {
     /// Whether one process computes all bricks, one after another. It may then keep freed memory
     /// for the next brick, which is faster, if bricks need not become much smaller for that.
     bool oneProcess = false;
+    /// Whether the process that computes a brick reads the atoms near it from a file, and does not
+    /// hold all of them.
+    bool atomsOnDisk = false;
 };
 
 /// Refuses a surface in one piece that is estimated to take more memory than there is, before
@@ -71,8 +74,7 @@ void checkMemory(const BallSet& atoms, const SurfaceOptions& options, std::size_
 /// Plans bricks: cuts space along planes between leaves into boxes with about the same area of
 /// surface, across the longest edge first.
 ///
-/// With a limit of memory a box is cut until the process that computes it, which also holds all
-/// balls, is expected to need less.
+/// With a limit of memory a box is cut until the process that computes it is expected to need less.
 ///
 /// @param[in] atoms     the balls of the whole molecule
 /// @param[in] options   the options of the surface

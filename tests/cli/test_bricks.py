@@ -54,7 +54,7 @@ class Bricks(ToolTest):
     def test_plans_keep_switches(self):
         plan = self.plan(2, "--waters")
         self.assertEqual(plan["options"]["waters"], [])
-        self.check(0, "bricks", "run", "plan.json", 1, says=f"used {plan['atoms']} atoms")
+        self.assertGreater(plan["atoms"], self.plan(2, "--force")["atoms"])
 
     def test_are_the_whole(self):
         plan = self.plan(4, "--fields", FIELDS, "--color", "chain", "--group-by", "chain")
@@ -172,7 +172,8 @@ class Bricks(ToolTest):
         plan = self.report("deep/plan.json")
         self.assertEqual(plan["options"]["color"], ["table=../t.csv"])
         self.assertEqual(plan["options"]["radii"], ["bondi"])
-        self.assertIn({"path": "../t.csv", "sha256": hashlib.sha256(values.encode()).hexdigest()}, plan["files"])
+        self.assertIn({"path": "../t.csv", "sha256": hashlib.sha256(values.encode()).hexdigest(), "bytes": len(values)},
+                      plan["files"])
         for k in (1, 2):
             self.check(0, "bricks", "run", "plan.json", k, cwd=self.folder / "deep")
         self.check(0, "bricks", "merge", "deep/plan.json", "-o", "m.vdb", "-o", "m.ply")
@@ -198,10 +199,39 @@ class Bricks(ToolTest):
         self.check(1, "bricks", "plan", "dimer.cif.gz", "--force", "-o", "p.json", "--bricks", 2, "--color",
                    "table=p.json", says="which is read")
 
-    def test_a_missing_input_is_named(self):
-        self.plan()
+    def test_bricks_need_the_plan_and_its_atoms_alone(self):
+        self.bricks(self.plan(2))
+        whole = {k: (self.folder / f"plan.{k}.brick").read_bytes() for k in (1, 2)}
+        (self.folder / "node").mkdir()
+        for name in ("plan.json", "plan.atoms"):
+            shutil.copy(self.folder / name, self.folder / "node" / name)
+        self.check(0, "bricks", "run", "node/plan.json", 2)
+        self.assertEqual(self.facts(whole[2]), self.facts((self.folder / "node" / "plan.2.brick").read_bytes()))
         self.input.unlink()
-        self.check(1, "bricks", "run", "plan.json", 1, says="cannot find dimer.cif.gz")
+        self.check(0, "bricks", "run", "plan.json", 1, "--force")
+        self.check(1, "bricks", "merge", "plan.json", "-o", "m.ply", says="cannot find dimer.cif.gz")
+        (self.folder / "plan.atoms").unlink()
+        self.check(1, "bricks", "run", "plan.json", 1, "--force", says="it has to lie beside the plan")
+
+    @staticmethod
+    def facts(data):
+        """What is in a brick but for the seconds that it took."""
+        begin, size = struct.unpack_from("<QQ", data, 8)
+        header = json.loads(data[begin:begin + size])
+        header.pop("seconds", None)
+        return data[HEAD:begin], {key: value for key, value in header.items() if key != "sums"}
+
+    def test_atoms_of_another_plan_are_refused(self):
+        self.plan(2)
+        shutil.copy(self.folder / "plan.atoms", self.folder / "kept")
+        self.plan(2, "--force", "--no-hydrogens", "--waters")
+        shutil.copy(self.folder / "kept", self.folder / "plan.atoms")
+        self.check(1, "bricks", "run", "plan.json", 1, says="plan.atoms belongs to another plan")
+        data = bytearray((self.folder / "kept").read_bytes())
+        data[100] ^= 1
+        self.plan(2, "--force")
+        (self.folder / "plan.atoms").write_bytes(data)
+        self.check(1, "bricks", "run", "plan.json", 1, says="its checksum is another")
 
     def test_fewer_bricks_than_asked_for_are_told(self):
         self.check(0, "bricks", "plan", "dimer.cif.gz", "-o", "plan.json", "--bricks", 500, *FAST, *STEPS,
@@ -211,6 +241,7 @@ class Bricks(ToolTest):
         self.plan(2)
         shutil.copy(DATA / "1a8o.pdb.gz", self.input)
         self.check(1, "bricks", "run", "plan.json", 1, says="has changed since the plan was made")
+        self.check(1, "bricks", "merge", "plan.json", "-o", "m.ply", says="has changed since the plan was made")
 
     def test_steps(self):
         self.run_tool(CRAMBIN, *FAST, "--steps", "3", "-o", "s.json")
@@ -262,6 +293,15 @@ class Memory(ToolTest):
     def test_too_little(self):
         self.check(1, CRAMBIN, *FAST, "--memory", "20M", "-o", "a.ply", says="[hint: --memory")
         self.assertEqual(self.names(), [])
+
+    def test_what_reading_takes_is_refused_before(self):
+        """The text and the atoms of an assembly, by plan as by a build."""
+        (self.folder / "many.xyzr").write_text("".join(f"{n % 400} {n // 400} {n % 7} 1.7\n" for n in range(100000)))
+        for words in (["many.xyzr"], ["bricks", "plan", "many.xyzr"]):
+            self.check(1, *words, "--memory", "26M", "-o", "a.json", says="many.xyzr: reading it takes about")
+            self.check(1, *words[:-1], DATA / "1a8o.cif.gz", "--assembly", 1, "--memory", "17M", "-o", "a.json",
+                       says=("its atoms take about", "[hint: --memory"))
+        self.assertEqual(self.names(), ["many.xyzr"])
 
     def test_in_bricks(self):
         """A limit below the need of the whole: bricks, which are not left behind."""

@@ -168,6 +168,13 @@ CASES = {
     "bricks/plan_file.cpp": [
         ("bricks plan writes one", "vdb_molsurf bricks run copies.json 1",
          f"{PLAN} && vdb_molsurf bricks run plan.json 1")],
+    "core/memory.cpp": [
+        ("--memory ", "vdb_molsurf 1a8o.cif.gz --memory 19M -o a.ply", "vdb_molsurf 1a8o.cif.gz --memory 200M -o a.ply")],
+    "bricks/atoms_file.cpp": [
+        ("it has to lie beside the plan", f"{PLAN}; mkdir sub; mv plan.json sub; vdb_molsurf bricks run sub/plan.json 1",
+         "mv plan.atoms sub; vdb_molsurf bricks run sub/plan.json 1"),
+        ("bricks plan writes one", f"{PLAN}; echo junk > plan.atoms; vdb_molsurf bricks run plan.json 1",
+         f"{PLAN} --force && vdb_molsurf bricks run plan.json 1")],
     "bricks/brick_file.cpp": [
         ("run the brick again with --force", f"{PLAN}; {RUN}; echo junk >> plan.1.brick; {MERGE}",
          f"vdb_molsurf bricks run plan.json 1 --force && {MERGE}")],
@@ -283,14 +290,17 @@ CASES = {
         ("another folder, or --force", "for v in 2 1; do vdb_molsurf batch list.txt -O out --voxel $v; done",
          "vdb_molsurf batch list.txt -O new --voxel 1", "vdb_molsurf batch list.txt -O out --voxel 1 --force")],
     "tools/brick.cpp": [
-        ("it has to lie where it lay", f"{PLAN}; mkdir sub; mv plan.json sub; vdb_molsurf bricks run sub/plan.json 1",
-         "cp 1crn.pdb sub; vdb_molsurf bricks run sub/plan.json 1"),
+        ("it has to lie where it lay", f"{PLAN}; {RUN}; mkdir sub; mv plan.* sub; vdb_molsurf bricks merge sub/plan.json -o a.vdb",
+         "cp 1crn.pdb sub; vdb_molsurf bricks merge sub/plan.json -o a.vdb"),
         ("make a new one", f"cp 1crn.pdb b.pdb; vdb_molsurf bricks plan b.pdb --voxel 2 --bricks 2 -o plan.json; "
          "echo END >> b.pdb; vdb_molsurf bricks run plan.json 1",
          "vdb_molsurf bricks plan b.pdb --voxel 2 --bricks 2 -o plan.json --force; vdb_molsurf bricks run plan.json 1"),
         ("another folder, or --force", f"{PLAN}; {RUN}; {PLAN} --force --radii bondi; vdb_molsurf bricks run plan.json 1",
-         "vdb_molsurf bricks run plan.json 1 --force", "mkdir new; cp plan.json 1crn.pdb new; "
-         "vdb_molsurf bricks run new/plan.json 1")],
+         "vdb_molsurf bricks run plan.json 1 --force", "mkdir new; cp plan.json plan.atoms new; "
+         "vdb_molsurf bricks run new/plan.json 1"),
+        ("make a new one", f"{PLAN}; cp plan.atoms kept; {PLAN} --force --radii alvarez; cp kept plan.atoms; "
+         "vdb_molsurf bricks run plan.json 1",
+         f"{PLAN} --force; vdb_molsurf bricks run plan.json 1")],
     "tools/build.cpp": [
         ("--surface", f"vdb_molsurf 1crn.pdb --voxel 1 -o a.ply -o a.residues.csv",
          "vdb_molsurf 1crn.pdb --voxel 1 --surface ses -o b.ply -o b.residues.csv"),

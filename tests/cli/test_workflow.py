@@ -117,7 +117,7 @@ class Workflow(ToolTest):
         self.assertLess(after.ru_utime - before.ru_utime, 10)  # 2 seconds; 18 if each lists the folder again
 
     def test_not_converged_is_no_failure(self):
-        self.batch(0, f"structures={CRAMBIN}", "options=--voxel 1 --max-steps 1")
+        self.batch(0, f"structures={CRAMBIN}", "options=--voxel 1 --flow newton --max-steps 1")
         self.assertEqual(self.table()["1crn.pdb"]["status"], "not converged")
 
     def test_nothing_to_do_is_a_mistake(self):

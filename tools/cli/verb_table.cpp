@@ -103,9 +103,10 @@ VerbInfo planVerb()
         "bricks plan",
         "INPUT -o plan.json (--bricks N | --memory SIZE) [options]",
         "Cuts the space about a molecule into bricks that can be computed on many machines.",
-        "It prints what each brick is expected to take, and writes a manifest for bricks run and\n"
-        "bricks merge, which refuse an INPUT that has changed since. Options that need the whole\n"
-        "molecule at once are not for bricks. The plan fixes the number of steps of a flow.\n",
+        "It prints what each brick is expected to take, and writes a manifest and plan.atoms, the\n"
+        "atoms sorted by place. bricks run needs these two; bricks merge refuses an INPUT that\n"
+        "has changed since. Options that need the whole molecule at once are not for bricks. The\n"
+        "plan fixes the number of steps of a flow.\n",
         "",
         {{"vdb_molsurf bricks plan 4v5a.cif.gz --memory 500M -o plan.json",
           "a plan whose bricks take 500 MiB each"}},

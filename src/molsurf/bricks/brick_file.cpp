@@ -496,14 +496,15 @@ std::uint64_t BrickFile::checksumOf(std::uint64_t size) const
     return sum;
 }
 
-void BrickFile::read(std::uint64_t offset, void* to, std::size_t bytes) const
+void readAt(const FileDescriptor& file, const std::string& path, std::uint64_t offset, void* to,
+            std::size_t bytes)
 {
     char* at = static_cast<char*>(to);
     while (bytes > 0) {
-        const ssize_t got = pread(file_.get(), at, bytes, off_t(offset));
+        const ssize_t got = pread(file.get(), at, bytes, off_t(offset));
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0)
-            throw Error(ErrorKind::Input, "cannot read " + path_ + ": " +
+            throw Error(ErrorKind::Input, "cannot read " + path + ": " +
                                               (got < 0 ? std::strerror(errno) : "it is cut short"));
         at += got;
         offset += std::uint64_t(got);

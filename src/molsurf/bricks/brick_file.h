@@ -80,6 +80,12 @@ StoredLeaf storedLeaf(const LeafT& leaf)
     return out;
 }
 
+/// Reads bytes of a file from a place on.
+/// @param[in] path  names it in messages
+/// @throws Error(ErrorKind::Input) if it cannot be read or ends before
+void readAt(const FileDescriptor& file, const std::string& path, std::uint64_t offset, void* to,
+            std::size_t bytes);
+
 /// The voxels that any ball can reach.
 openvdb::CoordBBox anySpace();
 
@@ -100,7 +106,10 @@ public:
 
     const BrickHeader& header() const { return header_; }
 
-    void read(std::uint64_t offset, void* to, std::size_t bytes) const;
+    void read(std::uint64_t offset, void* to, std::size_t bytes) const
+    {
+        readAt(file_, path_, offset, to, bytes);
+    }
 
     template<typename T>
     std::vector<T> read(const Section& section) const

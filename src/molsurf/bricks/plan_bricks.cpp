@@ -32,7 +32,7 @@ namespace
 // atoms or lie beside them. A peak is either that of the flow and the distances, or that of the
 // mesh. The surface of a larger probe passes fewer balls, and fewer of those leaves.
 constexpr double processBytes = 60e6;           // program, libraries, buffers
-constexpr double bytesPerAtom = 40.0;           // of the whole molecule: balls, and reading them
+constexpr double bytesPerAtom = 40.0;           // of the whole molecule, where it is in memory
 constexpr double bytesPerNear = 85.0;           // of the balls near a brick: cell lists, copies
 constexpr double bytesPerBoundaryBall = 1.55e3; // of those: the boundary of their union
 constexpr double bytesPerFlowLeaf = 10e3;       // within the halo of the flow
@@ -278,6 +278,7 @@ public:
     Planner(const BallSet& atoms, const SurfaceOptions& options, const Influence& influence,
             double grain, double most, const Progress& progress)
         : options_(options), influence_(influence), grain_(grain), atoms_(atoms.balls.size()),
+          atomsHeld_(double(atoms_)),
           occupancy_(occupancyOf(atoms.balls, grain, influence.ofSurface(), most, progress)),
           weight_(occupancy_.sample.every),
           excluded_(isMeasured(atoms, options) && offsetOf(options) > 0.0)
@@ -288,6 +289,9 @@ public:
 
     /// Whether estimates are of processes that keep the memory of one brick for the next.
     void setKeeping(bool keeping) { keeping_ = keeping; }
+
+    /// Estimates are of processes that read the balls near a brick from a file.
+    void readFromDisk() { atomsHeld_ = 0.0; }
 
     /// @param[in] box  of places
     PlannedBrick estimate(const CoordBBox& box) const
@@ -334,7 +338,7 @@ public:
                                          : 0.0;
         const double forMesh = std::max(filled * perLeaf * inSpline, forClosedForm);
         brick.bytes = std::size_t(
-            processBytes + coarse + bytesPerAtom * double(atoms_) + perBall * double(balls) +
+            processBytes + coarse + bytesPerAtom * atomsHeld_ + perBall * double(balls) +
             (keeping_ ? bytesPerKeptLeaf * inFlow + forMesh : std::max(forFlow, forMesh)) +
             bytesPerValueOfLeaf * valuesAlong(options_) * own);
         brick.seconds = filled * secondsPerLeaf * inSpline +
@@ -452,6 +456,7 @@ private:
     bool keeping_ = false;
     double grain_;
     std::size_t atoms_;
+    double atomsHeld_; // by the process of a brick
     Occupancy occupancy_;
     unsigned weight_; // leaves for which one of the sample stands
     bool excluded_;   // whether the whole has the closed form of a solvent-excluded surface
@@ -485,6 +490,7 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const In
     plan.atoms = atoms.balls.size();
     plan.steps = stepsOf(options);
     Planner planner(atoms, options, influence, grain, most, progress);
+    if (limits.atomsOnDisk) planner.readFromDisk();
     const CoordBBox& box = planner.box();
     if (limits.memory > 0) {
         plan.bricks = planner.cutEvenly(limits.memory, box);
@@ -511,17 +517,6 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const In
     }
     plan.anchor = Coord::floor(0.5 * leafDim * (box.min() + box.max()).asVec3d());
     return plan;
-}
-
-/// Refuses a plan of other balls. Machines may differ in the last digits.
-void checkExtent(const BrickPlan& plan, const GaussianExtent& extent)
-{
-    const auto equal = [](double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b); };
-    if (equal(plan.maxRadius, extent.maxRadius) &&
-        equal(plan.maxGrownRadius, extent.maxGrownRadius) &&
-        equal(plan.maxTolerance, extent.maxTolerance))
-        return;
-    throw Error(ErrorKind::Input, "the plan is damaged: its largest ball is not that of the atoms");
 }
 
 /// What the upper nodes of OpenVDB's trees take beyond those of a compact molecule, for the grid
@@ -675,6 +670,16 @@ void checkPlan(const BrickPlan& plan, const SurfaceOptions& options)
     }
 }
 
+void checkExtent(const BrickPlan& plan, const GaussianExtent& extent)
+{
+    const auto equal = [](double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b); };
+    if (equal(plan.maxRadius, extent.maxRadius) &&
+        equal(plan.maxGrownRadius, extent.maxGrownRadius) &&
+        equal(plan.maxTolerance, extent.maxTolerance))
+        return;
+    throw Error(ErrorKind::Input, "the plan is damaged: its largest ball is not that of the atoms");
+}
+
 GaussianExtent extentOf(const BrickPlan& plan)
 {
     return {plan.maxRadius, plan.maxGrownRadius, plan.maxTolerance};
@@ -687,21 +692,22 @@ Scope scopeOf(const BrickPlan& plan, std::size_t k, const SurfaceOptions& option
     return scope;
 }
 
-void computeBrick(const BallSet& balls, const SurfaceOptions& options, const BrickPlan& plan,
+void computeBrick(const BallSource& balls, const SurfaceOptions& options, const BrickPlan& plan,
                   std::size_t number, const std::string& id, const std::string& path, bool meshed,
                   std::shared_ptr<const SparseField>& coarse, Progress& progress)
 {
     SurfaceOptions fixed = options;
     if (!restsInClosedForm(fixed)) fixed.evolution.steps = plan.steps;
-    checkExtent(plan, Influence(balls, fixed).extent());
     Scope scope = scopeOf(plan, number - 1, fixed);
-    Report ofCoarse;
     if (!coarse && startsCoarse(fixed)) {
-        coarse = std::make_shared<SparseField>(
-            restOnCoarserVoxels(inSpatialOrder(balls), fixed, progress, ofCoarse));
+        constexpr double far = 1e7; // [Å]
+        Report ofCoarse;
+        coarse = std::make_shared<SparseField>(restOnCoarserVoxels(
+            inSpatialOrder(balls({Vec3d(-far), Vec3d(far)})), fixed, progress, ofCoarse));
     }
     scope.coarseRest = coarse;
-    const Brick brick = runBrick(ballsNear(balls, fixed, scope), fixed, scope, progress);
+    const BallSet near = ballsNear(balls(spaceNear(fixed, scope)), fixed, scope);
+    const Brick brick = runBrick(near, fixed, scope, progress);
     progress.update("write", 0.0);
     OutputFile file(path, true);
     writeBrick(brick, id, number, meshed, file, progress);

@@ -9,6 +9,7 @@
 #include "molsurf/bricks/run_brick.h"
 #include "molsurf/io/check_vdb.h"
 
+#include <functional>
 #include <memory>
 
 namespace molsurf
@@ -58,9 +59,14 @@ PlannedBrick costOfPicture(std::size_t voxels, int width);
 
 /// Checks the numbers of a plan that was read from a file, which could prolong a run or lead it out
 /// of space: its steps are those that the options say, and its bricks are boxes of whole leaves.
-/// computeBrick() checks the lengths.
+/// checkExtent() checks the lengths.
 /// @throws Error(ErrorKind::Input) with what is wrong
 void checkPlan(const BrickPlan& plan, const SurfaceOptions& options);
+
+/// Refuses a plan of other balls. Machines may differ in the last digits.
+/// @param[in] extent  of all balls
+/// @throws Error(ErrorKind::Input) if it is not the plan's
+void checkExtent(const BrickPlan& plan, const GaussianExtent& extent);
 
 /// The extent that a plan keeps.
 GaussianExtent extentOf(const BrickPlan& plan);
@@ -68,15 +74,17 @@ GaussianExtent extentOf(const BrickPlan& plan);
 /// The part of space that brick k of a plan computes.
 Scope scopeOf(const BrickPlan& plan, std::size_t k, const SurfaceOptions& options);
 
+/// Gives the balls in a box of space [Å], and perhaps others.
+using BallSource = std::function<BallSet(const openvdb::BBoxd& space)>;
+
 /// Computes a brick of a plan and writes its file.
-/// @param[in] balls   of the whole molecule, coloured if the options want colours
+/// @param[in] balls   of the molecule, coloured if the options want colours
 /// @param[in] number  of the brick, from 1
 /// @param[in] id      name of the plan
 /// @param[in] meshed  whether a mesh will be wanted
 /// @param[in,out] coarse  what the flows of all bricks start from, if they do not start from psi;
-/// it
-///                        is computed if it is null, and serves the next brick
-void computeBrick(const BallSet& balls, const SurfaceOptions& options, const BrickPlan& plan,
+///                        it is computed if it is null, and serves the next brick
+void computeBrick(const BallSource& balls, const SurfaceOptions& options, const BrickPlan& plan,
                   std::size_t number, const std::string& id, const std::string& path, bool meshed,
                   std::shared_ptr<const SparseField>& coarse, Progress& progress);
 

@@ -35,7 +35,7 @@ std::string manifestText(const PlanManifest& m)
 {
     Json files = Json::array(), bricks = Json::array();
     for (const PlanInput& f : m.files)
-        files.push_back(Json{{"path", f.path}, {"sha256", f.sha256}});
+        files.push_back(Json{{"path", f.path}, {"sha256", f.sha256}, {"bytes", f.bytes}});
     for (const PlannedBrick& b : m.plan.bricks) {
         bricks.push_back(Json{{"min", json(b.box.min())},
                               {"max", json(b.box.max())},
@@ -51,6 +51,7 @@ std::string manifestText(const PlanManifest& m)
                        {"options", m.options},
                        {"files", std::move(files)},
                        {"atoms", p.atoms},
+                       {"atoms_index_sha256", m.atomsIndex},
                        {"voxel", m.voxel},
                        {"steps", p.steps},
                        {"anchor", json(p.anchor)},
@@ -79,10 +80,14 @@ PlanManifest readManifest(const std::string& path)
         m.version = j.at("version");
         m.input = j.at("input");
         m.options = j.at("options").get<std::map<std::string, std::vector<std::string>>>();
-        for (const Json& f : j.at("files")) m.files.push_back({f.at("path"), f.at("sha256")});
         const auto real = [](const Json& number) { return jsonNumber<double>(number); };
         const auto count = [](const Json& number) { return jsonNumber<std::size_t>(number); };
+        for (const Json& f : j.at("files")) {
+            m.files.push_back(
+                {f.at("path"), f.at("sha256"), jsonNumber<std::uint64_t>(f.at("bytes"))});
+        }
         m.voxel = real(j.at("voxel"));
+        m.atomsIndex = j.at("atoms_index_sha256");
         m.plan.atoms = count(j.at("atoms"));
         m.plan.steps = jsonNumber<int>(j.at("steps"));
         m.plan.anchor = coord(j.at("anchor"));

@@ -7,6 +7,7 @@
 #include "molsurf/bricks.h"
 #include "molsurf/io/output_file.h"
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ namespace molsurf
 struct PlanInput {
     std::string path;
     std::string sha256;
+    std::uint64_t bytes = 0;
 };
 
 /// The content of plan.json: what to compute, and how it is cut.
@@ -28,6 +30,7 @@ struct PlanManifest {
     std::map<std::string, std::vector<std::string>> options;
     std::vector<PlanInput> files; ///< the structure and other files that were read
     double voxel = 0.0;           ///< [Å]
+    std::string atomsIndex;       ///< SHA-256 of AtomsFile::index()
     BrickPlan plan;
 };
 

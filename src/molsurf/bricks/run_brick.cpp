@@ -135,23 +135,26 @@ Scope brickScope(const SurfaceOptions& options, const Region& region, const Gaus
     return scope;
 }
 
-BallSet ballsNear(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope)
+openvdb::BBoxd spaceNear(const SurfaceOptions& options, const Scope& scope)
 {
     const int halo = std::max(scope.flowHalo, scope.splineHalo);
     const CoordBBox box = scope.region.grown(halo);
     const double reach = Influence(*scope.extent, options).onVoxels();
-    const openvdb::BBoxd space(box.min().asVec3d() * options.voxel - Vec3d(reach),
-                               box.max().asVec3d() * options.voxel + Vec3d(reach));
-    std::vector<std::size_t> near;
-    std::vector<Ball> balls;
-    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
-        if (!space.isInside(Vec3d(atoms.balls[i].center))) continue;
-        near.push_back(i);
-        balls.push_back(atoms.balls[i]);
-    }
-    std::vector<std::size_t> ordered; // as in a run of the whole
-    for (const std::int32_t k : spatialOrder(balls)) ordered.push_back(near[std::size_t(k)]);
-    return subset(atoms, ordered, Counted::Whole);
+    return {box.min().asVec3d() * options.voxel - Vec3d(reach),
+            box.max().asVec3d() * options.voxel + Vec3d(reach)};
+}
+
+BallSet ballsIn(const BallSet& atoms, const openvdb::BBoxd& space)
+{
+    std::vector<std::size_t> inside;
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i)
+        if (space.isInside(Vec3d(atoms.balls[i].center))) inside.push_back(i);
+    return subset(atoms, inside, Counted::Whole);
+}
+
+BallSet ballsNear(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope)
+{
+    return inSpatialOrder(ballsIn(atoms, spaceNear(options, scope))); // as in a run of the whole
 }
 
 Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "support/runs.h"
 
+#include "molsurf/bricks/atoms_file.h"
 #include "molsurf/bricks/brick_file.h"
 #include "molsurf/bricks/merge_mesh.h"
 #include "molsurf/bricks/merge_vdb.h"
@@ -13,8 +14,10 @@
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/topology.h"
+#include "molsurf/selection/scalar_map.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/whole_only.h"
+#include "support/folder.h"
 #include "support/mesh_checks.h"
 
 #include <gtest/gtest.h>
@@ -27,6 +30,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <random>
 
 #include <unistd.h>
@@ -80,9 +84,10 @@ protected:
         Progress progress;
         std::vector<BrickFile> files;
         std::shared_ptr<const SparseField> coarse;
+        const auto near = [&](const openvdb::BBoxd& space) { return ballsIn(atoms, space); };
         for (std::size_t k = 0; k < plan.bricks.size(); ++k) {
             const std::string name = path(std::to_string(k) + ".brick");
-            computeBrick(atoms, options, plan, k + 1, "test", name, true, coarse, progress);
+            computeBrick(near, options, plan, k + 1, "test", name, true, coarse, progress);
             files.emplace_back(name);
         }
         return files;
@@ -823,6 +828,127 @@ TEST_F(Bricks, MergedTreesAreFilledBetweenTheNodesUnderTheirRoot)
         EXPECT_EQ(at(z), grid->getConstAccessor().getValue({0, 0, z})) << z;
     }
     EXPECT_EQ(at(5 * node), outside);
+}
+
+/// Balls with all that a file of atoms keeps.
+BallSet describedBalls()
+{
+    BallSet atoms;
+    atoms.balls = chain();
+    atoms.balls.resize(200);
+    atoms.resolutions = {{{"A", 6.0}, 120, 0.5}, {{"B/10-20", 9.5}, 80, -0.25}};
+    atoms.coloring.range = {{-1.5, 2.5}};
+    atoms.coloring.palette = "magma";
+    BallLabels& labels = atoms.labels.emplace();
+    labels.chains = {"A", "B-2"};
+    labels.groups = {{"one", 150, {}}, {"two", 50, {{1, 2, 3}}}};
+    labels.values.emplace();
+    labels.values->name = "bfactor";
+    labels.values->low = -3.25;
+    labels.values->centre = openvdb::Vec3d(1.0, -2.0, 0.1);
+    ScalarMap map;
+    map.counts[0] = map.counts[1] = 2;
+    map.counts[2] = 3;
+    map.values.assign(12, 0.5f);
+    labels.values->field = std::make_shared<ScalarMap>(map);
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
+        const auto n = std::int32_t(i);
+        atoms.resolutionOf.push_back(n % 3 - 1);
+        atoms.decays.push_back({0.1f * float(n), -0.2f * float(n)});
+        atoms.colors.push_back({std::uint8_t(n), std::uint8_t(2 * n), std::uint8_t(3 * n)});
+        labels.chainOf.push_back(n % 2);
+        labels.groupOf.push_back(n % 3 - 1);
+        labels.elementOf.push_back(std::uint8_t(n % 90));
+        labels.residueClassOf.push_back(ResidueClass(n % 12));
+        labels.values->valueOf.push_back(0.5f * float(n));
+    }
+    return atoms;
+}
+
+/// What is known of each ball, by its atom.
+std::map<std::int32_t, std::vector<double>> factsOf(const BallSet& atoms)
+{
+    std::map<std::int32_t, std::vector<double>> facts;
+    const BallLabels& labels = *atoms.labels;
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
+        const Ball& ball = atoms.balls[i];
+        const auto& color = atoms.colors[i];
+        facts[ball.atom] = {ball.center.x(),
+                            ball.center.y(),
+                            ball.center.z(),
+                            ball.radius,
+                            double(atoms.resolutionOf[i]),
+                            double(atoms.decays[i].rate),
+                            double(atoms.decays[i].level),
+                            double(color[0]),
+                            double(color[1]),
+                            double(color[2]),
+                            double(labels.chainOf[i]),
+                            double(labels.groupOf[i]),
+                            double(labels.elementOf[i]),
+                            double(labels.residueClassOf[i]),
+                            double(labels.values->valueOf[i])};
+    }
+    return facts;
+}
+
+TEST_F(Bricks, AtomsOnDiskAreThoseInMemory)
+{
+    const BallSet atoms = describedBalls();
+    Progress progress;
+    OutputFile out(path("a.atoms"), true);
+    const std::string index = writeAtoms(atoms, {1.5, 2.5, 0.5}, out, progress);
+    out.commit();
+    const AtomsFile file(path("a.atoms"));
+    EXPECT_EQ(file.index(), index);
+    EXPECT_EQ(file.extent().maxGrownRadius, 2.5);
+    const BallSet all = file.all();
+    EXPECT_EQ(factsOf(all), factsOf(atoms));
+    EXPECT_EQ(all.resolutions[1].rule.select, "B/10-20");
+    EXPECT_EQ(all.resolutions[1].balls, 80u);
+    EXPECT_EQ(all.resolutions[1].level, -0.25);
+    EXPECT_EQ(all.coloring.range, atoms.coloring.range);
+    EXPECT_EQ(all.coloring.palette, "magma");
+    EXPECT_EQ(all.labels->chains, atoms.labels->chains);
+    EXPECT_EQ(all.labels->groups[1].name, "two");
+    EXPECT_EQ(all.labels->groups[1].balls, 50u);
+    EXPECT_EQ(all.labels->groups[1].color, atoms.labels->groups[1].color);
+    EXPECT_EQ(all.labels->values->low, -3.25);
+    EXPECT_EQ(all.labels->values->centre, atoms.labels->values->centre);
+    EXPECT_EQ(all.labels->values->field->values, atoms.labels->values->field->values);
+    EXPECT_EQ(all.labels->values->field->counts[2], 3u);
+
+    const openvdb::BBoxd space(openvdb::Vec3d(-8.0), openvdb::Vec3d(3.0, 9.0, 21.0));
+    const BallSet near = file.within(space);
+    EXPECT_LT(near.balls.size(), atoms.balls.size());
+    EXPECT_EQ(factsOf(ballsIn(near, space)), factsOf(ballsIn(atoms, space)));
+}
+
+TEST_F(Bricks, DamagedAtomsOnDiskAreRefused)
+{
+    Progress progress;
+    OutputFile out(path("a.atoms"), true);
+    const std::string index = writeAtoms(describedBalls(), {1.5, 2.5, 0.5}, out, progress);
+    out.commit();
+    std::string bytes = test::contentOf(path("a.atoms"));
+    const auto readsWith = [&](std::size_t at, char change) {
+        std::string damaged = bytes;
+        damaged[at] = char(damaged[at] ^ change);
+        std::ofstream(path("b.atoms"), std::ios::binary) << damaged;
+        return AtomsFile(path("b.atoms")).all().balls.size();
+    };
+    EXPECT_EQ(readsWith(0, 0), 200u);
+    const std::size_t indexAt = bytes.size() - index.size();
+    for (const std::size_t at :
+         {std::size_t(8), indexAt / 2, indexAt - 1, indexAt + 12, indexAt + 16, bytes.size() - 1,
+          bytes.size() - 9, bytes.size() - 20, bytes.size() - 30})
+        EXPECT_THROW(readsWith(at, 64), Error) << at;
+    bytes.resize(bytes.size() - 5);
+    EXPECT_THROW(readsWith(0, 0), Error);
+    bytes.clear();
+    std::ofstream(path("b.atoms"), std::ios::binary) << "";
+    EXPECT_THROW(AtomsFile(path("b.atoms")), Error);
+    EXPECT_THROW(AtomsFile(path("none.atoms")), Error);
 }
 
 } // namespace
