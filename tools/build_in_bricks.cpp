@@ -139,6 +139,7 @@ int buildInBricks(Call call, Clock::time_point start)
     }
     checkWay(InBricks, call.options);
     checkOutputs(call);
+    atoms.names.reset(); // bricks use none
     const BrickPlan plan = planBricks(atoms, call.options, {0, call.memory, true, true}, terminal);
     terminal.erase();
     if (call.dryRun || !call.quiet) {

@@ -377,40 +377,36 @@ void AtomsFile::readIndex(std::uint64_t size)
     shared_.labels->values->field = std::make_shared<ScalarMap>(std::move(map));
 }
 
-void AtomsFile::readCell(const AtomCell& cell, std::uint64_t at, BallSet& out) const
+void AtomsFile::readCell(const AtomCell& cell, std::uint64_t at, const openvdb::BBoxd& space,
+                         BallSet& out) const
 {
     std::vector<Record> records(cell.count);
     readAt(file_, path_, at, records.data(), records.size() * sizeof(Record));
     if (checksumOfBytes(records.data(), records.size() * sizeof(Record)) != cell.checksum)
         refuse("its checksum is another");
     for (const Record& r : records)
-        if (!addBall(r, shared_, out)) refuse("it has a wrong index");
+        if (space.isInside(Vec3d(r.x, r.y, r.z)) && !addBall(r, shared_, out))
+            refuse("it has a wrong index");
 }
 
-template<typename IsWanted>
-BallSet AtomsFile::cellsThat(IsWanted isWanted) const
+BallSet AtomsFile::within(const openvdb::BBoxd& space) const
 {
     BallSet out = subset(shared_, {}, Counted::Whole);
+    const openvdb::CoordBBox cells(cellOf(space.min()), cellOf(space.max()));
     std::uint64_t at = atomsMark.size();
     for (const AtomCell& cell : cells_) {
-        if (isWanted(cell)) readCell(cell, at, out);
+        if (cells.isInside(Coord(cell.place[0], cell.place[1], cell.place[2])))
+            readCell(cell, at, space, out);
         at += std::uint64_t(cell.count) * sizeof(Record);
     }
     checkFinite(out.balls);
     return out;
 }
 
-BallSet AtomsFile::within(const openvdb::BBoxd& space) const
-{
-    const openvdb::CoordBBox cells(cellOf(space.min()), cellOf(space.max()));
-    return cellsThat([&](const AtomCell& cell) {
-        return cells.isInside(Coord(cell.place[0], cell.place[1], cell.place[2]));
-    });
-}
-
 BallSet AtomsFile::all() const
 {
-    return cellsThat([](const AtomCell&) { return true; });
+    constexpr double far = 1e7; // [Å]
+    return within({Vec3d(-far), Vec3d(far)});
 }
 
 } // namespace molsurf

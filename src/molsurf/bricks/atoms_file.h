@@ -43,8 +43,7 @@ public:
 
     const GaussianExtent& extent() const { return extent_; }
 
-    /// The balls in a box and some beside it, as subset() gives them: groups and rules count those
-    /// of the whole.
+    /// The balls in a box, as ballsIn() gives them but for their order.
     /// @param[in] space  [Å]
     /// @throws Error(ErrorKind::Input) if the records are damaged
     BallSet within(const openvdb::BBoxd& space) const;
@@ -54,9 +53,8 @@ public:
 private:
     [[noreturn]] void refuse(const std::string& what) const;
     void readIndex(std::uint64_t size);
-    template<typename IsWanted>
-    BallSet cellsThat(IsWanted isWanted) const;
-    void readCell(const AtomCell& cell, std::uint64_t at, BallSet& out) const;
+    void readCell(const AtomCell& cell, std::uint64_t at, const openvdb::BBoxd& space,
+                  BallSet& out) const;
 
     std::string path_, index_;
     FileDescriptor file_;

@@ -33,7 +33,7 @@ namespace
 // mesh. The surface of a larger probe passes fewer balls, and fewer of those leaves.
 constexpr double processBytes = 60e6;           // program, libraries, buffers
 constexpr double bytesPerAtom = 40.0;           // of the whole molecule, where it is in memory
-constexpr double bytesPerNear = 85.0;           // of the balls near a brick: cell lists, copies
+constexpr double bytesPerNear = 135.0;          // of the balls near a brick: cell lists, copies
 constexpr double bytesPerBoundaryBall = 1.55e3; // of those: the boundary of their union
 constexpr double bytesPerFlowLeaf = 10e3;       // within the halo of the flow
 constexpr double bytesPerCoarseLeaf = 2.2e3;    // of the whole at rest on voxels twice as large
@@ -706,7 +706,7 @@ void computeBrick(const BallSource& balls, const SurfaceOptions& options, const 
             inSpatialOrder(balls({Vec3d(-far), Vec3d(far)})), fixed, progress, ofCoarse));
     }
     scope.coarseRest = coarse;
-    const BallSet near = ballsNear(balls(spaceNear(fixed, scope)), fixed, scope);
+    const BallSet near = inSpatialOrder(balls(spaceNear(fixed, scope))); // as in a run of the whole
     const Brick brick = runBrick(near, fixed, scope, progress);
     progress.update("write", 0.0);
     OutputFile file(path, true);

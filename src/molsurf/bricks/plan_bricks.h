@@ -74,7 +74,7 @@ GaussianExtent extentOf(const BrickPlan& plan);
 /// The part of space that brick k of a plan computes.
 Scope scopeOf(const BrickPlan& plan, std::size_t k, const SurfaceOptions& options);
 
-/// Gives the balls in a box of space [Å], and perhaps others.
+/// Gives the balls whose centres lie in a box of space [Å], as ballsIn() does.
 using BallSource = std::function<BallSet(const openvdb::BBoxd& space)>;
 
 /// Computes a brick of a plan and writes its file.

@@ -152,11 +152,6 @@ BallSet ballsIn(const BallSet& atoms, const openvdb::BBoxd& space)
     return subset(atoms, inside, Counted::Whole);
 }
 
-BallSet ballsNear(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope)
-{
-    return inSpatialOrder(ballsIn(atoms, spaceNear(options, scope))); // as in a run of the whole
-}
-
 Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
                Progress& progress)
 {

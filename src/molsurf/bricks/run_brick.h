@@ -21,15 +21,12 @@ Scope brickScope(const SurfaceOptions& options, const Region& region, const Gaus
 /// The box in which balls change what a brick computes [Å].
 openvdb::BBoxd spaceNear(const SurfaceOptions& options, const Scope& scope);
 
-/// Finds the balls near a brick, in the order of a run of the whole, with all that is known of
-/// them; groups and rules still count the balls of the whole molecule.
-BallSet ballsNear(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope);
-
-/// The balls in a box, groups and rules as above.
+/// The balls in a box, with all that is known of them; groups and rules still count those of the
+/// whole.
 BallSet ballsIn(const BallSet& atoms, const openvdb::BBoxd& space);
 
 /// Computes what a brick owns of a surface.
-/// @param[in] atoms    those that ballsNear() gives, or more; coloured if colours are wanted
+/// @param[in] atoms    those in spaceNear(), in spatial order, coloured if colours are wanted
 /// @param[in] options  as checkWay() lets them pass, with a number of steps
 Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope& scope,
                Progress& progress);

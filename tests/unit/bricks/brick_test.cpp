@@ -15,6 +15,7 @@
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/selection/scalar_map.h"
+#include "molsurf/selection/subset.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/whole_only.h"
 #include "support/folder.h"
@@ -485,7 +486,8 @@ struct HostileBricks : Bricks {
         ASSERT_EQ(plan.bricks.size(), 2u);
         for (std::size_t k = 0; k < 2; ++k) {
             const Scope scope = scopeOf(plan, k, options);
-            bricks.push_back(runBrick(ballsNear(atoms, options, scope), options, scope, progress));
+            bricks.push_back(runBrick(inSpatialOrder(ballsIn(atoms, spaceNear(options, scope))),
+                                      options, scope, progress));
             write(k);
         }
     }
@@ -921,7 +923,7 @@ TEST_F(Bricks, AtomsOnDiskAreThoseInMemory)
     const openvdb::BBoxd space(openvdb::Vec3d(-8.0), openvdb::Vec3d(3.0, 9.0, 21.0));
     const BallSet near = file.within(space);
     EXPECT_LT(near.balls.size(), atoms.balls.size());
-    EXPECT_EQ(factsOf(ballsIn(near, space)), factsOf(ballsIn(atoms, space)));
+    EXPECT_EQ(factsOf(near), factsOf(ballsIn(atoms, space)));
 }
 
 TEST_F(Bricks, DamagedAtomsOnDiskAreRefused)
