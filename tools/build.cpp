@@ -14,6 +14,7 @@
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/check_balls.h"
+#include "molsurf/surface/run.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <tbb/global_control.h>
@@ -42,7 +43,7 @@ void writeAll(const Call& call, const BallSet& atoms, MolecularSurface& result,
         });
 }
 
-// What makeSurface() reports, behind what was read.
+// What makePrototypes() reports, behind what was read.
 void completeReport(const Call& call, const BallSet& balls, const Report& read, Report& report)
 {
     beginReport(call, report);
@@ -118,7 +119,7 @@ std::vector<Mesh> coarserMeshes(const Call& call, const BallSet& balls, Report& 
         const Clock::time_point start = Clock::now();
         options.voxel = call.lod[level];
         try {
-            meshes.push_back(makeSurface(balls, options, &terminal).mesh);
+            meshes.push_back(makePrototypes(balls, options, &terminal).mesh);
         } catch (const Error& error) {
             throw Error(error.kind(), "--lod " + shortest(options.voxel) + ": " + error.what());
         }
@@ -191,7 +192,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     if (balls.placement.prototypes() > 1) call.options.split = true;
     MolecularSurface result;
     try {
-        result = makeSurface(balls, call.options, &terminal);
+        result = makePrototypes(balls, call.options, &terminal);
     } catch (const Cancelled&) {
         terminal.failIfOverdue(" [hint: a larger --voxel or --max-hours, or fewer --max-steps]");
         throw;

@@ -14,8 +14,8 @@
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/write_comparison.h"
 #include "molsurf/io/write_vdb.h"
-#include "molsurf/surface.h"
 #include "molsurf/surface/compare.h"
+#include "molsurf/surface/run.h"
 
 #include <filesystem>
 #include <iostream>
@@ -95,7 +95,7 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
         options.fields = {"spline"};
         if (!call.dryRun) checkCost(selection, options, limitsOf(call), terminal);
         if (!costs(planWhole(selection, options, terminal).bricks[0])) return read;
-        MolecularSurface result = makeSurface(selection, options, &terminal);
+        MolecularSurface result = makePrototypes(selection, options, &terminal);
         read.converged = !result.report.evolution || result.report.evolution->converged;
         read.operand = operandOf(std::move(result));
         auto& warnings = read.operand.warnings;

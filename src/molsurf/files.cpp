@@ -3,6 +3,7 @@
 
 #include "molsurf/color/crisp_borders.h"
 #include "molsurf/color/legend.h"
+#include "molsurf/color/palette.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/output_file.h"
@@ -15,6 +16,7 @@
 #include "molsurf/picture/draw_mesh.h"
 #include "molsurf/picture/write_html.h"
 #include "molsurf/picture/write_png.h"
+#include "molsurf/selection/subset.h"
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/text_fields.h"
 #include "molsurf/surface/surface_kind.h"
@@ -107,7 +109,8 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
     const Mesh& mesh = surface.mesh;
     const ColorBy color = options.color;
     DrawOptions how = drawn(width);
-    for (const Ball& ball : atoms.balls) how.about.push_back(ball.center);
+    const WholeBalls whole = ballsOfWhole(atoms);
+    for (const Ball& ball : whole.balls) how.about.push_back(ball.center);
     const std::filesystem::path name = path;
     OutputFile file(path, replace);
     if (name.extension() == ".html") {
@@ -115,10 +118,18 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
         page.title = name.stem().string();
         page.legends = offeredLegends(color, atoms, mesh, nobody);
         page.axes = viewAxes(mesh, how);
-        if (atoms.names) nameAtoms(*atoms.names, atoms.balls, mesh, nobody, page);
+        if (atoms.names) {
+            nameAtoms(*atoms.names, whole.balls, mesh, nobody, page);
+            for (std::int32_t& ball : page.ballOf)
+                if (ball >= 0) ball = std::int32_t(whole.sources[std::size_t(ball)]);
+        }
         writeHtml(mesh, page, file);
     } else {
-        how.borders = bordersOf(color, atoms, asMeshed(atoms.balls, options), mesh, nobody);
+        BallSet colored = atoms;
+        if (color != ColorBy::Nothing && colored.colors.empty())
+            colored.colors = ballColors(atoms, color, nobody);
+        how.borders = bordersOf(color, subset(colored, whole.sources),
+                                asMeshed(whole.balls, options), mesh, nobody);
         const auto legend = legendOf(color, atoms, mesh, nobody);
         writePng(drawExplained(mesh, std::move(how), legend, false, nobody), file);
     }

@@ -43,8 +43,9 @@ struct MolecularSurface {
     /// sets are then among `fields`, and for a unit of a whole.
     openvdb::FloatGrid::Ptr surface;
     std::vector<openvdb::GridBase::Ptr> fields; ///< the grids that SurfaceOptions::fields names
-    Mesh mesh;                                  ///< closed, with its vertices on the surface
-    std::vector<SharedVertex> shared; ///< of a symmetric unit, whose mesh is open: its border
+    Mesh mesh; ///< of the whole, closed, with its vertices on the surface: units are joined, and
+               ///< copies of prototypes are parts
+    std::vector<SharedVertex> shared; ///< used by the library alone
     /// If it was asked for, the part of the surface that belongs to each ball, in the
     /// order of the caller's; they add up to the area of the whole [Å^2]. Solvent-accessible and
     /// van der Waals surfaces have them as exposedAreas() gives them. Of the solvent-excluded

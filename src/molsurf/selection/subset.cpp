@@ -58,4 +58,20 @@ BallSet inSpatialOrder(const BallSet& atoms)
     return out;
 }
 
+WholeBalls ballsOfWhole(const BallSet& atoms)
+{
+    WholeBalls out;
+    const auto add = [&](std::size_t i, const openvdb::Vec3d& center) {
+        out.balls.push_back({center, atoms.balls[i].radius, atoms.balls[i].atom});
+        out.sources.push_back(i);
+    };
+    if (atoms.placement.isWhole())
+        for (std::size_t i = 0; i < atoms.balls.size(); ++i) add(i, atoms.balls[i].center);
+    for (const Instance& copy : atoms.placement.instances) {
+        const auto [begin, end] = atoms.prototype(copy.part);
+        for (std::size_t i = begin; i < end; ++i) add(i, copy.placed(atoms.balls[i].center));
+    }
+    return out;
+}
+
 } // namespace molsurf

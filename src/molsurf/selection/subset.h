@@ -37,4 +37,14 @@ BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which,
 /// The same balls in spatial order, so that results have the same bits for any order of the atoms.
 BallSet inSpatialOrder(const BallSet& atoms);
 
+/// The balls of a whole, where its copies lie.
+struct WholeBalls {
+    std::vector<Ball> balls;
+    std::vector<std::size_t> sources; ///< of each: the ball that a motion made it of
+};
+
+/// Finds the balls of the whole that a set stands for: these, or its own ones as motions repeat
+/// them.
+WholeBalls ballsOfWhole(const BallSet& atoms);
+
 } // namespace molsurf

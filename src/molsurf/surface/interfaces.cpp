@@ -4,9 +4,9 @@
 #include "molsurf/balls/contacts.h"
 #include "molsurf/core/quiet_progress.h"
 #include "molsurf/selection/subset.h"
-#include "molsurf/surface.h"
 #include "molsurf/surface/closed_form.h"
 #include "molsurf/surface/influence.h"
+#include "molsurf/surface/run.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ Areas areasOf(const BallSet& atoms, const SurfaceOptions& options, Progress& pro
         return {std::accumulate(areas.begin(), areas.end(), 0.0), std::move(areas)};
     }
     QuietProgress quiet(progress);
-    MolecularSurface made = makeSurface(atoms, options, &quiet);
+    MolecularSurface made = makePrototypes(atoms, options, &quiet);
     return {made.report.surface.area, std::move(made.ballAreas)};
 }
 

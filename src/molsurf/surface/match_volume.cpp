@@ -3,7 +3,7 @@
 
 #include "molsurf/core/quiet_progress.h"
 #include "molsurf/error.h"
-#include "molsurf/surface.h"
+#include "molsurf/surface/run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ double volumeOf(const BallSet& atoms, const SurfaceOptions& options, const Progr
 {
     QuietProgress quiet(progress);
     try {
-        return makeSurface(atoms, options, &quiet).report.surface.outerVolume;
+        return makePrototypes(atoms, options, &quiet).report.surface.outerVolume;
     } catch (const Error& e) {
         if (e.kind() != ErrorKind::Numeric) throw;
         return 0.0; // nothing is left

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/surface.h"
+#include "molsurf/surface/run.h"
 
 #include "molsurf/balls/placed_ball.h"
 #include "molsurf/color/curvature_colors.h"
@@ -17,6 +17,7 @@
 #include "molsurf/surface/parts.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/surface_run.h"
+#include "molsurf/surface/unit_mesh.h"
 #include "molsurf/surface/unit_run.h"
 #include "molsurf/surface/whole_only.h"
 
@@ -99,7 +100,7 @@ std::vector<double> areasApart(const BallSet& atoms, const SurfaceOptions& optio
                                       "closed form [hint: `surface` sas or vdw]");
     if (!isClosedForm(options)) {
         QuietProgress quiet(progress);
-        return makeSurface(atoms, options, &quiet).ballAreas;
+        return makePrototypes(atoms, options, &quiet).ballAreas;
     }
     std::vector<double> areas = measureClosedForm(atoms.balls, options, progress).ballAreas;
     areas.resize(atoms.own());
@@ -136,7 +137,18 @@ MolecularSurface makeSurface(const std::vector<Ball>& balls, const SurfaceOption
 }
 
 MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options,
-                             Progress* listener)
+                             Progress* progress)
+{
+    MolecularSurface result = makePrototypes(atoms, options, progress);
+    if (atoms.placement.isWhole()) return result;
+    const Progress nobody;
+    result.mesh = meshOfWhole(atoms, result, progress ? *progress : nobody);
+    result.shared.clear();
+    return result;
+}
+
+MolecularSurface makePrototypes(const BallSet& atoms, const SurfaceOptions& options,
+                                Progress* listener)
 {
     Progress nobody;
     Progress& progress = listener ? *listener : nobody;
@@ -148,7 +160,7 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
         once.matchVolume = false;
         progress.update("match", 0.0);
         matchVolumes(matched, once, progress);
-        return makeSurface(matched, once, &progress);
+        return makePrototypes(matched, once, &progress);
     }
     checkBalls(atoms.balls, options, Pieces::One, availableMemory());
     if ((options.ofParts() || options.interfaces) &&

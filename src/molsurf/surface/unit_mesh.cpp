@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/unit_mesh.h"
 
+#include "molsurf/core/cancel.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
+#include "molsurf/io/part_ranges.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/surface/unit_border.h"
 
@@ -58,6 +60,39 @@ void turnVectors(const Instance& motion, std::vector<Attribute<float>>& scalars,
                 Vec3d(scalars[a].values[v], scalars[a + 1].values[v], scalars[a + 2].values[v]));
             for (std::size_t i = 0; i < 3; ++i) scalars[a + i].values[v] = float(turned[int(i)]);
         }
+    }
+}
+
+/// Appends a part of a mesh, moved, as a part of another.
+void addCopy(const Mesh& mesh, const PartRange& range, const Instance& motion, Mesh& out)
+{
+    const std::size_t begin = out.positions.size();
+    const auto add = [&](const auto& from, auto& to) {
+        if (from.empty()) return;
+        to.insert(to.end(), from.begin() + std::ptrdiff_t(range.firstVertex),
+                  from.begin() + std::ptrdiff_t(range.vertexEnd));
+    };
+    if (begin + range.vertexEnd - range.firstVertex > 0xffffffffu)
+        throw Error(ErrorKind::Output, "the mesh of all copies has more vertices than 32 bits "
+                                       "count [hint: a larger `voxel`]");
+    add(mesh.positions, out.positions);
+    add(mesh.normals, out.normals);
+    add(mesh.colors, out.colors);
+    for (std::size_t i = 0; i < mesh.scalars.size(); ++i)
+        add(mesh.scalars[i].values, out.scalars[i].values);
+    for (std::size_t i = 0; i < mesh.labels.size(); ++i)
+        add(mesh.labels[i].values, out.labels[i].values);
+    for (std::size_t v = begin; v < out.positions.size(); ++v)
+        out.positions[v] = Vec3f(motion.placed(Vec3d(out.positions[v])));
+    for (std::size_t v = begin; v < out.normals.size(); ++v)
+        out.normals[v] = Vec3f(motion.turned(Vec3d(out.normals[v])));
+    turnVectors(motion, out.scalars, begin, out.positions.size());
+    out.parts.push_back(
+        {range.name.empty() ? motion.name : range.name + " " + motion.name, out.triangles.size()});
+    for (std::size_t t = range.firstTriangle; t < range.triangleEnd; ++t) {
+        auto& corners = out.triangles.emplace_back(mesh.triangles[t]);
+        for (std::uint32_t& corner : corners)
+            corner = std::uint32_t(corner - range.firstVertex + begin);
     }
 }
 
@@ -117,6 +152,20 @@ Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, const Mesh
     }
     if (weld && surface.report.surface.closed && !checkTopology(out, progress).closed)
         throw Error(ErrorKind::Check, "the units' meshes do not close when they are welded");
+    return out;
+}
+
+Mesh meshOfWhole(const BallSet& atoms, const MolecularSurface& surface, const Progress& progress)
+{
+    if (atoms.placement.unit) return wholeMesh(atoms, surface, surface.mesh, true, {}, progress);
+    Mesh out;
+    for (const auto& a : surface.mesh.scalars) out.scalars.push_back({a.name, {}});
+    for (const auto& a : surface.mesh.labels) out.labels.push_back({a.name, {}});
+    const std::vector<PartRange> parts = partRanges(surface.mesh, "");
+    for (const Instance& copy : atoms.placement.instances) {
+        stopIfCancelled(progress);
+        addCopy(surface.mesh, parts.at(copy.part), copy, out);
+    }
     return out;
 }
 

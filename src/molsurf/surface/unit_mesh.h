@@ -26,4 +26,10 @@ namespace molsurf
 Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, const Mesh& unit, bool weld,
                const std::vector<std::array<std::uint8_t, 3>>& colors, const Progress& progress);
 
+/// The mesh of a whole: that of a unit's rotations, welded, or of all copies of prototypes, each of
+/// them a part.
+/// @param[in] atoms    that are not the whole themselves
+/// @param[in] surface  of the unit or the prototypes
+Mesh meshOfWhole(const BallSet& atoms, const MolecularSurface& surface, const Progress& progress);
+
 } // namespace molsurf

@@ -6,14 +6,17 @@
 #include "molsurf/mesh/topology.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/selection/select_balls.h"
+#include "molsurf/selection/subset.h"
 #include "molsurf/structure/rotation_group.h"
 #include "molsurf/surface.h"
+#include "molsurf/surface/run.h"
 #include "molsurf/surface/unit_mesh.h"
 #include "molsurf/tables.h"
 #include "support/groups.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -107,7 +110,7 @@ TEST_P(BySymmetry, IsTheWhole)
                     c.name[0] == 'C' ? 50.0 : 1e-3);
         EXPECT_LT(unit.placement.unit->deviation, 1e-4);
 
-        const MolecularSurface a = makeSurface(unit, options), b = makeSurface(whole, options);
+        const MolecularSurface a = makePrototypes(unit, options), b = makeSurface(whole, options);
         const SurfaceReport &found = a.report.surface, &expected = b.report.surface;
         const bool exact = options.kind == SurfaceKind::SolventAccessible ||
                            options.kind == SurfaceKind::VanDerWaals;
@@ -182,7 +185,7 @@ TEST(SymmetricUnit, OfAHelix)
     const BallSet unit = selectBalls(s, assembly(true, options));
     EXPECT_EQ(unit.placement.unit->pointGroup, "C3");
     EXPECT_EQ(unit.placement.unit->copies, 5u);
-    const MolecularSurface a = makeSurface(unit, options);
+    const MolecularSurface a = makePrototypes(unit, options);
     const MolecularSurface b = makeSurface(selectBalls(s, assembly(false, options)), options);
     EXPECT_NEAR(a.report.surface.area, b.report.surface.area, 3e-3 * b.report.surface.area);
     EXPECT_NEAR(a.report.surface.volume, b.report.surface.volume, 2e-3 * b.report.surface.volume);
@@ -287,7 +290,7 @@ TEST(SymmetricUnit, OnALatticeIsTheWhole)
         options.grid = false;
         const BallSet unit = selectBalls(s, assembly(true, options));
         const BallSet whole = selectBalls(s, assembly(false, options));
-        const SurfaceReport found = makeSurface(unit, options).report.surface;
+        const SurfaceReport found = makePrototypes(unit, options).report.surface;
         const SurfaceReport expected = makeSurface(whole, options).report.surface;
         EXPECT_NEAR(found.area, expected.area, 1e-6 * expected.area);
         EXPECT_NEAR(found.volume, expected.volume, 1e-6 * expected.volume);
@@ -313,7 +316,7 @@ TEST(SymmetricUnit, GroupsAddUp)
     select.groups = {{"b", "B", {}}};
     const BallSet unit = selectBalls(s, select);
     EXPECT_EQ(unit.labels->chains.size(), 2u); // images have their names
-    const MolecularSurface a = makeSurface(unit, options);
+    const MolecularSurface a = makePrototypes(unit, options);
     select.bySymmetry = false;
     const MolecularSurface b = makeSurface(selectBalls(s, select), options);
     ASSERT_EQ(a.report.groups.size(), b.report.groups.size());
@@ -369,7 +372,7 @@ TEST(SymmetricUnit, ContactsAreThoseOfItsBalls)
     SelectOptions select = assembly(true, options);
     select.names = true;
     const BallSet unit = selectBalls(s, select);
-    const Table table = contactTable(unit, ContactLevel::Atom, makeSurface(unit, options));
+    const Table table = contactTable(unit, ContactLevel::Atom, makePrototypes(unit, options));
     select.bySymmetry = false;
     const MolecularSurface whole = makeSurface(selectBalls(s, select), options);
     double expected = 0.0, found = 0.0;
@@ -398,8 +401,8 @@ TEST(SymmetricUnit, RefusesWhatNeedsTheWhole)
     SurfaceOptions cavities, sas;
     cavities.fillCavities = true;
     sas.fields = {"sas"};
-    EXPECT_THROW(makeSurface(unit, cavities), Error);
-    EXPECT_THROW(makeSurface(unit, sas), Error);
+    EXPECT_THROW(makePrototypes(unit, cavities), Error);
+    EXPECT_THROW(makePrototypes(unit, sas), Error);
 }
 
 /// The vertices of a border lie where those of the neighbour do.
@@ -409,7 +412,7 @@ TEST(SymmetricUnit, BordersMeet)
     Structure s = blob({9.0, 1.0, 0.0}, 6.0, 150, 3);
     s.assemblies = {assemblyOf(dihedral(3))};
     const BallSet unit = selectBalls(s, assembly(true, options));
-    const MolecularSurface a = makeSurface(unit, options);
+    const MolecularSurface a = makePrototypes(unit, options);
     ASSERT_FALSE(a.shared.empty());
     for (const SharedVertex& v : a.shared) {
         const Instance& m = unit.placement.instances[std::size_t(v.motion)];
@@ -422,6 +425,50 @@ TEST(SymmetricUnit, BordersMeet)
     EXPECT_EQ(apart.parts.size(), 6u);
     EXPECT_EQ(apart.triangles.size(), a.report.surface.triangles);
     EXPECT_FALSE(checkTopology(apart, Progress()).closed);
+}
+
+/// makeSurface() gives the mesh of the whole: of a unit, and of prototypes, of which each copy is a
+/// part.
+TEST(SymmetricUnit, SurfacesAreThoseOfTheWhole)
+{
+    const SurfaceOptions options;
+    Structure s = blob({9.0, 1.0, 0.0}, 6.0, 150, 3);
+    s.assemblies = {assemblyOf(dihedral(3))};
+    const BallSet unit = selectBalls(s, assembly(true, options));
+    const MolecularSurface whole = makeSurface(unit, options);
+    EXPECT_EQ(whole.mesh.triangles.size(), whole.report.surface.triangles);
+    EXPECT_TRUE(whole.shared.empty());
+    EXPECT_TRUE(checkTopology(whole.mesh, Progress()).closed);
+
+    SelectOptions select = assembly(false, options);
+    select.instances = true;
+    const BallSet prototype = selectBalls(s, select);
+    const MolecularSurface copies = makeSurface(prototype, options);
+    const MolecularSurface one = makePrototypes(prototype, options);
+    ASSERT_EQ(copies.mesh.parts.size(), 6u);
+    EXPECT_EQ(copies.mesh.triangles.size(), 6 * one.mesh.triangles.size());
+    EXPECT_TRUE(checkTopology(copies.mesh, Progress()).closed);
+    const std::size_t count = one.mesh.positions.size();
+    ASSERT_EQ(copies.mesh.positions.size(), 6 * count);
+    for (std::size_t k = 0; k < 6; ++k) {
+        const Vec3d there = prototype.placement.instances[k].placed(Vec3d(one.mesh.positions[7]));
+        EXPECT_NEAR((Vec3d(copies.mesh.positions[k * count + 7]) - there).length(), 0.0, 1e-4);
+        const Vec3d way = prototype.placement.instances[k].turned(Vec3d(one.mesh.normals[7]));
+        EXPECT_NEAR((Vec3d(copies.mesh.normals[k * count + 7]) - way).length(), 0.0, 1e-4);
+    }
+
+    const BallSet all = selectBalls(s, assembly(false, options));
+    for (const BallSet* atoms : {&unit, &prototype}) {
+        const WholeBalls balls = ballsOfWhole(*atoms);
+        ASSERT_EQ(balls.balls.size(), all.balls.size());
+        for (std::size_t i = 0; i < all.balls.size(); ++i) {
+            const Ball& ball = balls.balls[i];
+            EXPECT_EQ(atoms->balls[balls.sources[i]].atom, ball.atom);
+            EXPECT_TRUE(std::any_of(all.balls.begin(), all.balls.end(), [&](const Ball& other) {
+                return other.atom == ball.atom && (other.center - ball.center).length() < 1e-6;
+            })) << i;
+        }
+    }
 }
 
 } // namespace
