@@ -4,6 +4,7 @@
 #include "outputs.h"
 #include "stop.h"
 
+#include "molsurf/core/may_pass.h"
 #include "molsurf/error.h"
 #include "molsurf/io/commit.h"
 #include "molsurf/io/output_file.h"
@@ -24,7 +25,9 @@ namespace
 
 [[noreturn]] void fail(const std::string& what, const std::string& path)
 {
-    throw Error(ErrorKind::Output, "cannot " + what + " " + path + ": " + std::strerror(errno));
+    const int reason = errno;
+    throw Error(ErrorKind::Output, "cannot " + what + " " + path + ": " + std::strerror(reason),
+                mayPass(reason));
 }
 
 // Other runs wait meanwhile. Where a file system has no locks, lines are appended all the same.

@@ -12,7 +12,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -70,7 +69,7 @@ std::string readAll(std::FILE* file, const std::string& path, std::size_t expect
         bytes.resize(size + got);
         checkSize(bytes.size(), limit, path);
     } while (got == chunk);
-    if (std::ferror(file)) failAt(path, std::string("cannot be read: ") + std::strerror(errno));
+    if (std::ferror(file)) failBySystem(path, "cannot be read");
     return bytes;
 }
 
@@ -83,7 +82,7 @@ std::string readBytes(const std::string& path, const Limit& limit)
     }
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                                &std::fclose);
-    if (!file) failAt(path, std::string("cannot be opened: ") + std::strerror(errno));
+    if (!file) failBySystem(path, "cannot be opened");
     const std::uintmax_t size = std::filesystem::file_size(path, status);
     return readAll(file.get(), path, status ? 0 : std::size_t(size), limit);
 }
