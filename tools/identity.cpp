@@ -7,12 +7,10 @@
 
 #include "molsurf/error.h"
 #include "molsurf/io/output_file.h"
-
-#include <nlohmann/json.hpp>
+#include "molsurf/io/read_report.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
 namespace molsurf::tool
@@ -33,29 +31,6 @@ bool changesResults(const Option& option, Verb verb)
     return !process && (option.verbs & verb) &&
            std::find(std::begin(besides), std::end(besides), std::string(option.name)) ==
                std::end(besides);
-}
-
-/// What a report says of the run that wrote it; nothing if it is none.
-struct Known {
-    std::string identity, input;
-    bool converged = true;
-};
-
-std::optional<Known> knownOf(const std::string& report)
-{
-    try {
-        std::ifstream file(report);
-        const auto json = nlohmann::json::parse(file);
-        if (json.at("program") != "vdb_molsurf") return std::nullopt;
-        Known known;
-        if (json.at("options_sha256").is_string()) known.identity = json["options_sha256"];
-        if (json.at("input_sha256").is_string()) known.input = json["input_sha256"];
-        const auto& evolution = json.at("evolution");
-        known.converged = evolution.is_null() || evolution.at("converged");
-        return known;
-    } catch (const nlohmann::json::exception&) {
-        return std::nullopt;
-    }
 }
 
 } // namespace
@@ -84,9 +59,8 @@ std::string identityOf(const Call& call)
 std::string sha256OfInput(const std::string& path)
 {
     std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored)) return "";
     try {
-        return sha256OfFile(path);
+        return fs::is_regular_file(path, ignored) ? sha256OfFile(path) : "";
     } catch (const Error&) {
         return "";
     }
@@ -98,14 +72,14 @@ std::optional<int> statusOfExisting(Call& call)
     const auto report = std::find_if(call.outputs.begin(), call.outputs.end(),
                                      [](const Output& o) { return o.holds(Numbers); });
     const fs::file_time_type made = fs::last_write_time(report->path, missing);
-    const std::optional<Known> known = missing ? std::nullopt : knownOf(report->path);
+    const std::optional<KnownRun> known = missing ? std::nullopt : readReport(report->path);
     if (!known) return std::nullopt;
     const bool whole = std::all_of(call.outputs.begin(), call.outputs.end(), [&](const Output& o) {
         const fs::file_time_type time = fs::last_write_time(o.path, missing);
         return !missing && time <= made && !isStream(o.path);
     });
     const std::string input = sha256OfInput(call.input);
-    if (whole && !input.empty() && known->input == input && known->identity == identityOf(call))
+    if (whole && !input.empty() && known->input == input && known->options == identityOf(call))
         return known->converged ? doneStatus : notConvergedStatus;
     call.force = true;
     return std::nullopt;
