@@ -8,6 +8,7 @@
 #include "molsurf/error.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/io/read_report.h"
+#include "molsurf/structure/archive.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -60,6 +61,7 @@ std::string sha256OfInput(const std::string& path)
 {
     std::error_code ignored;
     try {
+        if (const auto member = memberOf(path)) return sha256OfText(readMember(*member, 0));
         return fs::is_regular_file(path, ignored) ? sha256OfFile(path) : "";
     } catch (const Error&) {
         return "";

@@ -13,6 +13,7 @@
 #include "molsurf/io/temporary_file.h"
 #include "molsurf/io/write_3mf.h"
 #include "molsurf/picture/write_html.h"
+#include "molsurf/structure/archive.h"
 
 #include <sys/resource.h>
 
@@ -120,7 +121,8 @@ std::string unrestText(const EvolutionReport& evolution, double voxel, const std
 
 std::string inputStem(const std::string& input)
 {
-    std::filesystem::path name = std::filesystem::path(input).filename();
+    const auto member = memberOf(input);
+    std::filesystem::path name = std::filesystem::path(member ? member->name : input).filename();
     for (const char* const packed : {".gz", ".bz2", ".xz"})
         if (name.extension() == packed) {
             name = name.stem();

@@ -52,7 +52,8 @@ VerbInfo batchVerb()
         "LIST -O DIR [options]",
         "Builds the surfaces of many structures, one after the other.",
         "LIST names a structure file a line, - is standard input; empty lines and lines with #\n"
-        "do not count. A folder in its place means all structures in it.\n"
+        "do not count. A folder or an archive (.tar .tar.gz .tgz) in its place means all\n"
+        "structures in it; a member of an archive is called archive.tar::member.\n"
         "A failed structure is reported; the others continue. DIR/summary.csv and summary.json\n"
         "have a line each; the same command once more makes those that are missing, failed or\n"
         "of an input that has changed. Several lists may share DIR, also at the same time.\n"

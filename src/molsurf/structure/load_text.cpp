@@ -2,6 +2,7 @@
 #include "molsurf/structure/load_text.h"
 
 #include "molsurf/error.h"
+#include "molsurf/structure/archive.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <boost/iostreams/device/array.hpp>
@@ -76,6 +77,7 @@ std::string readAll(std::FILE* file, const std::string& path, std::size_t expect
 std::string readBytes(const std::string& path, const Limit& limit)
 {
     if (path == "-") return readAll(stdin, path, 0, limit);
+    if (const auto member = memberOf(path)) return readMember(*member, limit.bytes);
     std::error_code status;
     if (std::filesystem::is_directory(path, status)) {
         failAt(path, "is a folder, expected a file");
