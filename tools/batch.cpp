@@ -169,7 +169,8 @@ int batch(const Call& call)
         throw Error(ErrorKind::Output, "cannot make " + call.folder + ": " + problem.message(),
                     mayPass(problem.value()));
     for (const std::string& path : BatchJournal::paths(call.folder)) checkWritable(path, true);
-    BatchJournal journal(call.folder, {MOLSURF_VERSION, optionsLine(call), {}}, call.force);
+    BatchJournal journal(call.folder, {MOLSURF_VERSION, optionsLine(call), {}, identityOf(call)},
+                         call.force);
     if (!call.quiet)
         for (const std::string& warning : call.warnings) say("warning: " + warning);
 

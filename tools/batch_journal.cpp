@@ -152,7 +152,7 @@ void BatchJournal::writeTables()
     ignoreSignals();
     const Lock lock(file_);
     refresh();
-    BatchSummary ended{summary_.version, summary_.options, {}};
+    BatchSummary ended{summary_.version, summary_.options, {}, summary_.optionsSha256};
     for (const BatchEntry& entry : summary_.entries)
         if (entry.status != "begun") ended.entries.push_back(entry);
     OutputFiles files;

@@ -57,6 +57,10 @@ class Batch(ToolTest):
         report = json.loads((self.folder / "out" / "1crn.json").read_text())
         self.assertEqual(float(rows[0]["area"]), report["surface"]["area"])
         self.assertEqual(int(rows[0]["atoms"]), report["atoms"])
+        for row in rows:
+            self.assertEqual((row["version"], row["options"], row["units"]),
+                             (report["version"], report["options_sha256"], "area Å², volume Å³"))
+        self.assertEqual(rows[0]["sha256"], report["input_sha256"])
 
     def test_again_does_what_was_not_done(self):
         self.batch(1)

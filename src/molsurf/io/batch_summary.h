@@ -38,6 +38,7 @@ struct BatchSummary {
     std::string version; ///< of the program
     std::string options; ///< those that the surfaces depend on
     std::vector<BatchEntry> entries;
+    std::string optionsSha256; ///< of version and options, as in reports; journals do not hold it
 };
 
 /// @throws Error(ErrorKind::Output) if the file cannot be written
