@@ -76,7 +76,10 @@ void translate(const std::exception_ptr& thrown, void*)
     try {
         std::rethrow_exception(thrown);
     } catch (const Error& e) {
-        PyErr_SetString(errorTypes[std::size_t(e.kind())], withKeywords(e.what()).c_str());
+        PyObject* const type = errorTypes[std::size_t(e.kind())];
+        const nb::object error = nb::handle(type)(withKeywords(e.what()));
+        error.attr("may_pass") = e.mayPass();
+        PyErr_SetObject(type, error.ptr());
     }
 }
 
@@ -89,7 +92,9 @@ void addErrors(nb::module_& m)
                                                        {"CheckError", PyExc_RuntimeError}};
     for (std::size_t k = 0; k < errorTypes.size(); ++k) {
         const std::string name = std::string("vdb_molsurf.") + kinds[k].first;
-        errorTypes[k] = PyErr_NewException(name.c_str(), kinds[k].second, nullptr);
+        nb::dict members;
+        members["may_pass"] = false;
+        errorTypes[k] = PyErr_NewException(name.c_str(), kinds[k].second, members.ptr());
         m.attr(kinds[k].first) = nb::handle(errorTypes[k]);
     }
     nb::register_exception_translator(translate, nullptr);

@@ -2,12 +2,12 @@
 #include "verbs.h"
 
 #include "batch_journal.h"
-#include "cli/option_table.h"
+#include "identity.h"
 #include "input_files.h"
 #include "outputs.h"
-#include "sha256.h"
 #include "terminal.h"
 
+#include "molsurf/core/may_pass.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/output_file.h"
@@ -90,10 +90,7 @@ BatchEntry beginEntry(const Task& task)
     entry.name = task.name;
     entry.input = task.input;
     entry.status = "begun";
-    try {
-        entry.sha256 = sha256OfFile(task.input);
-    } catch (const Error&) { // as the reader will say
-    }
+    entry.sha256 = sha256OfInput(task.input);
     return entry;
 }
 
@@ -141,9 +138,11 @@ BatchEntry perform(const Call& call, const Task& task, BatchJournal& journal, bo
     } catch (const Error& e) {
         entry.status = "failed";
         entry.message = withOptionNames(e.what());
+        entry.mayPass = e.mayPass();
     } catch (const std::bad_alloc&) {
         entry.status = "failed";
         entry.message = "out of memory";
+        entry.mayPass = true;
     } catch (const Cancelled&) {
         journal.writeTables();
         throw;
@@ -159,47 +158,29 @@ std::string describe(const BatchEntry& entry)
                      entry.volume, entry.seconds);
 }
 
-// All that the surfaces depend on, as a line for the summary.
-std::string optionsLine(const Call& call)
-{
-    std::string line;
-    for (const OptionGroup& group : optionTable()) {
-        for (const Option& option : group.options) {
-            const bool process = option.verbs & ~(Build | Batch | Compare | Convert | BricksPlan);
-            if (process || !(option.verbs & Batch) || !call.has(option.name)) continue;
-            const std::string name = option.name;
-            if (name == "folder" || name == "force" || name == "verbose") continue;
-            line += (line.empty() ? "--" : " --") + name;
-            for (const std::string& value : call.given.at(name)) line += " " + value;
-        }
-    }
-    for (const OptionFile& file : filesOf(call.verb, call.given))
-        if (file.option->stored)
-            line += " (" + file.path + ": " + sha256OfFile(file.path).substr(0, 16) + ")";
-    return line;
-}
-
 } // namespace
 
 int batch(const Call& call)
 {
-    const std::string options = optionsLine(call);
     const std::vector<Task> tasks = tasksOf(call);
     std::error_code problem;
     fs::create_directories(call.folder, problem);
     if (problem)
-        throw Error(ErrorKind::Output, "cannot make " + call.folder + ": " + problem.message());
+        throw Error(ErrorKind::Output, "cannot make " + call.folder + ": " + problem.message(),
+                    mayPass(problem.value()));
     for (const std::string& path : BatchJournal::paths(call.folder)) checkWritable(path, true);
-    BatchJournal journal(call.folder, {MOLSURF_VERSION, options, {}}, call.force);
+    BatchJournal journal(call.folder, {MOLSURF_VERSION, optionsLine(call), {}, identityOf(call)},
+                         call.force);
     if (!call.quiet)
         for (const std::string& warning : call.warnings) say("warning: " + warning);
 
-    std::size_t kept = 0, failed = 0, creeping = 0;
+    std::size_t kept = 0, failed = 0, passing = 0, creeping = 0;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         bool before = false;
         const BatchEntry entry = perform(call, tasks[i], journal, before);
         kept += before;
         failed += entry.status == "failed";
+        passing += entry.mayPass;
         creeping += entry.status == "not converged";
         if (!before && !call.quiet)
             say(std::to_string(i + 1) + "/" + std::to_string(tasks.size()) + " " + tasks[i].input +
@@ -218,7 +199,8 @@ int batch(const Call& call)
         say(line + ", " + std::to_string(failed) + " failed; the table is " +
             (folder / "summary.csv").string());
     }
-    return failed > 0 ? 1 : creeping > 0 ? notConvergedStatus : 0;
+    if (failed > 0) return passing > 0 ? laterStatus : failedStatus;
+    return creeping > 0 ? notConvergedStatus : doneStatus;
 }
 
 } // namespace molsurf::tool

@@ -4,6 +4,7 @@
 #include "outputs.h"
 #include "stop.h"
 
+#include "molsurf/core/may_pass.h"
 #include "molsurf/error.h"
 #include "molsurf/io/commit.h"
 #include "molsurf/io/output_file.h"
@@ -24,7 +25,9 @@ namespace
 
 [[noreturn]] void fail(const std::string& what, const std::string& path)
 {
-    throw Error(ErrorKind::Output, "cannot " + what + " " + path + ": " + std::strerror(errno));
+    const int reason = errno;
+    throw Error(ErrorKind::Output, "cannot " + what + " " + path + ": " + std::strerror(reason),
+                mayPass(reason));
 }
 
 // Other runs wait meanwhile. Where a file system has no locks, lines are appended all the same.
@@ -149,7 +152,7 @@ void BatchJournal::writeTables()
     ignoreSignals();
     const Lock lock(file_);
     refresh();
-    BatchSummary ended{summary_.version, summary_.options, {}};
+    BatchSummary ended{summary_.version, summary_.options, {}, summary_.optionsSha256};
     for (const BatchEntry& entry : summary_.entries)
         if (entry.status != "begun") ended.entries.push_back(entry);
     OutputFiles files;

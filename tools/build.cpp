@@ -3,6 +3,7 @@
 
 #include "bricks.h"
 #include "cli/option_table.h"
+#include "identity.h"
 #include "outputs.h"
 #include "stop.h"
 #include "terminal.h"
@@ -121,7 +122,7 @@ std::vector<Mesh> coarserMeshes(const Call& call, const BallSet& balls, Report& 
         try {
             meshes.push_back(makePrototypes(balls, options, &terminal).mesh);
         } catch (const Error& error) {
-            throw Error(error.kind(), "--lod " + shortest(options.voxel) + ": " + error.what());
+            throw Error(error, "--lod " + shortest(options.voxel) + ": " + error.what());
         }
         report.addSeconds("lod", secondsSince(start));
     }
@@ -237,8 +238,13 @@ Report buildSurface(Call call, Clock::time_point start)
     return buildSurface(call, balls, read, terminal, start);
 }
 
-int build(const Call& call, Clock::time_point start)
+int build(const Call& asked, Clock::time_point start)
 {
+    Call call = asked;
+    if (const auto status = call.skipExisting ? statusOfExisting(call) : std::nullopt) {
+        if (!call.quiet) say("done before");
+        return *status;
+    }
     if (call.options.grid && (call.memory > 0 || call.dryRun)) return buildInBricks(call, start);
     return endOf(buildSurface(call, start), moreSteps(call));
 }

@@ -5,6 +5,7 @@
 
 #include "molsurf/bricks/atoms_file.h"
 #include "molsurf/bricks/plan_bricks.h"
+#include "molsurf/core/may_pass.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/grid/paged_array.h"
@@ -33,8 +34,8 @@ class BrickFolder
 {
 public:
     explicit BrickFolder(const std::string& output)
-        : beside_(output == "-" ? std::filesystem::temp_directory_path().string()
-                                : folderOf(output)),
+        : beside_(isStream(output) ? std::filesystem::temp_directory_path().string()
+                                   : folderOf(output)),
           path_(temporaryName(beside_ + "/bricks", ownMaker()))
     {
     }
@@ -52,7 +53,8 @@ public:
         recover(beside_);
         lock_ = makeLockedFolder(path_);
         if (lock_ < 0)
-            throw Error(ErrorKind::Output, "cannot make " + path_ + ": " + std::strerror(errno));
+            throw Error(ErrorKind::Output, "cannot make " + path_ + ": " + std::strerror(errno),
+                        mayPass(errno));
     }
     std::string brick(std::size_t number) const
     {

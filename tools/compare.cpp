@@ -42,7 +42,7 @@ auto naming(const std::string& path, const F& f)
         return f();
     } catch (const Error& e) {
         if (e.kind() != ErrorKind::Input) throw;
-        throw Error(ErrorKind::Input, path + ": " + e.what());
+        throw Error(e, path + ": " + e.what());
     }
 }
 

@@ -29,7 +29,7 @@ StoredSurface restore(const Call& call, const VdbFile& file, Terminal& terminal)
         terminal.failIfOverdue(" [hint: a surface of a larger --voxel, or a larger --max-hours]");
         throw;
     } catch (const Error& e) {
-        throw Error(e.kind(), call.input + ": " + e.what());
+        throw Error(e, call.input + ": " + e.what());
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/structure/archive.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -33,7 +34,7 @@ bool isEntry(const std::string& name)
 
 void failIfNoFile(const std::string& path)
 {
-    if (path == "-") return;
+    if (path == "-" || memberOf(path)) return;
     std::error_code problem;
     const auto status = std::filesystem::status(path, problem);
     if (std::filesystem::is_directory(status))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "outputs.h"
 
+#include "commit_hash.h"
+#include "identity.h"
 #include "input_files.h"
 #include "sidecar.h"
 #include "stop.h"
@@ -11,6 +13,7 @@
 #include "molsurf/io/temporary_file.h"
 #include "molsurf/io/write_3mf.h"
 #include "molsurf/picture/write_html.h"
+#include "molsurf/structure/archive.h"
 
 #include <sys/resource.h>
 
@@ -53,8 +56,11 @@ void stopIfAsked()
 void beginReport(const Call& call, Report& report)
 {
     report.version = MOLSURF_VERSION;
+    report.commit = commitHash;
+    if (call.verb & (Build | Batch)) report.options = identityOf(call);
     report.command = call.command;
     report.input = call.input;
+    report.inputSha256 = sha256OfInput(call.input);
     report.threads =
         int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
@@ -115,7 +121,8 @@ std::string unrestText(const EvolutionReport& evolution, double voxel, const std
 
 std::string inputStem(const std::string& input)
 {
-    std::filesystem::path name = std::filesystem::path(input).filename();
+    const auto member = memberOf(input);
+    std::filesystem::path name = std::filesystem::path(member ? member->name : input).filename();
     for (const char* const packed : {".gz", ".bz2", ".xz"})
         if (name.extension() == packed) {
             name = name.stem();
@@ -137,7 +144,7 @@ void prepareOutputs(const Call& call, const std::vector<std::string>& more)
     std::vector<std::string> temporaries = more;
     for (const Output& output : call.outputs) {
         checkOutput(call, output);
-        if (output.path != "-") temporaries.push_back(temporaryName(output.path));
+        if (!isStream(output.path)) temporaries.push_back(temporaryName(output.path));
     }
     handleSignals(temporaries);
 }
@@ -161,7 +168,7 @@ void recoverOutputs(const Call& call)
     if (call.verb == Batch) folders.insert(call.folder);
     if (call.verb == BricksRun) folders.insert(folderOf(call.input));
     for (const Output& output : call.outputs)
-        if (call.verb != Batch && output.path != "-") folders.insert(folderOf(output.path));
+        if (call.verb != Batch && !isStream(output.path)) folders.insert(folderOf(output.path));
     for (const std::string& folder : folders) recover(folder);
 }
 
@@ -172,7 +179,7 @@ void writeOutputs(const Call& call, Terminal& terminal,
 {
     std::vector<Output> outputs = call.outputs;
     std::stable_sort(outputs.begin(), outputs.end(), [](const Output& a, const Output& b) {
-        const auto turn = [](const Output& o) { return 2 * o.holds(Numbers) + (o.path == "-"); };
+        const auto turn = [](const Output& o) { return 2 * o.holds(Numbers) + isStream(o.path); };
         return turn(a) < turn(b);
     });
 
@@ -183,10 +190,10 @@ void writeOutputs(const Call& call, Terminal& terminal,
         if (!done) timed(secondsSince(start));
         done = true;
     };
-    // Files are written side by side; standard output and the report, which tells the time of the
+    // Files are written side by side; streams and the report, which tells the time of the
     // others, after them.
     const auto apart = [&](const Output& o) {
-        return sideBySide && !o.holds(Numbers) && o.path != "-";
+        return sideBySide && !o.holds(Numbers) && !isStream(o.path);
     };
     terminal.update("write", 0.0);
     for (const Output& output : outputs) {

@@ -82,8 +82,8 @@ void commitUndisturbed(const OutputFiles& files);
 void recoverOutputs(const Call& call);
 
 /// Writes all files, and only when every one is complete puts them in their place. The report comes
-/// last, because it tells how long the others took; standard output, which cannot be taken back,
-/// only precedes the reports.
+/// last, because it tells how long the others took; streams, which cannot be taken back, only
+/// precede the reports.
 ///
 /// @param[in] writeOne  writes one of them
 /// @param[in] timed     is called once with the seconds that writing took, before the report is

@@ -89,9 +89,11 @@ void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surf
     }
     const double bytes = bytesOfModel(shown), available = double(availableMemory());
     if (bytes > available)
-        throw Error(ErrorKind::Input, "--show: these atoms take about " + sizeText(bytes) +
-                                          " of memory, and there are " + sizeText(available) +
-                                          ", expected fewer atoms");
+        throw Error(ErrorKind::Input,
+                    "--show: these atoms take about " + sizeText(bytes) +
+                        " of memory, and there are " + sizeText(available) +
+                        ", expected fewer atoms",
+                    true);
     picture.model = std::make_shared<AtomModel>(atomModel(shown, progress));
 }
 

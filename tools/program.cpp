@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "program.h"
 
+#include "exit_status.h"
 #include "stop.h"
 #include "terminal.h"
 #include "verbs.h"
 
+#include "molsurf/core/may_pass.h"
 #include "molsurf/progress.h"
 
 #include <tbb/global_control.h>
@@ -13,27 +15,18 @@
 #include <cstring>
 #include <iostream>
 #include <malloc.h>
-#include <new>
 
 namespace molsurf::tool
 {
-
-namespace
-{
-
-int statusOf(ErrorKind kind)
-{
-    return kind == ErrorKind::Usage ? 2 : kind == ErrorKind::Check ? failedCheckStatus : 1;
-}
-
-} // namespace
 
 void printed(const std::string& text)
 {
     errno = 0;
     if (std::cout << text << std::flush) return;
-    throw Error(ErrorKind::Output, std::string("cannot write standard output: ") +
-                                       std::strerror(errno != 0 ? errno : EIO));
+    const int reason = errno != 0 ? errno : EIO;
+    throw Error(ErrorKind::Output,
+                std::string("cannot write standard output: ") + std::strerror(reason),
+                mayPass(reason));
 }
 
 void limitThreads(int threads)
@@ -58,16 +51,15 @@ int runProgram(const std::function<int()>& perform,
         return status;
     } catch (const Error& e) {
         say("error: " + textOf(e));
-        return statusOf(e.kind());
+        return statusOf(e);
     } catch (const Cancelled&) {
         say("interrupted");
         return interruptedStatus;
-    } catch (const std::bad_alloc&) {
-        say(noMemoryText);
     } catch (const std::exception& e) {
-        say(unforeseenText(e));
+        const Ending ending = endingOf(e);
+        say(ending.text);
+        return ending.status;
     }
-    return 1;
 }
 
 } // namespace molsurf::tool

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "sha256.h"
 
+#include "molsurf/core/may_pass.h"
 #include "molsurf/error.h"
 
 #include <openssl/evp.h>
@@ -20,6 +21,7 @@ std::string sha256(std::istream& in, const std::string& name)
 {
     std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
     std::vector<char> block(std::size_t(1) << 18);
+    if (in) errno = 0;
     bool good = in && context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
     while (good && in) {
         in.read(block.data(), std::streamsize(block.size()));
@@ -28,7 +30,8 @@ std::string sha256(std::istream& in, const std::string& name)
     unsigned char digest[EVP_MAX_MD_SIZE];
     unsigned int size = 0;
     good = good && in.eof() && EVP_DigestFinal_ex(context.get(), digest, &size);
-    if (!good) throw Error(ErrorKind::Input, "cannot read " + name + " for its SHA-256");
+    if (!good)
+        throw Error(ErrorKind::Input, "cannot read " + name + " for its SHA-256", mayPass(errno));
 
     std::string text;
     for (unsigned int i = 0; i < size; ++i) {

@@ -17,8 +17,9 @@ void addSidecars(Call& call)
     std::vector<Output> sidecars;
     for (const Output& output : call.outputs) {
         if (!output.holds(Grids)) continue;
-        if (output.path == "-")
-            throw Error(ErrorKind::Usage, "--for usd: expected a file for the .vdb, got -");
+        if (isStream(output.path))
+            throw Error(ErrorKind::Usage,
+                        "--for usd: expected a file for the .vdb, got " + output.path);
         const fs::path path = output.path;
         if (call.verb == Verb::Batch) // its paths are extensions
             sidecars.push_back({".usda", findFormat("usda")});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "stop.h"
 
+#include "exit_status.h"
 #include "program.h"
 
 #include <fcntl.h>
@@ -60,13 +61,12 @@ static_assert(std::atomic<bool>::is_always_lock_free, "used in signal handlers")
     try {
         if (const std::exception_ptr present = std::current_exception())
             std::rethrow_exception(present);
-    } catch (const std::bad_alloc&) {
-        leave(noMemoryText, 1);
     } catch (const std::exception& e) {
-        leave(unforeseenText(e).c_str(), 1);
+        const Ending ending = endingOf(e);
+        leave(ending.text.c_str(), ending.status);
     } catch (...) {
     }
-    leave("error: internal", 1);
+    leave("error: internal", failedStatus);
 }
 
 void onStop(int)
@@ -108,12 +108,13 @@ void holdStandardStreams()
             open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-std::string unforeseenText(const std::exception& e)
+Ending endingOf(const std::exception& e)
 {
     const auto* system = dynamic_cast<const std::system_error*>(&e);
     const bool refused = system && system->code() == std::errc::resource_unavailable_try_again;
     const bool noThread = refused || std::strstr(e.what(), "pthread_create");
-    return noThread ? noMemoryText : std::string("error: internal: ") + e.what();
+    if (noThread || dynamic_cast<const std::bad_alloc*>(&e)) return {noMemoryText, laterStatus};
+    return {std::string("error: internal: ") + e.what(), failedStatus};
 }
 
 void handleSignals(const std::vector<std::string>& temporaries)

@@ -14,18 +14,20 @@
 namespace molsurf::tool
 {
 
-/// Exit status of an interrupted run.
-constexpr int interruptedStatus = 130;
+/// How a run ends of an exception that no code foresees.
+struct Ending {
+    std::string text;
+    int status;
+};
 
-/// What to say of an exception that no code foresees. A thread that the system does not grant means
-/// that memory, or a limit of it, has run out.
-std::string unforeseenText(const std::exception& e);
+/// A thread that the system does not grant means that memory, or a limit of it, has run out.
+Ending endingOf(const std::exception& e);
 
 /// Handles SIGINT, SIGTERM and SIGHUP as told above, but those that are ignored at the start of the
 /// program (by nohup, or a shell for a job in the background) stay ignored; and ignores SIGPIPE and
 /// SIGXFSZ, so that a closed pipe and a file that may not grow are errors of writing. An exception
 /// that nobody can catch (OpenVDB and TBB let std::bad_alloc out of destructors) ends the process
-/// with status 1, after a line that says so, and without leaving temporary files. To be called by
+/// after a line that says so, and without leaving temporary files. To be called by
 /// one thread, before files are written; again where other files follow.
 /// @param[in] temporaries  the files to remove
 void handleSignals(const std::vector<std::string>& temporaries);

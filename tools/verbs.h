@@ -5,6 +5,7 @@
 /// The verbs of the tool, one file each. They return the exit status.
 
 #include "cli/call.h"
+#include "exit_status.h"
 #include "outputs.h"
 #include "terminal.h"
 
@@ -18,12 +19,6 @@
 
 namespace molsurf::tool
 {
-
-/// Exit status of a run that did not converge; the files are written all the same.
-constexpr int notConvergedStatus = 3;
-
-/// Exit status of a run whose result failed its own checks; no file is written.
-constexpr int failedCheckStatus = 3;
 
 /// Builds a surface and writes the outputs: build.cpp.
 /// @param[in] start  when the program began, for the total time

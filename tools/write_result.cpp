@@ -2,6 +2,7 @@
 #include "write_result.h"
 
 #include "cli/option_table.h"
+#include "identity.h"
 #include "outputs.h"
 #include "sha256.h"
 #include "sidecar.h"
@@ -71,7 +72,8 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     to.text("version", report.version);
     to.text("command", report.command);
     to.text("input", report.input);
-    if (call.input != "-") to.text("input_sha256", sha256OfFile(call.input));
+    if (!report.commit.empty()) to.text("commit", report.commit);
+    if (!report.inputSha256.empty()) to.text("input_sha256", report.inputSha256);
     to.count("atoms", std::int64_t(report.atoms));
     to.number("area", report.surface.area);
     to.number("volume", report.surface.volume);
@@ -199,8 +201,8 @@ std::string optionsDigest(const Call& call)
 {
     openvdb::MetaMap map;
     addOptions(call, map);
-    std::string all = call.trajectory + "\n" + shortest(call.scene.scale) +
-                      (call.input == "-" ? "" : sha256OfFile(call.input));
+    std::string all =
+        call.trajectory + "\n" + shortest(call.scene.scale) + sha256OfInput(call.input);
     for (auto meta = map.beginMeta(); meta != map.endMeta(); ++meta)
         if (meta->first.rfind("option.", 0) == 0 && meta->first != "option.model")
             all += "\n" + meta->first + "=" + meta->second->str();

@@ -25,6 +25,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "compare" "bricks merge"' -l form
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "compare" "convert" "bricks plan" "bricks merge"' -l force -d 'replace existing files'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "batch"' -l force -d 'do all again, and replace existing files'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "bricks run"' -l force -d 'do it again if it is done'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l skip-existing -d 'do nothing if the files are of the same input, options and'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "compare"' -l color -x -a 'distance signed-distance' -d 'distance (viridis) or signed-distance (blue: A is'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "compare"' -l range -r -d 'distance at the end of the colours [Å]'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l select -r -d 'gemmi selections joined by |, e.g. "/1/A/53-132|*;polymer"'

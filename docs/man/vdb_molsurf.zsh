@@ -80,6 +80,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '-o:file to write; repeats; the extension says what\:'
       '--format:what -o - writes\: one of'
       '--force:replace existing files'
+      '--skip-existing:do nothing if the files are of the same input, options and'
       '--select:gemmi selections joined by |, e.g. "/1/A/53-132|*;polymer"'
       '--model:number of the model in the file'
       '--assembly:biological assembly to build; none\: as in the file;'

@@ -16,11 +16,16 @@ mdtraj: ModuleType
 Path = Union[str, PathLike[str]]
 MeshLike = Union[Surface, Path, tuple[ArrayLike, ArrayLike]]
 
-class OptionError(ValueError): ...
-class InputError(ValueError): ...
-class NumericError(ArithmeticError): ...
-class OutputError(OSError): ...
-class CheckError(RuntimeError): ...
+class OptionError(ValueError):
+    may_pass: bool
+class InputError(ValueError):
+    may_pass: bool
+class NumericError(ArithmeticError):
+    may_pass: bool
+class OutputError(OSError):
+    may_pass: bool
+class CheckError(RuntimeError):
+    may_pass: bool
 
 class Distances(NamedTuple):
     distance: NDArray[np.float64]

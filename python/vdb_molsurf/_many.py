@@ -54,7 +54,7 @@ def measure(shard, function=None, folder=None, *, format="parquet", memory=None,
     function: is called with each Surface; what its dict holds is added to the row.
     folder: is made; the rows are written there as part-NNNNNNNN.parquet, by pyarrow, whole or not at all. Rows of a part
     that is there are taken if contents of the input and function are the same; others are made anew, as are damaged parts
-    and errors that may pass (memory, time, a file that is missing). Other options, another version, and a part that has
+    and errors that may pass (memory, time, a file that is missing; of the library "InputError, may pass: ..."). Other options, another version, and a part that has
     none of the inputs are refused. Workers may write parts of one table, or the same part, at the same time. Columns of a
     function have one type: bool, float64, or text.
     format: "parquet", or "csv", which needs no other package and has the same columns.
@@ -161,8 +161,9 @@ def failed(item, error):
 
 
 def line_of(error):
-    """One line of an error, with its kind."""
-    return f"{type(error).__name__}: {error}".split("\n")[0]
+    """One line of an error, with its kind, and whether another try may go well."""
+    passing = ", may pass" if getattr(error, "may_pass", False) else ""
+    return f"{type(error).__name__}{passing}: {error}".split("\n")[0]
 
 
 def _items(sources):

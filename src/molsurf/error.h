@@ -25,13 +25,26 @@ enum class ErrorKind {
 class Error : public std::runtime_error
 {
 public:
-    Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+    Error(ErrorKind kind, const std::string& message, bool mayPass = false)
+        : std::runtime_error(message), kind_(kind), mayPass_(mayPass)
+    {
+    }
+
+    /// The same error in other words.
+    Error(const Error& error, const std::string& message)
+        : Error(error.kind_, message, error.mayPass_)
+    {
+    }
 
     /// Tells what kind of error it is.
     ErrorKind kind() const { return kind_; }
 
+    /// Tells whether the same call may go well later, or where there is more memory or space.
+    bool mayPass() const { return mayPass_; }
+
 private:
     ErrorKind kind_;
+    bool mayPass_;
 };
 
 } // namespace molsurf

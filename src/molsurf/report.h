@@ -232,8 +232,11 @@ struct SymmetryReport {
 struct Report {
     std::string program = "vdb_molsurf";
     std::string version;                         ///< of the program
+    std::string commit;                          ///< that it was built of; empty if not from git
+    std::string options;                         ///< SHA-256 of version and options; may be empty
     std::string command;                         ///< the command line
     std::string input;                           ///< path of the file with the atoms
+    std::string inputSha256;                     ///< of its bytes; empty if they are not known
     std::size_t atoms = 0;                       ///< number of balls that the surface is made of
     double voxel = 0.0;                          ///< voxel edge h [Å]
     std::optional<std::array<double, 3>> center; ///< point of the input that is the origin of the

@@ -87,6 +87,7 @@ NEEDS = {
                 "the tests as ctest runs them, without sanitizers, which want to be loaded first"),
     "pymol": (program("pymol"), "scripts/install_deps.sh pymol"),
     "readelf": (program("readelf"), "scripts/install_deps.sh binutils"),
+    "slurm": (program("slurmctld", "munged", "snakemake"), "scripts/install_deps.sh slurm-wlm munge snakemake"),
     "snakemake": (program("snakemake"), "scripts/install_deps.sh snakemake"),
     "strace": (lambda: runs("strace", "-qq", "-o", "/dev/null", "-e", "inject=all:delay_exit=1:when=1", "true"),
                "scripts/install_deps.sh strace, and the right to trace"),

@@ -4,7 +4,9 @@
 import csv
 import hashlib
 import json
+import shutil
 import subprocess
+import tarfile
 import time
 import unittest
 
@@ -55,6 +57,10 @@ class Batch(ToolTest):
         report = json.loads((self.folder / "out" / "1crn.json").read_text())
         self.assertEqual(float(rows[0]["area"]), report["surface"]["area"])
         self.assertEqual(int(rows[0]["atoms"]), report["atoms"])
+        for row in rows:
+            self.assertEqual((row["version"], row["options"], row["units"]),
+                             (report["version"], report["options_sha256"], "area Å², volume Å³"))
+        self.assertEqual(rows[0]["sha256"], report["input_sha256"])
 
     def test_again_does_what_was_not_done(self):
         self.batch(1)
@@ -152,6 +158,41 @@ class Batch(ToolTest):
         self.assertEqual(self.files(), ["a.json", "b.json", "summary.csv", "summary.json", "summary.jsonl"])
         (self.folder / "none").mkdir()
         self.check(1, "batch", "none", "-O", "other", says="no structures")
+
+    def archive(self, name, *members, format=tarfile.GNU_FORMAT):
+        with tarfile.open(self.folder / name, "w:gz" if name.endswith("gz") else "w", format=format) as archive:
+            for member, path in members:
+                archive.add(path, member)
+
+    def test_archives(self):
+        """Members are what files are: packed or not, with long names, in formats of three decades."""
+        long = "f" * 90 + "/" + "g" * 90
+        members = [("1crn.pdb", CRAMBIN), (f"{long}/1ubq.pdb", DATA / "1ubq.pdb"), ("d/README.md", DATA / "README.md"),
+                   ("d/1a8o.pdb.gz", DATA / "1a8o.pdb.gz")]
+        (self.folder / "files").write_text("".join(f"{path}\n" for _, path in members if path.suffix != ".md"))
+        words = ["--formats", "json", "--voxel", "1", "--surface", "sas"]
+        self.check(0, "batch", "files", "-O", "plain", *words)
+        expected = [row["sha256"] + row["area"] for row in csv.DictReader(open(self.folder / "plain" / "summary.csv"))]
+        for name, form in (("a.tar", tarfile.GNU_FORMAT), ("b.tar.gz", tarfile.PAX_FORMAT), ("c.tgz", tarfile.USTAR_FORMAT)):
+            with self.subTest(name):
+                self.archive(name, *members, format=form)
+                shutil.rmtree(self.folder / "out", ignore_errors=True)
+                self.check(0, "batch", name, "-O", "out", *words)
+                self.assertEqual([row["sha256"] + row["area"] for row in self.table()], expected)
+                self.assertEqual(self.table()[0]["input"], f"{name}::1crn.pdb")
+                self.check(0, "batch", name, "-O", "out", *words, says="3 done before")
+
+    def test_archives_that_are_damaged(self):
+        self.archive("a.tar", ("1crn.pdb", CRAMBIN), ("1ubq.pdb", DATA / "1ubq.pdb"))
+        whole = (self.folder / "a.tar").read_bytes()
+        (self.folder / "cut.tar").write_bytes(whole[:60000])
+        self.check(1, "batch", "cut.tar", "-O", "out", "--formats", "json", "--voxel", "1",
+                   says=["1/2 cut.tar::1crn.pdb: done", "cut.tar: is cut short"])
+        (self.folder / "bad.tar").write_bytes(whole[:512] + whole[1024:])
+        self.check(1, "batch", "bad.tar", "-O", "out", says=["bad.tar: is no .tar, or is damaged", "at byte"])
+        (self.folder / "none.tar").write_bytes(bytes(1024))
+        self.check(1, "batch", "none.tar", "-O", "out", says="no structures in this archive")
+        self.check(1, "a.tar::2abc.pdb", "-o", "a.json", says="a.tar: has no member 2abc.pdb")
 
     def test_structure_in_place_of_a_list(self):
         self.check(1, "batch", CRAMBIN, "-O", "out", says=["it is a structure", "vdb_molsurf "])

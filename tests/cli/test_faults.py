@@ -48,23 +48,23 @@ class Faults(ToolTest):
                 continue  # the system's words
             statuses.append(done.returncode)
             if done.returncode != 0:
-                self.assertEqual(done.returncode, 1, f"{megabytes} MB: {error}")
+                self.assertEqual(done.returncode, 75, f"{megabytes} MB: {error}")
                 self.assertIn("not enough memory", error)
                 self.assertEqual(error.count("\n"), 1, error)
                 self.assertEqual(self.names(), [])
         self.assertEqual(statuses[-1], 0)
-        self.assertIn(1, statuses)
+        self.assertIn(75, statuses)
 
     @needs("full")
     def test_texts_on_a_full_device(self):
         for words in (["--help"], ["--version"]):
             with self.subTest(words=words), open("/dev/full", "wb") as full:
                 done = subprocess.run([TOOL, *words], stdout=full, stderr=subprocess.PIPE)
-                self.assertEqual(done.returncode, 1)
+                self.assertEqual(done.returncode, 75)
                 self.assertIn(b"No space left on device", done.stderr)
 
     def test_a_config_that_cannot_be_read(self):
-        self.check(1, CRAMBIN, "--config", "/proc/self/mem", *FAST, "-o", "a.json", says="cannot be read")
+        self.check(75, CRAMBIN, "--config", "/proc/self/mem", *FAST, "-o", "a.json", says="cannot be read")
         self.assertEqual(self.names(), [])
 
     def test_a_trajectory_that_promises_much_takes_little_memory(self):
@@ -223,7 +223,7 @@ class Commit(ToolTest):
                     self.begin()
                     done = self.run_tool(*self.WORDS, env=faulty(without=lacking, eio=f"{number}{more}"))
                     if done.returncode:
-                        self.assertEqual((done.returncode, done.stderr.count(b"\n")), (1, 1), done.stderr)
+                        self.assertEqual((done.returncode, done.stderr.count(b"\n")), (75, 1), done.stderr)
                         self.assertIn(b"Input/output error", done.stderr)
                     if more:
                         self.check(1, "none.pdb", "-o", "b.json")
@@ -246,7 +246,7 @@ class Commit(ToolTest):
     @needs("preload")
     def test_a_disk_that_does_not_take_what_was_written(self):
         self.begin()
-        self.check(1, *self.WORDS, env=faulty(without="fsync"), says=["cannot write a.", ": Input/output error"])
+        self.check(75, *self.WORDS, env=faulty(without="fsync"), says=["cannot write a.", ": Input/output error"])
         self.assertEqual(self.result(), "old")
 
     @needs("preload")
@@ -319,11 +319,11 @@ class Commit(ToolTest):
                 if status == 130:
                     self.assertTrue(error.endswith("vdb_molsurf: interrupted\n"), error)
 
-    def full(self, **options):
-        """A run that succeeds, or says in a line why it cannot."""
+    def full(self, status, **options):
+        """A run that succeeds, or ends with a status and says in a line why it cannot."""
         done = self.run_tool(*self.WORDS, **options)
         error = done.stderr.decode()
-        self.assertEqual((done.returncode, error.count("\n")), (1, 1) if done.returncode else (0, 0), error)
+        self.assertEqual((done.returncode, error.count("\n")), (status, 1) if done.returncode else (0, 0), error)
         return done.returncode
 
     def test_files_that_may_not_grow(self):
@@ -331,7 +331,7 @@ class Commit(ToolTest):
         largest = max((self.folder / name).stat().st_size for name in FILES)
         for tenth in range(12):
             self.begin()
-            statuses.append(self.full(preexec_fn=limited(resource.RLIMIT_FSIZE, largest * tenth // 10)))
+            statuses.append(self.full(1, preexec_fn=limited(resource.RLIMIT_FSIZE, largest * tenth // 10)))
             self.assertEqual(self.result(), "old" if statuses[-1] else "new")
         self.assertEqual(statuses, [1] * 10 + [0] * 2)
 
@@ -344,11 +344,11 @@ class Commit(ToolTest):
         for tenth in range(1, 16):
             subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={needed * tenth // 10}k", "tmpfs", place], check=True)
             try:
-                statuses.append(self.full(cwd=place))
+                statuses.append(self.full(75, cwd=place))
                 self.assertEqual(sorted(path.name for path in place.iterdir()), [] if statuses[-1] else FILES)
             finally:
                 subprocess.run(["umount", place], check=True)
-        self.assertEqual((statuses[0], statuses[-1]), (1, 0))
+        self.assertEqual((statuses[0], statuses[-1]), (75, 0))
 
     @needs("mount")
     def test_a_file_system_to_read_only(self):

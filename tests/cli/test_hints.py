@@ -136,6 +136,9 @@ CASES = {
     "structure/load_text.cpp": [
         ("--max-input 10G", "vdb_molsurf 1crn.pdb -o a.ply --max-input 9K",
          f"vdb_molsurf 1crn.pdb {FAST} -o a.ply --max-input 10G")],
+    "structure/archive.cpp": [
+        ("a larger --max-input", "tar chf in.tar 1crn.pdb; vdb_molsurf in.tar::1crn.pdb -o a.ply --max-input 9K",
+         f"vdb_molsurf in.tar::1crn.pdb {FAST} -o a.ply --max-input 1M")],
     "io/read_ply.cpp": [
         ("save it without strips", "vdb_molsurf compare strips.ply solid.ply",
          "vdb_molsurf compare solid.ply solid.ply")],

@@ -478,7 +478,7 @@ class Options(Msms):
         with open("/dev/full", "w") as full:
             done = self.run_msms("-if", "two.xyzrn", "-of", "a", capture_output=False, stdout=full,
                                  stderr=subprocess.PIPE)
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 75)
         self.assertIn("standard output", done.stderr)
         self.assertEqual(self.names(), ["two.xyzrn"])
 

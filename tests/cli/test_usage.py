@@ -250,6 +250,13 @@ class Information(ToolTest):
             options = {line for line in few if line.startswith("      --") or line.startswith("  -")}
             self.assertLess(options, all_)
 
+    def test_help_of_a_first_word(self):
+        for words in (["bricks", "--help"], ["Bricks", "-h"], ["help", "bricks"]):
+            said = self.check(0, *words).stdout.decode()
+            self.assertEqual(said.count("\nvdb_molsurf bricks"), 2, said)
+            self.assertTrue(said.startswith("vdb_molsurf bricks plan INPUT"), said)
+        self.check(2, "bricks", "-o", says="plan, run, merge")
+
     def test_info_help(self):
         self.assertIn(b"info FILE", self.check(0, "info", "--help").stdout)
 
@@ -262,7 +269,7 @@ class Information(ToolTest):
     @needs("full")
     def test_help_that_cannot_be_printed(self):
         with open("/dev/full", "wb") as full:
-            self.check(1, "--help", capture_output=False, stdout=full, stderr=-1)
+            self.check(75, "--help", capture_output=False, stdout=full, stderr=-1)
 
 
 class Config(ToolTest):

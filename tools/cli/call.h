@@ -121,8 +121,9 @@ struct Call : Settings {
     std::string folder;                   ///< Batch: where the files go
     std::string formats = "vdb,ply,json"; ///< Batch: of every structure
     bool force = false;
-    std::string frames;     ///< of --frames; empty: none
-    std::string trajectory; ///< a .dcd or .xtc with the frames; empty: models are
+    bool skipExisting = false; ///< Build: nothing is done where it was done before
+    std::string frames;        ///< of --frames; empty: none
+    std::string trajectory;    ///< a .dcd or .xtc with the frames; empty: models are
     std::string groupsFile;
     std::vector<double> lod; ///< voxels of levels of detail [Å], the finest first; empty: one
     Scene scene;             ///< of the .vdb and the node of the .glb

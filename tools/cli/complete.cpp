@@ -10,6 +10,7 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/flow/evolve.h"
+#include "molsurf/io/output_file.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/field_table.h"
@@ -90,6 +91,20 @@ void checkTable(const std::string& path, const std::string& word)
            " writes" + hint);
 }
 
+/// The word of an output's format: a stream may have it by --format.
+std::string wordOf(const Call& call, const std::string& path)
+{
+    if (path == "-") return call.format;
+    const std::string word = endOf(path);
+    const Format* known = findFormat(word);
+    if (!known && isStream(path)) {
+        if (call.format.empty()) misuse("-o " + path + ": expected --format too");
+        return call.format;
+    }
+    checkTable(path, word);
+    return word;
+}
+
 /// The files of --output.
 std::vector<Output> outputsOf(const Call& call)
 {
@@ -102,8 +117,7 @@ std::vector<Output> outputsOf(const Call& call)
         const std::string real =
             path == "-" ? path : fs::weakly_canonical(fs::absolute(path), ignored).string();
         if (!seen.insert(real).second) misuse("-o " + path + " is given twice");
-        const std::string word = path == "-" ? call.format : endOf(path);
-        if (path != "-") checkTable(path, word);
+        const std::string word = wordOf(call, path);
         const Format* format = findFormat(word);
         if (!format) refuseName(call, path, word);
         if ((format->verbs & call.verb) == 0)

@@ -3,6 +3,7 @@
 
 #include "cli/option_table.h"
 #include "cli/verb_table.h"
+#include "exit_status.h"
 
 #include <algorithm>
 
@@ -50,9 +51,13 @@ std::string helpLine(const Option& option)
 
 std::string statusOf(const VerbInfo& info)
 {
-    std::string all = "0 done, 1 failed, 2 wrong usage, ";
-    if (*info.status) all += std::string(info.status) + ", ";
-    return all + "130 interrupted.";
+    std::vector<std::string> all;
+    for (const ExitStatus& row : exitStatuses) {
+        if (row.status == laterStatus && *info.status)
+            all.push_back(std::to_string(notConvergedStatus) + " " + info.status);
+        all.push_back(std::to_string(row.status) + " " + row.text);
+    }
+    return joinWords(all, ", ") + ".";
 }
 
 /// The verbs but the first one, a line each.
@@ -70,11 +75,12 @@ std::string verbLines()
 
 } // namespace
 
-std::string overview()
+std::string overview(const std::string& first)
 {
     std::string text;
     for (const VerbInfo& info : verbTable())
-        text += "vdb_molsurf " + nameOf(info) + info.synopsis + "\n    " + info.text + "\n";
+        if (std::string(info.name).rfind(first, 0) == 0)
+            text += "vdb_molsurf " + nameOf(info) + info.synopsis + "\n    " + info.text + "\n";
     for (std::size_t at = 0; (at = text.find(",\n", at)) != std::string::npos; ++at)
         text.replace(at, 2, ",\n    ");
     return text +
@@ -162,12 +168,7 @@ std::string manPage()
     for (const VerbInfo& info : verbTable())
         for (const Example& example : info.examples)
             examples += ".TP\n" + escaped(example.command) + "\n" + escaped(example.text) + "\n";
-    return page +
-           ".SH EXIT STATUS\n"
-           "0 done, 1 failed, 2 wrong usage, 3 not converged (files are written) or a result "
-           "failed\n"
-           "its own checks (none are), 130 interrupted.\n"
-           ".SH EXAMPLES\n" +
+    return page + ".SH EXIT STATUS\n" + wrapped(statusOf(infoOf(Build)), 88) + "\n.SH EXAMPLES\n" +
            examples;
 }
 

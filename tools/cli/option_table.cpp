@@ -247,7 +247,13 @@ OptionGroup outputOptions()
 {
     const auto output = [](unsigned verbs, std::string text) {
         Option o{"output", 'o', "FILE", std::move(text), "", verbs, {}, true};
-        o.set = [](Call& call, const Values& values) { call.paths = values; };
+        o.set = [](Call& call, const Values& values) {
+            call.paths = values;
+            for (std::string& path : call.paths) // one name for one thing
+                if (path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1")
+                    path = "-";
+            call.given["output"] = call.paths;
+        };
         return o;
     };
     const auto written = [&](Verb verb, const char* more) {
@@ -292,7 +298,12 @@ OptionGroup outputOptions()
          format(Compare, Compare | BricksMerge),
          force(files | BricksPlan, "replace existing files"),
          force(Batch, "do all again, and replace existing files"),
-         force(BricksRun, "do it again if it is done"), shown,
+         force(BricksRun, "do it again if it is done"),
+         flag("skip-existing",
+              "do nothing if the files are of the same input, options and\n"
+              "version, by the report; make and replace them otherwise",
+              Build, MOLSURF_OF(skipExisting)),
+         shown,
          number("range", "D", "distance at the end of the colours [Å]",
                 "that of 99 % of the vertices", Compare, 1e-300, 1e300, "a positive number of Å",
                 MOLSURF_OF(colorRange))}};

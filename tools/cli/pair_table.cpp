@@ -4,6 +4,7 @@
 #include "cli/option_table.h"
 
 #include "molsurf/color/color_table.h"
+#include "molsurf/io/output_file.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
@@ -158,6 +159,9 @@ std::vector<Pair> runPairs()
 {
     const auto fromModels = [](const Call& call) { return !call.trajectory.empty(); };
     const auto ofPlan = [](const Call& call) { return call.verb == BricksPlan; };
+    const auto toPipe = [](const Call& call) {
+        return std::any_of(call.paths.begin(), call.paths.end(), isStream);
+    };
     const auto ofStored = [](const Call& call) { return call.verb == Convert; };
     const std::vector<Thing> notOfFrames = {"memory", "dry-run", "turntable", "output=-"};
     return {
@@ -175,7 +179,13 @@ std::vector<Pair> runPairs()
          Excludes,
          {"split", "surface-of", "instances"},
          ": it holds one surface [hint: -o FILE.vdb holds all]"},
-        {"format", Needs, {"output=-"}, ": the extension of a file says what it is"},
+        {"skip-existing", Excludes, {"force", "frames", "trajectory", "dry-run", "output=-"}},
+        {"skip-existing",
+         Needs,
+         {{Numbers, "", "-o FILE.json"}},
+         ": it knows the files by their report",
+         [](const Call& call) { return call.outputs.empty(); }},
+        {"format", Needs, {"output=-"}, ": the extension of a file says what it is", toPipe},
         {"output=-", Needs, {"format"}, " [hint: --format ply, for example]", ofPlan},
         {{Grids}, Needs, {"color"}, ": without it the file would be a copy", [](const Call& call) {
              return call.verb != Convert;
@@ -230,7 +240,8 @@ std::optional<std::string> found(const Call& call, const Thing& thing)
 std::string anyOf(const std::vector<Thing>& things)
 {
     std::string text;
-    for (const Thing& thing : things) text += (text.empty() ? "" : " or ") + typed(thing.words);
+    for (const Thing& thing : things)
+        text += (text.empty() ? "" : " or ") + (thing.holds ? thing.title : typed(thing.words));
     return text;
 }
 

@@ -73,6 +73,19 @@ std::vector<std::string> verbs()
     return names;
 }
 
+/// Whether a command line asks for the verbs of a first word: "bricks --help".
+/// @param[in] helping  they follow the word help
+bool asksForVerbs(const std::vector<std::string>& words, bool helping)
+{
+    const auto hasMore = [&](const VerbInfo& info) {
+        return std::string(info.name).rfind(lowered(words[0]) + ' ', 0) == 0;
+    };
+    if (words.size() != (helping ? 1 : 2) ||
+        std::none_of(verbTable().begin(), verbTable().end(), hasMore))
+        return false;
+    return helping || words[1] == "--help" || words[1] == "--help-all" || words[1] == "-h";
+}
+
 /// The verb that the first words of a command line name; takes them away.
 Verb takeVerb(std::vector<std::string>& words)
 {
@@ -188,7 +201,7 @@ void readConfig(const std::string& path, const po::options_description& all, Cal
     } catch (const po::error& e) {
         misuse("--config " + path + ": " + e.what());
     } catch (const Error& e) {
-        throw Error(e.kind(), "--config " + path + ": " + e.what());
+        throw Error(e, "--config " + path + ": " + e.what());
     }
 }
 
@@ -234,11 +247,13 @@ Parsed parse(int argc, const char* const* argv)
         words.erase(words.begin());
         if (words.empty()) return {{}, overview()};
         if (lowered(words[0]) == "options" && words.size() == 1) return {{}, helpText(Build, true)};
+        if (asksForVerbs(words, true)) return {{}, overview(lowered(words[0]))};
         const Verb verb = takeVerb(words);
         if (!words.empty())
             misuse("help: expected a verb, got '" + words[0] + "'" + didYouMean(words[0], verbs()));
         return {{}, helpText(verb, false)};
     }
+    if (asksForVerbs(words, false)) return {{}, overview(lowered(words[0]))};
     call.verb = takeVerb(words);
 
     const po::options_description all = describe(call.verb);

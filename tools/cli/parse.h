@@ -28,8 +28,8 @@ void setOptions(const GivenOptions& given, Call& call);
 
 // help.cpp: the texts, all made of the tables of verbs and options.
 
-/// All verbs, a line each.
-std::string overview();
+/// All verbs, or those of a first word ("bricks"), a line each.
+std::string overview(const std::string& first = "");
 
 /// What --help prints for a verb: its common options, or what --help-all prints.
 std::string helpText(Verb verb, bool all);

@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr const char* checkedStatus =
-    "3 not converged (files are written) or a result failed its own checks (none are)";
+    "not converged (files are written) or a result failed its own checks (none are)";
 
 VerbInfo buildVerb()
 {
@@ -52,11 +52,13 @@ VerbInfo batchVerb()
         "LIST -O DIR [options]",
         "Builds the surfaces of many structures, one after the other.",
         "LIST names a structure file a line, - is standard input; empty lines and lines with #\n"
-        "do not count. A folder in its place means all structures in it.\n"
+        "do not count. A folder or an archive (.tar .tar.gz .tgz) in its place means all\n"
+        "structures in it; a member of an archive is called archive.tar::member.\n"
         "A failed structure is reported; the others continue. DIR/summary.csv and summary.json\n"
         "have a line each; the same command once more makes those that are missing, failed or\n"
-        "of an input that has changed. Several lists may share DIR, also at the same time.\n",
-        "1 some failed, 3 some did not converge (their files are written)",
+        "of an input that has changed. Several lists may share DIR, also at the same time.\n"
+        "The exit status is 1 if some failed, or 75 if one of these may go well later.\n",
+        "some did not converge (their files are written)",
         {{"vdb_molsurf batch structures/ -O surfaces --surface sas --formats json",
           "a report for each structure of a folder, and a table of all"}},
         completeBatch,

@@ -25,7 +25,7 @@ struct VerbInfo {
     const char* synopsis;          ///< what follows the name
     const char* text;              ///< what it does, one line for the manual and the list of verbs
     const char* more;              ///< further lines of its help text; may be empty
-    const char* status;            ///< its exit status, beside those that all have; may be empty
+    const char* status;            ///< what exit status 3 says of it; empty if it has none
     std::vector<Example> examples; ///< may be empty
     /// Makes what is meant of what was given, and refuses what makes no sense.
     /// @throws Error(ErrorKind::Usage)

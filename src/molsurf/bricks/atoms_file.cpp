@@ -3,6 +3,7 @@
 
 #include "molsurf/bricks/brick_file.h"
 #include "molsurf/core/cancel.h"
+#include "molsurf/core/may_pass.h"
 #include "molsurf/error.h"
 #include "molsurf/io/json_number.h"
 #include "molsurf/selection/scalar_map.h"
@@ -321,8 +322,10 @@ AtomsFile::AtomsFile(const std::string& path)
     : path_(path), file_(open(path.c_str(), O_RDONLY | O_CLOEXEC))
 {
     if (!file_)
-        throw Error(ErrorKind::Input, "cannot read " + path + ": " + std::strerror(errno) +
-                                          " [hint: it has to lie beside the plan]");
+        throw Error(ErrorKind::Input,
+                    "cannot read " + path + ": " + std::strerror(errno) +
+                        " [hint: it has to lie beside the plan]",
+                    mayPass(errno));
     const off_t end = lseek(file_.get(), 0, SEEK_END);
     try {
         readIndex(end < 0 ? 0 : std::uint64_t(end));

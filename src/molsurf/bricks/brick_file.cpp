@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/brick_file.h"
 
+#include "molsurf/core/may_pass.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
 #include "molsurf/io/json_number.h"
@@ -437,7 +438,9 @@ BrickFile::BrickFile(const std::string& path, const openvdb::CoordBBox& box)
     const auto noBrick = [&](const std::string& why) {
         refuse("is not the file of a brick: " + why);
     };
-    if (!file_) throw Error(ErrorKind::Input, "cannot read " + path + ": " + strerror(errno));
+    if (!file_)
+        throw Error(ErrorKind::Input, "cannot read " + path + ": " + strerror(errno),
+                    mayPass(errno));
     std::array<char, 8> mark{};
     Head head;
     const off_t end = lseek(file_.get(), 0, SEEK_END);
@@ -504,8 +507,10 @@ void readAt(const FileDescriptor& file, const std::string& path, std::uint64_t o
         const ssize_t got = pread(file.get(), at, bytes, off_t(offset));
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0)
-            throw Error(ErrorKind::Input, "cannot read " + path + ": " +
-                                              (got < 0 ? std::strerror(errno) : "it is cut short"));
+            throw Error(ErrorKind::Input,
+                        "cannot read " + path + ": " +
+                            (got < 0 ? std::strerror(errno) : "it is cut short"),
+                        got < 0 && mayPass(errno));
         at += got;
         offset += std::uint64_t(got);
         bytes -= std::size_t(got);

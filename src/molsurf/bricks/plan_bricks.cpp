@@ -573,7 +573,7 @@ void checkCost(const PlannedBrick& surface, const RunLimits& limits)
             hint += formatted(", or `memory` %.2gG, which makes it in bricks",
                               0.8 * double(limits.memory) / (1 << 30));
         }
-        throw Error(ErrorKind::Input, text + hint + "]");
+        throw Error(ErrorKind::Input, text + hint + "]", true);
     }
     const double hours = cost.seconds / limits.threads / 3600.0;
     if (hours <= limits.hours) return;

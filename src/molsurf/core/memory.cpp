@@ -46,7 +46,7 @@ void checkMemoryFor(const std::string& what, double more, std::size_t memory)
         what + " about " + sizeText(bytes) + " of memory, and there are " + sizeText(double(most));
     if (memory > 0)
         text += formatted(" [hint: `memory` %.0fM]", std::ceil(1.1 * bytes / double(1 << 20)));
-    throw Error(ErrorKind::Input, text);
+    throw Error(ErrorKind::Input, text, memory == 0); // another machine may have more
 }
 
 } // namespace molsurf

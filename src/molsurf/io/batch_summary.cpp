@@ -49,6 +49,7 @@ void writeSummaryJson(const BatchSummary& summary, OutputFile& file)
     file.write(
         textOf({{"version", summary.version},
                 {"options", summary.options},
+                {"options_sha256", summary.optionsSha256},
                 {"units", {{"area", "Angstrom^2"}, {"volume", "Angstrom^3"}, {"seconds", "s"}}},
                 {"structures", std::move(structures)}},
                2));
@@ -58,7 +59,7 @@ void writeSummaryJson(const BatchSummary& summary, OutputFile& file)
 void writeSummaryCsv(const BatchSummary& summary, OutputFile& file)
 {
     std::string text = "input,status,atoms,area,volume,euler_characteristic,components,cavities,"
-                       "message,sha256,version\n";
+                       "message,sha256,version,options,units\n";
     for (const BatchEntry& e : summary.entries) {
         text += csvCell(e.input) + "," + e.status;
         if (e.status == "failed") {
@@ -68,7 +69,8 @@ void writeSummaryCsv(const BatchSummary& summary, OutputFile& file)
                     (e.eulerCharacteristic ? digits(*e.eulerCharacteristic) : "") + "," +
                     digits(e.components) + "," + digits(e.cavities) + ",";
         }
-        text += "," + e.sha256 + "," + summary.version + "\n";
+        text += "," + e.sha256 + "," + summary.version + "," + summary.optionsSha256 +
+                ",\"area Å², volume Å³\"\n";
     }
     file.write(text);
     file.finish();
@@ -90,7 +92,7 @@ BatchSummary readJournalHeader(const std::string& line, const std::string& path)
 {
     try {
         const Json json = Json::parse(line);
-        return {json.at("version"), json.at("options"), {}};
+        return {json.at("version"), json.at("options"), {}, {}};
     } catch (const Json::exception&) {
         throw Error(ErrorKind::Input, path + ": is no journal of a batch");
     }

@@ -18,11 +18,12 @@ namespace molsurf
 
 /// One structure.
 struct BatchEntry {
-    std::string name;    ///< of its files, without extension
-    std::string input;   ///< the structure file
-    std::string sha256;  ///< of that file; empty if it could not be read
-    std::string status;  ///< "done", "not converged" or "failed"; in a journal also "begun"
-    std::string message; ///< why it failed
+    std::string name;     ///< of its files, without extension
+    std::string input;    ///< the structure file
+    std::string sha256;   ///< of that file; empty if it could not be read
+    std::string status;   ///< "done", "not converged" or "failed"; in a journal also "begun"
+    std::string message;  ///< why it failed
+    bool mayPass = false; ///< whether that may go well later; tables do not hold it
     std::size_t atoms = 0;
     double area = 0.0;   ///< [Å^2]
     double volume = 0.0; ///< [Å^3]
@@ -37,6 +38,7 @@ struct BatchSummary {
     std::string version; ///< of the program
     std::string options; ///< those that the surfaces depend on
     std::vector<BatchEntry> entries;
+    std::string optionsSha256; ///< of version and options, as in reports; journals do not hold it
 };
 
 /// @throws Error(ErrorKind::Output) if the file cannot be written

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/commit.h"
 
+#include "molsurf/core/may_pass.h"
 #include "molsurf/error.h"
 #include "molsurf/io/temporary_file.h"
 
@@ -48,7 +49,8 @@ fs::path canonicalFolder(const OutputFile& file)
     std::error_code problem;
     fs::path folder = fs::canonical(folderOf(file.path()), problem);
     if (!problem) return folder;
-    throw Error(ErrorKind::Output, "cannot write " + file.path() + ": " + problem.message());
+    throw Error(ErrorKind::Output, "cannot write " + file.path() + ": " + problem.message(),
+                mayPass(problem.value()));
 }
 
 /// One record of this process, which goes at the end.
@@ -162,9 +164,12 @@ void placeFiles(const fs::path& folder, const std::string& maker, const Entries&
         if (moveFile(temporaryName(place, maker), place, replace)) continue;
         // It is there already, or somebody else has made another one.
         if (errno == ENOENT || errno == EEXIST) continue;
-        throw Error(ErrorKind::Output, "cannot write " + place + ", which a killed run has left " +
-                                           "complete: " + std::strerror(errno) + " [hint: remove " +
-                                           (folder / recordName(maker)).string() + "]");
+        const int reason = errno;
+        throw Error(ErrorKind::Output,
+                    "cannot write " + place +
+                        ", which a killed run has left complete: " + std::strerror(reason) +
+                        " [hint: remove " + (folder / recordName(maker)).string() + "]",
+                    mayPass(reason));
     }
     syncFolder(folder.string());
 }

@@ -17,9 +17,9 @@
 namespace molsurf
 {
 
-[[noreturn]] inline void badMesh(const std::string& message)
+[[noreturn]] inline void badMesh(const std::string& message, bool passes = false)
 {
-    throw Error(ErrorKind::Input, message);
+    throw Error(ErrorKind::Input, message, passes);
 }
 
 /// The words of a text, line by line.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/output_file.h"
 
+#include "molsurf/core/may_pass.h"
 #include "molsurf/error.h"
 #include "molsurf/io/commit.h"
 #include "molsurf/io/temporary_file.h"
@@ -32,6 +33,8 @@ std::string hint(int reason)
     case EPERM:
     case EROFS:
         return " [hint: choose a folder you may write to]";
+    case ENOENT:
+        return " [hint: make the folder first]";
     case ENAMETOOLONG:
         return " [hint: a shorter name]";
     default:
@@ -42,6 +45,14 @@ std::string hint(int reason)
 [[noreturn]] void refuse(const std::string& path, const std::string& why)
 {
     throw Error(ErrorKind::Output, "cannot write " + path + ": " + why);
+}
+
+/// The same for what the system refuses with an errno.
+[[noreturn]] void refuse(const std::string& path, const std::string& what, int reason)
+{
+    throw Error(ErrorKind::Output,
+                "cannot write " + path + ": " + what + std::strerror(reason) + hint(reason),
+                mayPass(reason));
 }
 
 [[noreturn]] void refuseExisting(const std::string& path)
@@ -57,14 +68,21 @@ bool alsoNamed(const std::string& path, const std::string& name)
 
 } // namespace
 
+bool isStream(const std::string& path)
+{
+    std::error_code ignored;
+    return path == "-" || fs::is_fifo(path, ignored);
+}
+
 void checkWritable(const std::string& path, bool overwrite)
 {
-    if (path == "-") return;
+    if (isStream(path)) {
+        if (path != "-" && access(path.c_str(), W_OK) != 0) refuse(path, "", errno);
+        return;
+    }
     const std::string target = followed(path), folder = folderOf(path);
     struct stat info;
-    if (stat(folder.c_str(), &info) != 0)
-        refuse(path, "folder " + folder + ": " + std::strerror(errno) +
-                         (errno == ENOENT ? " [hint: make the folder first]" : ""));
+    if (stat(folder.c_str(), &info) != 0) refuse(path, "folder " + folder + ": ", errno);
     if (!S_ISDIR(info.st_mode)) refuse(path, folder + " is not a folder");
     if (lstat(target.c_str(), &info) == 0) {
         if (S_ISDIR(info.st_mode)) refuse(path, "it is a folder");
@@ -72,12 +90,11 @@ void checkWritable(const std::string& path, bool overwrite)
             refuse(path, "it exists and is not a regular file");
         if (!overwrite) refuseExisting(path);
     } else if (errno != ENOENT) {
-        refuse(path, std::strerror(errno) + hint(errno));
+        refuse(path, "", errno);
     }
     if (lstat(temporaryName(path).c_str(), &info) != 0 && errno != ENOENT) // its name is longer
-        refuse(path, std::strerror(errno) + hint(errno));
-    if (access(folder.c_str(), W_OK | X_OK) != 0)
-        refuse(path, "folder " + folder + ": " + std::strerror(errno) + hint(errno));
+        refuse(path, "", errno);
+    if (access(folder.c_str(), W_OK | X_OK) != 0) refuse(path, "folder " + folder + ": ", errno);
 }
 
 OutputFile::OutputFile(const std::string& path, bool overwrite)
@@ -88,11 +105,17 @@ OutputFile::OutputFile(const std::string& path, bool overwrite)
         return;
     }
     checkWritable(path, overwrite);
-    const std::string name = temporaryName(path);
-    const int made = makeLockedFile(name);
-    if (made < 0) fail("cannot create");
-    temporary_ = name;
-    buffer_ = __gnu_cxx::stdio_filebuf<char>(made, std::ios_base::in | std::ios_base::out);
+    if (isStream(path)) {
+        const int opened = open(path.c_str(), O_WRONLY | O_CLOEXEC); // waits for its reader
+        if (opened < 0) fail("cannot open");
+        buffer_ = __gnu_cxx::stdio_filebuf<char>(opened, std::ios_base::out);
+    } else {
+        const std::string name = temporaryName(path);
+        const int made = makeLockedFile(name);
+        if (made < 0) fail("cannot create");
+        temporary_ = name;
+        buffer_ = __gnu_cxx::stdio_filebuf<char>(made, std::ios_base::in | std::ios_base::out);
+    }
     file_.rdbuf(&buffer_);
     file_.exceptions(std::ios_base::badbit | std::ios_base::failbit);
 }
@@ -104,7 +127,7 @@ OutputFile::~OutputFile()
 
 std::ostream& OutputFile::stream()
 {
-    return seekable() ? file_ : std::cout;
+    return path_ == "-" ? std::cout : file_;
 }
 
 void OutputFile::write(const void* bytes, std::size_t size)
@@ -167,9 +190,10 @@ void OutputFile::fail(const char* step) const
 {
     const int reason = errno;
     const std::string name = path_ == "-" ? "standard output" : path_;
-    throw Error(ErrorKind::Output, std::string(step) + " " + name + ": " +
-                                       (reason ? std::strerror(reason) : "unknown reason") +
-                                       hint(reason));
+    throw Error(ErrorKind::Output,
+                std::string(step) + " " + name + ": " +
+                    (reason ? std::strerror(reason) : "unknown reason") + hint(reason),
+                mayPass(reason));
 }
 
 } // namespace molsurf

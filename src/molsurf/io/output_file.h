@@ -13,6 +13,10 @@
 namespace molsurf
 {
 
+/// Whether an output is written as it comes, and not beside its place first: standard output ("-")
+/// and pipes with names.
+bool isStream(const std::string& path);
+
 /// Finds out before any work is done whether OutputFile could be made and committed.
 ///
 /// @param[in] path       file name, or "-" for standard output, which always passes
@@ -25,7 +29,7 @@ void checkWritable(const std::string& path, bool overwrite);
 /// A file that is written under temporaryName() and gets its own name by commit(). Without a commit
 /// the destructor removes it, and what was there before stays as it was.
 ///
-/// Standard output ("-") is written directly, and commit() only flushes it.
+/// A stream is written directly, and commit() only flushes it.
 class OutputFile
 {
 public:
@@ -38,7 +42,7 @@ public:
 
     const std::string& path() const { return path_; }
 
-    /// True if the output can be written out of order, that is, if it is not standard output.
+    /// True if the output can be written out of order, that is, if it is no stream.
     bool seekable() const { return !temporary_.empty(); }
 
     /// The stream that takes the content. A write that fails throws std::ios_base::failure;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/read_mesh.h"
 
+#include "molsurf/core/may_pass.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/mesh_text.h"
@@ -31,7 +32,7 @@ std::string contentOf(const std::string& path, std::size_t maxBytes)
     if (std::filesystem::is_directory(path, failure)) badMesh("it is a folder");
     errno = 0;
     std::ifstream file(path, std::ios_base::binary);
-    if (!file) badMesh(std::strerror(errno));
+    if (!file) badMesh(std::strerror(errno), mayPass(errno));
     std::string content;
     const auto size = std::filesystem::file_size(path, failure);
     const std::uintmax_t most = maxBytes  ? maxBytes
@@ -44,7 +45,7 @@ std::string contentOf(const std::string& path, std::size_t maxBytes)
         content.append(piece.data(), std::size_t(file.gcount()));
     if (content.size() > most)
         badMesh("expected at most " + std::to_string(most) + " bytes [hint: a larger `maxInput`]");
-    if (file.bad()) badMesh(std::strerror(errno));
+    if (file.bad()) badMesh(std::strerror(errno), mayPass(errno));
     return content;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/read_vdb.h"
 
+#include "molsurf/core/may_pass.h"
 #include "molsurf/error.h"
 
 #include <openvdb/io/DelayedLoadMetadata.h>
@@ -19,9 +20,9 @@ namespace molsurf
 namespace
 {
 
-[[noreturn]] void cannotRead(const std::string& path, const std::string& why)
+[[noreturn]] void cannotRead(const std::string& path, const std::string& why, bool passes = false)
 {
-    throw Error(ErrorKind::Input, "cannot read " + path + ": " + why);
+    throw Error(ErrorKind::Input, "cannot read " + path + ": " + why, passes);
 }
 
 /// Has OpenVDB skip the sizes of leaves that a file may hold for readers that load later, while it
@@ -51,7 +52,7 @@ VdbFile readVdb(const std::string& path, const std::function<bool(const VdbConte
     if (std::filesystem::is_directory(path, ignored)) cannotRead(path, "it is a folder");
     errno = 0;
     std::ifstream stream(path, std::ios_base::binary);
-    if (!stream) cannotRead(path, std::strerror(errno));
+    if (!stream) cannotRead(path, std::strerror(errno), mayPass(errno));
     try {
         // Not io::File: beyond the end of a file that is cut short it goes on with whatever its
         // variables held before. A stream that throws there stops it.

@@ -183,6 +183,11 @@ void dropMesh(Json& surface)
         surface[name] = nullptr;
 }
 
+Json orNull(const std::string& text)
+{
+    return text.empty() ? Json() : Json(text);
+}
+
 Json coarseJson(const CoarseReport& coarse)
 {
     return {{"beads", coarse.beads}, {"atoms", coarse.atoms}};
@@ -199,8 +204,11 @@ std::string reportText(const Report& report)
         {"schema", reportSchema},
         {"program", report.program},
         {"version", report.version},
+        {"commit", orNull(report.commit)},
+        {"options_sha256", orNull(report.options)},
         {"command", report.command},
         {"input", report.input},
+        {"input_sha256", orNull(report.inputSha256)},
         {"atoms", report.atoms},
         {"voxel", report.voxel},
         {"center", report.center ? Json(*report.center) : Json()},
@@ -213,7 +221,7 @@ std::string reportText(const Report& report)
         {"peak_memory_bytes", report.peakMemoryBytes},
         {"threads", report.threads},
         {"groups", groupsJson(report.groups)},
-        {"areas_of", report.areasOf.empty() ? Json() : Json(report.areasOf)},
+        {"areas_of", orNull(report.areasOf)},
         {"interfaces", interfacesJson(report.interfaces)},
         {"parts", partsJson(report.parts)},
         {"instances", instancesJson(report.instances)},

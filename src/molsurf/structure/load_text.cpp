@@ -2,6 +2,7 @@
 #include "molsurf/structure/load_text.h"
 
 #include "molsurf/error.h"
+#include "molsurf/structure/archive.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <boost/iostreams/device/array.hpp>
@@ -12,7 +13,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -70,20 +70,21 @@ std::string readAll(std::FILE* file, const std::string& path, std::size_t expect
         bytes.resize(size + got);
         checkSize(bytes.size(), limit, path);
     } while (got == chunk);
-    if (std::ferror(file)) failAt(path, std::string("cannot be read: ") + std::strerror(errno));
+    if (std::ferror(file)) failBySystem(path, "cannot be read");
     return bytes;
 }
 
 std::string readBytes(const std::string& path, const Limit& limit)
 {
     if (path == "-") return readAll(stdin, path, 0, limit);
+    if (const auto member = memberOf(path)) return readMember(*member, limit.bytes);
     std::error_code status;
     if (std::filesystem::is_directory(path, status)) {
         failAt(path, "is a folder, expected a file");
     }
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                                &std::fclose);
-    if (!file) failAt(path, std::string("cannot be opened: ") + std::strerror(errno));
+    if (!file) failBySystem(path, "cannot be opened");
     const std::uintmax_t size = std::filesystem::file_size(path, status);
     return readAll(file.get(), path, status ? 0 : std::size_t(size), limit);
 }

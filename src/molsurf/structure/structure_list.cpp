@@ -2,6 +2,7 @@
 #include "molsurf/structure/structure_list.h"
 
 #include "molsurf/error.h"
+#include "molsurf/structure/archive.h"
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/load_text.h"
 
@@ -29,6 +30,16 @@ std::vector<std::string> structuresIn(const std::string& folder)
     return inputs;
 }
 
+/// The structures of an archive, in its order.
+std::vector<std::string> structuresInArchive(const std::string& path)
+{
+    std::vector<std::string> inputs;
+    for (std::string& member : membersIn(path))
+        if (hasStructureEnding(member)) inputs.push_back(std::move(member));
+    if (inputs.empty()) throw Error(ErrorKind::Input, path + ": no structures in this archive");
+    return inputs;
+}
+
 } // namespace
 
 std::vector<std::string> readStructureList(const std::string& path, std::size_t maxBytes)
@@ -36,6 +47,7 @@ std::vector<std::string> readStructureList(const std::string& path, std::size_t 
     std::error_code ignored;
     if (path != "-") {
         if (std::filesystem::is_directory(path, ignored)) return structuresIn(path);
+        if (isArchiveName(path)) return structuresInArchive(path);
         if (hasStructureEnding(path))
             throw Error(
                 ErrorKind::Input,

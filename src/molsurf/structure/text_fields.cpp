@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/text_fields.h"
 
+#include "molsurf/core/may_pass.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstring>
 
 namespace molsurf
@@ -166,6 +168,13 @@ std::string displayName(const std::string& path)
 void failAt(const std::string& path, const std::string& what)
 {
     throw Error(ErrorKind::Input, displayName(path) + ": " + what);
+}
+
+void failBySystem(const std::string& path, const std::string& what)
+{
+    const int reason = errno;
+    throw Error(ErrorKind::Input, displayName(path) + ": " + what + ": " + std::strerror(reason),
+                mayPass(reason));
 }
 
 void failAtLine(const std::string& path, const LineReader& lines, const std::string& what)

@@ -72,6 +72,9 @@ std::string displayName(const std::string& path);
 /// @throws Error(ErrorKind::Input) that says what is wrong with a file
 [[noreturn]] void failAt(const std::string& path, const std::string& what);
 
+/// The same for what the system refuses with the present errno.
+[[noreturn]] void failBySystem(const std::string& path, const std::string& what);
+
 /// The same with the number of the current line.
 [[noreturn]] void failAtLine(const std::string& path, const LineReader& lines,
                              const std::string& what);

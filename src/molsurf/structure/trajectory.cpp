@@ -18,7 +18,7 @@ Trajectory::Trajectory(const std::string& path) : path_(path)
     if (std::filesystem::is_directory(path, problem)) fail("it is a folder");
     errno = 0;
     file_.open(path, std::ios::binary);
-    if (!file_) fail(std::string("cannot be opened: ") + std::strerror(errno));
+    if (!file_) failBySystem(path_, "cannot be opened");
     size_ = std::filesystem::file_size(path, problem);
     if (problem) fail("cannot be read: " + problem.message());
 }

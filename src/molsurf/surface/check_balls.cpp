@@ -59,7 +59,8 @@ void checkBalls(const std::vector<Ball>& balls, const SurfaceOptions& options, P
         formatted("a ball of radius %.6g Å takes at least %s at a voxel of %g Å, and there are %s",
                   radius, sizeText(bytes).c_str(), options.voxel, sizeText(double(memory)).c_str());
     throw Error(ErrorKind::Input,
-                voxel <= maxVoxel ? text + formatted(" [hint: `voxel` %.2g]", voxel + 0.05) : text);
+                voxel <= maxVoxel ? text + formatted(" [hint: `voxel` %.2g]", voxel + 0.05) : text,
+                true);
 }
 
 } // namespace molsurf

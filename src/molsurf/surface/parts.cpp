@@ -226,7 +226,7 @@ MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, P
         try {
             result = makeSurface(subset(all, part.balls), one, &quiet);
         } catch (const Error& e) {
-            throw Error(e.kind(), part.name + ": " + e.what());
+            throw Error(e, part.name + ": " + e.what());
         }
         const std::string suffix = "_" + gridName(part.name, names);
         result.surface->setName("surface" + suffix);

@@ -39,12 +39,15 @@ Report sampleReport()
 TEST(WriteReport, HasTheKeysOfTheContractInItsOrder)
 {
     const Json json = Json::parse(reportText(sampleReport()));
-    EXPECT_EQ(
-        keys(json),
-        (Names{"schema",     "program", "version",           "command",  "input",      "atoms",
-               "voxel",      "center",  "surface",           "coarse",   "resolution", "evolution",
-               "grid",       "seconds", "peak_memory_bytes", "threads",  "groups",     "areas_of",
-               "interfaces", "parts",   "instances",         "symmetry", "warnings"}));
+    EXPECT_EQ(keys(json), (Names{"schema",     "program",        "version",
+                                 "commit",     "options_sha256", "command",
+                                 "input",      "input_sha256",   "atoms",
+                                 "voxel",      "center",         "surface",
+                                 "coarse",     "resolution",     "evolution",
+                                 "grid",       "seconds",        "peak_memory_bytes",
+                                 "threads",    "groups",         "areas_of",
+                                 "interfaces", "parts",          "instances",
+                                 "symmetry",   "warnings"}));
     Names surface = keys(json["surface"]);
     surface.resize(14); // later keys are additions
     EXPECT_EQ(surface,

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What a report tells of the run that wrote it.
+
+#include <optional>
+#include <string>
+
+namespace molsurf
+{
+
+struct KnownRun {
+    std::string options; ///< SHA-256 of version and options; empty if it is not known
+    std::string input;   ///< SHA-256 of the input; the same
+    bool converged = true;
+};
+
+/// Nothing if the file is no report of this program.
+std::optional<KnownRun> readReport(const std::string& path);
+
+} // namespace molsurf

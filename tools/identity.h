@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// What a result is known by: the version, the options and the content of the input. Where all are
+/// the same, the result is.
+
+#include "cli/call.h"
+
+#include <optional>
+#include <string>
+
+namespace molsurf::tool
+{
+
+/// The options that results depend on, as they were given, with the hashes of files that they name.
+std::string optionsLine(const Call& call);
+
+/// The SHA-256 of the version and the options.
+std::string identityOf(const Call& call);
+
+/// The SHA-256 of the content of an input; empty for standard input, pipes, and what cannot be
+/// read, as its reader will say.
+std::string sha256OfInput(const std::string& path);
+
+/// The exit status of a run that has made all outputs of a call of the same input, if there was
+/// one: its report has the same identity, and no output is newer. Otherwise outputs beside a
+/// report may be replaced.
+/// @param[in,out] call  gets `force` if there is a report of another run
+std::optional<int> statusOfExisting(Call& call);
+
+} // namespace molsurf::tool
