@@ -5,6 +5,7 @@
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <string_view>
 
@@ -106,22 +107,30 @@ std::optional<AtomLoop> findLoop(const std::string& text)
     return std::nullopt;
 }
 
-/// Steps through rows, and finds where a chain or a model begins.
+/// Where a piece may begin.
+enum class Cut {
+    No,
+    Residue, ///< unless a residue of the rows before comes again in the chain
+    Chain    ///< or a model
+};
+
+/// Steps through rows, and finds where chains, models and residues begin.
 class Cutter
 {
 public:
     explicit Cutter(const std::vector<std::string>& tags)
         : width_(tags.size()), label_(column(tags, "label_asym_id")),
-          author_(column(tags, "auth_asym_id")), model_(column(tags, "pdbx_pdb_model_num"))
+          author_(column(tags, "auth_asym_id")), model_(column(tags, "pdbx_pdb_model_num")),
+          number_(std::min(column(tags, "auth_seq_id"), width_))
     {
+        if (number_ == width_) number_ = column(tags, "label_seq_id");
     }
 
     bool canCut() const { return label_ < width_; }
 
     /// Takes the next row.
-    /// @param[out] cut  whether a piece may begin with it
     /// @return false if it is none that can be read line by line
-    bool take(const Fields& row, bool& cut)
+    bool take(const Fields& row)
     {
         if (row.size() != width_) return false;
         const string_view label = row[label_], author = author_ < width_ ? row[author_] : label;
@@ -132,13 +141,29 @@ public:
             otherModel = !lastModel_.empty();
             lastModel_ = row[model_];
         }
-        cut = otherModel || (label != lastLabel_ && author != lastAuthor_);
+        const bool otherChain = label != lastLabel_ && author != lastAuthor_;
+        cut_ = otherModel || otherChain ? Cut::Chain : Cut::No;
+        if (otherModel || author != lastAuthor_) last_ = lowest;
+        endsSpan_ = label != lastLabel_ || otherModel;
         lastLabel_ = label;
         lastAuthor_ = author;
+        takeNumber(row);
         return true;
     }
 
+    /// Where that row may begin a piece.
+    Cut cut() const { return cut_; }
+
+    /// Whether the label chain is another than that of the row before.
+    bool endsSpan() const { return endsSpan_; }
+
+    /// The number of its residue, and the largest one before it in its chain.
+    int number() const { return residue_; }
+    int last() const { return before_; }
+
 private:
+    static constexpr int lowest = std::numeric_limits<int>::min();
+
     static std::size_t column(const std::vector<std::string>& tags, const char* name)
     {
         const std::string whole = std::string(atomSite) + name;
@@ -148,9 +173,79 @@ private:
         return std::size_t(found - tags.begin());
     }
 
-    std::size_t width_, label_, author_, model_;
+    /// Numbers that ascend tell residues that do not come again.
+    void takeNumber(const Fields& row)
+    {
+        before_ = last_;
+        if (number_ >= width_ || !parseInteger(row[number_], residue_)) residue_ = lowest;
+        if (cut_ == Cut::No && last_ != lowest && residue_ > last_) cut_ = Cut::Residue;
+        last_ = std::max(last_, residue_);
+    }
+
+    std::size_t width_, label_, author_, model_, number_;
     string_view lastLabel_, lastAuthor_, lastModel_;
     std::set<int> models_;
+    Cut cut_ = Cut::No;
+    bool endsSpan_ = false;
+    int residue_ = lowest, last_ = lowest, before_ = lowest;
+};
+
+/// The places where a text is cut.
+class Pieces
+{
+public:
+    explicit Pieces(std::size_t rowsOfPiece) : enough_(rowsOfPiece) {}
+
+    void take(std::size_t at, const Cutter& row)
+    {
+        if (row.endsSpan()) joinLastResidue();
+        if (row.cut() == Cut::Chain) chain_ = begins_.size();
+        // A residue from before the cuts of its chain: these would part it.
+        while (begins_.size() > chain_ && row.cut() != Cut::Chain &&
+               row.number() <= begins_.back().last)
+            begins_.pop_back();
+        const std::size_t since = begins_.empty() ? enough_ : rows_ - begins_.back().row;
+        if (begins_.empty() || (row.cut() != Cut::No && since >= enough_))
+            begins_.push_back(
+                {at, rows_, row.number(), row.cut() == Cut::Chain ? unknown : row.last()});
+        lastNumber_ = row.number();
+        if (begins_.size() == 1) chain_ = 1;
+        ++rows_;
+    }
+
+    std::size_t rows() const { return rows_; }
+
+    void finish(std::size_t end, CifRows& out)
+    {
+        joinLastResidue();
+        for (std::size_t k = 0; k < begins_.size(); ++k) {
+            out.cuts.push_back(begins_[k].at);
+            const std::size_t next = k + 1 < begins_.size() ? begins_[k + 1].row : rows_;
+            out.longest = std::max(out.longest, next - begins_[k].row);
+        }
+        out.cuts.push_back(end);
+        out.rows = rows_;
+    }
+
+private:
+    static constexpr int unknown = std::numeric_limits<int>::min();
+    struct Begin {
+        std::size_t at, row;
+        int number; ///< of its residue
+        int last;   ///< largest number of a residue before it in its chain
+    };
+    /// Undoes a cut before the last residue of a label chain: alone it would look like a ligand.
+    void joinLastResidue()
+    {
+        if (begins_.size() > chain_ && begins_.back().last != unknown &&
+            begins_.back().number == lastNumber_)
+            begins_.pop_back();
+    }
+
+    std::size_t enough_, rows_ = 0;
+    int lastNumber_ = unknown;
+    std::size_t chain_ = 0; ///< first of the begins within the chain
+    std::vector<Begin> begins_;
 };
 
 } // namespace
@@ -162,27 +257,20 @@ std::optional<CifRows> findCifRows(const std::string& text, std::size_t rowsOfPi
     Cutter cutter(loop->tags);
     if (!cutter.canCut()) return std::nullopt;
     CifRows out;
-    out.firstEnd = 0;
-    std::size_t end = loop->rows, inPiece = 0;
+    Pieces pieces(rowsOfPiece);
+    std::size_t end = loop->rows;
     Fields fields;
     for (LineReader lines(string_view(text).substr(loop->rows)); lines.next();) {
         const string_view line = lines.line();
         if (trimmed(line).empty()) continue;
         if (endsLoop(line)) break;
-        bool cut = false;
-        if (!splitRow(line, fields) || !cutter.take(fields, cut)) return std::nullopt;
-        if (out.cuts.empty() || (cut && inPiece >= rowsOfPiece)) {
-            out.cuts.push_back(offsetOf(text, line));
-            inPiece = 0;
-        }
-        ++inPiece;
-        ++out.rows;
-        out.longest = std::max(out.longest, inPiece);
+        if (!splitRow(line, fields) || !cutter.take(fields)) return std::nullopt;
+        pieces.take(offsetOf(text, line), cutter);
         end = offsetOf(text, line) + line.size();
-        if (out.rows == 1) out.firstEnd = end;
+        if (pieces.rows() == 1) out.firstEnd = end;
     }
-    if (out.rows == 0) return std::nullopt;
-    out.cuts.push_back(end);
+    if (pieces.rows() == 0) return std::nullopt;
+    pieces.finish(end, out);
     out.tags = std::move(loop->tags);
     return out;
 }

@@ -14,11 +14,11 @@ namespace molsurf
 {
 
 /// Where the rows of the first loop _atom_site are, and where they may be cut: each piece can be
-/// read as a loop of its own, for no chain goes on from one to the next.
+/// read as a loop of its own, for no residue goes on or comes again in the next one.
 struct CifRows {
     std::vector<std::string> tags;
     std::vector<std::size_t> cuts; ///< first byte of each piece, and the byte behind the last
-    std::size_t firstEnd;          ///< byte behind the first row
+    std::size_t firstEnd = 0;      ///< byte behind the first row
     std::size_t rows = 0;
     std::size_t longest = 0; ///< rows of the longest piece
 };

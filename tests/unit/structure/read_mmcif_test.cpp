@@ -339,6 +339,29 @@ TEST(ReadMmcif, InPiecesIsTheSame)
     expectSameInPieces(text + "loop_\n_entity.id\n_entity.type\n1 polymer\n");
 }
 
+/// Chains are cut between residues whose numbers ascend, where none comes again.
+TEST(ReadMmcif, LongChainsAreCutBetweenResidues)
+{
+    const auto row = [](const char* chain, const char* name, int number) {
+        return std::string("ATOM 1 C CA . ") + name + " " + chain + " 1 1 2 3 1 0 " +
+               std::to_string(number) + " " + chain[0] + " 1\n";
+    };
+    const std::string rising = row("A", "GLY", 1) + row("A", "ALA", 2) + row("A", "ALA", 2) +
+                               row("A", "SER", 5) + row("A", "SER", 6);
+    EXPECT_EQ(piecesOf(atomSite(full, rising)), 3u) << "the last residue stays with its chain";
+    expectSameInPieces(atomSite(full, rising));
+    const std::string again = rising + row("A", "ALA", 2) + row("A", "GLY", 7);
+    EXPECT_EQ(piecesOf(atomSite(full, again)), 2u) << "residue 2 comes again";
+    expectSameInPieces(atomSite(full, again));
+    const std::string waters = rising + row("A2", "HOH", 3) + row("A2", "HOH", 8) +
+                               row("A2", "HOH", 9) + row("B", "GLY", 1) + row("B", "GLY", 2) +
+                               row("B", "GLY", 3);
+    expectSameInPieces(atomSite(full, waters));
+    expectSameInPieces(atomSite(full, waters) + "loop_\n_entity.id\n_entity.type\n1 ?\n");
+    expectSameInPieces(atomSite(full, row("A", "GLY", 3) + row("A", "GLY", 2) + row("A", "GLY", 1) +
+                                          row("A", "GLY", 4)));
+}
+
 TEST(ReadMmcif, RowsThatCannotBeCutAreReadAsAWhole)
 {
     const std::string first = "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n";
