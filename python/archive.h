@@ -188,7 +188,8 @@ MOLSURF_MEMBERS(SurfaceReport, v.kind, v.area, v.volume, v.eulerCharacteristic,
                 v.cavities, v.outerArea, v.outerVolume, v.vertices, v.triangles, v.closed,
                 v.manifold, v.degenerateTriangles, v.maxResidual, v.gradientShare, v.kinkShare,
                 v.cuspLength, v.meanCurvature, v.gaussianCurvature, v.integrals)
-MOLSURF_MEMBERS(EvolutionReport::Gaps, v.found, v.closed, v.nearest)
+MOLSURF_MEMBERS(EvolutionReport::Gaps, v.found, v.closed, v.nearest, v.closedByField,
+                v.widestClosed, v.opensBelow)
 MOLSURF_MEMBERS(EvolutionReport, v.steps, v.converged, v.energy, v.area, v.volume,
                 v.meanDisplacement, v.maxSpeed, v.displacementRms, v.displacementTail,
                 v.toleranceMet, v.areaError, v.unsettledShare, v.finalEnergy, v.unresolvedGapVoxels,

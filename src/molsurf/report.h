@@ -111,6 +111,11 @@ struct EvolutionReport {
         std::size_t found = 0;  ///< number of those about which it was asked
         std::size_t closed = 0; ///< number of those that tension closes though no atom fills them
         double nearest = 0.0;   ///< how near to the decision the nearest one is, as a value of psi
+        /// Number of passages and voids that a probe fits into and that are closed. None where it
+        /// was not asked for.
+        std::optional<std::size_t> closedByField{};
+        double widestClosed = 0.0; ///< the most room beside the probe in one of these [Å]
+        double opensBelow = 0.0;   ///< the tolerance eps at which the widest opens [Å]
     };
 
     int steps = 0;              ///< number of steps made

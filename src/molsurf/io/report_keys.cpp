@@ -112,6 +112,10 @@ constexpr ReportKey keyTable[] = {
     {"evolution.gaps.closed", "",
      "Number of those that tension closes although no atom fills them"},
     {"evolution.gaps.nearest", "", "Least distance from the decision, as a value of psi"},
+    {"evolution.gaps.closed_by_field", "",
+     "Number of passages and voids that a probe fits into and the field closes; not with "
+     "resolution"},
+    {"evolution.gaps.widest_closed", "Å", "Most room beside the probe in one of these"},
     {"evolution.walls", "",
      "Thin walls and necks decided by psi; null where gaps are, and on voxels above 0.75 Å or two "
      "thirds of the probe"},

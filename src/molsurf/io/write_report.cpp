@@ -68,7 +68,12 @@ Json surfaceJson(const SurfaceReport& surface)
 Json gapsJson(const std::optional<EvolutionReport::Gaps>& gaps)
 {
     if (!gaps) return {};
-    return {{"found", gaps->found}, {"closed", gaps->closed}, {"nearest", gaps->nearest}};
+    Json out = {{"found", gaps->found}, {"closed", gaps->closed}, {"nearest", gaps->nearest}};
+    if (gaps->closedByField) {
+        out["closed_by_field"] = *gaps->closedByField;
+        out["widest_closed"] = gaps->widestClosed;
+    }
+    return out;
 }
 
 Json evolutionJson(const EvolutionReport& evolution)

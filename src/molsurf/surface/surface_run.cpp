@@ -61,7 +61,7 @@ void SurfaceRun::density()
     gaussian.extent = influence_.extent();
     if (evolves && decidesGaps(options_.evolution)) {
         const Weights weights = weightsOf(options_.evolution);
-        gaussian.gaps = GapRule{weights.gradient, weights.area};
+        gaussian.gaps = GapRule{weights.gradient, weights.area, atoms_.decays.empty()};
     }
     sum_.emplace(atoms_.balls, gaussian, evolves ? atoms_.decays : std::vector<Decay>());
     if (evolves && startsOnCoarserVoxels(flowOptions(options_), options_.voxel)) {
