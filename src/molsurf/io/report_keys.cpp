@@ -29,14 +29,16 @@ constexpr ReportKey keyTable[] = {
     {"surface.volume", "Å³", "Volume inside, cavities left out"},
     {"surface.euler_characteristic", "",
      "Euler number of all walls: twice their number less twice the tunnels. For ses, sas and vdw "
-     "that of the exact boundary; null where units do not add up to a closed one, or four probes "
-     "touch in one point"},
+     "that of the exact boundary; null in bricks, for ses by symmetry, where units do not add up "
+     "to "
+     "a closed one, or four probes touch in one point"},
     {"surface.mesh_euler_characteristic", "",
      "Euler number of the mesh, which on ses, sas and vdw bridges gaps narrower than a voxel. Null "
      "without a mesh"},
     {"surface.components", "",
-     "Number of closed pieces except walls of cavities; null if unknown, as for sas and vdw by "
-     "symmetry"},
+     "Number of closed pieces except walls of cavities; null if unknown, as for ses, sas and vdw "
+     "by "
+     "symmetry and in bricks"},
     {"surface.cavities", "", "Number of cavities; null if unknown"},
     {"surface.outer_area", "Å²", "Area without the walls of cavities"},
     {"surface.outer_volume", "Å³", "Volume with the cavities"},

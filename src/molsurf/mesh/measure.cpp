@@ -169,6 +169,15 @@ void addPiece(double area, double volume, bool cavity, SurfaceReport& report)
     }
 }
 
+void dropTopology(SurfaceReport& report)
+{
+    report.eulerCharacteristic.reset();
+    report.piecesKnown = false;
+    report.components = 0;
+    report.cavities.clear();
+    report.outerArea = report.outerVolume = 0.0;
+}
+
 void sortCavities(SurfaceReport& report)
 {
     std::stable_sort(report.cavities.begin(), report.cavities.end(),

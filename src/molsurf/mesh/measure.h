@@ -53,6 +53,9 @@ void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report)
 /// @param[in] volume  [Å^3]; below 0 of a cavity's wall
 void addPiece(double area, double volume, bool cavity, SurfaceReport& report);
 
+/// Forgets Euler number and pieces, those of a mesh that may bridge what is narrower than a voxel.
+void dropTopology(SurfaceReport& report);
+
 /// Puts the cavities of a report in order, the largest first.
 void sortCavities(SurfaceReport& report);
 

@@ -59,14 +59,11 @@ std::vector<double> takeClosedForm(const BallSet& atoms, double grown, const Pro
 {
     const double order = double(atoms.placement.order());
     UnitShare share = shareOfUnit(atoms, grown, progress);
+    dropTopology(surface);
     surface.eulerCharacteristic = share.wholeEuler;
     surface.area = 0.0;
     for (double& area : share.areas) surface.area += area *= order;
     surface.volume = order * share.volume;
-    surface.piecesKnown = false;
-    surface.components = 0;
-    surface.cavities.clear();
-    surface.outerArea = surface.outerVolume = 0.0;
     return std::move(share.areas);
 }
 
@@ -226,6 +223,8 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
         surface.meshArea = surface.area;
         surface.meshVolume = surface.volume;
         run.result().ballAreas = takeClosedForm(atoms, grown, progress, surface);
+    } else if (isClosedForm(options)) {
+        dropTopology(surface);
     }
     checkFit(fit, area / double(placement.order()), surface);
     watch.stop("unit");
