@@ -71,6 +71,8 @@ struct SurfaceReport {
     /// Of the mesh, where area and volume are known in closed form: it lacks what is narrower than
     /// a voxel [Å^2, Å^3].
     std::optional<double> meshArea, meshVolume;
+    int meshComponents = 0; ///< number of closed pieces of the mesh, walls of cavities included
+    std::optional<double> triangleArea; ///< area of the mesh's flat triangles [Å^2]; none of bricks
     bool piecesKnown = true; ///< whether components, cavities, outerArea and outerVolume are; not
                              ///< those of a whole in closed form that follows from a unit
     int components = 0;      ///< number of closed pieces that are not walls of cavities

@@ -131,6 +131,8 @@ CASES = {
     "core/words.cpp": [
         ("did you mean residue?", "vdb_molsurf 1crn.pdb --color resdiue -o a.ply",
          f"vdb_molsurf 1crn.pdb --color residue {FAST} -o a.ply")],
+    "surface/check_mesh.cpp": [
+        ("--voxel 0.3", "vdb_molsurf 1ubq.pdb --surface vdw -o a.ply", "vdb_molsurf 1ubq.pdb --surface vdw --voxel 0.38 -o b.ply")],
     "surface/settings.cpp": [
         ("--color plain=red", f"vdb_molsurf one.xyzr {FAST} --color red -o a.ply",
          f"vdb_molsurf one.xyzr {FAST} --color plain=red -o a.ply"),

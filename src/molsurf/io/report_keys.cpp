@@ -58,8 +58,12 @@ constexpr ReportKey keyTable[] = {
      "within 0.03 of 1"},
     {"surface.kink_share", "", "Share of vertices within two voxels of a kink of the distance"},
     {"surface.mesh_area", "Å²",
-     "Area of the mesh of ses, sas and vdw, which bridges gaps narrower than a voxel; null for "
-     "other kinds and without a mesh"},
+     "Area of curved patches over the mesh of ses, sas and vdw, which bridges gaps narrower than a "
+     "voxel; null for other kinds and without a mesh"},
+    {"surface.triangle_area", "Å²",
+     "Area of the flat triangles, as in the files; null without a mesh and in bricks"},
+    {"surface.mesh_components", "",
+     "Number of closed pieces of the mesh, walls of cavities included; null without a mesh"},
     {"surface.mesh_volume", "Å³", "Volume of that mesh"},
     {"surface.cusp_length", "Å",
      "Length of the creases of sas at which ses touches itself in cusps. Voxels round these, so "

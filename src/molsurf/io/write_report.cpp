@@ -53,6 +53,8 @@ Json surfaceJson(const SurfaceReport& surface)
             {"gradient_share", surface.gradientShare},
             {"kink_share", surface.kinkShare},
             {"mesh_area", surface.meshArea ? Json(*surface.meshArea) : Json()},
+            {"triangle_area", surface.triangleArea ? Json(*surface.triangleArea) : Json()},
+            {"mesh_components", surface.meshComponents},
             {"mesh_volume", surface.meshVolume ? Json(*surface.meshVolume) : Json()},
             {"cusp_length", surface.cuspLength ? Json(*surface.cuspLength) : Json()},
             {"mean_curvature", statisticsJson(surface.meanCurvature)},
@@ -183,8 +185,9 @@ Json tablesJson(const std::vector<Table>& tables)
 void dropMesh(Json& surface)
 {
     for (const char* name :
-         {"mesh_euler_characteristic", "closed", "manifold", "degenerate_triangles", "max_residual",
-          "gradient_share", "kink_share", "mean_curvature", "gaussian_curvature"})
+         {"mesh_euler_characteristic", "mesh_components", "triangle_area", "closed", "manifold",
+          "degenerate_triangles", "max_residual", "gradient_share", "kink_share", "mean_curvature",
+          "gaussian_curvature"})
         surface[name] = nullptr;
 }
 

@@ -46,6 +46,9 @@ struct MeshPieces {
 /// @param[in] mesh  with normals
 MeshPieces piecesOf(const Mesh& mesh, const Progress& progress);
 
+/// The area of the triangles themselves [Å^2].
+double triangleArea(const Mesh& mesh, const Progress& progress);
+
 /// Adds closed pieces to areas and volumes: components, and cavities, whose volume is negative.
 void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report);
 

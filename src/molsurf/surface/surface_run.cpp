@@ -434,6 +434,7 @@ void SurfaceRun::takeClosedForm()
     s.meshVolume = s.volume;
     describePieces(*exact_, options_.fillCavities, s);
     checkMesh(s.area, s.volume, *s.meshArea, *s.meshVolume, exact_->tolerance);
+    warnOfMesh(s, options_.voxel, result_.report.warnings);
 }
 
 openvdb::FloatGrid::Ptr SurfaceRun::sasGrid()

@@ -139,6 +139,7 @@ void measureWhole(const Placement::Unit& unit, const BorderFit& fit, const Mesh&
         if (!std::exchange(counted[found.of[v]], 1))
             fitted.measures[fitted.of[v]].area += found.measures[found.of[v]].area;
     countPieces(wholePieces(unit, fit, fitted.of, fitted.measures), surface);
+    surface.triangleArea = double(unit.inverse.size()) * triangleArea(mesh, progress);
     BorderClasses classes(unit, fit.shared, mesh.positions.size());
     const std::size_t units = unit.inverse.size();
     surface.triangles = units * mesh.triangles.size();
