@@ -133,7 +133,8 @@ struct EvolutionReport {
     double displacementRms = 0.0, displacementTail = 0.0;
     double toleranceMet = 0.0; ///< the smallest EvolveOptions::tolerance that it meets [voxel]
     /// How much the area may still change on the way to rest, an estimate as a share of the area
-    /// that holds in 19 of 20 runs; not a number without Newton steps.
+    /// that holds in 19 of 20 runs; not a number without Newton steps. Where fronts decide gaps,
+    /// how far it may change with the place of the molecule on the grid: estimatePoseError().
     double areaError = std::numeric_limits<double>::quiet_NaN();
     /// Share of the interface at which it is above a tenth of a voxel.
     double unsettledShare = 0.0;

@@ -133,6 +133,8 @@ CASES = {
          f"vdb_molsurf 1crn.pdb --color residue {FAST} -o a.ply")],
     "surface/check_mesh.cpp": [
         ("--voxel 0.3", "vdb_molsurf 1ubq.pdb --surface vdw -o a.ply", "vdb_molsurf 1ubq.pdb --surface vdw --voxel 0.38 -o b.ply")],
+    "surface/pose_error.cpp": [
+        ("--lambda 0.04", "vdb_molsurf 1crn.pdb --lambda 0.1 --voxel 1 -o a.ply", "vdb_molsurf 1crn.pdb --lambda 0.04 --voxel 1 -o b.ply")],
     "surface/settings.cpp": [
         ("--color plain=red", f"vdb_molsurf one.xyzr {FAST} --color red -o a.ply",
          f"vdb_molsurf one.xyzr {FAST} --color plain=red -o a.ply"),

@@ -105,7 +105,8 @@ constexpr ReportKey keyTable[] = {
      "Root mean square of the way of the interface in the last step; in closed form to rest"},
     {"evolution.displacement_tail", "Å", "99.9 % quantile of that way"},
     {"evolution.area_error", "",
-     "Estimated share by which the area may still change on the way to rest"},
+     "Estimated share by which the area may still change on the way to rest; at lambda above 0.04, "
+     "except in bricks, between two places of the molecule on the grid"},
     {"evolution.unsettled_share", "", "Share of the interface with a way above 0.1 voxel"},
     {"evolution.crevice_voxels", "",
      "Number of voxels at gaps too narrow for the grid; null without a step"},
