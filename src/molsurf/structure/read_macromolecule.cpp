@@ -19,6 +19,7 @@
 #include <cctype>
 #include <exception>
 #include <map>
+#include <unordered_set>
 
 namespace molsurf
 {
@@ -342,13 +343,40 @@ bool isRead(const std::string& category)
                        [&](const char* name) { return gemmi::iequal(category, name); });
 }
 
+/// Refuses names that stand twice, as gemmi::cif::read_memory() does. That empties one table for
+/// each block, which takes the square of their number.
+void checkDuplicates(gemmi::cif::Document& document)
+{
+    std::unordered_set<std::string> names;
+    gemmi::cif::Document one;
+    one.source = document.source;
+    one.blocks.resize(1);
+    for (gemmi::cif::Block& block : document.blocks) {
+        if (!names.insert(gemmi::to_lower(block.name)).second && !block.name.empty())
+            gemmi::fail(document.source + ": duplicate block name: ", block.name);
+        std::swap(one.blocks[0], block);
+        gemmi::cif::check_for_duplicates(one);
+        std::swap(one.blocks[0], block);
+    }
+}
+
+gemmi::cif::Document parseCif(const std::string& text, const std::string& path)
+{
+    tao::pegtl::memory_input<> in(text.data(), text.size(), path);
+    gemmi::cif::Document document;
+    document.source = path;
+    gemmi::cif::parse_input(document, in);
+    gemmi::cif::check_for_missing_values(document);
+    checkDuplicates(document);
+    return document;
+}
+
 } // namespace
 
 Structure readMmcif(std::string text, const std::string& path, const Progress& progress)
 {
-    return readDocument(std::move(text), path, progress, [&](const std::string& all) {
-        return gemmi::cif::read_memory(all.data(), all.size(), path.c_str());
-    });
+    return readDocument(std::move(text), path, progress,
+                        [&](const std::string& all) { return parseCif(all, path); });
 }
 
 Structure readBinaryCif(std::string bytes, const std::string& path, const Progress& progress)
