@@ -173,6 +173,27 @@ bool isEstimated(const SurfaceOptions& options)
     return !several && !asked;
 }
 
+/// A line on what the field closes, with what opens the widest of it; empty if that is narrow.
+std::string closedByField(const Report& report, const SurfaceOptions& options)
+{
+    constexpr double wide = 0.35; // [Å], the width that docs/limits.md gives for three atoms
+    const bool asked = report.evolution && report.evolution->gaps;
+    if (!asked || report.evolution->gaps->widestClosed < wide) return {};
+    const EvolutionReport::Gaps& gaps = *report.evolution->gaps;
+    const std::string line =
+        formatted("gaps: the field closes %s that a probe fits into, with up to %.2f Å of room",
+                  counted(*gaps.closedByField, "passage or void", "passages and voids").c_str(),
+                  gaps.widestClosed);
+    for (const double epsilon : {0.25, 0.1, 0.05}) {
+        if (epsilon >= gaps.opensBelow) continue;
+        if (options.voxel <= 2.0 * epsilon)
+            return line + formatted(" [hint: --epsilon %g opens the widest]", epsilon);
+        return line + formatted(" [hint: --epsilon %g --voxel %g opens the widest]", epsilon,
+                                2.0 * epsilon);
+    }
+    return line;
+}
+
 } // namespace
 
 Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& terminal,
@@ -225,7 +246,10 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
 {
     const Report report = surfaceOf(call, balls, read, terminal, start);
     if (call.verbose) sayTimes(report);
-    if (!call.quiet) say(summary(report));
+    if (call.quiet) return report;
+    say(summary(report));
+    const std::string closed = closedByField(report, call.options);
+    if (!closed.empty()) say(closed);
     return report;
 }
 

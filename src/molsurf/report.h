@@ -71,6 +71,8 @@ struct SurfaceReport {
     /// Of the mesh, where area and volume are known in closed form: it lacks what is narrower than
     /// a voxel [Å^2, Å^3].
     std::optional<double> meshArea, meshVolume;
+    int meshComponents = 0; ///< number of closed pieces of the mesh, walls of cavities included
+    std::optional<double> triangleArea; ///< area of the mesh's flat triangles [Å^2]; none of bricks
     bool piecesKnown = true; ///< whether components, cavities, outerArea and outerVolume are; not
                              ///< those of a whole in closed form that follows from a unit
     int components = 0;      ///< number of closed pieces that are not walls of cavities
@@ -111,6 +113,11 @@ struct EvolutionReport {
         std::size_t found = 0;  ///< number of those about which it was asked
         std::size_t closed = 0; ///< number of those that tension closes though no atom fills them
         double nearest = 0.0;   ///< how near to the decision the nearest one is, as a value of psi
+        /// Number of passages and voids that a probe fits into and that are closed. None where it
+        /// was not asked for.
+        std::optional<std::size_t> closedByField{};
+        double widestClosed = 0.0; ///< the most room beside the probe in one of these [Å]
+        double opensBelow = 0.0;   ///< the tolerance eps at which the widest opens [Å]
     };
 
     int steps = 0;              ///< number of steps made
@@ -126,7 +133,8 @@ struct EvolutionReport {
     double displacementRms = 0.0, displacementTail = 0.0;
     double toleranceMet = 0.0; ///< the smallest EvolveOptions::tolerance that it meets [voxel]
     /// How much the area may still change on the way to rest, an estimate as a share of the area
-    /// that holds in 19 of 20 runs; not a number without Newton steps.
+    /// that holds in 19 of 20 runs; not a number without Newton steps. Where fronts decide gaps,
+    /// how far it may change with the place of the molecule on the grid: estimatePoseError().
     double areaError = std::numeric_limits<double>::quiet_NaN();
     /// Share of the interface at which it is above a tenth of a voxel.
     double unsettledShare = 0.0;

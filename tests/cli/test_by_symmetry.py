@@ -70,6 +70,9 @@ class BySymmetry(ToolTest):
             # Of the unit there is a mesh alone.
             found, expected = unit["surface"][name], whole["surface"]["mesh_" + name]
             self.assertLess(abs(found - expected), within * expected, name)
+        self.assertIsInstance(unit["surface"]["mesh_euler_characteristic"], int)
+        for name in ("euler_characteristic", "components", "cavities", "outer_area"):
+            self.assertIsNone(unit["surface"][name], name)
         self.assertEqual(len(unit["instances"]), 60)
         self.assertIsNone(whole["symmetry"])
         # The mesh of the unit once, and its copies.

@@ -4,6 +4,7 @@
 The hints are found in the sources, and each has a case in CASES or a reason in UNTRIED."""
 
 import functools
+import math
 import os
 import pathlib
 import re
@@ -82,6 +83,17 @@ end_header
 {}"""
 FACES = ("3 0 1 2\n", "3 0 2 3\n", "3 0 3 1\n", "3 1 3 2\n")
 
+
+def xyzr(points):
+    return "".join(f"{x:.3f} {y:.3f} {z:.3f} 1.7\n" for x, y, z in points)
+
+
+# A tube of 12 rings of ten atoms, and 60 atoms about a sphere, with 0.8 and 0.5 Å of room beside a probe.
+TUBE = [(3.9 * math.cos(a), 3.9 * math.sin(a), 1.2 * k) for k in range(12)
+        for a in (math.pi * (i + 0.5 * (k % 2)) / 5 for i in range(10))]
+HEIGHTS = [(1 - (2 * i + 1) / 60, 2.399963 * i) for i in range(60)]
+CAGE = [(3.6 * math.sqrt(1 - z * z) * math.cos(a), 3.6 * math.sqrt(1 - z * z) * math.sin(a), 3.6 * z) for z, a in HEIGHTS]
+
 # Files that are there in every case, beside those of tests/data.
 FILES = {
     "dot.xyzr": "0 0 0 0.1\n", "tiny.xyzr": "0.4 0.4 0.4 0.3\n", "one.xyzr": "0 0 0 1\n", "two.xyzr": "0 0 0 1.7\n3 0 0 1.7\n",
@@ -98,7 +110,7 @@ FILES = {
     "copies.json": '{"groups": [{"name": "a", "select": "A", "copies": "1"}]}',
     "own.prm": "XYZR_FileName = exposed.xyz\n", "fine.prm": "XYZR_FileName = ball.xyzr\nGrid_scale = 9\n",
     "coarse.prm": "XYZR_FileName = ball.xyzr\nGrid_scale = 1\n", "few.prm": "XYZR_FileName = two.xyzr\nGrid_scale = 9\n",
-    "list.txt": "one.xyzr\n", "junk.csv": "junk\n",
+    "tube.xyzr": xyzr(TUBE), "cage.xyzr": xyzr(CAGE), "list.txt": "one.xyzr\n", "junk.csv": "junk\n",
 }
 FAST = "--voxel 1 --surface sas"
 PLAN = f"vdb_molsurf bricks plan 1crn.pdb --voxel 1 --bricks 2 -o plan.json -q"
@@ -119,6 +131,10 @@ CASES = {
     "core/words.cpp": [
         ("did you mean residue?", "vdb_molsurf 1crn.pdb --color resdiue -o a.ply",
          f"vdb_molsurf 1crn.pdb --color residue {FAST} -o a.ply")],
+    "surface/check_mesh.cpp": [
+        ("--voxel 0.3", "vdb_molsurf 1ubq.pdb --surface vdw -o a.ply", "vdb_molsurf 1ubq.pdb --surface vdw --voxel 0.38 -o b.ply")],
+    "surface/pose_error.cpp": [
+        ("--lambda 0.04", "vdb_molsurf 1crn.pdb --lambda 0.1 --voxel 1 -o a.ply", "vdb_molsurf 1crn.pdb --lambda 0.04 --voxel 1 -o b.ply")],
     "surface/settings.cpp": [
         ("--color plain=red", f"vdb_molsurf one.xyzr {FAST} --color red -o a.ply",
          f"vdb_molsurf one.xyzr {FAST} --color plain=red -o a.ply"),
@@ -305,6 +321,8 @@ CASES = {
          "vdb_molsurf bricks run plan.json 1",
          f"{PLAN} --force; vdb_molsurf bricks run plan.json 1")],
     "tools/build.cpp": [
+        (" opens the widest", "vdb_molsurf tube.xyzr -o a.ply", "vdb_molsurf tube.xyzr --epsilon 0.25 -o a.ply --force"),
+        (" --voxel ", "vdb_molsurf cage.xyzr -o a.ply", "vdb_molsurf cage.xyzr --epsilon 0.1 --voxel 0.2 -o a.ply --force"),
         ("--surface", f"vdb_molsurf 1crn.pdb --voxel 1 -o a.ply -o a.residues.csv",
          "vdb_molsurf 1crn.pdb --voxel 1 --surface ses -o b.ply -o b.residues.csv"),
         ("a plan of more bricks, or --max-hours 1", "vdb_molsurf bricks plan 1crn.pdb --voxel 0.3 --bricks 2 -o plan.json; "

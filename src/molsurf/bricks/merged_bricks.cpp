@@ -4,6 +4,7 @@
 #include "molsurf/bricks/merge_vdb.h"
 #include "molsurf/error.h"
 #include "molsurf/flow/evolve.h"
+#include "molsurf/mesh/measure.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
@@ -148,6 +149,7 @@ MergedBricks::MergedBricks(const std::vector<std::string>& paths, const std::str
 {
     report_.surface = mesh_.report();
     report_.surface.kind = nameOf(options.kind);
+    if (isClosedForm(options)) dropTopology(report_.surface);
     if (mesh_.triangles() == 0) failNothingLeft("merge", options.kind);
     if (!report_.surface.closed)
         report_.warnings.push_back("merge: the bricks do not fit everywhere: the mesh has gaps");

@@ -35,14 +35,16 @@ constexpr ReportKey keyTable[] = {
     {"surface.volume", "Å³", "Volume inside, cavities left out"},
     {"surface.euler_characteristic", "",
      "Euler number of all walls: twice their number less twice the tunnels. For ses, sas and vdw "
-     "that of the exact boundary; null where units do not add up to a closed one, or four probes "
-     "touch in one point"},
+     "that of the exact boundary; null in bricks, for ses by symmetry, where units do not add up "
+     "to "
+     "a closed one, or four probes touch in one point"},
     {"surface.mesh_euler_characteristic", "",
      "Euler number of the mesh, which on ses, sas and vdw bridges gaps narrower than a voxel. Null "
      "without a mesh"},
     {"surface.components", "",
-     "Number of closed pieces except walls of cavities; null if unknown, as for sas and vdw by "
-     "symmetry"},
+     "Number of closed pieces except walls of cavities; null if unknown, as for ses, sas and vdw "
+     "by "
+     "symmetry and in bricks"},
     {"surface.cavities", "", "Number of cavities; null if unknown"},
     {"surface.outer_area", "Å²", "Area without the walls of cavities"},
     {"surface.outer_volume", "Å³", "Volume with the cavities"},
@@ -62,8 +64,12 @@ constexpr ReportKey keyTable[] = {
      "within 0.03 of 1"},
     {"surface.kink_share", "", "Share of vertices within two voxels of a kink of the distance"},
     {"surface.mesh_area", "Å²",
-     "Area of the mesh of ses, sas and vdw, which bridges gaps narrower than a voxel; null for "
-     "other kinds and without a mesh"},
+     "Area of curved patches over the mesh of ses, sas and vdw, which bridges gaps narrower than a "
+     "voxel; null for other kinds and without a mesh"},
+    {"surface.triangle_area", "Å²",
+     "Area of the flat triangles, as in the files; null without a mesh and in bricks"},
+    {"surface.mesh_components", "",
+     "Number of closed pieces of the mesh, walls of cavities included; null without a mesh"},
     {"surface.mesh_volume", "Å³", "Volume of that mesh"},
     {"surface.cusp_length", "Å",
      "Length of the creases of sas at which ses touches itself in cusps. Voxels round these, so "
@@ -105,7 +111,8 @@ constexpr ReportKey keyTable[] = {
      "Root mean square of the way of the interface in the last step; in closed form to rest"},
     {"evolution.displacement_tail", "Å", "99.9 % quantile of that way"},
     {"evolution.area_error", "",
-     "Estimated share by which the area may still change on the way to rest"},
+     "Estimated share by which the area may still change on the way to rest; at lambda above 0.04, "
+     "except in bricks, between two places of the molecule on the grid"},
     {"evolution.unsettled_share", "", "Share of the interface with a way above 0.1 voxel"},
     {"evolution.crevice_voxels", "",
      "Number of voxels at gaps too narrow for the grid; null without a step"},
@@ -118,6 +125,10 @@ constexpr ReportKey keyTable[] = {
     {"evolution.gaps.closed", "",
      "Number of those that tension closes although no atom fills them"},
     {"evolution.gaps.nearest", "", "Least distance from the decision, as a value of psi"},
+    {"evolution.gaps.closed_by_field", "",
+     "Number of passages and voids that a probe fits into and the field closes; not with "
+     "resolution"},
+    {"evolution.gaps.widest_closed", "Å", "Most room beside the probe in one of these"},
     {"evolution.walls", "",
      "Thin walls and necks decided by psi; null where gaps are, and on voxels above 0.75 Å or two "
      "thirds of the probe"},

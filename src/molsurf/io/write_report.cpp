@@ -53,6 +53,8 @@ Json surfaceJson(const SurfaceReport& surface)
             {"gradient_share", surface.gradientShare},
             {"kink_share", surface.kinkShare},
             {"mesh_area", surface.meshArea ? Json(*surface.meshArea) : Json()},
+            {"triangle_area", surface.triangleArea ? Json(*surface.triangleArea) : Json()},
+            {"mesh_components", surface.meshComponents},
             {"mesh_volume", surface.meshVolume ? Json(*surface.meshVolume) : Json()},
             {"cusp_length", surface.cuspLength ? Json(*surface.cuspLength) : Json()},
             {"mean_curvature", statisticsJson(surface.meanCurvature)},
@@ -68,7 +70,12 @@ Json surfaceJson(const SurfaceReport& surface)
 Json gapsJson(const std::optional<EvolutionReport::Gaps>& gaps)
 {
     if (!gaps) return {};
-    return {{"found", gaps->found}, {"closed", gaps->closed}, {"nearest", gaps->nearest}};
+    Json out = {{"found", gaps->found}, {"closed", gaps->closed}, {"nearest", gaps->nearest}};
+    if (gaps->closedByField) {
+        out["closed_by_field"] = *gaps->closedByField;
+        out["widest_closed"] = gaps->widestClosed;
+    }
+    return out;
 }
 
 Json evolutionJson(const EvolutionReport& evolution)
@@ -178,8 +185,9 @@ Json tablesJson(const std::vector<Table>& tables)
 void dropMesh(Json& surface)
 {
     for (const char* name :
-         {"mesh_euler_characteristic", "closed", "manifold", "degenerate_triangles", "max_residual",
-          "gradient_share", "kink_share", "mean_curvature", "gaussian_curvature"})
+         {"mesh_euler_characteristic", "mesh_components", "triangle_area", "closed", "manifold",
+          "degenerate_triangles", "max_residual", "gradient_share", "kink_share", "mean_curvature",
+          "gaussian_curvature"})
         surface[name] = nullptr;
 }
 

@@ -21,18 +21,6 @@ double rounded(double x)
     return std::round(x * 0x1p16) * 0x1p-16;
 }
 
-/// Sorts by place and removes duplicates.
-std::vector<Gap> distinct(std::vector<Gap> gaps)
-{
-    constexpr double same = 1e-3; // [Å]
-    std::sort(gaps.begin(), gaps.end(),
-              [](const Gap& a, const Gap& b) { return a.place < b.place; });
-    std::vector<Gap> out;
-    for (const Gap& gap : gaps)
-        if (!standsAmong(out, gap.place, same)) out.push_back(gap);
-    return out;
-}
-
 /// The bump at a gap with which psi is `least` at it, and within `reach` of it along its thin axis
 /// not of the other sign.
 /// @param[in] solid  whether the gap is closed: psi is positive there
@@ -74,10 +62,37 @@ double Gap::closedAbove(double gradient, double area) const
     return -std::min(walls * level, most);
 }
 
-std::optional<Gap> gapNear(const PsiJetAt& jet, const Vec3d& from, double reach)
+std::vector<Gap> distinct(std::vector<Gap> gaps)
+{
+    constexpr double same = 1e-3; // [Å]
+    std::sort(gaps.begin(), gaps.end(),
+              [](const Gap& a, const Gap& b) { return a.place < b.place; });
+    std::vector<Gap> out;
+    for (const Gap& gap : gaps)
+        if (!standsAmong(out, gap.place, same)) out.push_back(gap);
+    return out;
+}
+
+std::optional<Gap> gapAt(const Vec3d& place, const PsiJet& there)
+{
+    openvdb::Mat3d axes;
+    Vec3d values;
+    if (!openvdb::math::diagonalizeSymmetricMatrix(there.hessian, axes, values)) return {};
+    int order[3] = {0, 1, 2};
+    std::sort(order, order + 3, [&](int a, int b) { return values[a] < values[b]; });
+    return Gap{place,
+               there.psi,
+               Vec3d(values[order[0]], values[order[1]], values[order[2]]),
+               {axes.col(order[0]), axes.col(order[2])}};
+}
+
+std::optional<Gap> gapNear(const PsiJetAt& jet, const Vec3d& from, double reach, double highest)
 {
     constexpr double longest = 0.3, near = 0.05, there = 1e-5; // [Å]
     constexpr int steps = 12;
+    const auto isFar = [&](double psi, double margin) {
+        return psi < -farthestGap - margin || psi > highest + margin;
+    };
     Vec3d x = from, last(0.0);
     for (int i = 0; i < steps; ++i) {
         const PsiJet at = jet(x);
@@ -85,8 +100,7 @@ std::optional<Gap> gapNear(const PsiJetAt& jet, const Vec3d& from, double reach)
         Vec3d step = at.hessian.inverse() * at.gradient;
         const double length = step.length();
         // From here the method leads straight to a place where psi has this value.
-        if (length < near && std::abs(at.psi - 0.5 * step.dot(at.gradient)) > farthestGap + near)
-            return {};
+        if (length < near && isFar(at.psi - 0.5 * step.dot(at.gradient), near)) return {};
         if (length > longest) step *= longest / length;
         if (step.dot(last) < -0.9 * last.lengthSqr()) return {}; // to and fro, for ever
         last = step;
@@ -96,16 +110,8 @@ std::optional<Gap> gapNear(const PsiJetAt& jet, const Vec3d& from, double reach)
     }
     for (int a = 0; a < 3; ++a) x[a] = rounded(x[a]);
     const PsiJet at = jet(x);
-    if (at.gradient.length() > 1e-3 || std::abs(at.psi) > farthestGap) return {};
-    openvdb::Mat3d axes;
-    Vec3d values;
-    if (!openvdb::math::diagonalizeSymmetricMatrix(at.hessian, axes, values)) return {};
-    int order[3] = {0, 1, 2};
-    std::sort(order, order + 3, [&](int a, int b) { return values[a] < values[b]; });
-    return Gap{x,
-               at.psi,
-               Vec3d(values[order[0]], values[order[1]], values[order[2]]),
-               {axes.col(order[0]), axes.col(order[2])}};
+    if (at.gradient.length() > 1e-3 || isFar(at.psi, 0.0)) return {};
+    return gapAt(x, at);
 }
 
 GapReport decideGaps(const PsiJetAt& jet, std::vector<Gap> gaps, const GapRule& rule,
@@ -117,7 +123,9 @@ GapReport decideGaps(const PsiJetAt& jet, std::vector<Gap> gaps, const GapRule& 
     const double reach = std::min(held * voxelSize, widest);
     const double rate = std::min(sharpest, 0.7 / (voxelSize * voxelSize));
     const auto psi = [&](const Vec3d& x) { return jet(x).psi + bumps.at(x); };
-    gaps = distinct(std::move(gaps));
+    gaps.erase(std::remove_if(gaps.begin(), gaps.end(),
+                              [](const Gap& gap) { return gap.psi > farthestGap; }),
+               gaps.end());
     GapReport done;
     done.found = gaps.size();
     done.nearest = farthestGap;

@@ -43,16 +43,30 @@ struct Gap {
 
 /// What decides gaps.
 struct GapRule {
-    double gradient = 0.0; ///< lambda of the gradient regulariser [Å^2]
-    double area = 0.0;     ///< lambda of the area regulariser
+    double gradient = 0.0;    ///< lambda of the gradient regulariser [Å^2]
+    double area = 0.0;        ///< lambda of the area regulariser
+    bool countsClosed = true; ///< whether the report has what the field closes: not where balls
+                              ///< have rates of their own
 };
 
 /// The gaps farther than this from psi = 0 are none.
 constexpr double farthestGap = 1.6;
 
+/// psi at places that no ball covers is at most this, the logarithm of the number of balls about
+/// them.
+constexpr double highestUncovered = 4.6;
+
 /// The gap that Newton's method leads to from a point, if it does not lead farther than `reach`
 /// [Å], and if there is one.
-std::optional<Gap> gapNear(const PsiJetAt& jet, const openvdb::Vec3d& from, double reach);
+/// @param[in] highest  psi is at most this there
+std::optional<Gap> gapNear(const PsiJetAt& jet, const openvdb::Vec3d& from, double reach,
+                           double highest = farthestGap);
+
+/// A place as a gap, if its curvatures can be found.
+std::optional<Gap> gapAt(const openvdb::Vec3d& place, const PsiJet& there);
+
+/// Sorts by place and removes duplicates.
+std::vector<Gap> distinct(std::vector<Gap> gaps);
 
 /// Whether one of some that ascend by places, the last of which has no larger x, is at a place.
 template<typename Placed>
@@ -67,7 +81,7 @@ using GapReport = EvolutionReport::Gaps;
 
 /// Decides gaps. Where one is closed, psi becomes positive about it, and where it is open it
 /// becomes at least as wide as voxels hold.
-/// @param[in]     gaps   in any order, and more than once
+/// @param[in]     gaps   distinct; those above farthestGap are left out
 /// @param[in,out] bumps  those that do so are added
 GapReport decideGaps(const PsiJetAt& jet, std::vector<Gap> gaps, const GapRule& rule,
                      double voxelSize, Bumps& bumps);

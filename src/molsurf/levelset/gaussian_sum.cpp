@@ -166,7 +166,7 @@ void GaussianSum::gatherJetTerms(const Coord& cell, JetTerms& terms) const
     terms.fillUp();
 }
 
-PsiJet GaussianSum::jet(const Vec3d& x) const
+const JetTerms& GaussianSum::jetTermsAt(const Vec3d& x) const
 {
     struct Near {
         std::uint64_t sum = 0; // 0: none
@@ -180,7 +180,21 @@ PsiJet GaussianSum::jet(const Vec3d& x) const
         near.sum = number_;
         near.cell = cell;
     }
-    return near.terms.jetAt(x);
+    return near.terms;
+}
+
+PsiJet GaussianSum::jet(const Vec3d& x) const
+{
+    return jetTermsAt(x).jetAt(x);
+}
+
+double GaussianSum::roomAt(const Vec3d& x, double most) const
+{
+    double room = most;
+    index_.forEachNear(x, x, options_.probe + most, [&](const Ball& ball, std::int32_t) {
+        room = std::min(room, (x - Vec3d(ball.center)).length() - ball.radius - options_.probe);
+    });
+    return room;
 }
 
 std::size_t GaussianSum::productCount(const Coord& origin, double reach) const
@@ -243,22 +257,29 @@ GaussianSum::Candidates GaussianSum::candidates(const Progress& progress,
     return out;
 }
 
-void GaussianSum::decideGaps(Candidates& leaves, const Progress& progress)
+SparseField GaussianSum::searched(const Candidates& leaves, const Progress& progress) const
 {
-    const double h = options_.voxelSize, reach = std::max(1.5 * h, 0.75);
-    const double cell = 0.5 * h;
-    const float nearest = float(std::max(1.6 * h, 0.8)), limit = float(farthestGap) + 0.8f;
+    const double h = options_.voxelSize;
     std::vector<Coord> origins;
     for (std::size_t n = 0; n < leaves.table.size(); ++n)
         if (leaves.places[n] >= 0) origins.push_back(leaves.table.origin(n));
     SparseField psi{LeafTable(std::move(origins)), LeafField(), h};
     psi.values = LeafField(psi.table.size());
-    const auto placeOf = [&](std::size_t n) {
-        return std::size_t(leaves.places[std::size_t(leaves.table.find(psi.table.origin(n)))]);
-    };
     parallelFor(psi.table.size(), progress, [&](std::size_t n) {
-        std::copy_n(leaves.sums.leaf(placeOf(n)), leafSize, psi.leaf(n));
+        const Coord& origin = psi.table.origin(n);
+        const std::int32_t place = leaves.places[std::size_t(leaves.table.find(origin))];
+        std::copy_n(leaves.sums.leaf(std::size_t(place)), leafSize, psi.leaf(n));
     });
+    return psi;
+}
+
+std::vector<Gap> GaussianSum::criticalPoints(const SparseField& psi, const Progress& progress) const
+{
+    const double h = options_.voxelSize, reach = std::max(1.5 * h, 0.75);
+    const double cell = 0.5 * h;
+    constexpr float margin = 0.8f;
+    const float nearest = float(std::max(1.6 * h, 0.8)), limit = float(farthestGap) + margin;
+    const float highest = float(highestUncovered) + margin;
     const PsiJetAt at = [this](const Vec3d& x) { return jet(x); };
     std::vector<std::vector<Gap>> found(psi.table.size());
     // Voxels from which Newton's method leads to the same cell lead to the same point: of these the
@@ -275,17 +296,21 @@ void GaussianSum::decideGaps(Candidates& leaves, const Progress& progress)
     parallelFor(psi.table.size(), progress, [&](std::size_t n) {
         LeafBlock<float, 1> block;
         block.gather(psi, n);
+        const Vec3d low = psi.table.origin(n).asVec3d() * h;
         std::vector<Start> starts;
-        within(psi.leaf(n), limit).forEach([&](int v) {
+        within(psi.leaf(n), highest).forEach([&](int v) {
             const float* p = block.at(v >> 6, v >> 3 & 7, v & 7);
+            if (*p < -limit) return;
             const Derivatives d = derivatives<1>(p, float(1.0 / h));
             const openvdb::Mat3s hessian(d.xx, d.xy, d.xz, d.xy, d.yy, d.yz, d.xz, d.yz, d.zz);
             if (std::abs(hessian.det()) < 1e-3f) return;
             const openvdb::Vec3s step = hessian.inverse() * openvdb::Vec3s(d.x, d.y, d.z);
             if (step.length() > nearest) return;
-            const float rise = 0.5f * step.dot(openvdb::Vec3s(d.x, d.y, d.z));
-            if (std::abs(*p - rise) > limit) return;
+            const float there = *p - 0.5f * step.dot(openvdb::Vec3s(d.x, d.y, d.z));
+            if (there < -limit || there > highest) return;
             const Vec3d stationary = Vec3d(v >> 6, v >> 3 & 7, v & 7) * h - Vec3d(step);
+            const bool high = *p > limit || there > limit;
+            if (high && roomAt(low + stationary, 0.0) < -0.3 * h) return;
             starts.push_back({Coord::floor(stationary / cell), step.length(), v});
         });
         std::sort(starts.begin(), starts.end());
@@ -293,13 +318,29 @@ void GaussianSum::decideGaps(Candidates& leaves, const Progress& progress)
             if (i > 0 && starts[i].cell == starts[i - 1].cell) continue;
             const int v = starts[i].voxel;
             const Coord voxel = psi.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
-            if (const auto gap = gapNear(at, voxel.asVec3d() * h, reach)) found[n].push_back(*gap);
+            if (const auto gap = gapNear(at, voxel.asVec3d() * h, reach, highestUncovered))
+                found[n].push_back(*gap);
         }
     });
     std::vector<Gap> gaps;
     for (const auto& some : found) gaps.insert(gaps.end(), some.begin(), some.end());
-    decisions_ = molsurf::decideGaps(at, std::move(gaps), *options_.gaps, h, bumps_);
-    auto summed = std::int32_t(psi.table.size());
+    return distinct(std::move(gaps));
+}
+
+void GaussianSum::decideGaps(Candidates& leaves, const Progress& progress)
+{
+    const PsiJetAt at = [this](const Vec3d& x) { return jet(x); };
+    const std::vector<Gap> gaps = criticalPoints(searched(leaves, progress), progress);
+    decisions_ = molsurf::decideGaps(at, gaps, *options_.gaps, options_.voxelSize, bumps_);
+    if (options_.gaps->countsClosed) {
+        const PassageField field{at, [this](const Vec3d& x) { return roomAt(x); },
+                                 [this](const Vec3d& x, double times) {
+                                     return jetTermsAt(x).sharpened(times).jetAt(x);
+                                 }};
+        countClosedByField(gaps, field, *options_.gaps, options_.epsilon, *decisions_);
+    }
+    std::int32_t summed = 0;
+    for (const std::int32_t place : leaves.places) summed += place >= 0;
     for (std::size_t n = 0; n < leaves.table.size(); ++n) {
         const Coord& origin = leaves.table.origin(n);
         if (!bumps_.reach(origin)) continue;

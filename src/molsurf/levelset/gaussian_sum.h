@@ -11,6 +11,7 @@
 #include "molsurf/ball.h"
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/grid/sparse_field.h"
+#include "molsurf/levelset/closed_passages.h"
 #include "molsurf/levelset/gaps.h"
 #include "molsurf/levelset/gaussian_terms.h"
 #include "molsurf/levelset/jet_terms.h"
@@ -149,6 +150,14 @@ private:
     Candidates candidates(const Progress& progress, const openvdb::CoordBBox& box) const;
     void decideGaps(Candidates& leaves, const Progress& progress);
 
+    /// psi on the leaves that bounds do not decide. The bounds decide none that is not covered.
+    SparseField searched(const Candidates& leaves, const Progress& progress) const;
+    std::vector<Gap> criticalPoints(const SparseField& psi, const Progress& progress) const;
+
+    /// How far a point lies outside all balls of radius R_i, at most `most`; negative inside one.
+    double roomAt(const openvdb::Vec3d& x, double most = 3.0) const;
+
+    const JetTerms& jetTermsAt(const openvdb::Vec3d& x) const;
     void gatherJetTerms(const openvdb::Coord& cell, JetTerms& terms) const;
 
     struct Leaf;

@@ -97,4 +97,12 @@ PsiJet JetTerms::jetAt(const openvdb::Vec3d& x) const
     return {std::log(s.e), gradient, hessian};
 }
 
+JetTerms JetTerms::sharpened(double times) const
+{
+    JetTerms sharp = *this;
+    for (double& rate : sharp.rate_) rate *= times;
+    for (double& level : sharp.level_) level *= times;
+    return sharp;
+}
+
 } // namespace molsurf

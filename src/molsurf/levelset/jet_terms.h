@@ -32,6 +32,9 @@ public:
     /// any other psi is lowestPsi.
     PsiJet jetAt(const openvdb::Vec3d& x) const;
 
+    /// The terms with so many times the exponents: those of a tolerance so many times smaller.
+    JetTerms sharpened(double times) const;
+
 private:
     std::vector<double> x_, y_, z_, rate_, level_;
 };

@@ -156,6 +156,22 @@ std::vector<PieceMeasure> measurePieces(const Mesh& mesh, const std::vector<std:
     return sums;
 }
 
+double triangleArea(const Mesh& mesh, const Progress& progress)
+{
+    constexpr std::size_t chunk = 4096;
+    const std::size_t count = mesh.triangles.size();
+    return parallelSum<double>((count + chunk - 1) / chunk, progress, [&](std::size_t c) {
+        double sum = 0.0;
+        for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
+            const auto& t = mesh.triangles[i];
+            const Vec3d a(mesh.positions[t[0]]);
+            sum +=
+                (Vec3d(mesh.positions[t[1]]) - a).cross(Vec3d(mesh.positions[t[2]]) - a).length();
+        }
+        return 0.5 * sum;
+    });
+}
+
 void addPiece(double area, double volume, bool cavity, SurfaceReport& report)
 {
     report.area += area;
@@ -169,6 +185,15 @@ void addPiece(double area, double volume, bool cavity, SurfaceReport& report)
     }
 }
 
+void dropTopology(SurfaceReport& report)
+{
+    report.eulerCharacteristic.reset();
+    report.piecesKnown = false;
+    report.components = 0;
+    report.cavities.clear();
+    report.outerArea = report.outerVolume = 0.0;
+}
+
 void sortCavities(SurfaceReport& report)
 {
     std::stable_sort(report.cavities.begin(), report.cavities.end(),
@@ -177,6 +202,7 @@ void sortCavities(SurfaceReport& report)
 
 void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report)
 {
+    report.meshComponents += int(pieces.size());
     for (const PieceMeasure& s : pieces) addPiece(s.area, s.volume, s.volume < 0.0, report);
     sortCavities(report);
 }
@@ -214,6 +240,7 @@ SurfaceReport measure(const Mesh& mesh, const MeshPieces& pieces, const Progress
         int(std::int64_t(mesh.positions.size()) - std::int64_t(mesh.triangles.size() * 3 / 2) +
             std::int64_t(mesh.triangles.size()));
     countPieces(pieces.measures, report);
+    report.triangleArea = triangleArea(mesh, progress);
     return report;
 }
 

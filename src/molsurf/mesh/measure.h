@@ -46,12 +46,18 @@ struct MeshPieces {
 /// @param[in] mesh  with normals
 MeshPieces piecesOf(const Mesh& mesh, const Progress& progress);
 
+/// The area of the triangles themselves [Å^2].
+double triangleArea(const Mesh& mesh, const Progress& progress);
+
 /// Adds closed pieces to areas and volumes: components, and cavities, whose volume is negative.
 void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report);
 
 /// Adds a piece to area, volume, components and cavities of a report.
 /// @param[in] volume  [Å^3]; below 0 of a cavity's wall
 void addPiece(double area, double volume, bool cavity, SurfaceReport& report);
+
+/// Forgets Euler number and pieces, those of a mesh that may bridge what is narrower than a voxel.
+void dropTopology(SurfaceReport& report);
 
 /// Puts the cavities of a report in order, the largest first.
 void sortCavities(SurfaceReport& report);

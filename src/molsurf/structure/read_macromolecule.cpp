@@ -22,6 +22,7 @@
 #include <functional>
 #include <map>
 #include <stdexcept>
+#include <unordered_set>
 
 namespace molsurf
 {
@@ -350,6 +351,34 @@ Structure structureOf(gemmi::cif::Document& document, const std::string& path,
     return out;
 }
 
+/// Refuses names that stand twice, as gemmi::cif::read_memory() does. That empties one table for
+/// each block, which takes the square of their number.
+void checkDuplicates(gemmi::cif::Document& document)
+{
+    std::unordered_set<std::string> names;
+    gemmi::cif::Document one;
+    one.source = document.source;
+    one.blocks.resize(1);
+    for (gemmi::cif::Block& block : document.blocks) {
+        if (!names.insert(gemmi::to_lower(block.name)).second && !block.name.empty())
+            gemmi::fail(document.source + ": duplicate block name: ", block.name);
+        std::swap(one.blocks[0], block);
+        gemmi::cif::check_for_duplicates(one);
+        std::swap(one.blocks[0], block);
+    }
+}
+
+gemmi::cif::Document parseCif(const std::string& text, const std::string& path)
+{
+    tao::pegtl::memory_input<> in(text.data(), text.size(), path);
+    gemmi::cif::Document document;
+    document.source = path;
+    gemmi::cif::parse_input(document, in);
+    gemmi::cif::check_for_missing_values(document);
+    checkDuplicates(document);
+    return document;
+}
+
 /// An mmCIF text whose rows of atoms are read piece by piece: a document of all of them takes
 /// twelve times the memory of the text.
 /// @throws std::exception if something is not as it was expected
@@ -357,7 +386,7 @@ Structure readInPieces(const std::string& text, const CifRows& rows, const std::
                        const Progress& progress)
 {
     const std::string rest = text.substr(0, rows.firstEnd) + text.substr(rows.cuts.back());
-    gemmi::cif::Document document = gemmi::cif::read_memory(rest.data(), rest.size(), path.c_str());
+    gemmi::cif::Document document = parseCif(rest, path);
     return structureOf(document, path, progress, [&](Block& block, Structure& out) {
         addPieces(block, text, rows, path, progress, out);
     });
@@ -401,12 +430,9 @@ bool isRead(const std::string& category)
                        [&](const char* name) { return gemmi::iequal(category, name); });
 }
 
-} // namespace
-
-namespace
-{
 constexpr std::size_t rowsOfPiece = 20000; // which take 30 MB
-}
+
+} // namespace
 
 double bytesForMmcif(const std::string& text)
 {
@@ -434,9 +460,8 @@ Structure readMmcifInPieces(std::string text, const std::string& path, const Pro
         } catch (const std::exception&) { // read as a whole it gives the line
         }
     }
-    return readDocument(std::move(text), path, progress, [&](const std::string& all) {
-        return gemmi::cif::read_memory(all.data(), all.size(), path.c_str());
-    });
+    return readDocument(std::move(text), path, progress,
+                        [&](const std::string& all) { return parseCif(all, path); });
 }
 
 Structure readBinaryCif(std::string bytes, const std::string& path, const Progress& progress)

@@ -65,6 +65,14 @@ AtomLine groAtom(const LineReader& lines, std::size_t width, const std::string& 
            "is cut short after line " + std::to_string(lines.number()) + ": expected " + expected);
 }
 
+/// Whether a line has three numbers or more. Large ones are glued: "40000.0000040000.00000".
+bool isGroBox(string_view line)
+{
+    const auto points = std::count(line.begin(), line.end(), '.');
+    const bool numbers = line.find_first_not_of("0123456789.+-eE \t") == string_view::npos;
+    return numbers && (points >= 3 || splitFields(line).size() >= 3);
+}
+
 /// Reads a frame whose title is the current line.
 void readGroFrame(LineReader& lines, const std::string& path, AtomTree& tree)
 {
@@ -81,9 +89,7 @@ void readGroFrame(LineReader& lines, const std::string& path, AtomTree& tree)
         tree.add(groAtom(lines, width, path));
     }
     if (!lines.next()) failShort(path, lines, "the box");
-    const string_view box = lines.line(); // large ones are glued: "40000.0000040000.00000"
-    if (std::count(box.begin(), box.end(), '.') < 3 ||
-        box.find_first_not_of("0123456789.+-eE \t") != string_view::npos)
+    if (!isGroBox(lines.line()))
         failAtLine(path, lines,
                    "expected the box after " + std::to_string(count) + " atoms, got " +
                        inQuotes(lines.line()));

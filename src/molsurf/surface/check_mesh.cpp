@@ -4,6 +4,7 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/options.h"
 
 #include <algorithm>
 #include <array>
@@ -96,6 +97,24 @@ void checkMesh(const Mesh& mesh, const SurfaceReport& report, double voxel,
     throw Error(ErrorKind::Numeric, "mesh: the voxels are too large for the surface: triangles and "
                                     "arcs between its vertices enclose volumes that differ [hint: "
                                     "a smaller `voxel`]");
+}
+
+void warnOfMesh(const SurfaceReport& surface, double voxel, std::vector<std::string>& warnings)
+{
+    constexpr double most = 0.05; // of the area that the mesh may lack
+    const int pieces = surface.components + int(surface.cavities.size());
+    if (surface.piecesKnown && surface.meshComponents != pieces)
+        warnings.push_back(formatted(
+            "mesh: it has %s, the surface %d: voxels join or cut what is narrower",
+            counted(std::size_t(surface.meshComponents), "closed piece", "closed pieces").c_str(),
+            pieces));
+    const double off = 1.0 - *surface.meshArea / surface.area;
+    if (std::abs(off) <= most) return;
+    // What a mesh lacks along creases grows with the voxel.
+    const double fine = std::max(0.8 * voxel * most / std::abs(off), minVoxel);
+    warnings.push_back(formatted("mesh: its area is %.1f %% %s that of the surface [hint: `voxel` "
+                                 "%.2g]",
+                                 100.0 * std::abs(off), off > 0.0 ? "below" : "above", fine));
 }
 
 } // namespace molsurf

@@ -24,4 +24,9 @@ constexpr double largestResidual = 1e-3;
 void checkMesh(const Mesh& mesh, const SurfaceReport& report, double voxel,
                const Progress& progress);
 
+/// Adds a warning where the mesh of a surface in closed form has other pieces, or an area too far
+/// from that.
+/// @param[in] surface  measures of both
+void warnOfMesh(const SurfaceReport& surface, double voxel, std::vector<std::string>& warnings);
+
 } // namespace molsurf

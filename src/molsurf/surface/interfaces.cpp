@@ -109,6 +109,18 @@ Members membersOf(const BallSet& atoms)
     return out;
 }
 
+/// What areas depend on: a subset of many groups would copy the names of all.
+BallSet withoutNames(const BallSet& atoms)
+{
+    BallSet bare;
+    bare.balls = atoms.balls;
+    bare.decays = atoms.decays;
+    bare.resolutions = atoms.resolutions;
+    bare.resolutionOf = atoms.resolutionOf;
+    bare.placement = atoms.placement;
+    return bare;
+}
+
 } // namespace
 
 void measureInterfaces(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
@@ -125,8 +137,9 @@ void measureInterfaces(const BallSet& atoms, const SurfaceOptions& options, Prog
     std::size_t runs = groups.size(), done = 0;
     for (std::size_t a = 0; a < groups.size(); ++a) runs += near[a].size();
     const auto tick = [&] { progress.update("interfaces", double(done++) / double(runs)); };
+    const BallSet bare = withoutNames(atoms);
     const auto measured = [&](const std::vector<std::size_t>& some) {
-        return areasOf(subset(atoms, some), plain, progress);
+        return areasOf(subset(bare, some), plain, progress);
     };
     std::map<std::size_t, Areas> alone;
     const auto aloneOf = [&](std::size_t member) -> const Areas& {

@@ -133,7 +133,7 @@ void add(SurfaceReport& sum, const SurfaceReport& part)
         std::max(1.0, double(sum.vertices + part.vertices));
     if (sum.vertices == 0) {
         sum.kind = part.kind;
-        sum.meshArea = sum.meshVolume = 0.0;
+        sum.meshArea = sum.meshVolume = sum.triangleArea = 0.0;
         sum.closed = sum.manifold = true;
     } else if (sum.kind != part.kind) {
         sum.kind = "mixed";
@@ -144,6 +144,8 @@ void add(SurfaceReport& sum, const SurfaceReport& part)
     sum.meshEulerCharacteristic += part.meshEulerCharacteristic;
     add(sum.meshArea, part.meshArea);
     add(sum.meshVolume, part.meshVolume);
+    add(sum.triangleArea, part.triangleArea);
+    sum.meshComponents += part.meshComponents;
     sum.components += part.components;
     append(sum.cavities, part.cavities);
     sum.outerArea += part.outerArea;

@@ -15,6 +15,7 @@
 #include "molsurf/surface/label_surface.h"
 #include "molsurf/surface/match_volume.h"
 #include "molsurf/surface/parts.h"
+#include "molsurf/surface/pose_error.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/surface_run.h"
 #include "molsurf/surface/unit_mesh.h"
@@ -79,7 +80,9 @@ MolecularSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& opti
 /// The surface of all balls, which are computed in spatial order.
 MolecularSurface runInOrder(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
-    MolecularSurface result = runWhole(inSpatialOrder(atoms), options, progress);
+    const BallSet ordered = inSpatialOrder(atoms);
+    MolecularSurface result = runWhole(ordered, options, progress);
+    if (dependsOnPose(options)) estimatePoseError(ordered, options, progress, result.report);
     if (!options.ballAreas) result.ballAreas.clear(); // known for groups
     if (result.ballAreas.empty()) return result;
     const std::vector<std::int32_t> order = spatialOrder(atoms.balls);

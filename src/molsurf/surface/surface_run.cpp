@@ -61,7 +61,7 @@ void SurfaceRun::density()
     gaussian.extent = influence_.extent();
     if (evolves && decidesGaps(options_.evolution)) {
         const Weights weights = weightsOf(options_.evolution);
-        gaussian.gaps = GapRule{weights.gradient, weights.area};
+        gaussian.gaps = GapRule{weights.gradient, weights.area, atoms_.decays.empty()};
     }
     sum_.emplace(atoms_.balls, gaussian, evolves ? atoms_.decays : std::vector<Decay>());
     if (evolves && startsOnCoarserVoxels(flowOptions(options_), options_.voxel)) {
@@ -434,6 +434,7 @@ void SurfaceRun::takeClosedForm()
     s.meshVolume = s.volume;
     describePieces(*exact_, options_.fillCavities, s);
     checkMesh(s.area, s.volume, *s.meshArea, *s.meshVolume, exact_->tolerance);
+    warnOfMesh(s, options_.voxel, result_.report.warnings);
 }
 
 openvdb::FloatGrid::Ptr SurfaceRun::sasGrid()

@@ -59,14 +59,11 @@ std::vector<double> takeClosedForm(const BallSet& atoms, double grown, const Pro
 {
     const double order = double(atoms.placement.order());
     UnitShare share = shareOfUnit(atoms, grown, progress);
+    dropTopology(surface);
     surface.eulerCharacteristic = share.wholeEuler;
     surface.area = 0.0;
     for (double& area : share.areas) surface.area += area *= order;
     surface.volume = order * share.volume;
-    surface.piecesKnown = false;
-    surface.components = 0;
-    surface.cavities.clear();
-    surface.outerArea = surface.outerVolume = 0.0;
     return std::move(share.areas);
 }
 
@@ -142,6 +139,7 @@ void measureWhole(const Placement::Unit& unit, const BorderFit& fit, const Mesh&
         if (!std::exchange(counted[found.of[v]], 1))
             fitted.measures[fitted.of[v]].area += found.measures[found.of[v]].area;
     countPieces(wholePieces(unit, fit, fitted.of, fitted.measures), surface);
+    surface.triangleArea = double(unit.inverse.size()) * triangleArea(mesh, progress);
     BorderClasses classes(unit, fit.shared, mesh.positions.size());
     const std::size_t units = unit.inverse.size();
     surface.triangles = units * mesh.triangles.size();
@@ -226,6 +224,8 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
         surface.meshArea = surface.area;
         surface.meshVolume = surface.volume;
         run.result().ballAreas = takeClosedForm(atoms, grown, progress, surface);
+    } else if (isClosedForm(options)) {
+        dropTopology(surface);
     }
     checkFit(fit, area / double(placement.order()), surface);
     watch.stop("unit");

@@ -84,6 +84,7 @@ TEST(WriteReport, HasTheKeysOfTheTableAndNoOthers)
     report.surface.triangles = 4;
     report.surface.cuspLength = report.surface.meshArea = report.surface.meshVolume = 1.0;
     report.evolution->gaps = report.evolution->walls = EvolutionReport::Gaps();
+    report.evolution->gaps->closedByField = 1;
     report.coarse = CoarseReport{1, 2};
     report.resolutions.resize(1);
     report.groups = {{"A", 1, 1.0, 1.0, "#ff0000", 2.0}};

@@ -395,5 +395,14 @@ TEST(ReadMmcif, AnErrorInAPieceNamesItsLine)
     EXPECT_EQ(errorIn(1), errorIn(1000000));
 }
 
+TEST(ReadMmcif, RefusesNamesThatStandTwice)
+{
+    const std::string atom = atomSite(full, "ATOM 1 C CA . ALA A 1 0 0 0 1 1 1 A 1\n");
+    EXPECT_EQ(readMmcif(atom + "data_a\n_b.c 1\ndata_d\n_b.c 1\n").atoms.size(), 1u);
+    EXPECT_HAS(mmcifError(atom + "data_a\n_b.c 1\ndata_A\n_b.c 1\n"), "duplicate block name: A");
+    EXPECT_HAS(mmcifError(atom + "data_a\n_b.c 1\n_B.C 1\n"), "duplicate tag _B.C");
+    EXPECT_HAS(mmcifError(atom + "data_a\nloop_\n_b.c\n_b.C\n1 2\n"), "duplicate tag _b.C");
+}
+
 } // namespace
 } // namespace molsurf::test

@@ -59,6 +59,15 @@ TEST(ReadGro, FramesAreModelsAndColumnsAreAsWideAsTheirDigitsSay)
     EXPECT_NEAR(s.atoms[5].position.z(), 20.00001, 1e-12);
 }
 
+TEST(ReadGro, TakesABoxOfWholeNumbers)
+{
+    std::string text = groFrame;
+    text.replace(text.find("   5.00000"), std::string::npos, "2 2 2\n");
+    EXPECT_EQ(readAs("a.gro", text).atoms.size(), 5u);
+    text.replace(text.find("2 2 2"), 5, "2 2");
+    EXPECT_HAS(errorAs("a.gro", text), "expected the box after 5 atoms, got \"2 2\"");
+}
+
 TEST(ReadGro, NamesTheLineThatIsWrong)
 {
     const auto replaced = [](std::string from, const std::string& to) {

@@ -107,5 +107,61 @@ TEST(CheckMesh, HoldsWhereTheCarrierIsFlat)
     EXPECT_TRUE(report.cavities.empty());
 }
 
+// Probes that all but touch leave a solid in one piece, which voxels cut in 36.
+TEST(CheckMesh, WarnsOfOtherPiecesThanTheSurfaceHas)
+{
+    std::vector<Ball> corners;
+    for (int zero = 0; zero < 3; ++zero) {
+        for (const double a : {-2.969848480983, 2.969848480983}) {
+            for (const double b : {-2.969848480983, 2.969848480983}) {
+                openvdb::Vec3d x(0.0);
+                x[(zero + 1) % 3] = a;
+                x[(zero + 2) % 3] = b;
+                corners.push_back({x, 1.2, std::int32_t(corners.size())});
+            }
+        }
+    }
+    SurfaceOptions options;
+    options.kind = SurfaceKind::SolventExcluded;
+    const Report report = makeSurface(corners, options).report;
+    EXPECT_EQ(report.surface.components, 1);
+    EXPECT_EQ(report.surface.meshComponents, 36);
+    ASSERT_EQ(report.warnings.size(), 1u);
+    EXPECT_HAS(report.warnings[0], "mesh: it has 36 closed pieces, the surface 1:");
+    const Report one = makeSurface({corners[0]}, options).report;
+    EXPECT_EQ(one.surface.meshComponents, 1);
+    EXPECT_TRUE(one.warnings.empty());
+}
+
+TEST(CheckMesh, WarnsOfAnAreaFarFromThatOfTheSurface)
+{
+    SurfaceReport surface;
+    surface.components = 1;
+    surface.cavities.resize(2);
+    surface.meshComponents = 3;
+    surface.area = 100.0;
+    std::vector<std::string> warnings;
+    for (const double near : {95.1, 104.9}) {
+        surface.meshArea = near;
+        warnOfMesh(surface, voxel, warnings);
+    }
+    EXPECT_TRUE(warnings.empty());
+    surface.meshArea = 90.0;
+    warnOfMesh(surface, voxel, warnings);
+    surface.meshArea = 120.0;
+    warnOfMesh(surface, voxel, warnings);
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_HAS(warnings[0], "area is 10.0 % below that of the surface [hint: `voxel` 0.2]");
+    EXPECT_HAS(warnings[1], "area is 20.0 % above that of the surface [hint: `voxel` 0.1]");
+}
+
+TEST(CheckMesh, TheTrianglesOfABallAreLessThanItsArea)
+{
+    const SurfaceReport ball = makeSurface({{{0.1, 0.2, 0.3}, 1.7, 0}}).report.surface;
+    ASSERT_TRUE(ball.triangleArea);
+    EXPECT_LT(*ball.triangleArea, 0.995 * ball.area);
+    EXPECT_GT(*ball.triangleArea, 0.97 * ball.area);
+}
+
 } // namespace
 } // namespace molsurf::test

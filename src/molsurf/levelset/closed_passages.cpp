@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/levelset/closed_passages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+
+namespace
+{
+
+/// A critical point that the field closes.
+struct Closed {
+    Gap gap;
+    double room;  ///< [Å], > 0
+    double level; ///< psi is above it: Gap::closedAbove()
+};
+
+/// Whether no ball lies between two points, and psi is above a level there.
+bool inOnePore(const Vec3d& a, const Vec3d& b, double level, const PassageField& field)
+{
+    constexpr double step = 0.1; // [Å]
+    const int steps = int(std::ceil((b - a).length() / step));
+    for (int i = 1; i < steps; ++i) {
+        const Vec3d x = a + (b - a) * (double(i) / steps);
+        if (field.room(x) <= 0.0 || field.jet(x).psi <= level) return false;
+    }
+    return true;
+}
+
+/// The first of the points that lie in the pore of each.
+std::vector<std::size_t> poresOf(const std::vector<Closed>& points, const PassageField& field)
+{
+    constexpr double farthest = 8.0; // [Å]
+    std::vector<std::size_t> pore(points.size());
+    std::iota(pore.begin(), pore.end(), std::size_t(0));
+    const auto rootOf = [&](std::size_t i) {
+        while (pore[i] != i) i = pore[i] = pore[pore[i]];
+        return i;
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3d& x = points[i].gap.place;
+        for (std::size_t j = i; j-- > 0;) {
+            const Vec3d& y = points[j].gap.place;
+            if (x.x() - y.x() > farthest) break;
+            const std::size_t a = rootOf(i), b = rootOf(j);
+            const double level = std::min(points[i].level, points[j].level);
+            if (a == b || (x - y).length() > farthest || !inOnePore(x, y, level, field)) continue;
+            pore[std::max(a, b)] = std::min(a, b);
+        }
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) pore[i] = rootOf(i);
+    return pore;
+}
+
+/// How many times smaller the tolerance has to be, for a point to be open.
+double timesToOpen(const Vec3d& place, const PassageField& field, const GapRule& rule)
+{
+    constexpr double most = 64.0, finest = 1.02;
+    const auto isOpen = [&](double times) {
+        const auto gap = gapAt(place, field.sharpened(place, times));
+        return gap && gap->psi < gap->closedAbove(rule.gradient, rule.area);
+    };
+    double low = 1.0, high = most;
+    while (high / low > finest) {
+        const double middle = std::sqrt(low * high);
+        (isOpen(middle) ? high : low) = middle;
+    }
+    return high;
+}
+
+} // namespace
+
+void countClosedByField(const std::vector<Gap>& gaps, const PassageField& field,
+                        const GapRule& rule, double epsilon, GapReport& report)
+{
+    std::vector<Closed> points;
+    for (const Gap& gap : gaps) {
+        const double level = gap.closedAbove(rule.gradient, rule.area);
+        const double room = gap.psi > level ? field.room(gap.place) : 0.0;
+        if (room > 0.0) points.push_back({gap, room, level});
+    }
+    const std::vector<std::size_t> pores = poresOf(points, field);
+    std::size_t count = 0, widest = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        count += pores[i] == i;
+        if (points[i].room > points[widest].room) widest = i;
+    }
+    report.closedByField = count;
+    if (count == 0) return;
+    report.widestClosed = points[widest].room;
+    constexpr double about = 0.8; // a narrower neck may stay closed
+    double times = 1.0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (pores[i] == pores[widest] && points[i].room > about * points[widest].room)
+            times = std::max(times, timesToOpen(points[i].gap.place, field, rule));
+    report.opensBelow = epsilon / times;
+}
+
+} // namespace molsurf

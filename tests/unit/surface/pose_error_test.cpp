@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/pose_error.h"
+
+#include "molsurf/surface.h"
+
+#include "unit/structure/temp_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace molsurf
+{
+namespace
+{
+
+SurfaceOptions withLambda(double lambda)
+{
+    SurfaceOptions options;
+    options.evolution.lambda = lambda;
+    return options;
+}
+
+TEST(PoseError, IsAskedForWhereFrontsDecide)
+{
+    EXPECT_FALSE(dependsOnPose(withLambda(0.04)));
+    EXPECT_TRUE(dependsOnPose(withLambda(0.045)));
+    SurfaceOptions options = withLambda(0.1);
+    options.kind = SurfaceKind::SmoothAccessible;
+    EXPECT_TRUE(dependsOnPose(options));
+    options.kind = SurfaceKind::SolventExcluded;
+    EXPECT_FALSE(dependsOnPose(options));
+    options.kind = SurfaceKind::Variational;
+    options.evolution.steps = 3;
+    EXPECT_FALSE(dependsOnPose(options));
+    options.evolution.steps.reset();
+    options.evolution.flow = Flow::Paper;
+    EXPECT_FALSE(dependsOnPose(options));
+}
+
+// The ends of the groove between two balls come to rest elsewhere on voxels of an Å.
+TEST(PoseError, IsThatOfTwoRunsThatAreTurned)
+{
+    const std::vector<Ball> balls = {{{0.1, 0.2, 0.3}, 1.7, 0}, {{5.6, 0.2, 0.3}, 1.7, 1}};
+    const SurfaceOptions options = withLambda(0.1);
+    const MolecularSurface made = makeSurface(balls, options);
+    SurfaceOptions coarse = options;
+    coarse.voxel = 2.0 * options.voxel;
+    const double other = makeSurface(balls, coarse).report.surface.area;
+    const double share = std::abs(1.0 - other / made.report.surface.area);
+    EXPECT_GT(made.report.evolution->areaError, 0.5 * share);
+    EXPECT_LT(made.report.evolution->areaError, 0.1);
+    ASSERT_EQ(made.report.warnings.size(), 1u);
+    EXPECT_HAS(made.report.warnings[0], "`lambda` 0.1: the place of the molecule on the grid");
+    EXPECT_GT(made.report.evolution->areaError,
+              makeSurface(balls, withLambda(0.04)).report.evolution->areaError);
+}
+
+TEST(PoseError, OfWhatIsTooSmallForTwiceTheVoxelIsFoundOnTheSame)
+{
+    SurfaceOptions options = withLambda(0.1);
+    options.probe = 0.0;
+    options.voxel = 0.9;
+    const MolecularSurface made = makeSurface({{{0.1, 0.2, 0.3}, 1.2, 0}}, options);
+    EXPECT_LT(made.report.evolution->areaError, 1.0);
+    EXPECT_EQ(made.report.warnings.size(), 1u);
+}
+
+TEST(PoseError, IsNotAskedForBelow)
+{
+    const MolecularSurface made = makeSurface({{{0.1, 0.2, 0.3}, 1.7, 0}}, withLambda(0.04));
+    EXPECT_TRUE(made.report.warnings.empty());
+}
+
+} // namespace
+} // namespace molsurf
