@@ -505,7 +505,7 @@ UNTRIED = {
     "surface/compare.cpp": {"write .ply instead": "the program refuses it before the library does"},
     "surface/options.cpp": {"`kind` ses": "the program never asks for it"},
     "surface/run.cpp": {"`surface` sas": "the program refuses it before the library does"},
-    "surface/unit_mesh.cpp": {"a .glb file": "it takes a mesh of 2^32 vertices"},
+    "surface/unit_mesh.cpp": {"a .glb file": "it takes a mesh of 2^32 vertices", "a larger `voxel`": "it takes copies of 2^32 vertices"},
     "surface/unit_run.cpp": {"a smaller `voxel`": "no unit is known that gives it",
                              "edges of": "no unit is known that gives it"},
     "tools/input_files.cpp": {"an address": "it takes the network", "Protein Data Bank": "it takes the network"},
