@@ -176,7 +176,7 @@ bool isEstimated(const SurfaceOptions& options)
 /// A line on what the field closes, with what opens the widest of it; empty if that is narrow.
 std::string closedByField(const Report& report, const SurfaceOptions& options)
 {
-    constexpr double wide = 0.35; // [Å], the width that docs/limits.md gives for three atoms
+    constexpr double wide = 0.25; // [Å], the room of the tunnel of gramicidin (1GRM)
     const bool asked = report.evolution && report.evolution->gaps;
     if (!asked || report.evolution->gaps->widestClosed < wide) return {};
     const EvolutionReport::Gaps& gaps = *report.evolution->gaps;
