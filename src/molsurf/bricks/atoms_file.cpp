@@ -360,7 +360,8 @@ void AtomsFile::readIndex(std::uint64_t size)
     std::uint64_t atoms = 0;
     for (const AtomCell& cell : cells_) atoms += cell.count;
     const Json j = Json::parse(index_.substr(tail.cells, tail.header));
-    if (atoms == 0 || atoms != jsonNumber<std::uint64_t>(j.at("atoms")) ||
+    if (atoms == 0 || atoms > most / sizeof(Record) ||
+        atoms != jsonNumber<std::uint64_t>(j.at("atoms")) ||
         atoms * sizeof(Record) != most - tail.map - tail.cells - tail.header)
         refuse("its atoms are not as many as it says");
     shared_ = parseHeader(j);
