@@ -119,6 +119,24 @@ TEST(ReadMol2, ReadsAtomsResiduesChainsAndCharges)
     EXPECT_EQ(s.atoms[3].role, AtomRole::Particle); // a lone pair
 }
 
+/// Substructures are those of their molecule, and charges are known if all atoms have one.
+TEST(ReadMol2, KeepsMoleculesApart)
+{
+    std::string other = mol2;
+    other.replace(other.find(" B ALA"), 6, " C ALA");
+    const Structure s = readLigand(mol2 + other);
+    ASSERT_EQ(s.models.size(), 2u);
+    const auto chainOf = [&](std::size_t model) {
+        const Atom& first = s.atoms[s.models[model].begin];
+        return s.chains[std::size_t(residueOf(s, first).chain)];
+    };
+    EXPECT_EQ(chainOf(0), "B");
+    EXPECT_EQ(chainOf(1), "C");
+    EXPECT_EQ(s.charges.size(), 8u);
+    other.replace(other.find("ATP501 0.75"), 11, "ATP501     ");
+    EXPECT_TRUE(readLigand(mol2 + other).charges.empty());
+}
+
 /// Elements of atoms X1, X2, ... of a molecule by their types.
 std::vector<int> elementsOf(const std::vector<std::string>& types, const std::string& names = "")
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/levelset/closest_foot.h"
 #include "molsurf/levelset/walls.h"
+#include "support/fields.h"
 #include "support/motion.h"
 #include "support/runs.h"
 
@@ -174,6 +175,54 @@ TEST(Walls, OfARingAreOpenOrClosedInAllPoses)
                 }
             }
         }
+    }
+}
+
+// What the report counts, and how far from the decision the nearest wall was.
+TEST(Walls, AreCountedInTheReport)
+{
+    std::mt19937 random(29);
+    for (const double beyond : {-0.05, -0.02, 0.02, 0.05}) {
+        const std::vector<Vec3d> centres = ring(6, probe + thinnestWall + beyond);
+        SurfaceOptions options;
+        const Report report =
+            test::runOn(ballsAt(centres, test::randomMotion(random)), options).report;
+        ASSERT_TRUE(report.evolution && report.evolution->walls);
+        const EvolutionReport::Gaps& walls = *report.evolution->walls;
+        EXPECT_EQ(walls.found, 1u) << beyond;
+        EXPECT_EQ(walls.closed, beyond > 0.0 ? 1u : 0u) << beyond;
+        EXPECT_NEAR(walls.nearest, std::abs(beyond), 0.01);
+    }
+}
+
+// The middle of a closed wall lies 0.7 voxels inside, that of an open one 0.25 outside, and half a
+// radius from there (1 - t^2)^3 of the change is left.
+TEST(Walls, AreHeldByBumps)
+{
+    constexpr double h = 0.5, offset = 1.4, flat = 0.05;
+    for (const bool closed : {true, false}) {
+        std::vector<openvdb::Coord> origins;
+        for (int k = 0; k < 8; ++k)
+            origins.emplace_back(8 * (k >> 2), 8 * (k >> 1 & 1), 8 * (k & 1));
+        LeafTable table(std::move(origins));
+        for (std::size_t n = 0; n < table.size(); ++n) table.active(n) = ~LeafMask();
+        SparseField S = test::filled(table, h, [](const Vec3d&) { return flat; });
+        const Vec3d middle(8.0, 8.0, 8.0); // [voxel]
+        const double depth = offset + thinnestWall + (closed ? 0.03 : -0.03);
+        const GapReport report = decideWalls({{middle, depth}}, offset, S);
+        EXPECT_EQ(report.found, 1u);
+        EXPECT_EQ(report.closed, closed ? 1u : 0u);
+        EXPECT_NEAR(report.nearest, 0.03, 1e-9);
+        const auto at = [&](int x) {
+            const openvdb::Coord c(x, 8, 8);
+            return double(S.leaf(
+                std::size_t(S.table.find(c)))[openvdb::FloatTree::LeafNodeType::coordToOffset(c)]);
+        };
+        const double change = (closed ? -0.7 * h : 0.25 * h) - flat;
+        EXPECT_NEAR(at(8) - flat, change, 1e-5) << closed;
+        const double t2 = 1.0 / 9.0; // a voxel of the bump's three
+        EXPECT_NEAR(at(9) - flat, change * std::pow(1.0 - t2, 3), 1e-5) << closed;
+        EXPECT_NEAR(at(12), flat, 1e-6);
     }
 }
 
