@@ -153,6 +153,23 @@ TEST(Gaps, CloseWhereNoLevelSetRests)
     }
 }
 
+TEST(Gaps, AreNeverClosedFartherThanTheEstimateHolds)
+{
+    Gap gap{};
+    gap.curvatures = openvdb::Vec3d(1.0, 2.0, 3.0);
+    EXPECT_EQ(gap.closedAbove(10.0, 0.0), -1.5);
+    EXPECT_EQ(gap.closedAbove(0.0, 10.0), -1.5);
+}
+
+TEST(Gaps, ThatLieNearEachOtherAreTwo)
+{
+    Gap one{}, other{};
+    other.place = openvdb::Vec3d(0.3, 0.2, 0.0);
+    EXPECT_EQ(distinct({one, other, one, other}).size(), 2u);
+    other.place = openvdb::Vec3d(3e-4, 2e-4, 0.0); // the same, but for rounding
+    EXPECT_EQ(distinct({one, other}).size(), 1u);
+}
+
 // On voxels of any size and in any pose, a cavity is there or not by its depth alone.
 TEST(Gaps, OfACageAreOpenOrClosedInAllPoses)
 {

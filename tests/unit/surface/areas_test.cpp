@@ -294,5 +294,24 @@ TEST(BallAreas, OfAnInterface)
     }
 }
 
+// Where a probe rolls about two balls on a circle smaller than itself, its paths meet in a cusp.
+TEST(Areas, TheCuspOfTwoBallsIsTheCircleOfTheProbe)
+{
+    SurfaceOptions options;
+    options.kind = SurfaceKind::SolventExcluded;
+    options.grid = false;
+    const double radius = 1.7, R = radius + options.probe;
+    for (const double apart : {5.8, 5.0}) {
+        const auto report =
+            makeSurface({{{0.1, 0.2, 0.3}, radius, 0}, {{0.1, 0.2, 0.3 + apart}, radius, 1}},
+                        options)
+                .report.surface;
+        const double circle = std::sqrt(R * R - 0.25 * apart * apart);
+        ASSERT_TRUE(report.cuspLength);
+        EXPECT_NEAR(*report.cuspLength, circle < options.probe ? 2.0 * M_PI * circle : 0.0, 1e-6)
+            << apart;
+    }
+}
+
 } // namespace
 } // namespace molsurf::test
