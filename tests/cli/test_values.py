@@ -197,6 +197,20 @@ class Values(ToolTest):
         for n, (b, color) in enumerate(steps.items()):
             self.assertEqual(self.at(found, 10.0 * n), ({b}, {color}))
 
+    def test_steps_have_no_colours_between(self):
+        """A value beside an edge, too: palettes of steps have only their colours."""
+        steps = {89.99: (101, 203, 243), 90.0: (0, 83, 214), 69.7: (255, 219, 19), 49.3: (255, 125, 69), 50.0: (255, 219, 19)}
+        self.apart(["ALA"] * len(steps), b=list(steps))
+        self.colored("bfactor", "--palette", "plddt", "--range", "0,100")
+        found = self.vertices("a.ply", "bfactor")
+        for n, color in enumerate(steps.values()):
+            self.assertEqual(self.at(found, 10.0 * n)[1], {color})
+
+    def test_every_vertex_has_a_value_if_all_atoms_have(self):
+        self.check(0, CRAMBIN, "--voxel", 0.7, "--surface", "sas", "--color", "bfactor", "-o", "a.ply")
+        names, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+        self.assertFalse([v for v in vertices if v[names.index("bfactor")] != v[names.index("bfactor")]])
+
     def test_rainbow_and_radius(self):
         self.apart(["ALA"] * 5)
         self.colored("rainbow")

@@ -41,6 +41,7 @@ Color ColorScale::at(double value) const
     double place = range > 0.0 ? (value - low) / range * last : 0.0;
     if (!(place > 0.0)) place = 0.0;
     place = std::min(place, last);
+    if (steps) return stops[std::size_t(place + 1e-9)];
     const std::size_t i = std::min(std::size_t(place), stops.size() - 2);
     const double t = place - double(i);
     Color color;
@@ -137,7 +138,6 @@ const std::vector<Palette>& paletteTable()
         std::reverse(turned.stops.begin(), turned.stops.end());
         rows.insert(rows.begin() + 4, turned);
         rows.push_back({"plddt", {}, true});
-        // Its edges are a hundredth of the range wide.
         for (int i = 0; i <= 100; ++i)
             rows.back().stops.push_back(i >= 90   ? Color{0, 83, 214}
                                         : i >= 70 ? Color{101, 203, 243}
@@ -159,7 +159,7 @@ const Palette* findPalette(const std::string& word)
 ColorScale scaleOf(const std::string& palette, double low, double high)
 {
     const Palette& row = *findPalette(palette);
-    return {row.word, low, high, row.stops};
+    return {row.word, low, high, row.stops, row.steps};
 }
 
 } // namespace molsurf

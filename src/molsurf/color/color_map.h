@@ -47,6 +47,7 @@ struct ColorScale {
     std::string map;          ///< the word of its palette
     double low, high;         ///< values at the ends of the map; beyond them its end colours hold
     std::vector<Color> stops; ///< evenly spaced, at least two; linear in sRGB between them
+    bool steps = false;       ///< whether each colour holds up to the next stop
 
     Color at(double value) const;
 
