@@ -7,11 +7,10 @@
 #include "molsurf/mesh/distance.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/progress.h"
+#include "molsurf/structure/load_text.h"
 
-#include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 namespace molsurf
@@ -25,27 +24,12 @@ std::string extensionOf(const std::string& path)
     return lowered(std::filesystem::path(path).extension().string());
 }
 
+/// A file has an end, so its size is limited only where a limit is asked for.
 std::string contentOf(const std::string& path, std::size_t maxBytes)
 {
     std::error_code failure;
-    if (std::filesystem::is_directory(path, failure)) badMesh("it is a folder");
-    errno = 0;
-    std::ifstream file(path, std::ios_base::binary);
-    if (!file) badMesh(std::strerror(errno));
-    std::string content;
-    const auto size = std::filesystem::file_size(path, failure);
-    const std::uintmax_t most = maxBytes  ? maxBytes
-                                : failure ? std::uintmax_t{4} << 30
-                                          : std::uintmax_t(-1);
-    if (!failure && size <= most) content.reserve(size);
-    std::vector<char> piece(std::size_t(1) << 16);
-    while (content.size() <= most &&
-           (file.read(piece.data(), std::streamsize(piece.size())) || file.gcount() > 0))
-        content.append(piece.data(), std::size_t(file.gcount()));
-    if (content.size() > most)
-        badMesh("expected at most " + std::to_string(most) + " bytes [hint: a larger `maxInput`]");
-    if (file.bad()) badMesh(std::strerror(errno));
-    return content;
+    const bool ends = std::filesystem::is_regular_file(path, failure);
+    return loadBytes(path, maxBytes || !ends ? maxBytes : std::numeric_limits<std::size_t>::max());
 }
 
 std::size_t hashOf(const openvdb::Vec3f& p)
@@ -134,8 +118,8 @@ Mesh readMesh(const std::string& path)
 
 Mesh readMesh(const std::string& path, std::size_t maxBytes)
 {
+    const std::string content = contentOf(path, maxBytes);
     try {
-        const std::string content = contentOf(path, maxBytes);
         const std::string extension = extensionOf(path);
         const bool stl = extension == ".stl";
         Mesh mesh = stl                   ? parseStl(content)

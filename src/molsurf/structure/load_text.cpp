@@ -51,27 +51,63 @@ void checkSize(std::size_t bytes, const Limit& limit, const std::string& path)
         failTooLarge(path, "expected at most " + std::to_string(limit.bytes) + " bytes of text");
 }
 
+/// A text that grows by blocks and is never held twice, as a string that grows would be.
+class Growing
+{
+public:
+    void append(const char* bytes, std::size_t count)
+    {
+        while (count > 0) {
+            if (blocks_.empty() || blocks_.back().size() == block) {
+                blocks_.emplace_back();
+                blocks_.back().reserve(block);
+            }
+            const std::size_t part = std::min(count, block - blocks_.back().size());
+            blocks_.back().append(bytes, part);
+            size_ += part;
+            bytes += part;
+            count -= part;
+        }
+    }
+
+    std::size_t size() const { return size_; }
+
+    /// The whole text; each block goes as soon as it is copied.
+    std::string take()
+    {
+        std::string text;
+        text.reserve(size_);
+        for (std::string& part : blocks_) {
+            text += part;
+            std::string().swap(part);
+        }
+        blocks_.clear();
+        return text;
+    }
+
+private:
+    static constexpr std::size_t block = std::size_t{1} << 20;
+    std::vector<std::string> blocks_;
+    std::size_t size_ = 0;
+};
+
 /// Reads to the end of a file or a pipe.
 /// @param[in] expected  its size, as far as it is known [bytes]
 std::string readAll(std::FILE* file, const std::string& path, std::size_t expected,
                     const Limit& limit)
 {
     checkSize(expected, limit, path);
-    constexpr std::size_t chunk = std::size_t{1} << 20;
-    std::string bytes;
-    bytes.reserve(expected + chunk);
-    std::size_t got = 0;
-    do {
-        const std::size_t size = bytes.size();
-        if (bytes.capacity() < size + chunk) // not twice the limit
-            bytes.reserve(std::min(2 * bytes.capacity(), limit.bytes) + chunk);
-        bytes.resize(size + chunk);
-        got = std::fread(&bytes[size], 1, chunk, file);
-        bytes.resize(size + got);
-        checkSize(bytes.size(), limit, path);
-    } while (got == chunk);
+    std::string bytes(expected, '\0');
+    bytes.resize(std::fread(bytes.data(), 1, expected, file));
+    Growing more; // of a pipe, or of a file that grew
+    std::vector<char> piece(std::size_t{1} << 16);
+    for (std::size_t got = 0; (got = std::fread(piece.data(), 1, piece.size(), file)) > 0;) {
+        if (more.size() == 0) more.append(bytes.data(), bytes.size());
+        more.append(piece.data(), got);
+        checkSize(more.size(), limit, path);
+    }
     if (std::ferror(file)) failAt(path, std::string("cannot be read: ") + std::strerror(errno));
-    return bytes;
+    return more.size() > 0 ? more.take() : bytes;
 }
 
 std::string readBytes(const std::string& path, const Limit& limit)
@@ -95,7 +131,7 @@ bool isGzip(const std::string& bytes, std::size_t at)
 
 /// Unpacks one gzip member that starts at `begin`, appends it to `text`, and returns its end.
 std::size_t unpackMember(std::string& bytes, std::size_t begin, const std::string& path,
-                         const Limit& limit, std::string& text)
+                         const Limit& limit, Growing& text)
 {
     constexpr std::size_t maxFeed = std::size_t{1} << 30; // zlib counts with 32 bits
     z_stream stream{};
@@ -133,11 +169,11 @@ std::size_t unpackMember(std::string& bytes, std::size_t begin, const std::strin
 
 std::string unpack(std::string bytes, const std::string& path, const Limit& limit)
 {
-    std::string text;
-    text.reserve(std::min(bytes.size() * 5, limit.bytes));
+    Growing text;
     std::size_t next = 0;
     while (isGzip(bytes, next)) next = unpackMember(bytes, next, path, limit, text);
-    return text;
+    std::string().swap(bytes);
+    return text.take();
 }
 
 bool beginsWith(const std::string& bytes, std::string_view magic)
@@ -151,7 +187,7 @@ std::string unpackBy(const Filter& filter, const char* kind, const std::string& 
                      const std::string& path, const Limit& limit)
 {
     namespace io = boost::iostreams;
-    std::string text;
+    Growing text;
     try {
         io::filtering_istreambuf stream;
         stream.push(filter);
@@ -170,7 +206,7 @@ std::string unpackBy(const Filter& filter, const char* kind, const std::string& 
         failAt(path, std::string("has damaged ") + kind +
                          " data, or is cut short [copy or download it again]");
     }
-    return text;
+    return text.take();
 }
 
 /// Unpacks what is packed by gzip, bzip2 or xz.
