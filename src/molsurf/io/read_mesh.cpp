@@ -4,6 +4,7 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/mesh_text.h"
+#include "molsurf/mesh/check_arrays.h"
 #include "molsurf/mesh/distance.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/progress.h"
@@ -126,6 +127,7 @@ Mesh readMesh(const std::string& path, std::size_t maxBytes)
                     : extension == ".obj" ? parseObj(content)
                                           : parsePly(content);
         if (mesh.triangles.empty()) badMesh("expected triangles, got a mesh without any");
+        checkArrays(mesh);
         dropFlat(mesh);
         if (stl || !hasInside(mesh, vertexTriangles(mesh), Progress())) {
             weld(mesh);
