@@ -36,7 +36,7 @@ class Limits(ToolTest):
         child.returncode = os.waitstatus_to_exitcode(status)
         self.assertEqual(child.returncode, 1, error)
         for word in says:
-            self.assertIn(word, error.splitlines()[-1])
+            self.assertIn(word, error.splitlines(keepends=True)[-1])
         if not any(name in TOOL for name in ("build-fuzz", "build-tsan", "build-coverage")):
             self.assertLess(usage.ru_maxrss * 1024, most)
             self.assertLess(usage.ru_utime + usage.ru_stime, SOON)
@@ -78,6 +78,12 @@ class Limits(ToolTest):
                 self.assertLess(read, size + block)
         with open(zero, "rb") as stream:
             self.check(1, "-", *output, "--max-input", size, says=f"{size} bytes", stdin=stream)
+
+    def test_a_view_without_an_end(self):
+        """No option raises this limit, so there is no hint of one."""
+        (self.folder / "endless.view").symlink_to("/dev/zero")
+        self.refuse(CRAMBIN, "--view", "endless.view", *FAST, "-o", "a.png",
+                    says=["endless.view: expected at most 1048576 bytes of text\n"])
 
     def test_plans_without_an_end(self):
         for words in (["run", "/dev/zero", 1], ["merge", "/dev/zero", "-o", "a.ply"]):

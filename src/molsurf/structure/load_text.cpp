@@ -38,17 +38,19 @@ struct Limit {
     std::size_t bytes;
     std::size_t ratio = 200;                         ///< of unpacked to packed bytes
     std::size_t unsuspected = std::size_t{16} << 20; ///< unpacked bytes at any ratio
+    bool isOption = true;                            ///< whether its caller may raise it
 };
 
-[[noreturn]] void failTooLarge(const std::string& path, const std::string& what)
+[[noreturn]] void failTooLarge(const std::string& path, const std::string& what, const Limit& limit)
 {
-    failAt(path, what + " [hint: `maxInput` 10G takes up to 10 GiB]");
+    failAt(path, what + (limit.isOption ? " [hint: `maxInput` 10G takes up to 10 GiB]" : ""));
 }
 
 void checkSize(std::size_t bytes, const Limit& limit, const std::string& path)
 {
     if (bytes > limit.bytes)
-        failTooLarge(path, "expected at most " + std::to_string(limit.bytes) + " bytes of text");
+        failTooLarge(path, "expected at most " + std::to_string(limit.bytes) + " bytes of text",
+                     limit);
 }
 
 /// A text that grows by blocks and is never held twice, as a string that grows would be.
@@ -152,8 +154,10 @@ std::size_t unpackMember(std::string& bytes, std::size_t begin, const std::strin
         text.append(buffer, sizeof buffer - stream.avail_out);
         checkSize(text.size(), limit, path);
         if (text.size() > limit.unsuspected && text.size() / limit.ratio > next)
-            failTooLarge(path, "its gzip data unpack to more than " + std::to_string(limit.ratio) +
-                                   " times their size, which no file of atoms does");
+            failTooLarge(path,
+                         "its gzip data unpack to more than " + std::to_string(limit.ratio) +
+                             " times their size, which no file of atoms does",
+                         limit);
         if (state == Z_BUF_ERROR || (state == Z_OK && next == bytes.size() && stream.avail_out)) {
             failAt(path, "is cut short: its gzip data end after " + std::to_string(bytes.size()) +
                              " bytes without the closing checksum [copy or download it again]");
@@ -198,9 +202,11 @@ std::string unpackBy(const Filter& filter, const char* kind, const std::string& 
             text.append(buffer.data(), std::size_t(got));
             checkSize(text.size(), limit, path);
             if (text.size() > limit.unsuspected && text.size() / limit.ratio > bytes.size())
-                failTooLarge(path, std::string("its ") + kind + " data unpack to more than " +
-                                       std::to_string(limit.ratio) +
-                                       " times their size, which no file of atoms does");
+                failTooLarge(path,
+                             std::string("its ") + kind + " data unpack to more than " +
+                                 std::to_string(limit.ratio) +
+                                 " times their size, which no file of atoms does",
+                             limit);
         }
     } catch (const std::ios_base::failure&) {
         failAt(path, std::string("has damaged ") + kind +
@@ -298,9 +304,11 @@ std::string withoutMark(std::string text)
     return text;
 }
 
-std::string unpackedText(std::string bytes, const std::string& path, std::size_t maxBytes)
+namespace
 {
-    const Limit limit(maxBytes);
+
+std::string unpackedText(std::string bytes, const std::string& path, const Limit& limit)
+{
     checkSize(bytes.size(), limit, path);
     std::string text = std::move(bytes);
     text = unpackAny(std::move(text), path, limit);
@@ -312,9 +320,23 @@ std::string unpackedText(std::string bytes, const std::string& path, std::size_t
     return text;
 }
 
+} // namespace
+
+std::string unpackedText(std::string bytes, const std::string& path, std::size_t maxBytes)
+{
+    return unpackedText(std::move(bytes), path, Limit(maxBytes));
+}
+
 std::string loadText(const std::string& path, std::size_t maxBytes)
 {
     return unpackedText(readBytes(path, Limit(maxBytes)), path, maxBytes);
+}
+
+std::string loadSmallText(const std::string& path, std::size_t mostBytes)
+{
+    Limit limit(mostBytes);
+    limit.isOption = false;
+    return unpackedText(readBytes(path, limit), path, limit);
 }
 
 } // namespace molsurf
