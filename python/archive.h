@@ -22,6 +22,15 @@
 namespace molsurf::python
 {
 
+/// A sum of bytes that is another one if a byte changes (FNV-1a).
+inline std::uint64_t sumOf(const char* bytes, std::size_t size)
+{
+    std::uint64_t sum = 0xcbf29ce484222325u;
+    for (std::size_t i = 0; i < size; ++i)
+        sum = (sum ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3u;
+    return sum;
+}
+
 /// Appends values to a text.
 class Packer
 {
@@ -31,7 +40,13 @@ public:
     {
         (add(values), ...);
     }
-    std::string take() { return std::move(bytes_); }
+    /// The text, with its sum at the end.
+    std::string take()
+    {
+        const std::uint64_t sum = sumOf(bytes_.data(), bytes_.size());
+        raw(&sum, sizeof sum);
+        return std::move(bytes_);
+    }
 
 private:
     void raw(const void* data, std::size_t size)
@@ -75,11 +90,20 @@ private:
     std::string bytes_;
 };
 
-/// Reads what Packer wrote.
+/// Reads what Packer wrote. The sum keeps out whatever else a text may hold: numbers of atoms that
+/// are not there, flags that are neither 0 nor 1, grids that would take any memory.
 class Unpacker
 {
 public:
-    Unpacker(const char* data, std::size_t size) : at_(data), left_(size) {}
+    /// @throws std::invalid_argument if the text is not as it was written
+    Unpacker(const char* data, std::size_t size) : at_(data), left_(size)
+    {
+        std::uint64_t sum = 0;
+        if (size < sizeof sum) throw std::invalid_argument("the pickle is damaged");
+        left_ -= sizeof sum;
+        std::memcpy(&sum, data + left_, sizeof sum);
+        if (sum != sumOf(data, left_)) throw std::invalid_argument("the pickle is damaged");
+    }
 
     template<typename... T>
     void operator()(T&... values)
@@ -194,7 +218,7 @@ MOLSURF_MEMBERS(EvolutionReport::Gaps, v.found, v.closed, v.nearest, v.closedByF
 MOLSURF_MEMBERS(EvolutionReport, v.steps, v.converged, v.energy, v.area, v.volume,
                 v.meanDisplacement, v.maxSpeed, v.displacementRms, v.displacementTail,
                 v.toleranceMet, v.areaError, v.unsettledShare, v.finalEnergy, v.unresolvedGapVoxels,
-                v.frontSteps, v.restlessFronts, v.gaps)
+                v.frontSteps, v.restlessFronts, v.gaps, v.walls)
 MOLSURF_MEMBERS(GroupReport, v.name, v.atoms, v.area, v.volume, v.color, v.aloneArea)
 MOLSURF_MEMBERS(InterfaceReport, v.first, v.second, v.area, v.count, v.buried)
 MOLSURF_MEMBERS(ResolutionReport, v.select, v.resolution, v.atoms, v.level)

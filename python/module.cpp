@@ -210,26 +210,6 @@ SurfaceOptions optionsOf(const Given& given, const std::vector<std::string>& ext
     return options;
 }
 
-/// Checks a mesh that comes from arrays, or whose arrays anybody may have written to.
-/// @throws Error(ErrorKind::Input) if a vertex is nowhere, or a triangle names one that is not
-/// there
-void checkMesh(const Mesh& mesh)
-{
-    const std::size_t vertices = mesh.positions.size();
-    for (std::size_t i = 0; i < vertices; ++i)
-        for (int axis = 0; axis < 3; ++axis)
-            if (!std::isfinite(mesh.positions[i][axis]))
-                throw Error(ErrorKind::Input,
-                            "vertex " + std::to_string(i) + ": expected finite coordinates");
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        for (const std::uint32_t vertex : mesh.triangles[i])
-            if (vertex >= vertices)
-                throw Error(ErrorKind::Input, "face " + std::to_string(i) +
-                                                  ": expected vertices below " +
-                                                  std::to_string(vertices) + ", got " +
-                                                  std::to_string(std::int32_t(vertex)));
-}
-
 nb::tuple pairsOf(std::vector<ContactArea>&& contacts)
 {
     std::vector<std::array<std::int32_t, 2>> pairs;
@@ -254,7 +234,6 @@ nb::tuple distancesOf(MadeSurface& surface, const Positions& positions, const Ho
     auto to = surface.distance;
     const auto found = run(how, [&](Progress& progress) {
         if (!to) {
-            checkMesh(surface.result.mesh);
             to = std::make_shared<SurfaceDistance>(*surface.atoms, surface.options, surface.result,
                                                    progress);
         }
@@ -399,7 +378,6 @@ Mesh meshOf(const Floats3& vertices, const Whole3& faces)
         const std::int32_t* t = faces.data() + 3 * i;
         mesh.triangles.push_back({std::uint32_t(t[0]), std::uint32_t(t[1]), std::uint32_t(t[2])});
     }
-    checkMesh(mesh);
     return mesh;
 }
 
@@ -431,7 +409,6 @@ void save(const MadeSurface& surface, const std::string& path, bool replace, int
     const std::string end = std::filesystem::path(path).extension().string();
     if (end == ".vdb") return writeVdb(surface.result, path, replace, scene);
     if (end == ".json") return writeReport(surface.result.report, path, replace);
-    checkMesh(surface.result.mesh);
     if (end == ".png" || end == ".html")
         return writePicture(*surface.atoms, surface.result, surface.options, path, width, replace);
     std::string all;

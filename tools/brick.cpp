@@ -3,6 +3,7 @@
 #include "cli/complete.h"
 #include "cli/option_table.h"
 #include "cli/parse.h"
+#include "input_files.h"
 #include "sha256.h"
 #include "stop.h"
 #include "verbs.h"
@@ -106,6 +107,7 @@ bool isDone(const std::string& path, const std::string& id, std::size_t number)
 
 int brick(const Call& call)
 {
+    failIfNoPlan(call.input);
     const PlanManifest manifest = readManifest(call.input);
     const std::size_t count = manifest.plan.bricks.size();
     if (call.brick > count)

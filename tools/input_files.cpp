@@ -53,6 +53,15 @@ void failIfNoFile(const std::string& path)
     throw Error(ErrorKind::Input, path + ": cannot be opened: No such file or directory" + hint);
 }
 
+void failIfNoPlan(const std::string& path)
+{
+    std::error_code problem;
+    const auto status = std::filesystem::status(path, problem);
+    if (std::filesystem::is_other(status))
+        throw Error(ErrorKind::Input,
+                    path + ": is a pipe or a device, expected the file of a plan");
+}
+
 InputFiles::InputFiles(const Call& call)
 {
     for (const std::string& path : call.inputs) add(path);

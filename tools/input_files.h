@@ -21,6 +21,10 @@ namespace molsurf::tool
 /// @throws Error(ErrorKind::Input)
 void failIfNoFile(const std::string& path);
 
+/// Refuses a plan that is no regular file: it is read twice, and a device has no end.
+/// @throws Error(ErrorKind::Input)
+void failIfNoPlan(const std::string& path);
+
 /// The files that a call reads, none of which it may replace.
 class InputFiles
 {

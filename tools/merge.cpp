@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "bricks.h"
+#include "input_files.h"
 #include "outputs.h"
 #include "sha256.h"
 #include "stop.h"
@@ -42,6 +43,7 @@ void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std:
 
 int merge(const Call& call, Clock::time_point start)
 {
+    failIfNoPlan(call.input);
     const PlanManifest manifest = readManifest(call.input);
     Call build = callOf(manifest, call.input, PlanFiles::Hashes);
     build.outputs = call.outputs;

@@ -6,12 +6,16 @@
 
 #include "molsurf/io/output_file.h"
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace molsurf::tool
 {
+
+/// The programs have no option for it: some ten million spheres [byte].
+inline constexpr std::size_t mostSphereBytes = std::size_t{512} << 20;
 
 /// Finds out whether files can be written, which may replace others, and has them cleaned up after
 /// a signal. To be called before any work, and again where other files follow.

@@ -177,7 +177,7 @@ def test_wrong_meshes(ses):
             ((good, [[0, 1, 3]]), ms.InputError, "face 0: expected vertices below 3, got 3"),
             ((good, [[0, 1, -1]]), ValueError, "b: expected faces from 0 to 2^31"),
             ((good, [[0.0, 1.0, 2.0]]), ValueError, "b: expected faces of whole numbers"),
-            ((good * NAN, [[0, 1, 2]]), ms.InputError, "vertex 0: expected finite"),
+            ((good * NAN, [[0, 1, 2]]), ms.InputError, "vertex 0: expected a finite position"),
             ((good, np.zeros((0, 3), int)), ms.InputError, "compare: expected triangles"),
             (3, TypeError, "b: expected a surface, a path or (vertices, faces), got int")]:
         assert message(lambda: ms.compare(ses, mesh), kind).startswith(said)
@@ -185,12 +185,17 @@ def test_wrong_meshes(ses):
 
 def test_what_was_written_into_views_is_checked(crambin, tmp_path):
     for array, value, said in [("faces", 10**8, "face 0: expected vertices below"), ("faces", -1, "face 0: expected"),
-                               ("vertices", NAN, "vertex 0: expected finite coordinates")]:
+                               ("vertices", NAN, "vertex 0: expected a finite position below 1e6 Å, got nan"),
+                               ("vertices", 1e30, "vertex 0: expected a finite position"),
+                               ("normals", NAN, "normal 0: expected a finite vector")]:
         s = crambin.surface(kind="ses", voxel=1)
         getattr(s, array)[0, 1] = value
         for call in (lambda: s.save(tmp_path / "a.ply"), lambda: s.picture(tmp_path / "a.png", 100),
-                     lambda: s.distance([[0, 0, 0]])):
+                     lambda: s.save(tmp_path / "a.html"), lambda: s.distance([[0, 0, 0]])):
             assert message(call, ms.InputError).startswith(said)
+    s = crambin.surface(kind="ses", voxel=1)
+    s.vertices[0] = 1e30
+    assert message(lambda: ms.compare(s, crambin.surface(kind="ses", voxel=1)), ms.InputError).startswith("vertex 0")
     m = ms.read(DATA / "1crn.pdb")
     m.radii[3] = 0
     assert message(lambda: m.surface(), ms.InputError).startswith("ball 3: expected a radius above 0")

@@ -144,7 +144,8 @@ def test_pickles_have_everything():
     molecule = pickle.loads(pickle.dumps(m))
     assert repr(molecule) == repr(m) and molecule.groups == m.groups and molecule.warnings == m.warnings
     assert np.array_equal(molecule.surface().vertices, m.surface().vertices)
-    variational = ms.surface([[0, 0, 0]], 2.0, voxel=1)
+    variational = ms.read(DATA / "1crn.pdb").surface()
+    assert variational.report["evolution"]["walls"]
     assert pickle.loads(pickle.dumps(variational)).report == variational.report
 
 
@@ -154,6 +155,13 @@ def test_damaged_pickles_are_errors(crambin):
     for damaged in (b"", state[:40], state[:-9], b"\xff" * 64):
         with pytest.raises(ValueError):
             _core.Molecule.__new__(_core.Molecule).__setstate__(damaged)
+    content = pickle.dumps(crambin.surface(kind="sas", voxel=1, color="chain"))
+    random, start = np.random.default_rng(55), content.index(ms.__version__.encode())
+    for place in random.integers(start, len(content) - 100, 200):
+        changed = bytearray(content)
+        changed[place] ^= random.integers(1, 256)
+        with pytest.raises(ValueError, match="the pickle is damaged"):
+            pickle.loads(bytes(changed))
 
 
 def test_more_memory_than_there_is_is_refused(crambin):

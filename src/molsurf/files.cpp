@@ -12,6 +12,7 @@
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_report.h"
 #include "molsurf/io/write_vdb.h"
+#include "molsurf/mesh/check_arrays.h"
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/draw_mesh.h"
 #include "molsurf/picture/write_html.h"
@@ -59,6 +60,7 @@ std::vector<std::string> meshEndings()
 
 void writeMesh(const Mesh& mesh, const std::string& path, bool replace)
 {
+    checkArrays(mesh);
     const std::filesystem::path name = path;
     for (const MeshFormat& format : meshFormats()) {
         if (name.extension().string() != std::string(".") + format.word) continue;
@@ -97,6 +99,7 @@ void writeReport(const Report& report, const std::string& path, bool replace)
 
 void writePicture(const Mesh& mesh, const std::string& path, int width, bool replace)
 {
+    checkArrays(mesh);
     OutputFile file(path, replace);
     writePng(drawMesh(mesh, drawn(width), Progress()), file);
     file.commit();
@@ -107,6 +110,7 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
 {
     const Progress nobody;
     const Mesh& mesh = surface.mesh;
+    checkArrays(mesh);
     const ColorBy color = options.color;
     DrawOptions how = drawn(width);
     const WholeBalls whole = ballsOfWhole(atoms);

@@ -151,16 +151,15 @@ CASES = {
          f"vdb_molsurf 1d3z.pdb.gz --model 1 --trajectory 1d3z.xtc --frames 1 {FAST} -o a.ply")],
     "structure/load_text.cpp": [
         ("--max-input 10G", "vdb_molsurf 1crn.pdb -o a.ply --max-input 9K",
-         f"vdb_molsurf 1crn.pdb {FAST} -o a.ply --max-input 10G")],
+         f"vdb_molsurf 1crn.pdb {FAST} -o a.ply --max-input 10G"),
+        ("--max-input 10G", "vdb_molsurf compare solid.ply solid.ply --max-input 100",
+         "vdb_molsurf compare solid.ply solid.ply --max-input 10G")],
     "structure/archive.cpp": [
         ("a larger --max-input", "tar chf in.tar 1crn.pdb; vdb_molsurf in.tar::1crn.pdb -o a.ply --max-input 9K",
          f"vdb_molsurf in.tar::1crn.pdb {FAST} -o a.ply --max-input 1M")],
     "io/read_ply.cpp": [
         ("save it without strips", "vdb_molsurf compare strips.ply solid.ply",
          "vdb_molsurf compare solid.ply solid.ply")],
-    "io/read_mesh.cpp": [
-        ("a larger --max-input", "vdb_molsurf compare solid.ply solid.ply --max-input 100",
-         "vdb_molsurf compare solid.ply solid.ply --max-input 1000")],
     "io/write_structure.cpp": [
         ("-o FILE.cif", "vdb_molsurf 1a8o.cif.gz --assembly 1 -o a.pdb",
          "vdb_molsurf 1a8o.cif.gz --assembly 1 -o a.cif"),

@@ -4,6 +4,7 @@
 import gzip
 import json
 import os
+import pathlib
 import random
 import subprocess
 import time
@@ -16,10 +17,12 @@ SOON = 1.0  # seconds of all processors
 
 
 class Limits(ToolTest):
-    def refuse(self, *words, says, expected=1):
-        """Returns how many bytes were read; 0 where only root may know."""
+    def refuse(self, *words, says, tool=TOOL, most=LITTLE, expected=1):
+        """Returns how many bytes were read; 0 where only root may know.
+
+        @param most  bytes of memory that may be held"""
         before = self.names()
-        child = subprocess.Popen([TOOL, *map(str, words)], cwd=self.folder, stdin=subprocess.DEVNULL,
+        child = subprocess.Popen([tool, *map(str, words)], cwd=self.folder, stdin=subprocess.DEVNULL,
                                  stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
         error = child.stderr.read().decode()
         child.stderr.close()
@@ -33,9 +36,9 @@ class Limits(ToolTest):
         child.returncode = os.waitstatus_to_exitcode(status)
         self.assertEqual(child.returncode, expected, error)
         for word in says:
-            self.assertIn(word, error.splitlines()[-1])
+            self.assertIn(word, error.splitlines(keepends=True)[-1])
         if not any(name in TOOL for name in ("build-fuzz", "build-tsan", "build-coverage")):
-            self.assertLess(usage.ru_maxrss * 1024, LITTLE)
+            self.assertLess(usage.ru_maxrss * 1024, most)
             self.assertLess(usage.ru_utime + usage.ru_stime, SOON)
         self.assertEqual(self.names(), before)
         return read
@@ -60,8 +63,8 @@ class Limits(ToolTest):
         self.check(2, CRAMBIN, "-o", "a.json", "--max-input", "much", says="--max-input")
 
     def test_files_without_an_end(self):
-        """Wherever a file is named: no more is read than the limit and a block, and little is held."""
-        size, block = 20 << 20, 4 << 20
+        """Wherever a file is named: no more is read, or held, than the limit and a block."""
+        size, block, program = 100 << 20, 4 << 20, 110 << 20
         for name in ("endless.ply", "endless.pdb"):
             (self.folder / name).symlink_to("/dev/zero")
         zero, output = "/dev/zero", ["-o", "a.ply"]
@@ -70,10 +73,46 @@ class Limits(ToolTest):
                       [CRAMBIN, "--color", f"potential={zero}", *output], [CRAMBIN, "--config", zero, *output],
                       ["batch", zero, "-O", "out"], ["compare", zero, CRAMBIN], ["compare", "endless.ply", CRAMBIN]):
             with self.subTest(words=words):
-                read = self.refuse(*words, "--max-input", size, says=[f"{size} bytes", "--max-input"])
+                read = self.refuse(*words, "--max-input", size, says=[f"{size} bytes", "--max-input"],
+                                   most=program + size + block)
                 self.assertLess(read, size + block)
         with open(zero, "rb") as stream:
             self.check(1, "-", *output, "--max-input", size, says=f"{size} bytes", stdin=stream)
+
+    def test_a_view_without_an_end(self):
+        """No option raises this limit, so there is no hint of one."""
+        (self.folder / "endless.view").symlink_to("/dev/zero")
+        self.refuse(CRAMBIN, "--view", "endless.view", *FAST, "-o", "a.png",
+                    says=["endless.view: expected at most 1048576 bytes of text\n"])
+
+    def test_plans_without_an_end(self):
+        for words in (["run", "/dev/zero", 1], ["merge", "/dev/zero", "-o", "a.ply"]):
+            self.refuse("bricks", *words, says=["/dev/zero: is a pipe or a device"])
+
+    def test_spheres_without_an_end(self):
+        """The stand-ins have a limit, too."""
+        (self.folder / "a.prm").write_text("XYZR_FileName = /dev/zero\nSurface = ses\n")
+        (self.folder / "b.prm").symlink_to("/dev/zero")
+        folder, most = pathlib.Path(TOOL).resolve().parent, 512 << 20
+        for name, words, limit in (("msms", ["-if", "/dev/zero", "-of", "a"], most),
+                                   ("nanoshaper", ["a.prm"], most), ("nanoshaper", ["b.prm"], 1 << 20)):
+            with self.subTest(name=name, words=words):
+                self.refuse(*words, tool=folder / f"vdb_molsurf_{name}", most=(130 << 20) + limit,
+                            says=[f"{limit} bytes"])
+
+    def test_a_line_without_an_end(self):
+        """Fields of a line take no more memory than the line."""
+        size = 40 << 20
+        for name in ("line.xyzr", "line.xyzrn", "line.list"):
+            (self.folder / name).write_text("1 " * (size // 2))
+        for words in (["line.xyzr", "-o", "a.ply"], [CRAMBIN, "--radii", "line.xyzr", "-o", "a.ply"],
+                      [CRAMBIN, "--groups", "line.xyzr", "-o", "a.ply"],
+                      [CRAMBIN, "--color", "table=line.xyzr", "-o", "a.ply"],
+                      [CRAMBIN, "--color", "potential=line.xyzr", "-o", "a.ply"],
+                      [CRAMBIN, "--config", "line.xyzr", "-o", "a.ply"], ["info", "line.xyzrn"],
+                      ["batch", "line.list", "-O", "out"]):
+            with self.subTest(words=words):
+                self.refuse(*words, says=["line."], most=(60 << 20) + 2 * size)
 
     def test_more_memory_than_there_is(self):
         grid = [f"{6 * i} {6 * j} {6 * k} 1.7\n"

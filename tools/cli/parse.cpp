@@ -10,6 +10,7 @@
 #include "molsurf/io/report_keys.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/load_text.h"
+#include "molsurf/structure/text_fields.h"
 
 #include <boost/program_options.hpp>
 
@@ -190,7 +191,14 @@ void readConfig(const std::string& path, const po::options_description& all, Cal
 {
     const auto limit = call.given.find("max-input");
     if (limit != call.given.end()) findOption(call.verb, "max-input")->set(call, limit->second);
-    std::istringstream text(withoutMark(loadBytes(path, call.atoms.maxInput)));
+    const std::string content = withoutMark(loadBytes(path, call.atoms.maxInput));
+    constexpr std::size_t longest = std::size_t{1} << 20;
+    for (LineReader lines(content); lines.next();)
+        if (lines.line().size() > longest)
+            throw Error(ErrorKind::Input, "--config " + path + ": line " +
+                                              std::to_string(lines.number()) +
+                                              ": expected at most 1 MiB");
+    std::istringstream text(content);
     try {
         const auto options = po::parse_config_file(text, all);
         for (const auto& option : options.options)

@@ -48,7 +48,8 @@ void prepare(const MsmsCall& call, const std::vector<std::string>& paths)
 
 Structure readSpheres(const MsmsCall& call)
 {
-    Structure structure = readStructureAs(StructureFormat::Xyzrn, call.input);
+    Structure structure =
+        readStructureAs(StructureFormat::Xyzrn, call.input, tool::mostSphereBytes);
     if (call.hydrogens) return structure;
     // A sphere without a radius is not used, and the others keep their numbers.
     constexpr float hydrogen = 1.2f, rounding = 1e-4f; // [Å]

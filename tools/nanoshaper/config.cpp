@@ -178,7 +178,8 @@ std::string Config::path(const std::string& end) const
 
 Config readConfig(const std::string& path)
 {
-    const std::string content = loadText(path);
+    constexpr std::size_t enough = 1 << 20; // bytes
+    const std::string content = loadSmallText(path, enough);
     Config config;
     config.file = path;
     for (LineReader lines(content); lines.next();) {

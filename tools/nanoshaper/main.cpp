@@ -203,7 +203,8 @@ void perform(const std::string& path)
     tool::prepareFiles(pathsOf(files), config.input, " [hint: another Root_FileName]");
 
     tool::Terminal terminal(false);
-    const Structure structure = readStructureAs(StructureFormat::Xyzrn, config.input);
+    const Structure structure =
+        readStructureAs(StructureFormat::Xyzrn, config.input, tool::mostSphereBytes);
     SelectOptions all;
     all.waters = true;
     const BallSet spheres = selectBalls(structure, all, config.probe, terminal);

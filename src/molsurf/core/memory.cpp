@@ -37,7 +37,7 @@ std::size_t availableMemory()
     return bytes;
 }
 
-void checkMemoryFor(const std::string& what, double more, std::size_t memory)
+void needMemory(const std::string& what, double more, std::size_t memory)
 {
     const double bytes = residentMemory() + more;
     const std::size_t most = memory > 0 ? memory : availableMemory();

@@ -20,6 +20,6 @@ std::size_t availableMemory();
 /// @param[in] more    that the step takes [byte]
 /// @param[in] memory  that the process may take [byte]; 0: availableMemory()
 /// @throws Error(ErrorKind::Input) with both numbers
-void checkMemoryFor(const std::string& what, double more, std::size_t memory);
+void needMemory(const std::string& what, double more, std::size_t memory);
 
 } // namespace molsurf

@@ -6,6 +6,7 @@
 
 #include "molsurf/error.h"
 #include "molsurf/mesh.h"
+#include "molsurf/mesh/check_arrays.h"
 
 #include <charconv>
 #include <cmath>
@@ -111,12 +112,7 @@ private:
 /// @throws Error(ErrorKind::Input)
 inline openvdb::Vec3f checkedPosition(double x, double y, double z, std::size_t vertex)
 {
-    constexpr double most = 1e6; // [Å]
-    for (const double value : {x, y, z}) {
-        if (std::abs(value) < most) continue;
-        badMesh("vertex " + std::to_string(vertex) +
-                ": expected a finite position below 1e6 Å, got " + std::to_string(value));
-    }
+    checkPosition({x, y, z}, vertex);
     return {float(x), float(y), float(z)};
 }
 

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/read_mesh.h"
 
-#include "molsurf/core/may_pass.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/mesh_text.h"
+#include "molsurf/mesh/check_arrays.h"
 #include "molsurf/mesh/distance.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/progress.h"
+#include "molsurf/structure/load_text.h"
 
-#include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 namespace molsurf
@@ -26,27 +25,12 @@ std::string extensionOf(const std::string& path)
     return lowered(std::filesystem::path(path).extension().string());
 }
 
+/// A file has an end, so its size is limited only where a limit is asked for.
 std::string contentOf(const std::string& path, std::size_t maxBytes)
 {
     std::error_code failure;
-    if (std::filesystem::is_directory(path, failure)) badMesh("it is a folder");
-    errno = 0;
-    std::ifstream file(path, std::ios_base::binary);
-    if (!file) badMesh(std::strerror(errno), mayPass(errno));
-    std::string content;
-    const auto size = std::filesystem::file_size(path, failure);
-    const std::uintmax_t most = maxBytes  ? maxBytes
-                                : failure ? std::uintmax_t{4} << 30
-                                          : std::uintmax_t(-1);
-    if (!failure && size <= most) content.reserve(size);
-    std::vector<char> piece(std::size_t(1) << 16);
-    while (content.size() <= most &&
-           (file.read(piece.data(), std::streamsize(piece.size())) || file.gcount() > 0))
-        content.append(piece.data(), std::size_t(file.gcount()));
-    if (content.size() > most)
-        badMesh("expected at most " + std::to_string(most) + " bytes [hint: a larger `maxInput`]");
-    if (file.bad()) badMesh(std::strerror(errno), mayPass(errno));
-    return content;
+    const bool ends = std::filesystem::is_regular_file(path, failure);
+    return loadBytes(path, maxBytes || !ends ? maxBytes : std::numeric_limits<std::size_t>::max());
 }
 
 std::size_t hashOf(const openvdb::Vec3f& p)
@@ -135,14 +119,15 @@ Mesh readMesh(const std::string& path)
 
 Mesh readMesh(const std::string& path, std::size_t maxBytes)
 {
+    const std::string content = contentOf(path, maxBytes);
     try {
-        const std::string content = contentOf(path, maxBytes);
         const std::string extension = extensionOf(path);
         const bool stl = extension == ".stl";
         Mesh mesh = stl                   ? parseStl(content)
                     : extension == ".obj" ? parseObj(content)
                                           : parsePly(content);
         if (mesh.triangles.empty()) badMesh("expected triangles, got a mesh without any");
+        checkArrays(mesh);
         dropFlat(mesh);
         if (stl || !hasInside(mesh, vertexTriangles(mesh), Progress())) {
             weld(mesh);

@@ -59,7 +59,7 @@ void writeView(const Mesh& mesh, const DrawOptions& options, OutputFile& file)
 void readView(const std::string& path, DrawOptions& options)
 {
     constexpr std::size_t enough = 1 << 20; // bytes
-    const std::string text = loadText(path, enough);
+    const std::string text = loadSmallText(path, enough);
     PictureFrame frame{};
     try {
         const nlohmann::json file = nlohmann::json::parse(text);

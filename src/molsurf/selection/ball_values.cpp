@@ -137,10 +137,11 @@ Table readTable(const std::string& path, std::size_t maxBytes)
             if (c == ',' || c == ';') c = ' ';
         const Fields fields = splitFields(line);
         if (fields.empty() || fields[0][0] == '#') continue;
-        const std::string last(fields.back());
+        constexpr std::size_t longest = 64; // of a number
+        const std::string last(fields.back().substr(0, longest));
         char* end = nullptr;
         const float value = std::strtof(last.c_str(), &end);
-        const bool isText = end != last.c_str() + last.size();
+        const bool isText = end != last.c_str() + last.size() || fields.back().size() > longest;
         if (isText && out.empty()) continue; // names of the columns
         const bool number = !isText && std::isfinite(value);
         int residue = 0;

@@ -8,15 +8,14 @@
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/structure/load_text.h"
+#include "molsurf/structure/text_fields.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
-#include <iterator>
 #include <map>
 #include <set>
-#include <sstream>
 
 namespace molsurf
 {
@@ -82,24 +81,22 @@ std::vector<GroupRule> readJson(const std::string& path, const std::string& text
 std::vector<GroupRule> readTable(const std::string& path, const std::string& text)
 {
     std::vector<GroupRule> rules;
-    std::istringstream lines(text);
-    std::string line;
-    for (int number = 1; std::getline(lines, line); ++number) {
-        std::istringstream words(line);
-        std::vector<std::string> columns{std::istream_iterator<std::string>(words), {}};
+    for (LineReader lines(text); lines.next();) {
+        const Fields columns = splitFields(lines.line());
         if (columns.empty() || columns[0][0] == '#') continue;
         if (columns.size() < 2) {
-            fail(path, "line " + std::to_string(number) +
-                           ": expected name, selection and perhaps colour, got '" + line + "'");
+            fail(path, "line " + std::to_string(lines.number()) +
+                           ": expected name, selection and perhaps colour, got " +
+                           inQuotes(lines.line()));
         }
         GroupRule rule;
         rule.name = columns[0];
         rule.select = columns[1];
         for (std::size_t k = 2; k < columns.size(); ++k) {
             if (columns[k].rfind("copies=", 0) == 0) {
-                rule.copies = copiesOf(rule.name, columns[k].substr(7));
+                rule.copies = copiesOf(rule.name, std::string(columns[k].substr(7)));
             } else {
-                rule.color = colorOf(path, columns[k]);
+                rule.color = colorOf(path, std::string(columns[k]));
             }
         }
         rules.push_back(std::move(rule));

@@ -525,7 +525,7 @@ void checkFits(const AssemblyCopies& assembly, std::size_t memory)
     double balls = 0.0;
     for (const AssemblyCopy& copy : assembly.copies)
         balls += double(assembly.parts[copy.part].size());
-    checkMemoryFor(assembly.title + "its atoms take", perBall * balls, memory);
+    needMemory(assembly.title + "its atoms take", perBall * balls, memory);
 }
 
 /// Puts the balls where they belong: as in the file, as a unit of a whole, each prototype of an

@@ -26,6 +26,13 @@ using nlohmann::json;
     throw std::runtime_error(what);
 }
 
+/// What is wrong in words of BinaryCIF, and not of the library that reads it.
+std::string reasonOf(const std::exception& error)
+{
+    const bool ofLibrary = dynamic_cast<const json::exception*>(&error) != nullptr;
+    return ofLibrary ? "a part is missing, or of another type than it should be" : error.what();
+}
+
 /// Makes a tree of what the reader of MessagePack finds; it refuses what is nested deeper than any
 /// BinaryCIF file, for the reader calls itself for each level.
 class TreeBuilder : public nlohmann::json_sax<json>
@@ -47,9 +54,12 @@ public:
         key_ = std::move(v);
         return true;
     }
-    bool parse_error(std::size_t, const std::string&, const json::exception& e) override
+    bool parse_error(std::size_t position, const std::string&, const json::exception& e) override
     {
-        damaged(e.what());
+        constexpr int atEnd = 110; // of the library's errors
+        damaged((e.id == atEnd ? "its data end too early, at byte "
+                               : "expected MessagePack, got something else at byte ") +
+                std::to_string(position));
     }
 
     json root;
@@ -352,7 +362,7 @@ void addCategory(const json& category, gemmi::cif::Block& block, Allowance& allo
         try {
             texts.push_back(textsOf(column, rows, allowance));
         } catch (const std::exception& error) {
-            damaged(loop.tags.back() + ": " + error.what());
+            damaged(loop.tags.back() + ": " + reasonOf(error));
         }
     }
     loop.values.reserve(rows * texts.size());
@@ -386,8 +396,7 @@ gemmi::cif::Document decodeBinaryCif(const std::string& bytes, const std::string
                     addCategory(category, document.blocks.back(), allowance);
         }
     } catch (const std::exception& error) {
-        failAt(path, std::string("is damaged BinaryCIF: ") + error.what() +
-                         " [copy or download it again]");
+        failAt(path, "is damaged BinaryCIF: " + reasonOf(error) + " [copy or download it again]");
     }
     return document;
 }

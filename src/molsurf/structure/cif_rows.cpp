@@ -198,16 +198,23 @@ public:
 
     void take(std::size_t at, const Cutter& row)
     {
-        if (row.endsSpan()) joinLastResidue();
+        if (row.endsSpan()) {
+            joinLastResidue();
+            residues_ = 0;
+        }
         if (row.cut() == Cut::Chain) chain_ = begins_.size();
         // A residue from before the cuts of its chain: these would part it.
         while (begins_.size() > chain_ && row.cut() != Cut::Chain &&
                row.number() <= begins_.back().last)
             begins_.pop_back();
         const std::size_t since = begins_.empty() ? enough_ : rows_ - begins_.back().row;
-        if (begins_.empty() || (row.cut() != Cut::No && since >= enough_))
+        const bool may = row.cut() == Cut::Chain || (row.cut() == Cut::Residue && residues_ > 1);
+        if (begins_.empty() || (may && since >= enough_)) {
             begins_.push_back(
                 {at, rows_, row.number(), row.cut() == Cut::Chain ? unknown : row.last()});
+            residues_ = 0;
+        }
+        residues_ += residues_ == 0 || row.number() != lastNumber_;
         lastNumber_ = row.number();
         if (begins_.size() == 1) chain_ = 1;
         ++rows_;
@@ -234,7 +241,8 @@ private:
         int number; ///< of its residue
         int last;   ///< largest number of a residue before it in its chain
     };
-    /// Undoes a cut before the last residue of a label chain: alone it would look like a ligand.
+    /// Undoes a cut before the last residue of a label chain: alone it would look like a ligand, as
+    /// would its first one before a cut.
     void joinLastResidue()
     {
         if (begins_.size() > chain_ && begins_.back().last != unknown &&
@@ -244,6 +252,7 @@ private:
 
     std::size_t enough_, rows_ = 0;
     int lastNumber_ = unknown;
+    int residues_ = 0;      ///< of the present label chain in the present piece
     std::size_t chain_ = 0; ///< first of the begins within the chain
     std::vector<Begin> begins_;
 };

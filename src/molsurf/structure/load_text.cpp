@@ -38,18 +38,60 @@ struct Limit {
     std::size_t bytes;
     std::size_t ratio = 200;                         ///< of unpacked to packed bytes
     std::size_t unsuspected = std::size_t{16} << 20; ///< unpacked bytes at any ratio
+    bool isOption = true;                            ///< whether its caller may raise it
 };
 
-[[noreturn]] void failTooLarge(const std::string& path, const std::string& what)
+[[noreturn]] void failTooLarge(const std::string& path, const std::string& what, const Limit& limit)
 {
-    failAt(path, what + " [hint: `maxInput` 10G takes up to 10 GiB]");
+    failAt(path, what + (limit.isOption ? " [hint: `maxInput` 10G takes up to 10 GiB]" : ""));
 }
 
 void checkSize(std::size_t bytes, const Limit& limit, const std::string& path)
 {
     if (bytes > limit.bytes)
-        failTooLarge(path, "expected at most " + std::to_string(limit.bytes) + " bytes of text");
+        failTooLarge(path, "expected at most " + std::to_string(limit.bytes) + " bytes of text",
+                     limit);
 }
+
+/// A text that grows by blocks and is never held twice, as a string that grows would be.
+class Growing
+{
+public:
+    void append(const char* bytes, std::size_t count)
+    {
+        while (count > 0) {
+            if (blocks_.empty() || blocks_.back().size() == block) {
+                blocks_.emplace_back();
+                blocks_.back().reserve(block);
+            }
+            const std::size_t part = std::min(count, block - blocks_.back().size());
+            blocks_.back().append(bytes, part);
+            size_ += part;
+            bytes += part;
+            count -= part;
+        }
+    }
+
+    std::size_t size() const { return size_; }
+
+    /// The whole text; each block goes as soon as it is copied.
+    std::string take()
+    {
+        std::string text;
+        text.reserve(size_);
+        for (std::string& part : blocks_) {
+            text += part;
+            std::string().swap(part);
+        }
+        blocks_.clear();
+        return text;
+    }
+
+private:
+    static constexpr std::size_t block = std::size_t{1} << 20;
+    std::vector<std::string> blocks_;
+    std::size_t size_ = 0;
+};
 
 /// Reads to the end of a file or a pipe.
 /// @param[in] expected  its size, as far as it is known [bytes]
@@ -57,21 +99,17 @@ std::string readAll(std::FILE* file, const std::string& path, std::size_t expect
                     const Limit& limit)
 {
     checkSize(expected, limit, path);
-    constexpr std::size_t chunk = std::size_t{1} << 20;
-    std::string bytes;
-    bytes.reserve(expected + chunk);
-    std::size_t got = 0;
-    do {
-        const std::size_t size = bytes.size();
-        if (bytes.capacity() < size + chunk) // not twice the limit
-            bytes.reserve(std::min(2 * bytes.capacity(), limit.bytes) + chunk);
-        bytes.resize(size + chunk);
-        got = std::fread(&bytes[size], 1, chunk, file);
-        bytes.resize(size + got);
-        checkSize(bytes.size(), limit, path);
-    } while (got == chunk);
+    std::string bytes(expected, '\0');
+    bytes.resize(std::fread(bytes.data(), 1, expected, file));
+    Growing more; // of a pipe, or of a file that grew
+    std::vector<char> piece(std::size_t{1} << 16);
+    for (std::size_t got = 0; (got = std::fread(piece.data(), 1, piece.size(), file)) > 0;) {
+        if (more.size() == 0) more.append(bytes.data(), bytes.size());
+        more.append(piece.data(), got);
+        checkSize(more.size(), limit, path);
+    }
     if (std::ferror(file)) failBySystem(path, "cannot be read");
-    return bytes;
+    return more.size() > 0 ? more.take() : bytes;
 }
 
 std::string readBytes(const std::string& path, const Limit& limit)
@@ -96,7 +134,7 @@ bool isGzip(const std::string& bytes, std::size_t at)
 
 /// Unpacks one gzip member that starts at `begin`, appends it to `text`, and returns its end.
 std::size_t unpackMember(std::string& bytes, std::size_t begin, const std::string& path,
-                         const Limit& limit, std::string& text)
+                         const Limit& limit, Growing& text)
 {
     constexpr std::size_t maxFeed = std::size_t{1} << 30; // zlib counts with 32 bits
     z_stream stream{};
@@ -117,8 +155,10 @@ std::size_t unpackMember(std::string& bytes, std::size_t begin, const std::strin
         text.append(buffer, sizeof buffer - stream.avail_out);
         checkSize(text.size(), limit, path);
         if (text.size() > limit.unsuspected && text.size() / limit.ratio > next)
-            failTooLarge(path, "its gzip data unpack to more than " + std::to_string(limit.ratio) +
-                                   " times their size, which no file of atoms does");
+            failTooLarge(path,
+                         "its gzip data unpack to more than " + std::to_string(limit.ratio) +
+                             " times their size, which no file of atoms does",
+                         limit);
         if (state == Z_BUF_ERROR || (state == Z_OK && next == bytes.size() && stream.avail_out)) {
             failAt(path, "is cut short: its gzip data end after " + std::to_string(bytes.size()) +
                              " bytes without the closing checksum [copy or download it again]");
@@ -134,11 +174,11 @@ std::size_t unpackMember(std::string& bytes, std::size_t begin, const std::strin
 
 std::string unpack(std::string bytes, const std::string& path, const Limit& limit)
 {
-    std::string text;
-    text.reserve(std::min(bytes.size() * 5, limit.bytes));
+    Growing text;
     std::size_t next = 0;
     while (isGzip(bytes, next)) next = unpackMember(bytes, next, path, limit, text);
-    return text;
+    std::string().swap(bytes);
+    return text.take();
 }
 
 bool beginsWith(const std::string& bytes, std::string_view magic)
@@ -152,7 +192,7 @@ std::string unpackBy(const Filter& filter, const char* kind, const std::string& 
                      const std::string& path, const Limit& limit)
 {
     namespace io = boost::iostreams;
-    std::string text;
+    Growing text;
     try {
         io::filtering_istreambuf stream;
         stream.push(filter);
@@ -163,15 +203,17 @@ std::string unpackBy(const Filter& filter, const char* kind, const std::string& 
             text.append(buffer.data(), std::size_t(got));
             checkSize(text.size(), limit, path);
             if (text.size() > limit.unsuspected && text.size() / limit.ratio > bytes.size())
-                failTooLarge(path, std::string("its ") + kind + " data unpack to more than " +
-                                       std::to_string(limit.ratio) +
-                                       " times their size, which no file of atoms does");
+                failTooLarge(path,
+                             std::string("its ") + kind + " data unpack to more than " +
+                                 std::to_string(limit.ratio) +
+                                 " times their size, which no file of atoms does",
+                             limit);
         }
     } catch (const std::ios_base::failure&) {
         failAt(path, std::string("has damaged ") + kind +
                          " data, or is cut short [copy or download it again]");
     }
-    return text;
+    return text.take();
 }
 
 /// Unpacks what is packed by gzip, bzip2 or xz.
@@ -263,9 +305,11 @@ std::string withoutMark(std::string text)
     return text;
 }
 
-std::string unpackedText(std::string bytes, const std::string& path, std::size_t maxBytes)
+namespace
 {
-    const Limit limit(maxBytes);
+
+std::string unpackedText(std::string bytes, const std::string& path, const Limit& limit)
+{
     checkSize(bytes.size(), limit, path);
     std::string text = std::move(bytes);
     text = unpackAny(std::move(text), path, limit);
@@ -277,9 +321,23 @@ std::string unpackedText(std::string bytes, const std::string& path, std::size_t
     return text;
 }
 
+} // namespace
+
+std::string unpackedText(std::string bytes, const std::string& path, std::size_t maxBytes)
+{
+    return unpackedText(std::move(bytes), path, Limit(maxBytes));
+}
+
 std::string loadText(const std::string& path, std::size_t maxBytes)
 {
     return unpackedText(readBytes(path, Limit(maxBytes)), path, maxBytes);
+}
+
+std::string loadSmallText(const std::string& path, std::size_t mostBytes)
+{
+    Limit limit(mostBytes);
+    limit.isOption = false;
+    return unpackedText(readBytes(path, limit), path, limit);
 }
 
 } // namespace molsurf

@@ -20,6 +20,10 @@ namespace molsurf
 ///         empty or larger than it may be, or if its packed data are damaged or cut short
 std::string loadText(const std::string& path, std::size_t maxBytes = 0);
 
+/// The same of a file whose limit no option raises.
+/// @param[in] mostBytes  above 0
+std::string loadSmallText(const std::string& path, std::size_t mostBytes);
+
 /// The text of a file that is in memory; otherwise as above.
 /// @param[in] path  stands for it in messages
 std::string unpackedText(std::string bytes, const std::string& path, std::size_t maxBytes = 0);

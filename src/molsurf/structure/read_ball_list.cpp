@@ -266,6 +266,10 @@ Structure readXyzrn(const std::string& text, const std::string& path)
             fail(place, "expected x y z radius number name, got " + inQuotes(lines.line()));
         const auto [x, y, z, radius] = numbersFrom(fields, 0, names, place);
         const string_view name = fields.size() > names.size() ? fields.back() : string_view();
+        constexpr std::size_t longest = 1024;
+        if (name.size() > longest)
+            fail(place,
+                 "expected a name of at most 1024 characters, got " + std::to_string(name.size()));
         addBall(tree, identityIn(name), {x, y, z}, radius);
         labels.emplace_back(name);
     }

@@ -56,7 +56,7 @@ Structure parseAndCheck(StructureFormat format, std::string text, const std::str
     const StructureFormatRow& row = rowOf(format);
     constexpr std::size_t small = 100000; // bytes of a text that needs no estimate
     if (text.size() > small)
-        checkMemoryFor(displayName(path) + ": reading it takes", row.bytesFor(text), memory);
+        needMemory(displayName(path) + ": reading it takes", row.bytesFor(text), memory);
     Structure structure = row.read(std::move(text), path, progress);
     stopIfCancelled(progress);
     structure.source = path == "-" ? path : std::filesystem::path(path).filename().string();

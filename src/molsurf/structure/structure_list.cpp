@@ -5,10 +5,10 @@
 #include "molsurf/structure/archive.h"
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/load_text.h"
+#include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 
 namespace molsurf
 {
@@ -55,13 +55,17 @@ std::vector<std::string> readStructureList(const std::string& path, std::size_t 
                     ": it is a structure, expected a list of them or a folder [hint: vdb_molsurf " +
                     path + " -o FILE]");
     }
-    std::istringstream in(loadBytes(path, maxBytes));
+    const std::string text = loadBytes(path, maxBytes);
     std::vector<std::string> inputs;
-    for (std::string line; std::getline(in, line);) {
-        const char* blank = " \t\r";
-        const std::size_t begin = line.find_first_not_of(blank);
-        if (begin == std::string::npos || line[begin] == '#') continue;
-        inputs.push_back(line.substr(begin, line.find_last_not_of(blank) + 1 - begin));
+    for (LineReader lines(text); lines.next();) {
+        const std::string_view name = trimmed(lines.line());
+        if (name.empty() || name[0] == '#') continue;
+        constexpr std::size_t longest = 4096; // of the system's paths
+        if (name.size() > longest)
+            failAtLine(path, lines,
+                       "expected the name of a structure file, got " + std::to_string(name.size()) +
+                           " characters");
+        inputs.emplace_back(name);
     }
     if (inputs.empty())
         throw Error(ErrorKind::Input, path + ": expected the name of a structure file a line");

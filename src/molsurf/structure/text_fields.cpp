@@ -15,6 +15,8 @@ namespace molsurf
 namespace
 {
 
+constexpr std::size_t mostFields = std::size_t{1} << 18; // 4 MiB of them
+
 bool isBlank(char c)
 {
     return c == ' ' || c == '\t' || c == '\r';
@@ -76,6 +78,7 @@ void splitFields(std::string_view line, Fields& fields)
         while (begin < line.size() && isBlank(line[begin])) ++begin;
         std::size_t end = begin;
         while (end < line.size() && !isBlank(line[end])) ++end;
+        if (fields.size() + 1 == mostFields) end = line.size();
         if (end > begin) fields.push_back(line.substr(begin, end - begin));
         begin = end;
     }

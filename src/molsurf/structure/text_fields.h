@@ -31,7 +31,8 @@ private:
 
 using Fields = std::vector<std::string_view>;
 
-/// Fields of a line that are separated by blanks or tabs.
+/// Fields of a line that are separated by blanks or tabs. The last of 262144 is the rest of the
+/// line.
 Fields splitFields(std::string_view line);
 
 /// The same into a list that keeps its memory from line to line.

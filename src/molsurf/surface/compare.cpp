@@ -14,6 +14,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <limits>
+#include <optional>
 #include <sstream>
 
 namespace molsurf
@@ -80,8 +83,8 @@ Pose poseOf(const openvdb::GridBase& grid)
     pose.shift = transform.indexToWorld(Vec3d(0.0));
     const double voxel = grid.voxelSize()[0];
     constexpr double least = 1e-6, most = 1e6; // [Å]
-    if (!(voxel >= least && voxel <= most) || !(pose.shift.length() <= 1e3 * most))
-        refuse(gridName(grid) + ": expected voxels of 1e-6 to 1e6 Å, within 1e9 Å of the origin");
+    if (!(voxel >= least && voxel <= most))
+        refuse(gridName(grid) + ": expected voxels of 1e-6 to 1e6 Å");
     for (int axis = 0; axis < 3; ++axis) {
         Vec3d step(0.0);
         step[axis] = 1.0;
@@ -102,14 +105,39 @@ Pose poseOf(const openvdb::GridBase& grid)
     return pose;
 }
 
-/// Refuses leaves near the largest whole numbers.
-void checkPlace(const FloatGrid& grid)
+/// The largest coordinate of a box, whose corners lie at voxels, where these are put.
+double farthest(const openvdb::CoordBBox& box, const Pose& pose, double voxel)
 {
-    constexpr int far = 1 << 26; // [voxel]
+    double most = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        Vec3d x;
+        for (int a = 0; a < 3; ++a)
+            x[a] = voxel * double((corner >> a & 1 ? box.max() : box.min())[a]);
+        const Vec3d placed = openvdb::math::Abs(pose.toWorld(x));
+        most = std::max({most, placed[0], placed[1], placed[2]});
+    }
+    return most;
+}
+
+/// Refuses a grid with places that coordinates of 32 bits do not hold, in its own frame or outside.
+/// @return what these leave uncertain of a place [Å]
+double checkPlace(const FloatGrid& grid, const Pose& pose)
+{
+    constexpr double far = 1e6; // [Å], as of atoms
     openvdb::CoordBBox box;
     grid.tree().evalLeafBoundingBox(box);
-    if (!openvdb::CoordBBox(Coord(-far), Coord(far)).isInside(box))
+    const double voxel = grid.voxelSize()[0];
+    const double local = farthest(box, Pose(), voxel), placed = farthest(box, pose, voxel);
+    constexpr int last = 1 << 26; // [voxel]
+    if (!openvdb::CoordBBox(Coord(-last), Coord(last)).isInside(box))
         refuse(gridName(grid) + ": expected voxels within 2^26 of the origin");
+    if (!(std::max(local, placed) <= far)) {
+        std::ostringstream message;
+        message << gridName(grid) << ": expected voxels within 1e6 Å of the origin, got one at "
+                << std::max(local, placed) << " Å";
+        refuse(message.str());
+    }
+    return placed * double(std::numeric_limits<float>::epsilon());
 }
 
 /// Refuses values of which squares and products are no numbers.
@@ -124,11 +152,73 @@ void checkValues(const FloatGrid& grid, Iterator it)
     }
 }
 
+/// Whether a spline has the signs of a level set, some voxels from zero: one a leaf is asked.
+bool fits(const Spline& spline, const FloatGrid& levelSet)
+{
+    const double voxel = levelSet.voxelSize()[0], most = double(levelSet.background());
+    const double clear = std::min(std::max(voxel, spline.voxelSize()), 0.5 * most);
+    constexpr std::size_t fewest = 20; // leaves of which one may be wrong
+    std::size_t asked = 0, wrong = 0;
+    SplineSampler sampler(spline);
+    for (auto leaf = levelSet.tree().cbeginLeaf(); leaf; ++leaf)
+        for (auto it = leaf->cbeginValueOn(); it; ++it) {
+            const double size = std::abs(double(*it));
+            if (size < clear || size > clear + voxel) continue;
+            const Vec3d x = voxel * it.getCoord().asVec3d();
+            const bool known = spline.table().find(Coord::round(x / spline.voxelSize())) != noLeaf;
+            wrong += !known || (sampler.at(x).value < 0.0) != (*it < 0.0f);
+            ++asked;
+            break;
+        }
+    return fewest * wrong <= asked;
+}
+
+/// The stored spline of a level set; nothing if there is none, or, with a warning, of another one.
+std::optional<Spline> storedSpline(const openvdb::GridPtrVec& grids, const FloatGrid& levelSet,
+                                   const Pose& pose, std::vector<std::string>& warnings)
+{
+    const FloatGrid::Ptr coefficients = findGrid<FloatGrid>(grids, "spline");
+    if (!coefficients || coefficients->empty()) return std::nullopt;
+    const Pose other = poseOf(*coefficients);
+    checkPlace(*coefficients, other);
+    checkValues(*coefficients, coefficients->cbeginValueAll());
+    if ((other.shift - pose.shift).length() > 1e-3 * levelSet.voxelSize()[0] ||
+        !other.turn.eq(pose.turn, 1e-5))
+        refuse("grids 'surface' and 'spline': expected one origin and direction, got two");
+    Spline spline{fromGrid(*coefficients)};
+    if (fits(spline, levelSet)) return spline;
+    warnings.push_back("grid 'spline': it is of another surface than " + gridName(levelSet) +
+                       ", so a spline is fitted to that one");
+    return std::nullopt;
+}
+
+/// Refuses files in which a name does not say which grid is meant.
+void checkNames(const openvdb::GridPtrVec& grids)
+{
+    for (const char* name : {"surface", "spline"}) {
+        const auto count = std::count_if(grids.begin(), grids.end(),
+                                         [&](const auto& grid) { return grid->getName() == name; });
+        if (count > 1)
+            refuse("grid '" + std::string(name) + "': expected one of this name, got " +
+                   std::to_string(count));
+    }
+}
+
 void sayIfOpen(Operand& operand)
 {
     if (operand.surface.closed) return;
     operand.warnings.push_back("the mesh is open, or its triangles are not oriented alike: it has "
                                "no volume and no inside");
+}
+
+void sayIfRounded(double rounding, std::vector<std::string>& warnings)
+{
+    constexpr double most = 0.01; // [Å]
+    if (rounding < most) return;
+    std::ostringstream message;
+    message << std::setprecision(2) << "vertices are rounded to " << rounding
+            << " Å, as they lie far from the origin; area and volume are not";
+    warnings.push_back(message.str());
 }
 
 } // namespace
@@ -152,10 +242,11 @@ Spline splineThrough(const FloatGrid& grid, const Progress& progress)
     return fitSpline(S, 0, progress);
 }
 
-Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
+Operand storedOperand(const openvdb::GridPtrVec& grids, const Progress& progress)
 {
     Operand operand;
     operand.kind = "level set";
+    checkNames(grids);
     const FloatGrid::Ptr stored = findLevelSet(grids);
     const Pose pose = poseOf(*stored);
     operand.voxel = stored->voxelSize()[0];
@@ -165,23 +256,13 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
         refuse(gridName(*stored) + ": expected a narrow band, got more voxels in tiles than in it");
     stored->tree().voxelizeActiveTiles();
     if (stored->tree().leafCount() == 0) refuse(gridName(*stored) + ": expected voxels, got none");
-    checkPlace(*stored);
+    const double rounding = checkPlace(*stored, pose);
     checkValues(*stored, stored->cbeginValueOn());
 
     Surface& surface = operand.surface;
     surface.pose = pose;
-    const FloatGrid::Ptr coefficients = findGrid<FloatGrid>(grids, "spline");
-    if (coefficients && !coefficients->empty()) {
-        const Pose other = poseOf(*coefficients);
-        checkPlace(*coefficients);
-        checkValues(*coefficients, coefficients->cbeginValueAll());
-        if ((other.shift - pose.shift).length() > 1e-3 * operand.voxel ||
-            !other.turn.eq(pose.turn, 1e-5))
-            refuse("grids 'surface' and 'spline': expected one origin and direction, got two");
-        surface.spline = Spline{fromGrid(*coefficients)};
-    } else {
-        surface.spline = splineThrough(*stored, progress);
-    }
+    surface.spline = storedSpline(grids, *stored, pose, operand.warnings);
+    if (!surface.spline) surface.spline = splineThrough(*stored, progress);
 
     // The mesh is made in the frame of the spline.
     const FloatGrid::Ptr local = stored->copy();
@@ -198,9 +279,21 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
     operand.size.area = report.area;
     if (report.closed) operand.size.volume = report.volume;
     sayIfOpen(operand);
+    sayIfRounded(rounding, operand.warnings);
+    operand.levelSet = stored;
+    return operand;
+}
+
+void place(const Pose& pose, Mesh& mesh)
+{
     for (Vec3f& p : mesh.positions) p = Vec3f(pose.toWorld(Vec3d(p)));
     for (Vec3f& n : mesh.normals) n = Vec3f(pose.turn * Vec3d(n));
-    operand.levelSet = stored;
+}
+
+Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)
+{
+    Operand operand = storedOperand(grids, progress);
+    place(operand.surface.pose, operand.surface.mesh);
     return operand;
 }
 

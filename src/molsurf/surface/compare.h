@@ -36,9 +36,17 @@ struct Operand {
 /// The spline takes the level set's own values in its band. Voxels that the band lacks up to 4.5
 /// voxels on either side, which the spline needs, get the distance from the zero set.
 ///
-/// @throws Error(ErrorKind::Input) if there is no such grid, if it is empty or not in world units
-///         of cubes, or has no zero
+/// A grid `spline` whose signs are not those of the level set is left out, with a warning.
+///
+/// @throws Error(ErrorKind::Input) if there is no such grid or more than one of its name, if it is
+///         empty, not in world units of cubes or beyond 1e6 Å, or has no zero
 Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress);
+
+/// The same with the mesh in the frame of the grid, where its places have all their digits.
+Operand storedOperand(const openvdb::GridPtrVec& grids, const Progress& progress);
+
+/// Puts a mesh from the frame of a grid into the world.
+void place(const Pose& pose, Mesh& mesh);
 
 /// The spline through the band of a level set, whose values it takes; what it lacks is added as
 /// above. Without coefficients if there is no zero.

@@ -7,6 +7,7 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
 #include "molsurf/grid/grid_like.h"
+#include "molsurf/mesh/check_arrays.h"
 #include "molsurf/mesh/distance.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/surface/check_balls.h"
@@ -141,6 +142,7 @@ SurfaceDistance::SurfaceDistance(const BallSet& atoms, const SurfaceOptions& opt
 {
     if (atoms.balls.empty()) throw Error(ErrorKind::Input, "distance: no atoms");
     checkFinite(atoms.balls);
+    checkArrays(surface.mesh);
     auto parts = std::make_unique<Parts>(atoms.balls);
     const bool changed = options.ofParts() || options.fillCavities;
     if (isBoundary(options) && !changed && atoms.placement.isWhole())

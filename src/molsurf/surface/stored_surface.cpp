@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 
 namespace molsurf
@@ -85,14 +86,24 @@ openvdb::GridPtrVec inAngstrom(const openvdb::GridPtrVec& grids, const openvdb::
     return out;
 }
 
-/// The voxels nearest to the vertices.
-std::vector<Coord> voxelsOf(const Surface& surface, double voxel)
+/// The voxels nearest to vertices in the frame of the grid.
+std::vector<Coord> voxelsOf(const Mesh& mesh, double voxel)
 {
     std::vector<Coord> out;
-    out.reserve(surface.mesh.positions.size());
-    for (const Vec3f& p : surface.mesh.positions)
-        out.push_back(Coord::round(surface.pose.toLocal(Vec3d(p)) / voxel));
+    out.reserve(mesh.positions.size());
+    for (const Vec3f& p : mesh.positions) out.push_back(Coord::round(Vec3d(p) / voxel));
     return out;
+}
+
+/// A warning for each name that several grids have.
+void sayIfSeveral(const openvdb::GridPtrVec& grids, std::vector<std::string>& warnings)
+{
+    std::map<std::string, int> counts;
+    for (const auto& grid : grids) ++counts[grid->getName()];
+    for (const auto& [name, count] : counts)
+        if (count > 1)
+            warnings.push_back("grid '" + name + "': " + std::to_string(count) +
+                               " of this name, of which the first counts");
 }
 
 template<typename GridT>
@@ -306,25 +317,24 @@ StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::Met
     stored.names.coloring = coloring;
     stored.scale = numberOf(metadata, "scene.units_per_angstrom", 1.0);
     progress.update("mesh", 0.0);
-    Operand operand = operandOf(inAngstrom(grids, metadata), progress);
+    Operand operand = storedOperand(inAngstrom(grids, metadata), progress);
+    sayIfSeveral(grids, stored.warnings);
     if (!findGrid<FloatGrid>(grids, "spline"))
         stored.warnings.push_back("no grid spline: it is fitted to the level set, close to the "
                                   "one that was [hint: `fields` spline when it is built]");
     for (const std::string& warning : operand.warnings) stored.warnings.push_back(warning);
-    const Source from{grids, metadata, voxelsOf(operand.surface, operand.voxel), coloring};
+    const Source from{grids, metadata, voxelsOf(operand.surface.mesh, operand.voxel), coloring};
 
     SurfaceRun run(stored.names, options, Scope(), progress);
     const Pose pose = operand.surface.pose;
     run.resume(std::move(operand.surface.mesh), std::move(*operand.surface.spline),
                operand.levelSet);
     MolecularSurface& result = run.result();
-    std::vector<Vec3f> placed = result.mesh.positions;
-    for (Vec3f& p : result.mesh.positions) p = Vec3f(pose.toLocal(Vec3d(p)));
     run.curvatures();
-    result.mesh.positions = std::move(placed);
     run.measure();
     run.describeCurvature();
     run.integrateCurvature();
+    place(pose, result.mesh);
 
     Report& report = result.report;
     const std::string kind = textOf(metadata, "option.surface");

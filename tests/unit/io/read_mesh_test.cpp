@@ -89,9 +89,9 @@ TEST(ReadMesh, WhatTheWritersWrite)
 TEST(ReadMesh, NamesTheFile)
 {
     const test::Folder folder;
-    EXPECT_SAYS(readMesh(folder / "none.ply"), "none.ply: No such file");
+    EXPECT_SAYS(readMesh(folder / "none.ply"), "none.ply: cannot be opened: No such file");
     std::filesystem::create_directory(folder / "a.obj");
-    EXPECT_SAYS(readMesh(folder / "a.obj"), "a.obj: it is a folder");
+    EXPECT_SAYS(readMesh(folder / "a.obj"), "a.obj: is a folder, expected a file");
     std::ofstream(folder / "b.obj") << "v 0 0 0\n";
     EXPECT_SAYS(readMesh(folder / "b.obj"), "b.obj: expected triangles");
     std::ofstream(folder / "c.obj") << "v 0 0 0\nv 1 0 0\nf 1 2 1\n";

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cstring>
+#include <set>
+#include <string>
 
 namespace molsurf::test
 {
@@ -196,9 +198,28 @@ TEST(BinaryCif, IsReadWholeOrNotAtAll)
         const std::string part = whole.substr(0, size);
         EXPECT_HAS(errorOf(ErrorKind::Input,
                            [&] { decodeBinaryCif(part, "a.bcif", [](auto&) { return true; }); }),
-                   "a.bcif: is damaged BinaryCIF")
+                   "a.bcif: is damaged BinaryCIF: its data end too early, at byte ")
             << size;
     }
+}
+
+// The words of the library that reads JSON help nobody.
+TEST(BinaryCif, SaysWhatIsDamagedInItsOwnWords)
+{
+    const std::string whole = fileOf(1, json::array({texts({0, 2, 5, 6}, {0})}));
+    std::set<std::string> said;
+    for (std::size_t place = 0; place < whole.size(); ++place)
+        for (const char byte : {'\xc1', '\xc0', '\x00', '\x93'}) {
+            std::string changed = whole;
+            changed[place] = byte;
+            try {
+                decodeBinaryCif(changed, "a.bcif", [](auto&) { return true; });
+            } catch (const Error& e) {
+                said.insert(e.what());
+            }
+        }
+    EXPECT_GT(said.size(), 5u);
+    for (const std::string& text : said) EXPECT_EQ(text.find("json"), std::string::npos) << text;
 }
 
 } // namespace

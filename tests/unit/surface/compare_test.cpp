@@ -125,6 +125,57 @@ TEST(OperandOfGrids, WhichGridIsTaken)
     EXPECT_SAYS((openvdb::GridPtrVec{one, fog}), "expected class level set, got fog volume");
 }
 
+TEST(OperandOfGrids, ANameThatSeveralGridsHave)
+{
+    const auto one = sphereGrid(2.0, centre, 0.5, "surface");
+    const auto two = sphereGrid(3.0, centre, 0.5, "surface");
+    EXPECT_SAYS((openvdb::GridPtrVec{one, two}),
+                "grid 'surface': expected one of this name, got 2");
+    one->setName("spline");
+    two->setName("spline");
+    EXPECT_SAYS((openvdb::GridPtrVec{sphereGrid(2.0, centre, 0.5, "surface"), one, two}),
+                "grid 'spline': expected one of this name, got 2");
+}
+
+TEST(OperandOfGrids, ASplineOfAnotherSurfaceIsLeftOut)
+{
+    const auto grid = sphereGrid(3.0, centre, 0.25, "surface");
+    for (const auto& other :
+         {sphereGrid(2.0, centre, 0.25, "other"), sphereGrid(3.0, Vec3d(9.0), 0.25, "other"),
+          sphereGrid(3.0, Vec3d(1.0, 0.0, 0.0), 0.25, "other")}) {
+        const auto spline = splineGrid(splineThrough(*other, Progress()));
+        const Operand found = operandOf({grid, spline}, Progress());
+        EXPECT_NEAR(found.size.area, 36.0 * M_PI, 0.1);
+        ASSERT_EQ(found.warnings.size(), 1u);
+        EXPECT_NE(found.warnings[0].find("of another surface than grid 'surface'"),
+                  std::string::npos);
+    }
+    const auto own = splineGrid(splineThrough(*grid, Progress()));
+    EXPECT_TRUE(operandOf({grid, own}, Progress()).warnings.empty());
+}
+
+TEST(OperandOfGrids, FarFromTheOrigin)
+{
+    for (const double shift : {1e7, 1.1e6}) {
+        const auto moved = sphereGrid(5.0, centre, 0.5, "surface");
+        moved->transform().postTranslate(Vec3d(0.0, -shift, 0.0));
+        EXPECT_SAYS({moved}, "expected voxels within 1e6 Å of the origin, got one at 1");
+        // The same by its voxels, in a frame of its own far from the origin.
+        const auto own = moved->copy();
+        own->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
+        own->setTree(std::make_shared<openvdb::FloatTree>(3.0f));
+        own->tree().setValue(openvdb::Coord(int(2.0 * shift), 0, 0), 0.5f);
+        own->transform().postTranslate(Vec3d(-shift, 0.0, 0.0));
+        EXPECT_SAYS({own}, "within 1e6 Å");
+    }
+    const auto near = sphereGrid(5.0, centre, 0.5, "surface");
+    near->transform().postTranslate(Vec3d(9e5, 0.0, 0.0));
+    const Operand found = operandOf({near}, Progress());
+    EXPECT_NEAR(found.size.area, 100.0 * M_PI, 0.1);
+    ASSERT_EQ(found.warnings.size(), 1u);
+    EXPECT_NE(found.warnings[0].find("rounded to 0.11 Å"), std::string::npos) << found.warnings[0];
+}
+
 TEST(OperandOfGrids, BadGrids)
 {
     auto grid = sphereGrid(2.0, centre, 0.5, "surface");
