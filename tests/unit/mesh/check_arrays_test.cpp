@@ -56,8 +56,9 @@ TEST(CheckArrays, PlacesAreFiniteAndNotTooFar)
     constexpr float infinite = std::numeric_limits<float>::infinity();
     for (const float value : {1e30f, 1e6f, -1e6f, infinite, std::nanf("")})
         for (int a = 0; a < 3; ++a)
-            EXPECT_EQ(errorOf([&](Mesh& m) { m.positions[2][a] = value; })
-                          .find("vertex 2: expected a finite position below 1e6 Å, got "),
+            EXPECT_EQ(errorOf([&](Mesh& m) {
+                          m.positions[2][a] = value;
+                      }).find("vertex 2: expected a finite position below 1e6 Å, got "),
                       0u)
                 << value;
     EXPECT_EQ(errorOf([&](Mesh& m) { m.normals[1][2] = infinite; }),
@@ -72,8 +73,9 @@ TEST(CheckArrays, CornersAreVertices)
     EXPECT_EQ(errorOf([](Mesh& m) { m.triangles[0][0] = std::uint32_t(-1); }),
               "face 0: expected " + end + "-1");
     EXPECT_NE(errorOf([](Mesh& m) { m.triangles[3][1] = std::uint32_t(m.positions.size()); }), "");
-    EXPECT_NE(errorOf([](Mesh& m) { m.parts[0].firstTriangle = m.triangles.size() + 1; })
-                  .find("part 0: expected a first triangle up to "),
+    EXPECT_NE(errorOf([](Mesh& m) {
+                  m.parts[0].firstTriangle = m.triangles.size() + 1;
+              }).find("part 0: expected a first triangle up to "),
               std::string::npos);
 }
 
