@@ -460,6 +460,11 @@ class Hostile(ToolTest):
         self.body = b"\x07" * (offset - HEAD) + self.body[offset - HEAD:]
         self.assertIn("not those of their leaf", self.refuse())
 
+    def test_a_residual_that_is_no_length(self):
+        for residual in (1e300, -1.0):
+            self.header["max_residual"] = residual
+            self.assertIn("its residual is no length", self.refuse())
+
     def test_half_of_the_triangles(self):
         offset, count = self.header["triangles"]
         cut = 12 * (count // 2)

@@ -361,6 +361,8 @@ void checkHeader(BrickHeader& h, std::uint64_t end)
     check(h.sums.kinkVertices <= h.vertices.count &&
               h.sums.unitVertices <= h.vertices.count - h.sums.kinkVertices,
           "vertices are fewer than those of a kind");
+    constexpr double far = 1e6; // [Å], farther than any vertex lies from the surface
+    check(h.sums.maxResidual >= 0.0 && h.sums.maxResidual < far, "its residual is no length");
     if (!h.sums.evolution) return;
     const EvolutionReport& e = *h.sums.evolution;
     const auto steps = std::size_t(e.steps);
