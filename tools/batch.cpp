@@ -128,6 +128,7 @@ BatchEntry perform(const Call& call, const Task& task, BatchJournal& journal, bo
     }
     Call one = call;
     one.input = task.input;
+    one.inputSha256 = entry.sha256;
     one.outputs = task.outputs;
     one.warnings.clear();
     one.quiet = !call.verbose;
@@ -160,8 +161,9 @@ std::string describe(const BatchEntry& entry)
 
 } // namespace
 
-int batch(const Call& call)
+int batch(Call call)
 {
+    call.identity = identityOf(call); // of all
     const std::vector<Task> tasks = tasksOf(call);
     std::error_code problem;
     fs::create_directories(call.folder, problem);
@@ -169,7 +171,7 @@ int batch(const Call& call)
         throw Error(ErrorKind::Output, "cannot make " + call.folder + ": " + problem.message(),
                     mayPass(problem.value()));
     for (const std::string& path : BatchJournal::paths(call.folder)) checkWritable(path, true);
-    BatchJournal journal(call.folder, {MOLSURF_VERSION, optionsLine(call), {}, identityOf(call)},
+    BatchJournal journal(call.folder, {MOLSURF_VERSION, optionsLine(call), {}, call.identity},
                          call.force);
     if (!call.quiet)
         for (const std::string& warning : call.warnings) say("warning: " + warning);

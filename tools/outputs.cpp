@@ -57,10 +57,14 @@ void beginReport(const Call& call, Report& report)
 {
     report.version = MOLSURF_VERSION;
     report.commit = commitHash;
-    if (call.verb & (Build | Batch)) report.options = identityOf(call);
     report.command = call.command;
     report.input = call.input;
-    report.inputSha256 = sha256OfInput(call.input);
+    if (call.writes(Numbers | Grids)) {
+        if (call.verb & (Build | Batch))
+            report.options = call.identity.empty() ? identityOf(call) : call.identity;
+        report.inputSha256 =
+            call.inputSha256.empty() ? sha256OfInput(call.input) : call.inputSha256;
+    }
     report.threads =
         int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }

@@ -71,7 +71,7 @@ int frames(const Call& call, std::chrono::steady_clock::time_point start);
 
 /// Builds the surfaces of a list of structures, one after the other; a summary after each:
 /// batch.cpp.
-int batch(const Call& call);
+int batch(Call call);
 
 /// Compares two surfaces and writes the outputs: compare.cpp.
 /// @param[in] start  when the program began, for the total time

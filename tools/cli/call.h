@@ -153,6 +153,7 @@ struct Call : Settings {
     std::string config;
 
     std::string input;                 ///< the first of `inputs`
+    std::string inputSha256, identity; ///< as tools/identity.h has them; empty: not known yet
     std::size_t brick = 0;             ///< BricksRun: its number, from 1
     std::vector<Output> outputs;       ///< Batch: extensions in the place of paths
     int frame = 0;                     ///< the number of the one that is built; 0: none is
