@@ -41,6 +41,15 @@ DrawOptions drawn(int width)
     return options;
 }
 
+/// Balls as motions repeat them, in the colours of those that they are made of.
+BallSet repeated(const BallSet& atoms, ColorBy color, const std::vector<std::size_t>& sources)
+{
+    BallSet colored = atoms;
+    if (color != ColorBy::Nothing && colored.colors.empty())
+        colored.colors = ballColors(atoms, color, Progress());
+    return subset(colored, sources);
+}
+
 } // namespace
 
 std::vector<std::string> structureEndings()
@@ -129,10 +138,8 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
         }
         writeHtml(mesh, page, file);
     } else {
-        BallSet colored = atoms;
-        if (color != ColorBy::Nothing && colored.colors.empty())
-            colored.colors = ballColors(atoms, color, nobody);
-        how.borders = bordersOf(color, subset(colored, whole.sources),
+        const bool repeats = !atoms.placement.isWhole();
+        how.borders = bordersOf(color, repeats ? repeated(atoms, color, whole.sources) : atoms,
                                 asMeshed(whole.balls, options), mesh, nobody);
         const auto legend = legendOf(color, atoms, mesh, nobody);
         writePng(drawExplained(mesh, std::move(how), legend, false, nobody), file);
