@@ -24,6 +24,11 @@ double residentMemory()
     return double(resident) * double(sysconf(_SC_PAGE_SIZE));
 }
 
+std::size_t mostOf(std::size_t memory)
+{
+    return memory > 0 ? memory : availableMemory();
+}
+
 } // namespace
 
 std::size_t availableMemory()
@@ -37,13 +42,17 @@ std::size_t availableMemory()
     return bytes;
 }
 
+bool hasMemory(double more, std::size_t memory)
+{
+    return residentMemory() + more <= double(mostOf(memory));
+}
+
 void needMemory(const std::string& what, double more, std::size_t memory)
 {
+    if (hasMemory(more, memory)) return;
     const double bytes = residentMemory() + more;
-    const std::size_t most = memory > 0 ? memory : availableMemory();
-    if (bytes <= double(most)) return;
-    std::string text =
-        what + " about " + sizeText(bytes) + " of memory, and there are " + sizeText(double(most));
+    std::string text = what + " about " + sizeText(bytes) + " of memory, and there are " +
+                       sizeText(double(mostOf(memory)));
     if (memory > 0)
         text += formatted(" [hint: `memory` %.0fM]", std::ceil(1.1 * bytes / double(1 << 20)));
     throw Error(ErrorKind::Input, text, memory == 0); // another machine may have more

@@ -14,6 +14,10 @@ namespace molsurf
 /// of `ulimit -v` [byte].
 std::size_t availableMemory();
 
+/// Whether a step that takes so much beside what the process takes already stays within its memory.
+/// @param[in] more,memory  as for needMemory()
+bool hasMemory(double more, std::size_t memory);
+
 /// Refuses to go on where a step is estimated to take more memory than there is, beside what the
 /// process takes already.
 /// @param[in] what    "m.cif: reading it takes", for example

@@ -302,14 +302,6 @@ Structure readText(std::string text, const std::string& path, const Progress&)
     return read(text, path);
 }
 
-/// Measured with `bricks plan --voxel 2` on files of 100,000 to a million atoms.
-/// @tparam tenths  of a byte for each byte of the text
-template<int tenths>
-double bytesFor(const std::string& text)
-{
-    return 0.1 * tenths * double(text.size());
-}
-
 } // namespace
 
 const std::vector<StructureFormatRow>& structureFormats()
@@ -321,38 +313,44 @@ const std::vector<StructureFormatRow>& structureFormats()
          {".bcif"},
          [](const Sample& s) { return isBinaryCif(s.text); },
          readBinaryCif,
-         bytesFor<1300>},
+         130.0},
         {F::Mol2,
          "mol2",
          {".mol2"},
          [](const Sample& s) { return s.word.substr(0, 9) == "@<TRIPOS>"; },
          readText<readMol2>,
-         bytesFor<65>},
-        {F::Sdf, "sdf", {".sdf", ".mol"}, isSdf, readText<readSdf>, bytesFor<120>},
+         6.5},
+        {F::Sdf, "sdf", {".sdf", ".mol"}, isSdf, readText<readSdf>, 12.0},
         {F::Psf,
          "psf",
          {".psf"},
          [](const Sample& s) { return s.word == "PSF"; },
          readText<readPsf>,
-         bytesFor<65>},
-        {F::Gro, "gro", {".gro"}, isGro, readText<readGro>, bytesFor<75>},
-        {F::Mmcif, "mmCIF", {".cif", ".mmcif"}, isMmcif, readMmcif, bytesForMmcif},
-        {F::Pdbqt, "PDBQT", {".pdbqt"}, isPdbqt, readPdbqt, bytesFor<30>},
-        {F::Pqr, "PQR", {".pqr"}, isPqr, readText<readPqr>, bytesFor<65>},
-        {F::Pdb, "PDB", {".pdb", ".ent"}, isPdb, readPdb, bytesFor<30>},
+         6.5},
+        {F::Gro, "gro", {".gro"}, isGro, readText<readGro>, 7.5},
+        {F::Mmcif,
+         "mmCIF",
+         {".cif", ".mmcif"},
+         isMmcif,
+         readMmcif,
+         cifDocumentPerByte,
+         bytesForMmcif},
+        {F::Pdbqt, "PDBQT", {".pdbqt"}, isPdbqt, readPdbqt, 3.0},
+        {F::Pqr, "PQR", {".pqr"}, isPqr, readText<readPqr>, 6.5},
+        {F::Pdb, "PDB", {".pdb", ".ent"}, isPdb, readPdb, 3.0},
         {F::Xyzrn,
          "xyzrn",
          {".xyzrn"},
          [](const Sample& s) { return s.ends(".xyzrn") || looksLikeNamedBall(s.first); },
          readText<readXyzrn>,
-         bytesFor<85>},
+         8.5},
         {F::Xyzr,
          "xyzr",
          {".xyzr"},
          [](const Sample& s) { return looksLikeBall(s.first); },
          readText<readXyzr>,
-         bytesFor<85>},
-        {F::Xyz, "xyz", {".xyz"}, isXyz, readText<readXyz>, bytesFor<135>}};
+         8.5},
+        {F::Xyz, "xyz", {".xyz"}, isXyz, readText<readXyz>, 13.5}};
     return table;
 }
 

@@ -436,10 +436,9 @@ constexpr std::size_t rowsOfPiece = 20000; // which take 30 MB
 
 double bytesForMmcif(const std::string& text)
 {
-    // A document has 32 bytes for each value of a row, and twice that while it grows.
-    constexpr double ofDocument = 21.0, ofStructure = 3.0, perRow = 1.7e3;
+    constexpr double ofStructure = 3.0, perRow = 1.7e3; // a row of 21 values in a document
     const std::optional<CifRows> rows = findCifRows(text, rowsOfPiece);
-    if (!rows) return ofDocument * double(text.size());
+    if (!rows) return cifDocumentPerByte * double(text.size());
     return ofStructure * double(text.size()) + perRow * double(rows->longest);
 }
 

@@ -55,8 +55,10 @@ Structure parseAndCheck(StructureFormat format, std::string text, const std::str
     stopIfCancelled(progress);
     const StructureFormatRow& row = rowOf(format);
     constexpr std::size_t small = 100000; // bytes of a text that needs no estimate
-    if (text.size() > small)
-        needMemory(displayName(path) + ": reading it takes", row.bytesFor(text), memory);
+    const double bytes = row.bytesPerByte * double(text.size());
+    if (text.size() > small && !hasMemory(bytes, memory))
+        needMemory(displayName(path) + ": reading it takes",
+                   row.bytesFor ? row.bytesFor(text) : bytes, memory);
     Structure structure = row.read(std::move(text), path, progress);
     stopIfCancelled(progress);
     structure.source = path == "-" ? path : std::filesystem::path(path).filename().string();

@@ -35,6 +35,10 @@ Structure readPdbqt(std::string text, const std::string& path, const Progress& p
 /// @throws Error(ErrorKind::Input) if it cannot be read, or if no data block has atoms
 Structure readMmcif(std::string text, const std::string& path, const Progress& progress);
 
+/// Memory that a document of all rows takes at most, for each byte of its text: 32 bytes for each
+/// value, and twice that while it grows.
+constexpr double cifDocumentPerByte = 21.0;
+
 /// Memory that reading such a text takes beside it [byte].
 double bytesForMmcif(const std::string& text);
 
