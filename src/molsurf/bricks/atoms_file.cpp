@@ -117,40 +117,37 @@ Json json(const BallValues& values)
     return out;
 }
 
-/// What each ball has, of all that it may have.
+/// Calls f(name, column) for all that each ball may have.
+template<typename Balls, typename F>
+void forEachColumn(Balls& atoms, const F& f)
+{
+    f("resolution", atoms.resolutionOf);
+    f("decay", atoms.decays);
+    f("color", atoms.colors);
+    if (!atoms.labels) return;
+    f("chain", atoms.labels->chainOf);
+    f("group", atoms.labels->groupOf);
+    f("element", atoms.labels->elementOf);
+    f("class", atoms.labels->residueClassOf);
+    if (atoms.labels->values) f("value", atoms.labels->values->valueOf);
+}
+
+/// The names of what each ball has.
 Json columns(const BallSet& atoms)
 {
     Json names = Json::array();
-    const auto add = [&](const char* name, const auto& column) {
+    forEachColumn(atoms, [&](const char* name, const auto& column) {
         if (!column.empty()) names.push_back(name);
-    };
-    add("resolution", atoms.resolutionOf);
-    add("decay", atoms.decays);
-    add("color", atoms.colors);
-    if (!atoms.labels) return names;
-    add("chain", atoms.labels->chainOf);
-    add("group", atoms.labels->groupOf);
-    add("element", atoms.labels->elementOf);
-    add("class", atoms.labels->residueClassOf);
-    if (atoms.labels->values) add("value", atoms.labels->values->valueOf);
+    });
     return names;
 }
 
 /// Gives one ball what each has, for addBall() to see.
 void markColumns(const Json& names, BallSet& atoms)
 {
-    const auto mark = [&](const char* name, auto& column) {
+    forEachColumn(atoms, [&](const char* name, auto& column) {
         if (std::find(names.begin(), names.end(), name) != names.end()) column.resize(1);
-    };
-    mark("resolution", atoms.resolutionOf);
-    mark("decay", atoms.decays);
-    mark("color", atoms.colors);
-    if (!atoms.labels) return;
-    mark("chain", atoms.labels->chainOf);
-    mark("group", atoms.labels->groupOf);
-    mark("element", atoms.labels->elementOf);
-    mark("class", atoms.labels->residueClassOf);
-    if (atoms.labels->values) mark("value", atoms.labels->values->valueOf);
+    });
 }
 
 /// Adds the ball of a record.
@@ -405,12 +402,6 @@ BallSet AtomsFile::within(const openvdb::BBoxd& space) const
     }
     checkFinite(out.balls);
     return out;
-}
-
-BallSet AtomsFile::all() const
-{
-    constexpr double far = 1e7; // [Å]
-    return within({Vec3d(-far), Vec3d(far)});
 }
 
 } // namespace molsurf

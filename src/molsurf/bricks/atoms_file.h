@@ -48,8 +48,6 @@ public:
     /// @throws Error(ErrorKind::Input) if the records are damaged
     BallSet within(const openvdb::BBoxd& space) const;
 
-    BallSet all() const;
-
 private:
     [[noreturn]] void refuse(const std::string& what) const;
     void readIndex(std::uint64_t size);

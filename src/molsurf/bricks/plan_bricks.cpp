@@ -700,10 +700,9 @@ void computeBrick(const BallSource& balls, const SurfaceOptions& options, const 
     if (!restsInClosedForm(fixed)) fixed.evolution.steps = plan.steps;
     Scope scope = scopeOf(plan, number - 1, fixed);
     if (!coarse && startsCoarse(fixed)) {
-        constexpr double far = 1e7; // [Å]
         Report ofCoarse;
-        coarse = std::make_shared<SparseField>(restOnCoarserVoxels(
-            inSpatialOrder(balls({Vec3d(-far), Vec3d(far)})), fixed, progress, ofCoarse));
+        coarse = std::make_shared<SparseField>(
+            restOnCoarserVoxels(inSpatialOrder(balls(everywhere())), fixed, progress, ofCoarse));
     }
     scope.coarseRest = coarse;
     const BallSet near = inSpatialOrder(balls(spaceNear(fixed, scope))); // as in a run of the whole

@@ -21,6 +21,13 @@ Scope brickScope(const SurfaceOptions& options, const Region& region, const Gaus
 /// The box in which balls change what a brick computes [Å].
 openvdb::BBoxd spaceNear(const SurfaceOptions& options, const Scope& scope);
 
+/// A box that holds the balls of any molecule [Å].
+inline openvdb::BBoxd everywhere()
+{
+    constexpr double far = 1e7;
+    return {openvdb::Vec3d(-far), openvdb::Vec3d(far)};
+}
+
 /// The balls in a box, with all that is known of them; groups and rules still count those of the
 /// whole.
 BallSet ballsIn(const BallSet& atoms, const openvdb::BBoxd& space);

@@ -904,7 +904,7 @@ TEST_F(Bricks, AtomsOnDiskAreThoseInMemory)
     const AtomsFile file(path("a.atoms"));
     EXPECT_EQ(file.index(), index);
     EXPECT_EQ(file.extent().maxGrownRadius, 2.5);
-    const BallSet all = file.all();
+    const BallSet all = file.within(everywhere());
     EXPECT_EQ(factsOf(all), factsOf(atoms));
     EXPECT_EQ(all.resolutions[1].rule.select, "B/10-20");
     EXPECT_EQ(all.resolutions[1].balls, 80u);
@@ -937,7 +937,7 @@ TEST_F(Bricks, DamagedAtomsOnDiskAreRefused)
         std::string damaged = bytes;
         damaged[at] = char(damaged[at] ^ change);
         std::ofstream(path("b.atoms"), std::ios::binary) << damaged;
-        return AtomsFile(path("b.atoms")).all().balls.size();
+        return AtomsFile(path("b.atoms")).within(everywhere()).balls.size();
     };
     EXPECT_EQ(readsWith(0, 0), 200u);
     const std::size_t indexAt = bytes.size() - index.size();
