@@ -158,18 +158,10 @@ std::vector<PieceMeasure> measurePieces(const Mesh& mesh, const std::vector<std:
 
 double triangleArea(const Mesh& mesh, const Progress& progress)
 {
-    constexpr std::size_t chunk = 4096;
-    const std::size_t count = mesh.triangles.size();
-    return parallelSum<double>((count + chunk - 1) / chunk, progress, [&](std::size_t c) {
-        double sum = 0.0;
-        for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
-            const auto& t = mesh.triangles[i];
-            const Vec3d a(mesh.positions[t[0]]);
-            sum +=
-                (Vec3d(mesh.positions[t[1]]) - a).cross(Vec3d(mesh.positions[t[2]]) - a).length();
-        }
-        return 0.5 * sum;
-    });
+    return 0.5 *
+           sumOverTriangles(mesh, progress, [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+               return (b - a).cross(c - a).length();
+           });
 }
 
 void addPiece(double area, double volume, bool cavity, SurfaceReport& report)

@@ -4,10 +4,12 @@
 /// @file
 /// Area, volume and topology of the smooth surface behind a mesh.
 
+#include "molsurf/core/parallel.h"
 #include "molsurf/mesh.h"
 #include "molsurf/progress.h"
 #include "molsurf/report.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -45,6 +47,25 @@ struct MeshPieces {
 /// Finds and measures the pieces.
 /// @param[in] mesh  with normals
 MeshPieces piecesOf(const Mesh& mesh, const Progress& progress);
+
+/// The sum of f(a, b, c) over the triangles, of their corners [Å].
+template<typename F>
+double sumOverTriangles(const Mesh& mesh, const Progress& progress, const F& f)
+{
+    constexpr std::size_t chunk = 4096;
+    const std::size_t count = mesh.triangles.size();
+    return parallelSum<double>((count + chunk - 1) / chunk, progress, [&](std::size_t c) {
+        double sum = 0.0;
+        for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
+            const auto& t = mesh.triangles[i];
+            const auto corner = [&](int k) {
+                return openvdb::Vec3d(mesh.positions[t[std::size_t(k)]]);
+            };
+            sum += f(corner(0), corner(1), corner(2));
+        }
+        return sum;
+    });
+}
 
 /// The area of the triangles themselves [Å^2].
 double triangleArea(const Mesh& mesh, const Progress& progress);

@@ -4,6 +4,7 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/mesh/measure.h"
 #include "molsurf/options.h"
 
 #include <algorithm>
@@ -51,21 +52,9 @@ std::vector<std::array<std::uint32_t, 2>> badEdges(const Mesh& mesh)
 /// The volume inside the triangles [Å^3].
 double flatVolume(const Mesh& mesh, const Progress& progress)
 {
-    constexpr std::size_t chunk = 4096;
     const Vec3d origin(mesh.positions[0]);
-    const std::size_t count = mesh.triangles.size();
-    return parallelSum<double>((count + chunk - 1) / chunk, progress, [&](std::size_t c) {
-        double sum = 0.0;
-        for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
-            const auto& t = mesh.triangles[i];
-            // Of edges, which do not cancel in a large molecule.
-            const Vec3d a(mesh.positions[t[0]]);
-            sum +=
-                (a - origin)
-                    .dot((Vec3d(mesh.positions[t[1]]) - a).cross(Vec3d(mesh.positions[t[2]]) - a)) /
-                6.0;
-        }
-        return sum;
+    return sumOverTriangles(mesh, progress, [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+        return (a - origin).dot((b - a).cross(c - a)) / 6.0; // of edges, which do not cancel
     });
 }
 

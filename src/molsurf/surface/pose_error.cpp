@@ -38,17 +38,7 @@ BallSet turned(const BallSet& atoms, double angle)
 double areaOf(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
     SurfaceRun run(atoms, options, Scope(), progress);
-    run.density();
-    run.flow();
-    run.distance();
-    run.spline();
-    run.levelSet();
-    run.mesh();
-    if (run.fillCavities()) {
-        run.spline();
-        run.levelSet();
-        run.mesh();
-    }
+    run.toMesh();
     run.measure();
     return run.result().report.surface.area;
 }

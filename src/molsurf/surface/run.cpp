@@ -35,17 +35,7 @@ namespace
 MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
     SurfaceRun run(atoms, options, Scope(), progress);
-    run.density();
-    run.flow();
-    run.distance();
-    run.spline();
-    run.levelSet();
-    run.mesh();
-    if (run.fillCavities()) {
-        run.spline();
-        run.levelSet();
-        run.mesh();
-    }
+    run.toMesh();
     run.measure();
     run.curvatures();
     run.describeCurvature();

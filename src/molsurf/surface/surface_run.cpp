@@ -292,6 +292,20 @@ void SurfaceRun::checkLeft() const
     if (triangles == 0) failNothingLeft("mesh", options_.kind);
 }
 
+void SurfaceRun::toMesh()
+{
+    density();
+    flow();
+    distance();
+    const auto meshed = [&] {
+        spline();
+        levelSet();
+        mesh();
+    };
+    meshed();
+    if (fillCavities()) meshed();
+}
+
 bool SurfaceRun::fillCavities()
 {
     if (!options_.fillCavities) return false;

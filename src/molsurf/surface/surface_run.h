@@ -101,6 +101,9 @@ public:
     /// @return whether there were any: then spline(), levelSet() and mesh() have to follow again
     bool fillCavities();
 
+    /// All stages above, those that follow fillCavities() too.
+    void toMesh();
+
     /// Takes a mesh and its spline from elsewhere, instead of the stages above.
     /// @param[in] surface  the level set that was meshed
     void resume(Mesh mesh, Spline spline, openvdb::FloatGrid::Ptr surface);

@@ -182,12 +182,7 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     const Placement& placement = atoms.placement;
     const Placement::Unit& unit = *placement.unit;
     SurfaceRun run(atoms, options, Scope(), progress);
-    run.density();
-    run.flow();
-    run.distance();
-    run.spline();
-    run.levelSet();
-    run.mesh();
+    run.toMesh();
 
     Stopwatch watch(run.result().report);
     Mesh& mesh = run.result().mesh;
