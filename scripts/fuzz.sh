@@ -1,7 +1,7 @@
 #!/bin/bash
 # Fuzzes the readers of files, each target for some seconds, as many at once as there are processors:
 #     scripts/fuzz.sh [SECONDS] [TARGET...]
-# Without targets it runs all (tests/fuzz/CMakeLists.txt), without seconds each for 60. It needs clang.
+# Without targets it runs all (tests/fuzz/CMakeLists.txt), without seconds each for 60. It needs clang and libclang-rt-dev.
 # What libFuzzer learns stays in build-fuzz/corpus/, what it finds in build-fuzz/findings/. The exit status is 1
 # if there is a finding: a crash, a report of a sanitizer, a leak, more than a second or 400 MB. (The sanitizers
 # themselves need half of this.)
@@ -13,7 +13,7 @@ if [[ ${1:-} =~ ^[0-9]+$ ]]; then
   seconds=$1
   shift
 fi
-command -v clang++ > /dev/null || { echo "fuzz.sh: clang is missing [hint: apt-get install clang]" >&2; exit 2; }
+command -v clang++ > /dev/null || { echo "fuzz.sh: clang is missing [hint: apt-get install clang libclang-rt-dev]" >&2; exit 2; }
 cmake --preset fuzz > /dev/null
 cmake --build --preset fuzz
 targets=("$@")

@@ -74,7 +74,7 @@ while [[ $# -gt 0 ]]; do
 done
 [[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces poses calls guides figures wheel package site slurm)
 
-scripts/install_deps.sh --test --check clang dpkg-dev
+scripts/install_deps.sh --test --check clang libclang-rt-dev dpkg-dev
 mkdir -p build-nightly
 status=0 table=()
 for step in "${steps[@]}"; do

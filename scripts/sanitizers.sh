@@ -36,7 +36,7 @@ for preset in "$@"; do
   configured=$preset without=()
   case $preset in
     asan)
-      command -v clang++ > /dev/null || { echo "sanitizers.sh: clang is missing [hint: apt-get install clang]" >&2; exit 2; }
+      command -v clang++ > /dev/null || { echo "sanitizers.sh: clang is missing [hint: apt-get install clang libclang-rt-dev]" >&2; exit 2; }
       configured=fuzz
       ;;
     tsan)

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #ifdef __SSE__
 #include <xmmintrin.h>
 #endif
