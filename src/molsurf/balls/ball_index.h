@@ -55,6 +55,18 @@ public:
         });
     }
 
+    /// Whether f(ball) holds for one of them; it is not called again then.
+    template<typename F>
+    bool anyNear(const openvdb::Vec3d& low, const openvdb::Vec3d& high, double gap,
+                 const F& f) const
+    {
+        bool found = false;
+        forEachRun(low, high, gap, [&](std::int32_t begin, std::int32_t end) {
+            for (std::int32_t i = begin; i < end && !found; ++i) found = f(balls_[i]);
+        });
+        return found;
+    }
+
     /// Calls f(begin, end) with the places of the same balls in the order of the index, a run of
     /// them at a time.
     template<typename F>

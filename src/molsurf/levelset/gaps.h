@@ -4,10 +4,8 @@
 /// @file
 /// Which gaps of a molecule are open. The topology of psi = 0 changes at critical points of psi
 /// only. Where one is near the level, a grid, its place and the steps of a flow would decide.
-/// Instead psi decides, and is changed there such that voxels hold the decision.
-/// The search starts at voxels with |psi| < 2.4 whose Newton step to grad psi = 0, by differences,
-/// is shorter than max(1.6 voxels, 0.8 Å). Of those whose steps end in the same cube of half a
-/// voxel it takes the nearest. docs/math.md, section 2.
+/// Instead psi decides, and is changed there such that voxels hold the decision. docs/math.md,
+/// section 2.
 
 #include "molsurf/levelset/bumps.h"
 #include "molsurf/report.h"

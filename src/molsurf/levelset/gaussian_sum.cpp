@@ -2,15 +2,13 @@
 #include "molsurf/levelset/gaussian_sum.h"
 
 #include "molsurf/core/parallel.h"
-#include "molsurf/grid/leaf_block.h"
-#include "molsurf/levelset/stencil.h"
+#include "molsurf/levelset/critical_points.h"
 
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 namespace molsurf
@@ -147,25 +145,6 @@ void GaussianSum::evaluate(const Coord& origin, double reach, float* psi) const
     bumps_.addTo(origin, psi);
 }
 
-void GaussianSum::gatherJetTerms(const Coord& cell, JetTerms& terms) const
-{
-    const double h = options_.voxelSize, scale = 1.0 / (h * h);
-    const Vec3d low = cell.asVec3d(), high = low + Vec3d(1.0), middle = low + Vec3d(0.5);
-    const double halfDiagonal = 0.5 * std::sqrt(3.0);
-    terms.clear();
-    index_.forEachRun(
-        low, high, extent_.cutoff(0.0) - extent_.maxRadius,
-        [&](std::int32_t begin, std::int32_t end) {
-            for (auto k = std::size_t(begin); k < std::size_t(end); ++k) {
-                const Vec3d x(lists_.x[k], lists_.y[k], lists_.z[k]);
-                const double felt = h * std::sqrt(double(lists_.felt2[k])) + halfDiagonal;
-                if ((middle - x).lengthSqr() > felt * felt) continue;
-                terms.add(x, scale * double(lists_.decay[k]), double(lists_.level[k]));
-            }
-        });
-    terms.fillUp();
-}
-
 const JetTerms& GaussianSum::jetTermsAt(const Vec3d& x) const
 {
     struct Near {
@@ -175,17 +154,31 @@ const JetTerms& GaussianSum::jetTermsAt(const Vec3d& x) const
     };
     thread_local Near near;
     const Coord cell = Coord::floor(x);
-    if (near.sum != number_ || near.cell != cell) {
-        gatherJetTerms(cell, near.terms);
-        near.sum = number_;
-        near.cell = cell;
-    }
+    if (near.sum == number_ && near.cell == cell) return near.terms;
+    const Vec3d low = cell.asVec3d(), half(0.5);
+    near.terms.clear();
+    index_.forEachRun(low, low + 2.0 * half, extent_.cutoff(0.0) - extent_.maxRadius,
+                      [&](std::int32_t begin, std::int32_t end) {
+                          near.terms.addNear(lists_, begin, end, options_.voxelSize, low + half,
+                                             half.length());
+                      });
+    near.terms.fillUp();
+    near.sum = number_;
+    near.cell = cell;
     return near.terms;
 }
 
 PsiJet GaussianSum::jet(const Vec3d& x) const
 {
     return jetTermsAt(x).jetAt(x);
+}
+
+bool GaussianSum::isCovered(const Vec3d& x, double more) const
+{
+    return index_.anyNear(x, x, options_.probe - more, [&](const Ball& ball) {
+        const double deep = ball.radius + options_.probe - more;
+        return deep > 0.0 && (x - Vec3d(ball.center)).lengthSqr() < deep * deep;
+    });
 }
 
 double GaussianSum::roomAt(const Vec3d& x, double most) const
@@ -273,64 +266,12 @@ SparseField GaussianSum::searched(const Candidates& leaves, const Progress& prog
     return psi;
 }
 
-std::vector<Gap> GaussianSum::criticalPoints(const SparseField& psi, const Progress& progress) const
-{
-    const double h = options_.voxelSize, reach = std::max(1.5 * h, 0.75);
-    const double cell = 0.5 * h;
-    constexpr float margin = 0.8f;
-    const float nearest = float(std::max(1.6 * h, 0.8)), limit = float(farthestGap) + margin;
-    const float highest = float(highestUncovered) + margin;
-    const PsiJetAt at = [this](const Vec3d& x) { return jet(x); };
-    std::vector<std::vector<Gap>> found(psi.table.size());
-    // Voxels from which Newton's method leads to the same cell lead to the same point: of these the
-    // nearest is taken.
-    struct Start {
-        Coord cell;
-        float length;
-        int voxel;
-        bool operator<(const Start& o) const
-        {
-            return std::tie(cell, length, voxel) < std::tie(o.cell, o.length, o.voxel);
-        }
-    };
-    parallelFor(psi.table.size(), progress, [&](std::size_t n) {
-        LeafBlock<float, 1> block;
-        block.gather(psi, n);
-        const Vec3d low = psi.table.origin(n).asVec3d() * h;
-        std::vector<Start> starts;
-        within(psi.leaf(n), highest).forEach([&](int v) {
-            const float* p = block.at(v >> 6, v >> 3 & 7, v & 7);
-            if (*p < -limit) return;
-            const Derivatives d = derivatives<1>(p, float(1.0 / h));
-            const openvdb::Mat3s hessian(d.xx, d.xy, d.xz, d.xy, d.yy, d.yz, d.xz, d.yz, d.zz);
-            if (std::abs(hessian.det()) < 1e-3f) return;
-            const openvdb::Vec3s step = hessian.inverse() * openvdb::Vec3s(d.x, d.y, d.z);
-            if (step.length() > nearest) return;
-            const float there = *p - 0.5f * step.dot(openvdb::Vec3s(d.x, d.y, d.z));
-            if (there < -limit || there > highest) return;
-            const Vec3d stationary = Vec3d(v >> 6, v >> 3 & 7, v & 7) * h - Vec3d(step);
-            const bool high = *p > limit || there > limit;
-            if (high && roomAt(low + stationary, 0.0) < -0.3 * h) return;
-            starts.push_back({Coord::floor(stationary / cell), step.length(), v});
-        });
-        std::sort(starts.begin(), starts.end());
-        for (std::size_t i = 0; i < starts.size(); ++i) {
-            if (i > 0 && starts[i].cell == starts[i - 1].cell) continue;
-            const int v = starts[i].voxel;
-            const Coord voxel = psi.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
-            if (const auto gap = gapNear(at, voxel.asVec3d() * h, reach, highestUncovered))
-                found[n].push_back(*gap);
-        }
-    });
-    std::vector<Gap> gaps;
-    for (const auto& some : found) gaps.insert(gaps.end(), some.begin(), some.end());
-    return distinct(std::move(gaps));
-}
-
 void GaussianSum::decideGaps(Candidates& leaves, const Progress& progress)
 {
     const PsiJetAt at = [this](const Vec3d& x) { return jet(x); };
-    const std::vector<Gap> gaps = criticalPoints(searched(leaves, progress), progress);
+    const auto covered = [this](const Vec3d& x, double more) { return isCovered(x, more); };
+    const std::vector<Gap> gaps =
+        findCriticalPoints(searched(leaves, progress), at, covered, progress);
     decisions_ = molsurf::decideGaps(at, gaps, *options_.gaps, options_.voxelSize, bumps_);
     if (options_.gaps->countsClosed) {
         const PassageField field{at, [this](const Vec3d& x) { return roomAt(x); },

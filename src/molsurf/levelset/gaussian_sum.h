@@ -152,13 +152,14 @@ private:
 
     /// psi on the leaves that bounds do not decide. The bounds decide none that is not covered.
     SparseField searched(const Candidates& leaves, const Progress& progress) const;
-    std::vector<Gap> criticalPoints(const SparseField& psi, const Progress& progress) const;
 
     /// How far a point lies outside all balls of radius R_i, at most `most`; negative inside one.
     double roomAt(const openvdb::Vec3d& x, double most = 3.0) const;
 
+    /// Whether a point lies in a ball of radius R_i, and so far within its rim [Å].
+    bool isCovered(const openvdb::Vec3d& x, double more) const;
+
     const JetTerms& jetTermsAt(const openvdb::Vec3d& x) const;
-    void gatherJetTerms(const openvdb::Coord& cell, JetTerms& terms) const;
 
     struct Leaf;
     Leaf& leafAt(const openvdb::Coord& origin, double reach) const;

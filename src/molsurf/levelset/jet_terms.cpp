@@ -60,32 +60,68 @@ MOLSURF_KERNEL void sumJetTerms(const JetColumns& list, double x, double y, doub
            sumOf(xz), sumOf(yy), sumOf(yz), sumOf(zz), sumOf(c)};
 }
 
-} // namespace
+/// Where terms are written.
+struct JetRoom {
+    double *x, *y, *z, *rate, *level;
+};
 
-void JetTerms::clear()
+/// @param[in] h  edge of a voxel [Å]
+/// @return the number of terms written
+MOLSURF_KERNEL std::size_t appendNear(const GaussianLists& balls, std::int32_t begin,
+                                      std::int32_t end, double h, const double* middle,
+                                      double radius, const JetRoom& out)
 {
-    for (auto* list : {&x_, &y_, &z_, &rate_, &level_}) list->clear();
+    const double *const x = balls.x.data(), *const y = balls.y.data(), *const z = balls.z.data();
+    const double perVoxel = 1.0 / (h * h);
+    std::size_t count = 0;
+    for (std::int32_t i = begin; i < end; i += doubleLanes) {
+        const Doubles u = load(x + i) - middle[0], v = load(y + i) - middle[1],
+                      w = load(z + i) - middle[2];
+        const Doubles felt2 = __builtin_convertvector(load4(balls.felt2.data() + i), Doubles);
+        const Doubles felt = h * squareRoot(felt2) + radius;
+        const Longs near = u * u + v * v + w * w <= felt * felt;
+        if (!any(near)) continue;
+        for (int l = 0; l < doubleLanes && i + l < end; ++l) {
+            out.x[count] = x[i + l];
+            out.y[count] = y[i + l];
+            out.z[count] = z[i + l];
+            out.rate[count] = perVoxel * double(balls.decay[std::size_t(i + l)]);
+            out.level[count] = double(balls.level[std::size_t(i + l)]);
+            count -= std::size_t(near[l]);
+        }
+    }
+    return count;
 }
 
-void JetTerms::add(const openvdb::Vec3d& place, double rate, double level)
+} // namespace
+
+void JetTerms::addNear(const GaussianLists& balls, std::int32_t begin, std::int32_t end,
+                       double voxelSize, const openvdb::Vec3d& middle, double radius)
 {
-    x_.push_back(place.x());
-    y_.push_back(place.y());
-    z_.push_back(place.z());
-    rate_.push_back(rate);
-    level_.push_back(level);
+    const std::size_t most = count_ + std::size_t(end - begin) + doubleLanes;
+    if (most > x_.size())
+        for (auto* list : {&x_, &y_, &z_, &rate_, &level_}) list->resize(2 * most);
+    const JetRoom room{x_.data() + count_, y_.data() + count_, z_.data() + count_,
+                       rate_.data() + count_, level_.data() + count_};
+    count_ += appendNear(balls, begin, end, voxelSize, middle.asPointer(), radius, room);
 }
 
 void JetTerms::fillUp()
 {
     constexpr double nothing = -1e3; // a level below all that count
-    while (x_.size() % doubleLanes != 0) add(openvdb::Vec3d(0.0), 0.0, nothing);
+    const std::size_t most = count_ + doubleLanes;
+    if (most > x_.size())
+        for (auto* list : {&x_, &y_, &z_, &rate_, &level_}) list->resize(most);
+    for (; count_ % doubleLanes != 0; ++count_) {
+        x_[count_] = y_[count_] = z_[count_] = rate_[count_] = 0.0;
+        level_[count_] = nothing;
+    }
 }
 
 PsiJet JetTerms::jetAt(const openvdb::Vec3d& x) const
 {
     JetSums s;
-    sumJetTerms({x_.data(), y_.data(), z_.data(), rate_.data(), level_.data(), x_.size()}, x.x(),
+    sumJetTerms({x_.data(), y_.data(), z_.data(), rate_.data(), level_.data(), count_}, x.x(),
                 x.y(), x.z(), s);
     if (s.e == 0.0) return {double(lowestPsi), openvdb::Vec3d(0.0), openvdb::Mat3d::zero()};
     const openvdb::Vec3d gradient = openvdb::Vec3d(-s.fx, -s.fy, -s.fz) / s.e;

@@ -5,10 +5,12 @@
 /// The Gaussians that count at points near each other, and psi there with its derivatives.
 
 #include "molsurf/levelset/gaps.h"
+#include "molsurf/levelset/gaussian_terms.h"
 
 #include <openvdb/Types.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace molsurf
@@ -18,15 +20,15 @@ namespace molsurf
 class JetTerms
 {
 public:
-    void clear();
+    void clear() { count_ = 0; }
 
-    /// @param[in] rate  [1/Å^2]
-    void add(const openvdb::Vec3d& place, double rate, double level);
+    /// Adds those of a run of balls that count within a radius of a point.
+    /// @param[in] voxelSize  of the lists [Å]
+    void addNear(const GaussianLists& balls, std::int32_t begin, std::int32_t end, double voxelSize,
+                 const openvdb::Vec3d& middle, double radius);
 
-    /// To be called behind the last add().
+    /// To be called behind the last addNear().
     void fillUp();
-
-    std::size_t size() const { return x_.size(); }
 
     /// The logarithm of the sum with its derivatives; terms below e^-12 are left out, and without
     /// any other psi is lowestPsi.
@@ -36,7 +38,8 @@ public:
     JetTerms sharpened(double times) const;
 
 private:
-    std::vector<double> x_, y_, z_, rate_, level_;
+    std::size_t count_ = 0;
+    std::vector<double> x_, y_, z_, rate_, level_; // with room for more
 };
 
 } // namespace molsurf

@@ -45,6 +45,20 @@ TEST(BallIndex, FindsAllThatAreNearOnceEach)
     }
 }
 
+TEST(BallIndex, AsksNoFurtherThanTheFirstThatHolds)
+{
+    const std::vector<Ball> balls = test::randomBalls(800, 20.0, Vec3d(0.0), 4);
+    const BallIndex index(balls, {0.5, 0.0, 3.3});
+    int asked = 0;
+    EXPECT_TRUE(
+        index.anyNear(Vec3d(0.0), Vec3d(0.0), 30.0, [&](const Ball&) { return ++asked == 5; }));
+    EXPECT_EQ(asked, 5);
+    asked = 0;
+    EXPECT_FALSE(
+        index.anyNear(Vec3d(0.0), Vec3d(0.0), 60.0, [&](const Ball&) { return ++asked > 800; }));
+    EXPECT_EQ(asked, 800);
+}
+
 // A box with more cells than a ball list can have: a ball of 0.02 mm beside atoms.
 TEST(BallIndex, TakesNoTimeWhereABoxIsWide)
 {
