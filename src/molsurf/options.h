@@ -100,6 +100,8 @@ struct SurfaceOptions {
     bool halfFloats = false; ///< whether the grids' values are saved as 16-bit floats
     bool meshLabels = true;  ///< whether the mesh has the atom, chain and group of its vertices
     bool energy = true;      ///< whether the report has the energy at rest, 5 to 9 % of the time
+    bool closedForm = true;  ///< whether the measures of SolventExcluded are those in closed form,
+                             ///< a quarter of the time at 1 Å; else they are those of the mesh
     bool curvatureTotals = false; ///< whether the report has the integrals of curvature
     bool ballAreas = false;       ///< whether MolecularSurface::ballAreas is made
     bool contacts = false;        ///< whether MolecularSurface::contacts is made

@@ -57,6 +57,16 @@ class Areas(ToolTest):
             self.assertEqual(report["voxel"] is None, closed)
             self.assertEqual(report["surface"]["manifold"] is None, closed)
 
+    def test_closed_forms_are_computed_where_they_are_written(self):
+        for kind in "ses", "sas", "vdw":
+            call = [CRAMBIN, *FAST, "--surface", kind, "--force", "-o", "a.ply"]
+            alone = self.check(0, *call).stderr.decode()
+            exact = self.check(0, *call, "-o", "a.json").stderr.decode()
+            surface = self.report("a.json")["surface"]
+            self.assertIn(f"{kind}: area {surface['area']:.1f} ", exact)
+            self.assertIn(f"ses by its mesh: area {surface['mesh_area']:.1f} " if kind == "ses" else
+                          f"{kind}: area {surface['area']:.1f} ", alone)
+
     def test_names_and_relative_accessibility(self):
         # A lone alanine and an unknown residue; an insertion code; an alternate location.
         self.write("a.pdb", "ATOM      1  CA AALA B  52A     1.000   2.000   3.000  0.60  9.00           C  \n"

@@ -166,9 +166,11 @@ DistanceBand SurfaceRun::distanceToBalls()
     if (scope_.region.whole() && isMeasured(atoms_, options_)) {
         const bool grouped = atoms_.labels && !atoms_.labels->groups.empty();
         const bool areas = (options_.ballAreas || grouped) && !options_.fillCavities;
-        exact_ =
-            measureClosedForm(set.boundary, options_, areas ? atoms_.balls.size() : 0, progress_);
-        result_.ballAreas = exact_->ballAreas;
+        if (areas || probe == 0.0 || options_.closedForm) {
+            exact_ = measureClosedForm(set.boundary, options_, areas ? atoms_.balls.size() : 0,
+                                       progress_);
+            result_.ballAreas = exact_->ballAreas;
+        }
     }
     return distanceToUnion(std::move(set), options_.voxel, widthsOf(options_), progress_,
                            scope_.region.grown(scope_.splineHalo));
