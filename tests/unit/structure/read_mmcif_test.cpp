@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+#include "molsurf/core/memory.h"
 #include "molsurf/structure/cif_rows.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/read_structure.h"
@@ -413,15 +414,22 @@ TEST(ReadMmcif, AnErrorInAPieceNamesItsLine)
 TEST(ReadMmcif, TakesTheMemoryOfItsLongestPiece)
 {
     std::string chains, residue;
-    for (int i = 0; i < 50000; ++i) {
-        const std::string chain = "A" + std::to_string(i / 5000);
+    for (int i = 0; i < 100000; ++i) {
+        const std::string chain = "A" + std::to_string(i / 10000);
         chains += "ATOM 1 C CA . GLY " + chain + " 1 1 2 3 1 0 1 " + chain + " 1\n";
         residue += "ATOM 1 C CA . GLY A0 1 1 2 3 1 0 1 A0 1\n";
     }
-    const double ofChains = bytesForMmcif(atomSite(full, chains));
-    const double ofResidue = bytesForMmcif(atomSite(full, residue));
-    EXPECT_LT(ofChains, 0.6 * ofResidue);
-    EXPECT_GT(ofResidue, 1e3 * 50000);
+    chains = atomSite(full, chains);
+    residue = atomSite(full, residue);
+    EXPECT_LT(bytesForMmcif(chains), 50e6);
+    EXPECT_GT(bytesForMmcif(residue), 100e6);
+
+    std::size_t memory = 1 << 20; // that leaves what lies between the two
+    while (!hasMemory(70e6, memory)) memory += 1 << 20;
+    EXPECT_EQ(parseStructure(chains, "a.cif", 0, Progress(), memory).atoms.size(), 100000u);
+    EXPECT_HAS(
+        errorOf(ErrorKind::Input, [&] { parseStructure(residue, "a.cif", 0, Progress(), memory); }),
+        "a.cif: reading it takes about");
 }
 
 TEST(ReadMmcif, RefusesNamesThatStandTwice)
