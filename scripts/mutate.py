@@ -28,13 +28,19 @@ KEYS = {"name", "file", "text", "replacement", "target", "tests"}
 SECONDS = 300  # that the tests of a mutation may take
 
 
+def entry(pairs):
+    """A mutation of the list, of which no key may come twice: JSON would take the last."""
+    whole = dict(pairs)
+    return whole if len(whole) == len(pairs) else {**whole, "twice": True}
+
+
 def faults(mutations):
     """What is wrong with the list, a line each."""
     names = [mutation.get("name") for mutation in mutations]
     for mutation in mutations:
         name = mutation.get("name")
         if set(mutation) != KEYS:
-            yield f"{name}: expected the keys {', '.join(sorted(KEYS))}"
+            yield f"{name}: expected the keys {', '.join(sorted(KEYS))}, each once"
         elif names.count(name) > 1:
             yield f"{name}: more than one mutation has this name"
         elif not (ROOT / mutation["file"]).is_file():
@@ -114,7 +120,7 @@ def main():
     parser.add_argument("--parallel", type=int, default=os.cpu_count(), help="jobs at a time [all cores]")
     args = parser.parse_args()
 
-    mutations = json.loads(LIST.read_text())
+    mutations = json.loads(LIST.read_text(), object_pairs_hook=entry)
     if wrong := list(faults(mutations)):
         print(*wrong, sep="\n", file=sys.stderr)
         sys.exit(2)

@@ -126,12 +126,14 @@ class Batch(ToolTest):
         names = self.small(60)
         (self.folder / "list").write_text("\n".join(names))
         call = ["batch", "list", "-O", "out", "--voxel", "2", "--surface", "sas", "--formats", "json"]
-        for wait in (0.05, 0.1, 0.15, 0.2):
+        path = self.folder / "out" / "summary.jsonl"
+        for lines in (1, 2, 5, 40):
             run = subprocess.Popen([TOOL, *call, "-q"], cwd=self.folder)
-            time.sleep(wait)
+            while run.poll() is None and not (path.exists() and path.read_bytes().count(b"\n") >= lines):
+                time.sleep(0.005)
             run.kill()
             run.wait()
-        with open(self.folder / "out" / "summary.jsonl", "a") as journal:
+        with open(path, "a") as journal:
             journal.write('{"name":"t1","inp')  # as of a run that was killed while it wrote
         self.check(0, *call, says="60 structures")
         self.assertEqual([(row["input"], row["status"]) for row in self.table()], [(name, "done") for name in names])

@@ -77,7 +77,7 @@ class SkipExisting(ToolTest):
         source = self.folder / "x.pdb"
         shutil.copy(CRAMBIN, source)
         self.assertTrue(self.make(source, *self.WORDS))
-        self.assertFalse(self.make(source, *self.WORDS, "-j", 1, "-v"))
+        self.assertFalse(self.make(source, *self.WORDS, "-j", 1, "-v", "--memory", "4G", "--max-hours", "9"))
         self.assertTrue(self.make(source, *self.WORDS, "--probe", "1.5"), "other options")
         shutil.copy(DATA / "1ubq.pdb", source)
         self.assertTrue(self.make(source, *self.WORDS), "another input")
@@ -86,6 +86,11 @@ class SkipExisting(ToolTest):
         self.make(source, "--surface", "vdw", *FAST, "--force", "-o", "a.ply")
         self.assertTrue(self.make(source, *self.WORDS), "a file is of another run")
         self.assertFalse(self.make(source, *self.WORDS))
+
+    def test_a_run_that_did_not_converge_ends_as_before(self):
+        words = [CRAMBIN, *FAST, "--flow", "newton", "--max-steps", "1", "-o", "a.ply", "-o", "a.json", "--skip-existing"]
+        self.check(3, *words, says="not converged")
+        self.check(3, *words, says="done before")
 
     def test_files_of_others_stay(self):
         (self.folder / "a.ply").write_text("mine")
@@ -121,6 +126,10 @@ class Streams(ToolTest):
         whole = self.check(0, CRAMBIN, *FAST, "-o", "-", "--format", "ply").stdout
         for name in ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
             self.assertEqual(self.check(0, CRAMBIN, *FAST, "-o", name, "--format", "ply").stdout, whole)
+            with open(self.folder / "to.ply", "wb") as to:  # vdb_molsurf ... > to.ply
+                self.check(0, CRAMBIN, *FAST, "-o", name, "--format", "ply", capture_output=False, stdout=to,
+                           stderr=subprocess.PIPE)
+            self.assertEqual((self.folder / "to.ply").read_bytes(), whole)
         self.check(2, CRAMBIN, *FAST, "-o", "/dev/stdout", says="--format")
         self.check(2, CRAMBIN, *FAST, "-o", "/dev/stdout", "-o", "-", "--format", "ply", says="twice")
 

@@ -207,7 +207,7 @@ Json namesOf(const HtmlPage& page, Arrays& arrays)
     const BallNames& names = *page.names;
     std::vector<std::int32_t> placeOf(names.atoms.size(), -1);
     for (const std::int32_t ball : page.ballOf)
-        if (ball >= 0) placeOf[std::size_t(ball)] = 0;
+        if (ball >= 0) placeOf.at(std::size_t(ball)) = 0;
     std::vector<std::int32_t> residueAt(names.residues.size(), -1);
     for (std::size_t i = 0; i < placeOf.size(); ++i)
         if (placeOf[i] == 0) residueAt[std::size_t(names.residueOf[i])] = 0;

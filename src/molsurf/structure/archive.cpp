@@ -105,11 +105,11 @@ public:
     {
         const auto place = places_.find(name);
         if (place == places_.end()) failAt(path_, "has no member " + name);
-        if (name == last_) return content_;
         const auto [offset, size] = place->second;
         if (maxBytes > 0 && std::uint64_t(size) > maxBytes)
             failAt(path_ + separator + name, "expected at most " + std::to_string(maxBytes) +
                                                  " bytes [hint: a larger `maxInput`]");
+        if (name == last_) return content_;
         last_.clear();
         content_.assign(std::size_t(size), '\0');
         seek(offset);

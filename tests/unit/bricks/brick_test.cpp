@@ -224,6 +224,14 @@ TEST_F(Bricks, SolventExcludedSurfaceIsThatOfTheWhole)
     expectSame(chain(), coarse(SurfaceKind::SolventExcluded), 4);
 }
 
+// Fine enough for balls beyond the voxels around a brick to be felt in it.
+TEST_F(Bricks, FineExcludedSurfacesAreThoseOfTheWhole)
+{
+    SurfaceOptions options = coarse(SurfaceKind::SolventExcluded);
+    options.voxel = 0.2;
+    expectSame(test::randomBalls(60, 16.0, openvdb::Vec3d(1.3, -2.1, 0.4), 3), options, 8);
+}
+
 TEST_F(Bricks, UnionsAreThoseOfTheWhole)
 {
     // Of the whole, area, volume and pieces are those of the balls and not of the mesh.

@@ -46,9 +46,10 @@ std::vector<Ball> tube(int rings, double distance)
 }
 
 GapReport gapsOf(const std::vector<Ball>& balls, double voxel, double epsilon,
-                 GapRule rule = {0.01})
+                 GapRule rule = {0.01}, double probe = 1.4)
 {
     GaussianOptions options;
+    options.probe = probe;
     options.epsilon = epsilon;
     options.voxelSize = voxel;
     options.reach = 4.5 * voxel;
@@ -91,6 +92,30 @@ TEST(ClosedPassages, OfATubeAreOne)
     for (const Ball& ball : tube(12, grown + 0.8))
         two.push_back({ball.center + Vec3d(40, 0, 0), carbon, 0});
     EXPECT_EQ(*gapsOf(two, 0.5, 0.5).closedByField, 2u);
+}
+
+/// Voids beside each other are two, however near, and the widest counts.
+TEST(ClosedPassages, OfTwoCagesThatTouchAreTwo)
+{
+    std::vector<Ball> two = cage(60, grown + 0.8);
+    for (const Ball& ball : cage(60, grown + 0.4))
+        two.push_back({ball.center + Vec3d(7.5, 0, 0), carbon, 0});
+    const GapReport report = gapsOf(two, 0.5, 0.5);
+    EXPECT_EQ(*report.closedByField, 2u);
+    EXPECT_NEAR(report.widestClosed, 0.8, 0.05);
+}
+
+/// One ball is nearer than the others, in whichever cell of the index it lies.
+TEST(ClosedPassages, HaveOneRoomInAllPlaces)
+{
+    std::vector<Ball> balls = cage(60, carbon + 6.0 + 0.8);
+    balls[0].center *= 0.9;
+    const double room = gapsOf(balls, 0.5, 0.5, {0.01}, 6.0).widestClosed;
+    EXPECT_GT(room, 0.05);
+    for (int k = 1; k < 8; ++k) {
+        for (Ball& ball : balls) ball.center += Vec3d(1.5);
+        EXPECT_NEAR(gapsOf(balls, 0.5, 0.5, {0.01}, 6.0).widestClosed, room, 0.01) << k;
+    }
 }
 
 TEST(ClosedPassages, OpenBelowTheToleranceThatTheReportHas)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/select_balls.h"
 
+#include "molsurf/core/memory.h"
 #include "molsurf/structure/read_structure.h"
 #include "unit/structure/temp_file.h"
 
@@ -108,6 +109,23 @@ TEST(Assembly, CopiesInOnePlaceCountOnce)
     for (Atom& atom : s.atoms) atom.position = openvdb::Vec3d(1, 2, 3);
     s.assemblies = {{"1", {{{"A"}, {moved(10)}}, {{"B"}, {moved(20)}}}, ""}};
     EXPECT_EQ(selectBalls(s, assembly("1")).balls.size(), 2u);
+}
+
+/// The atoms of all copies count, before any is made.
+TEST(Assembly, OfMoreAtomsThanMemoryHoldsIsRefused)
+{
+    Structure s = threeChains();
+    for (int i = 0; i < 20000; ++i) {
+        s.atoms.push_back(s.atoms[0]);
+        s.atoms.back().position = openvdb::Vec3d(i % 100, 3 + i / 100, 0);
+    }
+    s.models = {{1, 0, s.atoms.size()}};
+    s.assemblies = {{"1", {{{"A"}, {}}}, ""}};
+    for (int k = 0; k < 100; ++k) s.assemblies[0].parts[0].operators.push_back(moved(200 * k));
+    SelectOptions options = assembly("1");
+    options.memory = 1 << 20;
+    while (!hasMemory(80e6, options.memory)) options.memory += 1 << 20; // 160 MB are needed
+    EXPECT_HAS(errorOf(ErrorKind::Input, [&] { selectBalls(s, options); }), "its atoms take about");
 }
 
 TEST(Assembly, InstancesAreThePrototypesOnce)

@@ -137,6 +137,8 @@ TEST(BallValues, ATableHasTextAboveItsValuesAlone)
     EXPECT_EQ(valuesOf(s, "table=" + good.path()).valueOf, (std::vector<float>{0.5f, 0.75f}));
     const TempFile bad("t", "A 1 0.5\nA 2 much\n");
     EXPECT_HAS(errorOf(ErrorKind::Input, [&] { valuesOf(s, "table=" + bad.path()); }), ":2: ");
+    const TempFile longest("long.csv", "A 1 1.5\nA 2 0.5" + std::string(80, '0') + "x\n");
+    EXPECT_HAS(errorOf(ErrorKind::Input, [&] { valuesOf(s, "table=" + longest.path()); }), ":2: ");
 }
 
 TEST(ScalarMap, HasItsPlaceAndThreeStepsAlongTheAxes)

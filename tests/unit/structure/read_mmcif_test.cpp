@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+#include "molsurf/core/memory.h"
 #include "molsurf/structure/cif_rows.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/read_structure.h"
@@ -239,6 +240,17 @@ TEST(ReadMmcif, PairsAreALoopOfOneRow)
     EXPECT_EQ(s.residues[0].kind, ResidueKind::Ion);
 }
 
+/// Molecules without numbers, of one chain: each model counts from 1.
+TEST(ReadMmcif, CountsMoleculesOfEachModel)
+{
+    std::string rows;
+    for (const char* model : {"1", "1", "2", "2"})
+        rows += std::string("HETATM 1 O O . HOH A . 1 2 3 1 0 . A ") + model + "\n";
+    const Structure s = readMmcif(atomSite(full, rows));
+    ASSERT_EQ(s.residues.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(s.residues[i].number, int(i % 2) + 1) << i;
+}
+
 TEST(ReadMmcif, KnowsStructureFactorsAndPredictions)
 {
     EXPECT_HAS(mmcifError("data_sf\nloop_\n_refln.index_h\n_refln.index_k\n1 2\n"),
@@ -359,6 +371,8 @@ TEST(ReadMmcif, LongChainsAreCutBetweenResidues)
                                row("B", "GLY", 3);
     expectSameInPieces(atomSite(full, waters));
     expectSameInPieces(atomSite(full, waters) + "loop_\n_entity.id\n_entity.type\n1 ?\n");
+    const std::string odd = rising + row("A", "LEU", 7) + row("A2", "HOH", 8);
+    expectSameInPieces(atomSite(full, odd) + "loop_\n_entity.id\n_entity.type\n1 ?\n");
     expectSameInPieces(atomSite(full, row("A", "GLY", 3) + row("A", "GLY", 2) + row("A", "GLY", 1) +
                                           row("A", "GLY", 4)));
 }
@@ -394,6 +408,28 @@ TEST(ReadMmcif, AnErrorInAPieceNamesItsLine)
                        [&] { readMmcifInPieces(text, "a.cif", Progress(), rows); });
     };
     EXPECT_EQ(errorIn(1), errorIn(1000000));
+}
+
+/// Chains are parsed by thousands of rows, a residue as a whole.
+TEST(ReadMmcif, TakesTheMemoryOfItsLongestPiece)
+{
+    std::string chains, residue;
+    for (int i = 0; i < 100000; ++i) {
+        const std::string chain = "A" + std::to_string(i / 10000);
+        chains += "ATOM 1 C CA . GLY " + chain + " 1 1 2 3 1 0 1 " + chain + " 1\n";
+        residue += "ATOM 1 C CA . GLY A0 1 1 2 3 1 0 1 A0 1\n";
+    }
+    chains = atomSite(full, chains);
+    residue = atomSite(full, residue);
+    EXPECT_LT(bytesForMmcif(chains), 50e6);
+    EXPECT_GT(bytesForMmcif(residue), 100e6);
+
+    std::size_t memory = 1 << 20; // that leaves what lies between the two
+    while (!hasMemory(70e6, memory)) memory += 1 << 20;
+    EXPECT_EQ(parseStructure(chains, "a.cif", 0, Progress(), memory).atoms.size(), 100000u);
+    EXPECT_HAS(
+        errorOf(ErrorKind::Input, [&] { parseStructure(residue, "a.cif", 0, Progress(), memory); }),
+        "a.cif: reading it takes about");
 }
 
 TEST(ReadMmcif, RefusesNamesThatStandTwice)

@@ -148,6 +148,8 @@ TEST_P(BySymmetry, IsTheWhole)
         EXPECT_NEAR(measure(welded, Progress()).area, area, 0.02 * area);
         EXPECT_EQ(welded.positions.size(), found.vertices);
         EXPECT_EQ(welded.triangles.size(), found.triangles);
+        const double flat = triangleArea(welded, Progress());
+        EXPECT_NEAR(*found.triangleArea, flat, 1e-3 * flat);
         if (exact || rough) continue;
         if (fits) {
             ++fitting;
@@ -432,11 +434,22 @@ TEST(SymmetricUnit, BordersMeet)
     EXPECT_FALSE(checkTopology(apart, Progress()).closed);
 }
 
+/// A column that is a vector, at a vertex.
+Vec3d vectorAt(const Mesh& mesh, const std::string& name, std::size_t vertex)
+{
+    Vec3d out(0.0);
+    for (const auto& scalar : mesh.scalars)
+        for (int a = 0; a < 3; ++a)
+            if (scalar.name == name + "_" + "xyz"[a]) out[a] = double(scalar.values[vertex]);
+    return out;
+}
+
 /// makeSurface() gives the mesh of the whole: of a unit, and of prototypes, of which each copy is a
 /// part.
 TEST(SymmetricUnit, SurfacesAreThoseOfTheWhole)
 {
-    const SurfaceOptions options;
+    SurfaceOptions options;
+    options.fields = {"principal_direction_1"};
     Structure s = blob({9.0, 1.0, 0.0}, 6.0, 150, 3);
     s.assemblies = {assemblyOf(dihedral(3))};
     const BallSet unit = selectBalls(s, assembly(true, options));
@@ -460,6 +473,12 @@ TEST(SymmetricUnit, SurfacesAreThoseOfTheWhole)
         EXPECT_NEAR((Vec3d(copies.mesh.positions[k * count + 7]) - there).length(), 0.0, 1e-4);
         const Vec3d way = prototype.placement.instances[k].turned(Vec3d(one.mesh.normals[7]));
         EXPECT_NEAR((Vec3d(copies.mesh.normals[k * count + 7]) - way).length(), 0.0, 1e-4);
+        const Vec3d direction = vectorAt(one.mesh, "principal_direction_1", 7);
+        EXPECT_NEAR(direction.length(), 1.0, 1e-4);
+        EXPECT_NEAR((vectorAt(copies.mesh, "principal_direction_1", k * count + 7) -
+                     prototype.placement.instances[k].turned(direction))
+                        .length(),
+                    0.0, 1e-4);
     }
 
     const BallSet all = selectBalls(s, assembly(false, options));

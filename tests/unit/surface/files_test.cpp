@@ -90,6 +90,23 @@ TEST(Files, WriteAPageThatNamesTheAtoms)
     writePicture(nameless, made.surface, made.options, folder / "crambin.html");
     EXPECT_EQ(contentOf(folder / "crambin.html").find("TYR"), std::string::npos);
 }
+
+/// The balls of a copy have the names of those that it is made of.
+TEST(Files, WriteAPageOfCopiesThatNamesTheAtoms)
+{
+    SelectOptions select;
+    select.assembly = "1";
+    select.instances = true;
+    SurfaceOptions options;
+    options.kind = SurfaceKind::VanDerWaals;
+    options.voxel = 1.0;
+    const BallSet atoms = readAtoms(dataFile("1a8o.pdb.gz"), select);
+    const MolecularSurface dimer = makeSurface(atoms, options);
+    ASSERT_EQ(dimer.mesh.parts.size(), 2u);
+    const Folder folder;
+    writePicture(atoms, dimer, options, folder / "dimer.html");
+    EXPECT_HAS(contentOf(folder / "dimer.html"), "MSE");
+}
 #endif
 
 } // namespace

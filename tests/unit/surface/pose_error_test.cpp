@@ -57,6 +57,26 @@ TEST(PoseError, IsThatOfTwoRunsThatAreTurned)
               makeSurface(balls, withLambda(0.04)).report.evolution->areaError);
 }
 
+/// Its poses have the tolerances of the balls, and their cavities are filled as its own.
+TEST(PoseError, IsOfTheSameSurface)
+{
+    BallSet atoms;
+    atoms.balls = {{{0.1, 0.2, 0.3}, 1.7, 0}, {{4.1, 0.2, 0.3}, 1.7, 1}};
+    atoms.decays = {{0.6f, 0.3f}, {0.6f, 0.3f}};
+    EXPECT_LT(makeSurface(atoms, withLambda(0.1)).report.evolution->areaError, 0.05);
+
+    std::vector<Ball> shell; // about a hollow
+    for (int i = 0; i < 140; ++i) {
+        const double z = 1.0 - (2.0 * i + 1.0) / 140, turn = i * M_PI * (3.0 - std::sqrt(5.0));
+        const double rim = std::sqrt(1.0 - z * z);
+        shell.push_back(
+            {7.0 * openvdb::Vec3d(rim * std::cos(turn), rim * std::sin(turn), z), 1.7, i});
+    }
+    SurfaceOptions options = withLambda(0.06);
+    options.fillCavities = true;
+    EXPECT_LT(makeSurface(shell, options).report.evolution->areaError, 0.05);
+}
+
 TEST(PoseError, OfWhatIsTooSmallForTwiceTheVoxelIsFoundOnTheSame)
 {
     SurfaceOptions options = withLambda(0.1);
