@@ -65,29 +65,33 @@ struct JetRoom {
     double *x, *y, *z, *rate, *level;
 };
 
+/// A ball in which terms may count.
+struct Near {
+    double x, y, z, radius; ///< [Å]
+};
+
 /// @param[in] h  edge of a voxel [Å]
 /// @return the number of terms written
 MOLSURF_KERNEL std::size_t appendNear(const GaussianLists& balls, std::int32_t begin,
-                                      std::int32_t end, double h, const double* middle,
-                                      double radius, const JetRoom& out)
+                                      std::int32_t end, double h, const Near& near,
+                                      const JetRoom& out)
 {
     const double *const x = balls.x.data(), *const y = balls.y.data(), *const z = balls.z.data();
     const double perVoxel = 1.0 / (h * h);
     std::size_t count = 0;
     for (std::int32_t i = begin; i < end; i += doubleLanes) {
-        const Doubles u = load(x + i) - middle[0], v = load(y + i) - middle[1],
-                      w = load(z + i) - middle[2];
+        const Doubles u = load(x + i) - near.x, v = load(y + i) - near.y, w = load(z + i) - near.z;
         const Doubles felt2 = __builtin_convertvector(load4(balls.felt2.data() + i), Doubles);
-        const Doubles felt = h * squareRoot(felt2) + radius;
-        const Longs near = u * u + v * v + w * w <= felt * felt;
-        if (!any(near)) continue;
+        const Doubles felt = h * squareRoot(felt2) + near.radius;
+        const Longs counts = u * u + v * v + w * w <= felt * felt;
+        if (!any(counts)) continue;
         for (int l = 0; l < doubleLanes && i + l < end; ++l) {
             out.x[count] = x[i + l];
             out.y[count] = y[i + l];
             out.z[count] = z[i + l];
             out.rate[count] = perVoxel * double(balls.decay[std::size_t(i + l)]);
             out.level[count] = double(balls.level[std::size_t(i + l)]);
-            count -= std::size_t(near[l]);
+            count -= std::size_t(counts[l]);
         }
     }
     return count;
@@ -103,7 +107,8 @@ void JetTerms::addNear(const GaussianLists& balls, std::int32_t begin, std::int3
         for (auto* list : {&x_, &y_, &z_, &rate_, &level_}) list->resize(2 * most);
     const JetRoom room{x_.data() + count_, y_.data() + count_, z_.data() + count_,
                        rate_.data() + count_, level_.data() + count_};
-    count_ += appendNear(balls, begin, end, voxelSize, middle.asPointer(), radius, room);
+    count_ += appendNear(balls, begin, end, voxelSize, {middle.x(), middle.y(), middle.z(), radius},
+                         room);
 }
 
 void JetTerms::fillUp()
