@@ -232,13 +232,15 @@ MOLSURF_MEMBERS(Report, v.program, v.version, v.command, v.input, v.atoms, v.vox
 
 #undef MOLSURF_MEMBERS
 
-/// Grids as the text of a stream of OpenVDB.
+/// Grids as the text of a stream of OpenVDB, but for its random identifier: pickles of equal
+/// surfaces are equal.
 inline std::string packGrids(const openvdb::GridCPtrVec& grids)
 {
     std::ostringstream out(std::ios::binary);
     openvdb::io::Stream stream(out);
     stream.write(grids);
-    return out.str();
+    constexpr std::size_t identifierPlace = 21, letters = 36;
+    return out.str().replace(identifierPlace, letters, "00000000-0000-0000-0000-000000000000");
 }
 
 inline openvdb::GridPtrVec unpackGrids(const std::string& bytes)

@@ -173,7 +173,8 @@ bool isEstimated(const SurfaceOptions& options)
     return !several && !asked;
 }
 
-/// A line on what the field closes, with what opens the widest of it; empty if that is narrow.
+/// A line on what the field closes, with what opens the widest of it, and all; empty if that is
+/// narrow.
 std::string closedByField(const Report& report, const SurfaceOptions& options)
 {
     constexpr double wide = 0.25; // [Å], the room of the tunnel of gramicidin (1GRM)
@@ -187,9 +188,11 @@ std::string closedByField(const Report& report, const SurfaceOptions& options)
     for (const double epsilon : {0.25, 0.1, 0.05}) {
         if (epsilon >= gaps.opensBelow) continue;
         if (options.voxel <= 2.0 * epsilon)
-            return line + formatted(" [hint: --epsilon %g opens the widest]", epsilon);
-        return line + formatted(" [hint: --epsilon %g --voxel %g opens the widest]", epsilon,
-                                2.0 * epsilon);
+            return line +
+                   formatted(" [hint: --epsilon %g opens the widest, --surface ses all]", epsilon);
+        return line + formatted(" [hint: --epsilon %g --voxel %g opens the widest, --surface ses "
+                                "all]",
+                                epsilon, 2.0 * epsilon);
     }
     return line;
 }

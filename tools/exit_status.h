@@ -28,6 +28,9 @@ constexpr int laterStatus = 75;
 
 constexpr int interruptedStatus = 130;
 
+/// Of a run whose output nobody reads any more, as a shell sees it: it ends by SIGPIPE.
+constexpr int readerGoneStatus = 141;
+
 /// A row.
 struct ExitStatus {
     int status;
@@ -35,12 +38,13 @@ struct ExitStatus {
 };
 
 /// All that every verb may have, in order; 3 is of some alone.
-constexpr std::array<ExitStatus, 5> exitStatuses = {
+constexpr std::array<ExitStatus, 6> exitStatuses = {
     {{doneStatus, "done"},
      {failedStatus, "failed"},
      {misusedStatus, "wrong usage"},
      {laterStatus, "failed, and may go well later (memory, space, a disk's error)"},
-     {interruptedStatus, "interrupted"}}};
+     {interruptedStatus, "interrupted"},
+     {readerGoneStatus, "nobody reads its output any more"}}};
 
 /// The exit status of an error.
 inline int statusOf(const Error& error)

@@ -7,6 +7,7 @@
 #include "verbs.h"
 
 #include "molsurf/core/may_pass.h"
+#include "molsurf/io/output_file.h"
 #include "molsurf/progress.h"
 
 #include <tbb/global_control.h>
@@ -24,9 +25,10 @@ void printed(const std::string& text)
     errno = 0;
     if (std::cout << text << std::flush) return;
     const int reason = errno != 0 ? errno : EIO;
-    throw Error(ErrorKind::Output,
-                std::string("cannot write standard output: ") + std::strerror(reason),
-                mayPass(reason));
+    const std::string message =
+        std::string("cannot write standard output: ") + std::strerror(reason);
+    if (reason == EPIPE) throw NoReader(message);
+    throw Error(ErrorKind::Output, message, mayPass(reason));
 }
 
 void limitThreads(int threads)
@@ -49,6 +51,10 @@ int runProgram(const std::function<int()>& perform,
         const int status = perform();
         printed("");
         return status;
+    } catch (const NoReader& e) {
+        endByPipe();
+        say("error: " + textOf(e));
+        return statusOf(e);
     } catch (const Error& e) {
         say("error: " + textOf(e));
         return statusOf(e);

@@ -27,6 +27,7 @@ constexpr suseconds_t patience = 700000; // [µs]
 // What a signal handler needs has to be global.
 std::atomic<bool> requested{false};
 std::atomic<bool> deaf{false};
+std::atomic<bool> pipeIgnored{false};                        // at the start of the program
 std::atomic<const std::vector<std::string>*> names{nullptr}; // a handler may run until the very end
 
 static_assert(std::atomic<bool>::is_always_lock_free, "used in signal handlers");
@@ -94,10 +95,19 @@ void handle(int signal, void (*handler)(int))
     sigaction(signal, &action, nullptr);
 }
 
+bool isIgnored(int signal)
+{
+    struct sigaction present {
+    };
+    sigaction(signal, nullptr, &present);
+    return present.sa_handler == SIG_IGN;
+}
+
 } // namespace
 
 void handleEarly()
 {
+    pipeIgnored = isIgnored(SIGPIPE);
     std::set_terminate(onTerminate);
 }
 
@@ -124,12 +134,8 @@ void handleSignals(const std::vector<std::string>& temporaries)
     delete std::exchange(before, names.load());
     names = new std::vector<std::string>(temporaries);
     deaf = false;
-    for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        struct sigaction present {
-        };
-        sigaction(signal, nullptr, &present);
-        if (present.sa_handler != SIG_IGN) handle(signal, onStop);
-    }
+    for (int signal : {SIGINT, SIGTERM, SIGHUP})
+        if (!isIgnored(signal)) handle(signal, onStop);
     handle(SIGALRM, onAlarm);
     std::set_terminate(onTerminate);
     for (int signal : {SIGPIPE, SIGXFSZ}) handle(signal, SIG_IGN);
@@ -138,6 +144,13 @@ void handleSignals(const std::vector<std::string>& temporaries)
 bool stopRequested()
 {
     return requested;
+}
+
+void endByPipe()
+{
+    if (pipeIgnored) return;
+    handle(SIGPIPE, SIG_DFL);
+    raise(SIGPIPE);
 }
 
 void ignoreSignals()

@@ -32,12 +32,17 @@ Ending endingOf(const std::exception& e);
 /// @param[in] temporaries  the files to remove
 void handleSignals(const std::vector<std::string>& temporaries);
 
-/// Says of exceptions that nobody can catch what handleSignals() says. To be called before main(),
-/// since libraries start threads there that may lack memory.
+/// Says of exceptions that nobody can catch what handleSignals() says, and looks at SIGPIPE for
+/// endByPipe(). To be called before main(), since libraries start threads there that may lack memory.
 void handleEarly();
 
 /// True once a signal has come.
 bool stopRequested();
+
+/// Ends the process by SIGPIPE, as a program ends that does not handle it: quietly, and as status
+/// readerGoneStatus to a shell. Returns if the signal was ignored at the start of the program, by
+/// which a caller asks for the error in words.
+void endByPipe();
 
 /// From here on signals end nothing: the files are being put in their place. What follows, after
 /// another handleSignals(), finds that the run is to stop.

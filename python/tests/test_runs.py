@@ -131,6 +131,7 @@ def test_pickles_have_everything():
     s = m.surface(interfaces=True, curvature_totals=True, fields=["density", "atom_id", "Cd"])
     again = pickle.loads(pickle.dumps(s))
     assert again.report == s.report and repr(again) == repr(s)
+    assert pickle.dumps(s) == pickle.dumps(s)
     for name in ("vertices", "faces", "normals", "curvature", "colors", "atom", "atom_areas", "cavities"):
         assert np.array_equal(getattr(again, name), getattr(s, name)), name
     assert again.vertex_data.keys() == s.vertex_data.keys()

@@ -189,6 +189,8 @@ def test_report_and_files(ses, tmp_path):
     for name in ("a.ply", "a.obj", "a.stl", "a.off", "a.wrl", "a.glb", "a.vdb", "a.json"):
         ses.save(tmp_path / name)
         assert (tmp_path / name).stat().st_size > 1000
+    ses.save(tmp_path / "b.vdb")
+    assert (tmp_path / "a.vdb").read_bytes() == (tmp_path / "b.vdb").read_bytes()
     assert json.loads((tmp_path / "a.json").read_text())["surface"] == report["surface"]
     ses.picture(tmp_path / "a.png", 200)
     assert (tmp_path / "a.png").read_bytes()[:4] == b"\x89PNG"

@@ -30,12 +30,10 @@ def without(names, entry):
 
 
 def lasting(path):
-    """The content of a file, but for times, memory and the random number in the head of a .vdb."""
+    """The content of a file, but for times and memory."""
     data = path.read_bytes()
     if path.suffix == ".brick":
         return None  # times are all over it
-    if path.suffix == ".vdb":
-        return data[:21] + data[57:]
     if path.suffix == ".json":
         return without(("seconds", "peak_memory_bytes"), json.loads(data))
     if path.suffix == ".csv":

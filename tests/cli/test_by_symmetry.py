@@ -3,6 +3,7 @@
 
 import collections
 import json
+import math
 import random
 import struct
 import unittest
@@ -83,6 +84,19 @@ class BySymmetry(ToolTest):
         width, rows = read_png((self.folder / "a.png").read_bytes())
         self.assertGreater(len({bytes(row[3 * i:3 * i + 3]) for row in rows
                                 for i in range(width)}), 100)
+
+    def test_the_report_has_the_area_of_the_triangles_in_the_file(self):
+        for words in (["--by-symmetry"], ["--by-symmetry", "--surface", "ses"], []):
+            self.check(0, DIMER, "--assembly", "1", "--voxel", "1.5", *words, "-o", "a.ply", "-o", "a.json", "--force")
+            _, vertices, triangles = read_ply((self.folder / "a.ply").read_bytes())
+            area = 0.0
+            for corners in triangles:
+                a, b, c = (vertices[k][:3] for k in corners)
+                one, other = ([x - y for x, y in zip(end, a)] for end in (b, c))
+                area += 0.5 * math.hypot(*(one[k - 2] * other[k - 1] - one[k - 1] * other[k - 2] for k in range(3)))
+            surface = self.report("a.json")["surface"]
+            self.assertLess(abs(surface["triangle_area"] / area - 1), 1e-6, words)
+            self.assertGreater(1 - area / surface["area"], 0.005, words)  # `area` is that of curved patches
 
     def test_welded_it_is_closed(self):
         self.shell()

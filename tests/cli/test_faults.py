@@ -366,17 +366,13 @@ class Commit(ToolTest):
 
 class Pipes(ToolTest):
     def test_nobody_reads(self):
-        for words in (["--help"], ["info", str(CRAMBIN)], [str(CRAMBIN), "-o", "-", "--format", "ply", *FAST]):
+        for words in (["--help"], ["info", str(CRAMBIN)], [str(CRAMBIN), "-q", "-o", "-", "--format", "ply", *FAST]):
             with self.subTest(words=words):
                 reader, writer = os.pipe()
                 os.close(reader)
                 done = subprocess.run([TOOL, *words], cwd=self.folder, stdout=writer, stderr=subprocess.PIPE)
                 os.close(writer)
-                if "-o" in words:
-                    self.assertEqual(done.returncode, 1)
-                    self.assertIn(b"Broken pipe", done.stderr)
-                else:  # a text ends as that of every other program does
-                    self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))
+                self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))
 
     def test_a_closed_output(self):
         done = self.run_tool(CRAMBIN, "-q", "-o", "-", "--format", "ply", *FAST, "-o", "a.ply",

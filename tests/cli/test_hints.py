@@ -4,6 +4,7 @@
 The hints are found in the sources, and each has a case in CASES or a reason in UNTRIED."""
 
 import functools
+import json
 import math
 import os
 import pathlib
@@ -88,9 +89,14 @@ def xyzr(points):
     return "".join(f"{x:.3f} {y:.3f} {z:.3f} 1.7\n" for x, y, z in points)
 
 
-# A tube of 12 rings of ten atoms, and 60 atoms about a sphere, with 0.8 and 0.5 Å of room beside a probe.
-TUBE = [(3.9 * math.cos(a), 3.9 * math.sin(a), 1.2 * k) for k in range(12)
-        for a in (math.pi * (i + 0.5 * (k % 2)) / 5 for i in range(10))]
+def tube(radii):
+    """Rings of ten atoms."""
+    return [(radius * math.cos(a), radius * math.sin(a), 1.2 * k) for k, radius in enumerate(radii)
+            for a in (math.pi * (i + 0.5 * (k % 2)) / 5 for i in range(10))]
+
+
+# Beside a probe a tube of 12 rings has 0.8 Å of room, and 60 atoms about a sphere have 0.5 Å.
+TUBE = tube([3.9] * 12)
 HEIGHTS = [(1 - (2 * i + 1) / 60, 2.399963 * i) for i in range(60)]
 CAGE = [(3.6 * math.sqrt(1 - z * z) * math.cos(a), 3.6 * math.sqrt(1 - z * z) * math.sin(a), 3.6 * z) for z, a in HEIGHTS]
 
@@ -320,7 +326,8 @@ CASES = {
          "vdb_molsurf bricks run plan.json 1",
          f"{PLAN} --force; vdb_molsurf bricks run plan.json 1")],
     "tools/build.cpp": [
-        (" opens the widest", "vdb_molsurf tube.xyzr -o a.ply", "vdb_molsurf tube.xyzr --epsilon 0.25 -o a.ply --force"),
+        (" opens the widest", "vdb_molsurf tube.xyzr -o a.ply", "vdb_molsurf tube.xyzr --epsilon 0.25 -o a.ply --force",
+         "vdb_molsurf tube.xyzr --surface ses -o a.ply --force"),
         (" --voxel ", "vdb_molsurf cage.xyzr -o a.ply", "vdb_molsurf cage.xyzr --epsilon 0.1 --voxel 0.2 -o a.ply --force"),
         ("--surface", f"vdb_molsurf 1crn.pdb --voxel 1 -o a.ply -o a.residues.csv",
          "vdb_molsurf 1crn.pdb --voxel 1 --surface ses -o b.ply -o b.residues.csv"),
@@ -564,6 +571,21 @@ class Hints(Followed):
                     if not reasons:
                         words = set(re.findall("--[a-z-]+", expression_of(text).replace("\\", "")))
                         self.assertLessEqual(words, options | {"--help"})
+
+    def test_what_opens_all_that_the_field_closes(self):
+        """A tube with two necks: what opens its wide part makes it a cavity, and --surface ses a tunnel."""
+        (self.folder / "necked.xyzr").write_text(xyzr(tube([3.9] * 3 + [3.3] * 2 + [3.9] * 5 + [3.3] * 2 + [3.9] * 3)))
+
+        def euler(*words):
+            done = self.check(0, "necked.xyzr", *words, "-o", "a.json", "--force")
+            return json.loads((self.folder / "a.json").read_text())["surface"]["euler_characteristic"], done.stderr.decode()
+
+        shut, said = euler()
+        hint = re.search(r"\[hint: (--epsilon \S+(?: --voxel \S+)?) opens the widest, (--surface ses) all\]", said)
+        self.assertTrue(hint, said)
+        self.assertEqual(shut, 2)
+        self.assertEqual(euler(*hint[1].split())[0], 4)
+        self.assertEqual(euler(*hint[2].split())[0], 0)
 
     @needs("preload")
     def test_record_of_a_killed_run(self):

@@ -4,11 +4,12 @@
 import os
 import resource
 import shutil
+import signal
 import subprocess
 import unittest
 
 from needs import needs, other_user, small_address_space
-from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply
+from tool import CRAMBIN, DATA, FAST, TOOL, ToolTest, read_ply
 
 ALL = ["-o", "a.vdb", "-o", "a.ply", "-o", "a.obj", "-o", "a.stl", "-o", "a.json", "-o", "a.png"]
 
@@ -168,10 +169,26 @@ class StandardOutput(ToolTest):
     def test_closed_pipe(self):
         reader, writer = os.pipe()
         os.close(reader)
-        self.check(1, CRAMBIN, "-o", "-", "--format", "ply", "-o", "a.ply", "-q", *FAST,
-                   says="Broken pipe", capture_output=False, stdout=writer, stderr=subprocess.PIPE)
+        words = [CRAMBIN, "-o", "-", "--format", "ply", "-o", "a.ply", "-q", *FAST]
+        streams = {"capture_output": False, "stdout": writer, "stderr": subprocess.PIPE}
+        done = self.check(-signal.SIGPIPE, *words, **streams)
+        self.assertEqual(done.stderr, b"")
+        # Who ignores the signal, as `trap "" PIPE` does, wants words.
+        self.check(1, *words, says="Broken pipe", restore_signals=False, **streams,
+                   preexec_fn=lambda: signal.signal(signal.SIGPIPE, signal.SIG_IGN))
         os.close(writer)
         self.assertEqual(self.names(), [])
+
+    def test_a_reader_that_has_enough(self):
+        """As `head` does, in the middle of a file; of a pipe with a name, too."""
+        words = f"{TOOL} {CRAMBIN} -q -o a.json --voxel 0.3"
+        for call in (f"{words} -o - --format ply | head -c 10", f"{words} -o - --format vdb | head -c 10",
+                     f"mkfifo p.ply; head -c 10 p.ply & {words} -o p.ply"):
+            with self.subTest(call):
+                done = subprocess.run(["bash", "-c", call + "; echo ${PIPESTATUS[0]} >&2"], cwd=self.folder,
+                                      capture_output=True, check=True)
+                self.assertEqual(done.stderr, b"141\n")
+                self.assertNotIn("a.json", self.names())
 
 
 if __name__ == "__main__":

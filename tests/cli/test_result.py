@@ -5,13 +5,14 @@ import collections
 import hashlib
 import json
 import math
+import os
 import re
 import shlex
 import subprocess
 import unittest
 
 from needs import needs
-from tool import CRAMBIN, FAST, TOOL, ToolTest, read_ply
+from tool import CRAMBIN, DATA, FAST, TOOL, ToolTest, read_ply
 
 try:
     import numpy
@@ -275,6 +276,63 @@ class Threads(ToolTest):
             arrays.append((low, grid.activeVoxelCount(), array))
         self.assertEqual(arrays[0][:2], arrays[1][:2])
         self.assertEqual(arrays[0][2].tobytes(), arrays[1][2].tobytes())
+
+
+class SameBytes(ToolTest):
+    """A .vdb depends on its content alone: its identifier is made of that."""
+
+    def vdb(self, *words, threads=2, name="a.vdb"):
+        """What a run writes that has so many cores and, where it asks for threads, takes them."""
+        def pin():
+            os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:threads])
+
+        done = self.check(0, *words, "--force", preexec_fn=pin)
+        return (self.folder / name).read_bytes() if name else done.stdout
+
+    def expect_same(self, *words, name="a.vdb"):
+        first = self.vdb(*words, name=name)
+        self.assertEqual(first, self.vdb(*words, name=name))
+        self.assertEqual(first, self.vdb(*words, threads=1, name=name))
+        self.assertRegex(first[21:57], rb"^[0-9a-f]{8}-[0-9a-f]{4}-8[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}$")
+        return first
+
+    def test_of_a_surface(self):
+        plain = self.expect_same(CRAMBIN, "-o", "a.vdb", *FAST)
+        other = self.expect_same(CRAMBIN, "-o", "a.vdb", "--voxel", "1.01")
+        self.assertNotEqual(plain[21:57], other[21:57])
+        self.expect_same(CRAMBIN, "-o", "a.vdb", "--fields", "all", "--for", "blender", *FAST)
+
+    def test_with_other_threads(self):
+        """They are in the file's `command` alone, and so in its identifier."""
+        def content(threads):
+            call = f"-j {threads}".encode()
+            data = self.vdb(CRAMBIN, "-j", threads, "-o", "a.vdb", *FAST)
+            self.assertEqual(data.count(call), 1)
+            return data[:21] + data[57:].replace(call, b"")
+
+        self.assertEqual(content(1), content(2))
+
+    def test_of_standard_output(self):
+        data = self.expect_same(CRAMBIN, "-o", "-", "--format", "vdb", *FAST, name=None)
+        (self.folder / "b.vdb").write_bytes(data)
+        self.assertIn(b"surface", self.check(0, "info", "b.vdb").stdout)
+
+    def test_of_frames_bricks_and_differences(self):
+        self.expect_same(DATA / "1d3z.pdb.gz", "--frames", "1", "-o", "a.vdb", *FAST, name="a.0001.vdb")
+        self.check(0, "bricks", "plan", CRAMBIN, "-o", "plan.json", "--bricks", 2, *FAST)
+        for brick in (1, 2):
+            self.check(0, "bricks", "run", "plan.json", brick)
+        self.expect_same("bricks", "merge", "plan.json", "-o", "m.vdb", name="m.vdb")
+        self.expect_same("bricks", "merge", "plan.json", "-o", "-", "--format", "vdb", name=None)
+        self.check(0, CRAMBIN, "-o", "b.vdb", "--fields", "surface,spline,chain_id", *FAST)
+        self.expect_same("compare", "m.vdb", "b.vdb", "-o", "d.vdb", name="d.vdb")
+        self.expect_same("convert", "b.vdb", "--color", "chain", "-o", "c.vdb", name="c.vdb")
+
+    @needs("openvdb")
+    def test_openvdb_reads_them(self):
+        self.vdb(CRAMBIN, "-o", "a.vdb", *FAST)
+        grids, metadata = pyopenvdb.readAll(str(self.folder / "a.vdb"))
+        self.assertEqual(([grid.name for grid in grids], metadata["program"]), (["surface"], "vdb_molsurf"))
 
 
 if __name__ == "__main__":

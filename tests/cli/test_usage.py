@@ -20,6 +20,24 @@ class Program(unittest.TestCase):
                 for entry in line[line.index("[") + 1:line.index("]")].split(":"):
                     self.assertTrue(entry.startswith(("/", "$ORIGIN")), line)
 
+    @needs("readelf")
+    def test_is_hardened(self):
+        """Of a Release build, by cmake/hardening.cmake."""
+        def elf(what, path):
+            return subprocess.run(["readelf", "-W", what, path], capture_output=True, text=True, check=True).stdout
+
+        if elf("-S", TOOL).count(".debug_info"):
+            self.skipTest("a build with debug information")
+        dynamic = elf("-d", TOOL)
+        self.assertRegex(dynamic, r"\(FLAGS_1\).*NOW.*PIE")
+        self.assertIn("GNU_RELRO", elf("-l", TOOL))
+        self.assertNotIn("RWE", elf("-l", TOOL))
+        # What the program is made of may be in a library beside it.
+        loaded = subprocess.run(["ldd", TOOL], capture_output=True, text=True, check=True).stdout
+        calls = "".join(elf("--dyn-syms", path) for path in [TOOL, *re.findall(r"=> (\S*/libvdb_molsurf\S*)", loaded)])
+        for name in ("__stack_chk_fail", "__memcpy_chk"):
+            self.assertIn(f" {name}@", calls)
+
 
 class ShortWords(ToolTest):
     def test_help_and_version(self):

@@ -15,6 +15,7 @@
 #include "molsurf/selection/radii.h"
 #include "molsurf/selection/scalar_map.h"
 #include "molsurf/structure/structure_list.h"
+#include "nanoshaper/config.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
@@ -66,6 +67,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             tool::parse(4, words);
             break;
         }
+        case 'n':
+            nanoshaper::readConfig(path);
+            break;
         }
     });
     return 0;

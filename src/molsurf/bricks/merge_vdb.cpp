@@ -5,6 +5,7 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
 #include "molsurf/io/check_vdb.h"
+#include "molsurf/io/vdb_archive.h"
 #include "molsurf/io/write_vdb.h"
 
 #include <openvdb/io/Archive.h>
@@ -15,8 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cerrno>
-#include <ios>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -322,22 +321,17 @@ void writeMergedVdb(const std::vector<BrickFile>& bricks, double voxel, const st
     const bool floatsAlone = std::all_of(grids.begin(), grids.end(), [](const StoredGrid& grid) {
         return grid.type == openvdb::FloatGrid::gridType();
     });
-    try {
-        errno = 0;
-        const std::uint32_t compression = vdbCompression(floatsAlone);
-        const CopyingArchive archive(compression);
-        archive.begin(file.stream(), file.seekable(), grids.size(), metadata);
+    const std::uint32_t compression = vdbCompression(floatsAlone);
+    const CopyingArchive archive(compression);
+    const auto write = [&](std::ostream& out) {
+        archive.begin(out, file.seekable(), grids.size(), metadata);
         for (std::size_t g = 0; g < grids.size(); ++g) {
             const Skeleton skeleton = skeletonOfAny(bricks, g, voxel, compression, progress);
             skeleton.grid->setCreator(creator);
-            archive.add(file.stream(), file.seekable(), skeleton, bricks, progress);
+            archive.add(out, file.seekable(), skeleton, bricks, progress);
         }
-    } catch (const std::ios_base::failure&) {
-        file.fail("cannot write");
-    } catch (const openvdb::Exception& e) {
-        throw Error(ErrorKind::Output, "cannot write " + file.path() + ": " + e.what());
-    }
-    file.finish();
+    };
+    writeArchive(write, file);
 }
 
 MergedSize sizeOfMerged(const std::vector<BrickFile>& bricks)

@@ -190,10 +190,10 @@ void OutputFile::fail(const char* step) const
 {
     const int reason = errno;
     const std::string name = path_ == "-" ? "standard output" : path_;
-    throw Error(ErrorKind::Output,
-                std::string(step) + " " + name + ": " +
-                    (reason ? std::strerror(reason) : "unknown reason") + hint(reason),
-                mayPass(reason));
+    const std::string message = std::string(step) + " " + name + ": " +
+                                (reason ? std::strerror(reason) : "unknown reason") + hint(reason);
+    if (reason == EPIPE) throw NoReader(message);
+    throw Error(ErrorKind::Output, message, mayPass(reason));
 }
 
 } // namespace molsurf

@@ -4,6 +4,8 @@
 /// @file
 /// Output files that appear whole or not at all.
 
+#include "molsurf/error.h"
+
 #include <ext/stdio_filebuf.h>
 
 #include <ostream>
@@ -16,6 +18,13 @@ namespace molsurf
 /// Whether an output is written as it comes, and not beside its place first: standard output ("-")
 /// and pipes with names.
 bool isStream(const std::string& path);
+
+/// A write to a stream whose reader has gone, as `head` does.
+class NoReader : public Error
+{
+public:
+    explicit NoReader(const std::string& message) : Error(ErrorKind::Output, message) {}
+};
 
 /// Finds out before any work is done whether OutputFile could be made and committed.
 ///
@@ -81,7 +90,7 @@ public:
     /// Leaves the file under the name that it has, for recover() to complete it.
     void leave() { placed_ = true; }
 
-    /// Throws the Error for a write that failed with the present errno.
+    /// Throws the Error for a write that failed with the present errno: NoReader for EPIPE.
     [[noreturn]] void fail(const char* step) const;
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_3mf.h"
 
+#include "molsurf/core/content_digest.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/part_ranges.h"
@@ -68,32 +69,21 @@ class Identifiers
 public:
     explicit Identifiers(const Mesh& mesh)
     {
-        add(mesh.positions.data(), mesh.positions.size() * sizeof mesh.positions[0]);
-        add(mesh.triangles.data(), mesh.triangles.size() * sizeof mesh.triangles[0]);
-        add(mesh.colors.data(), mesh.colors.size() * sizeof mesh.colors[0]);
+        digest_.add(mesh.positions.data(), mesh.positions.size() * sizeof mesh.positions[0]);
+        digest_.add(mesh.triangles.data(), mesh.triangles.size() * sizeof mesh.triangles[0]);
+        digest_.add(mesh.colors.data(), mesh.colors.size() * sizeof mesh.colors[0]);
     }
 
-    /// One that was not given before, of version 8 (RFC 9562), the bits of which are free.
+    /// One that was not given before.
     std::string next()
     {
         ++count_;
-        add(&count_, sizeof count_);
-        const std::uint64_t high = hash_;
-        add(&count_, sizeof count_);
-        return formatted("%08x-%04x-8%03x-%04x-%012llx", unsigned(high >> 32),
-                         unsigned(high >> 16 & 0xffff), unsigned(high & 0xfff),
-                         unsigned(0x8000 | (hash_ >> 48 & 0x3fff)),
-                         static_cast<unsigned long long>(hash_ & 0xffffffffffff));
+        digest_.add(&count_, sizeof count_);
+        return digest_.uuid();
     }
 
 private:
-    void add(const void* bytes, std::size_t size) // FNV-1a
-    {
-        const auto* byte = static_cast<const std::uint8_t*>(bytes);
-        for (std::size_t i = 0; i < size; ++i) hash_ = (hash_ ^ byte[i]) * 1099511628211u;
-    }
-
-    std::uint64_t hash_ = 14695981039346656037u;
+    ContentDigest digest_;
     std::uint32_t count_ = 0;
 };
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_vdb.h"
 
-#include "molsurf/error.h"
+#include "molsurf/io/vdb_archive.h"
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Compression.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <ios>
 
 namespace molsurf
 {
@@ -43,16 +41,9 @@ void writeVdb(const openvdb::GridCPtrVec& grids, const openvdb::MetaMap& metadat
     const bool floatsAlone = std::all_of(grids.begin(), grids.end(), [](const auto& grid) {
         return grid->template isType<openvdb::FloatGrid>();
     });
-    try {
-        errno = 0;
-        StreamArchive(vdbCompression(floatsAlone))
-            .writeTo(file.stream(), file.seekable(), grids, metadata);
-    } catch (const std::ios_base::failure&) {
-        file.fail("cannot write");
-    } catch (const openvdb::Exception& e) {
-        throw Error(ErrorKind::Output, "cannot write " + file.path() + ": " + e.what());
-    }
-    file.finish();
+    const StreamArchive archive(vdbCompression(floatsAlone));
+    writeArchive([&](std::ostream& out) { archive.writeTo(out, file.seekable(), grids, metadata); },
+                 file);
 }
 
 } // namespace molsurf

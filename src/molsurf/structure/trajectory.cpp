@@ -3,6 +3,7 @@
 
 #include "molsurf/error.h"
 #include "molsurf/structure/read_xtc.h"
+#include "molsurf/structure/text_fields.h"
 
 #include <cerrno>
 #include <cmath>

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 namespace molsurf
@@ -91,6 +92,40 @@ TEST(ColorTable, HeteroColoursChainsAtCarbonAlone)
     ASSERT_EQ(entries.size(), 3u);
     EXPECT_EQ(entries[1].color, chains[2]);
     EXPECT_EQ(entries[2].color, elements[1]);
+}
+
+// In a scene of copies each chain is there as often as its copies are.
+TEST(ColorTable, ClassesCountTheChainsOfAllCopies)
+{
+    BallSet atoms = twoChains();
+    atoms.labels->groups.resize(2);
+    atoms.labels->groups[0].name = "class 1";
+    atoms.labels->groups[1].name = "class 2";
+    const auto titleOf = [&] { return legendOf(ColorBy::Group, atoms, Mesh(), Progress())->title; };
+    EXPECT_EQ(titleOf(), "Group"); // as many chains as classes
+    atoms.placement.instances.resize(3);
+    EXPECT_EQ(titleOf(), "6 chains in 2 classes");
+    EXPECT_EQ(legendOf(ColorBy::Group, atoms, Mesh(), Progress())->entries[1].name, "2");
+    atoms.labels->groups[1].name = "ligand";
+    EXPECT_EQ(titleOf(), "Group");
+}
+
+TEST(ColorTable, ValuesThatAreMissingAreInTheLegend)
+{
+    BallSet atoms = twoChains();
+    BallValues values;
+    values.name = "charge";
+    values.low = -1.0;
+    values.high = 1.0;
+    atoms.labels->values = values;
+    Mesh mesh;
+    mesh.scalars = {{"charge", {0.0f, 1.0f}}, {"other", {std::nanf("")}}};
+    EXPECT_TRUE(legendOf(ColorBy::Value, atoms, mesh, Progress())->entries.empty());
+    mesh.scalars[0].values.push_back(std::nanf(""));
+    const auto legend = legendOf(ColorBy::Value, atoms, mesh, Progress());
+    ASSERT_EQ(legend->entries.size(), 1u);
+    EXPECT_EQ(legend->entries[0].name, "no value");
+    EXPECT_EQ(legend->entries[0].color, neutralColor);
 }
 
 } // namespace
