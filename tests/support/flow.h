@@ -34,19 +34,17 @@ inline Evolved restOf(const GaussianSum& field, SparseField psi, double epsilon,
     const Progress progress;
     const Weights weights = weightsOf(options);
     const float slope = float(2.0 * M_LN2 / epsilon);
-    LeafField carrier(psi.table.size());
-    for (std::size_t n = 0; n < psi.table.size(); ++n)
-        std::fill_n(carrier.leaf(n), leafSize, slope);
-    LeafField levels = levelsAtRest(psi, carrier, weights, progress);
+    const SlopeField slopes(slope);
+    LeafField levels = levelsAtRest(psi, slopes, weights, progress);
     for (std::size_t n = 0; n < psi.table.size(); ++n)
         for (int v = 0; v < leafSize; ++v) levels.leaf(n)[v] -= float(offset) * slope;
-    const Displacements ways = waysToRest(psi, {levels, carrier}, field, weights, {}, progress);
+    const Displacements ways = waysToRest(psi, {levels, slopes}, field, weights, {}, progress);
     if (last) *last = ways;
     Evolved out;
     judgeRest(ways, options, psi.voxelSize, out.report);
-    carryLevels(psi, levels, bandWidthVox * psi.voxelSize, carrier, progress);
-    out.band.psi = std::move(psi.values);
-    out.band.phi = {std::move(psi.table), std::move(carrier), psi.voxelSize};
+    out.band.psi = copied(psi.values);
+    carryLevels({levels, slopes}, bandWidthVox * psi.voxelSize, psi, progress);
+    out.band.phi = std::move(psi);
     out.spline = {prefilter(out.band.phi, progress)};
     return out;
 }

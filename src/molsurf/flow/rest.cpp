@@ -119,11 +119,11 @@ MOLSURF_KERNEL void meanRows(float* __restrict block, float weight, float* __res
     }
 }
 
-MOLSURF_KERNEL void carryRows(const float* __restrict psi, const float* __restrict levels,
-                              float limit, float* __restrict slope)
+MOLSURF_KERNEL void carryRows(const float* __restrict levels, const float* __restrict slope,
+                              float limit, float* __restrict psi)
 {
     for (int v = 0; v < leafSize; ++v)
-        slope[v] = clamped((levels[v] - psi[v]) / slope[v], -limit, limit);
+        psi[v] = clamped((levels[v] - psi[v]) / slope[v], -limit, limit);
 }
 
 /// Derivatives of v between two voxels.
@@ -164,7 +164,7 @@ int restBandVox(double voxel)
     return int(std::clamp(std::ceil(restReach / voxel) + 1.0, double(bandWidthVox), most));
 }
 
-LeafField levelsAtRest(const SparseField& psi, const LeafField& slope, const Weights& weights,
+LeafField levelsAtRest(const SparseField& psi, const SlopeField& slope, const Weights& weights,
                        const Progress& progress)
 {
     const float h = float(psi.voxelSize);
@@ -223,11 +223,11 @@ Displacements waysToRest(const SparseField& psi, const RestingLevels& rest, cons
     });
 }
 
-void carryLevels(const SparseField& psi, const LeafField& levels, double width, LeafField& slope,
+void carryLevels(const RestingLevels& rest, double width, SparseField& psi,
                  const Progress& progress)
 {
     parallelFor(psi.table.size(), progress, [&](std::size_t n) {
-        carryRows(psi.leaf(n), levels.leaf(n), float(2.0 * width), slope.leaf(n));
+        carryRows(rest.levels.leaf(n), rest.slope.leaf(n), float(2.0 * width), psi.leaf(n));
     });
 }
 

@@ -10,6 +10,7 @@
 #include "molsurf/grid/region.h"
 #include "molsurf/grid/sparse_field.h"
 #include "molsurf/levelset/gaussian_sum.h"
+#include "molsurf/levelset/slope_field.h"
 #include "molsurf/progress.h"
 
 namespace molsurf
@@ -23,16 +24,16 @@ int restBandVox(double voxel);
 /// with v = ln e, a = |grad psi|, q = lambda a^2, m = n . Hess psi n and kappa the curvature of
 /// psi's level set, all at the foot of the voxel on the interface.
 /// @param[in] psi    in the band about psi = 0
-/// @param[in] slope  |grad psi| where the balls around are flat [1/Å]; v is that of a flat
-///                   interface, -ln(1 + lambda slope^2), beyond 0.75 Å and a voxel from its foot
+/// @param[in] slope  of psi; v is that of a flat interface, -ln(1 + lambda slope^2), beyond 0.75 Å
+///                   and a voxel from its foot
 /// @return v on the leaves of psi
-LeafField levelsAtRest(const SparseField& psi, const LeafField& slope, const Weights& weights,
+LeafField levelsAtRest(const SparseField& psi, const SlopeField& slope, const Weights& weights,
                        const Progress& progress);
 
 /// An interface psi = v.
 struct RestingLevels {
     const LeafField& levels; ///< v, on the leaves of psi
-    const LeafField& slope;  ///< as of levelsAtRest()
+    const SlopeField& slope; ///< as of levelsAtRest()
 };
 
 /// How far the interface psi = v is from rest: (w' + w kappa)/P at places where edges between
@@ -45,10 +46,10 @@ Displacements waysToRest(const SparseField& psi, const RestingLevels& rest, cons
                          const Weights& weights, const Region& region, const Progress& progress);
 
 /// Turns levels into G = (v - psi)/slope, which carries the interface as smoothly as psi.
-/// @param[in]     width   G lies within two of it about 0 [Å]
-/// @param[in]     levels  of the interface
-/// @param[in,out] slope   becomes G [Å], < 0 inside
-void carryLevels(const SparseField& psi, const LeafField& levels, double width, LeafField& slope,
+/// @param[in]     rest   the interface
+/// @param[in]     width  G lies within two of it about 0 [Å]
+/// @param[in,out] psi    becomes G [Å], < 0 inside
+void carryLevels(const RestingLevels& rest, double width, SparseField& psi,
                  const Progress& progress);
 
 } // namespace molsurf

@@ -142,13 +142,13 @@ MOLSURF_KERNEL void carry(const float* __restrict levels, const float* __restric
 
 } // namespace
 
-SparseField smoothCarrier(const SparseField& phi, CarrierSource source, double width,
+SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, double width,
                           const Progress& progress)
 {
     const LeafTable& table = phi.table;
     const float voxelSize = float(phi.voxelSize);
     LeafField levels(table.size());
-    SparseField out{table, std::move(source.slope), phi.voxelSize};
+    SparseField out{table, LeafField(table.size()), phi.voxelSize};
     parallelFor(table.size(), progress, [&](std::size_t n) {
         std::fill_n(levels.leaf(n), leafSize, unknown);
         const LeafMask mask = table.active(n) & within(phi.leaf(n), nearInterface * voxelSize);
@@ -170,6 +170,7 @@ SparseField smoothCarrier(const SparseField& phi, CarrierSource source, double w
             spread(weight, rim, scratch, weights);
             settleMeans(sum, weight, rim, sums, weights, rim == 3 ? 0.0f : 1.0f);
         }
+        std::copy_n(source.slope.leaf(n), leafSize, out.leaf(n));
         carry(sum, weight, source.psi.leaf(n), phi.leaf(n), lambda, limit, 1.0f * voxelSize,
               out.leaf(n));
     });

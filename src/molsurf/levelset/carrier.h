@@ -5,6 +5,7 @@
 /// A function that carries an interface and is smoother than the distance to it.
 
 #include "molsurf/grid/sparse_field.h"
+#include "molsurf/levelset/slope_field.h"
 #include "molsurf/progress.h"
 
 namespace molsurf
@@ -13,9 +14,7 @@ namespace molsurf
 /// The function psi of a sum of Gaussians, and how steep it is.
 struct CarrierSource {
     const LeafField& psi; ///< on the leaves of phi
-    /// |grad psi| where the balls around are flat [1/Å], at each voxel; psi varies by nearly that
-    /// where one ball is near, whatever lies beside it. The result takes its memory.
-    LeafField slope;
+    const SlopeField& slope;
     bool onPsiZero; ///< whether the interface is psi = 0 itself: v is 0 then
     double lambda;  ///< weight of the regulariser |grad g|^2, whose valley lies off psi = 0; else 0
 };
@@ -32,7 +31,7 @@ struct CarrierSource {
 /// @return a field on the leaves of phi: < 0 inside, with a slope of 1 where the interface is flat
 /// and of
 ///         0.2 to 1 in creases
-SparseField smoothCarrier(const SparseField& phi, CarrierSource source, double width,
+SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, double width,
                           const Progress& progress);
 
 } // namespace molsurf

@@ -33,9 +33,9 @@ std::vector<double> slopesOf(const std::vector<Ball>& balls, const GaussianOptio
 
 // The slopes of the balls, at each voxel weighted by their terms of the sum: psi of the sum with
 // the slopes as factors, less psi.
-LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
-                     const std::optional<GaussianExtent>& extent, const PsiOnLeaves& psi,
-                     const Bumps& bumps, const Progress& progress)
+SlopeField slopeField(const BallSet& atoms, const SurfaceOptions& options,
+                      const std::optional<GaussianExtent>& extent, const PsiOnLeaves& psi,
+                      const Bumps& bumps, const Progress& progress)
 {
     const LeafTable& table = psi.table;
     GaussianOptions gaussian = gaussianOptions(options);
@@ -43,12 +43,7 @@ LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
     const std::vector<double> slopes = slopesOf(atoms.balls, gaussian, decays);
     const auto ends = std::minmax_element(slopes.begin(), slopes.end());
     const double least = *ends.first, most = *ends.second;
-    if (most - least < 1e-4 * most) {
-        LeafField out(table.size());
-        parallelFor(table.size(), progress,
-                    [&](std::size_t n) { std::fill_n(out.leaf(n), leafSize, float(most)); });
-        return out;
-    }
+    if (most - least < 1e-4 * most) return SlopeField(float(most));
     gaussian.extent = extent ? extent : extentOf(atoms.balls, gaussian, decays);
     decays.resize(atoms.balls.size());
     for (std::size_t i = 0; i < slopes.size(); ++i)
@@ -63,21 +58,20 @@ LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
             value[v] =
                 std::clamp(float(most) * std::exp(value[v] - own[v]), float(least), float(most));
     });
-    return field;
+    return SlopeField(std::move(field));
 }
 
 SparseField carrierOf(const BallSet& atoms, const SurfaceOptions& options,
                       const std::optional<GaussianExtent>& extent, const NarrowBand& band,
                       const Bumps& bumps, const Progress& progress)
 {
-    LeafField slope =
+    const SlopeField slope =
         slopeField(atoms, options, extent, {band.phi.table, band.psi}, bumps, progress);
     const EvolveOptions& evolution = options.evolution;
     const bool valley = hasFlow(options.kind) && evolution.regularizer == Regularizer::Gradient;
-    return smoothCarrier(
-        band.phi,
-        {band.psi, std::move(slope), !hasFlow(options.kind), valley ? evolution.lambda : 0.0},
-        bandWidthVox * band.phi.voxelSize, progress);
+    return smoothCarrier(band.phi,
+                         {band.psi, slope, !hasFlow(options.kind), valley ? evolution.lambda : 0.0},
+                         bandWidthVox * band.phi.voxelSize, progress);
 }
 
 } // namespace molsurf

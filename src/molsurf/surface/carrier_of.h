@@ -7,6 +7,7 @@
 #include "molsurf/atoms.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/levelset/gaussian_sum.h"
+#include "molsurf/levelset/slope_field.h"
 #include "molsurf/options.h"
 
 #include <optional>
@@ -20,12 +21,12 @@ struct PsiOnLeaves {
     const LeafField& values;
 };
 
-/// |grad psi| where the balls around are flat, at each voxel [1/Å].
+/// The slope of psi.
 /// @param[in] extent  of all balls, if these are some of them
 /// @param[in] psi     of the balls, with bumps
-LeafField slopeField(const BallSet& atoms, const SurfaceOptions& options,
-                     const std::optional<GaussianExtent>& extent, const PsiOnLeaves& psi,
-                     const Bumps& bumps, const Progress& progress);
+SlopeField slopeField(const BallSet& atoms, const SurfaceOptions& options,
+                      const std::optional<GaussianExtent>& extent, const PsiOnLeaves& psi,
+                      const Bumps& bumps, const Progress& progress);
 
 /// Makes the smooth carrier of an interface: see smoothCarrier().
 /// @param[in] extent  of all balls, if these are some of them

@@ -125,15 +125,15 @@ void SurfaceRun::rest()
     const Weights weights = weightsOf(evolution);
     progress_.update("evolve", 0.0);
     SparseField& psi = carrier_;
-    LeafField slope =
+    const SlopeField slope =
         slopeField(atoms_, options_, scope_.extent, {psi.table, psi.values}, bumps_, progress_);
     const LeafField levels = levelsAtRest(psi, slope, weights, progress_);
-    displacements_ = waysToRest(psi, {levels, slope}, *sum_, weights, scope_.region, progress_);
+    const RestingLevels rest{levels, slope};
+    displacements_ = waysToRest(psi, rest, *sum_, weights, scope_.region, progress_);
     EvolutionReport& report = result_.report.evolution.emplace();
     judgeRest(displacements_, evolution, options_.voxel, report);
     if (scope_.region.whole()) report.gaps = sum_->gaps();
-    carryLevels(psi, levels, bandWidthVox * options_.voxel, slope, progress_);
-    carrier_.values = std::move(slope);
+    carryLevels(rest, bandWidthVox * options_.voxel, psi, progress_);
     watch_.stop("evolve");
 }
 

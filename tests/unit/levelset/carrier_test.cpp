@@ -37,10 +37,7 @@ Fields fieldsOf(const std::vector<Ball>& balls, double voxel,
     f.psi = sum.band(width, Progress());
     f.phi = initialSurface(f.psi, width * voxel, {}, Progress());
     if (change) change(f);
-    LeafField slopes(f.table().size());
-    for (std::size_t n = 0; n < f.table().size(); ++n)
-        std::fill_n(slopes.leaf(n), leafSize, float(slope));
-    f.carrier = smoothCarrier(f.phi, {f.psi.values, std::move(slopes), false, 0.0}, width * voxel,
+    f.carrier = smoothCarrier(f.phi, {f.psi.values, SlopeField(slope), false, 0.0}, width * voxel,
                               Progress());
     return f;
 }
@@ -116,9 +113,8 @@ TEST(SmoothCarrier, KnowsTheLevelOfAFrontBetweenVoxels)
         test::filled(table, voxel, [](const Vec3d& x) { return x.x() - front; });
     const SparseField psi =
         test::filled(table, voxel, [](const Vec3d& x) { return level - slope * (x.x() - front); });
-    const SparseField slopes = test::filled(table, voxel, [](const Vec3d&) { return slope; });
-    const SparseField carrier = smoothCarrier(phi, {psi.values, copied(slopes.values), false, 0.0},
-                                              3.0 * voxel, Progress());
+    const SparseField carrier =
+        smoothCarrier(phi, {psi.values, SlopeField(slope), false, 0.0}, 3.0 * voxel, Progress());
     test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
         if (std::abs(x.x() - front) < voxel) {
             ASSERT_NEAR(carrier.leaf(n)[v], x.x() - front, 1e-4) << x;
@@ -134,7 +130,6 @@ TEST(SmoothCarrier, HasTheShapeOfPsiInTheValleyAlone)
     const LeafTable table = cube();
     const SparseField phi =
         test::filled(table, voxel, [](const Vec3d& x) { return x.x() - front; });
-    const SparseField slopes = test::filled(table, voxel, [](const Vec3d&) { return slope; });
     for (const double lambda : {0.0, 0.1, 1.0}) {
         const double bottom = -std::log(1.0 + lambda * slope * slope);
         for (const double above : {-1.4, -0.4, 0.0, 0.4, 1.4}) {
@@ -142,7 +137,7 @@ TEST(SmoothCarrier, HasTheShapeOfPsiInTheValleyAlone)
                 return bottom + above - share * slope * (x.x() - front);
             });
             const SparseField carrier = smoothCarrier(
-                phi, {psi.values, copied(slopes.values), false, lambda}, 3.0 * voxel, Progress());
+                phi, {psi.values, SlopeField(slope), false, lambda}, 3.0 * voxel, Progress());
             const double shape = std::abs(above) > 1.0 ? 1.0 : share;
             test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
                 const double d = x.x() - front;
@@ -162,9 +157,8 @@ TEST(SmoothCarrier, IsThatOfPsiInAThinSheet)
     const SparseField phi = test::filled(table, voxel, distance);
     const SparseField psi =
         test::filled(table, voxel, [&](const Vec3d& x) { return -slope * distance(x); });
-    const SparseField slopes = test::filled(table, voxel, [](const Vec3d&) { return slope; });
-    const SparseField carrier = smoothCarrier(phi, {psi.values, copied(slopes.values), false, 0.0},
-                                              3.0 * voxel, Progress());
+    const SparseField carrier =
+        smoothCarrier(phi, {psi.values, SlopeField(slope), false, 0.0}, 3.0 * voxel, Progress());
     test::forEachActive(table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
         if (std::abs(x.x()) <= 4.0 * voxel) {
             ASSERT_NEAR(carrier.leaf(n)[v], distance(x), 0.1) << x;
