@@ -53,17 +53,20 @@ nb::object owned(std::vector<V>&& values)
     return view<T>(vector, owner);
 }
 
-/// Every k-th double of an array of structures.
-/// @param[in] columns  1 or 3 doubles of each
-template<typename V>
-nb::object columnsOf(std::vector<V>& values, double* first, std::size_t columns, nb::handle owner)
+/// Numbers of the balls that a surface is of; read-only where others repeat them, which would not
+/// follow.
+/// @param[in] first    that of the first ball
+/// @param[in] columns  1 or 3 of each
+inline nb::object columnsOf(BallSet& atoms, double* first, std::size_t columns, nb::handle owner)
 {
-    static_assert(sizeof(V) % sizeof(double) == 0);
+    static_assert(sizeof(Ball) % sizeof(double) == 0);
     static double nothing[3];
-    const std::size_t shape[2] = {values.size(), columns};
-    const std::int64_t strides[2] = {std::int64_t(sizeof(V) / sizeof(double)), 1};
-    return nb::cast(nb::ndarray<nb::numpy, double>(values.empty() ? nothing : first,
-                                                   columns == 1 ? 1 : 2, shape, owner, strides));
+    const std::size_t shape[2] = {atoms.own(), columns}, axes = columns == 1 ? 1 : 2;
+    const std::int64_t strides[2] = {std::int64_t(sizeof(Ball) / sizeof(double)), 1};
+    double* const data = atoms.balls.empty() ? nothing : first;
+    if (atoms.placement.isWhole())
+        return nb::cast(nb::ndarray<nb::numpy, double>(data, axes, shape, owner, strides));
+    return nb::cast(nb::ndarray<nb::numpy, const double>(data, axes, shape, owner, strides));
 }
 
 /// @param[in] radii  one a position

@@ -16,6 +16,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <map>
 
 namespace molsurf::python
 {
@@ -160,6 +162,30 @@ std::vector<std::int32_t> takeAtoms(const std::vector<std::int32_t>& fileIds,
     return places;
 }
 
+/// The balls of the unit that those around it are images of.
+std::vector<std::int32_t> imagesOf(const BallSet& atoms)
+{
+    std::multimap<std::int32_t, std::size_t> own;
+    for (std::size_t i = 0; i < atoms.own(); ++i) own.emplace(atoms.balls[i].atom, i);
+    std::vector<std::int32_t> out;
+    for (std::size_t i = atoms.own(); i < atoms.balls.size(); ++i) {
+        const Instance& motion =
+            atoms.placement.instances[std::size_t(atoms.placement.motionOf[i])];
+        const auto same = own.equal_range(atoms.balls[i].atom);
+        double least = std::numeric_limits<double>::infinity();
+        out.push_back(-1);
+        for (auto one = same.first; one != same.second; ++one) {
+            const double apart = (motion.placed(Vec3d(atoms.balls[one->second].center)) -
+                                  Vec3d(atoms.balls[i].center))
+                                     .lengthSqr();
+            if (apart >= least) continue;
+            least = apart;
+            out.back() = std::int32_t(one->second);
+        }
+    }
+    return out;
+}
+
 /// @param[in] balls  the surface's own, which are kept
 MadeSurface surfaceOf(std::shared_ptr<BallSet> balls, const std::string& source,
                       const SurfaceOptions& options, const How& how)
@@ -179,6 +205,10 @@ MadeSurface surfaceOf(std::shared_ptr<BallSet> balls, const std::string& source,
     });
     for (std::size_t i = 0; i < fileIds.size(); ++i) balls->balls[i].atom = fileIds[i];
     out.atoms = std::move(balls);
+    const auto own = std::int32_t(out.atoms->own());
+    const std::vector<std::int32_t> images = imagesOf(*out.atoms);
+    for (std::int32_t& atom : out.atom)
+        if (atom >= own) atom = images[std::size_t(atom - own)];
     Report& report = out.result.report;
     report.version = MOLSURF_VERSION;
     report.input = source;
@@ -223,6 +253,15 @@ nb::tuple pairsOf(std::vector<ContactArea>&& contacts)
                           owned<double>(std::move(distances)));
 }
 
+/// Points and pairs have no atom of their own in copies.
+void checkWhole(const MadeSurface& surface, const char* what)
+{
+    if (!surface.atoms->placement.isWhole())
+        throw Error(ErrorKind::Usage, std::string(what) +
+                                          ": expected a surface of all its atoms [hint: without "
+                                          "by_symmetry and instances]");
+}
+
 nb::tuple distancesOf(MadeSurface& surface, const Positions& positions, const How& how)
 {
     std::vector<Vec3d> points;
@@ -231,6 +270,7 @@ nb::tuple distancesOf(MadeSurface& surface, const Positions& positions, const Ho
     std::vector<double> distance;
     std::vector<Vec3d> closest, normal;
     std::vector<std::int32_t> atom;
+    checkWhole(surface, "distance");
     auto to = surface.distance;
     const auto found = run(how, [&](Progress& progress) {
         if (!to) {
@@ -274,7 +314,7 @@ nb::dict namesOf(const BallSet& atoms)
     std::vector<std::string> name, residue, chain, altloc, code;
     std::vector<std::int32_t> number, index, id;
     std::vector<std::int32_t> element;
-    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
+    for (std::size_t i = 0; i < atoms.own(); ++i) {
         const BallNames::Atom& atom = atoms.names->atoms[i];
         const BallNames::Residue& r = atoms.names->residues[std::size_t(atoms.names->residueOf[i])];
         name.push_back(atom.name);
@@ -426,17 +466,17 @@ void save(const MadeSurface& surface, const std::string& path, bool replace, int
 void addMolecule(nb::module_& m)
 {
     nb::class_<Molecule>(m, "Molecule")
-        .def("__len__", [](const Molecule& v) { return v.atoms->balls.size(); })
+        .def("__len__", [](const Molecule& v) { return v.atoms->own(); })
         .def_ro("source", &Molecule::source)
         .def_prop_ro("positions",
                      [](nb::handle_t<Molecule> self) {
-                         auto& balls = nb::cast<Molecule&>(self).atoms->balls;
-                         return columnsOf(balls, balls.data()->center.asPointer(), 3, self);
+                         BallSet& atoms = *nb::cast<Molecule&>(self).atoms;
+                         return columnsOf(atoms, atoms.balls.data()->center.asPointer(), 3, self);
                      })
         .def_prop_ro("radii",
                      [](nb::handle_t<Molecule> self) {
-                         auto& balls = nb::cast<Molecule&>(self).atoms->balls;
-                         return columnsOf(balls, &balls.data()->radius, 1, self);
+                         BallSet& atoms = *nb::cast<Molecule&>(self).atoms;
+                         return columnsOf(atoms, &atoms.balls.data()->radius, 1, self);
                      })
         .def_prop_ro("names", [](const Molecule& v) { return namesOf(*v.atoms); })
         .def_prop_ro("warnings",
@@ -445,7 +485,12 @@ void addMolecule(nb::module_& m)
                          for (std::string& warning : all) warning = withKeywords(warning);
                          return all;
                      })
-        .def_prop_ro("copies", [](const Molecule& v) { return v.atoms->placement.copies; })
+        .def_prop_ro("copies",
+                     [](const Molecule& v) {
+                         const Placement& placement = v.atoms->placement;
+                         return placement.isWhole() ? placement.copies : placement.instances.size();
+                     })
+        .def_prop_ro("is_whole", [](const Molecule& v) { return v.atoms->placement.isWhole(); })
         .def_prop_ro("groups",
                      [](const Molecule& v) {
                          std::vector<std::string> all;
@@ -497,7 +542,7 @@ void addSurface(nb::module_& m)
     add("closed", [](MadeSurface& s, nb::handle) { return s.result.report.surface.closed; });
     add("kind", [](MadeSurface& s, nb::handle) { return std::string(nameOf(s.options.kind)); });
     add("voxel", [](MadeSurface& s, nb::handle) { return s.options.voxel; });
-    add("atoms", [](MadeSurface& s, nb::handle) { return s.atoms->balls.size(); });
+    add("atoms", [](MadeSurface& s, nb::handle) { return s.atoms->own(); });
     add("cavities", [](MadeSurface& s, nb::handle) {
         std::vector<std::array<double, 2>> all;
         for (const Cavity& cavity : s.result.report.surface.cavities)
@@ -508,6 +553,7 @@ void addSurface(nb::module_& m)
              [](const MadeSurface& s) { return bytesOf(reportText(s.result.report)); })
         .def("contacts",
              [](const MadeSurface& s) {
+                 checkWhole(s, "contacts");
                  if (!s.result.contacts.empty())
                      return pairsOf(std::vector<ContactArea>(s.result.contacts));
                  return pairsOf(run(How(), [&](Progress& p) {

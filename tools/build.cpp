@@ -216,7 +216,6 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     call.options.energy = call.writes(Numbers);
     const bool many = call.verb == Batch || !call.frames.empty(); // with a table
     call.options.closedForm = many || call.writes(Numbers | Areas);
-    if (balls.placement.prototypes() > 1) call.options.split = true;
     MolecularSurface result;
     try {
         result = makePrototypes(balls, call.options, &terminal);

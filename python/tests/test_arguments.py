@@ -91,7 +91,6 @@ KEYWORDS = [
     ({"fill_cavity": True}, TypeError, "unknown keyword 'fill_cavity' [hint: did you mean fill_cavities?]"),
     ({"thread": 1}, TypeError, "unknown keyword 'thread' [hint: did you mean threads?]"),
     ({"zzzzzz": 1}, TypeError, "unknown keyword 'zzzzzz'"),
-    ({"instances": True}, TypeError, "unknown keyword 'instances'"),
     ({"voxel": 20}, ms.OptionError, "`voxel`: expected 0.05 to 10 Å, got 20"),
     ({"voxel": NAN}, ms.OptionError, "`voxel`: expected a number, got 'nan'"),
     ({"voxel": "fine"}, TypeError, "voxel: expected float, got str"),

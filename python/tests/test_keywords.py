@@ -36,7 +36,7 @@ def test_command_line_and_keywords_have_the_same_names_and_defaults():
 
 def test_keywords_are_names_of_python():
     assert all(name.isidentifier() for name in _options.KEYWORDS)
-    assert len(_options.KEYWORDS) == len(_options.SETTINGS) - len(_options.ELSEWHERE)
+    assert len(_options.KEYWORDS) == len(_options.SETTINGS)
     assert not set(_options.KEYWORDS) & set(_options.MORE)
 
 
@@ -90,7 +90,7 @@ def test_every_keyword_is_taken(crambin):
                 "palette": "cividis", "value_of": "residue", "outward": 2}
     for name, row in _options.KEYWORDS.items():
         value = True if row["type"] == "switch" else examples[name]
-        if name in ("hetero", "no_hetero", "interfaces"):
+        if name in ("hetero", "no_hetero", "interfaces", "instances", "by_symmetry"):
             continue  # with others below
         made = ms.read(DATA / "1crn.pdb", **{"voxel": 1, "group_by": "chain", name: value}).surface()
         assert made.area > 0, name

@@ -3,6 +3,7 @@
 
 import gzip
 import io
+import pickle
 
 import numpy as np
 import pytest
@@ -100,3 +101,37 @@ def test_radii_of_names(crambin):
     for wrong in (lambda: ms.radii([1, 2]), lambda: ms.radii(["C"], ["ALA", "ALA"]), lambda: ms.radii(["C"], set="no")):
         with pytest.raises((TypeError, ValueError)):
             wrong()
+
+
+def test_a_whole_by_symmetry_has_the_atoms_of_its_unit(tmp_path):
+    whole = ms.read(DATA / "1a8o.cif.gz", assembly="1")
+    unit = ms.read(DATA / "1a8o.cif.gz", assembly="1", by_symmetry=True)
+    assert (len(whole), len(unit), unit.copies) == (1112, 556, 2)
+    assert len(unit.name) == 556 and np.allclose(unit.positions, whole.positions[:556])
+    assert whole.positions.flags.writeable and not unit.positions.flags.writeable and not unit.radii.flags.writeable
+    made = unit.surface(kind="sas", voxel=1)
+    assert made.closed and made.area == pytest.approx(whole.surface(kind="sas", voxel=1).area, rel=1e-6)
+    assert len(made.atom) == len(made.vertices) and made.atom.max() < 556
+    images = np.stack([whole.positions[made.atom], whole.positions[made.atom + 556]])
+    apart = np.linalg.norm(images - made.vertices, axis=2).min(axis=0) - unit.radii[made.atom] - 1.4
+    assert np.abs(apart).max() < 0.6  # creases of a voxel of 1 Å
+    made.save(tmp_path / "a.glb")
+    made.picture(tmp_path / "a.png", 100)
+    areas = unit.surface(kind="sas", voxel=1, atom_areas=True).atom_areas
+    assert len(areas) == 556 and 2 * areas.sum() == pytest.approx(made.area, rel=1e-9)
+    for use in (lambda: made.distance([[0, 0, 0]]), lambda: made.contacts, made.voxels, lambda: made.save(tmp_path / "a.vdb"),
+                lambda: unit.surface(atom_areas=True)):
+        with pytest.raises(ms.OptionError):
+            use()
+    assert not (tmp_path / "a.vdb").exists()
+    again = pickle.loads(pickle.dumps(made))
+    assert np.array_equal(again.atom, made.atom) and len(pickle.loads(pickle.dumps(unit))) == 556
+
+
+def test_instances_repeat_the_surface_of_a_copy():
+    one = ms.read(DATA / "1a8o.cif.gz").surface(voxel=1)
+    many = ms.read(DATA / "1a8o.cif.gz", assembly="1", instances=True)
+    made = many.surface(voxel=1)
+    assert (len(many), many.copies) == (556, 2)
+    assert made.area == pytest.approx(one.area) and len(made.faces) == 2 * len(one.faces)
+    assert not many.positions.flags.writeable and made.atom.max() < 556

@@ -13,7 +13,8 @@ from ._surface import Surface, _called, _made, _split
 class Molecule:
     """Atoms of a file, or of an assembly of it, as arrays: what read() makes.
 
-    `positions` and `radii` are views of its memory: what is written there is what surface() takes.
+    `positions` and `radii` are views of its memory: what is written there is what surface() takes. With `by_symmetry`
+    and `instances` the atoms are those that the whole repeats, and the views are read-only.
     """
 
     __slots__ = ("_core", "_given", "_names")
@@ -110,6 +111,8 @@ class Molecule:
 
         Keywords:
         """
+        if not self._core.is_whole:
+            options.setdefault("atom_areas", False)
         options, extra, areas_of, how = _split(options)
         pairs = _options.given(options, "surface", _options.MORE)
         color = dict(self._given).get("color")

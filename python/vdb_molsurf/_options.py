@@ -11,11 +11,7 @@ SETTINGS = {row["name"]: row for row in _core.settings()}
 
 # A word of Python, and what people call the kind of a surface.
 _RENAMED = {"surface": "kind", "lambda": "lambda_"}
-# They make what is no one surface of its atoms; the command line has them.
-ELSEWHERE = ("instances", "by-symmetry")
-
-KEYWORDS = {_RENAMED.get(name, name.replace("-", "_")): row for name, row in SETTINGS.items()
-            if name not in ELSEWHERE}
+KEYWORDS = {_RENAMED.get(name, name.replace("-", "_")): row for name, row in SETTINGS.items()}
 
 # Keywords without a row: what stands for their values, the default, and what they do.
 MORE = {

@@ -155,6 +155,11 @@ MolecularSurface makePrototypes(const BallSet& atoms, const SurfaceOptions& opti
         matchVolumes(matched, once, progress);
         return makePrototypes(matched, once, &progress);
     }
+    if (atoms.placement.prototypes() > 1 && !options.split) {
+        SurfaceOptions each = options;
+        each.split = true;
+        return makePrototypes(atoms, each, &progress);
+    }
     checkBalls(atoms.balls, options, Pieces::One, availableMemory());
     if ((options.ofParts() || options.interfaces) &&
         (!atoms.labels || atoms.labels->groups.empty())) {
