@@ -91,8 +91,7 @@ void writeVdb(const MolecularSurface& surface, const std::string& path, bool rep
                                       "=SCALE, got " +
                                           inQuotes(scene));
     const openvdb::GridPtrVec all = surface.grids();
-    if (all.empty())
-        throw Error(ErrorKind::Usage, path + ": the surface has no grid of its own");
+    if (all.empty()) throw Error(ErrorKind::Usage, path + ": the surface has no grid of its own");
     const openvdb::GridCPtrVec grids(all.begin(), all.end());
     openvdb::MetaMap metadata;
     describeScene(*place, metadata);
