@@ -7,6 +7,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <utility>
@@ -105,6 +106,7 @@ GaussianSum::GaussianSum(const std::vector<Ball>& balls, const GaussianOptions& 
         lists_.level[k] = float(C * R * R) + decay.level;
         // Beyond these a term is hardly felt at the rim of the band, and negligible where psi = 0.
         lists_.rim[k] = float((R + 2.0 * extent_.maxTolerance) / h);
+        lists_.felt[k] = float(std::sqrt(R * R + (double(negligible) + decay.level) / C));
         lists_.felt2[k] = float((R * R + (double(negligible) + decay.level) / C) / (h * h));
     }
 }
@@ -152,8 +154,10 @@ const JetTerms& GaussianSum::jetTermsAt(const Vec3d& x) const
         Coord cell;
         JetTerms terms;
     };
-    thread_local Near near;
+    // Points on their way to a critical point go to and fro between cells.
+    thread_local std::array<Near, 64> known;
     const Coord cell = Coord::floor(x);
+    Near& near = known[std::size_t(16 * (cell.x() & 3) + 4 * (cell.y() & 3) + (cell.z() & 3))];
     if (near.sum == number_ && near.cell == cell) return near.terms;
     const Vec3d low = cell.asVec3d(), half(0.5);
     near.terms.clear();

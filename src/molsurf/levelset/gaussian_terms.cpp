@@ -28,7 +28,7 @@ MOLSURF_INLINE Floats square(Floats x)
 void GaussianLists::resize(std::size_t balls)
 {
     for (auto* list : {&x, &y, &z}) list->resize(balls + floatLanes, 0.0);
-    for (auto* list : {&decay, &level, &rim, &felt2}) list->resize(balls + floatLanes, 0.0f);
+    for (auto* list : {&decay, &level, &rim, &felt2, &felt}) list->resize(balls + floatLanes, 0.0f);
 }
 
 GaussianLeaf::GaussianLeaf(const openvdb::Coord& origin, double voxelSize, double reach_)

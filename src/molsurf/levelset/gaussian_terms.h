@@ -27,6 +27,7 @@ struct GaussianLists {
     std::vector<float> level;    ///< exponent at the centre
     std::vector<float> rim;      ///< a term counts this far from the centre and the reach farther,
     std::vector<float> felt2;    ///< or where the square of the distance is below this
+    std::vector<float> felt;     ///< the root of that [Å]
 
     void resize(std::size_t balls);
 };

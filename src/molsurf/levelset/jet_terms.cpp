@@ -81,8 +81,8 @@ MOLSURF_KERNEL std::size_t appendNear(const GaussianLists& balls, std::int32_t b
     std::size_t count = 0;
     for (std::int32_t i = begin; i < end; i += doubleLanes) {
         const Doubles u = load(x + i) - near.x, v = load(y + i) - near.y, w = load(z + i) - near.z;
-        const Doubles felt2 = __builtin_convertvector(load4(balls.felt2.data() + i), Doubles);
-        const Doubles felt = h * squareRoot(felt2) + near.radius;
+        const Doubles felt =
+            __builtin_convertvector(load4(balls.felt.data() + i), Doubles) + near.radius;
         const Longs counts = u * u + v * v + w * w <= felt * felt;
         if (!any(counts)) continue;
         for (int l = 0; l < doubleLanes && i + l < end; ++l) {
