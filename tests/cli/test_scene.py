@@ -239,6 +239,15 @@ class Print(ToolTest):
         self.assertGreater(thread["thick"][0], 1.5 - 0.1)
         self.assertLess(thread["thick"][1], 1.5 + 0.25)
 
+    def test_no_triangle_of_a_wall_is_empty(self):
+        """Walls of 4 Å are eight voxels wide: voxels lie at whole distances from those in their middle."""
+        for kind in ("ses", "vdw", "gaussian"):
+            self.check(0, CRAMBIN, "--surface", kind, "--print-scale", "0.5", "--min-wall", "2", "-o", "a.stl", "--force")
+            stl = (self.folder / "a.stl").read_bytes()
+            corners = [{stl[at + 12 * k:at + 12 * (k + 1)] for k in (1, 2, 3)} for at in range(84, len(stl), 50)]
+            self.assertGreater(len(corners), 10000)
+            self.assertEqual([three for three in corners if len(three) < 3], [], kind)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -51,6 +51,15 @@ std::vector<Coord> middleOf(const SparseField& S, std::size_t n, double wall)
     return out;
 }
 
+/// Radius of the balls around the middle. Where it is the distance between two voxels, S would be 0
+/// at a voxel, and several vertices of the mesh would fall together there: the balls are larger.
+double clearOfVoxels(double radius)
+{
+    constexpr double clearance = 0.01; // [voxel]
+    const double voxels = std::sqrt(std::round(radius * radius));
+    return std::abs(radius - voxels) < clearance ? voxels + clearance : radius;
+}
+
 } // namespace
 
 void thickenWalls(DistanceBand& S, double wall, double width, const Progress& progress)
@@ -61,7 +70,7 @@ void thickenWalls(DistanceBand& S, double wall, double width, const Progress& pr
     parallelFor(table.size(), progress,
                 [&](std::size_t n) { middle[n] = middleOf(S.phi, n, wall); });
 
-    const double radius = 0.5 * wall / h, reach = radius + width / h; // [voxel]
+    const double radius = clearOfVoxels(0.5 * wall / h), reach = radius + width / h; // [voxel]
     const int leaves = int(std::ceil(reach / leafDim));
     parallelFor(table.size(), progress, [&](std::size_t n) {
         const Coord origin = table.origin(n);
