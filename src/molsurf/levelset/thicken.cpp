@@ -51,13 +51,12 @@ std::vector<Coord> middleOf(const SparseField& S, std::size_t n, double wall)
     return out;
 }
 
-/// Radius of the balls around the middle. Where it is the distance between two voxels, S would be 0
-/// at a voxel, and several vertices of the mesh would fall together there: the balls are larger.
-double clearOfVoxels(double radius)
+/// A voxel on the surface comes to lie inside, by a thousandth of a voxel. Where S is 0 at a voxel,
+/// vertices of the mesh may fall together there.
+float offSurface(float S, double voxelSize)
 {
-    constexpr double clearance = 0.01; // [voxel]
-    const double voxels = std::sqrt(std::round(radius * radius));
-    return std::abs(radius - voxels) < clearance ? voxels + clearance : radius;
+    const float least = float(1e-3 * voxelSize);
+    return std::abs(S) < least ? -least : S;
 }
 
 } // namespace
@@ -70,7 +69,7 @@ void thickenWalls(DistanceBand& S, double wall, double width, const Progress& pr
     parallelFor(table.size(), progress,
                 [&](std::size_t n) { middle[n] = middleOf(S.phi, n, wall); });
 
-    const double radius = clearOfVoxels(0.5 * wall / h), reach = radius + width / h; // [voxel]
+    const double radius = 0.5 * wall / h, reach = radius + width / h; // [voxel]
     const int leaves = int(std::ceil(reach / leafDim));
     parallelFor(table.size(), progress, [&](std::size_t n) {
         const Coord origin = table.origin(n);
@@ -95,9 +94,11 @@ void thickenWalls(DistanceBand& S, double wall, double width, const Progress& pr
                 float least = float(reach * reach);
                 for (const openvdb::Vec3f& c : near) least = std::min(least, (at - c).lengthSqr());
                 const float ball = float(h) * (std::sqrt(least) - float(radius));
-                if (ball >= phi[v]) return;
-                phi[v] = ball;
-                S.kinks.active(n).set(v);
+                if (ball < phi[v]) {
+                    phi[v] = ball;
+                    S.kinks.active(n).set(v);
+                }
+                phi[v] = offSurface(phi[v], h);
             });
         }
         table.active(n) &= within(phi, float(width));

@@ -91,7 +91,7 @@ TEST(ThickenWalls, NoVoxelLiesOnTheSurface)
                             0.5 * wall + width, 0.5 * wall + width);
     thickenWalls(S, wall, width, Progress());
     test::forEachActive(S.phi.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
-        ASSERT_GT(std::abs(S.phi.leaf(n)[v]), 0.005 * voxel) << x;
+        ASSERT_GT(std::abs(S.phi.leaf(n)[v]), 0.0009 * voxel) << x;
     });
 }
 
