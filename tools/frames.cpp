@@ -14,9 +14,9 @@
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/temporary_file.h"
 #include "molsurf/io/write_table.h"
-#include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/frame_source.h"
+#include "molsurf/surface/velocity.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -112,14 +112,20 @@ std::string describe(const FrameRow& row, const Report& report)
     return line + formatted(", %.2f s", report.seconds.back().second);
 }
 
-void addVelocity(const Call& call, const BallSet& selection,
-                 std::vector<openvdb::Vec3f> displacement, const Progress& progress,
-                 MolecularSurface& result)
+/// Adds the velocities of the grids, in units of the scene, and of the vertices, in Å.
+void addVelocities(const Call& call, const BallSet& selection,
+                   const std::vector<openvdb::Vec3f>& displacement, const Progress& progress,
+                   MolecularSurface& result)
 {
     if (!result.surface) return;
-    for (openvdb::Vec3f& d : displacement) d *= float(call.scene.scale);
+    const double perTime = call.fps > 0.0 ? call.fps : 1.0;
+    const std::string length = call.scene.scale == 1.0 ? "Å" : "scene units";
+    const VelocityUnit unit{call.scene.scale * perTime,
+                            length + (call.fps > 0.0 ? " per second" : " per frame")};
     result.fields.push_back(
-        velocityGrid(*result.surface, selection, displacement, call.options, progress));
+        velocityGrid(*result.surface, selection, displacement, unit, call.options, progress));
+    if (call.writes(VertexCurvatures))
+        addVelocity(selection, displacement, perTime, call.options, progress, result.mesh);
 }
 
 /// All frames of a call, one after the other.
@@ -232,7 +238,7 @@ private:
         read.warnings = call_.warnings;
         read.seconds = {{"read", secondsSince(start)}};
         const auto extend = [&](MolecularSurface& result) {
-            if (moves_) addVelocity(call_, balls, displacement, terminal_, result);
+            if (moves_) addVelocities(call_, balls, displacement, terminal_, result);
             for (auto& [output, file] : areas_)
                 appendCsv(areaTable(output.format->table, call_, balls, result), source_.number(i),
                           i == 0, *file);

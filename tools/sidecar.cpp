@@ -55,6 +55,7 @@ UsdVolume usdVolume(const Call& call, const Output& output)
                                 : output.beside;
     UsdVolume volume =
         usdVolumeOf(vdb, !output.beside.empty(), usdaMetersPerAngstrom / call.scene.scale);
+    if (call.fps > 0.0) volume.framesPerSecond = call.fps;
     if (isOwnUsda(output.path)) volume.extents = extentsOfUsda(output.path);
     return volume;
 }

@@ -124,6 +124,8 @@ struct Call : Settings {
     bool skipExisting = false; ///< Build: nothing is done where it was done before
     std::string frames;        ///< of --frames; empty: none
     std::string trajectory;    ///< a .dcd or .xtc with the frames; empty: models are
+    double fps = 0.0;          ///< frames per second; 0: times are in frames
+    int firstFrame = 1;        ///< number of the first file of frames
     std::string groupsFile;
     std::vector<double> lod; ///< voxels of levels of detail [Å], the finest first; empty: one
     Scene scene;             ///< of the .vdb and the node of the .glb

@@ -338,7 +338,17 @@ OptionGroup frameOptions()
               "name.csv: a table of all",
               Build, MOLSURF_OF(frames)),
          ofFile(text("trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
-                     Build, MOLSURF_OF(trajectory)))}};
+                     Build, MOLSURF_OF(trajectory))),
+         shownIn(Grids | VertexCurvatures | Stage,
+                 with(number("fps", "N",
+                             "frames per second, such as 24: velocities of --fields v\n"
+                             "are per second, and a .usda plays at this rate",
+                             "", Build, 1e-3, 1e6, "a number from 0.001 to 1e6", MOLSURF_OF(fps)),
+                      [](Option& o) {
+                          o.stored = [](const Call& c) {
+                              return openvdb::DoubleMetadata(c.fps).copy();
+                          };
+                      }))}};
 }
 
 OptionGroup surfaceOptions()

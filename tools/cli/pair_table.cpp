@@ -170,6 +170,7 @@ std::vector<Pair> runPairs()
         {"frames", Excludes, notOfFrames},
         {"trajectory", Excludes, notOfFrames},
         {"model", Excludes, {"frames"}, ": frames are models [hint: --trajectory]", fromModels},
+        {"fps", Needs, {"frames", "trajectory"}},
         {"start", IsFor, {"frames", "trajectory"}, "--frames"},
         {"fields=v", Needs, {"frames", "trajectory"}, ": it is the way between frames", ofStored},
         {{FrameRows}, Needs, {"frames", "trajectory"}, " [hint: -o FILE.residues.csv for areas]"},

@@ -132,7 +132,7 @@ std::string usdaText(const openvdb::GridCPtrVec& grids, const UsdVolume& volume)
     out << "    metersPerUnit = " << volume.metersPerUnit << "\n";
     if (!volume.frames.empty())
         out << "    startTimeCode = " << volume.frames.front().first
-            << "\n    timeCodesPerSecond = 24\n";
+            << "\n    timeCodesPerSecond = " << volume.framesPerSecond << "\n";
     out << "    upAxis = \"Z\"\n)\n\ndef Xform \"" << name
         << "\" (\n    kind = \"component\"\n)\n{\n    def Volume \"volume\"\n    {\n";
     writeExtent(grids, volume, out);
@@ -193,7 +193,7 @@ UsdVolume usdVolumeOf(const std::string& vdb, bool sequence, double metersPerUni
 {
     const fs::path path = vdb;
     const FrameName own = frameName(vdb);
-    UsdVolume volume{own.stem, metersPerUnit, path.filename().string(), {}, {}};
+    UsdVolume volume{own.stem, metersPerUnit, path.filename().string(), {}, 24.0, {}};
     if (!sequence || !own.frame) return volume;
     volume.frames.emplace_back(*own.frame, volume.file);
     std::error_code ignored;

@@ -24,6 +24,7 @@ struct UsdVolume {
     std::string file;             ///< the .vdb, relative to the .usda
     /// Frames of a sequence and their files, the first one first; empty: no sequence.
     std::vector<std::pair<int, std::string>> frames;
+    double framesPerSecond = 24.0;
     std::map<int, std::string> extents; ///< of other frames, as text: extentsOfUsda()
 };
 

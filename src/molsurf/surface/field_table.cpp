@@ -175,11 +175,14 @@ const std::vector<FieldRow>& fieldTable()
             fromRun("spline", [](SurfaceRun& run) -> GridBase::Ptr {
                 return splineGrid(run.currentSpline());
             })};
-        for (const CurvatureField& field : curvatureFields())
+        for (const CurvatureField& field : curvatureFields()) {
             rows.push_back({field.name, field.components, InClosedForm});
+            rows.back().atVertices = true;
+        }
         for (auto* more : {densityField, atomField, chainField, groupField, colorField, valueField})
             rows.push_back(more());
         rows.push_back({"v", 3, BySymmetry | InClosedForm}); // by velocityGrid()
+        rows.back().atVertices = true;
         return rows;
     }();
     return all;
