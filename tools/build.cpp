@@ -5,6 +5,7 @@
 #include "cli/option_table.h"
 #include "identity.h"
 #include "outputs.h"
+#include "sidecar.h"
 #include "stop.h"
 #include "terminal.h"
 #include "write_result.h"
@@ -253,6 +254,7 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
     if (call.verbose) sayTimes(report);
     if (call.quiet) return report;
     say(summary(report));
+    for (const std::string& line : leftOutOf(call)) say(line);
     const std::string closed = closedByField(report, call.options);
     if (!closed.empty()) say(closed);
     return report;

@@ -153,9 +153,9 @@ public:
             areas_.push_back({output, std::make_unique<OutputFile>(output.path, call_.force)});
         }
         for (std::size_t i = 0; i < source_.size(); ++i) {
-            calls_.push_back(callOf(call_, i + 1, source_.number(i)));
+            calls_.push_back(callOf(call_, fileOf(i), source_.number(i)));
             done_.push_back(!call_.force && areas_.empty() &&
-                            isDone(calls_[i], options_, table_, tableName_, i + 1));
+                            isDone(calls_[i], options_, table_, tableName_, fileOf(i)));
             if (done_[i]) continue;
             for (const Output& output : calls_[i].outputs) checkOutput(call_, output);
         }
@@ -185,7 +185,7 @@ public:
             make(i);
             return;
         }
-        const auto known = table_.find(i + 1);
+        const auto known = table_.find(fileOf(i));
         euler_.reset();
         if (known == table_.end()) return;
         creeping_ += !known->second.rests;
@@ -201,6 +201,7 @@ public:
         if (!call_.quiet) {
             if (!changes_.empty())
                 say("the topology is another than that before in frames " + changes_);
+            for (const std::string& line : leftOutOf(calls_.back())) say(line);
             say(counted(size(), "frame", "frames") + formatted(", %.2f s", secondsSince(start)));
         }
         if (creeping_ == 0) return 0;
@@ -210,6 +211,9 @@ public:
     }
 
 private:
+    /// The number in the names of the files of frame i.
+    std::size_t fileOf(std::size_t i) const { return std::size_t(call_.firstFrame) + i; }
+
     std::unique_ptr<FrameSource> pictured(const std::string& select)
     {
         if (call_.input == "-")
@@ -245,7 +249,7 @@ private:
         };
         FrameRow row;
         table.add = [&](const Report& report, OutputFiles& files) {
-            table_[i + 1] = row = frameRow(i + 1, source_.number(i), options_, report);
+            table_[fileOf(i)] = row = frameRow(fileOf(i), source_.number(i), options_, report);
             if (tableName_.empty()) return;
             files.push_back(std::make_unique<OutputFile>(tableName_, true));
             writeFrameTable(table_, *files.back());

@@ -46,6 +46,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan" "info"' -l max-input -r -d 'bytes that INPUT may have, unpacked, such as 10G'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l frames -r -d 'a surface for every S-th frame from A to B: models of'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l trajectory -r -d '.dcd or .xtc with the frames, its atoms those of INPUT'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l first-frame -r -d 'number of the first file, such as 1001: name.1001.vdb, ...'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l fps -r -d 'frames per second, such as 24: velocities of --fields v'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l surface -x -a 'variational ses sas vdw gaussian smooth-sas' -d 'variational; ses: solvent-excluded; sas:'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l voxel -r -d 'edge of a voxel [Å], 0.05 to 10'

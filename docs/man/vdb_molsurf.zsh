@@ -99,6 +99,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--max-input:bytes that INPUT may have, unpacked, such as 10G'
       '--frames:a surface for every S-th frame from A to B\: models of'
       '--trajectory:.dcd or .xtc with the frames, its atoms those of INPUT'
+      '--first-frame:number of the first file, such as 1001\: name.1001.vdb, ...'
       '--fps:frames per second, such as 24\: velocities of --fields v'
       '--surface:variational; ses\: solvent-excluded; sas\:'
       '--voxel:edge of a voxel [Å], 0.05 to 10'

@@ -182,6 +182,34 @@ class Frames(ToolTest):
             self.assertEqual(v["unit"], unit)
         self.assertIn("timeCodesPerSecond = 24\n", (self.folder / "a.usda").read_text())
 
+    def test_first_frame(self):
+        words = (NMR, *FAST, "--frames", "2-3", "--first-frame", "1001", "--for", "usd", "-o", "a.vdb", "-o", "a.csv")
+        self.check(0, *words)
+        self.assertEqual(self.names(), ["a.1001.vdb", "a.1002.vdb", "a.csv", "a.usda"])
+        self.assertEqual([(row["file"], row["frame"]) for row in self.table()], [("1001", "2"), ("1002", "3")])
+        scene = (self.folder / "a.usda").read_text()
+        for line in ("startTimeCode = 1001\n", "endTimeCode = 1002\n", "1002: @./a.1002.vdb@"):
+            self.assertIn(line, scene)
+        self.check(0, *words, says="2 done before")
+        self.check(2, NMR, "--first-frame", "1001", "-o", "a.vdb", says="--frames")
+
+    def test_a_sequence_is_of_one_input_and_of_the_same_options(self):
+        """Frames of other runs that have its name are left out of the .usda, with a line."""
+        words = (*FAST, "--for", "usd", "-o", "a.vdb", "--force")
+        self.check(0, NMR, *words, "--frames", "1-3")
+        self.assertEqual((self.folder / "a.usda").read_text().count("@./a.0003.vdb@"), 3)  # of three grids
+        for more in ((DATA / "bpti.pdb.gz",), (NMR, "--probe", "1.6")):
+            self.check(0, *more, *words, "--frames", "1", says="a.usda: without a.0002.vdb and 1 more, of another input")
+            scene = (self.folder / "a.usda").read_text()
+            self.assertIn("@./a.0001.vdb@", scene)
+            self.assertNotIn("a.0002.vdb", scene)
+            self.assertEqual(scene.count("[("), 1)  # extents
+        self.check(0, NMR, *words[:-1], "--frames", "2-3", "--first-frame", "2", says="2 done before")
+        self.check(0, NMR, *words, "--frames", "2-3", "--first-frame", "2", says="without a.0001.vdb, of")
+        self.check(0, NMR, *FAST, "--for", "usd", "-o", "a.0009.vdb", says="without a.0001.vdb and 2 more, of")
+        self.check(0, NMR, *FAST, "--for", "usd", "--probe", "1.6", "-o", "a.0010.vdb", says="without a.0001.vdb and 2 more, of")
+        self.assertIn("9: @./a.0009.vdb@", (self.folder / "a.usda").read_text())
+
     def test_vertices_have_the_velocity(self):
         self.moving("--fps", "25", "-o", "a.ply", "-o", "a.glb")
         names, vertices, _ = read_ply((self.folder / "a.0001.ply").read_bytes())

@@ -339,6 +339,8 @@ OptionGroup frameOptions()
               Build, MOLSURF_OF(frames)),
          ofFile(text("trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
                      Build, MOLSURF_OF(trajectory))),
+         count("first-frame", "N", "number of the first file, such as 1001: name.1001.vdb, ...",
+               "1", Build, 0, 999999, MOLSURF_OF(firstFrame)),
          shownIn(Grids | VertexCurvatures | Stage,
                  with(number("fps", "N",
                              "frames per second, such as 24: velocities of --fields v\n"

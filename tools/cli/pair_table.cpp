@@ -171,6 +171,7 @@ std::vector<Pair> runPairs()
         {"trajectory", Excludes, notOfFrames},
         {"model", Excludes, {"frames"}, ": frames are models [hint: --trajectory]", fromModels},
         {"fps", Needs, {"frames", "trajectory"}},
+        {"first-frame", Needs, {"frames", "trajectory"}},
         {"start", IsFor, {"frames", "trajectory"}, "--frames"},
         {"fields=v", Needs, {"frames", "trajectory"}, ": it is the way between frames", ofStored},
         {{FrameRows}, Needs, {"frames", "trajectory"}, " [hint: -o FILE.residues.csv for areas]"},
