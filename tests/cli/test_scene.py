@@ -215,6 +215,17 @@ class Print(ToolTest):
         _, vertices, _ = read_ply((self.folder / "b.ply").read_bytes())
         self.assertAlmostEqual(vertices[0][0], float(first[0].split()[1]), places=4)
 
+    @needs("openvdb")
+    def test_grids_say_what_their_vectors_are(self):
+        """Directions turn with the object, and colours have a space, by whatever they are made."""
+        self.check(0, CRAMBIN, *FAST, "--fields", "surface,spline,principal_direction_1,Cd,chain_id", "-o", "a.vdb")
+        self.check(0, CRAMBIN, *FAST, "--fields", "surface,Cd", "--color", "mean-curvature", "-o", "b.vdb")
+        self.check(0, "convert", "a.vdb", "--color", "chain", "-o", "c.vdb")
+        self.assertEqual(vdb.read(str(self.folder / "a.vdb"), "principal_direction_1").vectorType,
+                         "contravariant relative")
+        for name in "abc":
+            self.assertEqual(vdb.read(str(self.folder / f"{name}.vdb"), "Cd")["color_space"], "lin_rec709")
+
     def test_walls_are_millimetres_of_the_print(self):
         self.check(0, CRAMBIN, *FAST, "--print-scale", "2", "--min-wall", "3", "-o", "wall.vdb", "-o", "wall.stl")
         self.assertRegex(self.check(0, "info", "wall.vdb").stdout.decode(), r"option\.min-wall +1\.5\n")

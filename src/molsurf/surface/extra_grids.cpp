@@ -71,6 +71,7 @@ std::vector<openvdb::GridBase::Ptr> curvatureGrids(const openvdb::FloatGrid& sur
             grids.push_back(target.scalars);
         } else {
             target.vectors = gridLike<openvdb::Vec3SGrid>(surface, name, openvdb::Vec3f(0.0f));
+            target.vectors->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
             for (auto leaf = target.vectors->tree().beginLeaf(); leaf; ++leaf)
                 target.leaves.push_back(leaf->buffer().data()->asPointer());
             grids.push_back(target.vectors);

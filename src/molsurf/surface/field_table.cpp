@@ -109,8 +109,11 @@ FieldRow colorField()
         } else {
             colors = colorsOf(from.owners(true), *from.ballColors);
         }
-        return gridOf<openvdb::Vec3SGrid>(from.voxels(true), "Cd", linearLight(neutralColor),
-                                          [&](std::size_t i) { return linearLight(colors[i]); });
+        const auto grid =
+            gridOf<openvdb::Vec3SGrid>(from.voxels(true), "Cd", linearLight(neutralColor),
+                                       [&](std::size_t i) { return linearLight(colors[i]); });
+        describeColors(*grid);
+        return grid;
     });
     row.ofColors = true;
     return row;
