@@ -494,7 +494,6 @@ UNTRIED = {
     "io/output_file.cpp": {"free some space": "it takes a full disk, as cli.faults.mount has it",
                            "choose a folder": "cli.hints.user follows it"},
     "io/ply_layout.cpp": {"a larger `voxel`": "it takes a mesh of 2^31 vertices"},
-    "io/write_3mf.cpp": {"lib3mf1": "it takes a machine without that package"},
     "io/write_glb.cpp": {"write .ply": "it takes a mesh of 4 GiB"},
     "io/write_mesh.cpp": {"write .obj": "it takes a mesh of 2^32 triangles"},
     "io/write_volume.cpp": {"larger voxels": "it takes a box of 2^31 points"},

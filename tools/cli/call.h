@@ -48,6 +48,7 @@ enum Holds : unsigned {
     Views = 1 << 15,            ///< the surface as seen from somewhere, with crisp borders
     Pixels = 1 << 16,           ///< a picture
     Volume = 1 << 18,           ///< the level set on all points of a box
+    Paint = 1 << 20,            ///< colours of triangles for slicers, of which there are few
     Script = 1 << 19            ///< what opens another file of the run
 };
 
