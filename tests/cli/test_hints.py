@@ -447,7 +447,7 @@ CASES = {
         ("vdb_molsurf convert --help", "vdb_molsurf convert a.vdb --qqqqqq", "vdb_molsurf convert --help"),
         ("vdb_molsurf --help", "vdb_molsurf 1crn.pdb -o", "vdb_molsurf --help | grep -e '-o,'")],
     "tools/compare.cpp": [
-        ("write a plain .vdb", f"vdb_molsurf two.xyzr {FAST} --for blender -o a.vdb; vdb_molsurf compare a.vdb two.xyzr",
+        ("write a plain .vdb", f"vdb_molsurf two.xyzr {FAST} --for blender4 -o a.vdb; vdb_molsurf compare a.vdb two.xyzr",
          f"vdb_molsurf two.xyzr {FAST} -o b.vdb && vdb_molsurf compare b.vdb two.xyzr {FAST}"),
         ("-o .ply", "vdb_molsurf compare open.ply solid.ply -o a.vdb",
          "vdb_molsurf compare open.ply solid.ply -o a.ply"),

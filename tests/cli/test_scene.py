@@ -68,7 +68,7 @@ class Grids(ToolTest):
 
     def test_blender(self):
         self.check(0, CRAMBIN, *FAST, "-o", "plain.vdb")
-        self.check(0, CRAMBIN, *FAST, "--for", "blender=0.01", "-o", "a.vdb", "--fields",
+        self.check(0, CRAMBIN, *FAST, "--for", "blender4=0.01", "-o", "a.vdb", "--fields",
                    "mean_curvature,gaussian_curvature,spline")
         plain, scaled = self.grids("plain.vdb"), self.grids("a.vdb")
         self.assertEqual(list(plain), ["surface"])
@@ -146,7 +146,7 @@ class Grids(ToolTest):
             self.assertAlmostEqual(self.origin(self.grids("b.vdb")["surface"])[i], -center[i])
 
     def test_compare_refuses_what_was_moved(self):
-        self.check(0, CRAMBIN, *FAST, "--for", "blender", "-o", "a.vdb", "-o", "a.ply")
+        self.check(0, CRAMBIN, *FAST, "--for", "blender4", "-o", "a.vdb", "-o", "a.ply")
         self.check(1, "compare", "a.vdb", "a.ply", says=["a.vdb", "--for"])
 
     def test_metadata_tells_the_scene(self):
@@ -154,7 +154,21 @@ class Grids(ToolTest):
         data = vdb.readMetadata(str(self.folder / "a.vdb"))
         self.assertEqual(data["option.for"], "blender")
         self.assertEqual(data["scene.units_per_angstrom"], 0.1)
-        self.assertEqual(data["scene.shift_in_voxels"], -0.5)
+        self.assertEqual(data["scene.shift_in_voxels"], 0)
+        self.check(0, CRAMBIN, *FAST, "--for", "blender4=nm", "-o", "b.vdb")
+        self.assertEqual(vdb.readMetadata(str(self.folder / "b.vdb"))["scene.shift_in_voxels"], -0.5)
+
+    def test_fog_looks_the_same_in_every_unit(self):
+        """The sum of density times the length of a voxel, along x, is that in Å."""
+        depths = []
+        for word, scale in (("usd", 1), ("houdini=nm", 0.1), ("blender=mn-0.01", 0.01)):
+            self.check(0, CRAMBIN, *FAST, "--for", word, "--fog-density", "0.5", "-o", "a.vdb", "--force")
+            fog = self.grids("a.vdb")["density"]
+            self.assertAlmostEqual(max(item.value for item in fog.citerOnValues()) * scale, 0.5, places=5)
+            depths.append(sum(item.value * item.count for item in fog.citerOnValues()) * fog.transform.voxelSize()[0])
+        for depth in depths:
+            self.assertAlmostEqual(depth / depths[0], 1, places=5)
+        self.check(2, CRAMBIN, "--fog-density", "1", "-o", "a.vdb", says="--for")
 
 
 class Usd(ToolTest):

@@ -125,6 +125,7 @@ std::vector<Pair> surfacePairs()
         return call.atoms.valueBy && !call.atoms.valueBy->byPoint();
     };
     return {
+        {"fog-density", Needs, {"for"}},
         {"min-wall", Needs, {"print-scale"}},
         {"steps", Excludes, {"max-steps"}},
         {"no-hetero", Excludes, {"hetero", "ions"}},
