@@ -33,8 +33,6 @@ LIBRARIES = {
     "nlohmann/": ["src/molsurf/io/", "src/molsurf/picture/", "src/molsurf/bricks/", "src/molsurf/selection/groups.cpp",
                   "src/molsurf/structure/binary_cif.cpp"],
     "png.h": ["src/molsurf/picture/write_png.cpp"],
-    "Model/COM/": ["src/molsurf/io/write_3mf.cpp"],
-    "dlfcn.h": ["src/molsurf/io/write_3mf.cpp"],
     "ft2build.h": ["src/molsurf/picture/font.cpp"],
     "embree": ["src/molsurf/mesh/embree.h"],
     "openssl/": ["tools/sha256.cpp"],

@@ -5,6 +5,7 @@
 #include "cli/option_table.h"
 #include "identity.h"
 #include "outputs.h"
+#include "sidecar.h"
 #include "stop.h"
 #include "terminal.h"
 #include "write_result.h"
@@ -227,6 +228,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
         balls.names->residues.size() == 1)
         result.report.warnings.push_back("contacts: all atoms are of one residue [hint: --contacts "
                                          "atom]");
+    warnOfPaint(call, result.mesh, result.report);
     terminal.erase();
     if (!call.quiet)
         for (const std::string& warning : result.report.warnings) say("warning: " + warning);
@@ -252,6 +254,7 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
     if (call.verbose) sayTimes(report);
     if (call.quiet) return report;
     say(summary(report));
+    for (const std::string& line : leftOutOf(call)) say(line);
     const std::string closed = closedByField(report, call.options);
     if (!closed.empty()) say(closed);
     return report;

@@ -14,9 +14,9 @@
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/temporary_file.h"
 #include "molsurf/io/write_table.h"
-#include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/frame_source.h"
+#include "molsurf/surface/velocity.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -112,14 +112,20 @@ std::string describe(const FrameRow& row, const Report& report)
     return line + formatted(", %.2f s", report.seconds.back().second);
 }
 
-void addVelocity(const Call& call, const BallSet& selection,
-                 std::vector<openvdb::Vec3f> displacement, const Progress& progress,
-                 MolecularSurface& result)
+/// Adds the velocities of the grids, in units of the scene, and of the vertices, in Å.
+void addVelocities(const Call& call, const BallSet& selection,
+                   const std::vector<openvdb::Vec3f>& displacement, const Progress& progress,
+                   MolecularSurface& result)
 {
     if (!result.surface) return;
-    for (openvdb::Vec3f& d : displacement) d *= float(call.scene.scale);
+    const double perTime = call.fps > 0.0 ? call.fps : 1.0;
+    const std::string length = call.scene.scale == 1.0 ? "Å" : "scene units";
+    const VelocityUnit unit{call.scene.scale * perTime,
+                            length + (call.fps > 0.0 ? " per second" : " per frame")};
     result.fields.push_back(
-        velocityGrid(*result.surface, selection, displacement, call.options, progress));
+        velocityGrid(*result.surface, selection, displacement, unit, call.options, progress));
+    if (call.writes(VertexCurvatures))
+        addVelocity(selection, displacement, perTime, call.options, progress, result.mesh);
 }
 
 /// All frames of a call, one after the other.
@@ -147,9 +153,9 @@ public:
             areas_.push_back({output, std::make_unique<OutputFile>(output.path, call_.force)});
         }
         for (std::size_t i = 0; i < source_.size(); ++i) {
-            calls_.push_back(callOf(call_, i + 1, source_.number(i)));
+            calls_.push_back(callOf(call_, fileOf(i), source_.number(i)));
             done_.push_back(!call_.force && areas_.empty() &&
-                            isDone(calls_[i], options_, table_, tableName_, i + 1));
+                            isDone(calls_[i], options_, table_, tableName_, fileOf(i)));
             if (done_[i]) continue;
             for (const Output& output : calls_[i].outputs) checkOutput(call_, output);
         }
@@ -179,7 +185,7 @@ public:
             make(i);
             return;
         }
-        const auto known = table_.find(i + 1);
+        const auto known = table_.find(fileOf(i));
         euler_.reset();
         if (known == table_.end()) return;
         creeping_ += !known->second.rests;
@@ -195,6 +201,7 @@ public:
         if (!call_.quiet) {
             if (!changes_.empty())
                 say("the topology is another than that before in frames " + changes_);
+            for (const std::string& line : leftOutOf(calls_.back())) say(line);
             say(counted(size(), "frame", "frames") + formatted(", %.2f s", secondsSince(start)));
         }
         if (creeping_ == 0) return 0;
@@ -204,6 +211,9 @@ public:
     }
 
 private:
+    /// The number in the names of the files of frame i.
+    std::size_t fileOf(std::size_t i) const { return std::size_t(call_.firstFrame) + i; }
+
     std::unique_ptr<FrameSource> pictured(const std::string& select)
     {
         if (call_.input == "-")
@@ -232,14 +242,14 @@ private:
         read.warnings = call_.warnings;
         read.seconds = {{"read", secondsSince(start)}};
         const auto extend = [&](MolecularSurface& result) {
-            if (moves_) addVelocity(call_, balls, displacement, terminal_, result);
+            if (moves_) addVelocities(call_, balls, displacement, terminal_, result);
             for (auto& [output, file] : areas_)
                 appendCsv(areaTable(output.format->table, call_, balls, result), source_.number(i),
                           i == 0, *file);
         };
         FrameRow row;
         table.add = [&](const Report& report, OutputFiles& files) {
-            table_[i + 1] = row = frameRow(i + 1, source_.number(i), options_, report);
+            table_[fileOf(i)] = row = frameRow(fileOf(i), source_.number(i), options_, report);
             if (tableName_.empty()) return;
             files.push_back(std::make_unique<OutputFile>(tableName_, true));
             writeFrameTable(table_, *files.back());

@@ -69,6 +69,16 @@ void beginReport(const Call& call, Report& report)
         int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
+void warnOfPaint(const Call& call, const Mesh& mesh, Report& report)
+{
+    if (!call.writes(Paint)) return;
+    const std::size_t colors = colorsIn(mesh);
+    if (colors > mostPaints)
+        report.warnings.push_back("colours: slicers paint with at most " +
+                                  std::to_string(mostPaints) + ", got " + std::to_string(colors) +
+                                  "; the .3mf has them without paint");
+}
+
 void addReading(const Report& read, Report& report)
 {
     report.warnings.insert(report.warnings.begin(), read.warnings.begin(), read.warnings.end());
@@ -139,7 +149,6 @@ void checkOutput(const Call& call, const Output& output)
 {
     InputFiles(call).refuse(output.path);
     checkWritable(output.path, mayReplace(call, output));
-    if (output.format == findFormat("3mf")) load3mf();
     if (output.format == findFormat("html")) needViewer();
 }
 

@@ -32,6 +32,9 @@ std::size_t peakMemory();
 /// @throws Cancelled after a signal
 void stopIfAsked();
 
+/// Says which files have colours that slicers cannot paint.
+void warnOfPaint(const Call& call, const Mesh& mesh, Report& report);
+
 /// Fills in what every report begins with: version, command, input and threads.
 void beginReport(const Call& call, Report& report);
 

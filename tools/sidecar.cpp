@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "sidecar.h"
 
+#include "write_result.h"
+
 #include "molsurf/error.h"
 #include "molsurf/io/usda_text.h"
 
@@ -54,9 +56,26 @@ UsdVolume usdVolume(const Call& call, const Output& output)
                                 ? fs::path(output.path).replace_extension(".vdb").string()
                                 : output.beside;
     UsdVolume volume =
-        usdVolumeOf(vdb, !output.beside.empty(), usdaMetersPerAngstrom / call.scene.scale);
+        usdVolumeOf(vdb, !output.beside.empty(), call.frame > 0 ? optionsDigest(call) : "",
+                    usdaMetersPerAngstrom / call.scene.scale);
+    if (call.fps > 0.0) volume.framesPerSecond = call.fps;
     if (isOwnUsda(output.path)) volume.extents = extentsOfUsda(output.path);
     return volume;
+}
+
+std::vector<std::string> leftOutOf(const Call& call)
+{
+    std::vector<std::string> lines;
+    for (const Output& output : call.outputs) {
+        if (!output.holds(Stage) || output.beside.empty()) continue;
+        const std::vector<std::string> files = usdVolume(call, output).leftOut;
+        if (files.empty()) continue;
+        lines.push_back(output.path + ": without " + files.front() +
+                        (files.size() > 1 ? " and " + std::to_string(files.size() - 1) + " more"
+                                          : std::string()) +
+                        ", of another input or other options");
+    }
+    return lines;
 }
 
 } // namespace molsurf::tool

@@ -8,6 +8,9 @@
 
 #include "molsurf/io/write_usda.h"
 
+#include <string>
+#include <vector>
+
 namespace molsurf::tool
 {
 
@@ -19,8 +22,11 @@ void addSidecars(Call& call);
 /// this program has made, which gets one frame more.
 bool mayReplace(const Call& call, const Output& output);
 
-/// What a .usda says. The frames of a sequence are those in its folder, and the one that is being
-/// written.
+/// What a .usda says. The frames of a sequence are those in its folder that are of the same input
+/// and options, and the one that is being written.
 UsdVolume usdVolume(const Call& call, const Output& output);
+
+/// A line for each .usda that leaves out frames of another sequence.
+std::vector<std::string> leftOutOf(const Call& call);
 
 } // namespace molsurf::tool

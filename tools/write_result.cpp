@@ -369,7 +369,7 @@ const std::vector<Format>& formatTable()
         {"glb", meshed,
          Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels, "mesh",
          "", writeGlb},
-        {"3mf", meshed, printed, "mesh", "", writeMesh},
+        {"3mf", meshed, printed | Paint, "mesh", "", writeMesh},
         {"vert", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
         {"face", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
         {"mrc", meshed, Volume, "level set in a box", "", writeVolume<writeMrc>},

@@ -18,7 +18,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--value-of") compadd -- 'atom' 'residue'; return ;;
     "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces'; return ;;
     "build:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
-    "build:--for") compadd -- 'blender' 'houdini' 'usd'; return ;;
+    "build:--for") compadd -- 'blender' 'blender4' 'houdini' 'usd'; return ;;
     "build:--view") compadd -- 'auto'; return ;;
     "build:--background") compadd -- 'transparent'; return ;;
     "build:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
@@ -36,7 +36,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--value-of") compadd -- 'atom' 'residue'; return ;;
     "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces'; return ;;
     "batch:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
-    "batch:--for") compadd -- 'blender' 'houdini' 'usd'; return ;;
+    "batch:--for") compadd -- 'blender' 'blender4' 'houdini' 'usd'; return ;;
     "batch:--view") compadd -- 'auto'; return ;;
     "batch:--background") compadd -- 'transparent'; return ;;
     "batch:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
@@ -99,6 +99,8 @@ if [[ $words[CURRENT] == -* ]]; then
       '--max-input:bytes that INPUT may have, unpacked, such as 10G'
       '--frames:a surface for every S-th frame from A to B\: models of'
       '--trajectory:.dcd or .xtc with the frames, its atoms those of INPUT'
+      '--first-frame:number of the first file, such as 1001\: name.1001.vdb, ...'
+      '--fps:frames per second, such as 24\: velocities of --fields v'
       '--surface:variational; ses\: solvent-excluded; sas\:'
       '--voxel:edge of a voxel [Å], 0.05 to 10'
       '--lod:with --instances\: voxels such as 1,2,4 in the place of'
@@ -125,7 +127,8 @@ if [[ $words[CURRENT] == -* ]]; then
       '--crisp:mesh files\: triangles are cut where colours meet'
       '--areas:tables for the report, by commas\: atoms, residues,'
       '--contacts:contact areas between atoms, residues or chains\: atom,'
-      '--for:blender, houdini or usd\: a .vdb with density and Cd as'
+      '--for:blender, blender4 (up to 4.5), houdini or usd\: a .vdb with'
+      '--fog-density:optical depth of an Å of fog at density 1 in the program,'
       '--center:the middle of the surface comes to the origin'
       '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
       '--min-wall:thicken what is thinner than W mm; with --print-scale'
@@ -210,7 +213,8 @@ if [[ $words[CURRENT] == -* ]]; then
       '--outward:potentials are taken A outside of the surface [Å]'
       '--areas:tables for the report, by commas\: atoms, residues,'
       '--contacts:contact areas between atoms, residues or chains\: atom,'
-      '--for:blender, houdini or usd\: a .vdb with density and Cd as'
+      '--for:blender, blender4 (up to 4.5), houdini or usd\: a .vdb with'
+      '--fog-density:optical depth of an Å of fog at density 1 in the program,'
       '--center:the middle of the surface comes to the origin'
       '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
       '--min-wall:thicken what is thinner than W mm; with --print-scale'

@@ -285,7 +285,7 @@ class Surface:
             raise type(error)(str(error).replace("`force` replaces it", "replace=True replaces it")) from None
 
     def to_vdb(self, path, scene=None, *, replace=True):
-        """Writes the grids as a .vdb for "blender", "houdini" or "usd", perhaps with "=SCALE"; None: in Å, as they are.
+        """Writes the grids as a .vdb for "blender", "blender4", "houdini" or "usd", perhaps with "=SCALE"; None: in Å, as they are.
 
         They are the level set and those of `fields`: Blender shows a fog, which is fields="density".
         """

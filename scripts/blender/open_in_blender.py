@@ -30,7 +30,7 @@ from mathutils.kdtree import KDTree
 PLAIN = (0.26, 0.46, 0.73, 1.0)  # linear light
 WHITE = (1.0, 1.0, 1.0, 1.0)
 NIGHT = (0.008, 0.012, 0.022, 1.0)  # behind fog
-# Voxels by which Blender shows every voxel too far along each axis; --for blender moves the grids back by 0.5.
+# Voxels by which Blender shows every voxel too far along each axis; --for blender4 moves the grids back by 0.5.
 FARTHER = 0.5 if bpy.app.version < (5, 0, 0) else 0.0
 
 

@@ -85,6 +85,7 @@ NEEDS = {
                 "scripts/install_deps.sh python3-openvdb python3-numpy"),
     "preload": (lambda: runs(os.environ["VDB_MOLSURF"], "--version", env=faulty()),
                 "the tests as ctest runs them, without sanitizers, which want to be loaded first"),
+    "prusa-slicer": (program("prusa-slicer"), "scripts/install_deps.sh prusa-slicer"),
     "pymol": (program("pymol"), "scripts/install_deps.sh pymol"),
     "readelf": (program("readelf"), "scripts/install_deps.sh binutils"),
     "slurm": (program("slurmctld", "munged", "snakemake"), "scripts/install_deps.sh slurm-wlm munge snakemake"),

@@ -9,7 +9,8 @@ import struct
 import unittest
 
 from needs import needs
-from tool import CRAMBIN, DATA, FAST, ToolTest
+from test_meshes import accessor, read_glb
+from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply
 
 try:
     import pyopenvdb
@@ -152,11 +153,77 @@ class Frames(ToolTest):
             surface, v = pyopenvdb.read(name, "surface"), pyopenvdb.read(name, "v")
             place = surface.transform
             seen.add((place.voxelSize(), place.indexToWorld((0, 0, 0)), surface.background))
-            self.assertEqual(v.activeVoxelCount(), surface.activeVoxelCount())
+            self.assertGreater(v.activeVoxelCount(), surface.activeVoxelCount())
             worst = max(max(abs(a - b) for a, b in zip(item.value, (0.5, 0, 0)))
                         for item in v.citerOnValues())
             self.assertLess(worst, 1e-4)
         self.assertEqual(len(seen), 1)
+
+    def moving(self, *words):
+        """Crambin that moves by 6 Å a frame along x."""
+        (self.folder / "t.dcd").write_bytes(dcd(self.moved(2, 6)))
+        self.check(0, CRAMBIN, *FAST, "--trajectory", "t.dcd", "--fields", "v,density", *words, "--force")
+
+    @needs("openvdb")
+    def test_velocity_reaches_as_far_as_the_motion(self):
+        """A renderer looks it up where a ray is: in the fog, and where the fog comes from or goes to."""
+        for words, way, unit in (((), 6, "Å per frame"), (("--fps", "24"), 144, "Å per second"),
+                                 (("--for", "houdini=nm"), 0.6, "scene units per frame"),
+                                 (("--for", "usd=nm", "--fps", "24"), 14.4, "scene units per second")):
+            self.moving(*words, "-o", "a.vdb")
+            fog, v = (pyopenvdb.read(str(self.folder / "a.0001.vdb"), name) for name in ("density", "v"))
+            there, size = v.getConstAccessor(), v.transform.voxelSize()[0]
+            self.assertTrue(all(there.isValueOn(item.min) for item in fog.citerOnValues() if item.count == 1))
+            for side, sign in ((0, 1), (1, -1)):
+                for a, b in zip(fog.evalActiveVoxelBoundingBox()[side], v.evalActiveVoxelBoundingBox()[side]):
+                    self.assertGreaterEqual(sign * (a - b) * size, 0.999 * (0.6 if "nm" in str(words) else 6))
+            for item in v.citerOnValues():
+                self.assertLess(max(abs(a - b) for a, b in zip(item.value, (way, 0, 0))), 1e-3 * way)
+            self.assertEqual(v["unit"], unit)
+        self.assertIn("timeCodesPerSecond = 24\n", (self.folder / "a.usda").read_text())
+
+    def test_first_frame(self):
+        words = (NMR, *FAST, "--frames", "2-3", "--first-frame", "1001", "--for", "usd", "-o", "a.vdb", "-o", "a.csv")
+        self.check(0, *words)
+        self.assertEqual(self.names(), ["a.1001.vdb", "a.1002.vdb", "a.csv", "a.usda"])
+        self.assertEqual([(row["file"], row["frame"]) for row in self.table()], [("1001", "2"), ("1002", "3")])
+        scene = (self.folder / "a.usda").read_text()
+        for line in ("startTimeCode = 1001\n", "endTimeCode = 1002\n", "1002: @./a.1002.vdb@"):
+            self.assertIn(line, scene)
+        self.check(0, *words, says="2 done before")
+        self.check(2, NMR, "--first-frame", "1001", "-o", "a.vdb", says="--frames")
+
+    def test_a_sequence_is_of_one_input_and_of_the_same_options(self):
+        """Frames of other runs that have its name are left out of the .usda, with a line."""
+        words = (*FAST, "--for", "usd", "-o", "a.vdb", "--force")
+        self.check(0, NMR, *words, "--frames", "1-3")
+        self.assertEqual((self.folder / "a.usda").read_text().count("@./a.0003.vdb@"), 3)  # of three grids
+        for more in ((DATA / "bpti.pdb.gz",), (NMR, "--probe", "1.6")):
+            self.check(0, *more, *words, "--frames", "1", says="a.usda: without a.0002.vdb and 1 more, of another input")
+            scene = (self.folder / "a.usda").read_text()
+            self.assertIn("@./a.0001.vdb@", scene)
+            self.assertNotIn("a.0002.vdb", scene)
+            self.assertEqual(scene.count("[("), 1)  # extents
+        self.check(0, NMR, *words[:-1], "--frames", "2-3", "--first-frame", "2", says="2 done before")
+        self.check(0, NMR, *words, "--frames", "2-3", "--first-frame", "2", says="without a.0001.vdb, of")
+        self.check(0, NMR, *FAST, "--for", "usd", "-o", "a.0009.vdb", says="without a.0001.vdb and 2 more, of")
+        self.check(0, NMR, *FAST, "--for", "usd", "--probe", "1.6", "-o", "a.0010.vdb", says="without a.0001.vdb and 2 more, of")
+        self.assertIn("9: @./a.0009.vdb@", (self.folder / "a.usda").read_text())
+
+    def test_vertices_have_the_velocity(self):
+        self.moving("--fps", "25", "-o", "a.ply", "-o", "a.glb")
+        names, vertices, _ = read_ply((self.folder / "a.0001.ply").read_bytes())
+        at = [names.index(f"v_{axis}") for axis in "xyz"]
+        document, body = read_glb((self.folder / "a.0001.glb").read_bytes())
+        attributes = document["meshes"][0]["primitives"][0]["attributes"]
+        self.assertFalse([name for name in attributes if name.startswith("_V_")])
+        for values in ([[v[i] for i in at] for v in vertices], accessor(document, body, attributes["_VELOCITY"])):
+            self.assertEqual(len(values), len(vertices))
+            for value in values:
+                self.assertLess(max(abs(a - b) for a, b in zip(value, (150, 0, 0))), 0.01)
+        done = self.check(0, NMR, *FAST, "--frames", "1", "--fields", "v", "-o", "b.ply")
+        self.assertNotIn(b"--fields", done.stderr)
+        self.check(2, CRAMBIN, "--fps", "24", "-o", "a.vdb", says="--frames")
 
     def test_again_does_what_was_not_done(self):
         words = (NMR, *FAST, "-o", "a.vdb", "-o", "a.ply", "-o", "a.csv")

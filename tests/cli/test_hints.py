@@ -447,7 +447,7 @@ CASES = {
         ("vdb_molsurf convert --help", "vdb_molsurf convert a.vdb --qqqqqq", "vdb_molsurf convert --help"),
         ("vdb_molsurf --help", "vdb_molsurf 1crn.pdb -o", "vdb_molsurf --help | grep -e '-o,'")],
     "tools/compare.cpp": [
-        ("write a plain .vdb", f"vdb_molsurf two.xyzr {FAST} --for blender -o a.vdb; vdb_molsurf compare a.vdb two.xyzr",
+        ("write a plain .vdb", f"vdb_molsurf two.xyzr {FAST} --for blender4 -o a.vdb; vdb_molsurf compare a.vdb two.xyzr",
          f"vdb_molsurf two.xyzr {FAST} -o b.vdb && vdb_molsurf compare b.vdb two.xyzr {FAST}"),
         ("-o .ply", "vdb_molsurf compare open.ply solid.ply -o a.vdb",
          "vdb_molsurf compare open.ply solid.ply -o a.ply"),
@@ -494,7 +494,6 @@ UNTRIED = {
     "io/output_file.cpp": {"free some space": "it takes a full disk, as cli.faults.mount has it",
                            "choose a folder": "cli.hints.user follows it"},
     "io/ply_layout.cpp": {"a larger `voxel`": "it takes a mesh of 2^31 vertices"},
-    "io/write_3mf.cpp": {"lib3mf1": "it takes a machine without that package"},
     "io/write_glb.cpp": {"write .ply": "it takes a mesh of 4 GiB"},
     "io/write_mesh.cpp": {"write .obj": "it takes a mesh of 2^32 triangles"},
     "io/write_volume.cpp": {"larger voxels": "it takes a box of 2^31 points"},

@@ -3,7 +3,6 @@
 
 import json
 import math
-import os
 import pathlib
 import re
 import struct
@@ -275,20 +274,84 @@ class ThreeMf(ToolTest):
         self.assertEqual(unit, "millimeter")
         self.assertLess(math.dist(vertices[0], expected[0][:3]), 2e-6)
 
-    def test_parts_are_objects(self):
-        self.check(0, DATA / "1a8o.cif.gz", "--assembly", "1", *FAST, "--group-by", "copy",
-                   "--split", "group", "--color", "group", "-o", "a.3mf", "-o", "a.json")
-        _, objects = read_3mf(self.folder / "a.3mf")
-        report = json.loads((self.folder / "a.json").read_text())
-        self.assertEqual([item[0] for item in objects], ["copy 1", "copy 2"])
-        for (_, vertices, triangles, colors), part in zip(objects, report["parts"]):
-            self.assertEqual(len(vertices), part["surface"]["vertices"])
-            self.assertEqual(len(triangles), part["surface"]["triangles"])
-            self.assertEqual(len(set(colors)), 1)
+    def test_parts_are_volumes_of_one_object(self):
+        """Slicers set objects on the bed one by one; volumes of an object stay where they are."""
+        for color, extruders in (("group", ["1", "2"]), ("element", None), ("none", ["1", "2"])):
+            self.check(0, DATA / "1a8o.cif.gz", "--assembly", "1", *FAST, "--group-by", "copy",
+                       "--split", "group", "--color", color, "-o", "a.3mf", "-o", "a.json", "--force")
+            _, ((name, vertices, triangles, colors),) = read_3mf(self.folder / "a.3mf")
+            report = json.loads((self.folder / "a.json").read_text())
+            sizes = [part["surface"] for part in report["parts"]]
+            self.assertEqual((name, len(vertices)), ("a", sum(size["vertices"] for size in sizes)))
+            with zipfile.ZipFile(self.folder / "a.3mf") as archive:
+                config = xml.etree.ElementTree.fromstring(archive.read("Metadata/Slic3r_PE_model.config"))
+            first, corners = 0, []
+            volumes = list(config.iter("volume"))
+            for volume, size, title in zip(volumes, sizes, ("copy 1", "copy 2"), strict=True):
+                last = first + size["triangles"] - 1
+                self.assertEqual((volume.get("firstid"), volume.get("lastid")), (str(first), str(last)))
+                says = {data.get("key"): data.get("value") for data in volume}
+                self.assertEqual(says["name"], title)
+                self.assertTrue(1 <= int(says["extruder"]) <= 16)
+                corners.append({corner for t in triangles[first:last + 1] for corner in t})
+                first = last + 1
+            self.assertEqual(first, len(triangles))
+            self.assertFalse(corners[0] & corners[1])
+            if extruders:
+                found = [data.get("value") for data in config.iter("metadata") if data.get("key") == "extruder"]
+                self.assertEqual(found, extruders)
         for key in ("mesh_euler_characteristic", "euler_characteristic"):
             self.assertEqual(report["surface"][key], sum(part["surface"][key] for part in report["parts"]))
             self.assertNotEqual(report["surface"][key], 0)
-        self.assertNotEqual(objects[0][3][0], objects[1][3][0])
+
+    def paint(self):
+        with zipfile.ZipFile(self.folder / "a.3mf") as archive:
+            return re.findall(r'<triangle [^>]*slic3rpe:mmu_segmentation="(\w+)"',
+                              archive.read("3D/3dmodel.model").decode())
+
+    def test_colors_are_painted(self):
+        """Each triangle has the number of a colour that two of its corners have."""
+        (self.folder / "g").write_text("".join(f"g{n} A/{n}-{n + 1}\n" for n in range(1, 44, 2)))
+        self.check(0, CRAMBIN, *FAST, "--groups", "g", "--color", "group", "-o", "a.3mf", "--force",
+                   says="colours: slicers paint with at most 16, got ")
+        self.assertEqual(self.paint(), [])
+        self.check(0, CRAMBIN, *FAST, "--color", "bfactor", "-o", "a.3mf", "--force", says="without paint")
+        self.assertEqual(self.paint(), [])
+        (self.folder / "g").write_text("".join(f"g{n} A/{3 * n + 1}-{3 * n + 3}\n" for n in range(14)))
+        done = self.check(0, CRAMBIN, *FAST, "--groups", "g", "--color", "group", "-o", "a.3mf", "--force")
+        self.assertNotIn(b"paint", done.stderr)
+        _, ((_, _, triangles, colors),) = read_3mf(self.folder / "a.3mf")
+        known = dict.fromkeys(color for three in colors for color in three)
+        painted = self.paint()
+        self.assertEqual(len(painted), len(triangles))
+        # Of PrusaSlicer's TriangleSelector: the digits are bits from the last one on.
+        number = {"4": 0, "8": 1} | {f"{n:X}C": n + 2 for n in range(14)}
+        shown = {}
+        for paint, three in zip(painted, colors):
+            if len(set(three)) == 1:
+                shown.setdefault(number[paint], set()).add(three[0])
+            else:
+                self.assertTrue(shown.setdefault(number[paint], set()) <= set(three) or len(set(three)) == 3)
+        with zipfile.ZipFile(self.folder / "a.3mf") as archive:
+            palette = re.findall(r'<m:color color="(#\w+)"', archive.read("3D/3dmodel.model").decode())
+        self.assertEqual(shown, {n: {color} for n, color in enumerate(palette)})
+        self.assertEqual(set(palette), set(known))
+        self.assertGreater(len(known), 10)
+
+    @needs("prusa-slicer")
+    def test_prusa_slicer_keeps_parts_and_paint(self):
+        self.check(0, DATA / "1a8o.cif.gz", "--assembly", "1", *FAST, "--group-by", "copy", "--print-scale", "0.5",
+                   "--split", "group", "--color", "group", "-o", "a.3mf", "-o", "a.ply")
+        subprocess.run(["prusa-slicer", "--export-3mf", "a.3mf", "-o", "b.3mf"], cwd=self.folder, capture_output=True,
+                       check=True, timeout=120)
+        with zipfile.ZipFile(self.folder / "b.3mf") as archive:
+            model = archive.read("3D/3dmodel.model").decode()
+            config = archive.read("Metadata/Slic3r_PE_model.config").decode()
+        self.assertEqual(model.count("<item "), 1)
+        self.assertEqual(re.findall(r'type="volume" key="extruder" value="(\d+)"', config), ["1", "2"])
+        self.assertEqual(re.findall(r'type="volume" key="name" value="([^"]*)"', config), ["copy 1", "copy 2"])
+        _, vertices, triangles = read_ply((self.folder / "a.ply").read_bytes())
+        self.assertEqual(model.count("slic3rpe:mmu_segmentation="), len(triangles))
 
     def test_same_mesh_same_bytes(self):
         """Also the identifiers; another mesh has others."""
@@ -309,17 +372,6 @@ class ThreeMf(ToolTest):
                                          r"[0-9a-f]{12}$")
         done = self.check(0, CRAMBIN, *FAST, "-o", "-", "--format", "3mf")
         self.assertEqual(done.stdout[:4], texts[0][:4])
-
-    def test_without_the_library(self):
-        """It is missed before anything is computed."""
-        (self.folder / "lib3MF.so.1").write_bytes(b"")
-        here = {**os.environ, "LD_LIBRARY_PATH": str(self.folder)}
-        for words in ([], ["--frames", "1"]):
-            done = self.check(1, CRAMBIN, *words, *FAST, "-o", "a.3mf", "-o", "a.ply", env=here,
-                              says=["lib3mf", "hint"])
-            self.assertNotIn(b"area", done.stderr)
-        self.check(0, CRAMBIN, *FAST, "-o", "a.stl", env=here)
-        self.assertEqual(self.names(), ["a.stl", "lib3MF.so.1"])
 
 
 if __name__ == "__main__":

@@ -68,7 +68,7 @@ class Grids(ToolTest):
 
     def test_blender(self):
         self.check(0, CRAMBIN, *FAST, "-o", "plain.vdb")
-        self.check(0, CRAMBIN, *FAST, "--for", "blender=0.01", "-o", "a.vdb", "--fields",
+        self.check(0, CRAMBIN, *FAST, "--for", "blender4=0.01", "-o", "a.vdb", "--fields",
                    "mean_curvature,gaussian_curvature,spline")
         plain, scaled = self.grids("plain.vdb"), self.grids("a.vdb")
         self.assertEqual(list(plain), ["surface"])
@@ -146,7 +146,7 @@ class Grids(ToolTest):
             self.assertAlmostEqual(self.origin(self.grids("b.vdb")["surface"])[i], -center[i])
 
     def test_compare_refuses_what_was_moved(self):
-        self.check(0, CRAMBIN, *FAST, "--for", "blender", "-o", "a.vdb", "-o", "a.ply")
+        self.check(0, CRAMBIN, *FAST, "--for", "blender4", "-o", "a.vdb", "-o", "a.ply")
         self.check(1, "compare", "a.vdb", "a.ply", says=["a.vdb", "--for"])
 
     def test_metadata_tells_the_scene(self):
@@ -154,7 +154,21 @@ class Grids(ToolTest):
         data = vdb.readMetadata(str(self.folder / "a.vdb"))
         self.assertEqual(data["option.for"], "blender")
         self.assertEqual(data["scene.units_per_angstrom"], 0.1)
-        self.assertEqual(data["scene.shift_in_voxels"], -0.5)
+        self.assertEqual(data["scene.shift_in_voxels"], 0)
+        self.check(0, CRAMBIN, *FAST, "--for", "blender4=nm", "-o", "b.vdb")
+        self.assertEqual(vdb.readMetadata(str(self.folder / "b.vdb"))["scene.shift_in_voxels"], -0.5)
+
+    def test_fog_looks_the_same_in_every_unit(self):
+        """The sum of density times the length of a voxel, along x, is that in Å."""
+        depths = []
+        for word, scale in (("usd", 1), ("houdini=nm", 0.1), ("blender=mn-0.01", 0.01)):
+            self.check(0, CRAMBIN, *FAST, "--for", word, "--fog-density", "0.5", "-o", "a.vdb", "--force")
+            fog = self.grids("a.vdb")["density"]
+            self.assertAlmostEqual(max(item.value for item in fog.citerOnValues()) * scale, 0.5, places=5)
+            depths.append(sum(item.value * item.count for item in fog.citerOnValues()) * fog.transform.voxelSize()[0])
+        for depth in depths:
+            self.assertAlmostEqual(depth / depths[0], 1, places=5)
+        self.check(2, CRAMBIN, "--fog-density", "1", "-o", "a.vdb", says="--for")
 
 
 class Usd(ToolTest):
@@ -215,6 +229,17 @@ class Print(ToolTest):
         _, vertices, _ = read_ply((self.folder / "b.ply").read_bytes())
         self.assertAlmostEqual(vertices[0][0], float(first[0].split()[1]), places=4)
 
+    @needs("openvdb")
+    def test_grids_say_what_their_vectors_are(self):
+        """Directions turn with the object, and colours have a space, by whatever they are made."""
+        self.check(0, CRAMBIN, *FAST, "--fields", "surface,spline,principal_direction_1,Cd,chain_id", "-o", "a.vdb")
+        self.check(0, CRAMBIN, *FAST, "--fields", "surface,Cd", "--color", "mean-curvature", "-o", "b.vdb")
+        self.check(0, "convert", "a.vdb", "--color", "chain", "-o", "c.vdb")
+        self.assertEqual(vdb.read(str(self.folder / "a.vdb"), "principal_direction_1").vectorType,
+                         "contravariant relative")
+        for name in "abc":
+            self.assertEqual(vdb.read(str(self.folder / f"{name}.vdb"), "Cd")["color_space"], "lin_rec709")
+
     def test_walls_are_millimetres_of_the_print(self):
         self.check(0, CRAMBIN, *FAST, "--print-scale", "2", "--min-wall", "3", "-o", "wall.vdb", "-o", "wall.stl")
         self.assertRegex(self.check(0, "info", "wall.vdb").stdout.decode(), r"option\.min-wall +1\.5\n")
@@ -238,6 +263,15 @@ class Print(ToolTest):
         self.assertLess(thread["thin"][1], 0.7)
         self.assertGreater(thread["thick"][0], 1.5 - 0.1)
         self.assertLess(thread["thick"][1], 1.5 + 0.25)
+
+    def test_no_triangle_of_a_wall_is_empty(self):
+        """Walls of 4 Å are eight voxels wide: voxels lie at whole distances from those in their middle."""
+        for kind in ("ses", "vdw", "gaussian"):
+            self.check(0, CRAMBIN, "--surface", kind, "--print-scale", "0.5", "--min-wall", "2", "-o", "a.stl", "--force")
+            stl = (self.folder / "a.stl").read_bytes()
+            corners = [{stl[at + 12 * k:at + 12 * (k + 1)] for k in (1, 2, 3)} for at in range(84, len(stl), 50)]
+            self.assertGreater(len(corners), 10000)
+            self.assertEqual([three for three in corners if len(three) < 3], [], kind)
 
 
 if __name__ == "__main__":

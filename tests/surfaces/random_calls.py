@@ -156,7 +156,7 @@ def surface_options(rng):
         lambda: ["--contacts", rng.choice(("atom", "residue", "chain"))],
         lambda: ["--frames", rng.choice(("all", "1", "1-2", "2-9:3"))],
         lambda: ["--memory", rng.choice(("50M", "100M", "4G"))],
-        lambda: ["--for", rng.choice(("blender", "houdini", "usd", "blender=nm"))],
+        lambda: ["--for", rng.choice(("blender", "blender4", "houdini", "usd", "blender=nm"))],
         lambda: ["--print-scale", "1", "--min-wall", rng.choice(("1", "5"))],
         lambda: ["--spline-level", rng.choice(("1", "2"))],
         lambda: ["--view", rng.choice(("1,0,0", "auto", "0,0,0"))],

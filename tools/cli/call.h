@@ -48,6 +48,7 @@ enum Holds : unsigned {
     Views = 1 << 15,            ///< the surface as seen from somewhere, with crisp borders
     Pixels = 1 << 16,           ///< a picture
     Volume = 1 << 18,           ///< the level set on all points of a box
+    Paint = 1 << 20,            ///< colours of triangles for slicers, of which there are few
     Script = 1 << 19            ///< what opens another file of the run
 };
 
@@ -124,6 +125,8 @@ struct Call : Settings {
     bool skipExisting = false; ///< Build: nothing is done where it was done before
     std::string frames;        ///< of --frames; empty: none
     std::string trajectory;    ///< a .dcd or .xtc with the frames; empty: models are
+    double fps = 0.0;          ///< frames per second; 0: times are in frames
+    int firstFrame = 1;        ///< number of the first file of frames
     std::string groupsFile;
     std::vector<double> lod; ///< voxels of levels of detail [Å], the finest first; empty: one
     Scene scene;             ///< of the .vdb and the node of the .glb

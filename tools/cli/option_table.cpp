@@ -187,9 +187,11 @@ void setScene(Call& call, const Values& values)
     const auto scene = parseScene(values.back());
     if (!scene)
         wrongValue("for",
-                   "blender, houdini or usd, perhaps with =mn-0.01, =mn-0.1, =nm or =UNITS_PER_Å",
-                   values.back(), didYouMean(values.back(), {"blender", "houdini", "usd"}));
-    call.scene = *scene;
+                   "blender, blender4, houdini or usd, perhaps with =mn-0.01, =mn-0.1, =nm or "
+                   "=UNITS_PER_Å",
+                   values.back(), didYouMean(values.back(), hostNames()));
+    call.scene.host = scene->host;
+    call.scene.scale = scene->scale;
 }
 
 /// Option::file of a value that is a path.
@@ -338,7 +340,19 @@ OptionGroup frameOptions()
               "name.csv: a table of all",
               Build, MOLSURF_OF(frames)),
          ofFile(text("trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
-                     Build, MOLSURF_OF(trajectory)))}};
+                     Build, MOLSURF_OF(trajectory))),
+         count("first-frame", "N", "number of the first file, such as 1001: name.1001.vdb, ...",
+               "1", Build, 0, 999999, MOLSURF_OF(firstFrame)),
+         shownIn(Grids | VertexCurvatures | Stage,
+                 with(number("fps", "N",
+                             "frames per second, such as 24: velocities of --fields v\n"
+                             "are per second, and a .usda plays at this rate",
+                             "", Build, 1e-3, 1e6, "a number from 0.001 to 1e6", MOLSURF_OF(fps)),
+                      [](Option& o) {
+                          o.stored = [](const Call& c) {
+                              return openvdb::DoubleMetadata(c.fps).copy();
+                          };
+                      }))}};
 }
 
 OptionGroup surfaceOptions()
@@ -445,17 +459,27 @@ OptionGroup sceneOptions()
     Option host{"for",
                 0,
                 "PROGRAM[=SCALE]",
-                "blender, houdini or usd: a .vdb with density and Cd as\n"
-                "that program takes it; SCALE mn-0.01, mn-0.1, nm, or\n"
+                "blender, blender4 (up to 4.5), houdini or usd: a .vdb with\n"
+                "density and Cd as that program takes it; SCALE mn-0.01, mn-0.1, nm, or\n"
                 "units per Å; usd: a .usda beside the .vdb",
                 "",
                 wholes,
-                {"blender", "houdini", "usd"}};
+                hostNames()};
     host.set = setScene;
     host.stored = [](const Call& c) { return stored(nameOf(c.scene.host)); };
     return {
         "Scene",
         {shownIn(SceneUnits, host),
+         shownIn(Grids, with(number("fog-density", "D",
+                                    "optical depth of an Å of fog at density 1 in the program,\n"
+                                    "in any unit; without it the values of density are 0 to 1",
+                                    "", wholes, 1e-6, 1e6, "a number from 1e-6 to 1e6",
+                                    MOLSURF_OF(scene.fogDensity)),
+                             [](Option& o) {
+                                 o.stored = [](const Call& c) {
+                                     return openvdb::DoubleMetadata(c.scene.fogDensity).copy();
+                                 };
+                             })),
          kept(MOLSURF_OF(center), flag("center", "the middle of the surface comes to the origin",
                                        wholes, MOLSURF_OF(center))),
          shownIn(Millimetres,

@@ -125,6 +125,7 @@ std::vector<Pair> surfacePairs()
         return call.atoms.valueBy && !call.atoms.valueBy->byPoint();
     };
     return {
+        {"fog-density", Needs, {"for"}},
         {"min-wall", Needs, {"print-scale"}},
         {"steps", Excludes, {"max-steps"}},
         {"no-hetero", Excludes, {"hetero", "ions"}},
@@ -170,6 +171,8 @@ std::vector<Pair> runPairs()
         {"frames", Excludes, notOfFrames},
         {"trajectory", Excludes, notOfFrames},
         {"model", Excludes, {"frames"}, ": frames are models [hint: --trajectory]", fromModels},
+        {"fps", Needs, {"frames", "trajectory"}},
+        {"first-frame", Needs, {"frames", "trajectory"}},
         {"start", IsFor, {"frames", "trajectory"}, "--frames"},
         {"fields=v", Needs, {"frames", "trajectory"}, ": it is the way between frames", ofStored},
         {{FrameRows}, Needs, {"frames", "trajectory"}, " [hint: -o FILE.residues.csv for areas]"},

@@ -193,7 +193,7 @@ class Request:
         color = ["--color", self.color] if self.color else []
         kept = pathlib.Path(bpy.data.filepath).parent if bpy.data.filepath else pathlib.Path(tempfile.gettempdir())
         path = kept / f"{name}.molsurf.vdb"  # Blender reads it again whenever it shows the volume
-        host = "blender" if bpy.app.version < (5, 0, 0) else "houdini"  # from 5.0 on Blender has OpenVDB's own convention
+        host = "blender4" if bpy.app.version < (5, 0, 0) else "blender"
         _, warnings = run_program(self.program, [*self.words(), *color, "--for", f"{host}={self.scale}", "-o", path], folder)
         data = bpy.data.volumes.new(name)
         data.filepath = str(path)

@@ -64,6 +64,7 @@ openvdb::GridPtrVec curvatureColors(ColorBy by, const SelectOptions::Coloring& o
         auto to = grid->beginValueOn();
         for (auto from = values->cbeginValueOn(); from; ++from, ++to)
             to.setValue(linearLight(scale.at(*from)));
+        describeColors(*grid);
         colors.push_back(grid);
     }
     return colors;

@@ -39,6 +39,12 @@ typename GridT::Ptr gridOf(const SourceT& voxels, const std::string& name,
     return grid;
 }
 
+/// Says in a grid's metadata that its colours are in linear light, of the primaries of Rec. 709.
+inline void describeColors(openvdb::GridBase& grid)
+{
+    grid.insertMeta("color_space", openvdb::StringMetadata("lin_rec709"));
+}
+
 /// The first grid of a name and type; null without one.
 template<typename GridT>
 typename GridT::Ptr findGrid(const openvdb::GridPtrVec& grids, const std::string& name)

@@ -23,7 +23,7 @@ struct FrameRow {
     std::string line;    ///< all of it as it stands in the file
 };
 
-/// By the number of the files, from 1.
+/// By the number of the files.
 using FrameTable = std::map<std::size_t, FrameRow>;
 
 FrameRow frameRow(std::size_t file, int frame, const std::string& options, const Report& report);

@@ -7,6 +7,7 @@
 #include <openvdb/io/DelayedLoadMetadata.h>
 #include <openvdb/io/Stream.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -44,6 +45,26 @@ bool isVdbFile(const std::string& path)
     std::int64_t magic = 0;
     stream.read(reinterpret_cast<char*>(&magic), sizeof magic);
     return stream && magic == openvdb::OPENVDB_MAGIC;
+}
+
+std::string vdbText(const std::string& path, const std::string& name)
+{
+    constexpr std::size_t most = 1 << 20;
+    const auto counted = [](std::size_t length) {
+        const auto count = std::uint32_t(length);
+        return std::string(reinterpret_cast<const char*>(&count), sizeof count);
+    };
+    std::string head(most, '\0');
+    std::ifstream stream(path, std::ios_base::binary);
+    stream.read(head.data(), std::streamsize(most));
+    head.resize(std::size_t(std::max<std::streamsize>(stream.gcount(), 0)));
+    const std::string type = "string";
+    const std::string key = counted(name.size()) + name + counted(type.size()) + type;
+    const std::size_t at = head.find(key);
+    if (at == std::string::npos || head.size() - at < key.size() + 4) return "";
+    std::uint32_t length = 0;
+    std::memcpy(&length, head.data() + at + key.size(), sizeof length);
+    return head.substr(at + key.size() + 4, length);
 }
 
 VdbFile readVdb(const std::string& path, const std::function<bool(const VdbContent&)>& wanted)

@@ -32,4 +32,8 @@ bool isVdbFile(const std::string& path);
 VdbFile readVdb(const std::string& path,
                 const std::function<bool(const VdbContent&)>& wanted = nullptr);
 
+/// A text of a file's metadata, which is looked for in its first MB without reading the rest; empty
+/// if there is none.
+std::string vdbText(const std::string& path, const std::string& name);
+
 } // namespace molsurf

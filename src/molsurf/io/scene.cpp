@@ -14,7 +14,24 @@ namespace molsurf
 namespace
 {
 
-constexpr Host hosts[] = {Host::Blender, Host::Houdini, Host::Usd};
+/// A program.
+struct HostRow {
+    Host host;
+    const char* word;
+    double shift; ///< that brings grids to where it shows them rightly [voxel]
+};
+constexpr HostRow hosts[] = {{Host::None, "none", 0.0},
+                             {Host::Blender, "blender", 0.0},
+                             {Host::Blender4, "blender4", -0.5},
+                             {Host::Houdini, "houdini", 0.0},
+                             {Host::Usd, "usd", 0.0}};
+
+const HostRow& rowOf(Host host)
+{
+    for (const HostRow& row : hosts)
+        if (row.host == host) return row;
+    return hosts[0];
+}
 
 std::optional<double> parseScale(const std::string& text)
 {
@@ -44,10 +61,10 @@ openvdb::GridBase::Ptr scaledValues(const openvdb::FloatGrid& grid, double facto
 std::optional<Scene> parseScene(const std::string& text)
 {
     const std::size_t split = text.find('=');
-    for (const Host host : hosts) {
-        if (text.substr(0, split) != nameOf(host)) continue;
+    for (const HostRow& row : hosts) {
+        if (row.host == Host::None || text.substr(0, split) != row.word) continue;
         Scene scene;
-        scene.host = host;
+        scene.host = row.host;
         if (split == std::string::npos) return scene;
         const auto scale = parseScale(text.substr(split + 1));
         if (!scale) return {};
@@ -59,16 +76,15 @@ std::optional<Scene> parseScene(const std::string& text)
 
 const char* nameOf(Host host)
 {
-    switch (host) {
-    case Host::Blender:
-        return "blender";
-    case Host::Houdini:
-        return "houdini";
-    case Host::Usd:
-        return "usd";
-    default:
-        return "none";
-    }
+    return rowOf(host).word;
+}
+
+std::vector<std::string> hostNames()
+{
+    std::vector<std::string> names;
+    for (const HostRow& row : hosts)
+        if (row.host != Host::None) names.push_back(row.word);
+    return names;
 }
 
 int lengthPower(const openvdb::GridBase& grid)
@@ -82,21 +98,35 @@ int lengthPower(const openvdb::GridBase& grid)
     return 0;
 }
 
+namespace
+{
+
+/// What the values of a grid are multiplied by.
+double factorOf(const openvdb::GridBase& grid, const Scene& scene)
+{
+    const bool fog = grid.getName().rfind("density", 0) == 0;
+    if (fog && scene.fogDensity > 0.0) return scene.fogDensity / scene.scale;
+    const int power = lengthPower(grid);
+    return power == 0 ? 1.0 : std::pow(scene.scale, power);
+}
+
+} // namespace
+
 openvdb::GridCPtrVec placeInScene(const openvdb::GridCPtrVec& grids, const Scene& scene)
 {
     openvdb::GridCPtrVec out;
     for (const auto& grid : grids) {
-        const int power = lengthPower(*grid);
+        const double factor = factorOf(*grid, scene);
         const auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid);
         openvdb::GridBase::Ptr placed;
-        if (power != 0 && scene.scale != 1.0 && floats)
-            placed = scaledValues(*floats, std::pow(scene.scale, power));
+        if (factor != 1.0 && floats)
+            placed = scaledValues(*floats, factor);
         else
             placed = openvdb::ConstPtrCast<openvdb::GridBase>(grid->copyGrid());
 
         const double voxel = grid->voxelSize()[0];
         openvdb::Vec3d origin = grid->indexToWorld(openvdb::Vec3d(0.0)) - scene.center;
-        if (scene.host == Host::Blender) origin -= openvdb::Vec3d(0.5 * voxel);
+        origin += openvdb::Vec3d(rowOf(scene.host).shift * voxel);
         auto transform = openvdb::math::Transform::createLinearTransform(scene.scale * voxel);
         transform->postTranslate(scene.scale * origin);
         placed->setTransform(transform);
@@ -114,7 +144,7 @@ void describeScene(const Scene& scene, openvdb::MetaMap& metadata)
     add("scene.center_y", scene.center[1]);
     add("scene.center_z", scene.center[2]);
     add("scene.units_per_angstrom", scene.scale);
-    add("scene.shift_in_voxels", scene.host == Host::Blender ? -0.5 : 0.0);
+    add("scene.shift_in_voxels", rowOf(scene.host).shift);
 }
 
 } // namespace molsurf

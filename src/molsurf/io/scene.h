@@ -8,16 +8,18 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace molsurf
 {
 
 /// The programs whose conventions are known.
 enum class Host {
-    None,    ///< grids as they are: Å, a voxel's value at the voxel's coordinate
-    Blender, ///< up to 4.5 shows the value of a voxel half a voxel farther along each axis
-    Houdini, ///< OpenVDB's own convention
-    Usd      ///< the same, and a .usda file beside the .vdb
+    None,     ///< grids as they are: Å, a voxel's value at the voxel's coordinate
+    Blender,  ///< from 5.0 on, OpenVDB's own convention
+    Blender4, ///< up to 4.5: it shows the value of a voxel half a voxel farther along each axis
+    Houdini,  ///< OpenVDB's own convention
+    Usd       ///< the same, and a .usda file beside the .vdb
 };
 
 /// The program that the grids are for, their scale and their origin.
@@ -25,10 +27,13 @@ struct Scene {
     Host host = Host::None;
     double scale = 1.0;         ///< scene units per Å, > 0
     openvdb::Vec3d center{0.0}; ///< comes to the origin [Å]
+    /// Optical depth of an Å of the inside of `density`, > 0, whatever the scale: values are this
+    /// over `scale`; 0: they are 1 inside.
+    double fogDensity = 0.0;
     bool known() const { return host != Host::None; }
 };
 
-/// Reads "blender", "houdini" or "usd", perhaps with "=SCALE": a number, or one of
+/// Reads "blender", "blender4", "houdini" or "usd", perhaps with "=SCALE": a number, or one of
 /// - "mn-0.01" and "mn-0.1": of Molecular Nodes up to and from its line for Blender 5.2;
 /// - "nm": a unit is a nanometre, 0.1 units per Å.
 ///
@@ -38,14 +43,17 @@ std::optional<Scene> parseScene(const std::string& text);
 /// The word of parseScene(); "none".
 const char* nameOf(Host host);
 
+/// The words of all programs.
+std::vector<std::string> hostNames();
+
 /// The power of a length that the values of a field have: 1 for distances, -1 for the mean
 /// curvature, 0 for colours. Names of parts, "surface_A", are those of their fields.
 int lengthPower(const openvdb::GridBase& grid);
 
-/// Grids for a scene: moved by -center, scaled, and for Blender shifted by minus half a voxel, so
-/// that it shows them where they are. Values that have a unit of length are scaled too, with the
-/// background. The grids themselves stay as they are; those that change only their place share
-/// their voxels with the result.
+/// Grids for a scene: moved by -center, scaled, and for Blender up to 4.5 shifted by minus half a
+/// voxel, so that it shows them where they are. Values that have a unit of length are scaled too,
+/// with the background. The grids themselves stay as they are; those that change only their place
+/// share their voxels with the result.
 ///
 /// @param[in] grids  with voxels that are cubes along the axes, and no grid of its kind other than
 ///                   float where the values have a unit

@@ -3,13 +3,14 @@
 
 #include "molsurf/core/content_digest.h"
 #include "molsurf/core/words.h"
-#include "molsurf/error.h"
 #include "molsurf/io/part_ranges.h"
+#include "molsurf/io/zip_file.h"
 
-#include <dlfcn.h>
-#include <Model/COM/NMR_DLLInterfaces.h>
-
-#include <memory>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <map>
+#include <set>
 #include <vector>
 
 namespace molsurf
@@ -18,50 +19,28 @@ namespace molsurf
 namespace
 {
 
-constexpr std::uint32_t opaque = 255;
+using Color = std::array<std::uint8_t, 3>;
+using Triangle = std::array<std::uint32_t, 3>;
 
-/// The library, which stays loaded: unloading gains nothing.
-/// @throws Error(ErrorKind::Output) if it is not there
-void* library()
-{
-    static void* const handle = [] {
-        void* const opened = dlopen("lib3MF.so.1", RTLD_NOW | RTLD_LOCAL);
-        if (opened == nullptr)
-            throw Error(ErrorKind::Output, std::string("3MF: expected lib3mf, got: ") + dlerror() +
-                                               " [hint: Debian's package is lib3mf1]");
-        return opened;
-    }();
-    return handle;
-}
-
-/// A function of the library.
-/// @throws Error(ErrorKind::Output) if it is not there
-template<typename Function>
-Function* function(const char* name)
-{
-    void* const found = dlsym(library(), name);
-    if (found == nullptr)
-        throw Error(ErrorKind::Output,
-                    std::string("3MF: expected lib3mf 1.8, got one without ") + name);
-    return reinterpret_cast<Function*>(found);
-}
-
-/// lib3mf_NAME of the library, which is not linked.
-#define LIB3MF(name) function<decltype(NMR::lib3mf_##name)>("lib3mf_" #name)
-
-using Object = void*; // as lib3mf names them, pointers to pointers
-
-struct Release {
-    void operator()(Object* object) const { LIB3MF(release)(object); }
-};
-using Handle = std::unique_ptr<Object, Release>;
-
-void expect(LIB3MFRESULT result, const char* step)
-{
-    if (result == 0) return;
-    throw Error(ErrorKind::Output, std::string("3MF: lib3mf refuses ") + step + ", error " +
-                                       formatted("%08x", unsigned(result)));
-}
+constexpr const char* xmlHead = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+constexpr const char* contentTypes =
+    "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
+    "<Default Extension=\"rels\" "
+    "ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\n"
+    "<Default Extension=\"model\" "
+    "ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>\n"
+    "<Default Extension=\"config\" ContentType=\"text/xml\"/>\n</Types>\n";
+constexpr const char* relationships =
+    "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">\n"
+    "<Relationship Target=\"/3D/3dmodel.model\" Id=\"rel0\" "
+    "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n</Relationships>\n";
+constexpr const char* modelHead =
+    "<model unit=\"millimeter\" xml:lang=\"en-US\" "
+    "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" "
+    "xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\" "
+    "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\" "
+    "xmlns:slic3rpe=\"http://schemas.slic3r.org/3mf/2017/06\">\n";
+constexpr const char *colorGroup = "1", *object = "2"; // numbers of resources
 
 /// Identifiers of the things in a file, by its content.
 class Identifiers
@@ -74,12 +53,12 @@ public:
         digest_.add(mesh.colors.data(), mesh.colors.size() * sizeof mesh.colors[0]);
     }
 
-    /// One that was not given before.
+    /// One that was not given before, as an attribute.
     std::string next()
     {
         ++count_;
         digest_.add(&count_, sizeof count_);
-        return digest_.uuid();
+        return " p:UUID=\"" + digest_.uuid() + "\"";
     }
 
 private:
@@ -87,94 +66,204 @@ private:
     std::uint32_t count_ = 0;
 };
 
-/// A file in the memory, which lib3mf writes back and forth in.
-struct Content {
-    std::string bytes;
-    std::size_t at = 0;
+std::string escaped(const std::string& text)
+{
+    std::string out;
+    for (const char letter : text) {
+        if (letter == '&' || letter == '<' || letter == '>' || letter == '"')
+            out += "&#" + std::to_string(int(letter)) + ";";
+        else
+            out += static_cast<unsigned char>(letter) < ' ' ? ' ' : letter;
+    }
+    return out;
+}
 
-    static std::uint32_t write(std::uint8_t* data, std::uint32_t size, void* to)
+/// The state of a triangle that an extruder paints, counted from 1, as PrusaSlicer's
+/// TriangleSelector packs it: the number in the upper half of a digit, or from 3 on a C and before
+/// it the number less 3.
+std::string paintOf(std::size_t extruder)
+{
+    return extruder < 3 ? formatted("%zX", 4 * extruder) : formatted("%zXC", extruder - 3);
+}
+
+/// Colours by their numbers, in the order of the vertices.
+class CornerColors
+{
+public:
+    explicit CornerColors(const Mesh& mesh)
     {
-        auto& content = *static_cast<Content*>(to);
-        if (content.bytes.size() < content.at + size) content.bytes.resize(content.at + size);
-        content.bytes.replace(content.at, size, reinterpret_cast<const char*>(data), size);
-        content.at += size;
-        return 0;
+        std::map<Color, std::uint32_t> numbers;
+        for (const Color& color : mesh.colors) {
+            const auto [at, isNew] = numbers.emplace(color, std::uint32_t(numbers.size()));
+            if (isNew) all_.push_back(color);
+            numbers_.push_back(at->second);
+        }
     }
 
-    static std::uint32_t seek(std::uint64_t position, void* to)
+    const std::vector<Color>& all() const { return all_; }
+    bool paints() const { return !all_.empty() && all_.size() <= mostPaints; }
+    std::size_t of(std::uint32_t vertex) const { return numbers_[vertex]; }
+
+    /// The extruder of a triangle: that of two of its corners, or else of the first.
+    std::size_t extruderOf(const Triangle& t) const
     {
-        static_cast<Content*>(to)->at = position;
-        return 0;
+        return 1 + (of(t[1]) == of(t[2]) ? of(t[1]) : of(t[0]));
     }
+
+private:
+    std::vector<std::uint32_t> numbers_; // of the vertices
+    std::vector<Color> all_;
 };
 
-void addPart(const Mesh& mesh, const PartRange& range, double scale, Object* model,
-             Identifiers& identifiers)
+/// Text that goes into an archive in pieces.
+class Pieces
 {
-    std::vector<NMR::MODELMESHVERTEX> vertices(range.vertexEnd - range.firstVertex);
-    for (std::size_t v = 0; v < vertices.size(); ++v)
-        for (int a = 0; a < 3; ++a)
-            vertices[v].m_fPosition[a] = float(scale * mesh.positions[range.firstVertex + v][a]);
-    const bool colored = !mesh.colors.empty();
-    const auto colorOf = [&](std::size_t vertex) {
-        const auto& c = mesh.colors[vertex];
-        return NMR::MODELMESHCOLOR_SRGB{c[0], c[1], c[2], opaque};
-    };
-    std::vector<NMR::MODELMESHTRIANGLE> triangles(range.triangleEnd - range.firstTriangle);
-    std::vector<NMR::MODELMESH_TRIANGLECOLOR_SRGB> colors(colored ? triangles.size() : 0);
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        for (std::size_t c = 0; c < 3; ++c) {
-            const std::uint32_t corner = mesh.triangles[range.firstTriangle + t][c];
-            triangles[t].m_nIndices[c] = std::uint32_t(corner - range.firstVertex);
-            if (colored) colors[t].m_Colors[c] = colorOf(corner);
-        }
-
-    Object* made = nullptr;
-    expect(LIB3MF(model_addmeshobject)(model, &made), "an object");
-    const Handle object(made);
-    expect(LIB3MF(object_setnameutf8)(object.get(), range.name.c_str()), "the name of an object");
-    expect(LIB3MF(object_setuuidutf8)(object.get(), identifiers.next().c_str()), "an identifier");
-    expect(LIB3MF(meshobject_setgeometry)(object.get(), vertices.data(), DWORD(vertices.size()),
-                                          triangles.data(), DWORD(triangles.size())),
-           "the triangles");
-    if (colored) {
-        expect(LIB3MF(meshobject_createpropertyhandler)(object.get(), &made), "colours");
-        expect(LIB3MF(propertyhandler_setgradientcolorarray)(Handle(made).get(), colors.data()),
-               "colours");
-        expect(LIB3MF(object_createdefaultpropertyhandler)(object.get(), &made), "a colour");
-        NMR::MODELMESHCOLOR_SRGB first = colorOf(range.firstVertex);
-        expect(LIB3MF(defaultpropertyhandler_setcolor)(Handle(made).get(), &first), "a colour");
+public:
+    explicit Pieces(ZipFile& to) : to_(to) {}
+    void flush()
+    {
+        to_.put(text_);
+        text_.clear();
     }
-    expect(LIB3MF(model_addbuilditem)(model, object.get(), nullptr, &made), "an item to build");
-    expect(LIB3MF(builditem_setuuidutf8)(Handle(made).get(), identifiers.next().c_str()),
-           "an identifier");
+
+    Pieces& operator<<(std::string_view words)
+    {
+        constexpr std::size_t enough = 1 << 16;
+        text_ += words;
+        if (text_.size() >= enough) flush();
+        return *this;
+    }
+    Pieces& operator<<(std::size_t number)
+    {
+        char digits[24];
+        return *this << std::string_view(
+                   digits,
+                   std::size_t(std::to_chars(digits, std::end(digits), number).ptr - digits));
+    }
+    Pieces& operator<<(float number)
+    {
+        char digits[64];
+        const auto end =
+            std::to_chars(digits, std::end(digits), number, std::chars_format::fixed, 6);
+        return *this << std::string_view(digits, std::size_t(end.ptr - digits));
+    }
+
+private:
+    ZipFile& to_;
+    std::string text_;
+};
+
+void putTriangle(const Triangle& t, std::size_t shift, const CornerColors& palette, Pieces& out)
+{
+    const char* const corners[] = {"<triangle v1=\"", "\" v2=\"", "\" v3=\""};
+    const char* const colors[] = {"\" p1=\"", "\" p2=\"", "\" p3=\""};
+    for (std::size_t k = 0; k < 3; ++k) out << corners[k] << std::size_t(t[k]) - shift;
+    if (!palette.all().empty()) {
+        out << "\" pid=\"" << colorGroup;
+        for (std::size_t k = 0; k < 3; ++k) out << colors[k] << palette.of(t[k]);
+    }
+    if (palette.paints())
+        out << "\" slic3rpe:mmu_segmentation=\"" << paintOf(palette.extruderOf(t));
+    out << "\"/>\n";
+}
+
+void putMesh(const Mesh& mesh, const std::vector<PartRange>& parts, double scale,
+             const CornerColors& palette, Pieces& out)
+{
+    out << "<mesh>\n<vertices>\n";
+    for (const PartRange& part : parts)
+        for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v) {
+            const char* const axes[] = {"<vertex x=\"", "\" y=\"", "\" z=\""};
+            for (int a = 0; a < 3; ++a) out << axes[a] << float(scale * mesh.positions[v][a]);
+            out << "\"/>\n";
+        }
+    out << "</vertices>\n<triangles>\n";
+    std::size_t before = 0; // vertices of the parts before
+    for (const PartRange& part : parts) {
+        for (std::size_t t = part.firstTriangle; t < part.triangleEnd; ++t)
+            putTriangle(mesh.triangles[t], part.firstVertex - before, palette, out);
+        before += part.vertexEnd - part.firstVertex;
+    }
+    out << "</triangles>\n</mesh>\n";
+}
+
+void putModel(const Mesh& mesh, const std::vector<PartRange>& parts, const std::string& name,
+              double scale, const CornerColors& palette, Pieces& out)
+{
+    Identifiers identifiers(mesh);
+    const std::string ofBuild = identifiers.next(), ofObject = identifiers.next();
+    out << xmlHead << modelHead << "<resources>\n";
+    if (!palette.all().empty()) {
+        out << "<m:colorgroup id=\"" << colorGroup << "\">\n";
+        for (const auto& [red, green, blue] : palette.all())
+            out << formatted("<m:color color=\"#%02X%02X%02XFF\"/>\n", red, green, blue);
+        out << "</m:colorgroup>\n";
+    }
+    out << "<object id=\"" << object << "\" name=\"" << escaped(name) << "\" type=\"model\""
+        << ofObject;
+    if (!palette.all().empty())
+        out << " pid=\"" << colorGroup << "\" pindex=\"" << palette.of(0) << "\"";
+    out << ">\n";
+    putMesh(mesh, parts, scale, palette, out);
+    out << "</object>\n</resources>\n<build" << ofBuild << ">\n<item objectid=\"" << object << "\""
+        << identifiers.next() << "/>\n</build>\n</model>\n";
+}
+
+/// The parts as volumes of the object, as PrusaSlicer has them.
+void putVolumes(const Mesh& mesh, const std::vector<PartRange>& parts, const std::string& name,
+                const CornerColors& palette, Pieces& out)
+{
+    const auto says = [&](const char* of, const char* key, const std::string& value) {
+        out << "<metadata type=\"" << of << "\" key=\"" << key << "\" value=\"" << escaped(value)
+            << "\"/>\n";
+    };
+    out << xmlHead << "<config>\n<object id=\"" << object << "\" instances_count=\"1\">\n";
+    says("object", "name", name);
+    std::size_t first = 0, number = 0;
+    for (const PartRange& part : parts) {
+        const std::size_t count = part.triangleEnd - part.firstTriangle;
+        out << "<volume firstid=\"" << first << "\" lastid=\"" << first + count - 1 << "\">\n";
+        says("volume", "name", part.name);
+        const std::size_t extruder =
+            palette.paints() ? palette.extruderOf(mesh.triangles[part.firstTriangle]) : ++number;
+        if (extruder <= mostPaints) says("volume", "extruder", std::to_string(extruder));
+        out << "</volume>\n";
+        first += count;
+    }
+    out << "</object>\n</config>\n";
+}
+
+template<typename Put>
+void add(ZipFile& archive, const char* name, const Put& put)
+{
+    archive.begin(name);
+    Pieces out(archive);
+    put(out);
+    out.flush();
+    archive.end();
 }
 
 } // namespace
 
-void load3mf()
+std::size_t colorsIn(const Mesh& mesh)
 {
-    library();
+    return std::set<Color>(mesh.colors.begin(), mesh.colors.end()).size();
 }
 
 void write3mf(const Mesh& mesh, const std::string& name, double perAngstrom, OutputFile& file)
 {
-    Object* made = nullptr;
-    expect(LIB3MF(createmodel)(&made), "a model");
-    const Handle model(made);
-    expect(LIB3MF(model_setunit)(model.get(), NMR::MODELUNIT_MILLIMETER), "millimetres");
-    Identifiers identifiers(mesh);
-    expect(LIB3MF(model_setbuilduuidutf8)(model.get(), identifiers.next().c_str()),
-           "an identifier");
-    for (const PartRange& range : partRanges(mesh, name))
-        addPart(mesh, range, perAngstrom, model.get(), identifiers);
-    expect(LIB3MF(model_querywriter)(model.get(), "3mf", &made), "a writer");
-    const Handle writer(made);
-    Content content;
-    expect(LIB3MF(writer_writetocallback)(writer.get(), reinterpret_cast<void*>(&Content::write),
-                                          reinterpret_cast<void*>(&Content::seek), &content),
-           "the mesh");
-    file.write(content.bytes.data(), content.bytes.size());
+    const CornerColors palette(mesh);
+    const std::vector<PartRange> parts = partRanges(mesh, name);
+    ZipFile archive(file);
+    add(archive, "[Content_Types].xml", [](Pieces& out) { out << xmlHead << contentTypes; });
+    add(archive, "_rels/.rels", [](Pieces& out) { out << xmlHead << relationships; });
+    add(archive, "3D/3dmodel.model",
+        [&](Pieces& out) { putModel(mesh, parts, name, perAngstrom, palette, out); });
+    if (parts.size() > 1)
+        add(archive, "Metadata/Slic3r_PE_model.config",
+            [&](Pieces& out) { putVolumes(mesh, parts, name, palette, out); });
+    archive.finish();
+    file.finish();
 }
 
 } // namespace molsurf

@@ -31,6 +31,22 @@ using openvdb::Vec3f;
 constexpr int floatType = 5126, shortType = 5123, indexType = 5125;
 constexpr int vertexTarget = 34962, indexTarget = 34963;
 
+/// Vectors that the scalars NAME_x, NAME_y and NAME_z make in turn, and their attributes.
+struct VectorName {
+    const char* scalars;
+    const char* attribute;
+};
+constexpr VectorName vectorNames[] = {{"v", "_VELOCITY"}};
+
+/// The attribute of the vector that begins with a scalar, or null.
+const char* vectorOf(const Mesh& mesh, std::size_t scalar)
+{
+    if (scalar + 3 > mesh.scalars.size()) return nullptr;
+    for (const VectorName& row : vectorNames)
+        if (mesh.scalars[scalar].name == std::string(row.scalars) + "_x") return row.attribute;
+    return nullptr;
+}
+
 std::string attributeName(const std::string& name)
 {
     std::string capitals = "_";
@@ -104,7 +120,13 @@ private:
         attributes["POSITION"] = addPositions(range);
         attributes["NORMAL"] = addNormals(range);
         if (!mesh_->colors.empty()) attributes["COLOR_0"] = addColors(range);
-        for (const auto& scalar : mesh_->scalars) {
+        for (std::size_t s = 0; s < mesh_->scalars.size(); ++s) {
+            if (const char* vector = vectorOf(*mesh_, s)) {
+                attributes[vector] = addVectors(range, &mesh_->scalars[s]);
+                s += 2;
+                continue;
+            }
+            const auto& scalar = mesh_->scalars[s];
             std::vector<float> values = scalar.values; // glTF has no NaN
             for (float& value : values)
                 if (!std::isfinite(value)) value = 0.0f;
@@ -225,6 +247,15 @@ private:
             close(begin, range.vertexEnd - range.firstVertex, shortType, "VEC4", vertexTarget);
         json_["accessors"][number]["normalized"] = true;
         return number;
+    }
+
+    /// @param[in] along  the scalars along x, y and z
+    std::size_t addVectors(const PartRange& range, const Attribute<float>* along)
+    {
+        const std::size_t begin = bytes_.size();
+        for (std::size_t v = range.firstVertex; v < range.vertexEnd; ++v)
+            for (int axis = 0; axis < 3; ++axis) append(along[axis].values[v]);
+        return close(begin, range.vertexEnd - range.firstVertex, floatType, "VEC3", vertexTarget);
     }
 
     template<typename T>

@@ -2,6 +2,7 @@
 #include "molsurf/io/write_usda.h"
 
 #include "molsurf/core/words.h"
+#include "molsurf/io/read_vdb.h"
 #include "molsurf/io/usda_text.h"
 
 #include <algorithm>
@@ -132,7 +133,7 @@ std::string usdaText(const openvdb::GridCPtrVec& grids, const UsdVolume& volume)
     out << "    metersPerUnit = " << volume.metersPerUnit << "\n";
     if (!volume.frames.empty())
         out << "    startTimeCode = " << volume.frames.front().first
-            << "\n    timeCodesPerSecond = 24\n";
+            << "\n    timeCodesPerSecond = " << volume.framesPerSecond << "\n";
     out << "    upAxis = \"Z\"\n)\n\ndef Xform \"" << name
         << "\" (\n    kind = \"component\"\n)\n{\n    def Volume \"volume\"\n    {\n";
     writeExtent(grids, volume, out);
@@ -189,21 +190,28 @@ FrameName frameName(const std::string& path)
     return {stem.substr(0, dot), frame};
 }
 
-UsdVolume usdVolumeOf(const std::string& vdb, bool sequence, double metersPerUnit)
+UsdVolume usdVolumeOf(const std::string& vdb, bool sequence, const std::string& options,
+                      double metersPerUnit)
 {
     const fs::path path = vdb;
     const FrameName own = frameName(vdb);
-    UsdVolume volume{own.stem, metersPerUnit, path.filename().string(), {}, {}};
+    UsdVolume volume{own.stem, metersPerUnit, path.filename().string(), {}, 24.0, {}, {}};
     if (!sequence || !own.frame) return volume;
     volume.frames.emplace_back(*own.frame, volume.file);
     std::error_code ignored;
     const fs::path folder = path.parent_path().empty() ? "." : path.parent_path();
     for (const auto& entry : fs::directory_iterator(folder, ignored)) {
         const FrameName other = frameName(entry.path().string());
-        if (entry.path().extension() == path.extension() && other.stem == own.stem && other.frame &&
-            *other.frame != *own.frame)
-            volume.frames.emplace_back(*other.frame, entry.path().filename().string());
+        if (entry.path().extension() != path.extension() || other.stem != own.stem ||
+            !other.frame || *other.frame == *own.frame)
+            continue;
+        const std::string file = entry.path().filename().string();
+        if (vdbText(entry.path().string(), "frames.options") == options)
+            volume.frames.emplace_back(*other.frame, file);
+        else
+            volume.leftOut.push_back(file);
     }
+    std::sort(volume.leftOut.begin(), volume.leftOut.end());
     std::sort(volume.frames.begin(), volume.frames.end());
     return volume;
 }

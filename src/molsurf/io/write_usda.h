@@ -24,6 +24,8 @@ struct UsdVolume {
     std::string file;             ///< the .vdb, relative to the .usda
     /// Frames of a sequence and their files, the first one first; empty: no sequence.
     std::vector<std::pair<int, std::string>> frames;
+    double framesPerSecond = 24.0;
+    std::vector<std::string> leftOut;   ///< frames in the folder that are of another sequence
     std::map<int, std::string> extents; ///< of other frames, as text: extentsOfUsda()
 };
 
@@ -51,7 +53,11 @@ FrameName frameName(const std::string& path);
 ///
 /// @param[in] vdb         the file; of a frame, the other frames in its folder are in the .usda too
 /// @param[in] sequence    whether it may be a frame
+/// @param[in] options     `frames.options` in the metadata of the frames that belong to it; empty:
+/// of
+///                        those without it, which runs of their own have made
 /// @param[in] metersPerUnit  length of a unit of the scene [m]
-UsdVolume usdVolumeOf(const std::string& vdb, bool sequence, double metersPerUnit);
+UsdVolume usdVolumeOf(const std::string& vdb, bool sequence, const std::string& options,
+                      double metersPerUnit);
 
 } // namespace molsurf

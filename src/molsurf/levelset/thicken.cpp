@@ -51,6 +51,14 @@ std::vector<Coord> middleOf(const SparseField& S, std::size_t n, double wall)
     return out;
 }
 
+/// A voxel on the surface comes to lie inside, by a thousandth of a voxel. Where S is 0 at a voxel,
+/// vertices of the mesh may fall together there.
+float offSurface(float S, double voxelSize)
+{
+    const float least = float(1e-3 * voxelSize);
+    return std::abs(S) < least ? -least : S;
+}
+
 } // namespace
 
 void thickenWalls(DistanceBand& S, double wall, double width, const Progress& progress)
@@ -86,9 +94,11 @@ void thickenWalls(DistanceBand& S, double wall, double width, const Progress& pr
                 float least = float(reach * reach);
                 for (const openvdb::Vec3f& c : near) least = std::min(least, (at - c).lengthSqr());
                 const float ball = float(h) * (std::sqrt(least) - float(radius));
-                if (ball >= phi[v]) return;
-                phi[v] = ball;
-                S.kinks.active(n).set(v);
+                if (ball < phi[v]) {
+                    phi[v] = ball;
+                    S.kinks.active(n).set(v);
+                }
+                phi[v] = offSurface(phi[v], h);
             });
         }
         table.active(n) &= within(phi, float(width));

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/extra_grids.h"
 
-#include "molsurf/color/label.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/grid/grid_like.h"
 #include "molsurf/spline/curvature.h"
-#include "molsurf/surface/influence.h"
 
 #include <openvdb/tools/LevelSetUtil.h>
 #include <openvdb/tree/LeafManager.h>
@@ -73,6 +71,7 @@ std::vector<openvdb::GridBase::Ptr> curvatureGrids(const openvdb::FloatGrid& sur
             grids.push_back(target.scalars);
         } else {
             target.vectors = gridLike<openvdb::Vec3SGrid>(surface, name, openvdb::Vec3f(0.0f));
+            target.vectors->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
             for (auto leaf = target.vectors->tree().beginLeaf(); leaf; ++leaf)
                 target.leaves.push_back(leaf->buffer().data()->asPointer());
             grids.push_back(target.vectors);
@@ -105,21 +104,6 @@ void saveAsHalf(const openvdb::GridPtrVec& grids)
 {
     for (const auto& grid : grids)
         if (grid->getName().rfind("value", 0) != 0) grid->setSaveFloatAsHalf(true);
-}
-
-openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const BallSet& atoms,
-                                     const std::vector<openvdb::Vec3f>& displacement,
-                                     const SurfaceOptions& options, const Progress& progress)
-{
-    const auto voxels = shownVoxels(surface, false);
-    const Labels owner =
-        ownersOf(*voxels, atoms.balls, Influence(atoms, options).ofLabel(), progress);
-    auto grid = gridOf<openvdb::Vec3SGrid>(*voxels, "v", openvdb::Vec3f(0.0f), [&](std::size_t i) {
-        return owner[i] < 0 ? openvdb::Vec3f(0.0f) : displacement[std::size_t(owner[i])];
-    });
-    grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
-    if (options.halfFloats) grid->setSaveFloatAsHalf(true);
-    return grid;
 }
 
 } // namespace molsurf

@@ -4,8 +4,6 @@
 /// @file
 /// Grids beside `surface`, which fieldTable() lists.
 
-#include "molsurf/atoms.h"
-#include "molsurf/options.h"
 #include "molsurf/progress.h"
 #include "molsurf/spline/spline.h"
 
@@ -40,14 +38,5 @@ std::vector<openvdb::GridBase::Ptr> curvatureGrids(const openvdb::FloatGrid& sur
 /// Has the values of grids saved as 16-bit floats, but for those of `value`, which may be beyond
 /// the range of these.
 void saveAsHalf(const openvdb::GridPtrVec& grids);
-
-/// The grid `v`: at each active voxel of a surface the displacement of the ball that it belongs to,
-/// as in labelSurface(); 0 elsewhere. Vectors that are relative and turn with the grid
-/// (openvdb::VEC_CONTRAVARIANT_RELATIVE).
-///
-/// @param[in] displacement  one a ball [Å per frame, or in the units of the scene]
-openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const BallSet& atoms,
-                                     const std::vector<openvdb::Vec3f>& displacement,
-                                     const SurfaceOptions& options, const Progress& progress);
 
 } // namespace molsurf

@@ -109,8 +109,11 @@ FieldRow colorField()
         } else {
             colors = colorsOf(from.owners(true), *from.ballColors);
         }
-        return gridOf<openvdb::Vec3SGrid>(from.voxels(true), "Cd", linearLight(neutralColor),
-                                          [&](std::size_t i) { return linearLight(colors[i]); });
+        const auto grid =
+            gridOf<openvdb::Vec3SGrid>(from.voxels(true), "Cd", linearLight(neutralColor),
+                                       [&](std::size_t i) { return linearLight(colors[i]); });
+        describeColors(*grid);
+        return grid;
     });
     row.ofColors = true;
     return row;
@@ -175,11 +178,14 @@ const std::vector<FieldRow>& fieldTable()
             fromRun("spline", [](SurfaceRun& run) -> GridBase::Ptr {
                 return splineGrid(run.currentSpline());
             })};
-        for (const CurvatureField& field : curvatureFields())
+        for (const CurvatureField& field : curvatureFields()) {
             rows.push_back({field.name, field.components, InClosedForm});
+            rows.back().atVertices = true;
+        }
         for (auto* more : {densityField, atomField, chainField, groupField, colorField, valueField})
             rows.push_back(more());
         rows.push_back({"v", 3, BySymmetry | InClosedForm}); // by velocityGrid()
+        rows.back().atVertices = true;
         return rows;
     }();
     return all;

@@ -221,6 +221,7 @@ void colorByLabel(const Source& from, const Int32Grid& ids, MolecularSurface& re
     auto to = grid->beginValueOn();
     for (auto id = ids.cbeginValueOn(); id; ++id, ++to)
         to.setValue(linearLight(colorOf(labels, *id)));
+    describeColors(*grid);
     addColorGrid(from, grid, result);
 }
 

@@ -16,6 +16,8 @@ TEST(ParseScene, TakesProgramsAndScales)
 {
     EXPECT_EQ(parseScene("houdini")->host, Host::Houdini);
     EXPECT_EQ(parseScene("blender")->scale, 1.0);
+    EXPECT_EQ(parseScene("blender")->host, Host::Blender);
+    EXPECT_EQ(parseScene("blender4=nm")->host, Host::Blender4);
     EXPECT_EQ(parseScene("blender=mn-0.01")->scale, 0.01);
     EXPECT_EQ(parseScene("blender=mn-0.1")->scale, 0.1);
     EXPECT_EQ(parseScene("usd=nm")->scale, 0.1);
@@ -29,7 +31,7 @@ TEST(PlaceInScene, MovesScalesAndShifts)
 {
     const auto grid = test::ballGrid();
     Scene scene;
-    scene.host = Host::Blender;
+    scene.host = Host::Blender4;
     scene.scale = 0.1;
     scene.center = openvdb::Vec3d(0.3, 1.2, -0.7);
     const auto placed = placeInScene({grid}, scene);
@@ -48,6 +50,31 @@ TEST(PlaceInScene, MovesScalesAndShifts)
     // The grid that was given is as before.
     EXPECT_EQ(grid->tree().getValue(middle), -grid->background());
     EXPECT_EQ(grid->indexToWorld(openvdb::Vec3d(0.0)), openvdb::Vec3d(0.0));
+}
+
+TEST(PlaceInScene, BlenderFiveTakesGridsAsTheyAre)
+{
+    const auto grid = test::ballGrid();
+    const auto placed = placeInScene({grid}, *parseScene("blender=0.1"));
+    const openvdb::Vec3d x(0.3, 1.2, -0.7);
+    EXPECT_LT((placed.at(0)->indexToWorld(grid->worldToIndex(x)) - 0.1 * x).length(), 1e-9);
+}
+
+// The way through fog times its density is the same in every unit.
+TEST(PlaceInScene, FogHasOneOpticalDepth)
+{
+    auto fog = test::ballGrid()->deepCopy();
+    fog->setGridClass(openvdb::GRID_FOG_VOLUME);
+    fog->setName("density_A");
+    fog->fill(openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(3)), 0.5f);
+    for (const char* word : {"usd", "usd=nm", "blender=mn-0.01"}) {
+        Scene scene = *parseScene(word);
+        scene.fogDensity = 0.8;
+        const auto placed =
+            openvdb::gridConstPtrCast<openvdb::FloatGrid>(placeInScene({fog}, scene).at(0));
+        const double depth = placed->tree().getValue(openvdb::Coord(1)) * placed->voxelSize()[0];
+        EXPECT_NEAR(depth, 0.8 * 0.5 * fog->voxelSize()[0], 1e-6) << word;
+    }
 }
 
 TEST(PlaceInScene, ValuesWithoutALengthStay)

@@ -82,5 +82,18 @@ TEST(ThickenWalls, WhatIsBarelyThickEnoughStays)
     EXPECT_LT(errorOf(S, voxel, distance), 1e-6);
 }
 
+// A wall of eight voxels: many voxels lie four voxels from one in the middle. Where S were 0 there,
+// vertices of the mesh would fall together.
+TEST(ThickenWalls, NoVoxelLiesOnTheSurface)
+{
+    const double voxel = 0.25, wall = 2.0, width = 1.0;
+    DistanceBand S = bandOf([](const Vec3d& x) { return toThread(x) - 0.6; }, voxel,
+                            0.5 * wall + width, 0.5 * wall + width);
+    thickenWalls(S, wall, width, Progress());
+    test::forEachActive(S.phi.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+        ASSERT_GT(std::abs(S.phi.leaf(n)[v]), 0.0009 * voxel) << x;
+    });
+}
+
 } // namespace
 } // namespace molsurf
