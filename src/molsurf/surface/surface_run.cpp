@@ -205,7 +205,7 @@ void SurfaceRun::distance()
             for (int v = 0; v < leafSize; ++v) S_.phi.leaf(n)[v] += float(offset);
         });
     }
-    if (hasFlow(options_.kind)) roundRidges(S_, progress_);
+    if (hasFlow(options_.kind)) roundRidges(S_, offset, progress_);
     decideWalls();
     if (options_.minWall > 0.0)
         thickenWalls(S_, options_.minWall, splineWidthOf(options_), progress_);
