@@ -157,7 +157,7 @@ TEST(Properties, AnyShiftStaysWithinTheVoxelsError)
     });
 }
 
-// But for the ridges of the variational surface, which are rounded by a radius in Å.
+// But for the variational surface, whose ridges are rounded and walls opened by lengths in Å.
 TEST(Properties, LengthsScale)
 {
     forEachMolecule(4, 13, [](unsigned seed, Molecule m) {
