@@ -121,8 +121,8 @@ Scope brickScope(const SurfaceOptions& options, const Region& region, const Gaus
     scope.splineHalo = scope.ridgeHalo = 2;
     if (isUnion(options.kind)) return scope;
     if (hasFlow(options.kind)) {
-        scope.ridgeHalo +=
-            leavesFor(ridgeReach(options.voxel) + (decidesWalls(options) ? wallReach : 0));
+        scope.ridgeHalo += leavesFor(ridgeReach(options.voxel) +
+                                     (decidesWalls(options) ? wallReach(options.voxel) : 0));
     }
     // S is the distance to closest points, which lie on a spline of their own.
     const auto [inside, outside] = widthsOf(options);

@@ -3,7 +3,7 @@
 
 /// @file
 /// Rounds the ridges of an offset surface, where two sheets of the interface that it is offset from
-/// are equally near.
+/// are equally near, and places that bend as much.
 
 #include "molsurf/grid/distance_band.h"
 #include "molsurf/progress.h"
@@ -17,12 +17,14 @@ constexpr double ridgeRadius = 0.5;
 /// How many voxels about a voxel its value may depend on after roundRidges().
 int ridgeReach(double voxelSize);
 
-/// Moves S by its mean curvature less 1/(2 ridgeRadius), where that is positive, near kinks and
-/// near the zero set: as many small steps as round a ridge to about ridgeRadius. On voxels
-/// above 1.5 ridgeRadius nothing is done, since the spline rounds as much.
+/// Moves S by what its mean curvature H exceeds 1/(2 ridgeRadius) by, either way, near S = 0 about
+/// kinks and where |H| is larger: for a time that rounds a ridge to about ridgeRadius whatever the
+/// voxel is. On voxels above 1.5 ridgeRadius nothing is done, since the spline rounds as much.
 ///
 /// A ridge is a true crease of the offset surface, whose curvature is infinite; without rounding,
-/// what a spline makes of it depends on the voxel.
-void roundRidges(DistanceBand& S, const Progress& progress);
+/// what a spline makes of it depends on the voxel. H of a surface that lies `offset` inside another
+/// is nowhere below -1/offset, and S stays where it is not below that.
+/// @param[in] offset  of the surface from the interface [Å]; nothing is done if it is 0
+void roundRidges(DistanceBand& S, double offset, const Progress& progress);
 
 } // namespace molsurf

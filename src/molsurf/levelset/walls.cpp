@@ -23,6 +23,17 @@ constexpr double heldDepth = 0.7, heldHeight = 0.25;
 constexpr double deepest = 1.2; // of a wall that voxels or the rounding of ridges may open [voxel]
 constexpr double bumpRadius = 3.0; // [voxel]
 
+// How far outside the middle of an open wall comes to lie, so that the film about it is too thin to
+// stay, and how far from there S changes, at least bumpRadius [Å]. measured: bench/rotations.py
+// vdb_molsurf frame7.xyzr --count 5, means of areas at 0.5 to 0.125 Å and largest range: 0.22 and
+// 0.05 %; with a height of 0.125 Å 0.36 and 0.10 %, with a radius of 2 Å 0.28 and 0.07 %.
+constexpr double openHeight = 0.25, openRadius = 1.5;
+
+double openRadiusOf(double voxelSize) // [voxel]
+{
+    return std::max(bumpRadius, openRadius / voxelSize);
+}
+
 /// What stands for a voxel [voxel]: as voxels come near to the depth, everything would be near.
 double unitAt(double depth)
 {
@@ -130,14 +141,13 @@ double valueAt(const SparseField& S, const Vec3d& x)
     return sum;
 }
 
-/// Adds a bump to S: amplitude (1 - t^2)^3, t being the distance in bump radii.
-void addBump(const Vec3d& place, double amplitude, SparseField& S)
+/// Adds a bump to S: amplitude (1 - t^2)^3, t being the distance in radii.
+void addBump(const Vec3d& place, double amplitude, double radius, SparseField& S)
 {
-    const Coord low = Coord::ceil(place - Vec3d(bumpRadius)),
-                high = Coord::floor(place + Vec3d(bumpRadius));
+    const Coord low = Coord::ceil(place - Vec3d(radius)),
+                high = Coord::floor(place + Vec3d(radius));
     for (auto voxel = openvdb::CoordBBox(low, high).begin(); voxel; ++voxel) {
-        const double fall =
-            1.0 - ((*voxel).asVec3d() - place).lengthSqr() / (bumpRadius * bumpRadius);
+        const double fall = 1.0 - ((*voxel).asVec3d() - place).lengthSqr() / (radius * radius);
         const std::int32_t n = S.table.find(*voxel);
         if (fall <= 0.0 || n == noLeaf) continue;
         const int v = int(openvdb::FloatTree::LeafNodeType::coordToOffset(*voxel));
@@ -145,7 +155,19 @@ void addBump(const Vec3d& place, double amplitude, SparseField& S)
     }
 }
 
+/// How much thicker a wall is than the thinnest that is closed, halved [Å].
+double beyondOf(const Wall& wall, double offset)
+{
+    return wall.depth - offset - thinnestWall;
+}
+
 } // namespace
+
+int wallReach(double voxelSize)
+{
+    constexpr double told = 5.0; // how far from a wall voxels tell of it [voxel]
+    return int(std::ceil(bumpRadius + openRadiusOf(voxelSize) + told));
+}
 
 void findThinPlaces(const std::vector<Vec3d>& feet, const Vec3d& middle, double depth,
                     std::vector<ThinPlace>& out)
@@ -211,18 +233,27 @@ std::vector<Wall> findWalls(const PsiJetAt& psi, const std::vector<ThinPlace>& p
     return walls;
 }
 
+void openWalls(const std::vector<Wall>& walls, double offset, SparseField& S)
+{
+    for (const Wall& wall : walls) {
+        const double lacks = openHeight - valueAt(S, wall.place);
+        if (beyondOf(wall, offset) <= 0.0 && lacks > 0.0)
+            addBump(wall.place, lacks, openRadiusOf(S.voxelSize), S);
+    }
+}
+
 GapReport decideWalls(const std::vector<Wall>& walls, double offset, SparseField& S)
 {
     GapReport done;
     done.nearest = deepest * S.voxelSize;
     for (const Wall& wall : walls) {
-        const double beyond = wall.depth - offset - thinnestWall, here = valueAt(S, wall.place);
+        const double beyond = beyondOf(wall, offset), here = valueAt(S, wall.place);
         ++done.found;
         done.closed += beyond > 0.0;
         done.nearest = std::min(done.nearest, std::abs(beyond));
         const double lacks = beyond > 0.0 ? std::min(-heldDepth * S.voxelSize - here, 0.0)
                                           : std::max(heldHeight * S.voxelSize - here, 0.0);
-        if (lacks != 0.0) addBump(wall.place, lacks, S);
+        if (lacks != 0.0) addBump(wall.place, lacks, bumpRadius, S);
     }
     return done;
 }

@@ -28,8 +28,9 @@ struct Wall {
 /// A thin wall is open if its middle lies less than this inside the surface [Å].
 constexpr double thinnestWall = 0.06;
 
-/// How many voxels from a voxel the walls may lie that its value depends on, with what tells them.
-constexpr int wallReach = 8;
+/// How many voxels from a voxel, beside ridgeReach(), the walls may lie that its value depends on,
+/// with what tells them: a wall is held by what is left of others that were opened.
+int wallReach(double voxelSize);
 
 /// Finds two or three sheets of the interface that may bound a thin wall or neck, from the feet of
 /// some voxels. Feet nearer to each other than half the depth are of one sheet, which their mean
@@ -49,7 +50,14 @@ void findThinPlaces(const std::vector<openvdb::Vec3d>& feet, const openvdb::Vec3
 std::vector<Wall> findWalls(const PsiJetAt& psi, const std::vector<ThinPlace>& places,
                             double offset, double voxelSize, const Progress& progress);
 
-/// Decides walls: S gets a bump at each, with which its middle lies clearly inside or outside.
+/// Opens the film about the middle of each open wall, before ridges are rounded, as far as it would
+/// depend on the voxel how much of it stays: S gets a bump of a height and a radius in Å.
+/// @param[in]     offset  as for findWalls()
+/// @param[in,out] S       the level set of the surface [Å]
+void openWalls(const std::vector<Wall>& walls, double offset, SparseField& S);
+
+/// Decides walls when ridges are rounded: S gets a bump at each, with which its middle lies clearly
+/// inside or outside.
 /// @param[in]     offset  as for findWalls()
 /// @param[in,out] S       the level set of the surface [Å]
 GapReport decideWalls(const std::vector<Wall>& walls, double offset, SparseField& S);

@@ -205,23 +205,31 @@ void SurfaceRun::distance()
             for (int v = 0; v < leafSize; ++v) S_.phi.leaf(n)[v] += float(offset);
         });
     }
-    if (hasFlow(options_.kind)) roundRidges(S_, progress_);
-    decideWalls();
+    const std::vector<Wall> walls = findWalls();
+    openWalls(walls, offset, S_.phi);
+    if (hasFlow(options_.kind)) roundRidges(S_, offset, progress_);
+    decideWalls(walls);
     if (options_.minWall > 0.0)
         thickenWalls(S_, options_.minWall, splineWidthOf(options_), progress_);
     watch_.stop("redistance");
 }
 
-void SurfaceRun::decideWalls()
+std::vector<Wall> SurfaceRun::findWalls()
 {
-    if (!decidesWalls(options_)) return;
+    if (!decidesWalls(options_)) return {};
     const PsiJetAt psi = [&](const openvdb::Vec3d& x) { return sum_->jetWithBumps(x); };
-    const double offset = offsetOf(options_);
-    const std::vector<Wall> walls = findWalls(psi, S_.thin, offset, options_.voxel, progress_);
-    const GapReport decisions = molsurf::decideWalls(walls, offset, S_.phi);
-    if (scope_.region.whole()) result_.report.evolution->walls = decisions;
+    std::vector<Wall> walls =
+        molsurf::findWalls(psi, S_.thin, offsetOf(options_), options_.voxel, progress_);
     S_.thin = {};
     if (!options_.fillCavities) sum_.reset(); // whose surface is made a second time
+    return walls;
+}
+
+void SurfaceRun::decideWalls(const std::vector<Wall>& walls)
+{
+    if (!decidesWalls(options_)) return;
+    const GapReport decisions = molsurf::decideWalls(walls, offsetOf(options_), S_.phi);
+    if (scope_.region.whole()) result_.report.evolution->walls = decisions;
 }
 
 namespace

@@ -8,6 +8,7 @@
 #include "molsurf/balls/boundary_measure.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/grid/region.h"
+#include "molsurf/levelset/walls.h"
 #include "molsurf/mesh/extract.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/surface.h"
@@ -166,7 +167,8 @@ private:
     void checkLeft() const;
     bool keepsLevelSet() const;
     DistanceBand distanceToBalls();
-    void decideWalls();
+    std::vector<Wall> findWalls();
+    void decideWalls(const std::vector<Wall>& walls);
 
     const BallSet& atoms_;
     const SurfaceOptions& options_;

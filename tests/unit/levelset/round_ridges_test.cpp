@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace molsurf
@@ -23,10 +24,15 @@ double lens(const Vec3d& x)
     return std::max((x - c).length(), (x + c).length()) - 6.0;
 }
 
-DistanceBand bandOf(double voxel)
+constexpr double probe = 1.4;
+
+/// @param[in] sign  -1: the space about the lens, whose rim is a concave crease
+DistanceBand bandOf(double voxel, double sign = 1.0)
 {
+    const auto f = [sign](const Vec3d& x) { return sign * lens(x); };
+    const double width = std::max(4.0 * voxel, 0.75);
     DistanceBand S;
-    S.phi = test::filled(test::bandTable(lens, Vec3d(0.0), 6.0, voxel, -2.0, 2.0), voxel, lens);
+    S.phi = test::filled(test::bandTable(f, Vec3d(0.0), 6.0, voxel, -width, width), voxel, f);
     S.kinks = S.phi.table;
     for (std::size_t n = 0; n < S.kinks.size(); ++n) S.kinks.active(n) = LeafMask();
     test::forEachActive(S.phi.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
@@ -36,8 +42,8 @@ DistanceBand bandOf(double voxel)
     return S;
 }
 
-/// The largest mean curvature at voxels next to S = 0 [1/Å].
-double sharpest(const DistanceBand& S, double voxel)
+/// The largest mean curvature at voxels next to S = 0 [1/Å], in magnitude of one sign.
+double sharpest(const DistanceBand& S, double voxel, double sign = 1.0)
 {
     double worst = 0.0;
     for (std::size_t n = 0; n < S.phi.table.size(); ++n) {
@@ -51,22 +57,53 @@ double sharpest(const DistanceBand& S, double voxel)
             const double along = (d.x * d.x * d.xx + d.y * d.y * d.yy + d.z * d.z * d.zz +
                                   2.0 * (d.x * d.y * d.xy + d.y * d.z * d.yz + d.x * d.z * d.xz)) /
                                  slope2;
-            worst = std::max(worst, 0.5 * (d.xx + d.yy + d.zz - along) / std::sqrt(slope2));
+            worst = std::max(worst, sign * 0.5 * (d.xx + d.yy + d.zz - along) / std::sqrt(slope2));
         });
     }
     return worst;
 }
 
+// Convex and concave ones, to a curvature that does not depend on the voxel.
 TEST(RoundRidges, ComeToTheStatedRadius)
 {
-    for (const double voxel : {0.25, 0.125}) {
-        DistanceBand S = bandOf(voxel);
-        const double before = sharpest(S, voxel);
-        EXPECT_GT(before, 0.5 / voxel);
-        roundRidges(S, Progress());
-        EXPECT_LT(sharpest(S, voxel), 1.5 * 0.5 / ridgeRadius + 0.5);
-        EXPECT_LT(sharpest(S, voxel), 0.7 * before);
+    for (const double sign : {1.0, -1.0}) {
+        double coarser = 0.0;
+        for (const double voxel : {0.25, 0.125, 0.0625}) {
+            DistanceBand S = bandOf(voxel, sign);
+            const double before = sharpest(S, voxel, sign);
+            EXPECT_GT(before, 0.5 / voxel);
+            roundRidges(S, probe, Progress());
+            const double after = sharpest(S, voxel, sign);
+            EXPECT_LT(after, 1.5 * 0.5 / ridgeRadius + 0.1) << sign << " " << voxel;
+            EXPECT_LT(after, 0.7 * before);
+            if (voxel == 0.0625) EXPECT_NEAR(after, coarser, 0.15 * coarser) << sign;
+            coarser = after;
+        }
     }
+}
+
+// Where no kink is marked, a sharp place is found by its curvature.
+TEST(RoundRidges, AreFoundByCurvatureToo)
+{
+    const double voxel = 0.125;
+    DistanceBand S = bandOf(voxel);
+    for (std::size_t n = 0; n < S.kinks.size(); ++n) S.kinks.active(n) = LeafMask();
+    const double before = sharpest(S, voxel);
+    roundRidges(S, probe, Progress());
+    EXPECT_LT(sharpest(S, voxel), 0.5 * before);
+}
+
+// A concave crease of a surface that lies 0.2 Å inside another may have a radius of 0.2 Å.
+TEST(RoundRidges, LeaveWhatAnOffsetBends)
+{
+    const double voxel = 0.125;
+    DistanceBand wide = bandOf(voxel, -1.0), narrow = bandOf(voxel, -1.0), none = bandOf(voxel);
+    roundRidges(wide, probe, Progress());
+    roundRidges(narrow, 0.2, Progress());
+    EXPECT_GT(sharpest(narrow, voxel, -1.0), 1.2 * sharpest(wide, voxel, -1.0));
+    const double before = sharpest(none, voxel);
+    roundRidges(none, 0.0, Progress());
+    EXPECT_EQ(sharpest(none, voxel), before);
 }
 
 TEST(RoundRidges, LeaveAllElseAsItIs)
@@ -74,7 +111,7 @@ TEST(RoundRidges, LeaveAllElseAsItIs)
     const double voxel = 0.25;
     const DistanceBand before = bandOf(voxel);
     DistanceBand S = bandOf(voxel);
-    roundRidges(S, Progress());
+    roundRidges(S, probe, Progress());
     std::size_t moved = 0;
     test::forEachActive(S.phi.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
         if (S.phi.leaf(n)[v] == before.phi.leaf(n)[v]) return;
@@ -85,7 +122,7 @@ TEST(RoundRidges, LeaveAllElseAsItIs)
     EXPECT_GT(moved, 100u);
 
     DistanceBand coarse = bandOf(1.0);
-    roundRidges(coarse, Progress());
+    roundRidges(coarse, probe, Progress());
     EXPECT_EQ(ridgeReach(1.0), 0);
 }
 

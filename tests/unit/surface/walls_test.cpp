@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <set>
 #include <vector>
@@ -195,35 +197,84 @@ TEST(Walls, AreCountedInTheReport)
     }
 }
 
+/// S of one value in 16^3 voxels.
+SparseField flatField(double voxel, double value)
+{
+    std::vector<openvdb::Coord> origins;
+    for (int k = 0; k < 8; ++k) origins.emplace_back(8 * (k >> 2), 8 * (k >> 1 & 1), 8 * (k & 1));
+    LeafTable table(std::move(origins));
+    for (std::size_t n = 0; n < table.size(); ++n) table.active(n) = ~LeafMask();
+    return test::filled(table, voxel, [value](const Vec3d&) { return value; });
+}
+
+double valueAt(const SparseField& S, int x)
+{
+    const openvdb::Coord c(x, 8, 8);
+    return S.leaf(std::size_t(S.table.find(c)))[openvdb::FloatTree::LeafNodeType::coordToOffset(c)];
+}
+
+// An open wall is opened to 0.25 Å outside, and half of the 1.5 Å from there (1 - t^2)^3 of the
+// change is left, whatever the voxel is; a closed one is left alone, and what is open farther.
+TEST(Walls, AreOpenedByLengths)
+{
+    constexpr double offset = 1.4;
+    const Vec3d middle(8.0, 8.0, 8.0); // [voxel]
+    for (const double voxel : {0.5, 0.25}) {
+        for (const double before : {-0.05, 0.3}) {
+            for (const bool closed : {true, false}) {
+                SparseField S = flatField(voxel, before);
+                openWalls({{middle, offset + thinnestWall + (closed ? 0.03 : -0.03)}}, offset, S);
+                const double change = closed || before > 0.25 ? 0.0 : 0.25 - before;
+                EXPECT_NEAR(valueAt(S, 8) - before, change, 1e-5) << voxel;
+                const int half = int(0.75 / voxel);
+                const double t2 = half * half * voxel * voxel / 2.25;
+                EXPECT_NEAR(valueAt(S, 8 + half) - before, change * std::pow(1.0 - t2, 3), 1e-5)
+                    << voxel;
+            }
+        }
+    }
+}
+
 // The middle of a closed wall lies 0.7 voxels inside, that of an open one 0.25 outside, and half a
 // radius from there (1 - t^2)^3 of the change is left.
 TEST(Walls, AreHeldByBumps)
 {
     constexpr double h = 0.5, offset = 1.4, flat = 0.05;
     for (const bool closed : {true, false}) {
-        std::vector<openvdb::Coord> origins;
-        for (int k = 0; k < 8; ++k)
-            origins.emplace_back(8 * (k >> 2), 8 * (k >> 1 & 1), 8 * (k & 1));
-        LeafTable table(std::move(origins));
-        for (std::size_t n = 0; n < table.size(); ++n) table.active(n) = ~LeafMask();
-        SparseField S = test::filled(table, h, [](const Vec3d&) { return flat; });
+        SparseField S = flatField(h, flat);
         const Vec3d middle(8.0, 8.0, 8.0); // [voxel]
         const double depth = offset + thinnestWall + (closed ? 0.03 : -0.03);
         const GapReport report = decideWalls({{middle, depth}}, offset, S);
         EXPECT_EQ(report.found, 1u);
         EXPECT_EQ(report.closed, closed ? 1u : 0u);
         EXPECT_NEAR(report.nearest, 0.03, 1e-9);
-        const auto at = [&](int x) {
-            const openvdb::Coord c(x, 8, 8);
-            return double(S.leaf(
-                std::size_t(S.table.find(c)))[openvdb::FloatTree::LeafNodeType::coordToOffset(c)]);
-        };
         const double change = (closed ? -0.7 * h : 0.25 * h) - flat;
-        EXPECT_NEAR(at(8) - flat, change, 1e-5) << closed;
+        EXPECT_NEAR(valueAt(S, 8) - flat, change, 1e-5) << closed;
         const double t2 = 1.0 / 9.0; // a voxel of the bump's three
-        EXPECT_NEAR(at(9) - flat, change * std::pow(1.0 - t2, 3), 1e-5) << closed;
-        EXPECT_NEAR(at(12), flat, 1e-6);
+        EXPECT_NEAR(valueAt(S, 9) - flat, change * std::pow(1.0 - t2, 3), 1e-5) << closed;
+        EXPECT_NEAR(valueAt(S, 12), flat, 1e-6);
     }
+}
+
+// The film about the middle of an open wall is opened to a length in Å: four atoms in a square,
+// whose hole a film would close that is 0.001 Å thinner than what stays.
+TEST(Walls, OpenAsFarOnAllVoxels)
+{
+    std::mt19937 random(31);
+    std::vector<Vec3d> square;
+    for (const double x : {0.0, 4.6})
+        for (const double y : {0.0, 4.6}) square.emplace_back(x, y, 0.0);
+    double least = std::numeric_limits<double>::max(), most = 0.0;
+    for (const double voxel : {0.5, 0.25, 0.125}) {
+        SurfaceOptions options;
+        options.voxel = voxel;
+        const Report report =
+            test::runOn(ballsAt(square, test::randomMotion(random)), options).report;
+        EXPECT_EQ(*report.surface.eulerCharacteristic, 0) << voxel;
+        least = std::min(least, report.surface.area);
+        most = std::max(most, report.surface.area);
+    }
+    EXPECT_LT(most, 1.003 * least);
 }
 
 // Of molecules of 130 atoms in random places, which have a few walls each.
