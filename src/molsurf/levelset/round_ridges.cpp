@@ -16,9 +16,9 @@ namespace molsurf
 namespace
 {
 
-// How long S moves [Å^2]: three steps at 0.5 Å. measured: bench/specks.py vdb_molsurf crease49.xyzr,
-// the largest |H| and the area at 0.125 Å: 2.44/Å, 580.93 Å^2 for this, 2.09, 580.88 for 0.15 Å^2,
-// 1.96, 580.86 for 0.25 Å^2; 581.85 Å^2 without.
+// How long S moves [Å^2]: three steps at 0.5 Å. measured: bench/specks.py vdb_molsurf
+// crease49.xyzr, the largest |H| and the area at 0.125 Å: 2.44/Å, 580.93 Å^2 for this, 2.09, 580.88
+// for 0.15 Å^2, 1.96, 580.86 for 0.25 Å^2; 581.85 Å^2 without.
 constexpr double ridgeTime = 0.375 * ridgeRadius * ridgeRadius;
 constexpr float reach = 2.5f; // of the spline at a point, with what it depends on [voxel]
 constexpr float near = 1.5f;  // from S = 0, where its curvature is looked at [voxel]

@@ -76,7 +76,9 @@ TEST(RoundRidges, ComeToTheStatedRadius)
             const double after = sharpest(S, voxel, sign);
             EXPECT_LT(after, 1.5 * 0.5 / ridgeRadius + 0.1) << sign << " " << voxel;
             EXPECT_LT(after, 0.7 * before);
-            if (voxel == 0.0625) EXPECT_NEAR(after, coarser, 0.15 * coarser) << sign;
+            if (voxel == 0.0625) {
+                EXPECT_NEAR(after, coarser, 0.15 * coarser) << sign;
+            }
             coarser = after;
         }
     }
