@@ -273,7 +273,7 @@ class Memory(ToolTest):
     def too_little_for(self, *words):
         """Bytes that the whole does not fit into, and bricks of it do."""
         said = self.check(0, *words, "--dry-run").stderr.decode()
-        return int(0.9 * size_of(said))
+        return int(0.95 * size_of(said))
 
     def test_dry_run(self):
         text = self.dry(*FAST)

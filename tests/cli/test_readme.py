@@ -42,7 +42,8 @@ def promised(block):
     words = shlex.split(block.replace("\\\n", " ").replace(";", " ;"), comments=True)
     files = [after for word, after in zip(words, words[1:]) if word in ("-o", ">", "2>")]
     if "--frames" in words:
-        files = [re.sub(r"\.(?!csv$)(\w+)$", r".0001.\1", name) for name in files]
+        first = int(words[words.index("--first-frame") + 1]) if "--first-frame" in words else 1
+        files = [re.sub(r"\.(?!csv$)(\w+)$", rf".{first:04}.\1", name) for name in files]
     return [name for name in files if name != "-"]
 
 

@@ -63,24 +63,24 @@ Limits limitsOf(double offset)
     return {-std::max(limit, float(1.0 / offset)), limit};
 }
 
-/// The voxels of a leaf at which S bends more than that.
-MOLSURF_KERNEL void sharpVoxels(const float* __restrict block, Limits limits, float inverse,
-                                LeafMask& mask)
+/// The voxels of a leaf whose foot on S = 0 is sharper than any atom.
+MOLSURF_KERNEL void sharpVoxels(const float* __restrict block, float inverse, LeafMask& mask)
 {
+    constexpr float sharpest = 4.0f; // mean curvature of a ball of 0.25 Å [1/Å]
     constexpr int X = LeafBlock<float, 1>::strideX, Y = LeafBlock<float, 1>::strideY;
     for (int row = 0; row < 64; ++row) {
         const float* p = block + (row / 8 + 1) * X + (row % 8 + 1) * Y + 1;
         int bits = 0;
         for (int z = 0; z < 8; ++z) {
-            const float H = bendAt(p + z, inverse).H;
-            bits |= int(H > limits.convex || H < limits.concave) << z;
+            const float H = bendAt(p + z, inverse).H; // of the level set through the voxel
+            bits |= int(std::abs(H) > sharpest * larger(1.0f - p[z] * H, 0.0f)) << z;
         }
         mask.words[row >> 3] |= std::uint64_t(bits) << (8 * (row & 7));
     }
 }
 
 /// The voxels that move: about kinks and sharp places near the zero set, of those that S has.
-LeafTable ridgesOf(const DistanceBand& S, Limits limits, const Progress& progress)
+LeafTable ridgesOf(const DistanceBand& S, const Progress& progress)
 {
     const float h = float(S.phi.voxelSize), outward = reach * h;
     const float inward = std::max(float(ridgeRadius), outward);
@@ -92,7 +92,7 @@ LeafTable ridgesOf(const DistanceBand& S, Limits limits, const Progress& progres
         LeafBlock<float, 1> block;
         block.gather(S.phi.table, S.phi.values, n);
         LeafMask sharp;
-        sharpVoxels(block.values, limits, 1.0f / h, sharp);
+        sharpVoxels(block.values, 1.0f / h, sharp);
         ridges.active(n) |= close & sharp;
     });
     ridges = dilated(pruned(ridges), aboutOf(h), Spread::Ball, progress);
@@ -152,7 +152,7 @@ void roundRidges(DistanceBand& S, double offset, const Progress& progress)
     if (steps == 0 || offset <= 0.0) return;
     const Limits limits = limitsOf(offset);
     const float h = float(S.phi.voxelSize), inverse = 1.0f / h, time = float(ridgeTime / steps);
-    const LeafTable ridges = ridgesOf(S, limits, progress);
+    const LeafTable ridges = ridgesOf(S, progress);
     std::vector<std::size_t> leaf(ridges.size());
     for (std::size_t n = 0; n < ridges.size(); ++n)
         leaf[n] = std::size_t(S.phi.table.find(ridges.origin(n)));

@@ -40,7 +40,7 @@ TEST(Files, PlaceALevelSetInAScene)
     const Colored made;
     const Folder folder;
     writeVdb(made.surface, folder / "a.vdb");
-    writeVdb(made.surface, folder / "b.vdb", true, "blender=0.5");
+    writeVdb(made.surface, folder / "b.vdb", true, "blender4=0.5");
     const auto [plain, one] = levelSetIn(folder / "a.vdb");
     const auto [placed, half] = levelSetIn(folder / "b.vdb");
     EXPECT_EQ(one, 1.0);
