@@ -32,7 +32,8 @@ void writeMesh(const Mesh& mesh, const std::string& path, bool replace = true);
 
 /// Writes the grids of a surface as an OpenVDB file, the level set first.
 /// @param[in] replace  whether a file that exists may be replaced
-/// @param[in] scene    "blender", "blender4", "houdini" or "usd", perhaps with "=SCALE", places and scales them
+/// @param[in] scene    "blender", "blender4", "houdini" or "usd", perhaps with "=SCALE", places and
+/// scales them
 ///                     for that program: docs/artists.md; empty: they lie as they are, in Å
 /// @throws Error(ErrorKind::Usage) if the scene is none of these
 /// @throws Error(ErrorKind::Output) if the file cannot be written
