@@ -33,7 +33,8 @@ Ending endingOf(const std::exception& e);
 void handleSignals(const std::vector<std::string>& temporaries);
 
 /// Says of exceptions that nobody can catch what handleSignals() says, and looks at SIGPIPE for
-/// endByPipe(). To be called before main(), since libraries start threads there that may lack memory.
+/// endByPipe(). To be called before main(), since libraries start threads there that may lack
+/// memory.
 void handleEarly();
 
 /// True once a signal has come.
