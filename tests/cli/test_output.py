@@ -3,6 +3,7 @@
 
 import os
 import resource
+import shlex
 import shutil
 import signal
 import subprocess
@@ -181,12 +182,12 @@ class StandardOutput(ToolTest):
 
     def test_a_reader_that_has_enough(self):
         """As `head` does, in the middle of a file; of a pipe with a name, too."""
-        words = f"{TOOL} {CRAMBIN} -q -o a.json --voxel 0.3"
+        words = f"{shlex.quote(str(TOOL))} {shlex.quote(str(CRAMBIN))} -q -o a.json --voxel 0.3"
         for call in (f"{words} -o - --format ply | head -c 10", f"{words} -o - --format vdb | head -c 10",
                      f"mkfifo p.ply; head -c 10 p.ply & {words} -o p.ply"):
             with self.subTest(call):
                 done = subprocess.run(["bash", "-c", call + "; echo ${PIPESTATUS[0]} >&2"], cwd=self.folder,
-                                      capture_output=True, check=True)
+                                      capture_output=True, check=True, timeout=60)
                 self.assertEqual(done.stderr, b"141\n")
                 self.assertNotIn("a.json", self.names())
 
