@@ -165,6 +165,7 @@ std::vector<std::int32_t> takeAtoms(const std::vector<std::int32_t>& fileIds,
 /// The balls of the unit that those around it are images of.
 std::vector<std::int32_t> imagesOf(const BallSet& atoms)
 {
+    if (atoms.placement.around == 0) return {};
     std::multimap<std::int32_t, std::size_t> own;
     for (std::size_t i = 0; i < atoms.own(); ++i) own.emplace(atoms.balls[i].atom, i);
     std::vector<std::int32_t> out;
@@ -264,13 +265,13 @@ void checkWhole(const MadeSurface& surface, const char* what)
 
 nb::tuple distancesOf(MadeSurface& surface, const Positions& positions, const How& how)
 {
+    checkWhole(surface, "distance");
     std::vector<Vec3d> points;
     for (std::size_t i = 0; i < positions.shape(0); ++i)
         points.emplace_back(positions.data() + 3 * i);
     std::vector<double> distance;
     std::vector<Vec3d> closest, normal;
     std::vector<std::int32_t> atom;
-    checkWhole(surface, "distance");
     auto to = surface.distance;
     const auto found = run(how, [&](Progress& progress) {
         if (!to) {

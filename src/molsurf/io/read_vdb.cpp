@@ -49,22 +49,27 @@ bool isVdbFile(const std::string& path)
 
 std::string vdbText(const std::string& path, const std::string& name)
 {
-    constexpr std::size_t most = 1 << 20;
     const auto counted = [](std::size_t length) {
         const auto count = std::uint32_t(length);
         return std::string(reinterpret_cast<const char*>(&count), sizeof count);
     };
-    std::string head(most, '\0');
-    std::ifstream stream(path, std::ios_base::binary);
-    stream.read(head.data(), std::streamsize(most));
-    head.resize(std::size_t(std::max<std::streamsize>(stream.gcount(), 0)));
     const std::string type = "string";
     const std::string key = counted(name.size()) + name + counted(type.size()) + type;
-    const std::size_t at = head.find(key);
-    if (at == std::string::npos || head.size() - at < key.size() + 4) return "";
-    std::uint32_t length = 0;
-    std::memcpy(&length, head.data() + at + key.size(), sizeof length);
-    return head.substr(at + key.size() + 4, length);
+    std::ifstream stream(path, std::ios_base::binary);
+    std::string head;
+    for (const std::size_t most : {std::size_t(1) << 14, std::size_t(1) << 20}) { // few have more
+        const std::size_t known = head.size();
+        head.resize(most);
+        stream.read(head.data() + known, std::streamsize(most - known));
+        head.resize(known + std::size_t(std::max<std::streamsize>(stream.gcount(), 0)));
+        const std::size_t at = head.find(key);
+        if (at == std::string::npos || head.size() - at < key.size() + 4) continue;
+        std::uint32_t length = 0;
+        std::memcpy(&length, head.data() + at + key.size(), sizeof length);
+        const std::size_t begin = at + key.size() + 4;
+        if (length <= head.size() - begin || !stream) return head.substr(begin, length);
+    }
+    return "";
 }
 
 VdbFile readVdb(const std::string& path, const std::function<bool(const VdbContent&)>& wanted)

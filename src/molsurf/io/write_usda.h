@@ -53,9 +53,8 @@ FrameName frameName(const std::string& path);
 ///
 /// @param[in] vdb         the file; of a frame, the other frames in its folder are in the .usda too
 /// @param[in] sequence    whether it may be a frame
-/// @param[in] options     `frames.options` in the metadata of the frames that belong to it; empty:
-/// of
-///                        those without it, which runs of their own have made
+/// @param[in] options     `frames.options` in the metadata of the frames that belong to it; empty
+///                        of those without it, which runs of their own have made
 /// @param[in] metersPerUnit  length of a unit of the scene [m]
 UsdVolume usdVolumeOf(const std::string& vdb, bool sequence, const std::string& options,
                       double metersPerUnit);
