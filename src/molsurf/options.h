@@ -75,25 +75,29 @@ struct EvolveOptions {
     double tolerance = 0.01;
 };
 
-/// Options that say which surface is made and how fine.
-struct SurfaceOptions {
+/// What decides the shape of a surface, and how fine it is.
+struct SurfaceSpec {
     SurfaceKind kind = SurfaceKind::Variational;
-    double blobbiness = 2.3; ///< d of the Gaussian surface, no unit, in [0.1, 100]
-    double probe = 1.4;      ///< probe radius r_b [Å], in [0, 100]
-    double voxel = 0.5;      ///< edge h of a voxel [Å], in [0.05, 10]
-    double epsilon = 0.5;    ///< tolerance eps of the Gaussian sum [Å], in [0.01, 10]
+    double blobbiness = 2.3;   ///< d of the Gaussian surface, no unit, in [0.1, 100]
+    double probe = 1.4;        ///< probe radius r_b [Å], in [0, 100]
+    double voxel = 0.5;        ///< edge h of a voxel [Å], in [0.05, 10]
+    double epsilon = 0.5;      ///< tolerance eps of the Gaussian sum [Å], in [0.01, 10]
+    EvolveOptions evolution;   ///< options of the flow, for the variational surface
+    int splineLevel = 0;       ///< L in 0, 1, 2: the spline lies on voxels of edge 2^L h
+    bool fillCavities = false; ///< whether the inner walls of closed cavities are removed
+    double minWall = 0.0;      ///< thinner parts are thickened to this [Å], >= 0; 0: none is
+    /// Whether balls with a resolution enclose the volume that they have without.
+    bool matchVolume = false;
+};
+
+/// What is made of a surface: its grids, its mesh, and the measures of its report.
+struct Wanted {
     ColorBy color =
         ColorBy::Nothing; ///< property that colours the mesh's vertices and the grid `Cd`
     bool split = false;   ///< whether every group of atoms gets a surface of its own
     /// Names of groups that get a surface of their own, and the kind of each.
     std::vector<std::pair<std::string, SurfaceKind>> surfaceOf;
     bool interfaces = false; ///< whether the report has the areas that groups bury between them
-    bool matchVolume =
-        false; ///< whether balls with a resolution enclose the volume that they have without
-    EvolveOptions evolution;   ///< options of the flow, for the variational surface
-    int splineLevel = 0;       ///< L in 0, 1, 2: the spline lies on voxels of edge 2^L h
-    bool fillCavities = false; ///< whether the inner walls of closed cavities are removed
-    double minWall = 0.0;      ///< thinner parts are thickened to this [Å], >= 0; 0: none is
     /// Names of further grids to make, of the list in docs/options.md: "density", "Cd", or a
     /// curvature as "mean_curvature", which the mesh then has as well.
     std::vector<std::string> fields;
@@ -116,12 +120,16 @@ struct SurfaceOptions {
     bool ofParts() const { return split || !surfaceOf.empty(); }
 };
 
-/// The range of SurfaceOptions::voxel [Å].
+/// A surface, and what is made of it.
+struct SurfaceOptions : SurfaceSpec, Wanted {
+};
+
+/// The range of SurfaceSpec::voxel [Å].
 constexpr double minVoxel = 0.05, maxVoxel = 10.0;
 
 /// Returns the probe radius that the surface is made with [Å]. It is 0 for the van der Waals and
-/// the Gaussian surface, whatever SurfaceOptions::probe is.
-double probeOf(const SurfaceOptions& options);
+/// the Gaussian surface, whatever SurfaceSpec::probe is.
+double probeOf(const SurfaceSpec& spec);
 
 /// Returns the word of the command line for a kind: variational, ses, smooth-sas.
 const char* nameOf(SurfaceKind kind);

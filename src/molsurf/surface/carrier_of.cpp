@@ -33,13 +33,13 @@ std::vector<double> slopesOf(const std::vector<Ball>& balls, const GaussianOptio
 
 // The slopes of the balls, at each voxel weighted by their terms of the sum: psi of the sum with
 // the slopes as factors, less psi.
-SlopeField slopeField(const BallSet& atoms, const SurfaceOptions& options,
+SlopeField slopeField(const BallSet& atoms, const SurfaceSpec& spec,
                       const std::optional<GaussianExtent>& extent, const PsiOnLeaves& psi,
                       const Bumps& bumps, const Progress& progress)
 {
     const LeafTable& table = psi.table;
-    GaussianOptions gaussian = gaussianOptions(options);
-    std::vector<Decay> decays = hasFlow(options.kind) ? atoms.decays : std::vector<Decay>();
+    GaussianOptions gaussian = gaussianOptions(spec);
+    std::vector<Decay> decays = hasFlow(spec.kind) ? atoms.decays : std::vector<Decay>();
     const std::vector<double> slopes = slopesOf(atoms.balls, gaussian, decays);
     const auto ends = std::minmax_element(slopes.begin(), slopes.end());
     const double least = *ends.first, most = *ends.second;
@@ -61,16 +61,16 @@ SlopeField slopeField(const BallSet& atoms, const SurfaceOptions& options,
     return SlopeField(std::move(field));
 }
 
-SparseField carrierOf(const BallSet& atoms, const SurfaceOptions& options,
+SparseField carrierOf(const BallSet& atoms, const SurfaceSpec& spec,
                       const std::optional<GaussianExtent>& extent, const NarrowBand& band,
                       const Bumps& bumps, const Progress& progress)
 {
     const SlopeField slope =
-        slopeField(atoms, options, extent, {band.phi.table, band.psi}, bumps, progress);
-    const EvolveOptions& evolution = options.evolution;
-    const bool valley = hasFlow(options.kind) && evolution.regularizer == Regularizer::Gradient;
+        slopeField(atoms, spec, extent, {band.phi.table, band.psi}, bumps, progress);
+    const EvolveOptions& evolution = spec.evolution;
+    const bool valley = hasFlow(spec.kind) && evolution.regularizer == Regularizer::Gradient;
     return smoothCarrier(band.phi,
-                         {band.psi, slope, !hasFlow(options.kind), valley ? evolution.lambda : 0.0},
+                         {band.psi, slope, !hasFlow(spec.kind), valley ? evolution.lambda : 0.0},
                          bandWidthVox * band.phi.voxelSize, progress);
 }
 

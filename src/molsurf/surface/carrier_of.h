@@ -24,14 +24,14 @@ struct PsiOnLeaves {
 /// The slope of psi.
 /// @param[in] extent  of all balls, if these are some of them
 /// @param[in] psi     of the balls, with bumps
-SlopeField slopeField(const BallSet& atoms, const SurfaceOptions& options,
+SlopeField slopeField(const BallSet& atoms, const SurfaceSpec& spec,
                       const std::optional<GaussianExtent>& extent, const PsiOnLeaves& psi,
                       const Bumps& bumps, const Progress& progress);
 
 /// Makes the smooth carrier of an interface: see smoothCarrier().
 /// @param[in] extent  of all balls, if these are some of them
 /// @param[in] band    the interface, and psi
-SparseField carrierOf(const BallSet& atoms, const SurfaceOptions& options,
+SparseField carrierOf(const BallSet& atoms, const SurfaceSpec& spec,
                       const std::optional<GaussianExtent>& extent, const NarrowBand& band,
                       const Bumps& bumps, const Progress& progress);
 

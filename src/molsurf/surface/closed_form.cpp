@@ -28,40 +28,40 @@ MeshTolerance excludedTolerance(const BallBoundary& boundary, const BoundaryMeas
 
 } // namespace
 
-bool isMeasured(const BallSet& atoms, const SurfaceOptions& options)
+bool isMeasured(const BallSet& atoms, const SurfaceSpec& spec)
 {
     // What a mesh holds for a cavity may be open to the outside where probes touch each other.
-    const bool filled = options.fillCavities && offsetOf(options) > 0.0;
-    return isClosedForm(options) && !filled && !atoms.placement.unit;
+    const bool filled = spec.fillCavities && offsetOf(spec) > 0.0;
+    return isClosedForm(spec) && !filled && !atoms.placement.unit;
 }
 
-ClosedForm measureClosedForm(const BallBoundary& boundary, const SurfaceOptions& options,
+ClosedForm measureClosedForm(const BallBoundary& boundary, const SurfaceSpec& spec,
                              std::size_t areasOf, const Progress& progress)
 {
     BoundaryMeasure measure = checkedMeasure(boundary, progress);
     ClosedForm out;
-    const double probe = offsetOf(options);
+    const double probe = offsetOf(spec);
     if (probe == 0.0) {
         if (areasOf > 0) out.ballAreas = areasOfBalls(boundary, measure, areasOf);
-        out.tolerance = meshTolerance(boundary, measure, options.voxel);
+        out.tolerance = meshTolerance(boundary, measure, spec.voxel);
         out.pieces = std::move(measure.pieces);
         return out;
     }
     ExcludedMeasure excluded = measureExcluded(boundary, measure, probe, areasOf > 0, progress);
     if (areasOf > 0) out.ballAreas = areasOfBalls(boundary, excluded, areasOf);
     out.cuspLength = cuspLengthOf(boundary, probe);
-    out.tolerance = excludedTolerance(boundary, measure, excluded, probe, options.voxel);
+    out.tolerance = excludedTolerance(boundary, measure, excluded, probe, spec.voxel);
     out.pieces = std::move(excluded.pieces);
     out.topologyKnown = excluded.topologyKnown;
     return out;
 }
 
-ClosedForm measureClosedForm(const std::vector<Ball>& balls, const SurfaceOptions& options,
+ClosedForm measureClosedForm(const std::vector<Ball>& balls, const SurfaceSpec& spec,
                              const Progress& progress)
 {
     if (balls.empty()) return {};
     checkFinite(balls);
-    return measureClosedForm(ballBoundary(balls, probeOf(options), progress), options, balls.size(),
+    return measureClosedForm(ballBoundary(balls, probeOf(spec), progress), spec, balls.size(),
                              progress);
 }
 

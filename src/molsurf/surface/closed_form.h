@@ -16,7 +16,7 @@
 namespace molsurf
 {
 
-/// Measures of a surface of isClosedForm() options.
+/// Measures of a surface that isClosedForm().
 struct ClosedForm {
     std::vector<BoundaryPiece> pieces;
     bool topologyKnown = true;        ///< ExcludedMeasure::topologyKnown
@@ -26,18 +26,18 @@ struct ClosedForm {
 };
 
 /// Tells whether a run of some balls measures their surface in closed form.
-bool isMeasured(const BallSet& atoms, const SurfaceOptions& options);
+bool isMeasured(const BallSet& atoms, const SurfaceSpec& spec);
 
 /// Measures a surface and checks the measures.
 /// @param[in] boundary  of the balls grown by probeOf()
 /// @param[in] areasOf   how many balls the caller has, if ClosedForm::ballAreas is to be made; or 0
 /// @throws Error(ErrorKind::Check) if two ways to the same number disagree
-ClosedForm measureClosedForm(const BallBoundary& boundary, const SurfaceOptions& options,
+ClosedForm measureClosedForm(const BallBoundary& boundary, const SurfaceSpec& spec,
                              std::size_t areasOf, const Progress& progress);
 
 /// Finds the boundary of the balls, too, and their areas.
 /// @param[in] balls  every one finite
-ClosedForm measureClosedForm(const std::vector<Ball>& balls, const SurfaceOptions& options,
+ClosedForm measureClosedForm(const std::vector<Ball>& balls, const SurfaceSpec& spec,
                              const Progress& progress);
 
 /// Tells the length of the arcs that are smaller than a probe [Å]: SurfaceReport::cuspLength.

@@ -16,11 +16,11 @@ class Influence
 {
 public:
     /// @param[in] atoms    all balls of the molecule
-    /// @param[in] options  of one surface
-    Influence(const BallSet& atoms, const SurfaceOptions& options);
+    /// @param[in] spec   of one surface
+    Influence(const BallSet& atoms, const SurfaceSpec& spec);
 
     /// @param[in] extent  of the Gaussians of all balls of the molecule
-    Influence(const GaussianExtent& extent, const SurfaceOptions& options);
+    Influence(const GaussianExtent& extent, const SurfaceSpec& spec);
 
     const GaussianExtent& extent() const { return extent_; }
 
@@ -38,7 +38,7 @@ public:
     double onVoxels() const;
 
 private:
-    const SurfaceOptions& options_;
+    const SurfaceSpec& spec_;
     GaussianExtent extent_;
 };
 

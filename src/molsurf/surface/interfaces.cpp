@@ -29,14 +29,16 @@ struct Areas {
     std::vector<double> ofBalls; ///< in closed form, or if the options ask for them; else empty
 };
 
-Areas areasOf(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
+Areas areasOf(const BallSet& atoms, const SurfaceSpec& spec, bool ofBalls, Progress& progress)
 {
-    if (isClosedForm(options)) {
-        std::vector<double> areas = measureClosedForm(atoms.balls, options, progress).ballAreas;
+    if (isClosedForm(spec)) {
+        std::vector<double> areas = measureClosedForm(atoms.balls, spec, progress).ballAreas;
         return {std::accumulate(areas.begin(), areas.end(), 0.0), std::move(areas)};
     }
     QuietProgress quiet(progress);
-    MolecularSurface made = makePrototypes(atoms, options, &quiet);
+    Wanted wanted = measuresAlone();
+    wanted.ballAreas = ofBalls;
+    MolecularSurface made = makePrototypes(atoms, {spec, wanted}, &quiet);
     return {made.report.surface.area, std::move(made.ballAreas)};
 }
 
@@ -65,18 +67,6 @@ buriedBalls(const std::array<const std::vector<std::size_t>*, 2>& groups,
 
 constexpr double noticeable = 0.005; // [Å^2]
 constexpr double rounding = 1e-10;   // of an area in closed form [Å^2]
-
-SurfaceOptions plainOptions(const SurfaceOptions& options)
-{
-    SurfaceOptions plain = options;
-    plain.interfaces = plain.split = false;
-    plain.surfaceOf.clear();
-    plain.fields.clear();
-    plain.color = ColorBy::Nothing;
-    plain.curvatureTotals = plain.contacts = false;
-    plain.grid = true;
-    return plain;
-}
 
 std::vector<std::size_t> merged(const std::vector<std::size_t>& a,
                                 const std::vector<std::size_t>& b)
@@ -123,23 +113,22 @@ BallSet withoutNames(const BallSet& atoms)
 
 } // namespace
 
-void measureInterfaces(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
-                       Report& report)
+void measureInterfaces(const BallSet& atoms, const SurfaceSpec& spec, bool ofBalls,
+                       Progress& progress, Report& report)
 {
     const Placement& placement = atoms.placement;
     const std::vector<Group>& groups = atoms.labels->groups;
     const std::size_t order = placement.order();
-    const SurfaceOptions plain = plainOptions(options);
     const Members members = membersOf(atoms);
     const auto near = contacts(atoms.balls, members.of, members.balls.size(),
-                               Influence(atoms, plain).acrossGap(), progress);
+                               Influence(atoms, spec).acrossGap(), progress);
 
     std::size_t runs = groups.size(), done = 0;
     for (std::size_t a = 0; a < groups.size(); ++a) runs += near[a].size();
     const auto tick = [&] { progress.update("interfaces", double(done++) / double(runs)); };
     const BallSet bare = withoutNames(atoms);
     const auto measured = [&](const std::vector<std::size_t>& some) {
-        return areasOf(subset(bare, some), plain, progress);
+        return areasOf(subset(bare, some), spec, ofBalls, progress);
     };
     std::map<std::size_t, Areas> alone;
     const auto aloneOf = [&](std::size_t member) -> const Areas& {
@@ -170,9 +159,9 @@ void measureInterfaces(const BallSet& atoms, const SurfaceOptions& options, Prog
             if (m != 0) found.second += " of unit " + placement.instances[m].name;
             found.area = area;
             found.count = mirrored ? order / 2 : order;
-            if (options.ballAreas && order == 1)
+            if (ofBalls && order == 1)
                 found.buried = buriedBalls({&own, &its}, {&aloneOf(a), &aloneOf(member)}, both,
-                                           isClosedForm(options) ? rounding : noticeable);
+                                           isClosedForm(spec) ? rounding : noticeable);
         }
     }
 }

@@ -20,9 +20,10 @@ namespace molsurf
 ///
 /// Areas of the solvent-accessible and van der Waals surfaces are in closed form.
 ///
-/// @param[in]     atoms   with groups
-/// @param[in,out] report  with the groups
-void measureInterfaces(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
-                       Report& report);
+/// @param[in]     atoms    with groups
+/// @param[in]     ofBalls  whether the balls that are buried are listed
+/// @param[in,out] report   with the groups
+void measureInterfaces(const BallSet& atoms, const SurfaceSpec& spec, bool ofBalls,
+                       Progress& progress, Report& report);
 
 } // namespace molsurf

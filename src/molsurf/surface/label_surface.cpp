@@ -63,17 +63,23 @@ std::vector<double> meansOf(const std::vector<float>& values, const Labels& near
     return sums;
 }
 
-void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Labels& nearest,
+/// The ball of each vertex, if anything depends on it, and areas of balls, if they are known.
+struct Owned {
+    Labels nearest;
+    std::vector<double> areas;
+};
+
+void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Owned& owned,
                   double reach, Progress& progress, MolecularSurface& result)
 {
     const BallLabels& labels = *atoms.labels;
     const std::size_t other = labels.groups.size();
     std::vector<double> area;
-    if (result.ballAreas.empty()) {
-        area = scaled(memberAreas(atoms.balls, labels.groupOf, other, nearest, result.mesh),
+    if (owned.areas.empty()) {
+        area = scaled(memberAreas(atoms.balls, labels.groupOf, other, owned.nearest, result.mesh),
                       result.report.surface.area);
     } else {
-        area = groupSums(labels, result.ballAreas);
+        area = groupSums(labels, owned.areas);
     }
     std::vector<double> volume(other + 1, std::numeric_limits<double>::quiet_NaN());
     if (result.surface) {
@@ -106,25 +112,26 @@ void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Lab
     }
 }
 
-/// Labels and colours. @return the ball of each vertex, if anything depends on it
-Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, Progress& progress,
-             MolecularSurface& result)
+/// Labels and colours.
+Owned label(const BallSet& atoms, const SurfaceOptions& options, std::vector<double> known,
+            double reach, Progress& progress, MolecularSurface& result)
 {
     Mesh& mesh = result.mesh;
     const bool grouped = atoms.labels && !atoms.labels->groups.empty();
     colorByCurvature(options.color, atoms.coloring, mesh);
     const bool colored = options.color != ColorBy::Nothing && mesh.colors.empty();
-    Labels nearest;
-    const bool areas = options.ballAreas && result.ballAreas.empty();
+    Owned owned{{}, std::move(known)};
+    Labels& nearest = owned.nearest;
+    const bool areas = options.ballAreas && owned.areas.empty();
     if (options.meshLabels || grouped || colored || areas)
         nearest = nearestBalls(atoms.balls, mesh.positions, reach, progress);
     if (options.meshLabels) labelVertices(atoms, nearest, mesh);
     if (areas) {
         Labels self(atoms.balls.size());
         std::iota(self.begin(), self.end(), 0);
-        result.ballAreas = memberAreas(atoms.balls, self, self.size(), nearest, mesh);
-        result.ballAreas.pop_back(); // of no ball
-        result.ballAreas = scaled(std::move(result.ballAreas), result.report.surface.area);
+        owned.areas = memberAreas(atoms.balls, self, self.size(), nearest, mesh);
+        owned.areas.pop_back(); // of no ball
+        owned.areas = scaled(std::move(owned.areas), result.report.surface.area);
     }
     std::vector<Color> ballColor;
     if (colored)
@@ -135,7 +142,7 @@ Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, 
         if (!row.ofBalls || !hasField(options.fields, row.name)) continue;
         if (auto grid = row.ofBalls(source)) result.fields.push_back(std::move(grid));
     }
-    if (!colored) return nearest;
+    if (!colored) return owned;
     mesh.colors = colorsOf(nearest, ballColor);
     for (std::string& warning : colorWarnings(atoms, options.color))
         result.report.warnings.push_back(std::move(warning));
@@ -151,24 +158,26 @@ Labels label(const BallSet& atoms, const SurfaceOptions& options, double reach, 
         else if (options.ballAreas)
             result.ballValues.assign(own.valueOf.begin(), own.valueOf.end());
     }
-    return nearest;
+    return owned;
 }
 
 } // namespace
 
-void labelSurface(const BallSet& atoms, const SurfaceOptions& options, double reach,
-                  Progress& progress, MolecularSurface& result)
+std::vector<double> labelSurface(const BallSet& atoms, const SurfaceOptions& options,
+                                 std::vector<double> known, double reach, Progress& progress,
+                                 MolecularSurface& result)
 {
-    Labels nearest;
-    if (result.surface) nearest = label(atoms, options, reach, progress, result);
+    Owned owned = result.surface ? label(atoms, options, std::move(known), reach, progress, result)
+                                 : Owned{{}, std::move(known)};
     if (atoms.labels && !atoms.labels->groups.empty())
-        reportGroups(atoms, options, nearest, reach, progress, result);
+        reportGroups(atoms, options, owned, reach, progress, result);
+    return std::move(owned.areas);
 }
 
 void labelPart(const BallSet& atoms, const SurfaceOptions& options, double reach,
                Progress& progress, MolecularSurface& result)
 {
-    const Labels nearest = label(atoms, options, reach, progress, result);
+    const Labels nearest = label(atoms, options, {}, reach, progress, result).nearest;
     if (!atoms.labels || atoms.labels->groups.empty()) return;
     const std::vector<Group>& groups = atoms.labels->groups;
     const std::vector<double> areas =

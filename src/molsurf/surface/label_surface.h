@@ -17,11 +17,15 @@ namespace molsurf
 /// that the options ask for; to the fields the grids atom_id, chain_id, group_id and Cd that they
 /// ask for; to the report the groups with their areas (in closed form where there is one, else of
 /// the triangles, scaled to the area of the smooth surface) and volumes (shares of 1e5 to 1e6
-/// points inside). Without a grid the report alone, from MolecularSurface::ballAreas.
+/// points inside). Without a grid the report alone.
 ///
+/// @param[in] known  areas of the balls in closed form [Å^2]; empty: there are none
 /// @param[in] reach  farthest that a point of the surface may lie from the balls [Å]
-void labelSurface(const BallSet& atoms, const SurfaceOptions& options, double reach,
-                  Progress& progress, MolecularSurface& result);
+/// @return areas of the balls, those that are known or those of the triangles if the options ask
+///         for them; else empty
+std::vector<double> labelSurface(const BallSet& atoms, const SurfaceOptions& options,
+                                 std::vector<double> known, double reach, Progress& progress,
+                                 MolecularSurface& result);
 
 /// Does the same for a part of a surface; the report gets the areas of all groups on the mesh, as
 /// they are, and at last that of no group.

@@ -4,6 +4,7 @@
 #include "molsurf/core/quiet_progress.h"
 #include "molsurf/error.h"
 #include "molsurf/surface/run.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +19,11 @@ namespace
 constexpr double closeEnough = 0.002; // relative
 constexpr int mostRuns = 12;
 
-double volumeOf(const BallSet& atoms, const SurfaceOptions& options, const Progress& progress)
+double volumeOf(const BallSet& atoms, const SurfaceSpec& spec, const Progress& progress)
 {
     QuietProgress quiet(progress);
     try {
-        return makePrototypes(atoms, options, &quiet).report.surface.outerVolume;
+        return makePrototypes(atoms, {spec, measuresAlone()}, &quiet).report.surface.outerVolume;
     } catch (const Error& e) {
         if (e.kind() != ErrorKind::Numeric) throw;
         return 0.0; // nothing is left
@@ -30,12 +31,11 @@ double volumeOf(const BallSet& atoms, const SurfaceOptions& options, const Progr
 }
 
 /// The level at which some balls of one rate enclose a volume.
-double findLevel(BallSet atoms, double wanted, const SurfaceOptions& options,
-                 const Progress& progress)
+double findLevel(BallSet atoms, double wanted, const SurfaceSpec& spec, const Progress& progress)
 {
     const auto excess = [&](double level) {
         for (Decay& decay : atoms.decays) decay.level = float(level);
-        return std::cbrt(volumeOf(atoms, options, progress) / wanted) - 1.0;
+        return std::cbrt(volumeOf(atoms, spec, progress) / wanted) - 1.0;
     };
     // Kept between a level that is too low and one that is too high.
     double low = -1.0, high = 0.0, atLow = excess(low), atHigh = excess(high);
@@ -68,12 +68,10 @@ double findLevel(BallSet atoms, double wanted, const SurfaceOptions& options,
 
 } // namespace
 
-void matchVolumes(BallSet& atoms, const SurfaceOptions& options, const Progress& progress)
+void matchVolumes(BallSet& atoms, const SurfaceSpec& spec, const Progress& progress)
 {
-    SurfaceOptions plain = options;
-    plain.fields.clear();
+    SurfaceSpec plain = withVoxel(spec, std::max(spec.voxel, 1.0));
     plain.fillCavities = false;
-    plain.voxel = std::max(options.voxel, 1.0);
     for (std::size_t r = 0; r < atoms.resolutions.size(); ++r) {
         BallSet part;
         for (std::size_t i = 0; i < atoms.balls.size(); ++i) {

@@ -20,6 +20,6 @@ namespace molsurf
 ///
 /// @param[in,out] atoms  decays and resolutions are set
 /// @throws Error(ErrorKind::Numeric) if no level is found
-void matchVolumes(BallSet& atoms, const SurfaceOptions& options, const Progress& progress);
+void matchVolumes(BallSet& atoms, const SurfaceSpec& spec, const Progress& progress);
 
 } // namespace molsurf

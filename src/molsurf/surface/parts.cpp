@@ -7,6 +7,9 @@
 #include "molsurf/error.h"
 #include "molsurf/mesh/statistics.h"
 #include "molsurf/selection/subset.h"
+#include "molsurf/surface/check_balls.h"
+#include "molsurf/surface/surface_kind.h"
+#include "molsurf/surface/whole_run.h"
 
 #include <algorithm>
 #include <cctype>
@@ -47,7 +50,7 @@ std::vector<Part> partsOf(const BallSet& atoms, const SurfaceOptions& options)
     std::vector<Part> parts;
     for (const Group& group : groups) parts.push_back({group.name, options.kind, {}});
     parts.push_back({otherName, options.kind, {}});
-    std::vector<bool> alone(groups.size(), options.split);
+    std::vector<bool> alone(groups.size(), options.split || atoms.placement.prototypes() > 1);
     for (const auto& [name, kind] : options.surfaceOf) {
         const std::size_t g = findGroup(groups, name);
         parts[g].kind = kind;
@@ -210,23 +213,19 @@ MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, P
 {
     const std::vector<Part> parts = partsOf(atoms, options);
     const BallSet all = colored(atoms, options.color, progress);
-    SurfaceOptions one = options;
-    one.split = one.interfaces = false;
-    one.surfaceOf.clear();
-    if (curvatureNameOf(options.color)) // one scale of colours for all
-        one.fields.erase(std::remove(one.fields.begin(), one.fields.end(), "Cd"), one.fields.end());
-
     MolecularSurface whole;
     std::set<std::string> names;
     std::size_t done = 0; // balls
     for (const Part& part : parts) {
         progress.update("parts", double(done) / double(atoms.balls.size()));
         done += part.balls.size();
-        one.kind = part.kind;
         QuietProgress quiet(progress);
         MolecularSurface result;
         try {
-            result = makeSurface(subset(all, part.balls), one, &quiet);
+            const BallSet own = subset(all, part.balls);
+            checkBalls(own.balls, options, Pieces::One, availableMemory());
+            result = runWhole(own, {ofKind(options, part.kind), options}, quiet).surface;
+            result.report.atoms = part.balls.size();
         } catch (const Error& e) {
             throw Error(e, part.name + ": " + e.what());
         }

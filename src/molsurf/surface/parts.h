@@ -9,8 +9,8 @@
 namespace molsurf
 {
 
-/// Surfaces every group alone (SurfaceOptions::split), or those of SurfaceOptions::surfaceOf alone
-/// and the other atoms together.
+/// Surfaces every group alone (SurfaceOptions::split, or prototypes), or those of
+/// SurfaceOptions::surfaceOf alone and the other atoms together.
 ///
 /// The result has no grid `surface`, but a level set `surface_NAME` a part, all with one transform
 /// and background, and the fields of each part likewise. The mesh has them one after the other;

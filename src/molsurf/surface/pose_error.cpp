@@ -35,52 +35,36 @@ BallSet turned(const BallSet& atoms, double angle)
     return out;
 }
 
-double areaOf(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
+double areaOf(const BallSet& atoms, const SurfaceSpec& spec, double voxel, Progress& progress)
 {
-    SurfaceRun run(atoms, options, Scope(), progress);
+    SurfaceRun run(atoms, {withVoxel(spec, voxel), measuresAlone()}, Scope(), progress);
     run.toMesh();
     run.measure();
     return run.result().report.surface.area;
 }
 
-/// The options that the area depends on.
-SurfaceOptions shapeOf(const SurfaceOptions& options, double voxel)
-{
-    SurfaceOptions shape;
-    shape.kind = options.kind;
-    shape.probe = options.probe;
-    shape.epsilon = options.epsilon;
-    shape.evolution = options.evolution;
-    shape.splineLevel = options.splineLevel;
-    shape.fillCavities = options.fillCavities;
-    shape.minWall = options.minWall;
-    shape.energy = false;
-    shape.voxel = voxel;
-    return shape;
-}
-
 /// The area on voxels of twice the edge, or of the same for a molecule that they cannot show.
-double coarserArea(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
+double coarserArea(const BallSet& atoms, const SurfaceSpec& spec, Progress& progress)
 {
     try {
-        return areaOf(atoms, shapeOf(options, std::min(2.0 * options.voxel, maxVoxel)), progress);
+        return areaOf(atoms, spec, std::min(2.0 * spec.voxel, maxVoxel), progress);
     } catch (const Error&) {
-        return areaOf(atoms, shapeOf(options, options.voxel), progress);
+        return areaOf(atoms, spec, spec.voxel, progress);
     }
 }
 
 } // namespace
 
-bool dependsOnPose(const SurfaceOptions& options)
+bool dependsOnPose(const SurfaceSpec& spec)
 {
     // measured: bench/rotations.py vdb_molsurf FILE --lambda 0.04 of 1D66, 1BNA and 1A8O: areas
     // within 0.2 %, and within 1.5 % at 0.045.
     constexpr double parting = 0.04;
-    const EvolveOptions& flow = options.evolution;
-    return hasFlow(options.kind) && makesNewtonSteps(flow) && !flow.steps && flow.lambda > parting;
+    const EvolveOptions& flow = spec.evolution;
+    return hasFlow(spec.kind) && makesNewtonSteps(flow) && !flow.steps && flow.lambda > parting;
 }
 
-void estimatePoseError(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
+void estimatePoseError(const BallSet& atoms, const SurfaceSpec& spec, Progress& progress,
                        Report& report)
 {
     // measured: half of the largest difference of six poses of 1D66, 1BNA, 1A8O and 5PTI at lambda
@@ -92,7 +76,7 @@ void estimatePoseError(const BallSet& atoms, const SurfaceOptions& options, Prog
     QuietProgress quiet(progress);
     double error = 0.0;
     for (const double angle : {1.1, 2.3}) {
-        const double area = coarserArea(turned(atoms, angle), options, quiet);
+        const double area = coarserArea(turned(atoms, angle), spec, quiet);
         error = std::max(error, factor * std::abs(1.0 - area / report.surface.area));
     }
     double& known = report.evolution->areaError;
@@ -100,7 +84,7 @@ void estimatePoseError(const BallSet& atoms, const SurfaceOptions& options, Prog
     report.warnings.push_back(formatted(
         "`lambda` %g: the place of the molecule on the grid changes the area by about %.2g %% "
         "[hint: `lambda` 0.04 depends less on it]",
-        options.evolution.lambda, 100.0 * known));
+        spec.evolution.lambda, 100.0 * known));
     watch.stop("poses");
 }
 

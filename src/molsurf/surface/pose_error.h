@@ -14,13 +14,13 @@ namespace molsurf
 {
 
 /// Tells whether a surface depends on its place on the grid: one at rest at a lambda above 0.04.
-bool dependsOnPose(const SurfaceOptions& options);
+bool dependsOnPose(const SurfaceSpec& spec);
 
 /// Makes the surface of dependsOnPose() options two times more, turned and on voxels of twice the
 /// edge. Raises EvolutionReport::areaError to 1.5 times the share by which the area of the farther
 /// one differs, and adds a warning.
 /// @param[in,out] report  of the surface
-void estimatePoseError(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
+void estimatePoseError(const BallSet& atoms, const SurfaceSpec& spec, Progress& progress,
                        Report& report);
 
 } // namespace molsurf

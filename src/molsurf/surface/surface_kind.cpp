@@ -38,24 +38,24 @@ const char* nameOf(SurfaceKind kind)
     return rowOf(kind).word;
 }
 
-double probeOf(const SurfaceOptions& options)
+double probeOf(const SurfaceSpec& spec)
 {
-    return rowOf(options.kind).hasProbe ? options.probe : 0.0;
+    return rowOf(spec.kind).hasProbe ? spec.probe : 0.0;
 }
 
-double offsetOf(const SurfaceOptions& options)
+double offsetOf(const SurfaceSpec& spec)
 {
-    return rowOf(options.kind).hasOffset ? options.probe : 0.0;
+    return rowOf(spec.kind).hasOffset ? spec.probe : 0.0;
 }
 
-bool isClosedForm(const SurfaceOptions& options)
+bool isClosedForm(const SurfaceSpec& spec)
 {
-    return isUnion(options.kind) && options.minWall == 0.0;
+    return isUnion(spec.kind) && spec.minWall == 0.0;
 }
 
-bool isBoundary(const SurfaceOptions& options)
+bool isBoundary(const SurfaceSpec& spec)
 {
-    return isClosedForm(options) && offsetOf(options) == 0.0;
+    return isClosedForm(spec) && offsetOf(spec) == 0.0;
 }
 
 bool hasClosedForm(const SurfaceOptions& options)
@@ -63,33 +63,33 @@ bool hasClosedForm(const SurfaceOptions& options)
     return missingIn(InClosedForm, options).empty();
 }
 
-double splineWidthOf(const SurfaceOptions& options)
+double splineWidthOf(const SurfaceSpec& spec)
 {
-    return splineWidthVox * options.voxel * (1 << options.splineLevel);
+    return splineWidthVox * spec.voxel * (1 << spec.splineLevel);
 }
 
-BandWidths widthsOf(const SurfaceOptions& options)
+BandWidths widthsOf(const SurfaceSpec& spec)
 {
-    const double width = splineWidthOf(options), offset = offsetOf(options);
-    const double grown = 0.5 * options.minWall;
-    return {offset + width + grown, std::max(width - offset, options.voxel) + grown};
+    const double width = splineWidthOf(spec), offset = offsetOf(spec);
+    const double grown = 0.5 * spec.minWall;
+    return {offset + width + grown, std::max(width - offset, spec.voxel) + grown};
 }
 
-double growthOf(const SurfaceOptions& options)
+double growthOf(const SurfaceSpec& spec)
 {
-    const KindRow& row = rowOf(options.kind);
-    return row.isUnion || !row.hasOffset ? probeOf(options) : 0.0;
+    const KindRow& row = rowOf(spec.kind);
+    return row.isUnion || !row.hasOffset ? probeOf(spec) : 0.0;
 }
 
-double outwardOf(const SelectOptions::Coloring& coloring, const SurfaceOptions& options)
+double outwardOf(const SelectOptions::Coloring& coloring, const SurfaceSpec& spec)
 {
-    const bool out = rowOf(options.kind).hasProbe && !rowOf(options.kind).hasOffset; // already
-    return coloring.outward.value_or(out ? 0.0 : options.probe);
+    const bool out = rowOf(spec.kind).hasProbe && !rowOf(spec.kind).hasOffset; // already
+    return coloring.outward.value_or(out ? 0.0 : spec.probe);
 }
 
-std::vector<Ball> asMeshed(std::vector<Ball> balls, const SurfaceOptions& options)
+std::vector<Ball> asMeshed(std::vector<Ball> balls, const SurfaceSpec& spec)
 {
-    for (Ball& ball : balls) ball.radius += growthOf(options);
+    for (Ball& ball : balls) ball.radius += growthOf(spec);
     return balls;
 }
 
@@ -102,51 +102,69 @@ void failNothingLeft(const char* stage, SurfaceKind kind)
 }
 
 void failIfTooCoarse(const std::string& what, const std::vector<Ball>& balls,
-                     const SurfaceOptions& options)
+                     const SurfaceSpec& spec)
 {
     // Of random molecules those with voxels up to 0.7 radii come out whole.
     const double radius = double(largestRadius(balls));
-    if (balls.empty() || options.voxel <= radius) return;
+    if (balls.empty() || spec.voxel <= radius) return;
     constexpr double smallest = 0.05; // voxel that can be asked for [Å]
     const std::string hint =
         0.5 * radius >= smallest ? formatted(" [hint: a `voxel` of %.2g]", 0.5 * radius) : "";
     throw Error(ErrorKind::Numeric,
                 what.substr(0, what.find(" [hint")) +
-                    formatted(": voxels of %.3g Å are too large for the balls", options.voxel) +
-                    hint);
+                    formatted(": voxels of %.3g Å are too large for the balls", spec.voxel) + hint);
 }
 
-EvolveOptions flowOptions(const SurfaceOptions& options)
+EvolveOptions flowOptions(const SurfaceSpec& spec)
 {
-    EvolveOptions evolution = options.evolution;
-    evolution.splineLevel = options.splineLevel;
+    EvolveOptions evolution = spec.evolution;
+    evolution.splineLevel = spec.splineLevel;
     return evolution;
 }
 
-bool restsInClosedForm(const SurfaceOptions& options)
+bool restsInClosedForm(const SurfaceSpec& spec)
 {
-    return hasFlow(options.kind) && restsInClosedForm(flowOptions(options));
+    return hasFlow(spec.kind) && restsInClosedForm(flowOptions(spec));
 }
 
-int psiBandVox(const SurfaceOptions& options)
+int psiBandVox(const SurfaceSpec& spec)
 {
-    return restsInClosedForm(options) ? restBandVox(options.voxel) : bandWidthVox;
+    return restsInClosedForm(spec) ? restBandVox(spec.voxel) : bandWidthVox;
 }
 
-bool decidesWalls(const SurfaceOptions& options)
+bool decidesWalls(const SurfaceSpec& spec)
 {
     constexpr double leastOffset = 1.5; // [voxel]
-    return hasFlow(options.kind) && decidesGaps(options.evolution) &&
-           offsetOf(options) >= leastOffset * options.voxel && ridgeReach(options.voxel) > 0;
+    return hasFlow(spec.kind) && decidesGaps(spec.evolution) &&
+           offsetOf(spec) >= leastOffset * spec.voxel && ridgeReach(spec.voxel) > 0;
 }
 
-GaussianOptions gaussianOptions(const SurfaceOptions& options)
+SurfaceSpec ofKind(SurfaceSpec spec, SurfaceKind kind)
+{
+    spec.kind = kind;
+    return spec;
+}
+
+SurfaceSpec withVoxel(SurfaceSpec spec, double voxel)
+{
+    spec.voxel = voxel;
+    return spec;
+}
+
+Wanted measuresAlone()
+{
+    Wanted wanted;
+    wanted.energy = wanted.meshLabels = false;
+    return wanted;
+}
+
+GaussianOptions gaussianOptions(const SurfaceSpec& spec)
 {
     // Stencils reach a voxel beyond the band, along diagonals.
-    const double h = options.voxel;
-    const double reach = (psiBandVox(options) + 1.5) * h;
-    if (isGaussian(rowOf(options.kind))) return {0.0, 0.0, options.blobbiness, h, reach};
-    return {options.probe, options.epsilon, 0.0, h, reach};
+    const double h = spec.voxel;
+    const double reach = (psiBandVox(spec) + 1.5) * h;
+    if (isGaussian(rowOf(spec.kind))) return {0.0, 0.0, spec.blobbiness, h, reach};
+    return {spec.probe, spec.epsilon, 0.0, h, reach};
 }
 
 } // namespace molsurf

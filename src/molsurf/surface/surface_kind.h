@@ -65,13 +65,13 @@ inline bool isBare(SurfaceKind kind)
 }
 
 /// Gives how far the surface lies inside the set whose distance is known [Å], >= 0.
-double offsetOf(const SurfaceOptions& options);
+double offsetOf(const SurfaceSpec& spec);
 
 /// Tells whether area, volume and pieces of a surface are known in closed form.
-bool isClosedForm(const SurfaceOptions& options);
+bool isClosedForm(const SurfaceSpec& spec);
 
 /// Tells whether a surface is the boundary of a union of balls itself, and not one inside of it.
-bool isBoundary(const SurfaceOptions& options);
+bool isBoundary(const SurfaceSpec& spec);
 
 /// Tells whether SurfaceOptions::grid may be false: area, volume and pieces of the surface, and the
 /// areas of its balls, are known in closed form, and nothing is asked for that needs voxels.
@@ -79,34 +79,34 @@ bool hasClosedForm(const SurfaceOptions& options);
 
 /// Tells whether psi decides which thin walls of a surface are closed: where it decides gaps, and
 /// voxels hold what it decides.
-bool decidesWalls(const SurfaceOptions& options);
+bool decidesWalls(const SurfaceSpec& spec);
 
 /// The options of the flow of a surface, with what it takes from those of the surface.
-EvolveOptions flowOptions(const SurfaceOptions& options);
+EvolveOptions flowOptions(const SurfaceSpec& spec);
 
 /// Tells whether a surface is at rest in closed form, without a step.
-bool restsInClosedForm(const SurfaceOptions& options);
+bool restsInClosedForm(const SurfaceSpec& spec);
 
 /// Width of the band that psi is computed in, on each side of psi = 0 [voxel].
-int psiBandVox(const SurfaceOptions& options);
+int psiBandVox(const SurfaceSpec& spec);
 
 /// Gives the half width of the band of S that the spline is fitted on [Å].
-double splineWidthOf(const SurfaceOptions& options);
+double splineWidthOf(const SurfaceSpec& spec);
 
 /// Gives how far from the surface of its set the distance is computed.
-BandWidths widthsOf(const SurfaceOptions& options);
+BandWidths widthsOf(const SurfaceSpec& spec);
 
 /// Gives how much larger than the atoms' balls are those whose cells own the points of a surface
 /// [Å]: the probe radius where it is the surface of their union or lies inside of it, or where it
 /// is so far from the atoms; else 0.
-double growthOf(const SurfaceOptions& options);
+double growthOf(const SurfaceSpec& spec);
 
 /// Gives how far outside of the surface a potential is taken [Å]: where the coloring does not say
 /// it, a probe radius, if the surface is not that far from the atoms itself.
-double outwardOf(const SelectOptions::Coloring& coloring, const SurfaceOptions& options);
+double outwardOf(const SelectOptions::Coloring& coloring, const SurfaceSpec& spec);
 
 /// Gives balls grown by growthOf().
-std::vector<Ball> asMeshed(std::vector<Ball> balls, const SurfaceOptions& options);
+std::vector<Ball> asMeshed(std::vector<Ball> balls, const SurfaceSpec& spec);
 
 /// Says that the voxels show nothing of a surface, and what would.
 /// @param[in] stage  that found it
@@ -116,9 +116,18 @@ std::vector<Ball> asMeshed(std::vector<Ball> balls, const SurfaceOptions& option
 /// @param[in] what  is wrong with the surface
 /// @throws Error(ErrorKind::Numeric) that says so and names a voxel that is small enough
 void failIfTooCoarse(const std::string& what, const std::vector<Ball>& balls,
-                     const SurfaceOptions& options);
+                     const SurfaceSpec& spec);
+
+/// The surface of another kind, else the same.
+SurfaceSpec ofKind(SurfaceSpec spec, SurfaceKind kind);
+
+/// The surface on voxels of another edge [Å].
+SurfaceSpec withVoxel(SurfaceSpec spec, double voxel);
+
+/// Nothing but the level set, the mesh and their measures.
+Wanted measuresAlone();
 
 /// Gives the parameters of the sum of Gaussians.
-GaussianOptions gaussianOptions(const SurfaceOptions& options);
+GaussianOptions gaussianOptions(const SurfaceSpec& spec);
 
 } // namespace molsurf

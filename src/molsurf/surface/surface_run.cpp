@@ -89,13 +89,12 @@ void SurfaceRun::density()
     watch_.stop("initial");
 }
 
-SparseField restOnCoarserVoxels(const BallSet& atoms, const SurfaceOptions& options,
-                                Progress& progress, Report& report)
+SparseField restOnCoarserVoxels(const BallSet& atoms, const SurfaceSpec& spec, Progress& progress,
+                                Report& report)
 {
-    SurfaceOptions wide = options;
-    wide.voxel = 2.0 * options.voxel;
-    wide.evolution = coarseFlow(options.evolution);
-    SurfaceRun run(atoms, wide, Scope(), progress);
+    SurfaceSpec wide = withVoxel(spec, 2.0 * spec.voxel);
+    wide.evolution = coarseFlow(spec.evolution);
+    SurfaceRun run(atoms, {wide, measuresAlone()}, Scope(), progress);
     run.density();
     run.flow();
     for (const auto& [stage, seconds] : run.result_.report.seconds)
@@ -169,7 +168,6 @@ DistanceBand SurfaceRun::distanceToBalls()
         if (areas || probe == 0.0 || options_.closedForm) {
             exact_ = measureClosedForm(set.boundary, options_, areas ? atoms_.balls.size() : 0,
                                        progress_);
-            result_.ballAreas = exact_->ballAreas;
         }
     }
     return distanceToUnion(std::move(set), options_.voxel, widthsOf(options_), progress_,
@@ -500,13 +498,14 @@ void SurfaceRun::freeFields()
     if (!scope_.keepsMemory) releasePages();
 }
 
-void SurfaceRun::labels()
+void SurfaceRun::labels(std::vector<double> known)
 {
     watch_.stop("mesh");
     progress_.update("color", 0.0);
     const double reach = influence_.ofLabel();
     if (scope_.region.whole()) {
-        labelSurface(atoms_, options_, reach, progress_, result_);
+        if (exact_) known = std::move(exact_->ballAreas);
+        areas_ = labelSurface(atoms_, options_, std::move(known), reach, progress_, result_);
     } else {
         labelPart(atoms_, options_, reach, progress_, result_);
     }

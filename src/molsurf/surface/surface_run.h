@@ -41,8 +41,8 @@ struct Scope {
 /// The level set at rest on voxels twice as large as those of the options: where the flow starts
 /// from, see startsOnCoarserVoxels().
 /// @param[in,out] report  the times of its stages are added
-SparseField restOnCoarserVoxels(const BallSet& atoms, const SurfaceOptions& options,
-                                Progress& progress, Report& report);
+SparseField restOnCoarserVoxels(const BallSet& atoms, const SurfaceSpec& spec, Progress& progress,
+                                Report& report);
 
 /// Puts measures in closed form in a report.
 /// @param[in] fillCavities  whether cavities do not count
@@ -141,11 +141,15 @@ public:
     void freeFields();
 
     /// Adds labels, colours and groups.
-    void labels();
+    /// @param[in] known  areas of the balls in closed form [Å^2], where this run does not have them
+    void labels(std::vector<double> known = {});
 
     /// Completes the report.
     /// @return the surface
     MolecularSurface finish();
+
+    /// Areas of the balls that labels() found [Å^2]; empty: they are not known.
+    std::vector<double> takeAreas() { return std::move(areas_); }
 
     /// The surface so far.
     MolecularSurface& result() { return result_; }
@@ -160,8 +164,7 @@ public:
     GradientCounts countGradients(const std::vector<float>& slopes);
 
 private:
-    friend SparseField restOnCoarserVoxels(const BallSet&, const SurfaceOptions&, Progress&,
-                                           Report&);
+    friend SparseField restOnCoarserVoxels(const BallSet&, const SurfaceSpec&, Progress&, Report&);
     void refineCoarseRest();
     void rest();
     void checkLeft() const;
@@ -171,7 +174,7 @@ private:
     void decideWalls(const std::vector<Wall>& walls);
 
     const BallSet& atoms_;
-    const SurfaceOptions& options_;
+    const SurfaceOptions options_;
     const Scope scope_;
     Progress& progress_;
     const Influence influence_;
@@ -187,6 +190,7 @@ private:
     ExtractStats stats_;
     bool stored_ = false;              ///< mesh and level set come from elsewhere
     std::optional<ClosedForm> exact_;  ///< of surfaces in closed form
+    std::vector<double> areas_;        ///< of balls
     std::optional<double> cuspLength_; ///< SurfaceReport::cuspLength
 };
 

@@ -76,9 +76,9 @@ MolecularSurface runUnitWithoutGrid(const BallSet& atoms, const SurfaceOptions& 
     Stopwatch watch(result.report);
     progress.update("areas", 0.0);
     result.report.surface.kind = nameOf(options.kind);
-    result.ballAreas = takeClosedForm(atoms, probeOf(options), progress, result.report.surface);
-    labelSurface(atoms, options, 0.0, progress, result);
-    result.ballAreas.clear(); // makeSurface() has those of the unit
+    labelSurface(atoms, options,
+                 takeClosedForm(atoms, probeOf(options), progress, result.report.surface), 0.0,
+                 progress, result);
     result.report.symmetry =
         SymmetryReport{unit.pointGroup, unit.inverse.size(), unit.copies, unit.deviation, 0.0, 0};
     watch.stop("areas");
@@ -215,20 +215,20 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     run.curvatures();
     run.describeCurvature();
     const double area = surface.area;
+    std::vector<double> known;
     if (isBoundary(options)) {
         surface.meshArea = surface.area;
         surface.meshVolume = surface.volume;
-        run.result().ballAreas = takeClosedForm(atoms, grown, progress, surface);
+        known = takeClosedForm(atoms, grown, progress, surface);
     } else if (isClosedForm(options)) {
         dropTopology(surface);
     }
     checkFit(fit, area / double(placement.order()), surface);
     watch.stop("unit");
     run.freeFields();
-    run.labels();
+    run.labels(std::move(known));
     MolecularSurface result = run.finish();
     result.surface.reset();
-    result.ballAreas.clear(); // makeSurface() has those of the unit
     result.shared = fit.shared;
     result.report.symmetry = SymmetryReport{unit.pointGroup, unit.inverse.size(), unit.copies,
                                             unit.deviation,  fit.largest,         fit.open};
