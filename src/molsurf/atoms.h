@@ -172,11 +172,8 @@ struct BallNames {
 /// d / (pi sqrt(2)).
 struct ResolutionRule {
     std::string select; ///< atoms that the rule is for: gemmi selections joined by '|'; empty: all
-    double resolution;  ///< d [Å], in [minResolution, maxResolution]
+    double resolution;  ///< d [Å], in [1, 50]
 };
-
-/// The range of ResolutionRule::resolution [Å].
-constexpr double minResolution = 1.0, maxResolution = 50.0;
 
 /// The ligands and ions that count as molecule. docs/structural_biology.md, Which atoms.
 enum class Hetero {

@@ -124,9 +124,6 @@ struct Wanted {
 struct SurfaceOptions : SurfaceSpec, Wanted {
 };
 
-/// The range of SurfaceSpec::voxel [Å].
-constexpr double minVoxel = 0.05, maxVoxel = 10.0;
-
 /// Returns the probe radius that the surface is made with [Å]. It is 0 for the van der Waals and
 /// the Gaussian surface, whatever SurfaceSpec::probe is.
 double probeOf(const SurfaceSpec& spec);

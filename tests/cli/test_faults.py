@@ -40,7 +40,7 @@ class Faults(ToolTest):
     def test_little_memory_is_said(self):
         # From where libraries start their threads to where the run is through.
         statuses = []
-        for megabytes in range(100, 500, 10):
+        for megabytes in range(30, 500, 10):
             done = self.run_tool(CRAMBIN, "--voxel", "0.5", "-j", "1", "-q", "--force", *SEVERAL,
                                  preexec_fn=limited(resource.RLIMIT_AS, megabytes * MEGABYTE))
             error = done.stderr.decode()

@@ -14,7 +14,7 @@ import subprocess
 import unittest
 
 from needs import needs
-from tool import DATA, ROOT, TOOL, ToolTest
+from tool import DATA, LIBRARY, ROOT, TOOL, ToolTest
 
 # What is no text: comments, characters, space; and texts, which stand beside each other if one is cut in two.
 TOKEN = re.compile(r"""//[^\n]*|/\*.*?\*/|'(?:\\.|[^'\\\n])'|\s+|("(?:\\.|[^"\\\n])*")|.""", re.DOTALL)
@@ -181,10 +181,10 @@ CASES = {
         ("--force", f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv",
          f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv --force")],
     "bricks/plan_bricks.cpp": [
-        ("--memory 65M, or a larger --voxel", "vdb_molsurf 1crn.pdb --voxel 2 --memory 56M -o a.ply",
-         "vdb_molsurf 1crn.pdb --voxel 2 --memory 65M -o a.ply"),
-        ("or a larger --voxel", "vdb_molsurf 1crn.pdb --memory 62M --voxel 0.1 -o a.ply",
-         "vdb_molsurf 1crn.pdb --memory 62M --voxel 2 -o a.ply")],
+        (f"--memory {38 + LIBRARY}M, or a larger --voxel", f"vdb_molsurf 1crn.pdb --voxel 2 --memory {29 + LIBRARY}M -o a.ply",
+         f"vdb_molsurf 1crn.pdb --voxel 2 --memory {38 + LIBRARY}M -o a.ply"),
+        ("or a larger --voxel", f"vdb_molsurf 1crn.pdb --memory {35 + LIBRARY}M --voxel 0.1 -o a.ply",
+         f"vdb_molsurf 1crn.pdb --memory {35 + LIBRARY}M --voxel 2 -o a.ply")],
     "bricks/plan_bricks.h": [
         ("a larger --voxel, or --max-hours 1", "vdb_molsurf 1crn.pdb --voxel 0.3 --max-hours 1e-5 -o a.ply",
          "vdb_molsurf 1crn.pdb --voxel 0.3 --max-hours 1 -o a.ply",
@@ -193,7 +193,7 @@ CASES = {
         ("bricks plan writes one", "vdb_molsurf bricks run copies.json 1",
          f"{PLAN} && vdb_molsurf bricks run plan.json 1")],
     "core/memory.cpp": [
-        ("--memory ", "vdb_molsurf 1a8o.cif.gz --memory 19M -o a.ply", "vdb_molsurf 1a8o.cif.gz --memory 200M -o a.ply")],
+        ("--memory ", "vdb_molsurf 1a8o.cif.gz --memory 10M -o a.ply", "vdb_molsurf 1a8o.cif.gz --memory 200M -o a.ply")],
     "bricks/atoms_file.cpp": [
         ("it has to lie beside the plan", f"{PLAN}; mkdir sub; mv plan.json sub; vdb_molsurf bricks run sub/plan.json 1",
          "mv plan.atoms sub; vdb_molsurf bricks run sub/plan.json 1"),
@@ -361,8 +361,8 @@ CASES = {
     "tools/build_in_bricks.cpp": [
         ("without --memory", "vdb_molsurf 1crn.pdb --memory 80M --voxel 0.15 --center -o a.ply",
          "vdb_molsurf 1crn.pdb --voxel 0.15 --center -o a.ply"),
-        ("--memory ", "vdb_molsurf 1crn.pdb --voxel 2 --memory 20M -o a.ply", # and then the hint that follows
-         "vdb_molsurf 1crn.pdb --voxel 2 --memory 56M -o a.ply || vdb_molsurf 1crn.pdb --voxel 2 --memory 0.1G -o a.ply")],
+        ("--memory ", "vdb_molsurf 1crn.pdb --voxel 2 --memory 10M -o a.ply", # and then the hint that follows
+         f"vdb_molsurf 1crn.pdb --voxel 2 --memory {29 + LIBRARY}M -o a.ply || vdb_molsurf 1crn.pdb --voxel 2 --memory 0.1G -o a.ply")],
     "tools/cli/complete.cpp": [
         ("-o FILE.residues.csv, or -o FILE.json --areas residues", "vdb_molsurf 1crn.pdb -o a.residues.json",
          "vdb_molsurf 1crn.pdb -o a.residues.csv", "vdb_molsurf 1crn.pdb -o a.json --areas residues"),

@@ -10,7 +10,7 @@ import threading
 import unittest
 
 from needs import faulty, needs
-from tool import CRAMBIN, DATA, FAST, ROOT, TOOL, ToolTest
+from tool import CRAMBIN, DATA, FAST, LIBRARY, ROOT, TOOL, ToolTest
 
 LATER = 75  # EX_TEMPFAIL of sysexits.h
 
@@ -35,7 +35,8 @@ class Status(ToolTest):
         """Both what is refused before the work and what fails in it."""
         self.check(LATER, DATA / "4at1.ent.gz", "--voxel", "0.1", "-o", "a.ply", says=["takes about", "of memory"],
                    preexec_fn=address_space(700))
-        self.check(LATER, CRAMBIN, *FAST, "-j", 1, "-o", "a.ply", says="not enough memory", preexec_fn=address_space(150))
+        self.check(LATER, CRAMBIN, "--voxel", "0.35", "-j", 1, "-o", "a.ply", says="not enough memory",
+                   preexec_fn=address_space(95 + 2 * LIBRARY))
         self.assertEqual(self.names(), [])
 
     @needs("full")

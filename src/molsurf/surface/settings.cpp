@@ -165,7 +165,7 @@ ResolutionRule parseResolution(const std::string& text)
     ResolutionRule rule;
     if (split != std::string::npos) rule.select = text.substr(0, split);
     if (!parseWhole(digits, rule.resolution) || split == 0 ||
-        !(rule.resolution >= minResolution && rule.resolution <= maxResolution))
+        !(rule.resolution >= 1.0 && rule.resolution <= 50.0))
         wrongValue("resolution", "D or SELECTION=D with D from 1 to 50 Å", text);
     return rule;
 }

@@ -15,6 +15,9 @@
 namespace molsurf
 {
 
+/// The range of SurfaceSpec::voxel [Å].
+constexpr double minVoxel = 0.05, maxVoxel = 10.0;
+
 /// Half width of the grid `surface` [voxel].
 constexpr double surfaceWidthVox = 3.0;
 
