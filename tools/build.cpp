@@ -22,6 +22,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 
 namespace molsurf::tool
@@ -260,13 +261,61 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
     return report;
 }
 
+/// The folders of --for apbs, which are made; those that stay empty go again.
+class SolverFolders
+{
+public:
+    explicit SolverFolders(const Call& call)
+    {
+        for (const Output& output : call.outputs) {
+            const std::filesystem::path folder = std::filesystem::path(output.path).parent_path();
+            if (!output.holds(Solver) || folder.empty() || std::filesystem::exists(folder))
+                continue;
+            std::error_code problem;
+            std::filesystem::create_directories(folder, problem);
+            if (problem)
+                throw Error(ErrorKind::Output,
+                            "cannot make the folder " + folder.string() + ": " + problem.message());
+            made_.push_back(folder.string());
+        }
+    }
+    SolverFolders(const SolverFolders&) = delete;
+    SolverFolders& operator=(const SolverFolders&) = delete;
+    ~SolverFolders()
+    {
+        std::error_code ignored;
+        for (const std::string& folder : made_) std::filesystem::remove(folder, ignored);
+    }
+
+    const std::vector<std::string>& made() const { return made_; }
+
+private:
+    std::vector<std::string> made_;
+};
+
+/// A line on the lattice, and how to go on.
+void saySolver(const Call& call)
+{
+    const auto input = std::find_if(call.outputs.begin(), call.outputs.end(), [](auto& output) {
+        return output.format == findFormat("apbs.in");
+    });
+    if (!call.apbsGrid || input == call.outputs.end()) return;
+    const openvdb::Vec3d h = call.apbsGrid->spacing();
+    const auto& n = call.apbsGrid->points;
+    say(formatted("lattice: %d x %d x %d points, %.3g x %.3g x %.3g Å apart; to go on: apbs %s",
+                  n[0], n[1], n[2], h[0], h[1], h[2], input->path.c_str()));
+}
+
 Report buildSurface(Call call, Clock::time_point start)
 {
-    prepareOutputs(call);
+    const SolverFolders folders(call);
+    prepareOutputs(call, folders.made());
     Terminal terminal(call.progress);
     Report read;
     const BallSet balls = readBalls(call, terminal, read);
-    return buildSurface(call, balls, read, terminal, start);
+    Report report = buildSurface(call, balls, read, terminal, start);
+    if (!call.quiet) saySolver(call);
+    return report;
 }
 
 int build(const Call& asked, Clock::time_point start)

@@ -60,6 +60,12 @@ BallSet readBalls(Call& call, Terminal& terminal, Report& report)
         for (const std::string& warning : report.warnings) say("warning: " + warning);
     }
     stopIfAsked();
+    if (balls.charges && call.writes(Solver)) {
+        const ApbsGrid grid = call.apbsInput.empty() ? gridAround(*balls.charges)
+                                                     : readApbsGrid(call.apbsInput, *balls.charges);
+        checkCovers(grid, balls.balls);
+        call.apbsGrid = grid;
+    }
     return std::move(balls);
 }
 

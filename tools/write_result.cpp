@@ -29,6 +29,7 @@
 #include "molsurf/picture/write_png.h"
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/structure/text_fields.h"
+#include "molsurf/surface/compare.h"
 #include "molsurf/surface/stored_surface.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/unit_mesh.h"
@@ -340,6 +341,30 @@ void writeAreaTable(const Writing& w, OutputFile& file)
     writeCsv(areaTable(w.output.format->table, w.call, w.atoms, w.result), file);
 }
 
+template<int axis>
+void writeDielectric(const Writing& w, OutputFile& file)
+{
+    const Spline spline = splineThrough(*w.result.surface, w.progress);
+    writeDielectricMap({*w.result.surface, spline}, *w.call.apbsGrid, axis, w.call.dielectric,
+                       file);
+}
+
+/// Writes what the other files of the run are for.
+void writeSolverInput(const Writing& w, OutputFile& file)
+{
+    const auto pathOf = [&](const char* word) {
+        for (const Output& output : w.call.outputs)
+            if (output.format == findFormat(word)) return output.path;
+        return std::string();
+    };
+    const ApbsFiles files{pathOf("charges.pqr"),
+                          pathOf("kappa.dx"),
+                          {pathOf("dielx.dx"), pathOf("diely.dx"), pathOf("dielz.dx")}};
+    writeApbsInput("vdb_molsurf: " + displayName(inputStem(w.call.input)) + ", surface " +
+                       nameOf(w.call.options.kind),
+                   files, *w.call.apbsGrid, w.call.dielectric, file);
+}
+
 /// Writes atoms with their areas, or those of their residues, as B factors.
 template<void write(const BallSet&, const std::vector<double>&, const openvdb::Vec3d&, OutputFile&)>
 void writeAtoms(const Writing& w, OutputFile& file)
@@ -374,6 +399,16 @@ const std::vector<Format>& formatTable()
         {"face", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
         {"mrc", meshed, Volume, "level set in a box", "", writeVolume<writeMrc>},
         {"dx", meshed, Volume, "level set in a box", "", writeVolume<writeDx>},
+        {"dielx.dx", Build, Solver, "maps for APBS", "", writeDielectric<0>},
+        {"diely.dx", Build, Solver, "maps for APBS", "", writeDielectric<1>},
+        {"dielz.dx", Build, Solver, "maps for APBS", "", writeDielectric<2>},
+        {"kappa.dx", Build, Solver, "maps for APBS", "",
+         [](const Writing& w, OutputFile& file) {
+             writeIonMap(w.atoms.balls, *w.call.apbsGrid, w.call.dielectric.ionRadius, file);
+         }},
+        {"charges.pqr", Build, Solver, "charges", "",
+         [](const Writing& w, OutputFile& file) { writePqr(*w.atoms.charges, file); }},
+        {"apbs.in", Build, Solver, "input of APBS, with --for apbs", "", writeSolverInput},
         {"cxc", meshed, Script | Colors | Copies, "script that opens the .glb", "",
          writeScript<writeChimeraXScript>, "glb"},
         {"pml", meshed, Script | Colors, "script that opens the .ply", "",

@@ -107,6 +107,7 @@ enum class ResidueClass : std::uint8_t {
 };
 
 struct ScalarMap;
+struct PointCharges;
 
 /// A value of every ball, and how colours show it.
 struct BallValues {
@@ -231,9 +232,10 @@ struct SelectOptions {
     /// whole, and those around it, as Placement::unit says. Not beside `instances` and `copies`.
     bool bySymmetry = false;
     double surroundings = 20.0; ///< how far around a unit the balls lie [Å], see surroundingsOf()
-    bool labels = true; ///< whether the balls are labelled even if there are neither groups nor
-                        ///< values
-    bool names = true;  ///< whether the balls have names
+    bool labels = true;   ///< whether the balls are labelled even if there are neither groups nor
+                          ///< values
+    bool names = true;    ///< whether the balls have names
+    bool charges = false; ///< whether the charges of all atoms come along, those without radius too
     /// The bytes that the file's text may have, unpacked; 0: 4 GiB, and no more than 200 times its
     /// packed size.
     std::size_t maxInput = 0;
@@ -334,6 +336,7 @@ struct BallSet {
     std::size_t beadAtoms = 0;        ///< atoms that these balls stand for
     std::optional<BallLabels> labels; ///< present unless they were not asked for
     std::optional<BallNames> names;   ///< the same
+    std::shared_ptr<const PointCharges> charges; ///< of the atoms of the file; null: not asked for
     std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue (sRGB), one a ball; empty
                                                      ///< if the caller chose none
     SelectOptions::Coloring coloring;                ///< as SelectOptions::coloring

@@ -72,6 +72,7 @@ NEEDS = {
                   "scripts/install_deps.sh python3-biopython"),
     "blender": (program("blender"), "scripts/install_deps.sh blender"),
     "bpy": (lambda: runs(BPY_PYTHON, "-c", "import bpy"), "pip install bpy, and BPY_PYTHON=<that Python>"),
+    "apbs": (program("apbs"), "scripts/install_deps.sh apbs"),
     "chromium": (lambda: CHROMIUM, "scripts/install_deps.sh chromium"),
     "fish": (program("fish"), "scripts/install_deps.sh fish"),
     "freesasa": (program("freesasa"), "scripts/install_deps.sh freesasa"),

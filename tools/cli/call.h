@@ -5,6 +5,7 @@
 /// What the user asked for, as values.
 
 #include "molsurf/io/scene.h"
+#include "molsurf/io/write_apbs.h"
 #include "molsurf/picture/atom_model.h"
 #include "molsurf/picture/draw_mesh.h"
 #include "molsurf/settings.h"
@@ -13,6 +14,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,7 +51,8 @@ enum Holds : unsigned {
     Pixels = 1 << 16,           ///< a picture
     Volume = 1 << 18,           ///< the level set on all points of a box
     Paint = 1 << 20,            ///< colours of triangles for slicers, of which there are few
-    Script = 1 << 19            ///< what opens another file of the run
+    Script = 1 << 19,           ///< what opens another file of the run
+    Solver = 1 << 21            ///< what APBS reads
 };
 
 /// What a file is written of, and how.
@@ -130,8 +133,12 @@ struct Call : Settings {
     std::string groupsFile;
     std::vector<double> lod; ///< voxels of levels of detail [Å], the finest first; empty: one
     Scene scene;             ///< of the .vdb and the node of the .glb
-    bool crisp = false;      ///< mesh files have the borders between colours cut
-    std::vector<std::string> areas; ///< tables of areas in the report: "atoms", "residues", ...
+    bool forApbs = false;    ///< a folder of --output gets what APBS reads
+    std::string apbsInput;   ///< whose lattice is used; empty: that of gridAround()
+    Dielectric dielectric;
+    std::optional<ApbsGrid> apbsGrid{}; ///< known when the atoms are
+    bool crisp = false;                 ///< mesh files have the borders between colours cut
+    std::vector<std::string> areas;     ///< tables of areas in the report: "atoms", "residues", ...
     ContactLevel contacts = ContactLevel::Residue; ///< of tables of contacts
     bool weld = false;                             ///< units of a whole share their vertices
     bool center = false;     ///< the middle of the surface comes to the origin

@@ -4,6 +4,7 @@
 #include "cli/option_table.h"
 #include "cli/pair_table.h"
 #include "cli/verb_table.h"
+#include "outputs.h"
 #include "sidecar.h"
 
 #include "molsurf/color/color_table.h"
@@ -62,13 +63,18 @@ void checkTable(const std::string& path, const std::string& word)
                table + ".csv, or -o FILE.json --areas " + table + "]");
 }
 
+bool isFolder(const std::string& path)
+{
+    std::error_code ignored;
+    return path.back() == '/' || fs::is_directory(path, ignored);
+}
+
 /// Refuses a name that ends in no format.
 /// @param[in] word  its extension; may be empty
 [[noreturn]] void refuseName(const Call& call, const std::string& path, const std::string& word)
 {
-    std::error_code ignored;
     const std::string many = call.verb == Build ? ", or vdb_molsurf batch LIST -O " + path : "";
-    if (path.back() == '/' || fs::is_directory(path, ignored))
+    if (isFolder(path))
         misuse("-o " + path + ": is a folder, expected a file [hint: -o " +
                (fs::path(path) / "surface.ply").string() + many + "]");
     std::vector<std::string> known;
@@ -105,6 +111,23 @@ std::string wordOf(const Call& call, const std::string& path)
     return word;
 }
 
+/// The files that APBS reads, in a folder.
+std::vector<Output> solverFiles(const Call& call, const std::string& folder)
+{
+    if (folder.find_first_of(" \t\"") != std::string::npos)
+        misuse("-o '" + folder + "': APBS reads no names with spaces, expected one without");
+    std::vector<Output> files;
+    for (const Format& format : formatTable()) {
+        if (!(format.holds & Solver)) continue;
+        const std::string word = format.word;
+        std::string stem = inputStem(call.input) + ".";
+        std::replace(stem.begin(), stem.end(), ' ', '_');
+        files.push_back(
+            {(fs::path(folder) / ((word == "apbs.in" ? "" : stem) + word)).string(), &format});
+    }
+    return files;
+}
+
 /// The files of --output.
 std::vector<Output> outputsOf(const Call& call)
 {
@@ -117,6 +140,10 @@ std::vector<Output> outputsOf(const Call& call)
         const std::string real =
             path == "-" ? path : fs::weakly_canonical(fs::absolute(path), ignored).string();
         if (!seen.insert(real).second) misuse("-o " + path + " is given twice");
+        if (call.forApbs && isFolder(path)) {
+            for (Output& file : solverFiles(call, path)) outputs.push_back(std::move(file));
+            continue;
+        }
         const std::string word = wordOf(call, path);
         const Format* format = findFormat(word);
         if (!format) refuseName(call, path, word);
@@ -168,6 +195,21 @@ void warnOfKinds(Call& call)
         call.warnings.push_back(std::string("--") + row.name + " is for --surface " +
                                 joinWords(words, " or "));
     }
+}
+
+// To be called before completeSurface().
+void completeSolver(Call& call)
+{
+    if (call.forApbs && !call.writes(Solver) && !call.paths.empty())
+        misuse("--for apbs: expected a folder that gets its files [hint: -o run/]");
+    if (!call.writes(Solver)) return;
+    call.atoms.charges = true;
+    SurfaceSpec& surface = call.options;
+    if (!call.has("surface") && surface.inset == 0.0) surface.kind = SurfaceKind::SolventExcluded;
+    if (surface.kind == SurfaceKind::SolventExcluded || surface.inset > 0.0) return;
+    call.warnings.push_back(std::string("--surface ") + nameOf(surface.kind) +
+                            ": its energy is another one than that of the solvent-excluded "
+                            "surface [hint: --surface ses, or --match ses]");
 }
 
 // To be called before completeSurface().
@@ -372,6 +414,7 @@ void completeBuild(Call& call)
     completeLevels(call);
     completeSymmetry(call);
     completeScene(call);
+    completeSolver(call);
     completeSurface(call);
     if (call.turntable > 0) addTurntable(call);
     warnOfLosses(call);
@@ -381,6 +424,7 @@ void completeBatch(Call& call)
 {
     takeInput(call, "batch: expected one list of structure files",
               " [hint: vdb_molsurf batch list.txt -O surfaces]");
+    if (call.forApbs) misuse("batch: --for apbs is for one structure at a time");
     if (call.folder.empty()) misuse("batch: nowhere to write to [hint: -O DIR]");
     std::set<std::string> seen;
     for (const std::string& word : splitWords(lowered(call.formats))) {

@@ -182,14 +182,24 @@ void setBackground(Call& call, const Values& values)
     call.picture.background = colorValue("background", ", or transparent", values.back());
 }
 
+/// The words of --for.
+Values programNames()
+{
+    Values all = hostNames();
+    all.insert(all.begin(), "apbs");
+    return all;
+}
+
 void setScene(Call& call, const Values& values)
 {
+    call.forApbs = lowered(values.back()) == "apbs";
+    if (call.forApbs) return;
     const auto scene = parseScene(values.back());
     if (!scene)
         wrongValue("for",
-                   "blender, blender4, houdini or usd, perhaps with =mn-0.01, =mn-0.1, =nm or "
-                   "=UNITS_PER_Å",
-                   values.back(), didYouMean(values.back(), hostNames()));
+                   "apbs, blender, blender4, houdini or usd, the last four perhaps with =mn-0.01, "
+                   "=mn-0.1, =nm or =UNITS_PER_Å",
+                   values.back(), didYouMean(values.back(), programNames()));
     call.scene.host = scene->host;
     call.scene.scale = scene->scale;
 }
@@ -394,8 +404,9 @@ OptionGroup surfaceOptions()
 OptionGroup resolutionOptions()
 {
     return {"Resolution",
-            {setting("epsilon", structures), setting("resolution", structures),
-             setting("coarse", structures), setting("match-volume", wholes | Compare)}};
+            {setting("epsilon", structures), setting("match", structures),
+             setting("resolution", structures), setting("coarse", structures),
+             setting("match-volume", wholes | Compare)}};
 }
 
 OptionGroup groupOptions()
@@ -461,15 +472,16 @@ OptionGroup sceneOptions()
                 "PROGRAM[=SCALE]",
                 "blender, blender4 (up to 4.5), houdini or usd: a .vdb with\n"
                 "density and Cd as that program takes it; SCALE mn-0.01, mn-0.1, nm, or\n"
-                "units per Å; usd: a .usda beside the .vdb",
+                "units per Å; usd: a .usda beside the .vdb; apbs: -o FOLDER/ gets\n"
+                "its input, charges and maps",
                 "",
                 wholes,
-                hostNames()};
+                programNames()};
     host.set = setScene;
-    host.stored = [](const Call& c) { return stored(nameOf(c.scene.host)); };
+    host.stored = [](const Call& c) { return stored(c.forApbs ? "apbs" : nameOf(c.scene.host)); };
     return {
         "Scene",
-        {shownIn(SceneUnits, host),
+        {shownIn(SceneUnits | Solver, host),
          shownIn(Grids, with(number("fog-density", "D",
                                     "optical depth of an Å of fog at density 1 in the program,\n"
                                     "in any unit; without it the values of density are 0 to 1",
@@ -493,6 +505,26 @@ OptionGroup sceneOptions()
                       return openvdb::DoubleMetadata(c.options.minWall).copy();
                   };
               })}};
+}
+
+OptionGroup solverOptions()
+{
+    const auto constant = [](const char* name, const char* value, const char* text,
+                             const char* preset, double low, const auto& of) {
+        return shownIn(Solver, number(name, value, text, preset, Build, low, 1e6,
+                                      low > 0.0 ? "a number above 0" : "a number from 0 on", of));
+    };
+    return {"Electrostatics",
+            {shownIn(Solver, ofFile(text("apbs-grid", "FILE.in",
+                                         "an input of APBS whose dime, glen and gcent are used;\n"
+                                         "without it the lattice is by pdb2pqr's rule psize",
+                                         Build, MOLSURF_OF(apbsInput)))),
+             constant("pdie", "E", "relative permittivity of the molecule", "2", 1e-6,
+                      MOLSURF_OF(dielectric.inside)),
+             constant("sdie", "E", "relative permittivity of the solvent", "78.54", 1e-6,
+                      MOLSURF_OF(dielectric.outside)),
+             constant("ion-conc", "C", "concentration of a 1:1 salt [mol/L]", "0", 0.0,
+                      MOLSURF_OF(dielectric.salt))}};
 }
 
 /// The words of styles and what they mean.
@@ -667,9 +699,9 @@ bool Call::drawsLegend() const
 const std::vector<OptionGroup>& optionTable()
 {
     static const std::vector<OptionGroup> all = {
-        outputOptions(),     atomOptions(),  frameOptions(), surfaceOptions(),
-        resolutionOptions(), groupOptions(), areaOptions(),  sceneOptions(),
-        pictureOptions(),    flowOptions(),  runOptions()};
+        outputOptions(),     atomOptions(),    frameOptions(), surfaceOptions(),
+        resolutionOptions(), groupOptions(),   areaOptions(),  sceneOptions(),
+        solverOptions(),     pictureOptions(), flowOptions(),  runOptions()};
     return all;
 }
 

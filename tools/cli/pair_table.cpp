@@ -126,6 +126,10 @@ std::vector<Pair> surfacePairs()
     };
     return {
         {"fog-density", Needs, {"for"}},
+        {"match=ses",
+         Excludes,
+         {"epsilon", "lambda", "resolution"},
+         ": it has values of its own for both"},
         {"min-wall", Needs, {"print-scale"}},
         {"steps", Excludes, {"max-steps"}},
         {"no-hetero", Excludes, {"hetero", "ions"}},
@@ -178,6 +182,11 @@ std::vector<Pair> runPairs()
         {{FrameRows}, Needs, {"frames", "trajectory"}, " [hint: -o FILE.residues.csv for areas]"},
         {"turntable", Excludes, {"output=-"}},
         {{Script}, Excludes, {"frames", "trajectory"}},
+        {{Solver},
+         Excludes,
+         {"frames", "trajectory", "split", "surface-of", "instances", "by-symmetry", "assembly",
+          "coarse", "memory", "center"},
+         ": charges are of the atoms of the file"},
         {{Volume},
          Excludes,
          {"split", "surface-of", "instances"},

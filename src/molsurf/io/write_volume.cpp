@@ -3,7 +3,7 @@
 
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
-#include "molsurf/io/output_buffer.h"
+#include "molsurf/io/dx_array.h"
 
 #include <array>
 #include <cmath>
@@ -143,35 +143,10 @@ void writeDx(const openvdb::FloatGrid& surface, const Vec3d& origin, OutputFile&
 {
     const DenseBox box = denseBoxOf(surface, origin, file);
     TextOutput out(file);
-    const auto counts = [&] {
-        for (int axis = 0; axis < 3; ++axis) out << " " << box.size[axis];
-        out << "\n";
-    };
-    const auto vector = [&](const char* key, const Vec3d& v) {
-        out << key;
-        for (int axis = 0; axis < 3; ++axis) out << " " << v[axis];
-        out << "\n";
-    };
-    out << "# vdb_molsurf: signed distance from the surface [A], negative inside\n"
-        << "object 1 class gridpositions counts";
-    counts();
-    vector("origin", box.corner);
-    for (int axis = 0; axis < 3; ++axis) {
-        Vec3d step(0.0);
-        step[axis] = box.voxel;
-        vector("delta", step);
-    }
-    out << "object 2 class gridconnections counts";
-    counts();
-    out << "object 3 class array type double rank 0 items " << box.count() << " data follows\n";
-    std::uint64_t written = 0;
-    forEachValue(surface, box, 0, 2,
-                 [&](float value) { out << value << (++written % 3 == 0 ? "\n" : " "); });
-    out << (written % 3 == 0 ? "" : "\n") << "attribute \"dep\" string \"positions\"\n"
-        << "object \"regular positions regular connections\" class field\n"
-        << "component \"positions\" value 1\ncomponent \"connections\" value 2\n"
-        << "component \"data\" value 3\n";
-    out.finish();
+    DxArray array("signed distance from the surface [A], negative inside",
+                  {box.size.x(), box.size.y(), box.size.z()}, box.corner, Vec3d(box.voxel), out);
+    forEachValue(surface, box, 0, 2, [&](float value) { array.add(value); });
+    array.finish();
 }
 
 } // namespace molsurf

@@ -14,6 +14,7 @@
 #include "molsurf/selection/groups.h"
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/selection/molecule.h"
+#include "molsurf/selection/point_charges.h"
 #include "molsurf/selection/radii.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/selection/symmetric_unit.h"
@@ -609,6 +610,8 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     out.warnings.insert(out.warnings.end(), match.warnings.begin(), match.warnings.end());
     Filter filter(model, out);
     applyFilters(structure, options, match, model, filter, out);
+    if (options.charges)
+        out.charges = std::make_shared<const PointCharges>(pointCharges(structure, filter.atoms()));
     std::vector<Ball> balls = makeBalls(structure, options, filter, out);
     std::vector<std::int32_t> beadAtoms; // by the representative atom: how many a bead stands for
     if (!options.coarse.empty()) {

@@ -47,6 +47,10 @@ void checkOptions(const SurfaceOptions& options)
           options.blobbiness);
     check(options.evolution.lambda >= 0.0 && options.evolution.lambda <= 1e6, "`lambda`",
           "0 to 1e6", options.evolution.lambda);
+    check(finite(options.inset) && options.inset >= 0.0 && options.inset <= 1.0, "`inset`",
+          "0 to 1 Å", options.inset);
+    check(options.inset == 0.0 || options.voxel <= 0.5, "`match` ses: `voxel`", "at most 0.5 Å",
+          options.voxel);
     check(options.evolution.tolerance > 0.0 && finite(options.evolution.tolerance), "`tolerance`",
           "a positive number", options.evolution.tolerance);
     for (const std::string& field : options.fields) {

@@ -45,7 +45,7 @@ double probeOf(const SurfaceSpec& spec)
 
 double offsetOf(const SurfaceSpec& spec)
 {
-    return rowOf(spec.kind).hasOffset ? spec.probe : 0.0;
+    return rowOf(spec.kind).hasOffset ? spec.probe + spec.inset : 0.0;
 }
 
 bool isClosedForm(const SurfaceSpec& spec)
