@@ -31,7 +31,11 @@ namespace
 // 0.5 to 3 Å, with Debian's OpenVDB: peaks of the resident memory against the leaves that hold
 // atoms or lie beside them. A peak is either that of the flow and the distances, or that of the
 // mesh. The surface of a larger probe passes fewer balls, and fewer of those leaves.
-constexpr double processBytes = MOLSURF_PROCESS_BYTES; // program, libraries, buffers
+#ifdef OPENVDB_STATICLIB // the names of libopenvdb.so take 28 MB
+constexpr double processBytes = 32e6; // program, libraries, buffers
+#else
+constexpr double processBytes = 60e6;
+#endif
 constexpr double bytesPerAtom = 40.0;           // of the whole molecule, where it is in memory
 constexpr double bytesPerNear = 135.0;          // of the balls near a brick: cell lists, copies
 constexpr double bytesPerBoundaryBall = 1.55e3; // of those: the boundary of their union
