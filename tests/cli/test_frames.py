@@ -173,7 +173,7 @@ class Frames(ToolTest):
     def moving(self, *words):
         """Crambin that moves by 6 Å a frame along x."""
         (self.folder / "t.dcd").write_bytes(dcd(self.moved(2, 6)))
-        self.check(0, CRAMBIN, *FAST, "--trajectory", "t.dcd", "--fields", "v,density", *words, "--force")
+        self.check(0, CRAMBIN, "--voxel", "0.5", "--trajectory", "t.dcd", "--fields", "v,density", *words, "--force")
 
     @needs("openvdb")
     def test_velocity_reaches_as_far_as_the_motion(self):
