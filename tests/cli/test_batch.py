@@ -57,6 +57,8 @@ class Batch(ToolTest):
         report = json.loads((self.folder / "out" / "1crn.json").read_text())
         self.assertEqual(float(rows[0]["area"]), report["surface"]["area"])
         self.assertEqual(int(rows[0]["atoms"]), report["atoms"])
+        for count in ("components", "cavities"):
+            self.assertEqual(int(rows[0][count]), report["surface"][count], count)
         for row in rows:
             self.assertEqual((row["version"], row["options"], row["units"]),
                              (report["version"], report["options_sha256"], "area Å², volume Å³"))
@@ -150,6 +152,19 @@ class Batch(ToolTest):
             self.batch(1, "--formats", "json", says=["t0.json", "--force"])
         self.assertEqual((self.folder / "out" / "t0.json").read_text(), "mine")
         self.assertEqual(self.table()[0]["status"], "failed")
+
+    def test_a_line_that_was_cut_takes_no_other_along(self):
+        """The first line behind that of a run that was killed while it wrote is of a failure, which no other follows."""
+        self.small(1)
+        (self.folder / "list").write_text("t0.xyzr\n")
+        self.batch(0, "--formats", "json")
+        (self.folder / "list").write_text("t1.xyzr\n")
+        (self.folder / "t1.xyzr").write_text("1 0 0 1.7\n")
+        (self.folder / "out" / "t1.json").write_text("mine")
+        with open(self.folder / "out" / "summary.jsonl", "a") as journal:
+            journal.write('{"name":"t2","inp')
+        self.batch(1, "--formats", "json", says=["t1.json", "--force"])
+        self.assertEqual([row["status"] for row in self.table()], ["done", "failed"])
 
     def test_folder_of_structures(self):
         (self.folder / "all").mkdir()

@@ -159,10 +159,21 @@ class Frames(ToolTest):
             self.assertLess(worst, 1e-4)
         self.assertEqual(len(seen), 1)
 
+    def test_all_frames_have_one_centre(self):
+        """That of the first: what moves does so in the files, too."""
+        (self.folder / "t.dcd").write_bytes(dcd(self.moved(2, 6)))
+        self.check(0, CRAMBIN, *FAST, "--trajectory", "t.dcd", "--center", "-o", "a.ply")
+        middles = []
+        for n in (1, 2):
+            _, vertices, _ = read_ply((self.folder / f"a.000{n}.ply").read_bytes())
+            middles.append([sum(v[axis] for v in vertices) / len(vertices) for axis in range(3)])
+        for way, expected in zip((b - a for a, b in zip(*middles)), (6, 0, 0)):
+            self.assertAlmostEqual(way, expected, delta=0.1)
+
     def moving(self, *words):
         """Crambin that moves by 6 Å a frame along x."""
         (self.folder / "t.dcd").write_bytes(dcd(self.moved(2, 6)))
-        self.check(0, CRAMBIN, *FAST, "--trajectory", "t.dcd", "--fields", "v,density", *words, "--force")
+        self.check(0, CRAMBIN, "--voxel", "0.5", "--trajectory", "t.dcd", "--fields", "v,density", *words, "--force")
 
     @needs("openvdb")
     def test_velocity_reaches_as_far_as_the_motion(self):
@@ -190,6 +201,8 @@ class Frames(ToolTest):
         scene = (self.folder / "a.usda").read_text()
         for line in ("startTimeCode = 1001\n", "endTimeCode = 1002\n", "1002: @./a.1002.vdb@"):
             self.assertIn(line, scene)
+        extents = re.findall(r"^ *(\d+): \[\([^)]*\), \([^)]*\)\],$", scene, re.MULTILINE)
+        self.assertEqual(extents, ["1001", "1002"])
         self.check(0, *words, says="2 done before")
         self.check(2, NMR, "--first-frame", "1001", "-o", "a.vdb", says="--frames")
 
@@ -272,6 +285,8 @@ class Frames(ToolTest):
         self.check(3, NMR, *FAST, "--frames", "1", "--flow", "newton", "--max-steps", "1", "-o", "a.csv",
                    says="not converged: 1 frame")
         self.assertEqual(self.table()[0]["converged"], "no")
+        self.check(3, NMR, *FAST, "--frames", "1", "--flow", "newton", "--max-steps", "1", "-o", "a.csv",
+                   says=["1 done before", "not converged: 1 frame"])
 
     def test_wrong_calls(self):
         out = ("-o", "a.vdb")

@@ -108,7 +108,27 @@ TEST(ClosedForm, KnowsHowFarRestIs)
                 EXPECT_NEAR(ways.mean() * voxel, std::abs(offset), 0.25 * std::abs(offset));
             }
             EXPECT_EQ(out.report.converged, offset == 0.0) << offset;
+            EXPECT_DOUBLE_EQ(out.report.displacementRms, ways.rms() * voxel);
+            EXPECT_DOUBLE_EQ(out.report.displacementTail, ways.quantile(0.999) * voxel);
         }
+    }
+}
+
+// Of one atom the formula leaves nothing out.
+TEST(ClosedForm, IsExactOfOneAtom)
+{
+    for (const Regularizer regularizer : {Regularizer::Gradient, Regularizer::Area}) {
+        EvolveOptions options;
+        options.lambda = 0.02;
+        options.regularizer = regularizer;
+        GaussianOptions gaussian;
+        gaussian.voxelSize = 0.25;
+        GaussianSum field({{{0.1, 0.2, 0.3}, 1.7, 0}}, gaussian);
+        Displacements ways;
+        test::restOf(field, field.band(restBandVox(gaussian.voxelSize), Progress()),
+                     gaussian.epsilon, options, 0.0, &ways);
+        EXPECT_GT(ways.count, 100u);
+        EXPECT_LT(ways.rms() * gaussian.voxelSize, 1e-4) << nameOf(regularizer);
     }
 }
 

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <sstream>
 
@@ -119,6 +120,26 @@ TEST(WriteVdb, ErrorIfTheDiskIsFull)
     file.stream().exceptions(std::ios_base::goodbit);
     file.stream().rdbuf(before);
     file.stream().clear();
+}
+
+// The head is read in two parts, and a text may lie in both.
+TEST(VdbText, IsFoundWhereverItLiesInTheHead)
+{
+    const test::Folder folder;
+    const auto counted = [](const std::string& text) {
+        const auto size = std::uint32_t(text.size());
+        return std::string(reinterpret_cast<const char*>(&size), sizeof size) + text;
+    };
+    constexpr std::size_t firstPart = 1 << 14;
+    const std::string value(64, 'v');
+    const std::string entry = counted("frames.options") + counted("string") + counted(value);
+    for (const std::size_t before : {std::size_t(0), firstPart - entry.size(), firstPart - 50,
+                                     firstPart - 20, firstPart - 1, firstPart, 3 * firstPart}) {
+        std::ofstream(folder / "a.vdb", std::ios::binary)
+            << std::string(before, '.') << entry << std::string(100, '.');
+        EXPECT_EQ(vdbText(folder / "a.vdb", "frames.options"), value) << before;
+        EXPECT_EQ(vdbText(folder / "a.vdb", "options"), "") << before;
+    }
 }
 
 TEST(ReadVdb, RefusesWhatIsNoVdbFile)

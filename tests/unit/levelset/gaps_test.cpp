@@ -2,6 +2,7 @@
 #include "molsurf/levelset/gaussian_sum.h"
 
 #include "support/fields.h"
+#include "support/molecules.h"
 
 #include <gtest/gtest.h>
 
@@ -210,6 +211,28 @@ TEST(Gaps, OfACageThatStandsSquareOnTheVoxelsAreFoundWhereverItIs)
         ASSERT_TRUE(sum.gaps());
         EXPECT_EQ(sum.gaps()->found, 9u) << place;
         EXPECT_EQ(sum.gaps()->closed, 1u) << place;
+    }
+}
+
+// Steps from voxels lead to what steps from everywhere lead to.
+TEST(Gaps, AmongLooseAtomsAreThoseOfADenseSearch)
+{
+    constexpr double edge = 11.0, step = 0.4; // [Å]
+    for (unsigned seed = 4; seed < 8; ++seed) {
+        GaussianSum sum(test::randomBalls(20, edge, Vec3d(1.3, -2.1, 0.4), seed),
+                        optionsWith(0.5, tension));
+        sum.band(3, Progress());
+        const PsiJetAt jet = [&](const Vec3d& x) { return sum.jet(x); };
+        std::vector<Gap> dense;
+        const Coord half(int(0.5 * edge / step) + 1);
+        for (auto place = openvdb::CoordBBox(-half, half).begin(); place; ++place) {
+            const Vec3d x = Vec3d(1.3, -2.1, 0.4) + (*place).asVec3d() * step;
+            if (std::abs(jet(x).psi) > 4.0) continue;
+            if (const auto gap = gapNear(jet, x, 0.75)) dense.push_back(*gap);
+        }
+        dense = distinct(dense);
+        EXPECT_GT(dense.size(), 0u);
+        EXPECT_EQ(sum.gaps()->found, dense.size()) << seed;
     }
 }
 

@@ -108,6 +108,23 @@ TEST(RoundRidges, LeaveWhatAnOffsetBends)
     EXPECT_EQ(sharpest(none, voxel), before);
 }
 
+/// A small ball bends more than a ridge may, and its inner voxels more still.
+TEST(RoundRidges, LeaveSmallBalls)
+{
+    constexpr double voxel = 0.25, radius = 0.8;
+    const auto ball = [](const Vec3d& x) {
+        return (x - Vec3d(0.13, -0.21, 0.08)).length() - radius;
+    };
+    DistanceBand S;
+    S.phi = test::filled(test::bandTable(ball, Vec3d(0.0), 2.0, voxel, -0.7, 1.0), voxel, ball);
+    S.kinks = S.phi.table;
+    for (std::size_t n = 0; n < S.kinks.size(); ++n) S.kinks.active(n) = LeafMask();
+    const LeafField before = copied(S.phi).values;
+    roundRidges(S, probe, Progress());
+    for (std::size_t n = 0; n < S.phi.table.size(); ++n)
+        for (int v = 0; v < leafSize; ++v) EXPECT_EQ(S.phi.leaf(n)[v], before.leaf(n)[v]);
+}
+
 TEST(RoundRidges, LeaveAllElseAsItIs)
 {
     const double voxel = 0.25;

@@ -84,6 +84,17 @@ TEST(Altloc, OfDifferentResiduesOneStays)
     EXPECT_EQ(chosen(text, "all"), "N:A N:B OG:A OG:B N:C CG:C");
 }
 
+TEST(Altloc, ResiduesWithInsertionCodesAreSitesOfTheirOwn)
+{
+    std::string inserted = atom("CA", 'A', "SER", 52, 0.3) + atom("CB", ' ', "SER", 52, 1) +
+                           atom("CA", 'B', "SER", 52, 0.7);
+    constexpr std::size_t code = 26; // column
+    const std::size_t length = inserted.size() / 3;
+    for (std::size_t line = 0; line < 3; ++line) inserted[line * length + code] = 'A';
+    const std::string before = atom("CA", 'A', "SER", 52, 0.6) + atom("CA", 'B', "SER", 52, 0.4);
+    EXPECT_EQ(chosen(before + inserted), "CA:A CB CA:B");
+}
+
 TEST(Altloc, ALabelKeepsTheBlankOnesToo)
 {
     const std::string text = atom("N", ' ', "SER", 1, 1) + atom("CA", 'A', "SER", 1, 0.7) +

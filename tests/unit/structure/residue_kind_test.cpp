@@ -88,6 +88,14 @@ TEST(ResidueKind, OfNamesThatElementsContradict)
     EXPECT_EQ(kinds(records("XXX ZN,YYY O H1 H2", "HETATM")), "ion water");
 }
 
+TEST(ResidueKind, OfAWaterWithTwoLocationsIsWater)
+{
+    const std::string water =
+        "HETATM    1  O  AHOH A   1       0.000   0.000   0.000  0.50  0.00           O  \n"
+        "HETATM    2  O  BHOH A   1       0.800   0.000   0.000  0.50  0.00           O  \n";
+    EXPECT_EQ(kinds(water), "water");
+}
+
 TEST(ResidueKind, OfLipidsByTheirNames)
 {
     for (const char* name :

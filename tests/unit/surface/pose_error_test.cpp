@@ -57,13 +57,23 @@ TEST(PoseError, IsThatOfTwoRunsThatAreTurned)
               makeSurface(balls, withLambda(0.04)).report.evolution->areaError);
 }
 
-/// Its poses have the tolerances of the balls, and their cavities are filled as its own.
+/// Its poses have the tolerances of the balls and its probe, and their cavities are filled as its
+/// own.
 TEST(PoseError, IsOfTheSameSurface)
 {
     BallSet atoms;
     atoms.balls = {{{0.1, 0.2, 0.3}, 1.7, 0}, {{4.1, 0.2, 0.3}, 1.7, 1}};
     atoms.decays = {{0.6f, 0.3f}, {0.6f, 0.3f}};
     EXPECT_LT(makeSurface(atoms, withLambda(0.1)).report.evolution->areaError, 0.05);
+
+    std::vector<Ball> cube; // which another probe fits round
+    for (int i = 0; i < 8; ++i)
+        cube.push_back(
+            {openvdb::Vec3d(0.1, 0.2, 0.3) + 3.8 * openvdb::Vec3d(i >> 2, i >> 1 & 1, i & 1), 1.7,
+             i});
+    SurfaceOptions small = withLambda(0.1);
+    small.probe = 0.5;
+    EXPECT_LT(makeSurface(cube, small).report.evolution->areaError, 0.02);
 
     std::vector<Ball> shell; // about a hollow
     for (int i = 0; i < 140; ++i) {

@@ -70,6 +70,13 @@ TEST(Resolution, HalvesOfTwoResolutionsJoin)
     EXPECT_LT(both.report.surface.volume, 0.9 * high);
 }
 
+// The tolerance that opens a passage is none of balls with rates of their own.
+TEST(Resolution, LeavesPassagesUncountedThatTheFieldCloses)
+{
+    EXPECT_FALSE(runOn(crambin({{"", 5.0}})).report.evolution->gaps->closedByField);
+    EXPECT_TRUE(runOn(crambin({})).report.evolution->gaps->closedByField);
+}
+
 // A blurred surface lies far from the balls; its vertices still know their atoms.
 TEST(Resolution, VerticesKnowTheirAtomsHoweverBlurred)
 {
