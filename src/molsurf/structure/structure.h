@@ -119,6 +119,8 @@ struct Structure {
     std::vector<std::string> asyms;  ///< label_asym_id in mmCIF; elsewhere the same as chains
     std::vector<Assembly> assemblies;
     BeadKind beads = BeadKind::None;
+    std::vector<std::int32_t> serials; ///< of the atoms, as the file numbers them; empty: from 1 in
+                                       ///< each model
     std::vector<float> charges;      ///< of the atoms of a PQR or .mol2 file [e]; else empty
     std::vector<std::string> labels; ///< of the atoms of an xyzrn file: the last column as it
                                      ///< stands there; else empty
