@@ -131,10 +131,24 @@ AtomMatch matchWords(const Structure& structure, const std::string& expression,
     return match;
 }
 
+/// Whether a selection is one in words that depends on where atoms lie.
+bool asksForPlaces(const std::string& expression, const Structure& structure)
+{
+    try {
+        const WordSelection words = parseWords(expression, structure);
+        return std::any_of(words.alternatives.begin(), words.alternatives.end(),
+                           [](const auto& one) { return asksForPlaces(*one.tree); });
+    } catch (const Error&) {
+        return false;
+    }
+}
+
 } // namespace
 
 AtomMatch matchAtoms(const Structure& structure, const std::string& expression)
 {
+    const auto settled = structure.settled.find(expression);
+    if (settled != structure.settled.end()) return {settled->second, {0}, {}};
     std::vector<Phrase> phrases;
     std::optional<Error> refusal; // of gemmi's syntax
     try {
@@ -166,6 +180,24 @@ AtomMatch matchAtoms(const Structure& structure, const std::string& expression)
         failEmpty(structure, expression, hint);
     }
     return matchPhrases(phrases, std::move(atoms));
+}
+
+void settleSelections(const SelectOptions& options, const Model& model, Structure& structure)
+{
+    std::vector<std::string> expressions{options.select};
+    for (const GroupRule& rule : options.groups) expressions.push_back(rule.select);
+    for (const ResolutionRule& rule : options.resolutions) expressions.push_back(rule.select);
+    for (const CoarseRule& rule : options.coarse) expressions.push_back(rule.select);
+    for (const std::string& expression : expressions) {
+        if (expression.empty() || !asksForPlaces(expression, structure)) continue;
+        std::vector<char> atoms = matchAtoms(structure, expression).atoms;
+        const auto first = atoms.begin() + std::ptrdiff_t(model.begin);
+        for (const Model& other : structure.models)
+            if (other.begin != model.begin && other.end - other.begin == model.end - model.begin)
+                std::copy(first, first + std::ptrdiff_t(model.end - model.begin),
+                          atoms.begin() + std::ptrdiff_t(other.begin));
+        structure.settled[expression] = std::move(atoms);
+    }
 }
 
 } // namespace molsurf

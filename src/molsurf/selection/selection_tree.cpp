@@ -204,6 +204,21 @@ AtomMask atomsOf(const SelectionTree& tree, const SelectionFacts& facts)
     return std::visit([&](const auto& node) { return evaluation.of(node); }, tree.node);
 }
 
+bool asksForPlaces(const SelectionTree& tree)
+{
+    const auto any = [](const std::vector<SubTree>& parts) {
+        return std::any_of(parts.begin(), parts.end(),
+                           [](const SubTree& part) { return asksForPlaces(*part); });
+    };
+    if (const auto* all = std::get_if<AllOf>(&tree.node)) return any(all->parts);
+    if (const auto* some = std::get_if<AnyOf>(&tree.node)) return any(some->parts);
+    if (const auto* no = std::get_if<NotOf>(&tree.node)) return asksForPlaces(*no->of);
+    if (const auto* same = std::get_if<SameAs>(&tree.node))
+        return (same->property && same->property->place) || asksForPlaces(*same->of);
+    if (const auto* test = std::get_if<NumberTest>(&tree.node)) return test->property->place;
+    return std::holds_alternative<NearTo>(tree.node);
+}
+
 std::size_t markAtoms(const SelectionPattern& selection, const Structure& structure,
                       AtomMask& atoms)
 {

@@ -87,6 +87,9 @@ struct SelectionTree {
 /// from the origin
 AtomMask atomsOf(const SelectionTree& tree, const SelectionFacts& facts);
 
+/// Whether a selection depends on where atoms lie.
+bool asksForPlaces(const SelectionTree& tree);
+
 /// Marks the atoms that a phrase in gemmi's syntax holds for; returns how many these are.
 std::size_t markAtoms(const SelectionPattern& selection, const Structure& structure,
                       AtomMask& atoms);

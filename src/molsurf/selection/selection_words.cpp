@@ -18,7 +18,7 @@ using std::string_view;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// What the name of a residue in a chain says, for one that is modified or a bead.
+/// What a residue is by its name, for one that is modified or a bead.
 std::optional<ResidueKind> kindByName(const std::string& name)
 {
     switch (nameClass(name)) {
@@ -176,8 +176,8 @@ double coordinateOf(const SelectionFacts& facts, std::size_t i)
 }
 
 const PropertyWord propertyWords[] = {
-    {"chain chainid c.", "the name of a chain", true, chainOf, nullptr},
-    {"segid segi segment segname s.", "the name of a segment", true, segmentOf, nullptr},
+    {"chain chainid segid segname segment c.", "the name of a chain", true, chainOf, nullptr},
+    {"segi s.", "the name of a segment", true, segmentOf, nullptr},
     {"resname resn r.", "the name of a residue", true,
      [](const Structure& s, const Atom& atom) -> string_view { return residueOf(s, atom).name; },
      nullptr},
@@ -202,9 +202,9 @@ const PropertyWord propertyWords[] = {
     {"q occupancy occ", "an occupancy", false, nullptr,
      [](const SelectionFacts& f, std::size_t i) { return double(atomAt(f, i).occupancy); }},
     {"charge partial_charge pc.", "a charge", false, nullptr, chargeOf},
-    {"x", "a coordinate", false, nullptr, coordinateOf<0>},
-    {"y", "a coordinate", false, nullptr, coordinateOf<1>},
-    {"z", "a coordinate", false, nullptr, coordinateOf<2>}};
+    {"x", "a coordinate", false, nullptr, coordinateOf<0>, false, false, true},
+    {"y", "a coordinate", false, nullptr, coordinateOf<1>, false, false, true},
+    {"z", "a coordinate", false, nullptr, coordinateOf<2>, false, false, true}};
 
 using Does = SelectionOperator;
 
@@ -215,7 +215,7 @@ const OperatorWord operatorWords[] = {{"and & &&", Does::And},
                                       {"same", Does::SameAs},
                                       {"byres byresidue byresi br.", Does::SameAs, "residue"},
                                       {"bychain bc.", Does::SameAs, "chain"},
-                                      {"bysegment byseg bs.", Does::SameAs, "segment"},
+                                      {"bysegment byseg bs.", Does::SameAs, "segi"},
                                       {"within w.", Does::Within, nullptr, true},
                                       {"exwithin near_to nto.", Does::Within},
                                       {"beyond be.", Does::Beyond, nullptr, true},
@@ -267,9 +267,12 @@ SelectionFacts::SelectionFacts(const Structure& structure) : structure_(structur
     for (std::size_t r = 0; r < residues; ++r) {
         const Residue& residue = structure.residues[r];
         ResidueKind kind = residue.kind;
-        const bool modified = kind == ResidueKind::Modified;
-        if (modified) kind = nucleotides[r] ? ResidueKind::Nucleic : ResidueKind::Protein;
-        if (modified || kind == ResidueKind::Bead) kind = kindByName(residue.name).value_or(kind);
+        if (kind == ResidueKind::Bead) kind = kindByName(residue.name).value_or(kind);
+        if (kind == ResidueKind::Modified) {
+            const auto named = kindByName(residue.name);
+            const bool link = named == ResidueKind::Protein || named == ResidueKind::Nucleic;
+            kind = link ? *named : nucleotides[r] ? ResidueKind::Nucleic : ResidueKind::Protein;
+        }
         kinds_.push_back(kind);
     }
     indices_.resize(structure.atoms.size());

@@ -56,6 +56,7 @@ struct PropertyWord {
     double (*number)(const SelectionFacts& facts, std::size_t atom);
     bool element = false; ///< values are symbols of elements
     bool residue = false; ///< values are numbers of residues with insertion codes
+    bool place = false;   ///< values change when atoms move
 };
 
 /// What an operator does with the selection that it is for.
