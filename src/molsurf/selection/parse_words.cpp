@@ -167,7 +167,7 @@ private:
     {
         if (!property_.number)
             in_.fail(std::string(property_.what) + " behind " + word_,
-                     " [hint: " + word_ + " takes names, as in " + word_ + " A+B]");
+                     " [hint: names follow it, as in " + word_ + " A+B]");
         const std::string relation(in_.token());
         if (relation != "<" && relation != "<=" && relation != ">" && relation != ">=" &&
             relation != "=" && relation != "==" && relation != "!=")

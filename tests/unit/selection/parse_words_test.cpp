@@ -122,7 +122,7 @@ TEST(Words, NameThePlaceAndTheNearestWord)
     EXPECT_HAS(refusalOf("protein and"), "got the end");
     EXPECT_HAS(refusalOf("protein and ZN"), "got \"ZN\" at 13 [hint: resname ZN]");
     EXPECT_HAS(refusalOf("protein and CA"), "[hint: name CA]");
-    EXPECT_HAS(refusalOf("chain = A"), "takes names, as in chain A+B]");
+    EXPECT_HAS(refusalOf("chain = A"), "names follow it, as in chain A+B]");
     EXPECT_HAS(refusalOf("elem Qq"), "the symbol of an element, got \"Qq\" at 6");
     EXPECT_HAS(refusalOf("same colour as ZN"), "another property behind same");
     EXPECT_HAS(refusalOf("water near 5"), "got \"near\" at 7");
