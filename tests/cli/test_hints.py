@@ -162,7 +162,7 @@ CASES = {
         ('a name that is also a word needs quotes, as in chain "all"', f"vdb_molsurf all.cif --select 'chain all' {FAST} -o a.ply",
          f"vdb_molsurf all.cif --select 'chain \"all\"' {FAST} -o a.ply"),
         ("brackets decide: (within 9 of S) and T", f"vdb_molsurf 1crn.pdb --select 'within 9 of resid 1 or resid 2' {FAST} -o a.ply",
-         f"vdb_molsurf 1crn.pdb --select '(within 9 of resid 1) or resid 2' {FAST} -o a.ply",
+         f"vdb_molsurf 1crn.pdb --select '(within 9 of resid 1) or resid 2' {FAST} -o c.ply",
          f"vdb_molsurf 1crn.pdb --select 'within 9 of (resid 1 or resid 2)' {FAST} -o b.ply"),
         ("resname THR", f"vdb_molsurf 1crn.pdb --select 'protein and THR' {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select 'protein and resname THR' {FAST} -o a.ply"),
