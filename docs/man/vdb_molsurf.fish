@@ -28,7 +28,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "bricks run"' -l force -d 'do it 
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l skip-existing -d 'do nothing if the files are of the same input, options and'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "compare"' -l color -x -a 'distance signed-distance' -d 'distance (viridis) or signed-distance (blue: A is'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "compare"' -l range -r -d 'distance at the end of the colours [Å]'
-complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l select -r -d 'gemmi selections joined by |, e.g. "/1/A/53-132|*;polymer"'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l select -r -d 'atoms: "chain A and resid 5-9" or "/1/A/5-9|*;polymer"'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l model -r -d 'number of the model in the file'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l assembly -r -d 'biological assembly to build; none: as in the file;'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l instances -d 'the surface of each distinct copy of the assembly once:'

@@ -26,7 +26,7 @@ struct CoarseRule {
         Residue, ///< An amino acid becomes two beads, a nucleotide three.
         Cluster  ///< About as many neighbouring atoms as `atoms` says become a bead.
     };
-    std::string select; ///< atoms that the rule is for: gemmi selections joined by '|'; empty: all
+    std::string select; ///< atoms that the rule is for, as SelectOptions::select; empty: all
     Level level = Level::Atom;
     int atoms = 1; ///< atoms in a bead of Level::Cluster, about; >= 2 there, unused elsewhere
 };
@@ -43,7 +43,7 @@ struct CopyChoice {
 /// A group of atoms that the caller asks for.
 struct GroupRule {
     std::string name;
-    std::string select;                               ///< its atoms: gemmi selections joined by '|'
+    std::string select;                               ///< its atoms, as SelectOptions::select
     std::optional<std::array<std::uint8_t, 3>> color; ///< red, green, blue (sRGB), if one is wanted
     CopyChoice copies{};                              ///< copies of the assembly that it is in
     std::vector<int> copyNumbers{}; ///< the numbers that `copies` stands for, which readAtoms()
@@ -172,7 +172,7 @@ struct BallNames {
 /// at the rate pi^2 / d^2, as those of the command molmap of ChimeraX, whose standard deviation is
 /// d / (pi sqrt(2)).
 struct ResolutionRule {
-    std::string select; ///< atoms that the rule is for: gemmi selections joined by '|'; empty: all
+    std::string select; ///< atoms that the rule is for, as SelectOptions::select; empty: all
     double resolution;  ///< d [Å], in [1, 50]
 };
 
@@ -198,7 +198,8 @@ struct SelectOptions {
                                        ///< radius out itself 0
     };
 
-    /// The atoms to use: gemmi selections joined by '|', as "A" or "A/10-20|B"; empty: all.
+    /// The atoms to use: in words of PyMOL, VMD and MDAnalysis, as "chain A and resid 10 to 20", or
+    /// gemmi selections joined by '|', as "A" or "A/10-20|B"; empty: all. docs/selections.md.
     std::string select;
     int model = 0; ///< number of the model in the file; 0: the one that `select` names, or the
                    ///< first

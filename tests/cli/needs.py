@@ -18,6 +18,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 NODE = shutil.which("node")
 BPY_PYTHON = os.environ.get("BPY_PYTHON", sys.executable)  # a Python that has the module bpy
+MDANALYSIS_PYTHON = os.environ.get("MDANALYSIS_PYTHON", sys.executable)  # the same of MDAnalysis and prody
 USD_PYTHON = os.environ.get("USD_PYTHON", sys.executable)  # the same of OpenUSD, pxr
 # Where scripts/install_deps.sh puts packages of npm, and where npm does with --global.
 NODE_ENVIRONMENT = {**os.environ, "NODE_PATH": os.pathsep.join(filter(None, [
@@ -82,6 +83,8 @@ NEEDS = {
     "groff": (program("groff", "preconv"), "scripts/install_deps.sh groff"),
     "maps": (lambda: all(map(importlib.util.find_spec, ("mrcfile", "gridData", "skimage"))),
              "scripts/install_deps.sh python3-mrcfile python3-griddataformats python3-skimage"),
+    "mdanalysis": (lambda: runs(MDANALYSIS_PYTHON, "-c", "import MDAnalysis, prody"),
+                   "pip install MDAnalysis prody, and MDANALYSIS_PYTHON=<that Python>"),
     "openvdb": (lambda: all(map(importlib.util.find_spec, ("numpy", "pyopenvdb"))),
                 "scripts/install_deps.sh python3-openvdb python3-numpy"),
     "preload": (lambda: runs(os.environ["VDB_MOLSURF"], "--version", env=faulty()),

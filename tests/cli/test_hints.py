@@ -105,6 +105,10 @@ FILES = {
     "dot.xyzr": "0 0 0 0.1\n", "tiny.xyzr": "0.4 0.4 0.4 0.3\n", "one.xyzr": "0 0 0 1\n", "two.xyzr": "0 0 0 1.7\n3 0 0 1.7\n",
     "apart.xyzr": "2.524 -36.942 -21.611 1.19\n5.501 -40.386 -18.396 2.1\n",
     "far.xyzr": "2e4 0 0 1.7\n", "ball.xyzr": "0 0 0 100\n", "large.xyzr": "0 0 0 60\n",
+    "two.xyz": "2\n\nC 0 0 0\nO 1.2 0 0\n", "all.cif": "data_a\nloop_\n" + "".join(
+        f"_atom_site.{name}\n" for name in ("group_PDB id type_symbol label_atom_id label_comp_id label_asym_id label_seq_id Cartn_x "
+                                            "Cartn_y Cartn_z auth_asym_id").split()) + "".join(
+        f"ATOM {i} C CA ALA {chain} 1 {9 * i} 0 0 {chain}\n" for i, chain in enumerate(("all", "B"), 1)),
     "solid.ply": PLY.format(4, "".join(FACES)), "open.ply": PLY.format(3, "".join(FACES[:3])),
     "strips.ply": PLY.format(4, "".join(FACES)).replace("face 4", "tristrips 4"),
     "residue.pdb": pdb((1, 0, "N", "N", 1), (1, 1.5, "CA", "C", 2)),
@@ -152,6 +156,24 @@ CASES = {
         ("for example /1/A/53-132 or *;polymer", f"vdb_molsurf 1crn.pdb --select A/x {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select /1/A/5-32 {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select '*;polymer' {FAST} -o b.ply")],
+    "selection/parse_words.cpp": [
+        ("names follow it, as in chain A+B", f"vdb_molsurf 1crn.pdb --select 'chain = A' {FAST} -o a.ply",
+         f"vdb_molsurf 1crn.pdb --select 'chain A+B' {FAST} -o a.ply"),
+        ('a name that is also a word needs quotes, as in chain "all"', f"vdb_molsurf all.cif --select 'chain all' {FAST} -o a.ply",
+         f"vdb_molsurf all.cif --select 'chain \"all\"' {FAST} -o a.ply"),
+        ("brackets decide: (within 9 of S) and T", f"vdb_molsurf 1crn.pdb --select 'within 9 of resid 1 or resid 2' {FAST} -o a.ply",
+         f"vdb_molsurf 1crn.pdb --select '(within 9 of resid 1) or resid 2' {FAST} -o c.ply",
+         f"vdb_molsurf 1crn.pdb --select 'within 9 of (resid 1 or resid 2)' {FAST} -o b.ply"),
+        ("resname THR", f"vdb_molsurf 1crn.pdb --select 'protein and THR' {FAST} -o a.ply",
+         f"vdb_molsurf 1crn.pdb --select 'protein and resname THR' {FAST} -o a.ply"),
+        ("name CA", f"vdb_molsurf 1crn.pdb --select 'protein and CA' {FAST} -o a.ply",
+         f"vdb_molsurf 1crn.pdb --select 'protein and name CA' {FAST} -o a.ply")],
+    "selection/match_atoms.cpp": [
+        ("all, element C, name C1", f"vdb_molsurf two.xyz --select 'chain A' {FAST} -o a.ply",
+         *(f"vdb_molsurf two.xyz --select '{phrase}' {FAST} --force -o a.ply"
+           for phrase in ("all", "element C", "name C1", "index 0 to 9", "within 5 of index 0"))),
+        ("(all) is the word", f"vdb_molsurf all.cif --select all {FAST} -o a.ply",
+         f"vdb_molsurf all.cif --select '(all)' {FAST} -o b.ply")],
     "structure/detect_format.cpp": [
         ("give the structure, and this file with --trajectory", "vdb_molsurf 1d3z.xtc -o a.ply",
          f"vdb_molsurf 1d3z.pdb.gz --model 1 --trajectory 1d3z.xtc --frames 1 {FAST} -o a.ply")],

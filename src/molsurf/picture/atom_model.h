@@ -35,7 +35,7 @@ const std::vector<AtomStyle>& atomStyles();
 
 /// Atoms of a structure and how they are shown.
 struct ShowRule {
-    std::string select; ///< gemmi selections joined by '|'; empty: all
+    std::string select; ///< as SelectOptions::select; empty: all
     const AtomStyle* style = nullptr;
 };
 

@@ -6,6 +6,7 @@
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/match_atoms.h"
+#include "molsurf/selection/parse_words.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/text_fields.h"
@@ -78,6 +79,13 @@ std::vector<GroupRule> readJson(const std::string& path, const std::string& text
     return rules;
 }
 
+/// Whether a column of a table is behind the selection, which may have blanks.
+bool isEnd(std::string_view column)
+{
+    return column.rfind("copies=", 0) == 0 || column[0] == '#' ||
+           parseColor(std::string(column)).has_value();
+}
+
 std::vector<GroupRule> readTable(const std::string& path, const std::string& text)
 {
     std::vector<GroupRule> rules;
@@ -91,8 +99,15 @@ std::vector<GroupRule> readTable(const std::string& path, const std::string& tex
         }
         GroupRule rule;
         rule.name = columns[0];
-        rule.select = columns[1];
-        for (std::size_t k = 2; k < columns.size(); ++k) {
+        std::size_t end = columns.size();
+        while (end > 2 && isEnd(columns[end - 1])) --end;
+        const char* const first = columns[1].data();
+        rule.select = std::string(first, columns[end - 1].data() + columns[end - 1].size());
+        if (end > 2 && !hasWords(rule.select)) { // then blanks part it from a wrong colour
+            rule.select = columns[1];
+            end = 2;
+        }
+        for (std::size_t k = end; k < columns.size(); ++k) {
             if (columns[k].rfind("copies=", 0) == 0) {
                 rule.copies = copiesOf(rule.name, std::string(columns[k].substr(7)));
             } else {

@@ -24,8 +24,8 @@ const std::vector<std::string>& colorNames();
 
 /// Reads groups from a file: JSON {"groups": [{"name": "...", "select": "...", "color": "#rrggbb"},
 /// ...]}, an entry may also have "copies": "1,7" or "fold:5"; or a table with one group a line:
-/// name, selection and perhaps colour and copies=1,7, separated by white space; '#' at the start of
-/// a line is a comment.
+/// name, selection, which in words may have blanks, and perhaps colour and copies=1,7, separated by
+/// white space; '#' at the start of a line is a comment.
 ///
 /// @throws Error(ErrorKind::Input) if the file cannot be read, is neither, has no group, or two of
 ///         one name

@@ -4,6 +4,7 @@
 /// @file
 /// Selections of atoms by an expression.
 
+#include "molsurf/atoms.h"
 #include "molsurf/structure/structure.h"
 
 #include <string>
@@ -19,11 +20,17 @@ struct AtomMatch {
     std::vector<std::string> warnings; ///< alternatives that match nothing, while others do
 };
 
-/// Evaluates an expression of parseSelection(), alternatives joined by '|'. Chains are named as in
-/// Structure::chains. [H] selects deuterium too, [D] nothing. All models are searched.
+/// Evaluates an expression in one of two languages. That of parseSelection(), alternatives joined
+/// by '|', goes first; there chains are named as in Structure::chains, [H] selects deuterium too,
+/// and [D] nothing. What it does not read, or reads and finds nothing, is one of parseWords() if
+/// that reads it. All models are searched.
 ///
 /// @throws Error(ErrorKind::Usage) if the expression does not parse
 /// @throws Error(ErrorKind::Input) if it matches no atom
 AtomMatch matchAtoms(const Structure& structure, const std::string& expression);
+
+/// Makes matchAtoms() give the same atoms for the selections of some options when the atoms move.
+/// Models with as many atoms as a given one have its atoms, by their order.
+void settleSelections(const SelectOptions& options, const Model& model, Structure& structure);
 
 } // namespace molsurf

@@ -93,7 +93,17 @@ void TreeCopier::add(const gemmi::Chain& chain, const gemmi::Residue& from)
         out_.atoms.push_back({openvdb::Vec3d(atom.pos.x, atom.pos.y, atom.pos.z), atom.name,
                               residueIndex, element, atom.altloc, AtomRole::Atom, atom.occ,
                               atom.b_iso, -1.0});
+        out_.serials.push_back(atom.serial);
     }
+}
+
+void dropPlainSerials(Structure& structure)
+{
+    if (structure.serials.empty()) return;
+    for (const Model& model : structure.models)
+        for (std::size_t i = model.begin; i < model.end; ++i)
+            if (structure.serials[i] != std::int32_t(i - model.begin + 1)) return;
+    structure.serials = {};
 }
 
 void AtomTree::startModel(int number)
@@ -172,6 +182,9 @@ void AtomTree::add(const AtomLine& atom)
     const std::int32_t residue = residueOf(atom);
     out_.atoms.push_back({atom.position, std::string(atom.name), residue, elementOf(atom),
                           atom.altloc, atom.role, atom.occupancy, atom.bFactor, atom.radius});
+    const bool first = out_.models.back().begin + 1 == out_.atoms.size();
+    const std::int32_t next = first ? 1 : out_.serials.back() + 1;
+    out_.serials.push_back(atom.serial != 0 ? atom.serial : next);
 }
 
 Structure AtomTree::finish()
@@ -180,6 +193,7 @@ Structure AtomTree::finish()
     if (!out_.models.empty() && out_.models.back().begin == out_.models.back().end)
         out_.models.pop_back();
     out_.asyms = out_.chains;
+    dropPlainSerials(out_);
     return std::move(out_);
 }
 

@@ -36,6 +36,9 @@ private:
     NameTable chains_, asyms_;
 };
 
+/// Takes away Structure::serials that only count the atoms of each model.
+void dropPlainSerials(Structure& structure);
+
 /// One atom as a reader finds it.
 struct AtomLine {
     std::string_view chain, residue, name;
@@ -52,6 +55,7 @@ struct AtomLine {
     openvdb::Vec3d position{0.0};
     float occupancy = 1.0f, bFactor = 0.0f;
     double radius = -1.0; ///< [Å]; < 0: the file has none
+    int serial = 0;       ///< the number of the atom in the file; 0: one more than before
 };
 
 /// An atom of a file without residues: it is of UNL, as the Protein Data Bank calls an unknown

@@ -49,6 +49,7 @@ void mergeByModel(std::map<int, std::vector<Atom>> further, Structure& structure
                   std::make_move_iterator(atoms.end()));
     }
     structure.atoms.clear();
+    structure.serials.clear();
     structure.models.clear();
     for (const int number : order) {
         const std::size_t begin = structure.atoms.size();

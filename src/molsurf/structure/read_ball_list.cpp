@@ -90,6 +90,7 @@ struct Identity {
     char insertionCode = ' ';
     bool hetero = false;
     int element = 0; ///< atomic number; 0: the file has none
+    int serial = 0;  ///< 0: the file has none
 };
 
 /// Adds an atom with a radius.
@@ -105,6 +106,7 @@ void addBall(AtomTree& tree, const Identity& id, const openvdb::Vec3d& position,
     atom.element = id.element;
     atom.position = position;
     atom.radius = radius;
+    atom.serial = id.serial;
     tree.add(atom);
 }
 
@@ -131,6 +133,7 @@ Identity pqrIdentity(const Fields& fields, std::size_t size, bool hetero)
 {
     Identity id;
     id.hetero = hetero;
+    if (size > 0) parseInteger(fields[0], id.serial);
     if (size > 1) id.atom = fields[1];
     if (size > 2) id.residue = fields[2];
     if (size > 4) id.chain = fields[3];

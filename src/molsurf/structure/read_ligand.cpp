@@ -315,6 +315,7 @@ private:
         atom.chain = known.chain;
         atom.residue = residue.name;
         atom.name = fields[Name];
+        parseInteger(fields[0], atom.serial);
         atom.number = residue.number;
         atom.insertionCode = residue.insertionCode;
         atom.hetatm = !isStandardResidue(residue.name);

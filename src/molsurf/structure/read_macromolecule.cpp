@@ -348,6 +348,7 @@ Structure structureOf(gemmi::cif::Document& document, const std::string& path,
     if (hasSpheres(block)) spheres.items = block.items;
     if (block.has_tag("_atom_site.Cartn_x")) addRows(block, out);
     if (hasSpheres(spheres)) addSpheres(spheres, path, out);
+    dropPlainSerials(out);
     return out;
 }
 

@@ -184,6 +184,7 @@ private:
         const bool old = elementIn(line).empty() && !columns(line, 76, 4).empty();
         if (old) atom.segment = {}; // the name of the entry, before 1992
         atom.number = residueNumber(columns(line, 22, 4));
+        parseInteger(columns(line, 6, 5), atom.serial);
         atom.insertionCode = column(line, 26);
         atom.hetatm = line[0] == 'H';
         atom.altloc = column(line, 16) == ' ' ? '\0' : line[16];

@@ -43,6 +43,7 @@ AtomLine groAtom(const LineReader& lines, std::size_t width, const std::string& 
     };
     atom.residue = column(5, 5);
     atom.name = column(10, 5);
+    parseInteger(column(15, 5), atom.serial);
     constexpr double perNanometre = 10.0; // [Å]
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t begin = groFirst + axis * width;
@@ -119,6 +120,7 @@ AtomLine psfAtom(const LineReader& lines, const std::string& path)
     atom.chain = fields[Segment];
     atom.residue = fields[Residue];
     atom.name = fields[Name];
+    parseInteger(fields[Serial], atom.serial);
     constexpr double lightest = 0.5; // [u]: lone pairs have none, Drude particles 0.4
     if (mass < lightest) atom.role = AtomRole::Particle;
     atom.mass = mass;

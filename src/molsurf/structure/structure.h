@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -119,9 +120,13 @@ struct Structure {
     std::vector<std::string> asyms;  ///< label_asym_id in mmCIF; elsewhere the same as chains
     std::vector<Assembly> assemblies;
     BeadKind beads = BeadKind::None;
+    std::vector<std::int32_t> serials; ///< of the atoms, as the file numbers them; empty: from 1 in
+                                       ///< each model
     std::vector<float> charges;      ///< of the atoms of a PQR or .mol2 file [e]; else empty
     std::vector<std::string> labels; ///< of the atoms of an xyzrn file: the last column as it
                                      ///< stands there; else empty
+    /// The atoms of selections that ask for places, as they were when settleSelections() asked.
+    std::map<std::string, std::vector<char>> settled;
     bool hasRadii = false;           ///< true if every atom has the file's own radius
     bool placed = true;              ///< false if the atoms have no places yet, which then are
                                      ///< all 0

@@ -3,6 +3,7 @@
 
 #include "molsurf/color/palette.h"
 #include "molsurf/error.h"
+#include "molsurf/selection/match_atoms.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 
@@ -78,6 +79,7 @@ FrameSource::FrameSource(const std::string& input, const std::string& trajectory
             numbers_.push_back(int(i));
     }
     first_ = load(0);
+    settle();
     if (first_.labels) {
         BallLabels& labels = *first_.labels;
         labels.chainColors = chainColors(first_, progress);
@@ -121,6 +123,14 @@ void FrameSource::chooseModels(const FrameRange& range)
         numbers_.push_back(int(i));
     }
     if (!has(range.last)) missing(range.last, there);
+}
+
+void FrameSource::settle()
+{
+    const auto& models = structure_.models;
+    const auto first = std::find_if(models.begin(), models.end(),
+                                    [&](const Model& m) { return m.number == number(0); });
+    settleSelections(atoms_, trajectory_ ? models[model_] : *first, structure_);
 }
 
 BallSet FrameSource::load(std::size_t i)

@@ -57,6 +57,8 @@ public:
     std::string description();
 
 private:
+    /// Keeps the atoms of selections by distance as they are in the first frame.
+    void settle();
     BallSet load(std::size_t i);
     void keepColors(BallSet& selection);
     [[noreturn]] void missing(int number, const std::string& there) const;

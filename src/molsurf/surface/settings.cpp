@@ -254,8 +254,8 @@ std::vector<Setting> atomSettings()
         s.atoms.maxInput = sizeValue("max-input", values.back());
     };
     return {
-        text("select", "EXPR", "gemmi selections joined by |, e.g. \"/1/A/53-132|*;polymer\"",
-             "all", of(&SelectOptions::select)),
+        text("select", "EXPR", "atoms: \"chain A and resid 5-9\" or \"/1/A/5-9|*;polymer\"", "all",
+             of(&SelectOptions::select)),
         changed(count("model", "N", "number of the model in the file", "the first", {1, 1000000000},
                       of(&SelectOptions::model)),
                 [](Setting& row) {

@@ -51,6 +51,12 @@ TEST_F(GroupsFile, JsonAndTable)
     EXPECT_EQ(table[0].select, "A/1-5|A/9");
     EXPECT_EQ(table[0].color, json[0].color);
     EXPECT_EQ(table[1].select, "B");
+    const auto words = read("a chain A and resid 1 to 5 #d55e00\nb  within 5 of (HEM)\tcopies=2\n");
+    ASSERT_EQ(words.size(), 2u);
+    EXPECT_EQ(words[0].select, "chain A and resid 1 to 5");
+    EXPECT_EQ(words[0].color, json[0].color);
+    EXPECT_EQ(words[1].select, "within 5 of (HEM)");
+    EXPECT_FALSE(words[1].copies.all());
 }
 
 TEST_F(GroupsFile, BadOnesAreRefused)

@@ -25,5 +25,23 @@ TEST(FrameSource, StepsBeyondTheLastFrame)
     EXPECT_EQ(numbersOf("2-:2147483647"), (std::vector<int>{2}));
 }
 
+TEST(FrameSource, KeepsTheAtomsThatADistanceSelectsInTheFirstFrame)
+{
+    SelectOptions options;
+    options.hetero = Hetero::All;
+    options.select = "byres within 9 of resid 1 and x < 60";
+    const Progress progress;
+    for (const char* trajectory : {"", MOLSURF_TEST_DATA "/1d3z.xtc"}) {
+        FrameSource source(MOLSURF_TEST_DATA "/1d3z.pdb.gz", trajectory, "1-3", options, 1.4,
+                           progress);
+        const std::vector<Ball> first = source.balls(0).balls;
+        const std::size_t shift = trajectory[0] ? 0 : 1231; // atoms of a model
+        for (std::size_t i = 1; i < source.size(); ++i)
+            for (std::size_t b = 0; b < first.size(); ++b)
+                ASSERT_EQ(std::size_t(source.balls(i).balls[b].atom),
+                          std::size_t(first[b].atom) + i * shift);
+    }
+}
+
 } // namespace
 } // namespace molsurf

@@ -1,0 +1,709 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/selection/parse_words.h"
+
+#include "molsurf/core/words.h"
+#include "molsurf/error.h"
+#include "molsurf/structure/element.h"
+#include "molsurf/structure/text_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace molsurf
+{
+namespace
+{
+
+using std::string_view;
+
+constexpr string_view blanks = " \t\r\n", brackets = "()", signs = "|&<>=", joins = "+,";
+
+bool isIn(string_view letters, char c)
+{
+    return c != '\0' && letters.find(c) != string_view::npos;
+}
+
+SubTree treeOf(decltype(SelectionTree::node) node)
+{
+    return std::make_shared<const SelectionTree>(SelectionTree{std::move(node)});
+}
+
+/// One tree of several, without a node about one.
+template<typename Node>
+SubTree joinedBy(std::vector<SubTree> parts)
+{
+    return parts.size() == 1 ? parts[0] : treeOf(Node{std::move(parts)});
+}
+
+/// Whether a name is one of a structure's chains, residues or atoms.
+bool hasChain(const Structure& s, const std::string& name)
+{
+    return std::find(s.chains.begin(), s.chains.end(), name) != s.chains.end();
+}
+
+bool hasResidue(const Structure& s, const std::string& name)
+{
+    return std::any_of(s.residues.begin(), s.residues.end(),
+                       [&](const Residue& residue) { return residue.name == name; });
+}
+
+bool hasAtom(const Structure& s, const std::string& name)
+{
+    return std::any_of(s.atoms.begin(), s.atoms.end(),
+                       [&](const Atom& atom) { return atom.name == name; });
+}
+
+/// The letters of a text and a place in it.
+class Letters
+{
+public:
+    explicit Letters(const std::string& text) : text_(text) {}
+
+    std::size_t at() const { return at_; }
+    void goTo(std::size_t at) { at_ = at; }
+    char peek(std::size_t ahead = 0) const
+    {
+        return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
+    }
+    bool atEnd() const { return at_ >= text_.size(); }
+    string_view rest() const { return string_view(text_).substr(at_); }
+    string_view from(std::size_t begin) const
+    {
+        return trimmed(string_view(text_).substr(begin, at_ - begin));
+    }
+
+    void skipBlanks()
+    {
+        while (isIn(blanks, peek())) ++at_;
+    }
+
+    bool take(char c)
+    {
+        const bool found = c != '\0' && peek() == c;
+        at_ += found;
+        return found;
+    }
+
+    /// What stands here up to a blank, a bracket or a sign; a bracket or a sign alone.
+    string_view token() const
+    {
+        std::size_t end = at_;
+        const auto ends = [&](char c) {
+            return isIn(blanks, c) || isIn(brackets, c) || isIn(signs, c);
+        };
+        while (end < text_.size() && !ends(text_[end]) && !(text_[end] == '!' && end > at_)) {
+            ++end;
+            if (text_[end - 1] == '!') break;
+        }
+        if (end == at_ && end < text_.size()) ++end;
+        while (end < text_.size() && end > at_ && isIn("|&<>=", text_[end]) &&
+               (text_[end] == '=' ? isIn("<>=!", text_[end - 1]) : text_[end] == text_[at_]) &&
+               isIn("|&<>=!", text_[at_]))
+            ++end;
+        return string_view(text_).substr(at_, end - at_);
+    }
+
+    /// The word that stands here, if it is one.
+    std::optional<SelectionWord> word() const
+    {
+        return isIn("\"'", peek()) ? std::nullopt : selectionWord(token());
+    }
+
+    /// Refuses what stands here, or at another place.
+    [[noreturn]] void fail(const std::string& expected, const std::string& hint = "",
+                           std::size_t at = std::string::npos) const
+    {
+        const Letters here = from(*this, at);
+        const string_view got = here.atEnd() ? "" : here.token();
+        std::size_t column = 1; // of characters
+        for (std::size_t i = 0; i < here.at_ && i < text_.size(); ++i)
+            column += (text_[i] & 0xc0) != 0x80;
+        throw Error(
+            ErrorKind::Usage,
+            "selection " + inQuotes(text_) + ": expected " + expected + ", got " +
+                (got.empty() ? "the end" : inQuotes(got) + " at " + std::to_string(column)) + hint);
+    }
+
+private:
+    static Letters from(const Letters& letters, std::size_t at)
+    {
+        Letters here = letters;
+        if (at != std::string::npos) here.at_ = at;
+        return here;
+    }
+
+    const std::string& text_;
+    std::size_t at_ = 0;
+};
+
+/// Reads the values behind the word of a property.
+class ValueReader
+{
+public:
+    ValueReader(Letters& in, const PropertyWord& property, string_view word)
+        : in_(in), property_(property), word_(word)
+    {
+    }
+
+    SubTree read()
+    {
+        in_.skipBlanks();
+        if (isRelation()) return comparison();
+        if (!property_.lists) in_.fail("one of < <= > >= = != behind " + word_);
+        if (property_.element) return elements();
+        if (property_.text) return names();
+        return ranges();
+    }
+
+private:
+    bool isRelation() const
+    {
+        return isIn("<>=", in_.peek()) || (in_.peek() == '!' && in_.peek(1) == '=');
+    }
+
+    SubTree comparison()
+    {
+        if (!property_.number)
+            in_.fail(std::string(property_.what) + " behind " + word_,
+                     " [hint: names follow it, as in " + word_ + " A+B]");
+        const std::string relation(in_.token());
+        if (relation != "<" && relation != "<=" && relation != ">" && relation != ">=" &&
+            relation != "=" && relation != "==" && relation != "!=")
+            in_.fail("one of < <= > >= = !=");
+        in_.goTo(in_.at() + relation.size());
+        in_.skipBlanks();
+        const string_view token = in_.atEnd() ? string_view() : in_.token();
+        double value = 0.0;
+        if (!parseNumber(token, value) || !std::isfinite(value))
+            in_.fail("a number behind " + relation);
+        in_.goTo(in_.at() + token.size());
+        if (!property_.lists) value = double(float(value));
+        return treeOf(NumberTest{&property_, relation, value});
+    }
+
+    /// Whether the list ends here. Words end it, but not those of one letter, nor what + joins.
+    bool listEnds() const
+    {
+        const char c = in_.peek();
+        if (in_.atEnd() || isIn(brackets, c) || isIn(signs, c) || c == '!') return true;
+        const string_view token = in_.token();
+        return token.size() > 1 && in_.word();
+    }
+
+    /// Refuses what cannot be the first value.
+    void needValue() const
+    {
+        if (!listEnds()) return;
+        const std::string token(in_.atEnd() ? "" : in_.token());
+        const bool quotable = !token.empty() && property_.text && (isLetter(token[0]));
+        in_.fail(std::string(property_.what) + " behind " + word_,
+                 quotable ? " [hint: a name that is also a word needs quotes, as in " + word_ +
+                                " \"" + token + "\"]"
+                          : "");
+    }
+
+    /// Calls f() for each value of a list that blanks, + and commas part.
+    template<typename F>
+    void forEachValue(const F& f)
+    {
+        needValue();
+        for (bool joined = false;;) {
+            f();
+            const std::size_t end = in_.at();
+            in_.skipBlanks();
+            joined = isIn(joins, in_.peek());
+            if (joined) {
+                in_.goTo(in_.at() + 1);
+                in_.skipBlanks();
+                if (in_.atEnd() || isIn(brackets, in_.peek()) || isIn(signs, in_.peek()))
+                    in_.fail(std::string(property_.what) + " behind the " +
+                             (in_.at() > 0 ? "+ or comma" : ""));
+            } else if (listEnds()) {
+                in_.goTo(end);
+                return;
+            }
+        }
+    }
+
+    NameGlob name()
+    {
+        const char quote = in_.peek();
+        if (isIn("\"'", quote)) {
+            const std::size_t end = in_.rest().find(quote, 1);
+            if (end == string_view::npos)
+                in_.fail("a quote at the end of " + std::string(property_.what));
+            NameGlob out{std::string(in_.rest().substr(1, end - 1)), false};
+            in_.goTo(in_.at() + end + 1);
+            return out;
+        }
+        const string_view token = in_.token();
+        std::size_t end = 0;
+        while (end < token.size() && !isJoin(token, end)) ++end;
+        if (end == 0) in_.fail(property_.what);
+        NameGlob out{std::string(token.substr(0, end)), false};
+        out.pattern = out.text.find_first_of("*?") != std::string::npos;
+        in_.goTo(in_.at() + end);
+        return out;
+    }
+
+    /// Whether a + or a comma parts values: at the end of a token a + is a charge, as in NA+.
+    static bool isJoin(string_view token, std::size_t i)
+    {
+        return token[i] == ',' || (token[i] == '+' && i > 0 && i + 1 < token.size());
+    }
+
+    SubTree names()
+    {
+        NameTest test{&property_, {}};
+        forEachValue([&] { test.names.push_back(name()); });
+        return treeOf(std::move(test));
+    }
+
+    SubTree elements()
+    {
+        SelectionPattern pattern;
+        pattern.elements.assign(maxElement + 1, 0);
+        forEachValue([&] {
+            const std::size_t begin = in_.at();
+            const std::string symbol = name().text;
+            const int number = elementNumber(symbol);
+            if (number == 0 && lowered(symbol) != "x") in_.fail(property_.what, "", begin);
+            pattern.elements[std::size_t(number)] = 1;
+        });
+        return treeOf(PatternTest{std::move(pattern)});
+    }
+
+    /// A number, of a residue with its insertion code. PyMOL writes -5 as \-5.
+    SequenceBound bound()
+    {
+        const std::size_t begin = in_.at();
+        in_.take('\\');
+        const std::size_t from = in_.at();
+        in_.take('-');
+        while (isDigit(in_.peek())) in_.goTo(in_.at() + 1);
+        SequenceBound out{0, property_.residue ? ' ' : '*'};
+        if (!parseInteger(in_.from(from), out.number)) in_.fail(property_.what, "", begin);
+        if (property_.residue && isLetter(in_.peek()) && !isLetter(in_.peek(1)))
+            out.insertionCode = in_.peek(), in_.goTo(in_.at() + 1);
+        return out;
+    }
+
+    /// Reads what parts the ends of a range, if it stands here.
+    bool takeTo()
+    {
+        if (in_.take('-') || in_.take(':')) return true;
+        const std::size_t end = in_.at();
+        in_.skipBlanks();
+        const std::string two = lowered(std::string(in_.rest().substr(0, 2)));
+        if (two == "to" && !isLetter(in_.peek(2))) {
+            in_.goTo(in_.at() + 2);
+            in_.skipBlanks();
+            return true;
+        }
+        in_.goTo(end);
+        return false;
+    }
+
+    SubTree ranges()
+    {
+        RangeTest test{&property_, {}};
+        forEachValue([&] {
+            const std::size_t begin = in_.at();
+            const SequenceBound first = bound();
+            SequenceBound last = first;
+            if (takeTo()) {
+                last = {std::numeric_limits<int>::max(), '*'};
+                if (isDigit(in_.peek()) || in_.peek() == '-' || in_.peek() == '\\') last = bound();
+            }
+            const char c = in_.peek();
+            if (!in_.atEnd() && !isIn(blanks, c) && !isIn(brackets, c) && !isIn(joins, c) &&
+                !isIn(signs, c))
+                in_.fail(std::string(property_.what) + ", as in 10, 10-20, 10:20 or 10 to 20", "",
+                         begin);
+            test.ranges.push_back({first, last});
+        });
+        return treeOf(std::move(test));
+    }
+
+    Letters& in_;
+    const PropertyWord& property_;
+    std::string word_;
+};
+
+/// Reads an expression from left to right.
+class WordParser
+{
+public:
+    WordParser(const std::string& text, const Structure& structure)
+        : in_(text), structure_(structure)
+    {
+    }
+
+    WordSelection parse()
+    {
+        const SubTree tree = expression(&out_.alternatives);
+        in_.skipBlanks();
+        if (!in_.atEnd())
+            in_.fail("and, or, within, around or the end",
+                     in_.peek() == ')' ? "" : didYouMean(std::string(in_.token()), joiners()));
+        if (out_.alternatives.size() < 2) out_.alternatives = {{tree, ""}};
+        return std::move(out_);
+    }
+
+private:
+    using Does = SelectionOperator;
+    using Alternatives = std::vector<WordSelection::Alternative>;
+    static constexpr std::size_t none = std::string::npos;
+
+    static std::vector<std::string> joiners()
+    {
+        return {"and", "or", "within", "around", "exwithin", "expand", "beyond"};
+    }
+
+    /// Counts how deep the grammar calls itself.
+    class Depth
+    {
+    public:
+        explicit Depth(WordParser& parser) : parser_(parser)
+        {
+            constexpr int most = 100;
+            if (++parser_.depth_ > most) parser_.in_.fail("at most 100 operators in each other");
+        }
+        ~Depth() { --parser_.depth_; }
+        Depth(const Depth&) = delete;
+        Depth& operator=(const Depth&) = delete;
+
+    private:
+        WordParser& parser_;
+    };
+
+    /// The operator that stands here; null if it is none.
+    const OperatorWord* peekOperator()
+    {
+        in_.skipBlanks();
+        const auto word = in_.atEnd() ? std::nullopt : in_.word();
+        return word ? word->isOperator : nullptr;
+    }
+
+    const OperatorWord* takeOperator(Does does)
+    {
+        const OperatorWord* found = peekOperator();
+        if (!found || found->does != does) return nullptr;
+        takeToken();
+        return found;
+    }
+
+    std::string takeToken()
+    {
+        std::string token(in_.token());
+        in_.goTo(in_.at() + token.size());
+        return token;
+    }
+
+    bool takeWord(const char* word)
+    {
+        in_.skipBlanks();
+        const bool found = !in_.atEnd() && lowered(std::string(in_.token())) == word;
+        if (found) takeToken();
+        return found;
+    }
+
+    /// @param[out] alternatives  what `or` joins, if nothing else is done with it; may be null
+    SubTree expression(Alternatives* alternatives = nullptr)
+    {
+        const Depth depth(*this);
+        SubTree tree = either(alternatives);
+        int steps = 0;
+        for (;;) {
+            const OperatorWord* word = peekOperator();
+            if (!word || word->does < Does::Within) return tree;
+            if (alternatives) alternatives->clear();
+            constexpr int most = 100;
+            if (++steps > most) in_.fail("at most 100 operators behind each other");
+            takeToken();
+            tree = postfix(*word, tree);
+        }
+    }
+
+    /// "S around 5" and "S within 5 of T".
+    SubTree postfix(const OperatorWord& word, const SubTree& tree)
+    {
+        const double reach = distance();
+        if (word.does == Does::Around) return treeOf(NearTo{reach, word.itself, tree});
+        if (!takeWord("of")) in_.fail("of behind the distance");
+        const Depth depth(*this);
+        return treeOf(AllOf{{tree, nearTo(word, reach, either())}});
+    }
+
+    static SubTree nearTo(const OperatorWord& word, double reach, const SubTree& of)
+    {
+        const SubTree near = treeOf(NearTo{reach, word.itself, of});
+        return word.does == Does::Beyond ? treeOf(NotOf{near}) : near;
+    }
+
+    SubTree either(Alternatives* alternatives = nullptr)
+    {
+        std::vector<SubTree> parts;
+        do {
+            in_.skipBlanks();
+            const std::size_t begin = in_.at();
+            parts.push_back(both());
+            if (alternatives) alternatives->push_back({parts.back(), std::string(in_.from(begin))});
+        } while (takeOperator(Does::Or));
+        return joinedBy<AnyOf>(std::move(parts));
+    }
+
+    SubTree both()
+    {
+        std::vector<SubTree> parts;
+        do parts.push_back(operand());
+        while (takeOperator(Does::And));
+        return joinedBy<AllOf>(std::move(parts));
+    }
+
+    SubTree operand()
+    {
+        const Depth depth(*this);
+        in_.skipBlanks();
+        if (in_.peek() == '(') return bracket();
+        const auto word = in_.atEnd() ? std::nullopt : in_.word();
+        if (!word) return pattern();
+        if (word->isOperator) return operation(*word->isOperator);
+        if (word->isClass) {
+            takeToken();
+            return treeOf(ClassTest{word->isClass});
+        }
+        return property(*word->isProperty);
+    }
+
+    /// What follows MDAnalysis's "prop".
+    SubTree value()
+    {
+        in_.skipBlanks();
+        const auto word = in_.atEnd() ? std::nullopt : in_.word();
+        if (!word || !word->isProperty || !word->isProperty->number)
+            in_.fail("x, y, z, charge or another number behind prop");
+        return property(*word->isProperty);
+    }
+
+    SubTree property(const PropertyWord& property)
+    {
+        const std::size_t begin = in_.at();
+        const std::string word = takeToken();
+        in_.skipBlanks();
+        if (word.size() == 1 && !isIn("<>=!", in_.peek()) &&
+            hasChain(structure_, word)) { // a chain b
+            in_.goTo(begin);
+            return pattern();
+        }
+        return ValueReader(in_, property, word).read();
+    }
+
+    SubTree operation(const OperatorWord& word)
+    {
+        switch (word.does) {
+        case Does::Value:
+            takeToken();
+            return value();
+        case Does::And:
+        case Does::Or:
+            failAtOperand();
+        case Does::Not:
+            takeToken();
+            return treeOf(NotOf{operand()});
+        case Does::SameAs:
+            return sameAs(word);
+        default:
+            break;
+        }
+        const std::size_t begin = in_.at();
+        takeToken();
+        const double reach = distance();
+        const bool of = takeWord("of");
+        if (!of && word.does != Does::Around) in_.fail("of behind the distance");
+        const SubTree tree = greedy(of ? begin : none);
+        return nearTo(word, reach, tree);
+    }
+
+    SubTree sameAs(const OperatorWord& word)
+    {
+        const std::size_t begin = in_.at();
+        takeToken();
+        std::string key = word.property ? word.property : "";
+        const bool named = key.empty();
+        if (named) {
+            in_.skipBlanks();
+            const std::size_t at = in_.at();
+            key = in_.atEnd() ? "" : lowered(takeToken());
+            const auto found = selectionWord(key);
+            if (key != "residue" && !(found && found->isProperty))
+                in_.fail("residue, chain, resname or another property behind same", "", at);
+            if (!takeWord("as")) in_.fail("as behind same " + key);
+        }
+        const SubTree of = greedy(named ? begin : none);
+        return treeOf(SameAs{key == "residue" ? nullptr : selectionWord(key)->isProperty, of});
+    }
+
+    /// What a prefix is for: all up to the end or a bracket.
+    /// @param[in] begin  of the prefix, if other programs end what it is for at `and` and `or`
+    SubTree greedy(std::size_t begin)
+    {
+        const std::string prefix(begin == none ? string_view() : in_.from(begin));
+        in_.skipBlanks();
+        const std::size_t from = in_.at();
+        const SubTree tree = expression();
+        const bool joined =
+            std::holds_alternative<AllOf>(tree->node) || std::holds_alternative<AnyOf>(tree->node);
+        if (joined && !prefix.empty() && !isBracketed(from))
+            out_.notes.push_back(inQuotes(in_.from(from)) + " was taken as one behind " +
+                                 inQuotes(prefix) + " [hint: brackets decide: (" + prefix +
+                                 " S) and T, or " + prefix + " (S and T)]");
+        return tree;
+    }
+
+    /// Whether one bracket holds all from a place to here.
+    bool isBracketed(std::size_t begin) const
+    {
+        const string_view text = in_.from(begin);
+        if (text.empty() || text[0] != '(') return false;
+        int open = 0;
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            open += (text[i] == '(') - (text[i] == ')');
+            if (open == 0) return i + 1 == text.size();
+        }
+        return false;
+    }
+
+    double distance()
+    {
+        in_.skipBlanks();
+        const string_view token = in_.atEnd() ? string_view() : in_.token();
+        double out = 0.0;
+        if (!parseNumber(token, out) || !std::isfinite(out) || out < 0.0)
+            in_.fail("a distance of at least 0 Å");
+        in_.goTo(in_.at() + token.size());
+        return out;
+    }
+
+    SubTree bracket()
+    {
+        if (const SubTree residues = residuesInBrackets()) return residues;
+        const std::size_t begin = in_.at();
+        in_.take('(');
+        const SubTree tree = expression();
+        in_.skipBlanks();
+        if (!in_.take(')'))
+            in_.fail(in_.atEnd() ? ") for the bracket at " + std::to_string(begin + 1)
+                                 : "and, or, within, around or )",
+                     in_.atEnd() ? "" : didYouMean(std::string(in_.token()), joiners()));
+        return tree;
+    }
+
+    /// "(HEM)" and "(HEM,ZN)/FE", as gemmi has it; null if it is a bracket about words or chains.
+    SubTree residuesInBrackets()
+    {
+        const string_view rest = in_.rest();
+        const std::string inside(rest.substr(1, rest.find(')') - 1));
+        if (rest.find(')') == string_view::npos || selectionWord(trimmed(inside)) ||
+            inside.find_first_of(" (|&<>=") != std::string::npos)
+            return nullptr;
+        const bool chain = hasChain(structure_, inside) && !hasResidue(structure_, inside);
+        return chain ? nullptr : patternOf(patternText());
+    }
+
+    /// What may be a phrase of gemmi's here: all up to a blank, | or & outside of its brackets and
+    /// quotes, or a bracket that closes another.
+    std::string patternText() const
+    {
+        const string_view rest = in_.rest();
+        int open = 0;
+        char quote = '\0';
+        std::size_t end = 0;
+        for (; end < rest.size(); ++end) {
+            const char c = rest[end];
+            const bool begins = end == 0 || isIn(",/([!", rest[end - 1]);
+            if (quote != '\0') {
+                if (c == quote) quote = '\0';
+            } else if (isIn("\"'", c) && begins) {
+                quote = c;
+            } else if (isIn(blanks, c) || isIn("|&", c) || (c == ')' && open == 0)) {
+                break;
+            } else {
+                open += (c == '(') - (c == ')');
+            }
+        }
+        return std::string(rest.substr(0, end));
+    }
+
+    /// A phrase of gemmi's; null if it is none.
+    SubTree patternOf(const std::string& text)
+    {
+        SelectionPattern found;
+        try {
+            found = parseSelection(text);
+        } catch (const Error&) {
+            return nullptr;
+        }
+        in_.goTo(in_.at() + text.size());
+        out_.models.push_back(found.model);
+        return treeOf(PatternTest{std::move(found)});
+    }
+
+    SubTree pattern()
+    {
+        const std::string text = patternText();
+        if (text.empty()) failAtOperand();
+        // A name alone may be a word with a slip.
+        const bool nameAlone = text.find_first_of("/[(;:,*!\"'") == std::string::npos &&
+                               !isDigit(text[0]) && text[0] != '-';
+        if (nameAlone && !hasChain(structure_, text)) failAtOperand();
+        if (const SubTree tree = patternOf(text)) return tree;
+        failAtOperand();
+    }
+
+    [[noreturn]] void failAtOperand() const
+    {
+        in_.fail("a word such as protein, chain or within",
+                 in_.atEnd() ? "" : hintOn(std::string(in_.token()), structure_));
+    }
+
+    Letters in_;
+    const Structure& structure_;
+    WordSelection out_;
+    int depth_ = 0;
+};
+
+} // namespace
+
+WordSelection parseWords(const std::string& text, const Structure& structure)
+{
+    return WordParser(text, structure).parse();
+}
+
+bool hasWords(const std::string& text)
+{
+    constexpr const char* parts = " \t\r\n()|&!<>=";
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find_first_of(parts, begin), text.size());
+        const std::size_t next = text.find_first_not_of(" ", end);
+        const bool compared = next != std::string::npos && isIn("<>=!", text[next]);
+        if ((end - begin > 1 || (end > begin && compared)) &&
+            selectionWord(string_view(text).substr(begin, end - begin)))
+            return true;
+        begin = end + 1;
+    }
+    return false;
+}
+
+std::string hintOn(const std::string& word, const Structure& structure)
+{
+    constexpr std::size_t shortest = 4; // shorter ones are near to too many
+    if (word.empty() || !isLetter(word[0])) return "";
+    if (hasResidue(structure, word)) return " [hint: resname " + word + "]";
+    if (hasAtom(structure, word)) return " [hint: name " + word + "]";
+    return word.size() < shortest ? "" : didYouMean(word, selectionWords());
+}
+
+} // namespace molsurf

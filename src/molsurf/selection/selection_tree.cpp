@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/selection/selection_tree.h"
+
+#include "molsurf/selection/near_atoms.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace molsurf
+{
+namespace
+{
+
+bool matches(const SelectionPattern& selection, const Residue& residue, const Structure& structure)
+{
+    return selection.chains.has(structure.chains[std::size_t(residue.chain)]) &&
+           (selection.kinds >> unsigned(residue.kind) & 1u) != 0 &&
+           selection.residues.has(residue.name) && selection.from.compare(residue) <= 0 &&
+           selection.to.compare(residue) >= 0;
+}
+
+bool matches(const SelectionPattern& selection, const Atom& atom)
+{
+    const auto holds = [&](const SelectionPattern::Inequality& bound) {
+        const double value = bound.property == 'q' ? atom.occupancy : atom.bFactor;
+        return bound.relation == '<'   ? value < bound.value
+               : bound.relation == '>' ? value > bound.value
+                                       : value == bound.value;
+    };
+    const bool element = selection.elements.empty() || selection.elements[atom.element];
+    return element && selection.atoms.has(atom.name) &&
+           selection.altlocs.has(std::string(atom.altloc ? 1 : 0, atom.altloc)) &&
+           std::all_of(selection.inequalities.begin(), selection.inequalities.end(), holds);
+}
+
+/// Whether a number stands to another as a relation says.
+bool holds(double a, const std::string& relation, double b)
+{
+    if (relation == "<") return a < b;
+    if (relation == "<=") return a <= b;
+    if (relation == ">") return a > b;
+    if (relation == ">=") return a >= b;
+    return (a == b) != (relation == "!=");
+}
+
+/// Finds the atoms of each node.
+class Evaluation
+{
+public:
+    explicit Evaluation(const SelectionFacts& facts) : facts_(facts), structure_(facts.structure())
+    {
+    }
+
+    AtomMask of(const SubTree& tree) const
+    {
+        return std::visit([&](const auto& node) { return of(node); }, tree->node);
+    }
+
+    AtomMask of(const ClassTest& test) const
+    {
+        return where([&](std::size_t, const Atom& atom) { return test.word->holds(facts_, atom); });
+    }
+
+    AtomMask of(const NameTest& test) const
+    {
+        // Neighbours mostly share a name of a chain or residue.
+        std::string last;
+        bool known = false, had = false;
+        return where([&](std::size_t, const Atom& atom) {
+            const std::string_view name = test.property->text(structure_, atom);
+            if (known && name == last) return had;
+            known = true;
+            last = name;
+            return had = std::any_of(test.names.begin(), test.names.end(),
+                                     [&](const NameGlob& glob) { return glob.matches(name); });
+        });
+    }
+
+    AtomMask of(const RangeTest& test) const
+    {
+        return where([&](std::size_t i, const Atom& atom) {
+            Residue place{};
+            place.number = std::int32_t(test.property->number(facts_, i));
+            if (test.property->residue)
+                place.insertionCode = residueOf(structure_, atom).insertionCode;
+            return std::any_of(test.ranges.begin(), test.ranges.end(), [&](const NumberRange& r) {
+                return r.from.compare(place) <= 0 && r.to.compare(place) >= 0;
+            });
+        });
+    }
+
+    AtomMask of(const NumberTest& test) const
+    {
+        return where([&](std::size_t i, const Atom&) {
+            return holds(test.property->number(facts_, i), test.relation, test.value);
+        });
+    }
+
+    AtomMask of(const PatternTest& test) const
+    {
+        AtomMask out(structure_.atoms.size());
+        markAtoms(test.pattern, structure_, out);
+        return out;
+    }
+
+    AtomMask of(const AllOf& all) const
+    {
+        AtomMask out = of(all.parts.front());
+        for (std::size_t p = 1; p < all.parts.size(); ++p) {
+            const AtomMask part = of(all.parts[p]);
+            for (std::size_t i = 0; i < out.size(); ++i) out[i] &= part[i];
+        }
+        return out;
+    }
+
+    AtomMask of(const AnyOf& any) const
+    {
+        AtomMask out = of(any.parts.front());
+        for (std::size_t p = 1; p < any.parts.size(); ++p) {
+            const AtomMask part = of(any.parts[p]);
+            for (std::size_t i = 0; i < out.size(); ++i) out[i] |= part[i];
+        }
+        return out;
+    }
+
+    AtomMask of(const NotOf& no) const
+    {
+        AtomMask out = of(no.of);
+        for (char& one : out) one = !one;
+        return out;
+    }
+
+    AtomMask of(const SameAs& same) const
+    {
+        const AtomMask some = of(same.of);
+        if (!same.property) return sharing(some, [&](std::size_t i) { return atom(i).residue; });
+        if (same.property->number)
+            return sharing(some, [&](std::size_t i) { return same.property->number(facts_, i); });
+        return sharing(some,
+                       [&](std::size_t i) { return same.property->text(structure_, atom(i)); });
+    }
+
+    AtomMask of(const NearTo& near) const
+    {
+        const AtomMask some = of(near.of);
+        AtomMask out = nearAtoms(structure_, some, near.distance);
+        for (std::size_t i = 0; i < out.size() && !near.itself; ++i) out[i] &= !some[i];
+        return out;
+    }
+
+private:
+    const Atom& atom(std::size_t i) const { return structure_.atoms[i]; }
+
+    template<typename F>
+    AtomMask where(F holds) const
+    {
+        AtomMask out(structure_.atoms.size());
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = char(holds(i, atom(i)));
+        return out;
+    }
+
+    /// The atoms whose key is that of a marked one.
+    template<typename Key>
+    AtomMask sharing(const AtomMask& some, const Key& key) const
+    {
+        std::unordered_set<decltype(key(0))> keys;
+        for (std::size_t i = 0; i < some.size(); ++i)
+            if (some[i]) keys.insert(key(i));
+        return where([&](std::size_t i, const Atom&) { return keys.count(key(i)) > 0; });
+    }
+
+    const SelectionFacts& facts_;
+    const Structure& structure_;
+};
+
+} // namespace
+
+bool NameGlob::matches(std::string_view name) const
+{
+    if (!pattern) return name == text;
+    // Goes back to the last * where the letters behind it differ.
+    std::size_t at = 0, in = 0, star = std::string::npos, from = 0;
+    while (in < name.size()) {
+        if (at < text.size() && text[at] == '*') {
+            star = at++;
+            from = in;
+        } else if (at < text.size() && (text[at] == '?' || text[at] == name[in])) {
+            ++at;
+            ++in;
+        } else if (star != std::string::npos) {
+            at = star + 1;
+            in = ++from;
+        } else {
+            return false;
+        }
+    }
+    while (at < text.size() && text[at] == '*') ++at;
+    return at == text.size();
+}
+
+AtomMask atomsOf(const SelectionTree& tree, const SelectionFacts& facts)
+{
+    const Evaluation evaluation(facts);
+    return std::visit([&](const auto& node) { return evaluation.of(node); }, tree.node);
+}
+
+bool asksForPlaces(const SelectionTree& tree)
+{
+    const auto any = [](const std::vector<SubTree>& parts) {
+        return std::any_of(parts.begin(), parts.end(),
+                           [](const SubTree& part) { return asksForPlaces(*part); });
+    };
+    if (const auto* all = std::get_if<AllOf>(&tree.node)) return any(all->parts);
+    if (const auto* some = std::get_if<AnyOf>(&tree.node)) return any(some->parts);
+    if (const auto* no = std::get_if<NotOf>(&tree.node)) return asksForPlaces(*no->of);
+    if (const auto* same = std::get_if<SameAs>(&tree.node))
+        return (same->property && same->property->place) || asksForPlaces(*same->of);
+    if (const auto* test = std::get_if<NumberTest>(&tree.node)) return test->property->place;
+    return std::holds_alternative<NearTo>(tree.node);
+}
+
+std::size_t markAtoms(const SelectionPattern& selection, const Structure& structure,
+                      AtomMask& atoms)
+{
+    std::vector<char> residues(structure.residues.size());
+    std::transform(structure.residues.begin(), structure.residues.end(), residues.begin(),
+                   [&](const Residue& residue) {
+                       return static_cast<char>(matches(selection, residue, structure));
+                   });
+    std::size_t count = 0;
+    for (const Model& model : structure.models) {
+        if (selection.model != 0 && selection.model != model.number) continue;
+        for (std::size_t i = model.begin; i < model.end; ++i) {
+            const Atom& atom = structure.atoms[i];
+            if (!residues[std::size_t(atom.residue)]) continue;
+            if (!matches(selection, atom)) continue;
+            atoms[i] = 1;
+            ++count;
+        }
+    }
+    return count;
+}
+
+} // namespace molsurf

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The words of selections: those of PyMOL, VMD and MDAnalysis. A word is a row of a table here.
+
+#include "molsurf/structure/structure.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace molsurf
+{
+
+/// What several words ask of a structure, found once.
+class SelectionFacts
+{
+public:
+    explicit SelectionFacts(const Structure& structure);
+
+    const Structure& structure() const { return structure_; }
+
+    /// The kind of a residue. A modified one is protein or nucleic, and a bead what its name says.
+    ResidueKind kindOf(const Atom& atom) const { return kinds_[std::size_t(atom.residue)]; }
+
+    /// Whether a residue has carbon.
+    bool hasCarbon(const Atom& atom) const { return carbons_[std::size_t(atom.residue)] != 0; }
+
+    /// The place of an atom in its model, from 0.
+    int indexOf(std::size_t atom) const { return indices_[atom]; }
+
+private:
+    const Structure& structure_;
+    std::vector<ResidueKind> kinds_; ///< one a residue
+    std::vector<char> carbons_;      ///< one a residue
+    std::vector<std::int32_t> indices_;
+};
+
+/// A word that stands alone: "protein".
+struct ClassWord {
+    const char* words; ///< all its forms, with blanks between
+    bool (*holds)(const SelectionFacts& facts, const Atom& atom);
+};
+
+/// A word that values follow: "chain A B", "resid 10 to 20", "b < 30". One of the last three
+/// members reads it off an atom.
+struct PropertyWord {
+    const char* words;
+    const char* what; ///< "the name of a chain"
+    bool lists; ///< whether a list of values may follow; if not, a comparison with a number in
+                ///< single precision has to
+    std::string_view (*text)(const Structure& structure, const Atom& atom);
+    double (*number)(const SelectionFacts& facts, std::size_t atom);
+    bool element = false; ///< values are symbols of elements
+    bool residue = false; ///< values are numbers of residues with insertion codes
+    bool place = false;   ///< values change when atoms move
+};
+
+/// What an operator does with the selection that it is for.
+enum class SelectionOperator : std::uint8_t { And, Or, Not, Value, SameAs, Within, Around, Beyond };
+
+/// An operator: "and", "byres", "within".
+struct OperatorWord {
+    const char* words;
+    SelectionOperator does;
+    const char* property = nullptr; ///< of SameAs: the one that is shared; null: it is named behind
+    bool itself = false; ///< of Around: whether the atoms that it is about are of it, as in expand
+};
+
+/// A word of any table; the members that are not of its table are null.
+struct SelectionWord {
+    const ClassWord* isClass = nullptr;
+    const PropertyWord* isProperty = nullptr;
+    const OperatorWord* isOperator = nullptr;
+};
+
+/// The word of a text in any case, if it is one.
+std::optional<SelectionWord> selectionWord(std::string_view text);
+
+/// All words but abbreviations, for a message that names a near one.
+const std::vector<std::string>& selectionWords();
+
+} // namespace molsurf

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/selection/parse_words.h"
+
+#include "molsurf/selection/match_atoms.h"
+#include "molsurf/structure/load_text.h"
+#include "molsurf/structure/read_structure.h"
+#include "unit/structure/temp_file.h"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+namespace molsurf::test
+{
+namespace
+{
+
+/// The atoms of the first model that a phrase selects; 0 if it says that there are none.
+std::size_t countOf(const Structure& structure, const std::string& phrase)
+{
+    try {
+        const AtomMatch match = matchAtoms(structure, phrase);
+        return std::size_t(
+            std::count(match.atoms.begin(),
+                       match.atoms.begin() + std::ptrdiff_t(structure.models.front().end), 1));
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Input) << error.what();
+        return 0;
+    }
+}
+
+const Structure& codes()
+{
+    static const Structure structure = readStructure(dataFile("selections.pdb"));
+    return structure;
+}
+
+std::string refusalOf(const std::string& phrase, ErrorKind kind = ErrorKind::Usage)
+{
+    return errorOf(kind, [&] { matchAtoms(codes(), phrase); });
+}
+
+// The table has the numbers of MDAnalysis 2.11 and ProDy 2.6; cli.selections asks them again.
+TEST(Words, SelectWhatMDAnalysisAndProDySelect)
+{
+    std::istringstream table(loadBytes(dataFile("selections.tsv"), 0));
+    std::map<std::string, Structure> structures;
+    std::size_t phrases = 0;
+    for (std::string line; std::getline(table, line);) {
+        if (line[0] == '#') continue;
+        std::istringstream fields(line);
+        std::string file, phrase, atoms;
+        std::getline(std::getline(std::getline(fields, file, '\t'), phrase, '\t'), atoms, '\t');
+        if (!structures.count(file)) structures[file] = readStructure(dataFile(file));
+        EXPECT_EQ(countOf(structures[file], phrase), std::stoul(atoms)) << file << ": " << phrase;
+        ++phrases;
+    }
+    EXPECT_GE(phrases, 60u);
+}
+
+TEST(Words, KeepGemmisPhrasesAndStandBesideThem)
+{
+    const auto count = [](const std::string& phrase) { return countOf(codes(), phrase); };
+    EXPECT_EQ(count("A"), count("chain A"));
+    EXPECT_EQ(count("(ZN)"), 1u);
+    EXPECT_EQ(count("not (ZN)"), count("all") - 1);
+    EXPECT_EQ(count("within 5 of (ZN)"), count("within 5 of resn ZN"));
+    EXPECT_EQ(count("A/52 | chain B and name P"), 7u);
+    EXPECT_EQ(count("(A or B) and name P"), 2u);
+    EXPECT_EQ(count("A | protein"), count("chain A or protein"));
+    EXPECT_EQ(count("[ZN] around 30"), count("all") - 1);
+    EXPECT_EQ(count("name 'N1'"), 2u);
+    EXPECT_EQ(count("name \"O5'\""), count("name O5'"));
+    EXPECT_EQ(count("name C*'"), 8u);
+    EXPECT_EQ(count("name \"C*'\""), 0u); // a text in quotes is no pattern
+    EXPECT_EQ(count("alt ''"), count("not alt A+B"));
+    EXPECT_EQ(count("resn MSE and protein"), 5u);
+    EXPECT_EQ(count("*;protein"), count("protein and not modified"));
+    EXPECT_EQ(count("ligand or water"), 4u);
+    EXPECT_EQ(count("none or ion"), 1u);
+    EXPECT_EQ(count("serial 101"), 1u);
+    EXPECT_EQ(count("index 0 and serial 101 and bynum 1"), 1u);
+    EXPECT_EQ(count("chain A and resi 52-"), count("A/52-"));
+    EXPECT_EQ(count("resid < 0"), 10u);
+    EXPECT_EQ(count("elem d"), 0u);
+    EXPECT_EQ(count("! A"), count("chain B"));
+}
+
+/// A PDB file whose chains have names that are words.
+TEST(Words, QuotesNameChainsThatAreWords)
+{
+    Structure s = codes();
+    s.chains = {"all", "and"};
+    EXPECT_EQ(countOf(s, "chain \"and\""), countOf(codes(), "chain B"));
+    EXPECT_EQ(countOf(s, "chain 'all' and name CA"), countOf(codes(), "chain A and name CA"));
+    EXPECT_EQ(countOf(s, "\"all\""), countOf(codes(), "A"));
+    EXPECT_EQ(countOf(s, "(all)"), s.atoms.size());
+    const AtomMatch match = matchAtoms(s, "all"); // as gemmi has it
+    EXPECT_EQ(std::size_t(std::count(match.atoms.begin(), match.atoms.end(), 1)),
+              countOf(codes(), "A"));
+    ASSERT_EQ(match.warnings.size(), 1u);
+    EXPECT_HAS(match.warnings[0], "was read as the chain all [hint: (all) is the word]");
+}
+
+TEST(Words, NameThePlaceAndTheNearestWord)
+{
+    EXPECT_EQ(refusalOf("protien and chain A"),
+              "selection \"protien and chain A\": expected a word such as protein, chain or "
+              "within, got \"protien\" at 1 [hint: did you mean protein?]");
+    EXPECT_HAS(refusalOf("protien"), "[hint: did you mean protein?]");
+    EXPECT_HAS(refusalOf("within -1 of chain A"), "a distance of at least 0 Å, got \"-1\" at 8");
+    EXPECT_HAS(refusalOf("(chain A or chain B"), "expected ) for the bracket at 1, got the end");
+    EXPECT_HAS(refusalOf("chain A)"), "within, around or the end, got \")\" at 8");
+    EXPECT_HAS(refusalOf("chain all"), "the name of a chain behind chain, got \"all\" at 7 [hint: "
+                                       "a name that is also a word needs quotes, as in chain "
+                                       "\"all\"]");
+    EXPECT_HAS(refusalOf("chain and name CA"), "as in chain \"and\"]");
+    EXPECT_HAS(refusalOf("protein annd name CA"), "[hint: did you mean and?]");
+    EXPECT_HAS(refusalOf("resid ten"), "the number of a residue, got \"ten\" at 7");
+    EXPECT_HAS(refusalOf("b 30"), "one of < <= > >= = != behind b, got \"30\" at 3");
+    EXPECT_HAS(refusalOf("b < low"), "a number behind <, got \"low\" at 5");
+    EXPECT_HAS(refusalOf("protein and"), "got the end");
+    EXPECT_HAS(refusalOf("protein and ZN"), "got \"ZN\" at 13 [hint: resname ZN]");
+    EXPECT_HAS(refusalOf("protein and CA"), "[hint: name CA]");
+    EXPECT_HAS(refusalOf("chain = A"), "names follow it, as in chain A+B]");
+    EXPECT_HAS(refusalOf("elem Qq"), "the symbol of an element, got \"Qq\" at 6");
+    EXPECT_HAS(refusalOf("same colour as ZN"), "another property behind same");
+    EXPECT_HAS(refusalOf("water near 5"), "got \"near\" at 7");
+    EXPECT_HAS(refusalOf("within 5 water"), "of behind the distance, got \"water\" at 10");
+    EXPECT_HAS(refusalOf("résidu and protein"), "got \"résidu\" at 1");
+    EXPECT_HAS(refusalOf("not " + std::string(1000, '(')), "at most 100 operators");
+    EXPECT_HAS(refusalOf("ATP", ErrorKind::Input), "matches no atom");
+    EXPECT_HAS(refusalOf("LIG", ErrorKind::Input), "matches no atom [hint: resname LIG]");
+}
+
+TEST(Words, SayWhereBracketsDecide)
+{
+    const AtomMatch match = matchAtoms(codes(), "within 5 of resn ZN or water");
+    ASSERT_EQ(match.warnings.size(), 1u);
+    EXPECT_EQ(match.warnings[0],
+              "selection \"resn ZN or water\" was taken as one behind \"within 5 of\" [hint: "
+              "brackets decide: (within 5 of S) and T, or within 5 of (S and T)]");
+    EXPECT_TRUE(matchAtoms(codes(), "within 5 of (resn ZN or water)").warnings.empty());
+    EXPECT_HAS(refusalOf("within 5 of resn ZN and protein", ErrorKind::Input), "brackets decide");
+}
+
+TEST(Words, WorkWhereThereAreNoResidues)
+{
+    const Structure s =
+        readStructure(TempFile("a.xyz", "3\n\nO 0 0 0\nH 0.96 0 0\nH -0.24 0.93 0\n").path());
+    EXPECT_EQ(countOf(s, "all"), 3u);
+    EXPECT_EQ(countOf(s, "hydrogens"), 2u);
+    EXPECT_EQ(countOf(s, "elem O around 2"), 2u);
+    EXPECT_EQ(countOf(s, "x < 0.5 and index 0:1"), 1u);
+    EXPECT_HAS(errorOf(ErrorKind::Input, [&] { matchAtoms(s, "chain A"); }),
+               "selection \"chain A\" matches no atom, the file has no chains and residues [hint: "
+               "all, element C, name C1, index 0 to 9, within 5 of index 0]");
+}
+
+TEST(Words, LookForNeighboursInOneModel)
+{
+    const Structure s = readStructure(dataFile("1d3z.pdb.gz"));
+    const AtomMatch one = matchAtoms(s, "within 5 of /2/A/1");
+    const Model &first = s.models[0], &second = s.models[1];
+    const auto at = [&](std::size_t i) { return one.atoms.begin() + std::ptrdiff_t(i); };
+    EXPECT_EQ(std::count(at(first.begin), at(first.end), 1), 0);
+    EXPECT_GT(std::count(at(second.begin), at(second.end), 1), 20);
+    EXPECT_EQ(one.models, (std::vector<int>{2, 0}));
+}
+
+TEST(Words, RefuseDistancesWhereAtomsAreFarAway)
+{
+    Structure s = codes();
+    s.atoms[0].position.x() = 2e6;
+    EXPECT_HAS(errorOf(ErrorKind::Input, [&] { matchAtoms(s, "within 5 of water"); }),
+               "within 1e6 Å of the origin");
+}
+
+} // namespace
+} // namespace molsurf::test
