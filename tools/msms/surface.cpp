@@ -12,6 +12,7 @@
 #include "molsurf/mesh/thin.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/surface.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <array>

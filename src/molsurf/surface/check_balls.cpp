@@ -4,6 +4,7 @@
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@
 #include "molsurf/error.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/options.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <array>
