@@ -397,21 +397,21 @@ const std::vector<Format>& formatTable()
         {"3mf", meshed, printed | Paint, "mesh", "", writeMesh},
         {"vert", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
         {"face", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
-        {"poly", meshed, Triangles, "closed mesh for tetgen or Gmsh", "", writeMesh},
-        {"msh", meshed, Triangles, "closed mesh for tetgen or Gmsh", "", writeMesh},
-        {"msh2", meshed, Triangles, "closed mesh for tetgen or Gmsh", "", writeMesh},
+        {"poly", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
+        {"msh", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
+        {"msh2", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
         {"mrc", meshed, Volume, "level set in a box", "", writeVolume<writeMrc>},
         {"dx", meshed, Volume, "level set in a box", "", writeVolume<writeDx>},
-        {"dielx.dx", Build, Solver, "maps for APBS", "", writeDielectric<0>},
-        {"diely.dx", Build, Solver, "maps for APBS", "", writeDielectric<1>},
-        {"dielz.dx", Build, Solver, "maps for APBS", "", writeDielectric<2>},
-        {"kappa.dx", Build, Solver, "maps for APBS", "",
+        {"dielx.dx", Build, Solver, "", "", writeDielectric<0>},
+        {"diely.dx", Build, Solver, "", "", writeDielectric<1>},
+        {"dielz.dx", Build, Solver, "", "", writeDielectric<2>},
+        {"kappa.dx", Build, Solver, "", "",
          [](const Writing& w, OutputFile& file) {
              writeIonMap(w.atoms.balls, *w.call.apbsGrid, w.call.dielectric.ionRadius, file);
          }},
-        {"charges.pqr", Build, Solver, "charges", "",
+        {"charges.pqr", Build, Solver, "", "",
          [](const Writing& w, OutputFile& file) { writePqr(*w.atoms.charges, file); }},
-        {"apbs.in", Build, Solver, "input of APBS, with --for apbs", "", writeSolverInput},
+        {"apbs.in", Build, Solver, "", "", writeSolverInput},
         {"cxc", meshed, Script | Colors | Copies, "script that opens the .glb", "",
          writeScript<writeChimeraXScript>, "glb"},
         {"pml", meshed, Script | Colors, "script that opens the .ply", "",
@@ -447,7 +447,7 @@ std::string filesOf(unsigned verb)
 {
     std::string all, last;
     for (const Format& format : formatTable()) {
-        if (!(format.verbs & verb)) continue;
+        if (!(format.verbs & verb) || !*format.help) continue;
         if (!last.empty() && last != format.help) all += " " + last + ";";
         all += (all.empty() ? "." : " .") + std::string(format.word);
         last = format.help;

@@ -637,9 +637,9 @@ class Hints(Followed):
                     "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.4 -o b.vdb",
                     "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.25 --memory 0.31G -o c.vdb")
         self.follow("tools/build.cpp", "a surface of a larger --voxel",
-                    "vdb_molsurf 1crn.pdb --surface sas --voxel 0.1 -o a.vdb; ulimit -v 300000; "
+                    "vdb_molsurf 1crn.pdb --surface sas --voxel 0.1 -o a.vdb; ulimit -v 250000; "
                     "vdb_molsurf convert a.vdb -o a.ply",
-                    "vdb_molsurf 1crn.pdb --surface sas --voxel 0.3 -o b.vdb; ulimit -v 300000; "
+                    "vdb_molsurf 1crn.pdb --surface sas --voxel 0.3 -o b.vdb; ulimit -v 250000; "
                     "vdb_molsurf convert b.vdb -o a.ply")
         self.follow("tools/msms/main.cpp", "a smaller -density, or fewer spheres",
                     "ulimit -v 800000; vdb_molsurf_msms -if ball.xyzr -of a -density 100",

@@ -63,7 +63,8 @@ struct Format {
     const char* word;  ///< how a file's name ends, without the first dot: "ply", "atoms.csv"
     unsigned verbs;    ///< that write it
     unsigned holds;    ///< of Holds
-    const char* help;  ///< what a file is, for help texts; of two in turn with the same said once
+    const char* help;  ///< what a file is, for help texts; of two in turn with the same said once;
+                       ///< "": an option that asks for it says it
     const char* table; ///< the table of areas that it has, one of areaTables(); "" if none
     void (*write)(const Writing& what, OutputFile& file); ///< null: a verb does so by itself
     const char* opens = ""; ///< of a Script: the format of the file that it opens

@@ -31,7 +31,7 @@ namespace
 // 0.5 to 3 Å, with Debian's OpenVDB: peaks of the resident memory against the leaves that hold
 // atoms or lie beside them. A peak is either that of the flow and the distances, or that of the
 // mesh. The surface of a larger probe passes fewer balls, and fewer of those leaves.
-#ifdef OPENVDB_STATICLIB // the names of libopenvdb.so take 28 MB
+#ifdef OPENVDB_STATICLIB              // the names of libopenvdb.so take 28 MB
 constexpr double processBytes = 32e6; // program, libraries, buffers
 #else
 constexpr double processBytes = 60e6;
