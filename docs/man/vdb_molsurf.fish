@@ -87,6 +87,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l pdie -r -d 'relative 
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l sdie -r -d 'relative permittivity of the solvent'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l ion-conc -r -d 'concentration of a 1:1 salt [mol/L]'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l view -x -a 'auto' -d 'a direction X,Y,Z toward the eye; atoms that face it, as'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l up -r -d 'what is upright, such as 0,0,1 of a membrane\'s normal;'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l turn -r -d 'turned by so many degrees about the upright'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l size -r -d 'width in pixels; the height follows the shape'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l background -x -a 'transparent' -d 'as #rrggbb or #rgb, a name such as black, or transparent'

@@ -175,6 +175,14 @@ void setView(Call& call, const Values& values)
     call.viewed = view;
 }
 
+void setUpright(Call& call, const Values& values)
+{
+    const auto way = directionOf(values.back());
+    if (!way || !(way->length() > 0.0) || !std::isfinite(way->length()))
+        wrongValue("up", "a direction X,Y,Z that is not 0", values.back());
+    call.picture.upright = *way;
+}
+
 void setBackground(Call& call, const Values& values)
 {
     call.picture.transparent = lowered(values.back()) == "transparent";
@@ -557,6 +565,19 @@ Option showOption()
     return show;
 }
 
+Option uprightOption(unsigned verbs)
+{
+    Option upright{"up",
+                   0,
+                   "X,Y,Z",
+                   "what is upright, such as 0,0,1 of a membrane's normal;\n"
+                   "without it y, or z for a view along x or y",
+                   "",
+                   verbs};
+    upright.set = setUpright;
+    return shownIn(Views, upright);
+}
+
 OptionGroup pictureOptions()
 {
     constexpr unsigned draw = wholes | Convert;
@@ -592,7 +613,7 @@ OptionGroup pictureOptions()
     };
     return {
         "Picture",
-        {shownIn(Views, view),
+        {shownIn(Views, view), uprightOption(draw),
          shownIn(Views, number("turn", "A", "turned by so many degrees about the upright", "0",
                                draw, -1e9, 1e9, "a number of degrees", MOLSURF_OF(picture.turn))),
          shownIn(Pixels, count("size", "N", "width in pixels; the height follows the shape", "1200",
