@@ -114,6 +114,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "bricks plan"' -l memory -r -d 'o
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l memory -r -d 'memory at most, such as 4G: in bricks, one by one, if'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert" "bricks run"' -l max-hours -r -d 'refuse what is estimated to take more hours'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "compare" "convert"' -l dry-run -d 'say what it takes, and stop'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l require -x -a 'watertight manifold components= cavities= genus= min-angle=' -d 'what the mesh has to be, or nothing is written and the'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert" "bricks plan" "bricks run" "bricks merge"' -l threads -s j -r -d 'threads at most'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert" "bricks plan" "bricks run" "bricks merge"' -l quiet -s q -d 'print errors only'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert" "bricks merge"' -l verbose -s v -d 'print the time of every stage'

@@ -27,6 +27,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "build:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "build:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
+    "build:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "batch:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "batch:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
     "batch:--match") compadd -- 'none' 'ses'; return ;;
@@ -46,6 +47,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "batch:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "batch:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
+    "batch:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "compare:--format") compadd -- 'vdb' 'ply' 'json'; return ;;
     "compare:--color") compadd -- 'distance' 'signed-distance'; return ;;
     "compare:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
@@ -167,6 +169,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--memory:memory at most, such as 4G\: in bricks, one by one, if'
       '--max-hours:refuse what is estimated to take more hours'
       '--dry-run:say what it takes, and stop'
+      '--require:what the mesh has to be, or nothing is written and the'
       '--threads:threads at most'
       '-j:threads at most'
       '--quiet:print errors only'
@@ -253,6 +256,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--tolerance:converged when a step moves the surface by less than T'
       '--spline-level:spline on voxels of 2^L times the edge; 0, 1 or 2'
       '--max-hours:refuse what is estimated to take more hours'
+      '--require:what the mesh has to be, or nothing is written and the'
       '--threads:threads at most'
       '-j:threads at most'
       '--quiet:print errors only'

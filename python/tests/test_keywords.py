@@ -15,7 +15,7 @@ from vdb_molsurf import _options
 COMMAND_LINE = {"output", "format", "force", "weld", "frames", "first-frame", "fps", "fog-density", "trajectory", "lod", "groups", "crisp", "areas",
                 "contacts", "for", "apbs-grid", "pdie", "sdie", "ion-conc", "center", "print-scale", "min-wall", "view", "up", "turn", "size", "background", "plain-color",
                 "depth-cue", "legend", "turntable", "scale-bar", "dpi", "style", "opacity", "all-walls", "clip", "show", "memory", "max-hours",
-                "dry-run", "skip-existing", "threads", "quiet", "verbose", "no-progress", "config", "help", "help-all", "version", "list-radii"}
+                "dry-run", "require", "skip-existing", "threads", "quiet", "verbose", "no-progress", "config", "help", "help-all", "version", "list-radii"}
 
 
 def options_of_build():

@@ -4,6 +4,8 @@
 /// @file
 /// What the user asked for, as values.
 
+#include "require.h"
+
 #include "molsurf/io/scene.h"
 #include "molsurf/io/write_apbs.h"
 #include "molsurf/picture/atom_model.h"
@@ -157,7 +159,8 @@ struct Call : Settings {
     std::size_t memory = 0;   ///< bytes at most; 0: no limit
     double hours = 24.0;      ///< that a surface may take, by the estimate
     bool dryRun = false;      ///< only say what it takes
-    int threads = 0;          ///< 0: as many as there are
+    std::vector<Requirement> required; ///< of the mesh, or nothing is written
+    int threads = 0;                   ///< 0: as many as there are
     bool quiet = false;
     bool verbose = false;
     bool progress = true;

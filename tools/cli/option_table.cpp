@@ -658,6 +658,28 @@ OptionGroup flowOptions()
              setting("tolerance", structures), setting("spline-level", wholes | Compare)}};
 }
 
+Option requireOption()
+{
+    Option required{"require",
+                    0,
+                    "LIST",
+                    "what the mesh has to be, or nothing is written and the\n"
+                    "status is 3: watertight, manifold, components=N, cavities=N,\n"
+                    "genus=N, min-angle=DEGREES",
+                    "",
+                    wholes,
+                    requirementWords()};
+    required.set = [](Call& call, const Values& values) {
+        const auto parsed = parseRequirements(values.back());
+        if (!parsed)
+            wrongValue("require",
+                       "some of " + joinWords(requirementWords(), ", ") + " with numbers",
+                       values.back());
+        call.required = *parsed;
+    };
+    return required;
+}
+
 OptionGroup runOptions()
 {
     const auto memory = [](unsigned verbs, std::string text) {
@@ -686,6 +708,7 @@ OptionGroup runOptions()
                 MOLSURF_OF(hours)),
          flagOf("dry-run", 0, "say what it takes, and stop", Build | Compare | Convert,
                 MOLSURF_OF(dryRun)),
+         requireOption(),
          with(count("threads", "N", "threads at most", "all", runs, 1, 4096, MOLSURF_OF(threads)),
               [](Option& o) { o.letter = 'j'; }),
          flagOf("quiet", 'q', "print errors only", runs, MOLSURF_OF(quiet)),

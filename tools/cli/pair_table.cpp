@@ -181,6 +181,7 @@ std::vector<Pair> runPairs()
         {"fields=v", Needs, {"frames", "trajectory"}, ": it is the way between frames", ofStored},
         {{FrameRows}, Needs, {"frames", "trajectory"}, " [hint: -o FILE.residues.csv for areas]"},
         {"turntable", Excludes, {"output=-"}},
+        {"require", Excludes, {"frames", "trajectory", "memory", "dry-run"}},
         {{Script}, Excludes, {"frames", "trajectory"}},
         {{Solver},
          Excludes,
