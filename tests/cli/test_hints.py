@@ -277,6 +277,8 @@ CASES = {
          "sed 's/level set/level sea/g; s/surface/surfeit/g' a.vdb > b.vdb; vdb_molsurf compare b.vdb one.xyzr",
          "vdb_molsurf info b.vdb | grep surfeit")],
     "selection/select_balls.cpp": [
+        ("--waters keeps it", f"vdb_molsurf 1a8o.cif.gz --select water {FAST} -o a.ply",
+         f"vdb_molsurf 1a8o.cif.gz --select water --waters {FAST} -o a.ply"),
         ("--assembly 1", f"vdb_molsurf moved.pdb --instances {FAST} -o a.glb",
          f"vdb_molsurf moved.pdb --instances --assembly 1 {FAST} -o a.glb"),
         ("--assembly 1", f"vdb_molsurf 1a8o.cif.gz --by-symmetry {FAST} -o a.ply",
