@@ -282,9 +282,14 @@ void writeGrids(const Writing& w, OutputFile& file)
 
 void writeStage(const Writing& w, OutputFile& file)
 {
-    if (w.output.beside.empty() && !w.atoms.placement.isWhole())
-        writeUsdaInstances(
-            w.mesh, {stemOf(w.output.path), w.call.scene.scale, instancesOf(w), w.coarser}, file);
+    const bool ofMesh = w.output.beside.empty() || isFilm(w.output);
+    if (ofMesh && !w.atoms.placement.isWhole())
+        writeUsdaInstances(w.mesh,
+                           {stemOf(w.output.path), w.call.scene.scale, instancesOf(w), w.coarser,
+                            w.call.options.fields},
+                           file);
+    else if (ofMesh)
+        writeMeshStage(w.call, w.output, w.mesh, file);
     else
         writeUsda(gridsOf(w.call, w.result), usdVolume(w.call, w.output), file);
 }
@@ -394,6 +399,9 @@ const std::vector<Format>& formatTable()
         {"glb", meshed,
          Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels, "mesh",
          "", writeGlb},
+        {"usda", Build,
+         Stage | Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels,
+         "mesh", "", writeStage},
         {"3mf", meshed, printed | Paint, "mesh", "", writeMesh},
         {"vert", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
         {"face", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
@@ -422,8 +430,6 @@ const std::vector<Format>& formatTable()
          [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
         {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "picture", "", writePicture},
         {"view", meshed, Copies | Views, "from where pictures see it, for --view", "", writeCamera},
-        {"usda", Build, Stage | Colors | SceneUnits | Copies | Levels, "copies, with --instances",
-         "", writeStage},
         {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},
         {"atoms.csv", built, Areas | AllFrames, ofAreas, "atoms", writeAreaTable},
         {"residues.csv", built, Areas | AllFrames, ofAreas, "residues", writeAreaTable},

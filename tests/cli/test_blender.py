@@ -155,6 +155,23 @@ class Blender:
         if scene:
             self.assertEqual([list(volume["grids"]) for volume in scene["volumes"]], [["Cd", "density", "surface"]])
 
+    def test_importer_of_films(self):
+        """Frames of different topology arrive with the attribute that motion is blurred by, per second."""
+        self.check(0, DATA / "1d3z.pdb.gz", *FAST, "--frames", "1-2", "--fps", "24", "--fields", "v", "--color", "element",
+                   "-o", "a.usda", "-o", "a.ply")
+        counts = set()
+        for frame, scene in zip((1, 2), self.result("blender_import.py", "a.usda@1", "a.usda@2")):
+            if scene is None:
+                return  # this Blender has no USD
+            (mesh,), (names, vertices, faces) = scene["meshes"], read_ply((self.folder / f"a.000{frame}.ply").read_bytes())
+            counts.add(len(vertices))
+            self.assertEqual((mesh["faces"], len(mesh["attributes"]["displayColor"])), (len(faces), len(vertices)))
+            at = [names.index(f"v_{axis}") for axis in "xyz"]
+            for p, way, v in zip(mesh["points"], mesh["attributes"]["velocity"], vertices, strict=True):
+                self.assert_near(p, v[:3], 1e-3, "points")
+                self.assert_near(way, [v[i] for i in at], 1e-3, "velocity")
+        self.assertEqual(len(counts), 2)
+
 
 @needs("blender")
 class InBlender(Blender, ToolTest):

@@ -18,10 +18,12 @@ def faults(stage):
         boundable = UsdGeom.Boundable(prim)
         if not boundable or UsdVol.Volume(prim):  # OpenUSD alone does not look into .vdb files
             continue
-        seen, computed = boundable.GetExtentAttr().Get(), UsdGeom.Boundable.ComputeExtentFromPlugins(boundable, NOW)
-        size = max(abs(x) for p in computed for x in p)
-        if not seen or any(abs(a - b) > 1e-3 + 1e-3 * size for p, q in zip(seen, computed) for a, b in zip(p, q)):
-            out.append(f"{prim.GetPath()}: extent {seen}, computed {computed}")
+        for time in boundable.GetExtentAttr().GetTimeSamples() or [NOW]:
+            seen = boundable.GetExtentAttr().Get(time)
+            computed = UsdGeom.Boundable.ComputeExtentFromPlugins(boundable, time)
+            size = max(abs(x) for p in computed for x in p)
+            if not seen or any(abs(a - b) > 1e-3 + 1e-3 * size for p, q in zip(seen, computed) for a, b in zip(p, q)):
+                out.append(f"{prim.GetPath()}: extent {seen}, computed {computed}")
     return out
 
 
@@ -44,6 +46,27 @@ def mesh(prim):
             "normals": len(points.GetNormalsAttr().Get()),
             "colors": [list(c) for c in shown.Get()], "interpolation": shown.GetInterpolation(),
             "material": color.Get() if source else list(color.Get())}
+
+
+def shapes(prim):
+    """A mesh at each of its times, or at none."""
+    points, shown = UsdGeom.Mesh(prim), UsdGeom.PrimvarsAPI(prim).GetPrimvar("displayColor")
+    material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
+    surface, _, _ = material.ComputeSurfaceSource()
+    world = UsdGeom.Xformable(prim).ComputeLocalToWorldTransform(NOW)
+    times = points.GetPointsAttr().GetTimeSamples()
+    out = []
+    for time in times or [NOW]:
+        triangles, corners, at = (attribute.Get(time) for attribute in (
+            points.GetFaceVertexIndicesAttr(), points.GetFaceVertexCountsAttr(), points.GetPointsAttr()))
+        late = [list(p) for p in points.ComputePointsAtTime(time + 0.5, time)] if times else None
+        whole, why = UsdGeom.Mesh.ValidateTopology(triangles, corners, len(at))
+        out.append({"time": time if times else None, "points": [list(world.Transform(p)) for p in at], "late": late,
+                    "here": [list(p) for p in at], "triangles": list(triangles), "whole": whole and set(corners) == {3},
+                    "normals": len(points.GetNormalsAttr().Get(time)), "shader": surface.GetIdAttr().Get(),
+                    "velocities": [list(v) for v in points.GetVelocitiesAttr().Get(time) or []],
+                    "colors": len(shown.Get(time) or []), "interpolation": shown.GetInterpolation()})
+    return out
 
 
 def copies(stage, prim):
@@ -81,6 +104,9 @@ def scene(stage):
             out["copies"] = copies(stage, prim)
         if UsdVol.Volume(prim):
             out["volume"] = volume(stage, prim)
+    if not out["copies"]:
+        out["shapes"] = [shapes(prim) for prim in stage.Traverse() if UsdGeom.Mesh(prim)]
+        out["names"] = [prim.GetDisplayName() for prim in stage.Traverse() if UsdGeom.Mesh(prim)]
     return out
 
 

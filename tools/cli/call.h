@@ -6,6 +6,7 @@
 
 #include "require.h"
 
+#include "molsurf/io/frame_files.h"
 #include "molsurf/io/scene.h"
 #include "molsurf/io/write_apbs.h"
 #include "molsurf/picture/atom_model.h"
@@ -16,6 +17,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,7 +41,7 @@ enum Holds : unsigned {
     Areas = 1 << 3,             ///< a table of areas, or atoms with theirs
     FrameRows = 1 << 4,         ///< the table of all frames
     AllFrames = 1 << 17,        ///< rows of all frames in one file
-    Stage = 1 << 5,             ///< a scene of OpenUSD: copies, or the volume of a .vdb
+    Stage = 1 << 5,             ///< a scene of OpenUSD: mesh, copies, film or the volume of a .vdb
     Colors = 1 << 6,            ///< of vertices, voxels or copies
     ColorChoices = 1 << 7,      ///< several colourings, to choose from
     PlainColor = 1 << 8,        ///< the colour of what has no other
@@ -100,7 +102,7 @@ enum Verb : unsigned {
 struct Output {
     std::string path; ///< "-" is standard output
     const Format* format;
-    std::string beside{}; ///< of a Stage: the .vdb that it shows
+    std::string beside{}; ///< of a Stage: the .vdb that it shows, or the .usda of a frame
     double turn = 0.0;    ///< of a picture of a turntable, beside that of all [degree]
 
     /// Whether it holds one of these.
@@ -172,6 +174,8 @@ struct Call : Settings {
     std::vector<Output> outputs;       ///< Batch: extensions in the place of paths
     int frame = 0;                     ///< the number of the one that is built; 0: none is
     std::vector<std::string> warnings; ///< one line each
+    /// Of the files in the folders of frames.
+    std::shared_ptr<FrameOptions> frameOptions = std::make_shared<FrameOptions>();
 
     bool has(const char* option) const { return given.count(option) > 0; }
 

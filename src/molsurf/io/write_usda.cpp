@@ -2,44 +2,20 @@
 #include "molsurf/io/write_usda.h"
 
 #include "molsurf/core/words.h"
-#include "molsurf/io/read_vdb.h"
 #include "molsurf/io/usda_text.h"
 
-#include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
 #include <string_view>
-#include <system_error>
 
 namespace molsurf
 {
 
-namespace fs = std::filesystem;
-
 namespace
 {
 
-constexpr const char* creator = "        string creator = \"vdb_molsurf\"";
-
-// A string of USD.
-std::string quoted(const std::string& text)
-{
-    std::string all = "\"";
-    for (const char letter : text) {
-        if (letter == '"' || letter == '\\') all += '\\';
-        all += letter == '\n' || letter == '\r' ? ' ' : letter;
-    }
-    return all + "\"";
-}
-
-// A path of USD; one with an @ takes three of them on each side.
-std::string asset(const std::string& path)
-{
-    const char* mark = path.find('@') == std::string::npos ? "@" : "@@@";
-    return mark + ("./" + path) + mark;
-}
+constexpr const char* ofVolume = "vdb_molsurf";
 
 const char* classOf(const openvdb::GridBase& grid)
 {
@@ -75,18 +51,18 @@ openvdb::BBoxd extentOf(const openvdb::GridCPtrVec& grids)
 void writeField(const openvdb::GridBase& grid, const UsdVolume& volume, std::ostream& out)
 {
     out << "\n        def OpenVDBAsset \"" << usdaIdentifier(grid.getName()) << "\"\n        {\n"
-        << "            token fieldName = " << quoted(grid.getName()) << "\n"
+        << "            token fieldName = " << usdaString(grid.getName()) << "\n"
         << "            token fieldClass = \"" << classOf(grid) << "\"\n"
         << "            token fieldDataType = \"" << typeOf(grid) << "\"\n";
     if (grid.valueType() == "vec3s")
         out << "            token vectorDataRoleHint = \""
             << (grid.getName().rfind("Cd", 0) == 0 ? "Color" : "Vector") << "\"\n";
     if (volume.frames.empty()) {
-        out << "            asset filePath = " << asset(volume.file) << "\n";
+        out << "            asset filePath = " << usdaAsset(volume.file) << "\n";
     } else {
         out << "            asset filePath.timeSamples = {\n";
         for (const auto& [frame, file] : volume.frames)
-            out << "                " << frame << ": " << asset(file) << ",\n";
+            out << "                " << frame << ": " << usdaAsset(file) << ",\n";
         out << "            }\n";
     }
     out << "        }\n";
@@ -128,7 +104,7 @@ std::string usdaText(const openvdb::GridCPtrVec& grids, const UsdVolume& volume)
     out.precision(std::numeric_limits<float>::max_digits10);
     const std::string name = usdaIdentifier(volume.name);
     out << usdaFirstLine << "\n(\n    customLayerData = {\n"
-        << creator << "\n    }\n    defaultPrim = \"" << name << "\"\n";
+        << usdaDataLine("creator", ofVolume) << "\n    }\n    defaultPrim = \"" << name << "\"\n";
     if (!volume.frames.empty()) out << "    endTimeCode = " << volume.frames.back().first << "\n";
     out << "    metersPerUnit = " << volume.metersPerUnit << "\n";
     if (!volume.frames.empty())
@@ -156,12 +132,7 @@ void writeUsda(const openvdb::GridCPtrVec& grids, const UsdVolume& volume, Outpu
 
 bool isOwnUsda(const std::string& path)
 {
-    std::ifstream file(path);
-    std::string line;
-    if (!std::getline(file, line) || line != usdaFirstLine) return false;
-    for (int n = 0; n < 3 && std::getline(file, line); ++n)
-        if (line == creator) return true;
-    return false;
+    return usdaData(path, "creator") == ofVolume;
 }
 
 std::map<int, std::string> extentsOfUsda(const std::string& path)
@@ -178,42 +149,6 @@ std::map<int, std::string> extentsOfUsda(const std::string& path)
             extents[frame] = line.substr(colon + 2, line.size() - colon - 3);
     }
     return extents;
-}
-
-FrameName frameName(const std::string& path)
-{
-    const std::string stem = fs::path(path).stem().string();
-    const std::size_t dot = stem.rfind('.');
-    if (dot == std::string::npos || dot == 0) return {stem, {}};
-    int frame = 0;
-    if (!parseWhole(std::string_view(stem).substr(dot + 1), frame) || frame < 0) return {stem, {}};
-    return {stem.substr(0, dot), frame};
-}
-
-UsdVolume usdVolumeOf(const std::string& vdb, bool sequence, const std::string& options,
-                      double metersPerUnit)
-{
-    const fs::path path = vdb;
-    const FrameName own = frameName(vdb);
-    UsdVolume volume{own.stem, metersPerUnit, path.filename().string(), {}, 24.0, {}, {}};
-    if (!sequence || !own.frame) return volume;
-    volume.frames.emplace_back(*own.frame, volume.file);
-    std::error_code ignored;
-    const fs::path folder = path.parent_path().empty() ? "." : path.parent_path();
-    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-        const FrameName other = frameName(entry.path().string());
-        if (entry.path().extension() != path.extension() || other.stem != own.stem ||
-            !other.frame || *other.frame == *own.frame)
-            continue;
-        const std::string file = entry.path().filename().string();
-        if (vdbText(entry.path().string(), "frames.options") == options)
-            volume.frames.emplace_back(*other.frame, file);
-        else
-            volume.leftOut.push_back(file);
-    }
-    std::sort(volume.leftOut.begin(), volume.leftOut.end());
-    std::sort(volume.frames.begin(), volume.frames.end());
-    return volume;
 }
 
 } // namespace molsurf

@@ -9,7 +9,6 @@
 #include <openvdb/openvdb.h>
 
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,7 +24,6 @@ struct UsdVolume {
     /// Frames of a sequence and their files, the first one first; empty: no sequence.
     std::vector<std::pair<int, std::string>> frames;
     double framesPerSecond = 24.0;
-    std::vector<std::string> leftOut;   ///< frames in the folder that are of another sequence
     std::map<int, std::string> extents; ///< of other frames, as text: extentsOfUsda()
 };
 
@@ -41,22 +39,5 @@ bool isOwnUsda(const std::string& path);
 
 /// The extents of the frames in a file that writeUsda() has made, as they stand there.
 std::map<int, std::string> extentsOfUsda(const std::string& path);
-
-/// The name of a .vdb without folder and extension: "name.0001.vdb" is frame 1 of "name".
-struct FrameName {
-    std::string stem;
-    std::optional<int> frame;
-};
-FrameName frameName(const std::string& path);
-
-/// What the .usda beside a .vdb says.
-///
-/// @param[in] vdb         the file; of a frame, the other frames in its folder are in the .usda too
-/// @param[in] sequence    whether it may be a frame
-/// @param[in] options     `frames.options` in the metadata of the frames that belong to it; empty
-///                        of those without it, which runs of their own have made
-/// @param[in] metersPerUnit  length of a unit of the scene [m]
-UsdVolume usdVolumeOf(const std::string& vdb, bool sequence, const std::string& options,
-                      double metersPerUnit);
 
 } // namespace molsurf
