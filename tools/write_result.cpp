@@ -280,6 +280,18 @@ void writeGrids(const Writing& w, OutputFile& file)
     writeVdb(gridsOf(w.call, w.result), metadata, file);
 }
 
+/// Copies that are all alike share the volume; others are in it once, where the input has them.
+void writeVolumeStage(const Writing& w, OutputFile& file)
+{
+    UsdVolume volume = usdVolume(w.call, w.output);
+    const std::vector<Instance>& copies = w.atoms.placement.instances;
+    const auto isFirst = [](const Instance& copy) { return copy.part == 0; };
+    if (!w.atoms.placement.isWhole() && std::all_of(copies.begin(), copies.end(), isFirst))
+        volume.copies = copies;
+    for (Instance& copy : volume.copies) copy.translation *= w.call.scene.scale;
+    writeUsda(gridsOf(w.call, w.result), volume, file);
+}
+
 void writeStage(const Writing& w, OutputFile& file)
 {
     const bool ofMesh = w.output.beside.empty() || isFilm(w.output);
@@ -291,7 +303,7 @@ void writeStage(const Writing& w, OutputFile& file)
     else if (ofMesh)
         writeMeshStage(w.call, w.output, w.mesh, file);
     else
-        writeUsda(gridsOf(w.call, w.result), usdVolume(w.call, w.output), file);
+        writeVolumeStage(w, file);
 }
 
 void writeGlb(const Writing& w, OutputFile& file)
