@@ -397,6 +397,7 @@ const std::vector<Format>& formatTable()
 {
     constexpr const char* ofAreas = "table of areas";
     constexpr const char* withAreas = "atoms with areas as B factors";
+    constexpr const char* ofApbs = "files of APBS, by --for apbs";
     constexpr unsigned all = Build | Batch | Convert | Compare | BricksMerge;
     constexpr unsigned built = Build | Batch, meshed = built | Convert;
     constexpr unsigned printed = Triangles | Colors | CutBorders | Millimetres;
@@ -419,26 +420,26 @@ const std::vector<Format>& formatTable()
         {"face", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
         {"mrc", meshed, Volume, "level set in a box", "", writeVolume<writeMrc>},
         {"dx", meshed, Volume, "level set in a box", "", writeVolume<writeDx>},
-        {"dielx.dx", Build, Solver, "maps for APBS", "", writeDielectric<0>},
-        {"diely.dx", Build, Solver, "maps for APBS", "", writeDielectric<1>},
-        {"dielz.dx", Build, Solver, "maps for APBS", "", writeDielectric<2>},
-        {"kappa.dx", Build, Solver, "maps for APBS", "",
+        {"dielx.dx", Build, Solver, ofApbs, "", writeDielectric<0>},
+        {"diely.dx", Build, Solver, ofApbs, "", writeDielectric<1>},
+        {"dielz.dx", Build, Solver, ofApbs, "", writeDielectric<2>},
+        {"kappa.dx", Build, Solver, ofApbs, "",
          [](const Writing& w, OutputFile& file) {
              writeIonMap(w.atoms.balls, *w.call.apbsGrid, w.call.dielectric.ionRadius, file);
          }},
-        {"charges.pqr", Build, Solver, "charges", "",
+        {"charges.pqr", Build, Solver, ofApbs, "",
          [](const Writing& w, OutputFile& file) { writePqr(*w.atoms.charges, file); }},
-        {"apbs.in", Build, Solver, "input of APBS, with --for apbs", "", writeSolverInput},
-        {"cxc", meshed, Script | Colors | Copies, "script that opens the .glb", "",
+        {"apbs.in", Build, Solver, ofApbs, "", writeSolverInput},
+        {"cxc", meshed, Script | Colors | Copies, "scripts that open .glb and .ply", "",
          writeScript<writeChimeraXScript>, "glb"},
-        {"pml", meshed, Script | Colors, "script that opens the .ply", "",
+        {"pml", meshed, Script | Colors, "scripts that open .glb and .ply", "",
          writeScript<writePymolScript>, "ply"},
         {"html", meshed, Colors | ColorChoices | PlainColor | Copies | Levels | Views,
          "page that shows it", "", writePage},
         {"json", all, Numbers | Copies, "report", "",
          [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
         {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "picture", "", writePicture},
-        {"view", meshed, Copies | Views, "from where pictures see it, for --view", "", writeCamera},
+        {"view", meshed, Copies | Views, "view of pictures, for --view", "", writeCamera},
         {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},
         {"atoms.csv", built, Areas | AllFrames, ofAreas, "atoms", writeAreaTable},
         {"residues.csv", built, Areas | AllFrames, ofAreas, "residues", writeAreaTable},
