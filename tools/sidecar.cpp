@@ -86,6 +86,9 @@ UsdVolume usdVolume(const Call& call, const Output& output)
     volume.name = frameName(vdb).stem;
     volume.metersPerUnit = usdaMetersPerAngstrom / call.scene.scale;
     volume.file = fs::path(vdb).filename().string();
+    // With --fog-density the density has what an Å scatters.
+    constexpr double scattering = 0.5; // [1/Å]
+    volume.scattering = call.scene.fogDensity > 0.0 ? 1.0 : scattering / call.scene.scale;
     if (!frameName(output.beside).frame) return volume;
     volume.frames = framesOf(call, output).frames;
     volume.framesPerSecond = rateOf(call);

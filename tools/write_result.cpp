@@ -280,6 +280,18 @@ void writeGrids(const Writing& w, OutputFile& file)
     writeVdb(gridsOf(w.call, w.result), metadata, file);
 }
 
+/// Copies that are all alike share the volume; others are in it once, where the input has them.
+void writeVolumeStage(const Writing& w, OutputFile& file)
+{
+    UsdVolume volume = usdVolume(w.call, w.output);
+    const std::vector<Instance>& copies = w.atoms.placement.instances;
+    const auto isFirst = [](const Instance& copy) { return copy.part == 0; };
+    if (!w.atoms.placement.isWhole() && std::all_of(copies.begin(), copies.end(), isFirst))
+        volume.copies = copies;
+    for (Instance& copy : volume.copies) copy.translation *= w.call.scene.scale;
+    writeUsda(gridsOf(w.call, w.result), volume, file);
+}
+
 void writeStage(const Writing& w, OutputFile& file)
 {
     const bool ofMesh = w.output.beside.empty() || isFilm(w.output);
@@ -291,7 +303,7 @@ void writeStage(const Writing& w, OutputFile& file)
     else if (ofMesh)
         writeMeshStage(w.call, w.output, w.mesh, file);
     else
-        writeUsda(gridsOf(w.call, w.result), usdVolume(w.call, w.output), file);
+        writeVolumeStage(w, file);
 }
 
 void writeGlb(const Writing& w, OutputFile& file)
@@ -420,16 +432,16 @@ const std::vector<Format>& formatTable()
         {"charges.pqr", Build, Solver, "", "",
          [](const Writing& w, OutputFile& file) { writePqr(*w.atoms.charges, file); }},
         {"apbs.in", Build, Solver, "", "", writeSolverInput},
-        {"cxc", meshed, Script | Colors | Copies, "script that opens the .glb", "",
+        {"cxc", meshed, Script | Colors | Copies, "scripts that open .glb and .ply", "",
          writeScript<writeChimeraXScript>, "glb"},
-        {"pml", meshed, Script | Colors, "script that opens the .ply", "",
+        {"pml", meshed, Script | Colors, "scripts that open .glb and .ply", "",
          writeScript<writePymolScript>, "ply"},
         {"html", meshed, Colors | ColorChoices | PlainColor | Copies | Levels | Views,
          "page that shows it", "", writePage},
         {"json", all, Numbers | Copies, "report", "",
          [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
         {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "picture", "", writePicture},
-        {"view", meshed, Copies | Views, "from where pictures see it, for --view", "", writeCamera},
+        {"view", meshed, Copies | Views, "view of pictures, for --view", "", writeCamera},
         {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},
         {"atoms.csv", built, Areas | AllFrames, ofAreas, "atoms", writeAreaTable},
         {"residues.csv", built, Areas | AllFrames, ofAreas, "residues", writeAreaTable},

@@ -57,7 +57,8 @@ def what_is_shown():
         if obj.type == "VOLUME":
             obj.data.grids.load()
             shown["volumes"].append({"grids": {grid.name: grid.data_type for grid in obj.data.grids},
-                                     "error": obj.data.grids.error_message})
+                                     "error": obj.data.grids.error_message,
+                                     "matrix": [list(row) for row in instance.matrix_world]})
     return shown
 
 

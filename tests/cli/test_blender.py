@@ -129,7 +129,7 @@ class Blender:
                     self.assertAlmostEqual(a, v[names.index(name)], delta=1e-4 + 1e-4 * abs(a))
         self.assertIn("VERTEX_COLOR", glb["meshes"][0]["nodes"])
         volume, = vdb["volumes"]
-        self.assertEqual(volume, {"grids": {"surface": "FLOAT", "density": "FLOAT", "Cd": "VECTOR_FLOAT"}, "error": ""})
+        self.assertEqual((volume["grids"], volume["error"]), ({"surface": "FLOAT", "density": "FLOAT", "Cd": "VECTOR_FLOAT"}, ""))
 
     def test_importers_of_copies(self):
         """Copies lie where the matrices place them, and nothing but copies is shown."""
@@ -154,6 +154,13 @@ class Blender:
         scene, = self.result("blender_import.py", "b.usda")
         if scene:
             self.assertEqual([list(volume["grids"]) for volume in scene["volumes"]], [["Cd", "density", "surface"]])
+        self.check(0, *DIMER, *FAST, "--instances", "--for", "usd", "-o", "c.vdb", "-o", "c.json")
+        scene, = self.result("blender_import.py", "c.usda")
+        if scene:  # volumes that share their data
+            entries = json.loads((self.folder / "c.json").read_text())["instances"]
+            for volume, entry in zip(scene["volumes"], entries, strict=True):
+                for point in ((0, 0, 0), (30, 0, 0), (0, 30, 0), (0, 0, 30)):
+                    self.assert_near(placed(volume["matrix"], point), placed(entry["matrix"], point), 0.03, "copy")
 
     def test_importer_of_films(self):
         """Frames of different topology arrive with the attribute that motion is blurred by, per second."""

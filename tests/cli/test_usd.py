@@ -140,6 +140,25 @@ class Volumes(Usd):
                 for a, b in zip(side, limit):
                     self.assertTrue(-5 * scale < sign * (a - b) < 0, (side, limit))
 
+    def test_fog_has_a_material(self):
+        for words, scattering in ((("--for", "usd"), 0.5), (("--for", "usd=nm"), 5), (("--for", "usd=nm", "--fog-density", "0.2"), 1)):
+            self.check(0, CRAMBIN, *FAST, *words, "-o", "a.vdb", "--force")
+            scenes, = self.stages("a.usda")
+            self.assertEqual(list(scenes), ["", "materialx", "plain"])
+            self.assertEqual([scenes[name]["volume"]["shader"] for name in scenes], [None, "ND_volume", None])
+            self.assertAlmostEqual(scenes[""]["volume"]["scattering"], scattering, delta=1e-6)
+
+    def test_copies(self):
+        """A volume that all copies share lies where the matrices place them."""
+        self.check(0, *DIMER, "--instances", *FAST, "--for", "usd=nm", "-o", "a.vdb", "-o", "a.json")
+        scene = self.stages("a.usda")[0][""]
+        entries = json.loads((self.folder / "a.json").read_text())["instances"]
+        self.assertEqual((len(entries), scene["copies"]["ids"]), (2, [1, 2]))
+        for matrix, entry in zip(scene["copies"]["matrices"], entries, strict=True):
+            for point in ((0, 0, 0), (30, 0, 0), (0, 30, 0), (0, 0, 30)):
+                self.assert_near(placed(matrix, [0.1 * x for x in point]), [0.1 * x for x in placed(entry["matrix"], point)], 2e-3)
+        self.assertEqual(set(scene["volume"]["fields"]), {"surface", "density", "Cd"})
+
     def test_groups(self):
         self.check(0, *DIMER, *FAST, "--group-by", "chain", "--split", "group", "--for", "usd", "-o", "a.vdb")
         fields = self.stages("a.usda")[0][""]["volume"]["fields"]

@@ -4,6 +4,7 @@
 /// @file
 /// A .vdb file, or a numbered sequence of them, as a volume of OpenUSD.
 
+#include "molsurf/atoms.h"
 #include "molsurf/io/output_file.h"
 
 #include <openvdb/openvdb.h>
@@ -25,10 +26,17 @@ struct UsdVolume {
     std::vector<std::pair<int, std::string>> frames;
     double framesPerSecond = 24.0;
     std::map<int, std::string> extents; ///< of other frames, as text: extentsOfUsda()
+    /// Light that fog of density 1 scatters on its way through a unit of length, as optical depth.
+    double scattering = 0.5;
+    std::vector<Instance>
+        copies; ///< of the volume, in units of the grids; empty: it is where it is
 };
 
 /// Writes USD as text: a Volume with an OpenVDBAsset for each grid, whose field class, type and
-/// vector role are the grid's. Up is z, as in the other files.
+/// vector role are the grid's. Up is z, as in the other files. Fog (`density`, and `Cd` if there is
+/// one) has a Material; the variant `materialx` of the set `fog` has its nodes, and `plain` is
+/// selected, since OpenUSD knows them only where MaterialX is built in. Copies are a
+/// PointInstancer, as writeUsdaInstances() writes it.
 ///
 /// @param[in] grids  as they are in the .vdb; of a sequence those of one frame
 /// @throws Error(ErrorKind::Output) if the file cannot be written
