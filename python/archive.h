@@ -220,7 +220,7 @@ MOLSURF_MEMBERS(EvolutionReport, v.steps, v.converged, v.energy, v.area, v.volum
                 v.toleranceMet, v.areaError, v.unsettledShare, v.finalEnergy, v.unresolvedGapVoxels,
                 v.frontSteps, v.restlessFronts, v.gaps, v.walls)
 MOLSURF_MEMBERS(GroupReport, v.name, v.atoms, v.area, v.volume, v.color, v.aloneArea)
-MOLSURF_MEMBERS(InterfaceReport, v.first, v.second, v.area, v.count, v.buried)
+MOLSURF_MEMBERS(InterfaceReport, v.first, v.second, v.area, v.count, v.fit, v.buried)
 MOLSURF_MEMBERS(ResolutionReport, v.select, v.resolution, v.atoms, v.level)
 MOLSURF_MEMBERS(PartReport, v.name, v.atoms, v.surface)
 MOLSURF_MEMBERS(InstanceReport, v.part, v.name, v.matrix)

@@ -174,10 +174,20 @@ struct InterfaceReport {
         double alone = 0.0;    ///< its area on the surface of its group alone [Å^2]
         double together = 0.0; ///< its area on the surface of both [Å^2]
     };
+    /// How well the solvent-excluded surfaces of the groups fit, each alone, for a probe of 1.7 Å.
+    /// docs/complexes.md. Not a number where no part of them is buried deep enough.
+    struct Fit {
+        double shape = std::numeric_limits<double>::quiet_NaN();    ///< Sc, at most 1
+        double distance = std::numeric_limits<double>::quiet_NaN(); ///< of the surfaces, median [Å]
+        double gapVolume = 0.0; ///< between them, where no probe fits [Å^3]
+        double gapIndex = std::numeric_limits<double>::quiet_NaN(); ///< gapVolume by the area that
+                                                                    ///< each buries [Å]
+    };
 
     std::string first, second; ///< names of the groups
     double area = 0.0;         ///< (A_first + A_second - A_both) / 2, each surfaced alone [Å^2]
     std::size_t count = 1;     ///< how many such there are in a whole made by symmetry
+    Fit fit{};
     /// The balls whose area changes, if areas of balls were asked for; half of what they lose adds
     /// up to `area`.
     std::vector<Buried> buried{};

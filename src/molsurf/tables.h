@@ -47,7 +47,8 @@ Table contactTable(const BallSet& atoms, ContactLevel level, const MolecularSurf
 /// A row for every residue that an interface buries: group_1 and group_2, the group that it belongs
 /// to, its name, area_alone and area_together on the surfaces of its group alone and of both,
 /// buried_area, their difference, and area, half of that: its part of the interface. The areas
-/// of an interface's rows add up to InterfaceReport::area.
+/// of an interface's rows add up to InterfaceReport::area. Each row has the fit of the pair, too:
+/// shape_complementarity, median_distance_A, gap_volume and gap_index_A.
 /// @throws Error(ErrorKind::Usage) if the atoms have no names, or the report no interfaces with
 ///         the balls that they bury
 Table interfaceTable(const BallSet& atoms, const Report& report);

@@ -167,8 +167,24 @@ class Areas(ToolTest):
             self.assertAlmostEqual(float(row["area_alone"]) - float(row["area_together"]),
                                    float(row["buried_area"]), 9)
         self.assertLess(len(rows), 150)
-        told = {tuple(i["groups"]): i["buried_area"] for i in self.report("a.json")["interfaces"]}
-        self.assertAlmostEqual(told["A", "B"], interface, 8)
+        told = {tuple(i["groups"]): i for i in self.report("a.json")["interfaces"]}
+        self.assertAlmostEqual(told["A", "B"]["buried_area"], interface, 8)
+        for key, column in (("shape_complementarity",) * 2, ("median_distance", "median_distance_A"),
+                            ("gap_volume",) * 2, ("gap_index", "gap_index_A")):
+            for row in rows:
+                self.assertAlmostEqual(float(row[column]), told["A", "B"][key], 9)
+        self.assertTrue(0.5 < told["A", "B"]["shape_complementarity"] < 0.7)
+
+    def test_fit_of_what_hardly_touches_is_empty(self):
+        self.write("a.pdb", atom(1, 0.0, chain="A") + atom(2, 5.0, chain="B") + atom(3, 40.0, chain="C"))
+        self.check(0, "a.pdb", *SAS, "--hetero", "-o", "a.interfaces.csv", "-o", "a.json")
+        rows = self.table("a.interfaces.csv")
+        self.assertEqual({(r["group_1"], r["group_2"]) for r in rows}, {("A", "B")})
+        pair, = self.report("a.json")["interfaces"]
+        for key, column in ("shape_complementarity",) * 2, ("median_distance", "median_distance_A"):
+            self.assertEqual({r[column] for r in rows}, {""})
+            self.assertIsNone(pair[key])
+        self.assertGreater(pair["gap_volume"], 0.0)
 
     def test_are_of_the_accessible_surface_unless_another_is_named(self):
         self.check(0, ASPARTATE, *SAS, "-o", "sas.interfaces.csv", "-o", "sas.residues.csv")

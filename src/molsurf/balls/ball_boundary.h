@@ -125,6 +125,19 @@ struct BallBoundary {
 /// @throws Error(ErrorKind::Check) if the parts do not fit together
 BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Progress& progress);
 
+/// Whether another ball covers the point of a sphere in a direction, as exactly as floats tell.
+inline bool isCovered(const BallBoundary& boundary, const Patch& patch,
+                      const openvdb::Vec3d& direction)
+{
+    const CapLists& caps = boundary.caps;
+    for (std::uint32_t k = patch.capsBegin; k < patch.capsEnd; ++k) {
+        if (caps.x[k] * direction.x() + caps.y[k] * direction.y() + caps.z[k] * direction.z() >
+            caps.cosine[k])
+            return true;
+    }
+    return false;
+}
+
 /// Whether two caps of a sphere have a point in common, decided as in ballBoundary().
 bool capsOverlap(const BallBoundary& boundary, const Patch& patch, const Cap& a, const Cap& b);
 

@@ -65,17 +65,6 @@ BoundaryPoints::BoundaryPoints(const BallBoundary& boundary)
         cosines_.push_back(arc.ends[0] < 0 ? -2.0 : std::cos(arc.half));
 }
 
-bool BoundaryPoints::covers(const Patch& patch, const Vec3d& direction) const
-{
-    const CapLists& caps = boundary_.caps;
-    for (std::uint32_t k = patch.capsBegin; k < patch.capsEnd; ++k) {
-        if (caps.x[k] * direction.x() + caps.y[k] * direction.y() + caps.z[k] * direction.z() >
-            caps.cosine[k])
-            return true;
-    }
-    return false;
-}
-
 void BoundaryPoints::search(const Vec3d& x, BoundaryPoint& best) const
 {
     const auto offer = [&](BoundaryPart part, std::size_t i, const Vec3d& point) {
@@ -101,7 +90,7 @@ void BoundaryPoints::search(const Vec3d& x, BoundaryPoint& best) const
         const double length = offset.length();
         if (length == 0.0 || std::abs(length - patch.radius) >= best.distance) return;
         const Vec3d direction = offset / length;
-        if (covers(patch, direction)) return;
+        if (isCovered(boundary_, patch, direction)) return;
         offer(BoundaryPart::Patch, i, patch.centre + patch.radius * direction);
     });
 }

@@ -43,7 +43,6 @@ public:
     BoundaryPoint nearest(const openvdb::Vec3d& x, double guess) const;
 
 private:
-    bool covers(const Patch& patch, const openvdb::Vec3d& direction) const;
     void search(const openvdb::Vec3d& x, BoundaryPoint& best) const;
 
     const BallBoundary& boundary_;

@@ -3,6 +3,7 @@
 
 #include "molsurf/balls/probe_corners.h"
 #include "molsurf/balls/sphere_region.h"
+#include "molsurf/balls/toric_tube.h"
 #include "molsurf/core/disjoint_sets.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/words.h"
@@ -50,37 +51,6 @@ struct ConcavePart {
     double creaseLength = 0.0; // [Å]
     bool fits = true;
 };
-
-/// The part of a torus along an arc, between angles from the plane of the arc to its second ball.
-struct Tube {
-    double low, high; // from the first ball to the second
-    double cusp;      // angles nearer to 0 are beyond the axis; 0: none are
-    double middle;    // where the two balls meet
-
-    bool isCut() const { return cusp > 0.0; }
-};
-
-Tube tubeOf(const BallBoundary& boundary, const Arc& arc, double probe)
-{
-    const PlacedBall& first = boundary.balls[std::size_t(arc.balls[0])];
-    const PlacedBall& second = boundary.balls[std::size_t(arc.balls[1])];
-    const double d = offset(first, second).length(), r = first.radius, R = second.radius;
-    const double height = (d * d + (r - R) * (r + R)) / (2.0 * d);
-    Tube tube{};
-    tube.low = std::atan2(-height, arc.radius);
-    tube.high = std::atan2(d - height, arc.radius);
-    if (arc.radius < probe && tube.low < 0.0 && tube.high > 0.0)
-        tube.cusp = std::acos(arc.radius / probe);
-    tube.middle = std::asin(std::clamp((R - r) / d, -1.0, 1.0));
-    return tube;
-}
-
-/// The area along an arc between two angles.
-double areaOf(const Arc& arc, double probe, double from, double to)
-{
-    return 2.0 * arc.half * probe *
-           (arc.radius * (to - from) - probe * (std::sin(to) - std::sin(from)));
-}
 
 [[noreturn]] void failSurface(const char* what, double one, double other)
 {

@@ -157,6 +157,12 @@ constexpr ReportKey keyTable[] = {
     {"interfaces[].groups", "", "Names of both"},
     {"interfaces[].buried_area", "Å²", "Half of the area that both lose by meeting"},
     {"interfaces[].count", "", "Number of such interfaces in a whole by symmetry"},
+    {"interfaces[].shape_complementarity", "",
+     "Sc of their solvent-excluded surfaces for a probe of 1.7 Å, after Lawrence and Colman; null "
+     "where nothing is buried more than 1.5 Å from the rim"},
+    {"interfaces[].median_distance", "Å", "Median distance of these surfaces, without the rim"},
+    {"interfaces[].gap_volume", "Å³", "Volume between them that such a probe does not reach"},
+    {"interfaces[].gap_index", "Å", "Gap volume by the area that each buries"},
     {"parts", "", "Groups with surfaces of their own"},
     {"parts[].name", "", "Name of the group"},
     {"parts[].atoms", "", "Number of its atoms"},

@@ -116,8 +116,13 @@ Json interfacesJson(const std::vector<InterfaceReport>& interfaces)
 {
     Json out = Json::array();
     for (const InterfaceReport& i : interfaces) {
-        out.push_back(
-            Json{{"groups", {i.first, i.second}}, {"buried_area", i.area}, {"count", i.count}});
+        out.push_back(Json{{"groups", {i.first, i.second}},
+                           {"buried_area", i.area},
+                           {"count", i.count},
+                           {"shape_complementarity", i.fit.shape},
+                           {"median_distance", i.fit.distance},
+                           {"gap_volume", i.fit.gapVolume},
+                           {"gap_index", i.fit.gapIndex}});
     }
     return out;
 }

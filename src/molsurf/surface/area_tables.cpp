@@ -6,6 +6,7 @@
 #include "molsurf/structure/element.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -255,6 +256,7 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
     ResidueColumns residues;
     Texts first, second, group;
     Numbers alone, together, buried, area;
+    std::array<Numbers, 4> fits;
     for (const InterfaceReport& interface : report.interfaces) {
         std::map<std::pair<bool, std::int32_t>, std::pair<double, double>> sums;
         for (const InterfaceReport::Buried& b : interface.buried) {
@@ -271,6 +273,10 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
             together.push_back(sum.second);
             buried.push_back(sum.first - sum.second);
             area.push_back(0.5 * (sum.first - sum.second));
+            const InterfaceReport::Fit& fit = interface.fit;
+            const std::array<double, 4> row = {fit.shape, fit.distance, fit.gapVolume,
+                                               fit.gapIndex};
+            for (std::size_t k = 0; k < row.size(); ++k) fits[k].push_back(row[k]);
         }
     }
     Table table{"interfaces", {}};
@@ -282,6 +288,10 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
     table.columns.push_back({"area_together", std::move(together)});
     table.columns.push_back({"buried_area", std::move(buried)});
     table.columns.push_back({"area", std::move(area)});
+    constexpr std::array<const char*, 4> ofPairs = {"shape_complementarity", "median_distance_A",
+                                                    "gap_volume", "gap_index_A"};
+    for (std::size_t k = 0; k < ofPairs.size(); ++k)
+        table.columns.push_back({ofPairs[k], std::move(fits[k])});
     return table;
 }
 

@@ -5,6 +5,7 @@
 #include "molsurf/core/quiet_progress.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/surface/closed_form.h"
+#include "molsurf/surface/fit.h"
 #include "molsurf/surface/influence.h"
 #include "molsurf/surface/run.h"
 #include "molsurf/surface/surface_kind.h"
@@ -159,6 +160,7 @@ void measureInterfaces(const BallSet& atoms, const SurfaceSpec& spec, bool ofBal
             if (m != 0) found.second += " of unit " + placement.instances[m].name;
             found.area = area;
             found.count = mirrored ? order / 2 : order;
+            found.fit = fitOf(subset(bare, own).balls, subset(bare, its).balls, progress);
             if (ofBalls && order == 1)
                 found.buried = buriedBalls({&own, &its}, {&aloneOf(a), &aloneOf(member)}, both,
                                            isClosedForm(spec) ? rounding : noticeable);

@@ -8,6 +8,7 @@
 #include "molsurf/error.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/topology.h"
+#include "molsurf/surface/fit.h"
 #include "molsurf/surface/label_surface.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/surface_run.h"
@@ -172,7 +173,9 @@ double surroundingsOf(const SurfaceOptions& options)
     // on.
     constexpr double largest = 2.5; // of atoms [Å]
     const double voxels = isUnion(options.kind) ? 8.0 : 12.0;
-    return 2.0 * (largest + options.probe) + voxels * options.voxel + options.minWall;
+    const double surface =
+        2.0 * (largest + options.probe) + voxels * options.voxel + options.minWall;
+    return options.interfaces ? std::max(surface, 2.0 * largest + fitReach) : surface;
 }
 
 MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)

@@ -19,7 +19,7 @@ namespace
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 
-Ball ball(double x, double y, double z, double r)
+Ball ballAt(double x, double y, double z, double r)
 {
     return {Vec3f(float(x), float(y), float(z)), float(r), 0};
 }
@@ -97,16 +97,17 @@ TEST(SpecialPositions, KnownAreas)
     std::vector<Ball> hexagon, square, lattice, salt, doublet;
     for (int k = 0; k < 6; ++k) {
         const double a = k * M_PI / 3.0;
-        hexagon.push_back(ball(1.42 * std::cos(a), 1.42 * std::sin(a), 0.0, 1.7));
+        hexagon.push_back(ballAt(1.42 * std::cos(a), 1.42 * std::sin(a), 0.0, 1.7));
     }
-    for (int k = 0; k < 4; ++k) square.push_back(ball(2 * (k & 1), 2 * (k >> 1), 0.0, 1.5));
+    for (int k = 0; k < 4; ++k) square.push_back(ballAt(2 * (k & 1), 2 * (k >> 1), 0.0, 1.5));
     for (int k = 0; k < 64; ++k) {
-        lattice.push_back(ball(2 * (k & 3), 2 * (k >> 2 & 3), 2 * (k >> 4), 1.5));
+        lattice.push_back(ballAt(2 * (k & 3), 2 * (k >> 2 & 3), 2 * (k >> 4), 1.5));
     }
     for (int k = 0; k < 27; ++k) {
-        salt.push_back(ball(2.8 * (k % 3), 2.8 * (k / 3 % 3), 2.8 * (k / 9), 1.7));
+        salt.push_back(ballAt(2.8 * (k % 3), 2.8 * (k / 3 % 3), 2.8 * (k / 9), 1.7));
     }
-    const std::vector<Ball> three = {ball(4, 3, -1, 1.5), ball(1, 4, -2, 2.5), ball(2, 2, -3, 1.5)};
+    const std::vector<Ball> three = {ballAt(4, 3, -1, 1.5), ballAt(1, 4, -2, 2.5),
+                                     ballAt(2, 2, -3, 1.5)};
     const struct {
         const char* what;
         std::vector<Ball> balls;
@@ -138,29 +139,32 @@ TEST(SpecialPositions, KnownAreas)
 // touch from outside and inside.
 TEST(SpecialPositions, CirclesInCommonAndTouching)
 {
-    const std::vector<Ball> pencil = {ball(-1, 0, 0, 1.25), ball(0, 0, 0, 0.75),
-                                      ball(1, 0, 0, 1.25)};
+    const std::vector<Ball> pencil = {ballAt(-1, 0, 0, 1.25), ballAt(0, 0, 0, 0.75),
+                                      ballAt(1, 0, 0, 1.25)};
     const Totals shared = measured(pencil);
     const double h = 1.25 - 1.0; // of the caps of the outer two beyond the common plane
     EXPECT_NEAR(shared.area, 2.0 * (4.0 * M_PI * 1.25 * 1.25 - 2.0 * M_PI * 1.25 * h), 1e-7);
     EXPECT_EQ(shared.outer, 1);
 
-    const std::vector<Ball> through = {ball(0, 0, 0, 1.5), ball(1.5, 0, 0, 1.5),
-                                       ball(0, 1.5, 0, 1.5), ball(0, 0, 1.5, 1.5)};
+    const std::vector<Ball> through = {ballAt(0, 0, 0, 1.5), ballAt(1.5, 0, 0, 1.5),
+                                       ballAt(0, 1.5, 0, 1.5), ballAt(0, 0, 1.5, 1.5)};
     EXPECT_NEAR(measured(through).area, sampled(through, 0.0, spreadDirections(100000)).area, 0.05);
 
-    const std::vector<Ball> outside = {ball(0, 0, 0, 1.5), ball(3, 0, 0, 1.5), ball(0, 3, 0, 1.5)};
+    const std::vector<Ball> outside = {ballAt(0, 0, 0, 1.5), ballAt(3, 0, 0, 1.5),
+                                       ballAt(0, 3, 0, 1.5)};
     const Totals apart = measured(outside);
     EXPECT_NEAR(apart.area, 3.0 * 4.0 * M_PI * 2.25, 1e-6);
     EXPECT_EQ(apart.outer, 3) << "balls that touch are apart";
 
-    const std::vector<Ball> inside = {ball(0, 0, 0, 2.0), ball(1, 0, 0, 1.0), ball(0, 0.5, 0, 1.5)};
+    const std::vector<Ball> inside = {ballAt(0, 0, 0, 2.0), ballAt(1, 0, 0, 1.0),
+                                      ballAt(0, 0.5, 0, 1.5)};
     const Totals one = measured(inside);
     EXPECT_NEAR(one.area, 4.0 * M_PI * 4.0, 1e-6);
     EXPECT_NEAR(one.volume, 4.0 / 3.0 * M_PI * 8.0, 1e-6);
     EXPECT_EQ(one.outer, 1);
 
-    const std::vector<Ball> nothing = {ball(0, 0, 0, 1.0), ball(0, 0, 0, 1.0), ball(0, 0, 0, 1.0)};
+    const std::vector<Ball> nothing = {ballAt(0, 0, 0, 1.0), ballAt(0, 0, 0, 1.0),
+                                       ballAt(0, 0, 0, 1.0)};
     EXPECT_NEAR(measured(nothing).area, 4.0 * M_PI, 1e-7);
 }
 
@@ -185,10 +189,10 @@ std::vector<Ball> ring(Random& random, int fold)
             const double c = fold == 4 || fold == 2 ? std::round(std::cos(a)) : std::cos(a);
             const double s = fold == 4 || fold == 2 ? std::round(std::sin(a)) : std::sin(a);
             out.push_back(
-                ball(c * float(x) - s * float(y), s * float(x) + c * float(y), z, radius));
+                ballAt(c * float(x) - s * float(y), s * float(x) + c * float(y), z, radius));
         }
     }
-    if (random() % 2) out.push_back(ball(0, 0, uniform(random, -3.0, 3.0), 1.5));
+    if (random() % 2) out.push_back(ballAt(0, 0, uniform(random, -3.0, 3.0), 1.5));
     return out;
 }
 
@@ -198,22 +202,22 @@ std::vector<Ball> onLattice(Random& random, double step)
     const int span = int(4.0 / step);
     std::vector<Ball> out;
     const auto at = [&] { return step * double(random() % unsigned(span)); };
-    for (int b = 0; b < 12; ++b) out.push_back(ball(at(), at(), at(), radii[random() % 4]));
+    for (int b = 0; b < 12; ++b) out.push_back(ballAt(at(), at(), at(), radii[random() % 4]));
     return out;
 }
 
 /// Each ball touches an earlier one.
 std::vector<Ball> touching(Random& random)
 {
-    std::vector<Ball> out = {ball(0, 0, 0, 1.5)};
+    std::vector<Ball> out = {ballAt(0, 0, 0, 1.5)};
     const double ways[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.6, 0.8, 0}, {0, -0.6, 0.8}};
     while (out.size() < 10) {
         const Ball from = out[random() % out.size()];
         const double* way = ways[random() % 5];
         const double sign = random() % 2 ? 1.0 : -1.0;
         const double radius = 0.5 * double(1 + random() % 4), d = sign * (from.radius + radius);
-        out.push_back(ball(from.center.x() + d * way[0], from.center.y() + d * way[1],
-                           from.center.z() + d * way[2], radius));
+        out.push_back(ballAt(from.center.x() + d * way[0], from.center.y() + d * way[1],
+                             from.center.z() + d * way[2], radius));
     }
     return out;
 }
@@ -237,12 +241,12 @@ std::vector<Ball> pencil(Random& random)
         if (random() % 3 == 0) continue;
         double x[] = {place[0], place[1], place[2]};
         x[axis] += member[0];
-        out.push_back(ball(x[0], x[1], x[2], member[1]));
+        out.push_back(ballAt(x[0], x[1], x[2], member[1]));
     }
     for (int k = 0; k < 4; ++k) {
         const auto near = [&](std::size_t a) { return place[a] + uniform(random, -1.5, 1.5); };
         const double x = near(0), y = near(1), z = near(2);
-        out.push_back(ball(x, y, z, uniform(random, 0.4, 0.9)));
+        out.push_back(ballAt(x, y, z, uniform(random, 0.4, 0.9)));
     }
     return out;
 }
@@ -252,9 +256,10 @@ std::vector<Ball> pencil(Random& random)
 std::vector<Ball> touchingCaps(Random& random)
 {
     const double x = double(random() % 1000), y = double(random() % 1000), z = 0.5;
-    std::vector<Ball> out = {ball(x, y, z, 2.5), ball(x + 1.5, y, z, 2.0), ball(x, y + 2.0, z, 1.5),
-                             ball(x - 1.5, y, z, 2.0), ball(x, y - 2.0, z, 1.5)};
-    out.push_back(ball(x + uniform(random, -0.5, 0.5), y, z + 2.3, 0.6));
+    std::vector<Ball> out = {ballAt(x, y, z, 2.5), ballAt(x + 1.5, y, z, 2.0),
+                             ballAt(x, y + 2.0, z, 1.5), ballAt(x - 1.5, y, z, 2.0),
+                             ballAt(x, y - 2.0, z, 1.5)};
+    out.push_back(ballAt(x + uniform(random, -0.5, 0.5), y, z + 2.3, 0.6));
     return out;
 }
 
@@ -361,7 +366,7 @@ TEST(SpecialPositions, ManyInOnePlace)
         for (int k = 0; k < 2000; ++k) {
             const auto at = [&] { return uniform(random, 0.0, size); };
             const double x = at(), y = at(), z = at();
-            balls.push_back(ball(x, y, z, 1.7));
+            balls.push_back(ballAt(x, y, z, 1.7));
         }
         const Totals got = measured(balls), points = sampled(balls, 0.0, spreadDirections(4000));
         EXPECT_NEAR(got.area, points.area, 0.005 * points.area);

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// How well the surfaces of two groups of atoms fit each other.
+
+#include "molsurf/ball.h"
+#include "molsurf/progress.h"
+#include "molsurf/report.h"
+
+#include <vector>
+
+namespace molsurf
+{
+
+/// How far apart the surfaces of two balls may be if one is to matter for the other's fit [Å]. A
+/// buried point and one of the rim beside it are 1.5 Å apart, and each is 1.7 Å from the centre of
+/// its probe.
+constexpr double fitReach = 8.3;
+
+/// Measures the fit of two groups: their solvent-excluded surfaces, each alone, for a probe of 1.7
+/// Å, where the probe of a point would run into the other group, more than 1.5 Å from where none
+/// does. A point has the value (n.-n') exp(-0.5 d^2), n' being the normal of the other's nearest
+/// such point, d Å away; Sc is the mean of both sides' medians.
+/// @see M. C. Lawrence and P. M. Colman, Shape complementarity at protein/protein interfaces, J.
+///      Mol. Biol. 234:946-950, 1993, doi:10.1006/jmbi.1993.1648
+///
+/// @param[in] first, second  every ball finite
+InterfaceReport::Fit fitOf(const std::vector<Ball>& first, const std::vector<Ball>& second,
+                           const Progress& progress);
+
+} // namespace molsurf
