@@ -10,7 +10,7 @@ import unittest
 
 from needs import BPY_PYTHON, needs
 from test_instances import placed
-from tool import CRAMBIN, DATA, FAST, ROOT, ToolTest, read_ply
+from tool import CRAMBIN, DATA, FAST, ROOT, ToolTest, read_ply, read_png
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCRIPT = ROOT / "scripts" / "blender" / "open_in_blender.py"
@@ -104,6 +104,20 @@ class Blender:
             self.blender(SCRIPT, "a.vdb", "--show", show, "--render", f"{show}.png", "--size", 64,
                          "--samples", 2)
             self.assertGreater((self.folder / f"{show}.png").stat().st_size, 2000, show)
+
+    def test_picture_of_a_film(self):
+        """Motion blur, and nothing else, changes what is rendered of a frame."""
+        self.check(0, DATA / "1d3z.pdb.gz", *FAST, "--frames", "1-2", "--fields", "v", "--color", "element", "-o", "a.usda")
+        seen = []
+        for name, words in (("plain", ()), ("again", ()), ("blurred", ("--blur",))):
+            done = self.run_script(SCRIPT, "a.usda", "--frame", 2, *words, "--render", f"{name}.png", "--size", 64, "--samples", 2)
+            if "no importer of USD" in done.stdout + done.stderr:
+                return
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            seen.append([v for row in read_png((self.folder / f"{name}.png").read_bytes())[1] for v in row])
+        again, blurred = (sum(abs(a - b) for a, b in zip(seen[0], other)) / len(other) for other in seen[1:])
+        self.assertLess(again, 0.2)  # of 255, since the denoiser's threads round in their own order
+        self.assertGreater(blurred, 1.0)
 
     def test_missing_frame(self):
         for frame in (1, 2, 4):
