@@ -229,7 +229,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
         balls.names->residues.size() == 1)
         result.report.warnings.push_back("contacts: all atoms are of one residue [hint: --contacts "
                                          "atom]");
-    if (call.options.grid) checkRequired(call.required, result.mesh, result.report.surface);
+    checkRequired(call.required, result.mesh, result.report.surface);
     warnOfPaint(call, result.mesh, result.report);
     terminal.erase();
     if (!call.quiet)
@@ -268,16 +268,20 @@ class SolverFolders
 public:
     explicit SolverFolders(const Call& call)
     {
+        namespace fs = std::filesystem;
         for (const Output& output : call.outputs) {
-            const std::filesystem::path folder = std::filesystem::path(output.path).parent_path();
-            if (!output.holds(Solver) || folder.empty() || std::filesystem::exists(folder))
-                continue;
+            if (!output.holds(Solver)) continue;
+            std::vector<std::string> missing; // the innermost first
+            for (fs::path folder = fs::path(output.path).parent_path();
+                 !folder.empty() && !fs::exists(folder); folder = folder.parent_path())
+                missing.push_back(folder.string());
+            if (missing.empty()) continue;
             std::error_code problem;
-            std::filesystem::create_directories(folder, problem);
+            fs::create_directories(missing.front(), problem);
             if (problem)
                 throw Error(ErrorKind::Output,
-                            "cannot make the folder " + folder.string() + ": " + problem.message());
-            made_.push_back(folder.string());
+                            "cannot make the folder " + missing.front() + ": " + problem.message());
+            made_.insert(made_.end(), missing.begin(), missing.end());
         }
     }
     SolverFolders(const SolverFolders&) = delete;

@@ -67,11 +67,11 @@ class Apbs(ToolTest):
     def test_maps_of_a_ball(self):
         """The dielectric of each edge is that of the share of it in the ball, kappa that of the ball and an ion."""
         centre, radius = [0.1, 0.2, -0.3], 3.0
-        run = self.folder_of([(*centre, 1.0, radius)], "--pdie", 4, "--sdie", 60, *self.grid("33 37 33", "16 18 24"))
+        run = self.folder_of([(*centre, 1.0, radius)], "--pdie", 4, "--sdie", 60, *self.grid("33 41 33", "16 20 24"))
         self.assertEqual(sorted(p.name for p in run.iterdir()), NAMES)
         for axis, name in enumerate("xyz"):
             found = Map(run / f"ion.diel{name}.dx")
-            self.assertEqual(found.counts, [33, 37, 33])
+            self.assertEqual(found.counts, [33, 41, 33])
             self.assertEqual(found.step, [0.5, 0.5, 0.75])
             cut = 0
             for middle, value in found.points():
@@ -84,7 +84,7 @@ class Apbs(ToolTest):
                 cut += 0 < share < 1
             self.assertGreater(cut, 100)
         kappa = Map(run / "ion.kappa.dx")
-        self.assertEqual(kappa.origin, [-8.0, -9.0, -12.0])
+        self.assertEqual(kappa.origin, [-8.0, -10.0, -12.0])
         for place, value in kappa.points():
             away = math.dist(place, centre) - radius - 2.0
             if abs(away) > 1e-9:
@@ -93,7 +93,7 @@ class Apbs(ToolTest):
     def test_an_edge_through_a_thin_part_is_cut(self):
         """Both ends of an edge lie outside of a ball that it passes through."""
         run = self.folder_of([(0.5, 0.0, 0.0, 1.0, 0.9), (9.0, 0.0, 0.0, 0.0, 2.0)], "--voxel", 0.1, "--pdie", 2, "--sdie", 80,
-                             *self.grid("13 13 13", "36 36 36"))
+                             *self.grid("17 17 17", "48 48 48"))
         at = {tuple(round(x, 6) for x in place): value for place, value in Map(run / "ion.dielx.dx").points()}
         share = 1.8 / 3.0 - (0.4 / 3.0)  # of the edge from 0 to 3: the ball is cut off at 0
         self.assertAlmostEqual((1 / at[(1.5, 0.0, 0.0)] - 1 / 80) / (1 / 2 - 1 / 80), share, delta=0.01)
@@ -103,6 +103,11 @@ class Apbs(ToolTest):
         rows = [line.split() for line in (run / "ion.charges.pqr").read_text().splitlines() if line.startswith("ATOM")]
         self.assertEqual([row[-2:] for row in rows], [["-0.5", "1.7"], ["0.5", "0"]])
         self.assertEqual([float(x) for x in rows[1][5:8]], [1, 0, 0])
+
+    def test_more_than_65_points_are_32_c_and_1(self):
+        for points in (97, 129):
+            run = self.folder_of([(0, 0, 0, 1.0, 3.0)], "--voxel", 2, *self.grid(f"{points} 33 9", "96 32 8"))
+            self.assertIn(f"dime {points} 33 9\n", (run / "apbs.in").read_text())
 
     def test_the_lattice_by_psize(self):
         """pdb2pqr's rule: 1.7 times the box, or 20 A more; points 0.5 A apart, 32 c + 1 of them."""
@@ -150,7 +155,8 @@ class Apbs(ToolTest):
         words = ["ion.pqr", "--for", "apbs", "-o", "run/"]
         self.check(1, CRAMBIN, *words[1:], says="it has no charges and radii, expected those of a .pqr file")
         self.check(1, *words, *self.grid("33 33 33", "3 16 16"), says="the grid is too small for the molecule")
-        self.check(1, *words, *self.grid("34 33 33", "16 16 16"), says="grid.in, line 2: expected dime c*2^(l+1)+1")
+        for points in (5, 34, 37, 69, 81):  # APBS changes them, or does not end
+            self.check(1, *words, *self.grid(f"{points} 33 33", "16 16 16"), says="grid.in, line 2: expected dime 8c+1 up to 65")
         self.check(1, *words, *self.grid("33 33 33", "16 16"), says="line 3: expected three numbers behind glen")
         self.check(1, *words, *self.grid("33 33 33", "16 16 nan"), says="line 3: expected three numbers behind glen")
         (self.folder / "grid.in").write_text("dime 33 33 33\n")
@@ -160,6 +166,9 @@ class Apbs(ToolTest):
             self.check(2, *words, f"--{name}", 0, says=f"--{name}")
         self.check(2, *words, "--ion-conc", -1, says="--ion-conc")
         self.check(2, *words[:3], "-o", "a.ply", says="expected a folder")
+        for name in ("a.apbs.in", "a.dielx.dx", "a.charges.pqr"):
+            self.check(2, "ion.pqr", "-o", name, says="expected a folder for the files of APBS")
+        self.check(1, *words[:3], "-o", "deep/er/run/", *self.grid("33 33 33", "3 16 16"), says="too small")
         self.check(2, *words[:3], "-o", "my run/", says="names with spaces")
         self.check(2, *words, "--frames", "1", says="--frames")
         self.check(2, *words, "--match", "ses", "--epsilon", 0.5, says="--epsilon")

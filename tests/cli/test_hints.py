@@ -391,6 +391,7 @@ CASES = {
     "tools/cli/complete.cpp": [
         ("-o run/", "vdb_molsurf ion.pqr --for apbs -o a.ply",
          "vdb_molsurf ion.pqr --for apbs -o run/"),
+        ("--for apbs -o run/", "vdb_molsurf ion.pqr -o a.apbs.in", "vdb_molsurf ion.pqr --for apbs -o run/ --force"),
         ("--surface ses, or --match ses", "vdb_molsurf ion.pqr --for apbs --surface vdw -o far/",
          "vdb_molsurf ion.pqr --for apbs --surface ses --force -o far/ && vdb_molsurf ion.pqr --for apbs --match ses --force -o far/"),
         ("-o FILE.residues.csv, or -o FILE.json --areas residues", "vdb_molsurf 1crn.pdb -o a.residues.json",

@@ -150,6 +150,10 @@ std::vector<Output> outputsOf(const Call& call)
         if ((format->verbs & call.verb) == 0)
             misuse("-o " + path + ": " + infoOf(call.verb).name + " writes " +
                    endingsOf(~0u, call.verb, " or "));
+        if (format->holds & Solver)
+            misuse("-o " + path +
+                   ": expected a folder for the files of APBS [hint: --for apbs "
+                   "-o run/]");
         outputs.push_back({path, format});
     }
     return outputs;
@@ -323,8 +327,8 @@ bool asksForNumbers(const Call& call)
     const bool ofGrid = call.dryRun || call.memory > 0 || call.atoms.instances;
     const unsigned some = Areas | FrameRows | (ofGrid && call.areas.empty() ? 0u : Numbers);
     return (call.verb & (Build | Batch)) != 0 && hasClosedForm(call.options) &&
-           !(value && value->byPoint()) && !(unit && (value || !isBoundary(call.options))) &&
-           !call.center && call.writesOnly(some);
+           call.required.empty() && !(value && value->byPoint()) &&
+           !(unit && (value || !isBoundary(call.options))) && !call.center && call.writesOnly(some);
 }
 
 // To be called before completeGroups().
