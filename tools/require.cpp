@@ -3,6 +3,7 @@
 
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/mesh/measure.h"
 
 #include <algorithm>
 #include <charconv>
@@ -29,6 +30,16 @@ double leastAngle(const Mesh& mesh)
     return std::acos(std::min(largest, 1.0)) * 180.0 / M_PI;
 }
 
+/// The number of closed pieces of a mesh that are walls of cavities, or that are not.
+double piecesWith(const Mesh& mesh, bool cavities)
+{
+    const Progress nobody;
+    const MeshPieces pieces = piecesOf(mesh, nobody);
+    return double(
+        std::count_if(pieces.measures.begin(), pieces.measures.end(),
+                      [=](const PieceMeasure& piece) { return (piece.volume < 0.0) == cavities; }));
+}
+
 struct Row {
     const char* word;
     bool numbered;      ///< whether a number follows
@@ -37,22 +48,21 @@ struct Row {
     double (*of)(const Mesh& mesh, const SurfaceReport& surface); ///< a flag gives 1 or 0
 };
 
-const Row rows[] = {{"watertight", false, "a closed mesh, got open edges", false,
-                     [](const Mesh&, const SurfaceReport& s) { return double(s.closed); }},
-                    {"manifold", false, "a manifold mesh, got vertices where sheets meet", false,
-                     [](const Mesh&, const SurfaceReport& s) { return double(s.manifold); }},
-                    {"components", true, "pieces that are no walls of cavities", false,
-                     [](const Mesh&, const SurfaceReport& s) {
-                         return double(s.meshComponents) - double(s.cavities.size());
-                     }},
-                    {"cavities", true, "cavities", false,
-                     [](const Mesh&, const SurfaceReport& s) { return double(s.cavities.size()); }},
-                    {"genus", true, "handles of all pieces", false,
-                     [](const Mesh&, const SurfaceReport& s) {
-                         return double(s.meshComponents) - 0.5 * double(s.meshEulerCharacteristic);
-                     }},
-                    {"min-angle", true, "degrees as the least angle", true,
-                     [](const Mesh& mesh, const SurfaceReport&) { return leastAngle(mesh); }}};
+const Row rows[] = {
+    {"watertight", false, "a closed mesh, got open edges", false,
+     [](const Mesh&, const SurfaceReport& s) { return double(s.closed); }},
+    {"manifold", false, "a manifold mesh, got vertices where sheets meet", false,
+     [](const Mesh&, const SurfaceReport& s) { return double(s.manifold); }},
+    {"components", true, "pieces that are no walls of cavities", false,
+     [](const Mesh& mesh, const SurfaceReport&) { return piecesWith(mesh, false); }},
+    {"cavities", true, "cavities", false,
+     [](const Mesh& mesh, const SurfaceReport&) { return piecesWith(mesh, true); }},
+    {"genus", true, "handles of all pieces", false,
+     [](const Mesh&, const SurfaceReport& s) {
+         return double(s.meshComponents) - 0.5 * double(s.meshEulerCharacteristic);
+     }},
+    {"min-angle", true, "degrees as the least angle", true,
+     [](const Mesh& mesh, const SurfaceReport&) { return leastAngle(mesh); }}};
 
 const Row* findRow(const std::string& word)
 {

@@ -4,7 +4,7 @@
 import math
 import unittest
 
-from tool import CRAMBIN, FAST, ToolTest
+from tool import CRAMBIN, DATA, FAST, ToolTest
 
 
 def ring(count=10, radius=8.0):
@@ -35,10 +35,23 @@ class Require(ToolTest):
     def test_a_cavity_is_no_component(self):
         self.check(0, CRAMBIN, "--surface", "ses", "-o", "a.ply", "--require", "components=1,cavities=1")
 
+    def test_the_mesh_is_what_counts(self):
+        """Voxels of 0.7 A hold 42 of the 117 cavities of 4AT1's sas."""
+        words = [DATA / "4at1.ent.gz", "--surface", "sas", "--voxel", 0.7, "-o", "a.json", "--force", "--require"]
+        self.check(0, *words, "components=1,cavities=42")
+        self.check(3, *words, "cavities=117", says="expected 117 cavities, got 42")
+        (self.folder / "a.json").unlink()
+
+    def test_a_call_without_a_mesh_is_checked(self):
+        self.check(3, CRAMBIN, "--surface", "sas", "-o", "a.json", "--require", "genus=77", says="expected 77 handles")
+        self.check(3, CRAMBIN, "--surface", "sas", "-o", "a.residues.csv", "--require", "genus=77", says="expected 77 handles")
+        self.assertEqual(self.names(), [])
+
     def test_wrong_words(self):
         for wrong in ("closed", "genus", "genus=", "genus=x", "genus=-1", "watertight=1", ""):
             self.check(2, CRAMBIN, *FAST, "-o", "a.ply", "--require", wrong, says="--require")
-        self.check(2, CRAMBIN, *FAST, "-o", "a.ply", "--require", "watertight", "--memory", "1G", says="together")
+        for word in (["--memory", "1G"], ["--instances"], ["--by-symmetry"]):
+            self.check(2, CRAMBIN, *FAST, "-o", "a.ply", "--require", "watertight", *word, says="together")
         self.assertEqual(self.names(), [])
 
 
