@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_fem.h"
 
-#include "molsurf/error.h"
 #include "molsurf/io/output_buffer.h"
+#include "molsurf/mesh/embree.h"
 #include "molsurf/mesh/measure.h"
+#include "molsurf/mesh/ray_scene.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -20,18 +20,14 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// The triangles of a mesh by the wall that they belong to.
-struct Walls {
-    std::vector<std::vector<std::uint32_t>> triangles; ///< of marker 1, 2, ...
-
-    std::size_t count() const { return triangles.size(); }
-    static std::string nameOf(std::size_t wall)
-    {
-        return wall == 0 ? "outer wall" : "cavity " + std::to_string(wall);
-    }
+/// A wall of a mesh.
+struct Wall {
+    std::string name; ///< "outer wall", "cavity 1"
+    std::vector<std::uint32_t> vertices, triangles;
 };
 
-Walls wallsOf(const Mesh& mesh)
+/// The walls of a mesh by their markers, from 1 on.
+std::vector<Wall> wallsOf(const Mesh& mesh)
 {
     const Progress nobody;
     const MeshPieces pieces = piecesOf(mesh, nobody);
@@ -41,65 +37,65 @@ Walls wallsOf(const Mesh& mesh)
     std::stable_sort(cavities.begin(), cavities.end(), [&](std::size_t a, std::size_t b) {
         return pieces.measures[a].volume < pieces.measures[b].volume;
     });
+    std::vector<Wall> walls = {{"outer wall", {}, {}}};
     std::vector<std::size_t> wallOf(pieces.measures.size(), 0);
-    for (std::size_t n = 0; n < cavities.size(); ++n) wallOf[cavities[n]] = n + 1;
-    Walls out;
-    out.triangles.resize(cavities.size() + 1);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        out.triangles[wallOf[pieces.of[mesh.triangles[t][0]]]].push_back(std::uint32_t(t));
-    return out;
+    for (const std::size_t piece : cavities) {
+        wallOf[piece] = walls.size();
+        walls.push_back({"cavity " + std::to_string(walls.size()), {}, {}});
+    }
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+        walls[wallOf[pieces.of[v]]].vertices.push_back(v);
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        walls[wallOf[pieces.of[mesh.triangles[t][0]]]].triangles.push_back(t);
+    return walls;
 }
 
-/// A triangle with its corners in double precision.
-struct Corners {
-    Vec3d a, b, c;
+/// A corner of a triangle.
+Vec3d corner(const Mesh& mesh, std::uint32_t triangle, std::size_t k)
+{
+    return Vec3d(mesh.positions[mesh.triangles[triangle][k]]);
+}
 
-    Corners(const Mesh& mesh, std::uint32_t triangle)
-        : a(mesh.positions[mesh.triangles[triangle][0]]),
-          b(mesh.positions[mesh.triangles[triangle][1]]),
-          c(mesh.positions[mesh.triangles[triangle][2]])
-    {
-    }
-    Vec3d normal() const { return (b - a).cross(c - a); } ///< twice the area long
-    Vec3d middle() const { return (a + b + c) / 3.0; }
-
-    /// How far along a ray it is hit; infinity: it is not.
-    double hit(const Vec3d& from, const Vec3d& along) const
-    {
-        constexpr double none = std::numeric_limits<double>::infinity();
-        const Vec3d u = b - a, v = c - a, w = from - a, across = along.cross(v);
-        const double volume = u.dot(across);
-        if (volume == 0.0) return none;
-        const double s = w.dot(across) / volume, t = along.dot(w.cross(u)) / volume;
-        if (s < 0.0 || t < 0.0 || s + t > 1.0) return none;
-        return v.dot(w.cross(u)) / volume;
-    }
-};
+/// The normal of a triangle, twice its area long.
+Vec3d normalOf(const Mesh& mesh, std::uint32_t triangle)
+{
+    const Vec3d a = corner(mesh, triangle, 0);
+    return (corner(mesh, triangle, 1) - a).cross(corner(mesh, triangle, 2) - a);
+}
 
 /// A point in the void that a wall encloses: halfway from the middle of one of its triangles to
 /// what lies opposite, the one of the few largest triangles for which that is farthest.
-Vec3d pointInside(const Mesh& mesh, const std::vector<std::uint32_t>& wall)
+Vec3d pointInside(const Mesh& mesh, const RayScene& scene, const Wall& wall)
 {
-    constexpr std::size_t tries = 8;
-    constexpr double least = 1e-6; // of a hit, so that the triangle itself is none [Å]
-    std::vector<std::uint32_t> large = wall;
-    const auto some = large.begin() + std::ptrdiff_t(std::min(tries, large.size()));
-    std::partial_sort(large.begin(), some, large.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return Corners(mesh, a).normal().lengthSqr() > Corners(mesh, b).normal().lengthSqr();
-    });
-    Vec3d best(Corners(mesh, large[0]).middle());
+    constexpr std::size_t tries = 4; // rays that are traced at once
+    constexpr float least = 1e-3f;   // of a hit, so that the triangle itself is none [Å]
+    std::vector<std::uint32_t> large = wall.triangles;
+    const std::size_t count = std::min(tries, large.size());
+    std::partial_sort(large.begin(), large.begin() + std::ptrdiff_t(count), large.end(),
+                      [&](std::uint32_t a, std::uint32_t b) {
+                          return normalOf(mesh, a).lengthSqr() > normalOf(mesh, b).lengthSqr();
+                      });
+    std::array<Vec3d, tries> from, along;
+    alignas(16) std::array<int, tries> valid{};
+    alignas(16) RTCRayHit4 rays{};
+    for (std::size_t s = 0; s < count; ++s) {
+        const std::uint32_t t = large[s];
+        from[s] = (corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3.0;
+        along[s] = normalOf(mesh, t).unit();
+        valid[s] = -1;
+        setRay(rays.ray, s, from[s], along[s], std::numeric_limits<double>::infinity());
+        rays.ray.tnear[s] = least;
+        rays.hit.geomID[s] = rays.hit.instID[0][s] = RTC_INVALID_GEOMETRY_ID;
+    }
+    intersect(valid.data(), scene.get(), rays);
+    Vec3d best = from[0];
     double farthest = 0.0;
-    for (auto one = large.begin(); one != some; ++one) {
-        const Corners corners(mesh, *one);
-        const Vec3d along = corners.normal().unit(), from = corners.middle();
-        double nearest = std::numeric_limits<double>::infinity();
-        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-            const double at = t == *one ? -1.0 : Corners(mesh, t).hit(from, along);
-            if (at > least) nearest = std::min(nearest, at);
-        }
-        if (!std::isfinite(nearest) || nearest <= farthest) continue;
-        farthest = nearest;
-        best = from + 0.5 * nearest * along;
+    for (std::size_t s = 0; s < count; ++s) {
+        if (rays.hit.geomID[s] == RTC_INVALID_GEOMETRY_ID) continue;
+        const double way = double(rays.ray.tfar[s]);
+        if (way <= farthest) continue;
+        farthest = way;
+        best = from[s] + 0.5 * way * along[s];
     }
     return best;
 }
@@ -116,11 +112,20 @@ void place(const openvdb::Vec3f& x, TextOutput& out)
     out << x[0] << " " << x[1] << " " << x[2] << "\n";
 }
 
-void groups(const Walls& walls, TextOutput& out)
+/// Writes all vertices with their numbers, from 1.
+void places(const Mesh& mesh, TextOutput& out)
 {
-    out << "$PhysicalNames\n" << walls.count() << "\n";
-    for (std::size_t n = 0; n < walls.count(); ++n)
-        out << "2 " << n + 1 << " \"" << Walls::nameOf(n) << "\"\n";
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        out << v + 1 << " ";
+        place(mesh.positions[v], out);
+    }
+}
+
+void groups(const std::vector<Wall>& walls, TextOutput& out)
+{
+    out << "$PhysicalNames\n" << walls.size() << "\n";
+    for (std::size_t n = 0; n < walls.size(); ++n)
+        out << "2 " << n + 1 << " \"" << walls[n].name << "\"\n";
     out << "$EndPhysicalNames\n";
 }
 
@@ -128,23 +133,21 @@ void groups(const Walls& walls, TextOutput& out)
 
 void writePoly(const Mesh& mesh, OutputFile& file)
 {
-    const Walls walls = wallsOf(mesh);
+    const std::vector<Wall> walls = wallsOf(mesh);
     TextOutput out(file);
     out << "# vdb_molsurf: markers 1 outer walls, 2 and on cavities [A]\n"
         << mesh.positions.size() << " 3 0 0\n";
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        out << v + 1 << " ";
-        place(mesh.positions[v], out);
-    }
+    places(mesh, out);
     out << mesh.triangles.size() << " 1\n";
-    for (std::size_t n = 0; n < walls.count(); ++n)
-        for (const std::uint32_t t : walls.triangles[n]) {
+    for (std::size_t n = 0; n < walls.size(); ++n)
+        for (const std::uint32_t t : walls[n].triangles) {
             out << "1 0 " << n + 1 << "\n3";
             corners(mesh, t, out);
         }
-    out << walls.count() - 1 << "\n";
-    for (std::size_t n = 1; n < walls.count(); ++n) {
-        const Vec3d x = pointInside(mesh, walls.triangles[n]);
+    out << walls.size() - 1 << "\n";
+    const RayScene scene(mesh);
+    for (std::size_t n = 1; n < walls.size(); ++n) {
+        const Vec3d x = pointInside(mesh, scene, walls[n]);
         out << n << " " << x[0] << " " << x[1] << " " << x[2] << "\n";
     }
     out << "0\n";
@@ -153,19 +156,16 @@ void writePoly(const Mesh& mesh, OutputFile& file)
 
 void writeMsh2(const Mesh& mesh, OutputFile& file)
 {
-    const Walls walls = wallsOf(mesh);
+    const std::vector<Wall> walls = wallsOf(mesh);
     TextOutput out(file);
     out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
     groups(walls, out);
     out << "$Nodes\n" << mesh.positions.size() << "\n";
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        out << v + 1 << " ";
-        place(mesh.positions[v], out);
-    }
+    places(mesh, out);
     out << "$EndNodes\n$Elements\n" << mesh.triangles.size() << "\n";
     std::size_t element = 0;
-    for (std::size_t n = 0; n < walls.count(); ++n)
-        for (const std::uint32_t t : walls.triangles[n]) {
+    for (std::size_t n = 0; n < walls.size(); ++n)
+        for (const std::uint32_t t : walls[n].triangles) {
             out << ++element << " 2 2 " << n + 1 << " " << n + 1;
             corners(mesh, t, out);
         }
@@ -175,41 +175,32 @@ void writeMsh2(const Mesh& mesh, OutputFile& file)
 
 void writeMsh4(const Mesh& mesh, OutputFile& file)
 {
-    const Walls walls = wallsOf(mesh);
+    const std::vector<Wall> walls = wallsOf(mesh);
     TextOutput out(file);
     out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
     groups(walls, out);
-    out << "$Entities\n0 0 " << walls.count() << " 0\n";
-    std::vector<std::size_t> wallOf(mesh.positions.size(), 0);
-    std::vector<std::size_t> nodes(walls.count(), 0);
-    for (std::size_t n = 0; n < walls.count(); ++n) {
+    out << "$Entities\n0 0 " << walls.size() << " 0\n";
+    for (std::size_t n = 0; n < walls.size(); ++n) {
         openvdb::BBoxd box;
-        for (const std::uint32_t t : walls.triangles[n])
-            for (const std::uint32_t v : mesh.triangles[t]) {
-                wallOf[v] = n;
-                box.expand(Vec3d(mesh.positions[v]));
-            }
+        for (const std::uint32_t v : walls[n].vertices) box.expand(Vec3d(mesh.positions[v]));
         out << n + 1;
-        for (const Vec3d& corner : {box.min(), box.max()})
-            out << " " << corner[0] << " " << corner[1] << " " << corner[2];
+        for (const Vec3d& end : {box.min(), box.max()})
+            out << " " << end[0] << " " << end[1] << " " << end[2];
         out << " 1 " << n + 1 << " 0\n";
     }
-    for (const std::size_t n : wallOf) ++nodes[n];
     out << "$EndEntities\n$Nodes\n"
-        << walls.count() << " " << mesh.positions.size() << " 1 " << mesh.positions.size() << "\n";
-    for (std::size_t n = 0; n < walls.count(); ++n) {
-        out << "2 " << n + 1 << " 0 " << nodes[n] << "\n";
-        for (std::size_t v = 0; v < wallOf.size(); ++v)
-            if (wallOf[v] == n) out << v + 1 << "\n";
-        for (std::size_t v = 0; v < wallOf.size(); ++v)
-            if (wallOf[v] == n) place(mesh.positions[v], out);
+        << walls.size() << " " << mesh.positions.size() << " 1 " << mesh.positions.size() << "\n";
+    for (std::size_t n = 0; n < walls.size(); ++n) {
+        out << "2 " << n + 1 << " 0 " << walls[n].vertices.size() << "\n";
+        for (const std::uint32_t v : walls[n].vertices) out << v + 1 << "\n";
+        for (const std::uint32_t v : walls[n].vertices) place(mesh.positions[v], out);
     }
     out << "$EndNodes\n$Elements\n"
-        << walls.count() << " " << mesh.triangles.size() << " 1 " << mesh.triangles.size() << "\n";
+        << walls.size() << " " << mesh.triangles.size() << " 1 " << mesh.triangles.size() << "\n";
     std::size_t element = 0;
-    for (std::size_t n = 0; n < walls.count(); ++n) {
-        out << "2 " << n + 1 << " 2 " << walls.triangles[n].size() << "\n";
-        for (const std::uint32_t t : walls.triangles[n]) {
+    for (std::size_t n = 0; n < walls.size(); ++n) {
+        out << "2 " << n + 1 << " 2 " << walls[n].triangles.size() << "\n";
+        for (const std::uint32_t t : walls[n].triangles) {
             out << ++element;
             corners(mesh, t, out);
         }

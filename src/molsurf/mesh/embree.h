@@ -10,8 +10,30 @@
 #include <embree4/rtcore.h>
 #endif
 
+#include <openvdb/Types.h>
+
+#include <cstddef>
+
 namespace molsurf
 {
+
+/// Sets ray k of some.
+/// @param[in] way     unit
+/// @param[in] length  how far it goes [Å]; may be infinite
+template<typename Rays>
+void setRay(Rays& rays, std::size_t k, const openvdb::Vec3d& from, const openvdb::Vec3d& way,
+            double length)
+{
+    rays.org_x[k] = float(from[0]);
+    rays.org_y[k] = float(from[1]);
+    rays.org_z[k] = float(from[2]);
+    rays.dir_x[k] = float(way[0]);
+    rays.dir_y[k] = float(way[1]);
+    rays.dir_z[k] = float(way[2]);
+    rays.tnear[k] = 0.0f;
+    rays.tfar[k] = float(length);
+    rays.mask[k] = ~0u;
+}
 
 /// Finds the first hit of each ray that is valid (-1); the rays go much the same way.
 inline void intersect(const int* valid, RTCScene scene, RTCRayHit4& rays)

@@ -39,20 +39,6 @@ std::vector<std::pair<std::size_t, std::size_t>> trianglesOf(const Mesh& mesh)
     return out;
 }
 
-template<typename Rays>
-void setRay(Rays& rays, std::size_t k, const Vec3d& from, const Vec3d& way, double length)
-{
-    rays.org_x[k] = float(from[0]);
-    rays.org_y[k] = float(from[1]);
-    rays.org_z[k] = float(from[2]);
-    rays.dir_x[k] = float(way[0]);
-    rays.dir_y[k] = float(way[1]);
-    rays.dir_z[k] = float(way[2]);
-    rays.tnear[k] = 0.0f;
-    rays.tfar[k] = float(length);
-    rays.mask[k] = ~0u;
-}
-
 Color mixed(const Color& a, const Color& b, const Color& c, const Vec3f& w)
 {
     Color out;
