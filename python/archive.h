@@ -190,12 +190,12 @@ MOLSURF_MEMBERS(Instance, v.part, v.name, v.rotation, v.translation)
 MOLSURF_MEMBERS(Placement::Unit, v.pointGroup, v.centre, v.copies, v.deviation, v.product,
                 v.inverse)
 MOLSURF_MEMBERS(Placement, v.copies, v.begin, v.numbers, v.instances, v.unit, v.around, v.motionOf)
-MOLSURF_MEMBERS(Group, v.name, v.balls, v.color)
+MOLSURF_MEMBERS(Group, v.name, v.balls, v.color, v.place)
 MOLSURF_MEMBERS(BallValues, v.name, v.title, v.unit, v.palette, v.low, v.high, v.centre, v.valueOf,
                 v.flat)
 MOLSURF_MEMBERS(SelectOptions::Coloring, v.range, v.palette, v.byResidue, v.flat, v.outward)
 MOLSURF_MEMBERS(BallLabels, v.chainOf, v.chains, v.groupOf, v.groups, v.elementOf, v.residueClassOf,
-                v.values, v.warnings, v.chainColors)
+                v.values, v.warnings, v.chainColors, v.chainPlaces)
 MOLSURF_MEMBERS(BallNames::Residue, v.chain, v.labelChain, v.name, v.number, v.insertionCode,
                 v.hetatm)
 MOLSURF_MEMBERS(BallNames::Atom, v.name, v.altloc, v.element, v.occupancy)

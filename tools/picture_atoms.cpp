@@ -7,7 +7,6 @@
 #include "molsurf/picture/view_file.h"
 #include "molsurf/surface/check_balls.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -26,35 +25,18 @@ openvdb::Vec3d middleOf(const BallSet& atoms)
     return sum / double(atoms.balls.size());
 }
 
-/// Colours of chains by their names: those of the surface, and others for others.
-class ChainColors
+/// The colours of chains by their names: those of the surface, and for others their own.
+std::vector<Color> colorsOfChains(const BallSet& atoms,
+                                  const std::map<std::string, Color>& ofSurface,
+                                  const Progress& progress)
 {
-public:
-    ChainColors(const BallSet& surface, const Progress& progress)
-        : free_(distinctColors(std::vector<std::vector<std::int32_t>>(mostDistinct)))
-    {
-        if (!surface.labels) return;
-        const std::vector<Color> own = chainColors(surface, progress);
-        for (std::size_t i = 0; i < own.size(); ++i) take(surface.labels->chains[i], own[i]);
+    std::vector<Color> colors = chainColors(atoms, progress);
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        const auto known = ofSurface.find(atoms.labels->chains[i]);
+        if (known != ofSurface.end()) colors[i] = known->second;
     }
-
-    Color of(const std::string& chain)
-    {
-        const auto known = colors_.find(chain);
-        if (known != colors_.end()) return known->second;
-        return take(chain, free_.empty() ? neutralColor : free_.front());
-    }
-
-private:
-    Color take(const std::string& chain, const Color& color)
-    {
-        free_.erase(std::remove(free_.begin(), free_.end(), color), free_.end());
-        return colors_[chain] = color;
-    }
-
-    std::vector<Color> free_;
-    std::map<std::string, Color> colors_;
-};
+    return colors;
+}
 
 } // namespace
 
@@ -79,12 +61,12 @@ void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surf
                const Progress& progress, DrawOptions& picture)
 {
     if (atoms.empty()) return;
-    ChainColors colors(surface, progress);
+    std::map<std::string, Color> ofSurface;
+    const std::vector<Color> own = chainColors(surface, progress);
+    for (std::size_t i = 0; i < own.size(); ++i) ofSurface[surface.labels->chains[i]] = own[i];
     std::vector<ShownAtoms> shown;
     for (std::size_t k = 0; k < atoms.size(); ++k) {
-        BallLabels& labels = *atoms[k].labels;
-        for (const std::string& chain : labels.chains)
-            labels.chainColors.push_back(colors.of(chain));
+        atoms[k].labels->chainColors = colorsOfChains(atoms[k], ofSurface, progress);
         shown.push_back({std::move(atoms[k]), call.shows[k]});
     }
     const double bytes = bytesOfModel(shown), available = double(availableMemory());

@@ -262,10 +262,11 @@ void writePicture(const Writing& w, OutputFile& file)
     options.turn += w.output.turn;
     options.borders = w.borders;
     if (options.clip) options.inside = insideOf(call, w.atoms, w.borders);
-    const auto legend = call.drawsLegend()
-                            ? legendOf(call.options.color, w.atoms, w.mesh, w.progress)
-                            : std::optional<Legend>();
-    writePng(drawExplained(w.mesh, std::move(options), legend, call.scaleBar, w.progress), file);
+    std::vector<Legend> legends;
+    if (call.drawsLegend())
+        legends = legendsOf(legendOf(call.options.color, w.atoms, w.mesh, w.progress),
+                            options.model.get());
+    writePng(drawExplained(w.mesh, std::move(options), legends, call.scaleBar, w.progress), file);
 }
 
 void writeCamera(const Writing& w, OutputFile& file)

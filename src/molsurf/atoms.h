@@ -87,6 +87,8 @@ struct Group {
     std::string name;
     std::size_t balls = 0;                            ///< number of its balls
     std::optional<std::array<std::uint8_t, 3>> color; ///< red, green, blue (sRGB), if it has one
+    /// Among all that the file has, whatever is selected: it decides the colour. -1: not known.
+    std::int32_t place = -1;
 };
 
 /// Kinds of residues. Those of one kind have one colour with ColorBy::Residue, which takes all
@@ -141,6 +143,9 @@ struct BallLabels {
     /// Red, green, blue (sRGB) of each chain. If it is empty the library chooses colours of which
     /// chains that touch have different ones.
     std::vector<std::array<std::uint8_t, 3>> chainColors{};
+    /// The place of each chain among those of the file and of all copies, whatever is selected: it
+    /// decides the colour. Empty: not known.
+    std::vector<std::int32_t> chainPlaces{};
 };
 
 /// The names of balls. Without copies of an assembly a residue is one of the file.

@@ -142,8 +142,8 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
         const bool repeats = !atoms.placement.isWhole();
         how.borders = bordersOf(color, repeats ? repeated(atoms, color, whole.sources) : atoms,
                                 asMeshed(whole.balls, options), mesh, nobody);
-        const auto legend = legendOf(color, atoms, mesh, nobody);
-        writePng(drawExplained(mesh, std::move(how), legend, false, nobody), file);
+        const auto legends = legendsOf(legendOf(color, atoms, mesh, nobody), nullptr);
+        writePng(drawExplained(mesh, std::move(how), legends, false, nobody), file);
     }
     file.commit();
 }

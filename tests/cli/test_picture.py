@@ -5,7 +5,7 @@ import json
 import os
 import unittest
 
-from tool import CRAMBIN, DATA, FAST, ToolTest, read_png
+from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply, read_png
 
 WHITE = (255, 255, 255)
 
@@ -40,6 +40,25 @@ class Pictures(ToolTest):
         # The legend has the chains' colours as they are.
         for color in ((86, 180, 233), (230, 159, 0)):
             self.assertTrue(self.has(rows, color), color)
+
+    def test_chains_keep_their_colours(self):
+        """By their places in the file: whatever is selected or shown, in pictures, legends and vertices."""
+        blue, orange, green, purple = (86, 180, 233), (230, 159, 0), (0, 158, 115), (204, 121, 167)
+        file = DATA / "4at1.ent.gz"
+        words = [file, "--surface", "ses", "--voxel", 2, "--size", 600]
+        _, rows = self.picture(*words, "--select", "A|C", "--color", "chain", "-o", "a.ply")
+        self.assertEqual([self.has(rows, c) for c in (blue, orange, green, purple)], [True, False, True, False])
+        names, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+        red = names.index("red")
+        self.assertEqual({v[red:red + 3] for v in vertices}, {blue, green})
+        # Tubes are in the legend, beside those of the surface or in one of their own.
+        shown = ["--select", "A|C", "--show", "B=tube", "--show", "chain D and resid 1 to 20=sticks"]
+        for color, expected in (("chain", [True, True, True, False]), ("hydrophobicity", [False, True, False, False])):
+            _, rows = self.picture(*words, *shown, "--color", color)
+            self.assertEqual([self.has(rows, c) for c in (blue, orange, green, purple)], expected, color)
+            self.assertTrue(self.has(rows, (242, 184, 60)), "carbon")
+        _, rows = self.picture(*words, *shown, "--color", "chain", "--legend", "off")
+        self.assertFalse(self.has(rows, orange))
 
     def test_legend_of_groups(self):
         (self.folder / "g").write_text("first /1/A/1-20 #d00000\nlast /1/A/21-46 #0000d0\n")
@@ -141,7 +160,7 @@ class Pictures(ToolTest):
         _, rows = self.picture(DATA / "4at1.ent.gz", *FAST, "--size", "200", "--legend", "off", "--style", "flat",
                                "--select", "A,C", "--color", "chain", "--show", "B=tube")
         seen = {color: sum(row.count(color) for row in rows)
-                for color in ((86, 180, 233), (230, 159, 0), (204, 121, 167))}
+                for color in ((86, 180, 233), (230, 159, 0), (0, 158, 115))}
         self.assertGreater(min(seen.values()), 40, seen)
         for value, says in (("stick", "did you mean sticks?"), ("A/1=", "expected sticks, balls"),
                             ("(XYZ)=sticks", "matches no atom"), ("A//CB=tube", "nothing to show")):

@@ -199,8 +199,9 @@ std::string headerText(const BallSet& atoms, const GaussianExtent& extent)
                        {"outward", coloring.outward ? Json(*coloring.outward) : Json()}};
     if (atoms.labels) {
         const BallLabels& labels = *atoms.labels;
-        for (const Group& g : labels.groups) groups.push_back({g.name, g.balls, json(g.color)});
+        for (const Group& g : labels.groups) groups.push_back({g.name, g.balls, json(g.color), g.place});
         out["chains"] = labels.chains;
+        out["chain_places"] = labels.chainPlaces;
         out["groups"] = std::move(groups);
         if (labels.values) out["values"] = json(*labels.values);
     }
@@ -265,9 +266,13 @@ BallSet parseHeader(const Json& j)
     if (!j.contains("chains")) return out;
     BallLabels& labels = out.labels.emplace();
     labels.chains = j["chains"].get<std::vector<std::string>>();
+    labels.chainPlaces = jsonNumbers<std::int32_t>(j.at("chain_places"));
+    if (!labels.chainPlaces.empty() && labels.chainPlaces.size() != labels.chains.size())
+        throw std::range_error("places of chains are none");
     for (const Json& g : j.at("groups")) {
         labels.groups.push_back({g.at(0), jsonNumber<std::size_t>(g.at(1)),
-                                 optional<std::array<std::uint8_t, 3>>(g.at(2))});
+                                 optional<std::array<std::uint8_t, 3>>(g.at(2)),
+                                 jsonNumber<std::int32_t>(g.at(3))});
     }
     if (j.contains("values")) labels.values = parseValues(j["values"]);
     return out;

@@ -316,7 +316,7 @@ ColorKind byValue()
             if (scalar.name == values.name &&
                 std::any_of(scalar.values.begin(), scalar.values.end(),
                             [](float v) { return !std::isfinite(v); }))
-                legend.entries = {{"no value", neutralColor}};
+                legend.entries = {{"no value", noValueColor}};
     };
     kind.hasBorders = [](const BallSet& atoms) {
         return hasValues(atoms) && !atoms.labels->values->byPoint() &&

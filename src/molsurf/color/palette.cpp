@@ -19,18 +19,30 @@ namespace
 /// A gap between balls across which surfaces still look as if they touched [Å].
 constexpr double visibleGap = 1.0;
 
-/// Okabe and Ito's eight, then those of a lattice of colours of some chroma that lie farthest from
-/// all before them, from black, white and the neutral one.
+/// Okabe and Ito's eight, then those of a lattice of colours of chroma 18 to 78 and lightness 38 to
+/// 90 (CIELAB) that lie farthest from all before them, from black, white, the neutral one and that
+/// of no value.
 constexpr Color paletteColors[mostDistinct] = {
     {86, 180, 233},  {230, 159, 0},   {0, 158, 115},   {204, 121, 167}, {240, 228, 66},
-    {0, 114, 178},   {213, 94, 0},    {153, 153, 153}, {120, 16, 168},  {104, 96, 0},
-    {160, 8, 48},    {0, 248, 240},   {80, 248, 120},  {0, 88, 80},     {112, 56, 8},
-    {248, 160, 144}, {128, 160, 16},  {144, 128, 248}, {120, 88, 112},  {0, 112, 24},
-    {248, 48, 72},   {248, 208, 248}, {48, 64, 112},   {64, 136, 144},  {176, 200, 152},
-    {200, 0, 136},   {144, 112, 88},  {248, 208, 168}, {120, 128, 96},  {176, 192, 248},
-    {120, 184, 176}, {176, 232, 248}, {88, 88, 208},   {56, 72, 32},    {136, 128, 160},
-    {192, 32, 0},    {176, 72, 216},  {160, 128, 40},  {224, 152, 248}, {120, 32, 80}};
+    {0, 114, 178},   {213, 94, 0},    {153, 153, 153}, {104, 96, 0},    {120, 56, 184},
+    {184, 0, 56},    {0, 104, 104},   {248, 160, 144}, {128, 160, 16},  {144, 128, 248},
+    {0, 248, 248},   {120, 88, 72},   {8, 104, 40},    {248, 208, 248}, {120, 112, 144},
+    {144, 248, 112}, {200, 0, 136},   {248, 72, 96},   {160, 128, 80},  {32, 152, 160},
+    {248, 208, 168}, {112, 128, 88},  {176, 192, 248}, {168, 48, 0},    {0, 232, 176},
+    {176, 120, 112}, {192, 176, 104}, {144, 88, 0},    {136, 80, 96},   {224, 152, 248},
+    {184, 88, 208},  {32, 192, 80},   {0, 144, 16},    {168, 224, 240}, {176, 160, 192}};
 constexpr std::size_t shared = 8; // of them, if there are more things than colours
+
+/// The colours of the places of all, or none if one has no colour of its own.
+std::vector<Color> colorsOfPlaces(const std::vector<std::int32_t>& places)
+{
+    std::vector<Color> out;
+    for (const std::int32_t place : places) {
+        if (place < 0 || std::size_t(place) >= mostDistinct) return {};
+        out.push_back(paletteColors[place]);
+    }
+    return out;
+}
 
 } // namespace
 
@@ -80,6 +92,7 @@ std::vector<Color> chainColors(const BallSet& atoms, const Progress& progress)
     if (!atoms.labels) return {};
     const BallLabels& labels = *atoms.labels;
     if (!labels.chainColors.empty()) return labels.chainColors;
+    if (std::vector<Color> own = colorsOfPlaces(labels.chainPlaces); !own.empty()) return own;
     return distinctColors(
         contacts(atoms.balls, labels.chainOf, labels.chains.size(), visibleGap, progress));
 }
@@ -88,8 +101,12 @@ std::vector<Color> groupColors(const BallSet& atoms, const Progress& progress)
 {
     if (!atoms.labels || atoms.labels->groups.empty()) return {};
     const BallLabels& labels = *atoms.labels;
-    std::vector<Color> colors = distinctColors(
-        contacts(atoms.balls, labels.groupOf, labels.groups.size(), visibleGap, progress));
+    std::vector<std::int32_t> places;
+    for (const Group& group : labels.groups) places.push_back(group.place);
+    std::vector<Color> colors = colorsOfPlaces(places);
+    if (colors.empty())
+        colors = distinctColors(
+            contacts(atoms.balls, labels.groupOf, labels.groups.size(), visibleGap, progress));
     for (std::size_t g = 0; g < labels.groups.size(); ++g) {
         if (labels.groups[g].color) colors[g] = *labels.groups[g].color;
     }

@@ -18,14 +18,18 @@ namespace molsurf
 /// The colour of what has no label.
 constexpr Color neutralColor = {190, 190, 190};
 
+/// The colour of what has no value on a scale.
+// measured: CIEDE2000 to any colour of any palette under shading by 0.15 to 1 in linear light: 14.9
+constexpr Color noValueColor = {172, 204, 180};
+
 /// As many things as this can have colours of their own.
 constexpr std::size_t mostDistinct = 40;
 
 /// Colours for things that touch each other. Up to mostDistinct of them have colours of their own,
-/// any two of which differ by 10 or more (CIEDE2000), also from the neutral one; the first eight
-/// are those that the colour-blind can tell apart (Okabe and Ito, Color universal design, 2008).
-/// More things share these eight: each takes the first that no neighbour of lower index has, the
-/// least used of them, and one of the others if neighbours have all.
+/// any two of which differ by 10 or more (CIEDE2000), also from the neutral one and that of no
+/// value; the first eight are those that the colour-blind can tell apart (Okabe and Ito, Color
+/// universal design, 2008). More things share these eight: each takes the first that no neighbour
+/// of lower index has, the least used of them, and one of the others if neighbours have all.
 ///
 /// @param[in] neighbours  for each thing those that it touches
 std::vector<Color> distinctColors(const std::vector<std::vector<std::int32_t>>& neighbours);
@@ -35,7 +39,8 @@ std::vector<Color> distinctColors(const std::vector<std::vector<std::int32_t>>& 
 void checkColors(const BallSet& atoms, ColorBy by);
 
 /// The colour of every ball: elements by the CPK convention (with Jmol's values), chains and groups
-/// by distinctColors() where the file of groups gives none.
+/// by their places in the file, where each has a colour of its own, else by distinctColors().
+/// The file of groups may give others.
 ///
 /// @param[in] by  Chain, Group, Element or Residue
 /// @return one colour a ball; all neutral without labels

@@ -25,7 +25,8 @@ constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
 Color colorOn(const ColorScale& scale, float value)
 {
-    return std::isfinite(value) && scale.high > scale.low ? scale.at(double(value)) : neutralColor;
+    if (!std::isfinite(value)) return noValueColor;
+    return scale.high > scale.low ? scale.at(double(value)) : neutralColor;
 }
 
 double powerOf(const Ball& ball, const Vec3d& x)
@@ -114,7 +115,7 @@ Color PointValues::colorOf(const PointValue& value) const
     Color out = colorOn(scale_, value.value);
     for (std::size_t c = 0; c < out.size(); ++c)
         out[c] = std::uint8_t(std::lround(value.share * float(out[c]) +
-                                          (1.0f - value.share) * float(neutralColor[c])));
+                                          (1.0f - value.share) * float(noValueColor[c])));
     return out;
 }
 

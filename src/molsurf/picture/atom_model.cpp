@@ -26,6 +26,14 @@ constexpr int circle = 24; // corners
 constexpr Color white = {255, 255, 255};
 constexpr Color carbonColor = {242, 184, 60};
 
+/// Adds what a legend does not have yet.
+void addEntry(const std::string& name, const Color& color, std::vector<LegendEntry>& entries)
+{
+    for (const LegendEntry& entry : entries)
+        if (entry.name == name && entry.color == color) return;
+    entries.push_back({name, color});
+}
+
 /// A point of a circle of `circle` corners.
 Vec3d onCircle(int k, const Vec3d& u, const Vec3d& v)
 {
@@ -96,11 +104,13 @@ std::vector<std::array<std::size_t, 2>> bondsOf(const BallSet& atoms)
 }
 
 /// Elements by their colours, but carbon, which is to be told from a grey surface.
-std::vector<Color> atomColors(const BallSet& atoms, const Progress& progress)
+std::vector<Color> atomColors(const BallSet& atoms, const Progress& progress, AtomModel& model)
 {
     std::vector<Color> colors = ballColors(atoms, ColorBy::Element, progress);
     for (std::size_t i = 0; i < colors.size(); ++i)
         if (atoms.labels->elementOf[i] == carbonElement) colors[i] = carbonColor;
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        addEntry(elementSymbol(atoms.labels->elementOf[i]), colors[i], model.elements);
     return colors;
 }
 
@@ -108,7 +118,7 @@ std::vector<Color> atomColors(const BallSet& atoms, const Progress& progress)
 void addBonded(const BallSet& atoms, const Progress& progress, double stick,
                double (*sizeOf)(const Ball&), AtomModel& model)
 {
-    const std::vector<Color> colors = atomColors(atoms, progress);
+    const std::vector<Color> colors = atomColors(atoms, progress, model);
     for (std::size_t i = 0; i < atoms.balls.size(); ++i)
         addBall(atoms.balls[i].center, sizeOf(atoms.balls[i]), colors[i], model);
     for (const auto& [i, j] : bondsOf(atoms)) {
@@ -135,7 +145,7 @@ void addBalls(const BallSet& atoms, const Progress& progress, AtomModel& model)
 
 void addSpheres(const BallSet& atoms, const Progress& progress, AtomModel& model)
 {
-    const std::vector<Color> colors = atomColors(atoms, progress);
+    const std::vector<Color> colors = atomColors(atoms, progress, model);
     for (std::size_t i = 0; i < atoms.balls.size(); ++i)
         addBall(atoms.balls[i].center, atoms.balls[i].radius, colors[i], model);
 }
@@ -192,7 +202,11 @@ void addTubes(const BallSet& atoms, const Progress& progress, AtomModel& model)
     std::int32_t chain = -1;
     int kind = 0;
     const auto end = [&] {
-        if (points.size() > 1) addTube(points, colors[std::size_t(chain)], model);
+        if (points.size() > 1) {
+            const Color& color = colors[std::size_t(chain)];
+            addTube(points, color, model);
+            addEntry(atoms.labels->chains[std::size_t(chain)], color, model.chains);
+        }
         points.clear();
     };
     for (std::size_t i = 0; i < atoms.balls.size(); ++i) {

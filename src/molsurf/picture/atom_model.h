@@ -5,6 +5,7 @@
 /// Atoms as balls, sticks and tubes, to be seen beside a surface.
 
 #include "molsurf/atoms.h"
+#include "molsurf/color/legend.h"
 #include "molsurf/mesh.h"
 #include "molsurf/mesh/mesh_instance.h"
 #include "molsurf/progress.h"
@@ -19,6 +20,7 @@ namespace molsurf
 struct AtomModel {
     Mesh mesh; ///< a ball and a stick of radius 1, and the tubes as they are
     std::vector<MeshInstance> instances;
+    std::vector<LegendEntry> chains, elements; ///< of tubes, and of balls and sticks
 };
 
 /// A way to show atoms.

@@ -2,6 +2,7 @@
 #include "molsurf/picture/draw_legend.h"
 
 #include "molsurf/core/words.h"
+#include "molsurf/picture/atom_model.h"
 #include "molsurf/picture/font.h"
 
 #include <algorithm>
@@ -14,6 +15,7 @@ namespace
 {
 
 constexpr double widestName = 0.3; // of the picture
+constexpr const char* chainsAndElements = "Chain, element";
 
 /// Sizes in the column, all of them in proportion to the letters [pixel].
 struct Sizes {
@@ -137,6 +139,23 @@ public:
 
     void skip(int pixels) { y_ += pixels; }
 
+    /// @param[in] entries  of it, and a last one for those that are left out
+    void legend(const Legend& legend, const std::vector<LegendEntry>& entries, int barHeight)
+    {
+        const int line = font_.lineHeight();
+        text(legend.title);
+        if (legend.scale) {
+            if (!legend.unit.empty()) text(unitText(legend));
+            skip(sizes_.gap + line / 2);
+            bar(*legend.scale, barHeight);
+            skip(line / 2);
+        } else {
+            skip(sizes_.gap);
+        }
+        for (std::size_t i = 0; i < entries.size(); ++i)
+            entry(entries[i], entries.size() == legend.entries.size() || i + 1 < entries.size());
+    }
+
     void entry(const LegendEntry& entry, bool patch)
     {
         const int indent = sizes_.patch + sizes_.gap, top = y_ + sizes_.letters - sizes_.patch + 2;
@@ -178,55 +197,82 @@ private:
 
 } // namespace
 
-int legendWidth(const Legend& legend, int width)
+std::vector<Legend> legendsOf(const std::optional<Legend>& surface, const AtomModel* model)
+{
+    std::vector<Legend> legends;
+    if (surface) legends.push_back(*surface);
+    if (!model) return legends;
+    const auto add = [&](const std::string& title, const std::vector<LegendEntry>& entries) {
+        if (entries.empty()) return;
+        const bool joins = surface && !surface->scale &&
+                           (surface->title == title || surface->title == chainsAndElements);
+        if (!joins) legends.push_back({title, "", "", "", {}, {}});
+        std::vector<LegendEntry>& to = (joins ? legends.front() : legends.back()).entries;
+        for (const LegendEntry& entry : entries)
+            if (std::none_of(to.begin(), to.end(), [&](const LegendEntry& known) {
+                    return known.name == entry.name && known.color == entry.color;
+                }))
+                to.push_back(entry);
+    };
+    add("Chain", model->chains);
+    add("Element", model->elements);
+    return legends;
+}
+
+int legendWidth(const std::vector<Legend>& legends, int width)
 {
     const Sizes sizes(width);
     const Font font(sizes.letters);
-    int widest = font.width(legend.title);
-    if (legend.scale) {
-        for (const std::string& tick : tickTexts(*legend.scale))
-            widest = std::max(widest, sizes.bar + sizes.gap + font.width(tick));
-        if (!legend.unit.empty()) widest = std::max(widest, font.width(unitText(legend)));
-    } else {
-        widest = std::max(widest, font.width(restText(legend.entries.size())));
+    int widest = 0;
+    for (const Legend& legend : legends) {
+        widest = std::max(widest, font.width(legend.title));
+        if (legend.scale) {
+            for (const std::string& tick : tickTexts(*legend.scale))
+                widest = std::max(widest, sizes.bar + sizes.gap + font.width(tick));
+            if (!legend.unit.empty()) widest = std::max(widest, font.width(unitText(legend)));
+        } else {
+            widest = std::max(widest, font.width(restText(legend.entries.size())));
+        }
+        for (const LegendEntry& entry : legend.entries)
+            widest = std::max(widest, sizes.patch + sizes.gap +
+                                          font.width(shortened(entry.name, font, width)));
     }
-    for (const LegendEntry& entry : legend.entries)
-        widest = std::max(widest,
-                          sizes.patch + sizes.gap + font.width(shortened(entry.name, font, width)));
     return widest + 3 * sizes.gap;
 }
 
-Picture withLegend(const Picture& picture, const Legend& legend, int width, const Color& background)
+Picture withLegends(const Picture& picture, const std::vector<Legend>& legends, int width,
+                    const Color& background)
 {
     const Sizes sizes(width);
     const Font font(sizes.letters);
     const int line = font.lineHeight(), barHeight = 9 * line;
-    const int below = legend.scale ? int(legend.entries.size()) * line : 0;
-    const int fixed =
-        legend.scale ? 2 * line + sizes.gap + barHeight + line + below : line + sizes.gap;
-
-    const int height = std::max(picture.height, legend.scale ? fixed + 2 * sizes.gap : 6 * line);
-    Picture out = enlarged(picture, width, height, (height - picture.height) / 2, background);
-    const Color ink = inkOn(background);
-    const int left = picture.width + sizes.gap;
-    if (legend.scale) {
-        Column column(sizes, font, left, (out.height - fixed) / 2, ink, out);
-        column.text(legend.title);
-        if (!legend.unit.empty()) column.text(unitText(legend));
-        column.skip(sizes.gap + line / 2);
-        column.bar(*legend.scale, barHeight);
-        column.skip(line / 2);
-        for (const LegendEntry& entry : legend.entries) column.entry(entry, true);
-        return out;
+    constexpr int fewest = 2;            // lines of names, as many as there is no room for
+    int fixed = 0, least = 0, lists = 0; // heights, and number of lists
+    for (const Legend& legend : legends) {
+        const int below = int(legend.entries.size()) * line;
+        fixed += legend.scale ? 2 * line + sizes.gap + barHeight + line + below : line + sizes.gap;
+        least += legend.scale ? 0 : std::min(int(legend.entries.size()), fewest) * line;
+        lists += !legend.scale;
     }
-    const int room = (out.height - 2 * sizes.gap - fixed) / line;
-    const auto entries = shownEntries(legend.entries, std::size_t(std::max(room, 0)));
-    const int all = fixed + int(entries.size()) * line;
-    Column column(sizes, font, left, std::max((out.height - all) / 2, 0), ink, out);
-    column.text(legend.title);
-    column.skip(sizes.gap);
-    for (std::size_t i = 0; i < entries.size(); ++i)
-        column.entry(entries[i], entries.size() == legend.entries.size() || i + 1 < entries.size());
+    fixed += (int(legends.size()) - 1) * line; // between them
+    const int height = std::max({picture.height, fixed + least + 2 * sizes.gap, 6 * line});
+    Picture out = enlarged(picture, width, height, (height - picture.height) / 2, background);
+    std::vector<std::vector<LegendEntry>> shown;
+    int room = (out.height - 2 * sizes.gap - fixed) / line, all = fixed;
+    for (const Legend& legend : legends) {
+        shown.push_back(legend.entries);
+        if (legend.scale) continue;
+        const int others = fewest * --lists;
+        shown.back() = shownEntries(legend.entries, std::size_t(std::max(room - others, 0)));
+        room -= int(shown.back().size());
+        all += int(shown.back().size()) * line;
+    }
+    Column column(sizes, font, picture.width + sizes.gap, std::max((out.height - all) / 2, 0),
+                  inkOn(background), out);
+    for (std::size_t n = 0; n < legends.size(); ++n) {
+        if (n > 0) column.skip(line);
+        column.legend(legends[n], shown[n], barHeight);
+    }
     return out;
 }
 
@@ -248,14 +294,14 @@ Picture withScaleBar(const Picture& picture, int width, const Color& background)
     return out;
 }
 
-Picture drawExplained(const Mesh& mesh, DrawOptions options, const std::optional<Legend>& legend,
+Picture drawExplained(const Mesh& mesh, DrawOptions options, const std::vector<Legend>& legends,
                       bool scaleBar, const Progress& progress)
 {
     const int width = options.width;
-    if (legend) options.width = std::max(width - legendWidth(*legend, width), width / 2);
+    if (!legends.empty()) options.width = std::max(width - legendWidth(legends, width), width / 2);
     Picture picture = drawMesh(mesh, options, progress);
     if (scaleBar && picture.pixel > 0.0) picture = withScaleBar(picture, width, options.background);
-    if (legend) picture = withLegend(picture, *legend, width, options.background);
+    if (!legends.empty()) picture = withLegends(picture, legends, width, options.background);
     return picture;
 }
 

@@ -8,21 +8,27 @@
 #include "molsurf/picture/draw_mesh.h"
 
 #include <optional>
+#include <vector>
 
 namespace molsurf
 {
 
-/// Width of the column that a legend takes [pixel].
-/// @param[in] width  of the whole picture, which decides the size of the letters
-int legendWidth(const Legend& legend, int width);
+/// What explains the surface and the atoms of a picture: chains and elements of atoms join the
+/// legend that has others of them, or have one of their own.
+/// @param[in] model  null: no atoms are shown
+std::vector<Legend> legendsOf(const std::optional<Legend>& surface, const AtomModel* model);
 
-/// The picture with a legend in a column on its right: a bar with its range and unit and what has
-/// no value, or names and their colours; of more names than have room, the first ones and "+" how
-/// many more there are. Letters are black on a light background and white on a dark one.
+/// Width of the column that legends take [pixel].
+/// @param[in] width  of the whole picture, which decides the size of the letters
+int legendWidth(const std::vector<Legend>& legends, int width);
+
+/// The picture with legends in a column on its right, each a bar with its range and unit and what
+/// has no value, or names and their colours; of more names than have room, the first ones and "+"
+/// how many more there are. Letters are black on a light background and white on a dark one.
 ///
 /// @param[in] width  of the whole: picture.width + legendWidth()
-Picture withLegend(const Picture& picture, const Legend& legend, int width,
-                   const Color& background);
+Picture withLegends(const Picture& picture, const std::vector<Legend>& legends, int width,
+                    const Color& background);
 
 /// The picture with a bar below its left end that shows a length: the largest of 1, 2 and 5 times a
 /// power of ten Å that is a quarter of the width at most.
@@ -32,9 +38,9 @@ Picture withScaleBar(const Picture& picture, int width, const Color& background)
 
 /// Draws a mesh with what explains it.
 /// @param[in] options   of the whole: what is beside the mesh takes of its width, half at most
-/// @param[in] legend    if it has one
+/// @param[in] legends   none: it has no column for them
 /// @param[in] scaleBar  whether a picture that is to scale gets a bar
-Picture drawExplained(const Mesh& mesh, DrawOptions options, const std::optional<Legend>& legend,
+Picture drawExplained(const Mesh& mesh, DrawOptions options, const std::vector<Legend>& legends,
                       bool scaleBar, const Progress& progress);
 
 } // namespace molsurf

@@ -111,7 +111,7 @@ Json modeOf(const Legend& legend, const Mesh& mesh, const std::string& level, Ar
             const double place = (value - low) / range;
             return std::uint32_t(std::lround(last * std::clamp(place, 0.0, 1.0)));
         });
-        if (missing) mode["missing"] = colorJson(neutralColor);
+        if (missing) mode["missing"] = colorJson(noValueColor);
         mode["kind"] = "scale";
         mode["array"] = legend.attribute;
         mode["unit"] = legend.unit;

@@ -267,33 +267,40 @@ class GroupNames
 public:
     GroupNames(const Structure& structure, const GroupBy& by) : by_(by), chains_(structure.chains)
     {
-        if (by.kind == GroupBy::Kind::Entity) sequences_ = sequences(structure);
+        if (by.kind != GroupBy::Kind::Entity) return;
+        sequences_ = sequences(structure);
+        for (const bool empty : {false, true}) // of waters alone
+            for (const std::string& sequence : sequences_)
+                if (sequence.empty() == empty)
+                    entities_.emplace(sequence, std::int32_t(entities_.size()));
     }
 
-    /// The name of the group of a residue.
-    /// @param[in] chain  name of its chain in this copy
-    /// @param[in] copy   number of the copy
-    std::string nameOf(const Residue& residue, const std::string& chain, int copy)
+    /// The group of a residue, without balls.
+    /// @param[in] chain       name of its chain in this copy
+    /// @param[in] chainPlace  of that chain
+    /// @param[in] copy        number of the copy
+    Group groupOf(const Residue& residue, const std::string& chain, std::int32_t chainPlace,
+                  int copy) const
     {
         switch (by_.kind) {
         case GroupBy::Kind::Chain:
-            return chain;
+            return {chain, 0, {}, chainPlace};
         case GroupBy::Kind::Class:
-            return "class " + chains_[std::size_t(residue.chain)];
+            return {"class " + chains_[std::size_t(residue.chain)], 0, {}, residue.chain};
         case GroupBy::Kind::Copy:
-            return "copy " + std::to_string(copy);
+            return {"copy " + std::to_string(copy), 0, {}, copy - 1};
         case GroupBy::Kind::Entity: {
-            const std::int32_t next = std::int32_t(entities_.size()) + 1;
-            const auto found =
-                entities_.emplace(sequences_[std::size_t(residue.chain)], next).first;
-            return "entity " + std::to_string(found->second);
+            const std::int32_t entity = entities_.at(sequences_[std::size_t(residue.chain)]);
+            return {"entity " + std::to_string(entity + 1), 0, {}, entity};
         }
         default:
             const int size = by_.residues;
             const int block =
                 residue.number >= 1 ? (residue.number - 1) / size : (residue.number - size) / size;
-            return chain + "/" + std::to_string(block * size + 1) + "-" +
-                   std::to_string((block + 1) * size);
+            return {chain + "/" + std::to_string(block * size + 1) + "-" +
+                        std::to_string((block + 1) * size),
+                    0,
+                    {}};
         }
     }
 
@@ -301,7 +308,7 @@ private:
     GroupBy by_;
     const std::vector<std::string>& chains_;       // names in the file
     std::vector<std::string> sequences_;           // of the chains
-    std::map<std::string, std::int32_t> entities_; // by sequence
+    std::map<std::string, std::int32_t> entities_; // by sequence, from 0
 };
 
 constexpr std::array<const char*, 4> groupWords = {"chain", "entity", "class", "copy"};
@@ -351,15 +358,21 @@ BallLabels labelBalls(const Structure& structure, const BallSet& atoms,
             const std::string chainName = structure.chains[std::size_t(residue.chain)] + suffix;
             const auto [index, isNew] =
                 chainOf.emplace(std::pair(copy, residue.chain), std::int32_t(labels.chains.size()));
-            if (isNew) labels.chains.push_back(chainName);
+            const std::int32_t place =
+                (copy - 1) * std::int32_t(structure.chains.size()) + residue.chain;
+            if (isNew) {
+                labels.chains.push_back(chainName);
+                labels.chainPlaces.push_back(place);
+            }
             labels.chainOf[i] = index->second;
             labels.elementOf[i] = atom.element;
             labels.residueClassOf[i] = classOf(residue.name);
             if (by) {
                 if (atom.residue != lastResidue || i == placement.begin[c]) {
-                    const std::string name = names.nameOf(residue, chainName, copy);
-                    const auto added = number.emplace(name, std::int32_t(labels.groups.size()));
-                    if (added.second) labels.groups.push_back({name, 0, {}});
+                    const Group group = names.groupOf(residue, chainName, place, copy);
+                    const auto added =
+                        number.emplace(group.name, std::int32_t(labels.groups.size()));
+                    if (added.second) labels.groups.push_back(group);
                     lastGroup = added.first->second;
                     lastResidue = atom.residue;
                 }

@@ -37,6 +37,7 @@ BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which, Coun
     const BallLabels& all = *atoms.labels;
     BallLabels& labels = out.labels.emplace();
     labels.chains = all.chains;
+    labels.chainPlaces = all.chainPlaces;
     labels.groups = all.groups;
     labels.chainOf = gather(all.chainOf, which);
     labels.groupOf = gather(all.groupOf, which);

@@ -125,7 +125,7 @@ TEST(ColorTable, ValuesThatAreMissingAreInTheLegend)
     const auto legend = legendOf(ColorBy::Value, atoms, mesh, Progress());
     ASSERT_EQ(legend->entries.size(), 1u);
     EXPECT_EQ(legend->entries[0].name, "no value");
-    EXPECT_EQ(legend->entries[0].color, neutralColor);
+    EXPECT_EQ(legend->entries[0].color, noValueColor);
 }
 
 } // namespace

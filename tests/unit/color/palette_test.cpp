@@ -75,10 +75,42 @@ TEST(Palette, FortyColoursDifferByTen)
         distinctColors(std::vector<std::vector<std::int32_t>>(mostDistinct));
     ASSERT_EQ(colors.size(), 40u);
     EXPECT_EQ(colors[0], (Color{86, 180, 233}));
+    for (const Color& color : colors) EXPECT_GE(labOf(color)[0], 35.0);
     colors.push_back(neutralColor);
+    colors.push_back(noValueColor);
     for (std::size_t i = 0; i < colors.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             EXPECT_GE(differenceOf(labOf(colors[i]), labOf(colors[j])), 10.0) << i << " " << j;
+}
+
+TEST(Palette, NoPaletteOfValuesHasTheColourOfNoValue)
+{
+    for (const Palette& palette : paletteTable()) {
+        const ColorScale scale = scaleOf(palette.word, 0.0, 1.0);
+        for (int i = 0; i <= 100; ++i)
+            for (int j = 3; j <= 20; ++j) {
+                const openvdb::Vec3f light = linearLight(scale.at(0.01 * i));
+                Color shaded;
+                for (int c = 0; c < 3; ++c) shaded[c] = fromLinearLight(0.05 * j * light[c]);
+                ASSERT_GE(differenceOf(labOf(shaded), labOf(noValueColor)), 10.0)
+                    << palette.word << " " << i << " " << j;
+            }
+    }
+}
+
+TEST(Palette, ChainsHaveTheColoursOfTheirPlaces)
+{
+    const std::vector<Color> all =
+        distinctColors(std::vector<std::vector<std::int32_t>>(mostDistinct));
+    BallSet atoms;
+    BallLabels& labels = atoms.labels.emplace();
+    labels.chains = {"C", "A"};
+    labels.chainPlaces = {2, 0};
+    EXPECT_EQ(chainColors(atoms, Progress()), (std::vector<Color>{all[2], all[0]}));
+    labels.chainPlaces = {2, 40}; // which has none of its own
+    EXPECT_EQ(chainColors(atoms, Progress()), (std::vector<Color>{all[0], all[1]}));
+    labels.groups = {{"entity 4", 0, {}, 3}, {"own", 0, Color{1, 2, 3}, 5}, {"first", 0, {}, 0}};
+    EXPECT_EQ(groupColors(atoms, Progress()), (std::vector<Color>{all[3], {1, 2, 3}, all[0]}));
 }
 
 TEST(Palette, OneMoreSharesAndSaysSo)

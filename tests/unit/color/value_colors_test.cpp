@@ -113,14 +113,14 @@ TEST_F(BlendTest, HasNoJumps)
     }
 }
 
-TEST_F(BlendTest, FadesToNeutralWhereBallsHaveNone)
+TEST_F(BlendTest, FadesToNoValueWhereBallsHaveNone)
 {
     atoms.labels->values->valueOf[1] = atoms.labels->values->valueOf[2] = std::nanf("");
     const PointValues values(atoms, 1.4);
     EXPECT_FLOAT_EQ(at(0.75, 1.6).share, 0.5f);
     EXPECT_FLOAT_EQ(at(0.75, 1.6).value, 10.0f);
     EXPECT_TRUE(std::isnan(at(10.7, 0.0).value));
-    EXPECT_EQ(values.colorOf(at(10.7, 0.0)), neutralColor);
+    EXPECT_EQ(values.colorOf(at(10.7, 0.0)), noValueColor);
     Mesh mesh;
     mesh.positions = {Vec3f(0.7f, 1.6f, 0), Vec3f(0.8f, 1.6f, 0)};
     mesh.normals.resize(2);

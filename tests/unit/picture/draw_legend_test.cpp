@@ -24,9 +24,9 @@ Picture blank(int width, int height)
 
 Picture drawn(const Legend& legend, int width, int height)
 {
-    const int column = legendWidth(legend, width);
+    const int column = legendWidth({legend}, width);
     EXPECT_LT(column, width / 2);
-    return withLegend(blank(width - column, height), legend, width, background);
+    return withLegends(blank(width - column, height), {legend}, width, background);
 }
 
 std::size_t pixelsOf(const Picture& picture, const Color& color)

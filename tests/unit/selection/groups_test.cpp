@@ -101,6 +101,16 @@ TEST(Labels, GroupsByChainEntityCopyAndResidues)
     ASSERT_EQ(entities.groups.size(), 2u);
     EXPECT_EQ(entities.groups[0].balls, chains.groups[0].balls + chains.groups[2].balls);
 
+    // Names and places are of the file, whatever is selected.
+    EXPECT_EQ(entities.groups[1].place, 1);
+    options.select = "chain B+D";
+    const BallLabels some = labelled(options);
+    EXPECT_EQ(some.chainPlaces, (std::vector<std::int32_t>{1, 3}));
+    ASSERT_EQ(some.groups.size(), 1u);
+    EXPECT_EQ(some.groups[0].name, "entity 2");
+    EXPECT_EQ(some.groups[0].place, 1);
+    options.select.clear();
+
     options.groupBy = parseGroupBy("copy");
     options.assembly = "1";
     const BallLabels copies = labelled(options, "/1a8o.cif.gz");
@@ -109,6 +119,8 @@ TEST(Labels, GroupsByChainEntityCopyAndResidues)
     EXPECT_EQ(copies.groups[1].name, "copy 2");
     EXPECT_EQ(copies.chains.size(), 2u);
     EXPECT_EQ(copies.chains[1], "A-2");
+    EXPECT_EQ(copies.chainPlaces, (std::vector<std::int32_t>{0, 1}));
+    EXPECT_EQ(copies.groups[1].place, 1);
 
     options.assembly.reset();
     options.groupBy = parseGroupBy("residues:20");
