@@ -7,18 +7,19 @@ case $words[2] in
     help|build|batch|compare|convert|bricks|info) verb=$words[2] ;;
 esac
 case "$verb:$words[CURRENT-1]" in
-    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
+    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
+    "build:--match") compadd -- 'none' 'ses'; return ;;
     "build:--coarse") compadd -- 'atom' 'residue'; return ;;
     "build:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
     "build:--split") compadd -- 'group'; return ;;
-    "build:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "build:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "build:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "build:--value-of") compadd -- 'atom' 'residue'; return ;;
     "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces'; return ;;
     "build:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
-    "build:--for") compadd -- 'blender' 'blender4' 'houdini' 'usd'; return ;;
+    "build:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd'; return ;;
     "build:--view") compadd -- 'auto'; return ;;
     "build:--background") compadd -- 'transparent'; return ;;
     "build:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
@@ -28,15 +29,16 @@ case "$verb:$words[CURRENT-1]" in
     "build:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
     "batch:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "batch:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
+    "batch:--match") compadd -- 'none' 'ses'; return ;;
     "batch:--coarse") compadd -- 'atom' 'residue'; return ;;
     "batch:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
     "batch:--split") compadd -- 'group'; return ;;
-    "batch:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "batch:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "batch:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "batch:--value-of") compadd -- 'atom' 'residue'; return ;;
     "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces'; return ;;
     "batch:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
-    "batch:--for") compadd -- 'blender' 'blender4' 'houdini' 'usd'; return ;;
+    "batch:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd'; return ;;
     "batch:--view") compadd -- 'auto'; return ;;
     "batch:--background") compadd -- 'transparent'; return ;;
     "batch:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
@@ -47,6 +49,7 @@ case "$verb:$words[CURRENT-1]" in
     "compare:--format") compadd -- 'vdb' 'ply' 'json'; return ;;
     "compare:--color") compadd -- 'distance' 'signed-distance'; return ;;
     "compare:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
+    "compare:--match") compadd -- 'none' 'ses'; return ;;
     "compare:--coarse") compadd -- 'atom' 'residue'; return ;;
     "compare:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "compare:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
@@ -60,9 +63,10 @@ case "$verb:$words[CURRENT-1]" in
     "convert:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "bricks plan:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "bricks plan:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
+    "bricks plan:--match") compadd -- 'none' 'ses'; return ;;
     "bricks plan:--coarse") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
-    "bricks plan:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "bricks plan:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "bricks plan:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "bricks plan:--value-of") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--regularizer") compadd -- 'gradient' 'area'; return ;;
@@ -110,6 +114,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--vdb-half:floats of the .vdb in 16 bits, within 0.05 %\: half the size'
       '--curvature-totals:integrate curvature over the surface, for the report'
       '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
+      '--match:ses\: variational with --epsilon 0.1, --lambda 0.003 and 0.073 Å'
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
       '--coarse:beads in the place of atoms\: residue (its backbone and'
       '--match-volume:resolutions keep the volume of the fine surface'
@@ -132,6 +137,10 @@ if [[ $words[CURRENT] == -* ]]; then
       '--center:the middle of the surface comes to the origin'
       '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
       '--min-wall:thicken what is thinner than W mm; with --print-scale'
+      '--apbs-grid:an input of APBS whose dime, glen and gcent are used;'
+      '--pdie:relative permittivity of the molecule'
+      '--sdie:relative permittivity of the solvent'
+      '--ion-conc:concentration of a 1\:1 salt [mol/L]'
       '--view:a direction X,Y,Z toward the eye; atoms that face it, as'
       '--turn:turned by so many degrees about the upright'
       '--size:width in pixels; the height follows the shape'
@@ -197,6 +206,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--vdb-half:floats of the .vdb in 16 bits, within 0.05 %\: half the size'
       '--curvature-totals:integrate curvature over the surface, for the report'
       '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
+      '--match:ses\: variational with --epsilon 0.1, --lambda 0.003 and 0.073 Å'
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
       '--coarse:beads in the place of atoms\: residue (its backbone and'
       '--match-volume:resolutions keep the volume of the fine surface'
@@ -279,6 +289,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--blobbiness:decay of the Gaussians of --surface gaussian'
       '--fill-cavities:drop the inner walls'
       '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
+      '--match:ses\: variational with --epsilon 0.1, --lambda 0.003 and 0.073 Å'
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
       '--coarse:beads in the place of atoms\: residue (its backbone and'
       '--match-volume:resolutions keep the volume of the fine surface'
@@ -366,6 +377,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--fields:grids of the .vdb, by commas, or all of'
       '--vdb-half:floats of the .vdb in 16 bits, within 0.05 %\: half the size'
       '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
+      '--match:ses\: variational with --epsilon 0.1, --lambda 0.003 and 0.073 Å'
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
       '--coarse:beads in the place of atoms\: residue (its backbone and'
       '--groups:groups of atoms\: JSON, or lines NAME SELECTION [COLOUR]'
