@@ -27,10 +27,18 @@ Image.open(sys.argv[1]).convert('RGB').save(sys.argv[2], optimize=True)" "$@"
 
 draw() # NAME SAMPLES SCRIPT WORD...
 {
-  "${blender[@]}" "$scripts/$3" -- "${@:4}" --size 600 --samples $(($2 / fewer)) --render "$1.png" > blender.log 2>&1 ||
+  "${blender[@]}" "$scripts/$3" -- "${@:4}" --size "${size:-600}" --samples $(($2 / fewer)) --render "$1.png" > blender.log 2>&1 ||
     { cat blender.log; exit 1; }
   keep "$1.png" "$out/$1.png"
 }
+
+# Of the first part of the page, by its commands.
+unit=("$data/1a8o.cif.gz" --assembly 1 --size 300 --force -q)
+"$tool" "${unit[@]}" --for blender=nm --fog-density 0.2 -o "$out/art_still.png"
+"$tool" "${unit[@]}" --instances --color copy -o "$out/art_shell.png"
+"$tool" "${unit[@]}" --print-scale 0.5 --min-wall 2 --group-by copy --split group --color group -o "$out/art_print.png"
+"$tool" "$data/1d3z.pdb.gz" --voxel 1 --frames 1-3 --first-frame 1001 --fps 24 --fields v --color element --for usd=nm -q -o film.usda
+size=300 draw art_film 96 open_in_blender.py film.usda --frame 1002 --blur
 
 "$tool" "$data/1a8o.cif.gz" --assembly 1 --voxel 0.25 --for blender -q -o mesh.vdb -o mesh.ply
 "$tool" "$data/1a8o.cif.gz" --assembly 1 --for blender -q -o fog.vdb

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 
 echo "== 1 of 3: packages of Debian that building needs; some 180 MB to load, a minute or two if none is there"
 scripts/install_deps.sh
-echo "== 2 of 3: the program, without its tests; 3 minutes on 2 cores when it is built for the first time"
+echo "== 2 of 3: the program, without its tests; 5 minutes on 2 cores when it is built for the first time"
 # A folder that is configured already, with tests perhaps, stays as it is.
 [[ -f build-release/build.ninja ]] || cmake --preset release -DMOLSURF_BUILD_TESTS=OFF
 cmake --build --preset release --target vdb_molsurf

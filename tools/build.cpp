@@ -229,6 +229,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
         balls.names->residues.size() == 1)
         result.report.warnings.push_back("contacts: all atoms are of one residue [hint: --contacts "
                                          "atom]");
+    if (call.options.grid) checkRequired(call.required, result.mesh, result.report.surface);
     warnOfPaint(call, result.mesh, result.report);
     terminal.erase();
     if (!call.quiet)

@@ -13,6 +13,7 @@
 #include "molsurf/io/frame_table.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/temporary_file.h"
+#include "molsurf/io/usda_text.h"
 #include "molsurf/io/write_table.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/frame_source.h"
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 namespace molsurf::tool
 {
@@ -43,10 +45,13 @@ Call callOf(const Call& call, std::size_t file, int frame)
     };
     for (Output output : call.outputs) {
         if (output.holds(AllFrames)) continue;
-        if (output.holds(Stage))
-            output.beside = numbered(output.beside); // one file for all frames
-        else
+        if (output.holds(Stage)) { // one file for all frames
+            const bool film = output.beside.empty();
+            output.beside = numbered(film ? output.path : output.beside);
+            if (film) one.outputs.push_back({output.beside, output.format});
+        } else {
             output.path = numbered(output.path);
+        }
         one.outputs.push_back(std::move(output));
     }
     return one;
@@ -65,6 +70,20 @@ std::string tableOf(const Call& call)
                                           "[hint: another name, or --force]");
 }
 
+/// The options and the frame that a file was made of.
+std::pair<std::string, std::int64_t> madeOf(const Output& output)
+{
+    if (output.holds(Stage)) {
+        std::int64_t frame = 0;
+        parseWhole(usdaData(output.path, usdaFrame), frame);
+        return {usdaData(output.path, usdaFrameOptions), frame};
+    }
+    const VdbFile stored = readVdb(output.path);
+    const auto made = stored.metadata.getMetadata<openvdb::StringMetadata>("frames.options");
+    const auto frame = stored.metadata.getMetadata<openvdb::Int64Metadata>("frame");
+    return {made ? made->value() : "", frame ? frame->value() : 0};
+}
+
 // Whether the files of a frame are there, whole, and those that this call would write.
 bool isDone(const Call& one, const std::string& options, const FrameTable& table,
             const std::string& tableName, std::size_t file)
@@ -72,16 +91,13 @@ bool isDone(const Call& one, const std::string& options, const FrameTable& table
     std::size_t files = 0, there = 0;
     bool known = false;
     for (const Output& output : one.outputs) {
-        if (output.holds(Stage)) continue;
+        if (!output.beside.empty()) continue;
         ++files;
         std::error_code ignored;
         if (!std::filesystem::exists(output.path, ignored)) continue;
         ++there;
-        if (!output.holds(Grids)) continue;
-        const VdbFile stored = readVdb(output.path);
-        const auto made = stored.metadata.getMetadata<openvdb::StringMetadata>("frames.options");
-        const auto frame = stored.metadata.getMetadata<openvdb::Int64Metadata>("frame");
-        if (!made || !frame || made->value() != options || frame->value() != one.frame)
+        if (!output.holds(Grids | Stage)) continue;
+        if (madeOf(output) != std::make_pair(options, std::int64_t(one.frame)))
             foreign(output.path);
         known = true;
     }
@@ -122,8 +138,9 @@ void addVelocities(const Call& call, const BallSet& selection,
     const std::string length = call.scene.scale == 1.0 ? "Å" : "scene units";
     const VelocityUnit unit{call.scene.scale * perTime,
                             length + (call.fps > 0.0 ? " per second" : " per frame")};
-    result.fields.push_back(
-        velocityGrid(*result.surface, selection, displacement, unit, call.options, progress));
+    if (call.writes(Grids))
+        result.fields.push_back(
+            velocityGrid(*result.surface, selection, displacement, unit, call.options, progress));
     if (call.writes(VertexCurvatures))
         addVelocity(selection, displacement, perTime, call.options, progress, result.mesh);
 }

@@ -2,11 +2,13 @@
 #pragma once
 
 /// @file
-/// The .usda files that stand beside .vdb files.
+/// The .usda files of volumes, meshes and films.
 
 #include "cli/call.h"
 
+#include "molsurf/io/output_file.h"
 #include "molsurf/io/write_usda.h"
+#include "molsurf/mesh.h"
 
 #include <string>
 #include <vector>
@@ -22,9 +24,16 @@ void addSidecars(Call& call);
 /// this program has made, which gets one frame more.
 bool mayReplace(const Call& call, const Output& output);
 
-/// What a .usda says. The frames of a sequence are those in its folder that are of the same input
-/// and options, and the one that is being written.
+/// What the .usda of a volume says. The frames of a sequence are those in its folder that are of
+/// the same input and options, and the one that is being written.
 UsdVolume usdVolume(const Call& call, const Output& output);
+
+/// Writes the .usda of a mesh: of all, of one frame, or the film of all frames in its folder that
+/// are of the same input and options.
+void writeMeshStage(const Call& call, const Output& output, const Mesh& mesh, OutputFile& file);
+
+/// Whether an output is the .usda of a film of meshes.
+bool isFilm(const Output& output);
 
 /// A line for each .usda that leaves out frames of another sequence.
 std::vector<std::string> leftOutOf(const Call& call);

@@ -280,13 +280,30 @@ void writeGrids(const Writing& w, OutputFile& file)
     writeVdb(gridsOf(w.call, w.result), metadata, file);
 }
 
+/// Copies that are all alike share the volume; others are in it once, where the input has them.
+void writeVolumeStage(const Writing& w, OutputFile& file)
+{
+    UsdVolume volume = usdVolume(w.call, w.output);
+    const std::vector<Instance>& copies = w.atoms.placement.instances;
+    const auto isFirst = [](const Instance& copy) { return copy.part == 0; };
+    if (!w.atoms.placement.isWhole() && std::all_of(copies.begin(), copies.end(), isFirst))
+        volume.copies = copies;
+    for (Instance& copy : volume.copies) copy.translation *= w.call.scene.scale;
+    writeUsda(gridsOf(w.call, w.result), volume, file);
+}
+
 void writeStage(const Writing& w, OutputFile& file)
 {
-    if (w.output.beside.empty() && !w.atoms.placement.isWhole())
-        writeUsdaInstances(
-            w.mesh, {stemOf(w.output.path), w.call.scene.scale, instancesOf(w), w.coarser}, file);
+    const bool ofMesh = w.output.beside.empty() || isFilm(w.output);
+    if (ofMesh && !w.atoms.placement.isWhole())
+        writeUsdaInstances(w.mesh,
+                           {stemOf(w.output.path), w.call.scene.scale, instancesOf(w), w.coarser,
+                            w.call.options.fields},
+                           file);
+    else if (ofMesh)
+        writeMeshStage(w.call, w.output, w.mesh, file);
     else
-        writeUsda(gridsOf(w.call, w.result), usdVolume(w.call, w.output), file);
+        writeVolumeStage(w, file);
 }
 
 void writeGlb(const Writing& w, OutputFile& file)
@@ -394,33 +411,37 @@ const std::vector<Format>& formatTable()
         {"glb", meshed,
          Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels, "mesh",
          "", writeGlb},
+        {"usda", Build,
+         Stage | Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels,
+         "mesh", "", writeStage},
         {"3mf", meshed, printed | Paint, "mesh", "", writeMesh},
         {"vert", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
         {"face", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
+        {"poly", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
+        {"msh", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
+        {"msh2", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
         {"mrc", meshed, Volume, "level set in a box", "", writeVolume<writeMrc>},
         {"dx", meshed, Volume, "level set in a box", "", writeVolume<writeDx>},
-        {"dielx.dx", Build, Solver, "maps for APBS", "", writeDielectric<0>},
-        {"diely.dx", Build, Solver, "maps for APBS", "", writeDielectric<1>},
-        {"dielz.dx", Build, Solver, "maps for APBS", "", writeDielectric<2>},
-        {"kappa.dx", Build, Solver, "maps for APBS", "",
+        {"dielx.dx", Build, Solver, "", "", writeDielectric<0>},
+        {"diely.dx", Build, Solver, "", "", writeDielectric<1>},
+        {"dielz.dx", Build, Solver, "", "", writeDielectric<2>},
+        {"kappa.dx", Build, Solver, "", "",
          [](const Writing& w, OutputFile& file) {
              writeIonMap(w.atoms.balls, *w.call.apbsGrid, w.call.dielectric.ionRadius, file);
          }},
-        {"charges.pqr", Build, Solver, "charges", "",
+        {"charges.pqr", Build, Solver, "", "",
          [](const Writing& w, OutputFile& file) { writePqr(*w.atoms.charges, file); }},
-        {"apbs.in", Build, Solver, "input of APBS, with --for apbs", "", writeSolverInput},
-        {"cxc", meshed, Script | Colors | Copies, "script that opens the .glb", "",
+        {"apbs.in", Build, Solver, "", "", writeSolverInput},
+        {"cxc", meshed, Script | Colors | Copies, "scripts that open .glb and .ply", "",
          writeScript<writeChimeraXScript>, "glb"},
-        {"pml", meshed, Script | Colors, "script that opens the .ply", "",
+        {"pml", meshed, Script | Colors, "scripts that open .glb and .ply", "",
          writeScript<writePymolScript>, "ply"},
         {"html", meshed, Colors | ColorChoices | PlainColor | Copies | Levels | Views,
          "page that shows it", "", writePage},
         {"json", all, Numbers | Copies, "report", "",
          [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
         {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "picture", "", writePicture},
-        {"view", meshed, Copies | Views, "from where pictures see it, for --view", "", writeCamera},
-        {"usda", Build, Stage | Colors | SceneUnits | Copies | Levels, "copies, with --instances",
-         "", writeStage},
+        {"view", meshed, Copies | Views, "view of pictures, for --view", "", writeCamera},
         {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},
         {"atoms.csv", built, Areas | AllFrames, ofAreas, "atoms", writeAreaTable},
         {"residues.csv", built, Areas | AllFrames, ofAreas, "residues", writeAreaTable},
@@ -444,7 +465,7 @@ std::string filesOf(unsigned verb)
 {
     std::string all, last;
     for (const Format& format : formatTable()) {
-        if (!(format.verbs & verb)) continue;
+        if (!(format.verbs & verb) || !*format.help) continue;
         if (!last.empty() && last != format.help) all += " " + last + ";";
         all += (all.empty() ? "." : " .") + std::string(format.word);
         last = format.help;

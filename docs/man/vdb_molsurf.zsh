@@ -7,7 +7,7 @@ case $words[2] in
     help|build|batch|compare|convert|bricks|info) verb=$words[2] ;;
 esac
 case "$verb:$words[CURRENT-1]" in
-    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
+    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
     "build:--match") compadd -- 'none' 'ses'; return ;;
@@ -27,6 +27,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "build:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "build:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
+    "build:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "batch:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "batch:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
     "batch:--match") compadd -- 'none' 'ses'; return ;;
@@ -46,6 +47,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "batch:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "batch:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
+    "batch:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "compare:--format") compadd -- 'vdb' 'ply' 'json'; return ;;
     "compare:--color") compadd -- 'distance' 'signed-distance'; return ;;
     "compare:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
@@ -53,7 +55,7 @@ case "$verb:$words[CURRENT-1]" in
     "compare:--coarse") compadd -- 'atom' 'residue'; return ;;
     "compare:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "compare:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
-    "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'view'; return ;;
+    "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'view'; return ;;
     "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
     "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "convert:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature'; return ;;
@@ -142,6 +144,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--sdie:relative permittivity of the solvent'
       '--ion-conc:concentration of a 1\:1 salt [mol/L]'
       '--view:a direction X,Y,Z toward the eye; atoms that face it, as'
+      '--up:what is upright, such as 0,0,1 of a membrane'\''s normal;'
       '--turn:turned by so many degrees about the upright'
       '--size:width in pixels; the height follows the shape'
       '--background:as #rrggbb or #rgb, a name such as black, or transparent'
@@ -166,6 +169,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--memory:memory at most, such as 4G\: in bricks, one by one, if'
       '--max-hours:refuse what is estimated to take more hours'
       '--dry-run:say what it takes, and stop'
+      '--require:what the mesh has to be, or nothing is written and the'
       '--threads:threads at most'
       '-j:threads at most'
       '--quiet:print errors only'
@@ -229,6 +233,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
       '--min-wall:thicken what is thinner than W mm; with --print-scale'
       '--view:a direction X,Y,Z toward the eye; atoms that face it, as'
+      '--up:what is upright, such as 0,0,1 of a membrane'\''s normal;'
       '--turn:turned by so many degrees about the upright'
       '--size:width in pixels; the height follows the shape'
       '--background:as #rrggbb or #rgb, a name such as black, or transparent'
@@ -251,6 +256,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--tolerance:converged when a step moves the surface by less than T'
       '--spline-level:spline on voxels of 2^L times the edge; 0, 1 or 2'
       '--max-hours:refuse what is estimated to take more hours'
+      '--require:what the mesh has to be, or nothing is written and the'
       '--threads:threads at most'
       '-j:threads at most'
       '--quiet:print errors only'
@@ -326,6 +332,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--color:chain, group, element, residue (or residue-type),'
       '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
       '--view:a direction X,Y,Z toward the eye; atoms that face it, as'
+      '--up:what is upright, such as 0,0,1 of a membrane'\''s normal;'
       '--turn:turned by so many degrees about the upright'
       '--size:width in pixels; the height follows the shape'
       '--background:as #rrggbb or #rgb, a name such as black, or transparent'

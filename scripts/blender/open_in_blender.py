@@ -8,7 +8,7 @@ In a window, or without one and with a picture (Cycles on the processor):
     blender -b --factory-startup --python open_in_blender.py -- surface.vdb --render surface.png
 
 Takes a .vdb that was written with `--for blender[=SCALE]` or `--for houdini[=SCALE]`, or the first frame of a sequence
-name.0001.vdb, name.0002.vdb, ... --help lists the options. Tried in Blender 3.4.1 (Debian 12) and in the
+name.0001.vdb, name.0002.vdb, ..., or a .usda of a mesh or of a film of meshes. --help lists the options. Tried in Blender 3.4.1 (Debian 12) and in the
 module bpy 5.2.3, where `python open_in_blender.py -- ...` does; what differs in later versions is guarded, and marked.
 
 Colours: Volume to Mesh makes a mesh without colours. With `--color` they are taken from the grid Cd,
@@ -37,7 +37,7 @@ FARTHER = 0.5 if bpy.app.version < (5, 0, 0) else 0.0
 def arguments():
     words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
     parser = argparse.ArgumentParser(prog="open_in_blender.py", description=__doc__.splitlines()[0])
-    parser.add_argument("vdb", help=".vdb file, or the first frame of a sequence")
+    parser.add_argument("vdb", help=".vdb file, or the first frame of a sequence; or a .usda with a mesh")
     parser.add_argument("--show", choices=("mesh", "volume"), default="mesh",
                         help="the level set as a mesh, or the grid density as fog [mesh]")
     parser.add_argument("--grid", default="surface", help="level set to mesh [surface]")
@@ -45,6 +45,7 @@ def arguments():
                         help="colours by the grid Cd; the mesh is then fixed, not a modifier")
     parser.add_argument("--render", metavar="PNG", help="render a picture")
     parser.add_argument("--frame", type=int, help="frame of a sequence to render [the first]")
+    parser.add_argument("--blur", action="store_true", help="motion blur, of a .usda of frames with --fields v")
     parser.add_argument("--size", type=int, default=800, help="width of the picture [800]")
     parser.add_argument("--samples", type=int, default=48, help="rays a pixel [48]")
     parser.add_argument("--turn", type=float, default=0.0, help="degrees about the upright [0]")
@@ -91,6 +92,20 @@ def load_volume(path):
     volume.location = 3 * [-voxel * (FARTHER + number_of(path, "scene.shift_in_voxels", 0.0))]
     bpy.context.view_layer.update()
     return volume
+
+
+def load_film(path, frame):
+    """Imports a .usda with a mesh, at a frame if it is a film."""
+    if "usd_import" not in dir(bpy.ops.wm):
+        sys.exit(f"{path}: this Blender has no importer of USD")
+    before = set(bpy.data.objects)
+    bpy.ops.wm.usd_import(filepath=str(path), apply_unit_conversion_scale=False)
+    meshes = [obj for obj in set(bpy.data.objects) - before if obj.type == "MESH"]
+    if not meshes:
+        sys.exit(f"{path}: expected a mesh, got none")
+    scene = bpy.context.scene
+    scene.frame_set(scene.frame_start if frame is None else frame)
+    return meshes[0]
 
 
 def mesh_of(volume, grid):
@@ -236,7 +251,7 @@ def new_material(name, kind, output):
     return material, shader
 
 
-def surface_material(colored, size):
+def surface_material(colored, size, attribute="Cd"):
     """Coated, and light enters it as far as a fiftieth of the object's size."""
     material, shader = new_material("surface", "ShaderNodeBsdfPrincipled", "Surface")
     for value, *names in ((0.5, "Roughness"), (0.4, "Specular", "Specular IOR Level"),  # the second from Blender 4.0 on
@@ -249,7 +264,7 @@ def surface_material(colored, size):
     nodes = material.node_tree.nodes
     if colored:
         color = nodes.new("ShaderNodeAttribute")
-        color.attribute_name = "Cd"
+        color.attribute_name = attribute
     else:
         color = nodes.new("ShaderNodeRGB")
         color.outputs["Color"].default_value = PLAIN
@@ -405,14 +420,21 @@ def render(path, samples):
     bpy.ops.render.render(write_still=True)
 
 
-def open_surface(path, show="mesh", grid="surface", color=False, turn=0.0):
-    """Puts a surface and its stage into the scene; the volume and what is shown."""
+def open_surface(path, show="mesh", grid="surface", color=False, turn=0.0, frame=None):
+    """Puts a surface and its stage into the scene; the volume, which a .usda has not, and what is shown."""
     path = pathlib.Path(path).resolve()
     if not path.is_file():
         sys.exit(f"{path}: there is no such file")
     for name in ("Cube", "Light", "Camera"):  # of the scene that Blender starts with
         if name in bpy.data.objects:
             bpy.data.objects.remove(bpy.data.objects[name])
+    if path.suffix == ".usda":
+        shown = load_film(path, frame)
+        colored = "displayColor" in shown.data.attributes
+        shown.data.materials.clear()
+        shown.data.materials.append(surface_material(colored, size_of(shown), "displayColor"))
+        set_stage(shown, turn)
+        return None, shown
     volume = load_volume(path)
     names = [g.name for g in volume.data.grids]
     if show == "volume":
@@ -438,7 +460,9 @@ def open_surface(path, show="mesh", grid="surface", color=False, turn=0.0):
 def main():
     options = arguments()
     set_size(options.size)
-    open_surface(options.vdb, options.show, options.grid, options.color, options.turn)
+    open_surface(options.vdb, options.show, options.grid, options.color, options.turn, options.frame)
+    bpy.context.scene.render.use_motion_blur = options.blur
+    bpy.context.scene.render.motion_blur_shutter = 1.0  # of a frame
     if options.frame is not None:
         bpy.context.scene.frame_set(options.frame)
     if options.save:

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MPL-2.0
 """Loads a surface of vdb_molsurf in Houdini, from hython or a Python shell.
 
-NOT TESTED: Houdini was not at hand. It uses the nodes file, blast, convertvdb, attribfromvolume and
-normal as SideFX documents them.
+NOT TESTED: Houdini was not at hand. The names of nodes and parameters are those of nodes.json, which
+says where each is documented.
 
     hython load_in_houdini.py surface.vdb scene.hipnc
 
@@ -15,7 +15,7 @@ The nodes, /obj/molecular_surface:
     read      File           all grids of the .vdb
     keep      Blast          only the VDB named surface
     mesh      Convert VDB    to polygons at 0, the level set's own surface
-    color     Attribute from Volume: Cd at the points, from the grid Cd
+    color     Attribute from Volume: Cd at the points, three floats, from the grid Cd
     normals   Normal
 """
 
@@ -34,34 +34,29 @@ def pattern_of(path):
     return str(path.parent / f"{match[1]}$F{len(match[2])}{match[3]}")
 
 
+def make(geo, kind, label, /, *inputs, **parameters):
+    """A node with these inputs and parameters."""
+    node = geo.createNode(kind, label)
+    for number, other in enumerate(inputs):
+        node.setInput(number, other)
+    for parameter, value in parameters.items():
+        if node.parm(parameter) is None:
+            raise SystemExit(f"{kind}: expected the parameter {parameter}, got none in this Houdini")
+        node.parm(parameter).set(value)
+    return node
+
+
 def load(path):
     """Makes the nodes; returns the geometry object."""
     path = pathlib.Path(path).resolve()
     if not path.is_file():
         raise SystemExit(f"{path}: there is no such file")
     geo = hou.node("/obj").createNode("geo", "molecular_surface")
-    read = geo.createNode("file", "read")
-    read.parm("file").set(pattern_of(path))
-
-    keep = geo.createNode("blast", "keep")
-    keep.setInput(0, read)
-    keep.parm("group").set("@name=surface")
-    keep.parm("negate").set(True)
-
-    mesh = geo.createNode("convertvdb", "mesh")
-    mesh.setInput(0, keep)
-    mesh.parm("conversion").set("poly")
-    mesh.parm("isoValue").set(0.0) if mesh.parm("isoValue") else mesh.parm("isovalue").set(0.0)
-
-    color = geo.createNode("attribfromvolume", "color")
-    color.setInput(0, mesh)
-    color.setInput(1, read)
-    for name, value in (("field", "Cd"), ("name", "Cd")):
-        if color.parm(name):  # parameter names differ between versions
-            color.parm(name).set(value)
-
-    normals = geo.createNode("normal", "normals")
-    normals.setInput(0, color)
+    read = make(geo, "file", "read", file=pattern_of(path))
+    keep = make(geo, "blast", "keep", read, group="@name=surface", grouptype="prims", negate=True)
+    mesh = make(geo, "convertvdb", "mesh", keep, conversion="poly")  # at 0, by default
+    color = make(geo, "attribfromvolume", "color", mesh, read, field="Cd", name="Cd", type="float", size=3)
+    normals = make(geo, "normal", "normals", color)
     normals.setDisplayFlag(True)
     normals.setRenderFlag(True)
     geo.layoutChildren()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """Runs in Blender or bpy for test_blender.py: opens files by Blender's own importers, and prints what arrives as JSON
-on a line that starts with RESULT. Words: files; those of a kind that this Blender has no importer for give null."""
+on a line that starts with RESULT. Words: files, at a frame as a.usda@2; those of a kind that this Blender has no
+importer for give null."""
 
 import json
 import pathlib
@@ -30,11 +31,12 @@ def import_file(path):
 
 
 def values(attribute):
-    kind = {"FLOAT": "value", "INT": "value", "FLOAT_COLOR": "color", "BYTE_COLOR": "color"}.get(attribute.data_type)
+    kind = {"FLOAT": "value", "INT": "value", "FLOAT_COLOR": "color", "BYTE_COLOR": "color",
+            "FLOAT_VECTOR": "vector"}.get(attribute.data_type)
     if attribute.domain not in ("POINT", "CORNER") or kind is None or attribute.name.startswith("."):
         return None
     found = [getattr(each, kind) for each in attribute.data]
-    return [list(value) if kind == "color" else value for value in found]
+    return [value if kind == "value" else list(value) for value in found]
 
 
 def mesh(data, matrix):
@@ -55,12 +57,17 @@ def what_is_shown():
         if obj.type == "VOLUME":
             obj.data.grids.load()
             shown["volumes"].append({"grids": {grid.name: grid.data_type for grid in obj.data.grids},
-                                     "error": obj.data.grids.error_message})
+                                     "error": obj.data.grids.error_message,
+                                     "matrix": [list(row) for row in instance.matrix_world]})
     return shown
 
 
 result = []
 for word in sys.argv[sys.argv.index("--") + 1:]:
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    result.append(what_is_shown() if import_file(pathlib.Path(word).resolve()) else None)
+    name, _, frame = word.partition("@")
+    known = import_file(pathlib.Path(name).resolve())
+    if frame:
+        bpy.context.scene.frame_set(int(frame))
+    result.append(what_is_shown() if known else None)
 print("RESULT " + json.dumps(result))

@@ -80,6 +80,7 @@ NEEDS = {
     "gltf-validator": (
         lambda: NODE and runs(NODE, "-e", "require('gltf-validator')", env=NODE_ENVIRONMENT),
         "npm install --prefix build-tools gltf-validator"),
+    "gmsh": (program("gmsh"), "scripts/install_deps.sh gmsh"),
     "groff": (program("groff", "preconv"), "scripts/install_deps.sh groff"),
     "maps": (lambda: all(map(importlib.util.find_spec, ("mrcfile", "gridData", "skimage"))),
              "scripts/install_deps.sh python3-mrcfile python3-griddataformats python3-skimage"),
@@ -106,6 +107,7 @@ NEEDS = {
     "terminal": (has_terminal, "a system with pseudo-terminals"),
     "user": (lambda: runs(os.environ["VDB_MOLSURF"], "--version", **other_user()),
              "a build folder that every user may read"),
+    "tetgen": (program("tetgen"), "scripts/install_deps.sh tetgen"),
 }
 
 

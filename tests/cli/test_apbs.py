@@ -119,6 +119,17 @@ class Apbs(ToolTest):
         self.assertIn("ion charge -1 conc 0.15 radius 2\n", text)
         self.assertIn("usemap kappa 1\n", text)
 
+    def test_a_large_lattice_is_as_fine_along_all_axes(self):
+        """At most 400 MB of 200 bytes a point, and no axis far finer than another."""
+        self.folder_of([(0, 0, 0, 1, 2), (90, 0, 0, 1, 2), (0, 60, 0, 1, 2), (0, 0, 50, 1, 2)], "--voxel", 2)
+        text = (self.folder / "run" / "apbs.in").read_text()
+        points = [int(n) for n in re.search(r"dime (.*)", text)[1].split()]
+        lengths = [float(x) for x in re.search(r"glen (.*)", text)[1].split()]
+        self.assertLess(200 * math.prod(points), 400 << 20)
+        self.assertGreater(200 * math.prod(points), 200 << 20)
+        steps = [x / (n - 1) for x, n in zip(lengths, points)]
+        self.assertLess(max(steps) / min(steps), 1.4)
+
     def test_the_surface(self):
         """ses unless another one is asked for; others are warned of, but for the matched one."""
         atoms = [(0, 0, 0, 1, 2), (3, 0, 0, -1, 2)]

@@ -10,7 +10,7 @@ import unittest
 
 from needs import BPY_PYTHON, needs
 from test_instances import placed
-from tool import CRAMBIN, DATA, FAST, ROOT, ToolTest, read_ply
+from tool import CRAMBIN, DATA, FAST, ROOT, ToolTest, read_ply, read_png
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCRIPT = ROOT / "scripts" / "blender" / "open_in_blender.py"
@@ -105,6 +105,20 @@ class Blender:
                          "--samples", 2)
             self.assertGreater((self.folder / f"{show}.png").stat().st_size, 2000, show)
 
+    def test_picture_of_a_film(self):
+        """Motion blur, and nothing else, changes what is rendered of a frame."""
+        self.check(0, DATA / "1d3z.pdb.gz", *FAST, "--frames", "1-2", "--fields", "v", "--color", "element", "-o", "a.usda")
+        seen = []
+        for name, words in (("plain", ()), ("again", ()), ("blurred", ("--blur",))):
+            done = self.run_script(SCRIPT, "a.usda", "--frame", 2, *words, "--render", f"{name}.png", "--size", 64, "--samples", 2)
+            if "no importer of USD" in done.stdout + done.stderr:
+                return
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            seen.append([v for row in read_png((self.folder / f"{name}.png").read_bytes())[1] for v in row])
+        again, blurred = (sum(abs(a - b) for a, b in zip(seen[0], other)) / len(other) for other in seen[1:])
+        self.assertLess(again, 0.2)  # of 255, since the denoiser's threads round in their own order
+        self.assertGreater(blurred, 1.0)
+
     def test_missing_frame(self):
         for frame in (1, 2, 4):
             (self.folder / f"a.000{frame}.vdb").write_bytes(b"")
@@ -129,7 +143,7 @@ class Blender:
                     self.assertAlmostEqual(a, v[names.index(name)], delta=1e-4 + 1e-4 * abs(a))
         self.assertIn("VERTEX_COLOR", glb["meshes"][0]["nodes"])
         volume, = vdb["volumes"]
-        self.assertEqual(volume, {"grids": {"surface": "FLOAT", "density": "FLOAT", "Cd": "VECTOR_FLOAT"}, "error": ""})
+        self.assertEqual((volume["grids"], volume["error"]), ({"surface": "FLOAT", "density": "FLOAT", "Cd": "VECTOR_FLOAT"}, ""))
 
     def test_importers_of_copies(self):
         """Copies lie where the matrices place them, and nothing but copies is shown."""
@@ -154,6 +168,30 @@ class Blender:
         scene, = self.result("blender_import.py", "b.usda")
         if scene:
             self.assertEqual([list(volume["grids"]) for volume in scene["volumes"]], [["Cd", "density", "surface"]])
+        self.check(0, *DIMER, *FAST, "--instances", "--for", "usd", "-o", "c.vdb", "-o", "c.json")
+        scene, = self.result("blender_import.py", "c.usda")
+        if scene:  # volumes that share their data
+            entries = json.loads((self.folder / "c.json").read_text())["instances"]
+            for volume, entry in zip(scene["volumes"], entries, strict=True):
+                for point in ((0, 0, 0), (30, 0, 0), (0, 30, 0), (0, 0, 30)):
+                    self.assert_near(placed(volume["matrix"], point), placed(entry["matrix"], point), 0.03, "copy")
+
+    def test_importer_of_films(self):
+        """Frames of different topology arrive with the attribute that motion is blurred by, per second."""
+        self.check(0, DATA / "1d3z.pdb.gz", *FAST, "--frames", "1-2", "--fps", "24", "--fields", "v", "--color", "element",
+                   "-o", "a.usda", "-o", "a.ply")
+        counts = set()
+        for frame, scene in zip((1, 2), self.result("blender_import.py", "a.usda@1", "a.usda@2")):
+            if scene is None:
+                return  # this Blender has no USD
+            (mesh,), (names, vertices, faces) = scene["meshes"], read_ply((self.folder / f"a.000{frame}.ply").read_bytes())
+            counts.add(len(vertices))
+            self.assertEqual((mesh["faces"], len(mesh["attributes"]["displayColor"])), (len(faces), len(vertices)))
+            at = [names.index(f"v_{axis}") for axis in "xyz"]
+            for p, way, v in zip(mesh["points"], mesh["attributes"]["velocity"], vertices, strict=True):
+                self.assert_near(p, v[:3], 1e-3, "points")
+                self.assert_near(way, [v[i] for i in at], 1e-3, "velocity")
+        self.assertEqual(len(counts), 2)
 
 
 @needs("blender")

@@ -299,7 +299,7 @@ class Memory(ToolTest):
         (self.folder / "many.xyzr").write_text("".join(f"{n % 400} {n // 400} {n % 7} 1.7\n" for n in range(100000)))
         for words in (["many.xyzr"], ["bricks", "plan", "many.xyzr"]):
             self.check(1, *words, "--memory", "26M", "-o", "a.json", says="many.xyzr: reading it takes about")
-            self.check(1, *words[:-1], DATA / "1a8o.cif.gz", "--assembly", 1, "--memory", "17M", "-o", "a.json",
+            self.check(1, *words[:-1], DATA / "1a8o.cif.gz", "--assembly", 1, "--memory", "15M", "-o", "a.json",
                        says=("its atoms take about", "[hint: --memory"))
         self.assertEqual(self.names(), ["many.xyzr"])
 

@@ -223,6 +223,29 @@ class Frames(ToolTest):
         self.check(0, NMR, *FAST, "--for", "usd", "--probe", "1.6", "-o", "a.0010.vdb", says="without a.0001.vdb and 2 more, of")
         self.assertIn("9: @./a.0009.vdb@", (self.folder / "a.usda").read_text())
 
+    def test_film_of_meshes(self):
+        """A .usda of each frame, and one that plays those of one input and its options."""
+        words = (NMR, *FAST, "-o", "a.usda")
+
+        def clips():
+            return re.findall(r"@\./(a\.\d+\.usda)@", (self.folder / "a.usda").read_text())[:-1]  # and one that tells what is in all
+
+        self.check(0, *words, "--frames", "1-2")
+        self.assertEqual(self.names(), ["a.0001.usda", "a.0002.usda", "a.usda"])
+        self.assertEqual(clips(), ["a.0001.usda", "a.0002.usda"])
+        self.assertNotIn("velocities", (self.folder / "a.usda").read_text())
+        before = self.times()["a.0001.usda"]
+        self.check(0, *words, "--frames", "1-3", says="2 done before")
+        self.assertEqual((self.times()["a.0001.usda"], clips()), (before, [f"a.000{n}.usda" for n in (1, 2, 3)]))
+        self.check(1, *words, "--frames", "1-2", "--probe", "1.6", says=["a.0001.usda", "--force"])
+        self.check(0, *words, "--frames", "1", "--probe", "1.6", "--force",
+                   says="a.usda: without a.0002.usda and 1 more, of another input")
+        self.assertEqual(clips(), ["a.0001.usda"])
+        (self.folder / "a.usda").write_text("mine")
+        self.check(1, *words, "--frames", "2", "--first-frame", "4", says=["a.usda", "--force"])
+        self.assertEqual((self.folder / "a.usda").read_text(), "mine")
+        self.check(2, *words, "--frames", "1", "--split", "group", "--group-by", "residues:30", says=["a.usda", "one mesh"])
+
     def test_vertices_have_the_velocity(self):
         self.moving("--fps", "25", "-o", "a.ply", "-o", "a.glb")
         names, vertices, _ = read_ply((self.folder / "a.0001.ply").read_bytes())
@@ -236,6 +259,11 @@ class Frames(ToolTest):
                 self.assertLess(max(abs(a - b) for a, b in zip(value, (150, 0, 0))), 0.01)
         done = self.check(0, NMR, *FAST, "--frames", "1", "--fields", "v", "-o", "b.ply")
         self.assertNotIn(b"--fields", done.stderr)
+        for words, way in (((), 144), (("--fps", "25", "--for", "usd=nm"), 150)):  # in Å: the prim has the scale
+            self.moving(*words, "-o", "c.usda")
+            line, = re.findall(r"velocities.timeSamples = \{\s*1: \[(.*)\]", (self.folder / "c.0001.usda").read_text())
+            for value in re.findall(r"\(([^,]*), ([^,]*), ([^,]*)\)", line):
+                self.assertLess(max(abs(float(a) - b) for a, b in zip(value, (way, 0, 0))), 0.01)
         self.check(2, CRAMBIN, "--fps", "24", "-o", "a.vdb", says="--frames")
 
     def test_again_does_what_was_not_done(self):

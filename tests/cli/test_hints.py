@@ -102,6 +102,7 @@ CAGE = [(3.6 * math.sqrt(1 - z * z) * math.cos(a), 3.6 * math.sqrt(1 - z * z) * 
 
 # Files that are there in every case, beside those of tests/data.
 FILES = {
+    "ion.pqr": "ATOM 1 C ION 1 0 0 0 1 2\n",
     "dot.xyzr": "0 0 0 0.1\n", "tiny.xyzr": "0.4 0.4 0.4 0.3\n", "one.xyzr": "0 0 0 1\n", "two.xyzr": "0 0 0 1.7\n3 0 0 1.7\n",
     "apart.xyzr": "2.524 -36.942 -21.611 1.19\n5.501 -40.386 -18.396 2.1\n",
     "far.xyzr": "2e4 0 0 1.7\n", "ball.xyzr": "0 0 0 100\n", "large.xyzr": "0 0 0 60\n",
@@ -203,8 +204,8 @@ CASES = {
         ("--force", f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv",
          f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv --force")],
     "bricks/plan_bricks.cpp": [
-        (f"--memory {38 + LIBRARY}M, or a larger --voxel", f"vdb_molsurf 1crn.pdb --voxel 2 --memory {29 + LIBRARY}M -o a.ply",
-         f"vdb_molsurf 1crn.pdb --voxel 2 --memory {38 + LIBRARY}M -o a.ply"),
+        (f"--memory {65 if LIBRARY else 35}M, or a larger --voxel", f"vdb_molsurf 1crn.pdb --voxel 2 --memory {29 + LIBRARY}M -o a.ply",
+         f"vdb_molsurf 1crn.pdb --voxel 2 --memory {65 if LIBRARY else 35}M -o a.ply"),
         ("or a larger --voxel", f"vdb_molsurf 1crn.pdb --memory {35 + LIBRARY}M --voxel 0.1 -o a.ply",
          f"vdb_molsurf 1crn.pdb --memory {35 + LIBRARY}M --voxel 2 -o a.ply")],
     "bricks/plan_bricks.h": [
@@ -276,6 +277,8 @@ CASES = {
          "sed 's/level set/level sea/g; s/surface/surfeit/g' a.vdb > b.vdb; vdb_molsurf compare b.vdb one.xyzr",
          "vdb_molsurf info b.vdb | grep surfeit")],
     "selection/select_balls.cpp": [
+        ("--waters keeps it", f"vdb_molsurf 1a8o.cif.gz --select water {FAST} -o a.ply",
+         f"vdb_molsurf 1a8o.cif.gz --select water --waters {FAST} -o a.ply"),
         ("--assembly 1", f"vdb_molsurf moved.pdb --instances {FAST} -o a.glb",
          f"vdb_molsurf moved.pdb --instances --assembly 1 {FAST} -o a.glb"),
         ("--assembly 1", f"vdb_molsurf 1a8o.cif.gz --by-symmetry {FAST} -o a.ply",
@@ -386,6 +389,10 @@ CASES = {
         ("--memory ", "vdb_molsurf 1crn.pdb --voxel 2 --memory 10M -o a.ply", # and then the hint that follows
          f"vdb_molsurf 1crn.pdb --voxel 2 --memory {29 + LIBRARY}M -o a.ply || vdb_molsurf 1crn.pdb --voxel 2 --memory 0.1G -o a.ply")],
     "tools/cli/complete.cpp": [
+        ("-o run/", "vdb_molsurf ion.pqr --for apbs -o a.ply",
+         "vdb_molsurf ion.pqr --for apbs -o run/"),
+        ("--surface ses, or --match ses", "vdb_molsurf ion.pqr --for apbs --surface vdw -o far/",
+         "vdb_molsurf ion.pqr --for apbs --surface ses --force -o far/ && vdb_molsurf ion.pqr --for apbs --match ses --force -o far/"),
         ("-o FILE.residues.csv, or -o FILE.json --areas residues", "vdb_molsurf 1crn.pdb -o a.residues.json",
          "vdb_molsurf 1crn.pdb -o a.residues.csv", "vdb_molsurf 1crn.pdb -o a.json --areas residues"),
         ("-o FILE, for example -o surface.vdb", f"vdb_molsurf one.xyzr {FAST}",
@@ -453,8 +460,9 @@ CASES = {
          "vdb_molsurf 1a8o.cif.gz --assembly 1 -o a.contacts.csv"),
         ("--group-by entity --color group", f"vdb_molsurf 1a8o.cif.gz --color entity --group-by chain {FAST} -o a.ply",
          f"vdb_molsurf 1a8o.cif.gz --group-by entity --color group {FAST} -o a.ply"),
-        ("--for usd -o FILE.vdb writes a volume", f"vdb_molsurf one.xyzr {FAST} -o a.usda",
-         f"vdb_molsurf one.xyzr {FAST} --for usd -o a.vdb"),
+        ("-o FILE.glb is a file for each frame",
+         f"vdb_molsurf 1d3z.pdb.gz {FAST} --frames 1 --group-by residues:23 --split group -o a.usda",
+         f"vdb_molsurf 1d3z.pdb.gz {FAST} --frames 1 --group-by residues:23 --split group -o a.glb"),
         ("--memory 8G in its place", f"vdb_molsurf 1a8o.cif.gz --by-symmetry --assembly 1 {FAST} -o a.vdb",
          f"vdb_molsurf 1a8o.cif.gz --memory 8G --assembly 1 {FAST} -o a.vdb"),
         ("-o FILE.vdb holds all", "vdb_molsurf 1crn.pdb --group-by residues:23 --split group --voxel 2 -o a.mrc",
@@ -519,6 +527,7 @@ UNTRIED = {
     "io/write_glb.cpp": {"write .ply": "it takes a mesh of 4 GiB"},
     "io/write_mesh.cpp": {"write .obj": "it takes a mesh of 2^32 triangles"},
     "io/write_volume.cpp": {"larger voxels": "it takes a box of 2^31 points"},
+    "selection/point_charges.cpp": {"the program pdb2pqr makes one": "it takes pdb2pqr"},
     "selection/select_balls.cpp": {"`trajectory` FILE.dcd": "cli.formats follows it"},
     "structure/detect_format.cpp": {"take .bcif.gz": "it takes the Protein Data Bank", "in PyMOL": "it takes PyMOL",
                                     "gmx editconf": "it takes GROMACS", "cpptraj": "it takes AmberTools",
@@ -631,9 +640,9 @@ class Hints(Followed):
                     "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.4 -o b.vdb",
                     "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.25 --memory 0.31G -o c.vdb")
         self.follow("tools/build.cpp", "a surface of a larger --voxel",
-                    "vdb_molsurf 1crn.pdb --surface sas --voxel 0.1 -o a.vdb; ulimit -v 300000; "
+                    "vdb_molsurf 1crn.pdb --surface sas --voxel 0.1 -o a.vdb; ulimit -v 250000; "
                     "vdb_molsurf convert a.vdb -o a.ply",
-                    "vdb_molsurf 1crn.pdb --surface sas --voxel 0.3 -o b.vdb; ulimit -v 300000; "
+                    "vdb_molsurf 1crn.pdb --surface sas --voxel 0.3 -o b.vdb; ulimit -v 250000; "
                     "vdb_molsurf convert b.vdb -o a.ply")
         self.follow("tools/msms/main.cpp", "a smaller -density, or fewer spheres",
                     "ulimit -v 800000; vdb_molsurf_msms -if ball.xyzr -of a -density 100",

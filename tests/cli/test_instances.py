@@ -242,7 +242,6 @@ class Instances(ToolTest):
 
     def test_refused(self):
         dimer = [DATA / "1a8o.cif.gz", "--assembly", "1"]
-        self.check(2, *dimer, "-o", "a.usda", says=["a.usda", "--instances", "--for usd"])
         self.check(2, *dimer, "--lod", "1,2", "-o", "a.glb", says=["--lod", "--instances"])
         dimer.append("--instances")
         for word in ("1", "2,1", "1,1", "1,x", ",", "0,1", "1,2,3,4,5,6,7,8,9", "-1,2"):

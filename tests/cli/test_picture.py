@@ -159,6 +159,34 @@ class Pictures(ToolTest):
         alike = sum(p == q for a, b in zip(whole[1], copies[1]) for p, q in zip(a, b))
         self.assertGreater(alike, 0.5 * whole[0] * len(whole[1]))
 
+    def test_what_is_upright(self):
+        (self.folder / "bar.xyzr").write_text("".join(f"{2 * n} {n} {4 * n} 1.7\n" for n in range(9)))
+
+        def view(*words):
+            self.check(0, "bar.xyzr", *FAST, *words, "-o", "a.view", "--force")
+            found = json.loads((self.folder / "a.view").read_text())
+            return found["up"], found["to_eye"]
+
+        def near(a, b):
+            for x, y in zip(a, b):
+                self.assertAlmostEqual(x, y, 6)
+
+        for way, up in (("1,0,0", (0, 0, 1)), ("0,-1,0", (0, 0, 1)), ("0,0,1", (0, 1, 0))):
+            near(view("--view", way)[0], up)
+        near(view("--view", "0,0,1", "--up", "3,0,0")[0], (1, 0, 0))
+        up, eye = view("--view", "0,3,4", "--up", "0,0,2")  # the eye comes down to what is level
+        near(up, (0, 0, 1))
+        near(eye, (0, 1, 0))
+        up, eye = view("--up", "0,0,1")  # the longest level extent, (2, 1, 0), lies across
+        near(up, (0, 0, 1))
+        self.assertAlmostEqual(abs(eye[0] * 2 + eye[1]), 0, 3)
+        up, eye = view("--view", "1,0,0", "--up", "0,0,1", "--turn", "90")
+        near(up, (0, 0, 1))
+        self.assertAlmostEqual(abs(eye[1]), 1, 6)
+        for wrong in ("0,0,0", "1,2", "up"):
+            self.check(2, "bar.xyzr", "--up", wrong, "-o", "b.png", says="--up")
+        self.check(2, "bar.xyzr", "--view", "0,0,1", "--up", "0,0,-2", "-o", "b.png", says="across that of --view")
+
     def test_view_of_atoms_and_from_a_file(self):
         words = [CRAMBIN, *FAST, "--size", "160"]
         self.check(0, *words, "--view", "A/46", "-o", "a.view", "-o", "b.png", "--turn", "30")

@@ -184,6 +184,7 @@ class Usd(ToolTest):
                                r"metersPerUnit = 1\.0+\d*e-0?9\n")
         self.assertEqual(text.count("asset filePath = @./a b.vdb@"), 3)
         self.assertNotIn("timeSamples", text)
+        self.assertEqual(re.findall(r"float inputs:scattering = (\S+)", text), ["5"])  # 0.5 for an Å
         for name, kind in (("surface", "levelSet"), ("density", "fogVolume"), ("Cd", "unknown")):
             self.assertIn(f"rel field:{name} = </a_b/volume/{name}>", text)
             self.assertRegex(text, rf'def OpenVDBAsset "{name}"\s*{{\s*token fieldName = "{name}"\s*'

@@ -9,6 +9,7 @@
 #include "molsurf/io/batch_summary.h"
 #include "molsurf/io/frame_table.h"
 #include "molsurf/io/write_usda.h"
+#include "molsurf/io/write_usda_mesh.h"
 #include "molsurf/picture/view_file.h"
 #include "molsurf/selection/ball_values.h"
 #include "molsurf/selection/groups.h"
@@ -55,6 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         case 'u':
             isOwnUsda(path);
+            isOwnFilm(path);
             extentsOfUsda(path);
             break;
         case 'w': {

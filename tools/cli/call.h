@@ -4,6 +4,9 @@
 /// @file
 /// What the user asked for, as values.
 
+#include "require.h"
+
+#include "molsurf/io/frame_files.h"
 #include "molsurf/io/scene.h"
 #include "molsurf/io/write_apbs.h"
 #include "molsurf/picture/atom_model.h"
@@ -14,6 +17,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,7 +41,7 @@ enum Holds : unsigned {
     Areas = 1 << 3,             ///< a table of areas, or atoms with theirs
     FrameRows = 1 << 4,         ///< the table of all frames
     AllFrames = 1 << 17,        ///< rows of all frames in one file
-    Stage = 1 << 5,             ///< a scene of OpenUSD: copies, or the volume of a .vdb
+    Stage = 1 << 5,             ///< a scene of OpenUSD: mesh, copies, film or the volume of a .vdb
     Colors = 1 << 6,            ///< of vertices, voxels or copies
     ColorChoices = 1 << 7,      ///< several colourings, to choose from
     PlainColor = 1 << 8,        ///< the colour of what has no other
@@ -63,7 +67,8 @@ struct Format {
     const char* word;  ///< how a file's name ends, without the first dot: "ply", "atoms.csv"
     unsigned verbs;    ///< that write it
     unsigned holds;    ///< of Holds
-    const char* help;  ///< what a file is, for help texts; of two in turn with the same said once
+    const char* help;  ///< what a file is, for help texts; of two in turn with the same said once;
+                       ///< "": an option that asks for it says it
     const char* table; ///< the table of areas that it has, one of areaTables(); "" if none
     void (*write)(const Writing& what, OutputFile& file); ///< null: a verb does so by itself
     const char* opens = ""; ///< of a Script: the format of the file that it opens
@@ -97,7 +102,7 @@ enum Verb : unsigned {
 struct Output {
     std::string path; ///< "-" is standard output
     const Format* format;
-    std::string beside{}; ///< of a Stage: the .vdb that it shows
+    std::string beside{}; ///< of a Stage: the .vdb that it shows, or the .usda of a frame
     double turn = 0.0;    ///< of a picture of a turntable, beside that of all [degree]
 
     /// Whether it holds one of these.
@@ -156,7 +161,8 @@ struct Call : Settings {
     std::size_t memory = 0;   ///< bytes at most; 0: no limit
     double hours = 24.0;      ///< that a surface may take, by the estimate
     bool dryRun = false;      ///< only say what it takes
-    int threads = 0;          ///< 0: as many as there are
+    std::vector<Requirement> required; ///< of the mesh, or nothing is written
+    int threads = 0;                   ///< 0: as many as there are
     bool quiet = false;
     bool verbose = false;
     bool progress = true;
@@ -168,6 +174,8 @@ struct Call : Settings {
     std::vector<Output> outputs;       ///< Batch: extensions in the place of paths
     int frame = 0;                     ///< the number of the one that is built; 0: none is
     std::vector<std::string> warnings; ///< one line each
+    /// Of the files in the folders of frames.
+    std::shared_ptr<FrameOptions> frameOptions = std::make_shared<FrameOptions>();
 
     bool has(const char* option) const { return given.count(option) > 0; }
 

@@ -226,6 +226,16 @@ void completeScene(Call& call)
     if (call.has("min-wall")) call.options.minWall = call.wall / call.printScale;
 }
 
+// The eye looks across what is upright.
+void checkUpright(const Call& call)
+{
+    constexpr double least = 1e-3; // sine of the angle between the two
+    const openvdb::Vec3d &up = call.picture.upright, &toEye = call.picture.toEye;
+    if (up.lengthSqr() > 0.0 && toEye.lengthSqr() > 0.0 &&
+        up.cross(toEye).length() < least * up.length() * toEye.length())
+        misuse("--up: expected a direction across that of --view, got the same");
+}
+
 // Puts the frames of a turntable in the place of each picture.
 void addTurntable(Call& call)
 {
@@ -263,6 +273,7 @@ void checkScripts(const Call& call)
 // Says what none of the files can hold.
 void warnOfLosses(Call& call)
 {
+    checkUpright(call);
     checkScripts(call);
     warnOfPairs(call);
     if (call.outputs.empty()) return;

@@ -175,6 +175,14 @@ void setView(Call& call, const Values& values)
     call.viewed = view;
 }
 
+void setUpright(Call& call, const Values& values)
+{
+    const auto way = directionOf(values.back());
+    if (!way || !(way->length() > 0.0) || !std::isfinite(way->length()))
+        wrongValue("up", "a direction X,Y,Z that is not 0", values.back());
+    call.picture.upright = *way;
+}
+
 void setBackground(Call& call, const Values& values)
 {
     call.picture.transparent = lowered(values.back()) == "transparent";
@@ -557,6 +565,19 @@ Option showOption()
     return show;
 }
 
+Option uprightOption(unsigned verbs)
+{
+    Option upright{"up",
+                   0,
+                   "X,Y,Z",
+                   "what is upright, such as 0,0,1 of a membrane's normal;\n"
+                   "without it y, or z for a view along x or y",
+                   "",
+                   verbs};
+    upright.set = setUpright;
+    return shownIn(Views, upright);
+}
+
 OptionGroup pictureOptions()
 {
     constexpr unsigned draw = wholes | Convert;
@@ -592,7 +613,7 @@ OptionGroup pictureOptions()
     };
     return {
         "Picture",
-        {shownIn(Views, view),
+        {shownIn(Views, view), uprightOption(draw),
          shownIn(Views, number("turn", "A", "turned by so many degrees about the upright", "0",
                                draw, -1e9, 1e9, "a number of degrees", MOLSURF_OF(picture.turn))),
          shownIn(Pixels, count("size", "N", "width in pixels; the height follows the shape", "1200",
@@ -637,6 +658,28 @@ OptionGroup flowOptions()
              setting("tolerance", structures), setting("spline-level", wholes | Compare)}};
 }
 
+Option requireOption()
+{
+    Option required{"require",
+                    0,
+                    "LIST",
+                    "what the mesh has to be, or nothing is written and the\n"
+                    "status is 3: watertight, manifold, components=N, cavities=N,\n"
+                    "genus=N, min-angle=DEGREES",
+                    "",
+                    wholes,
+                    requirementWords()};
+    required.set = [](Call& call, const Values& values) {
+        const auto parsed = parseRequirements(values.back());
+        if (!parsed)
+            wrongValue("require",
+                       "some of " + joinWords(requirementWords(), ", ") + " with numbers",
+                       values.back());
+        call.required = *parsed;
+    };
+    return required;
+}
+
 OptionGroup runOptions()
 {
     const auto memory = [](unsigned verbs, std::string text) {
@@ -665,6 +708,7 @@ OptionGroup runOptions()
                 MOLSURF_OF(hours)),
          flagOf("dry-run", 0, "say what it takes, and stop", Build | Compare | Convert,
                 MOLSURF_OF(dryRun)),
+         requireOption(),
          with(count("threads", "N", "threads at most", "all", runs, 1, 4096, MOLSURF_OF(threads)),
               [](Option& o) { o.letter = 'j'; }),
          flagOf("quiet", 'q', "print errors only", runs, MOLSURF_OF(quiet)),

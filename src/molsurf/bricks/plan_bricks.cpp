@@ -31,7 +31,7 @@ namespace
 // 0.5 to 3 Å, with Debian's OpenVDB: peaks of the resident memory against the leaves that hold
 // atoms or lie beside them. A peak is either that of the flow and the distances, or that of the
 // mesh. The surface of a larger probe passes fewer balls, and fewer of those leaves.
-#ifdef OPENVDB_STATICLIB // the names of libopenvdb.so take 28 MB
+#ifdef OPENVDB_STATICLIB              // the names of libopenvdb.so take 28 MB
 constexpr double processBytes = 32e6; // program, libraries, buffers
 #else
 constexpr double processBytes = 60e6;
@@ -425,18 +425,28 @@ public:
         return {};
     }
 
-    void halve(std::size_t memory, const CoordBBox& box, std::vector<PlannedBrick>& out) const
+    /// @param[in,out] most  what a brick that cannot be cut takes [byte]
+    void halve(std::size_t memory, const CoordBBox& box, std::vector<PlannedBrick>& out,
+               std::size_t& most) const
     {
         const PlannedBrick brick = estimate(box);
         CoordBBox first, second;
         if (memoryFor(brick) <= memory) {
             keep(brick, out);
         } else if (cut(box, 0.5, first, second)) {
-            halve(memory, first, out);
-            halve(memory, second, out);
+            halve(memory, first, out, most);
+            halve(memory, second, out, most);
         } else {
-            tooLittle("the smallest brick", double(memoryFor(brick)), memory);
+            most = std::max(most, memoryFor(brick));
         }
+    }
+
+    /// @throws Error(ErrorKind::Input) if a brick that cannot be cut takes more
+    void halve(std::size_t memory, const CoordBBox& box, std::vector<PlannedBrick>& out) const
+    {
+        std::size_t most = 0;
+        halve(memory, box, out, most);
+        if (most > memory) tooLittle("the smallest brick", double(most), memory);
     }
 
     [[noreturn]] static void tooLittle(const char* what, double bytes, std::size_t memory)

@@ -123,7 +123,11 @@ ApbsGrid gridAround(const PointCharges& charges)
     }
     constexpr double bytes = 200.0, ceiling = 400.0 * 1024 * 1024; // psize: gmemfac, gmemceil
     auto& n = grid.points;
-    while (bytes * n[0] * n[1] * n[2] >= ceiling) *std::max_element(n.begin(), n.end()) -= 32;
+    while (bytes * n[0] * n[1] * n[2] >= ceiling) {
+        const Vec3d h = grid.spacing();
+        const auto finest = std::size_t(openvdb::math::MinIndex(h)); // axes stay alike
+        n[finest] -= 32;
+    }
     return grid;
 }
 

@@ -37,7 +37,7 @@ struct ApbsGrid {
 
 /// Gives the fine lattice of the rule psize of pdb2pqr: 10 Å beyond the atoms, but at most 1.7
 /// times their box, points 0.5 Å apart or a little less or more, 32 c + 1 of them, and fewer where
-/// they would take APBS more than 400 MB.
+/// they would take APBS more than 400 MB, of the finest axis first.
 ApbsGrid gridAround(const PointCharges& charges);
 
 /// Reads dime, glen (or fglen) and gcent (or fgcent) from an input file of APBS.

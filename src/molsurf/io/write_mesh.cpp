@@ -6,6 +6,7 @@
 #include "molsurf/io/output_buffer.h"
 #include "molsurf/io/ply_layout.h"
 #include "molsurf/io/write_3mf.h"
+#include "molsurf/io/write_fem.h"
 #include "molsurf/io/write_glb.h"
 
 #include <array>
@@ -274,6 +275,9 @@ const std::vector<MeshFormat>& meshFormats()
         {"vtk", [](const Mesh& m, const Title& t, OutputFile& f) { writeVtk(m, t.name, f); }},
         {"vert", [](const Mesh& m, const Title&, OutputFile& f) { writeVert(m, f); }},
         {"face", [](const Mesh& m, const Title&, OutputFile& f) { writeFace(m, f); }},
+        {"poly", [](const Mesh& m, const Title&, OutputFile& f) { writePoly(m, f); }},
+        {"msh", [](const Mesh& m, const Title&, OutputFile& f) { writeMsh4(m, f); }},
+        {"msh2", [](const Mesh& m, const Title&, OutputFile& f) { writeMsh2(m, f); }},
         {"glb", [](const Mesh& m, const Title& t, OutputFile& f) { writeGlb(m, {t.name}, f); }},
         {"3mf", [](const Mesh& m, const Title& t, OutputFile& f) {
              write3mf(m, t.name, t.unit.perAngstrom, f);

@@ -4,12 +4,12 @@
 /// @file
 /// A .vdb file, or a numbered sequence of them, as a volume of OpenUSD.
 
+#include "molsurf/atoms.h"
 #include "molsurf/io/output_file.h"
 
 #include <openvdb/openvdb.h>
 
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,12 +25,18 @@ struct UsdVolume {
     /// Frames of a sequence and their files, the first one first; empty: no sequence.
     std::vector<std::pair<int, std::string>> frames;
     double framesPerSecond = 24.0;
-    std::vector<std::string> leftOut;   ///< frames in the folder that are of another sequence
     std::map<int, std::string> extents; ///< of other frames, as text: extentsOfUsda()
+    /// Light that fog of density 1 scatters on its way through a unit of length, as optical depth.
+    double scattering = 0.5;
+    std::vector<Instance>
+        copies; ///< of the volume, in units of the grids; empty: it is where it is
 };
 
 /// Writes USD as text: a Volume with an OpenVDBAsset for each grid, whose field class, type and
-/// vector role are the grid's. Up is z, as in the other files.
+/// vector role are the grid's. Up is z, as in the other files. Fog (`density`, and `Cd` if there is
+/// one) has a Material; the variant `materialx` of the set `fog` has its nodes, and `plain` is
+/// selected, since OpenUSD knows them only where MaterialX is built in. Copies are a
+/// PointInstancer, as writeUsdaInstances() writes it.
 ///
 /// @param[in] grids  as they are in the .vdb; of a sequence those of one frame
 /// @throws Error(ErrorKind::Output) if the file cannot be written
@@ -41,22 +47,5 @@ bool isOwnUsda(const std::string& path);
 
 /// The extents of the frames in a file that writeUsda() has made, as they stand there.
 std::map<int, std::string> extentsOfUsda(const std::string& path);
-
-/// The name of a .vdb without folder and extension: "name.0001.vdb" is frame 1 of "name".
-struct FrameName {
-    std::string stem;
-    std::optional<int> frame;
-};
-FrameName frameName(const std::string& path);
-
-/// What the .usda beside a .vdb says.
-///
-/// @param[in] vdb         the file; of a frame, the other frames in its folder are in the .usda too
-/// @param[in] sequence    whether it may be a frame
-/// @param[in] options     `frames.options` in the metadata of the frames that belong to it; empty
-///                        of those without it, which runs of their own have made
-/// @param[in] metersPerUnit  length of a unit of the scene [m]
-UsdVolume usdVolumeOf(const std::string& vdb, bool sequence, const std::string& options,
-                      double metersPerUnit);
 
 } // namespace molsurf

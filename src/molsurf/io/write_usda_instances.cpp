@@ -2,10 +2,9 @@
 #include "molsurf/io/write_usda_instances.h"
 
 #include "molsurf/color/color_map.h"
-#include "molsurf/io/output_buffer.h"
 #include "molsurf/io/part_ranges.h"
 #include "molsurf/io/rotation_quaternion.h"
-#include "molsurf/io/usda_text.h"
+#include "molsurf/io/usda_mesh.h"
 
 #include <array>
 #include <map>
@@ -21,30 +20,7 @@ namespace
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 
-constexpr int lengthDigits = 4;     // behind the point [Å]
-constexpr int directionDigits = 4;  // of normals and colours
 constexpr int quaternionDigits = 8; // single precision
-
-/// (a, b, ...), with so many digits behind the point.
-template<typename Numbers>
-void putTuple(TextOutput& out, const Numbers& numbers, int size, int digits)
-{
-    for (int i = 0; i < size; ++i)
-        (out << (i == 0 ? "(" : ", ")).fixed(double(numbers[std::size_t(i)]), digits);
-    out << ")";
-}
-
-/// name = [...], with one call of `put` for each element.
-template<typename Put>
-void putArray(TextOutput& out, std::string_view name, std::size_t count, const Put& put)
-{
-    out << name << " = [";
-    for (std::size_t i = 0; i < count; ++i) {
-        if (i > 0) out << ", ";
-        put(i);
-    }
-    out << "]";
-}
 
 /// A part of the mesh in the colour of some of its copies.
 struct Prototype {
@@ -69,11 +45,7 @@ public:
         meshes.insert(meshes.end(), copies.coarser.begin(), copies.coarser.end());
         for (const Mesh* each : meshes) {
             Level level{each, partRanges(*each, copies.name), {}};
-            for (const PartRange& part : level.parts) {
-                openvdb::BBoxd& box = level.boxes.emplace_back();
-                for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v)
-                    box.expand(Vec3d(each->positions[v]));
-            }
+            for (const PartRange& part : level.parts) level.boxes.push_back(boxOf(*each, part));
             levels_.push_back(std::move(level));
         }
         std::map<std::pair<std::size_t, std::array<std::uint8_t, 3>>, std::size_t> numbers;
@@ -90,7 +62,9 @@ public:
     void write()
     {
         writeHead();
-        for (const auto& [color, number] : materials_) writeMaterial(color, number);
+        for (const auto& [color, number] : materials_)
+            putUsdaMaterial(out_, "/" + name_ + "/materials", "color_" + std::to_string(number),
+                            color, !levels_[0].mesh->colors.empty(), "        ");
         out_ << "    }\n\n    class \"geometry\"\n    {\n";
         for (std::size_t level = 0; level < levels_.size(); ++level)
             for (std::size_t part = 0; part < levels_[level].parts.size(); ++part)
@@ -134,75 +108,14 @@ private:
         out_ << "    def Scope \"materials\"\n    {\n";
     }
 
-    void writeMaterial(const std::array<std::uint8_t, 3>& color, std::size_t number)
-    {
-        const std::string in = "            ", path = "</" + name_ + "/materials/color_";
-        out_ << "        def Material \"color_" << number << "\"\n        {\n"
-             << in << "token outputs:surface.connect = " << path << number
-             << "/surface.outputs:surface>\n\n"
-             << in << "def Shader \"surface\"\n"
-             << in << "{\n"
-             << in << "    uniform token info:id = \"UsdPreviewSurface\"\n"
-             << in << "    color3f inputs:diffuseColor";
-        const bool byVertex = !levels_[0].mesh->colors.empty();
-        if (byVertex) {
-            out_ << ".connect = " << path << number << "/color.outputs:result>";
-        } else {
-            out_ << " = ";
-            putTuple(out_, linearLight(color), 3, directionDigits);
-        }
-        out_ << "\n"
-             << in << "    float inputs:roughness = 0.5\n"
-             << in << "    token outputs:surface\n"
-             << in << "}\n";
-        if (byVertex)
-            out_ << "\n"
-                 << in << "def Shader \"color\"\n"
-                 << in << "{\n"
-                 << in << "    uniform token info:id = \"UsdPrimvarReader_float3\"\n"
-                 << in << "    string inputs:varname = \"displayColor\"\n"
-                 << in << "    float3 outputs:result\n"
-                 << in << "}\n";
-        out_ << "        }\n";
-    }
-
     void writeGeometry(std::size_t number, std::size_t part)
     {
         const Level& level = levels_[number];
-        const PartRange& range = level.parts[part];
-        const Mesh& mesh = *level.mesh;
-        const Vec3d origin = middle(part);
-        const openvdb::BBoxd& box = level.boxes[part];
-        const std::size_t vertices = range.vertexEnd - range.firstVertex;
-        const std::size_t triangles = range.triangleEnd - range.firstTriangle;
-        const std::string in = "            ";
-        out_ << "        def Mesh \"" << partName(number, part) << "\"\n        {\n" << in;
-        putArray(out_, "float3[] extent", 2, [&](std::size_t i) {
-            putTuple(out_, (i == 0 ? box.min() : box.max()) - origin, 3, lengthDigits);
-        });
-        out_ << "\n" << in;
-        putArray(out_, "int[] faceVertexCounts", triangles, [&](std::size_t) { out_ << "3"; });
-        out_ << "\n" << in;
-        putArray(out_, "int[] faceVertexIndices", 3 * triangles, [&](std::size_t i) {
-            out_ << mesh.triangles[range.firstTriangle + i / 3][i % 3] - range.firstVertex;
-        });
-        out_ << "\n" << in;
-        putArray(out_, "point3f[] points", vertices, [&](std::size_t v) {
-            putTuple(out_, Vec3d(mesh.positions[range.firstVertex + v]) - origin, 3, lengthDigits);
-        });
-        out_ << "\n" << in;
-        putArray(out_, "normal3f[] normals", vertices, [&](std::size_t v) {
-            putTuple(out_, mesh.normals[range.firstVertex + v], 3, directionDigits);
-        });
-        out_ << " (\n" << in << "    interpolation = \"vertex\"\n" << in << ")\n";
-        if (!mesh.colors.empty()) {
-            out_ << in;
-            putArray(out_, "color3f[] primvars:displayColor", vertices, [&](std::size_t v) {
-                putTuple(out_, linearLight(mesh.colors[range.firstVertex + v]), 3, directionDigits);
-            });
-            out_ << " (\n" << in << "    interpolation = \"vertex\"\n" << in << ")\n";
-        }
-        out_ << in << "uniform token subdivisionScheme = \"none\"\n        }\n";
+        out_ << "        def Mesh \"" << partName(number, part) << "\"\n        {\n";
+        UsdaMesh what{*level.mesh, level.parts[part], middle(part), "            "};
+        what.fields = copies_.fields;
+        putUsdaMesh(out_, what);
+        out_ << "        }\n";
     }
 
     void writeInstancer()
@@ -218,7 +131,7 @@ private:
                  [&](std::size_t i) { out_ << prototypeOf_[i]; });
         out_ << "\n" << in;
         putArray(out_, "point3f[] positions", all.size(), [&](std::size_t i) {
-            putTuple(out_, all[i].placed(middle(all[i].part)), 3, lengthDigits);
+            putTuple(out_, all[i].placed(middle(all[i].part)), 3, usdaLengthDigits);
         });
         for (const char* type : {"quath[] orientations", "quatf[] orientationsf"}) {
             out_ << "\n" << in;
@@ -256,7 +169,7 @@ private:
              << ">\n";
         if (levels_[level].mesh->colors.empty()) {
             out_ << more << "color3f[] primvars:displayColor = [";
-            putTuple(out_, linearLight(prototype.color), 3, directionDigits);
+            putTuple(out_, linearLight(prototype.color), 3, usdaDirectionDigits);
             out_ << "]\n";
         }
         out_ << in << "}\n";
@@ -268,7 +181,7 @@ private:
         out_ << in;
         const openvdb::BBoxd box = extentOf(levels_[number]);
         putArray(out_, "float3[] extent", 2, [&](std::size_t i) {
-            putTuple(out_, i == 0 ? box.min() : box.max(), 3, lengthDigits);
+            putTuple(out_, i == 0 ? box.min() : box.max(), 3, usdaLengthDigits);
         });
         out_ << "\n" << in;
         putArray(out_, "rel prototypes", prototypes_.size(), [&](std::size_t i) {

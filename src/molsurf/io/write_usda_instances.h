@@ -21,6 +21,7 @@ struct UsdInstances {
     std::vector<MeshInstance> instances;
     /// The same parts at larger voxels, one mesh for each further level of detail.
     std::vector<const Mesh*> coarser{};
+    std::vector<std::string> fields{}; ///< scalars of vertices that are wanted, by name
 };
 
 /// Writes USD as text. The file keeps these rules, which tests/cli/usda.py checks:

@@ -44,6 +44,7 @@ struct DrawOptions {
     /// Toward the eye, and what is up; zero: the shortest principal axis toward the eye, the
     /// longest one across the picture.
     openvdb::Vec3d toEye{0.0}, up{0.0};
+    openvdb::Vec3d upright{0.0};         ///< what is up whatever the view is; zero: as it says
     std::optional<PictureFrame> frame{}; ///< none: all of the mesh
     double turn = 0.0;                   ///< about `up` [degree]
     bool turnable = false;               ///< the scale is the same for every turn, also for 0

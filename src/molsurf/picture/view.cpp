@@ -101,11 +101,33 @@ std::array<Vec3d, 3> principalAxes(const std::vector<Vec3d>& points)
     return axes;
 }
 
+/// The part of a point that is level.
+Vec3d level(const Vec3d& x, const Vec3d& up)
+{
+    return x - x.dot(up) * up;
+}
+
+/// The direction to the right of a view with something upright.
+/// @param[in] toEye  zero: the longest level extent lies across
+Vec3d rightOf(std::vector<Vec3d> points, const Vec3d& up, const Vec3d& toEye)
+{
+    constexpr double least = 1e-3; // sine of the angle between the two
+    if (toEye.lengthSqr() > 0.0 && up.cross(toEye.unit()).length() > least)
+        return up.cross(toEye).unit();
+    for (Vec3d& x : points) x = level(x, up);
+    const Vec3d across = level(principalAxes(points)[0], up);
+    return across.length() > least ? across.unit() : level(Vec3d(up[1], up[2], up[0]), up).unit();
+}
+
 /// viewAxes() of points.
 std::array<Vec3d, 3> axesOf(const std::vector<Vec3d>& points, const DrawOptions& options)
 {
     Vec3d right, toEye;
-    if (options.toEye.lengthSqr() > 0.0) {
+    if (options.upright.lengthSqr() > 0.0) {
+        const Vec3d upward = options.upright.unit();
+        right = rightOf(points, upward, options.toEye);
+        toEye = right.cross(upward);
+    } else if (options.toEye.lengthSqr() > 0.0) {
         toEye = options.toEye.unit();
         right = options.up.cross(toEye).unit();
     } else {

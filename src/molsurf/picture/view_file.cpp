@@ -42,7 +42,10 @@ bool isViewName(const std::string& path)
 void lookFrom(const Vec3d& toEye, DrawOptions& options)
 {
     options.toEye = toEye;
-    options.up = std::abs(toEye.unit().y()) < 0.99 ? Vec3d(0, 1, 0) : Vec3d(0, 0, 1);
+    constexpr double along = 0.99; // cosine of the angle to an axis
+    const Vec3d way = toEye.unit();
+    const bool level = std::max(std::abs(way.x()), std::abs(way.y())) > along;
+    options.up = level ? Vec3d(0, 0, 1) : Vec3d(0, 1, 0);
 }
 
 void writeView(const Mesh& mesh, const DrawOptions& options, OutputFile& file)

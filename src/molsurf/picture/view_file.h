@@ -15,7 +15,7 @@ namespace molsurf
 /// Whether a file's name says that it is a view: "NAME.view".
 bool isViewName(const std::string& path);
 
-/// Looks from somewhere. Up is y, or z for who looks along y.
+/// Looks from somewhere. Up is y, or z for who looks along x or y.
 /// @param[in] toEye  not 0
 void lookFrom(const openvdb::Vec3d& toEye, DrawOptions& options);
 

@@ -82,8 +82,9 @@ std::vector<GroupRule> readJson(const std::string& path, const std::string& text
 /// Whether a column of a table is behind the selection, which may have blanks.
 bool isEnd(std::string_view column)
 {
+    constexpr std::size_t longest = 64; // of a colour: the last column has the rest of the line
     return column.rfind("copies=", 0) == 0 || column[0] == '#' ||
-           parseColor(std::string(column)).has_value();
+           (column.size() <= longest && parseColor(std::string(column)).has_value());
 }
 
 std::vector<GroupRule> readTable(const std::string& path, const std::string& text)
@@ -102,7 +103,10 @@ std::vector<GroupRule> readTable(const std::string& path, const std::string& tex
         std::size_t end = columns.size();
         while (end > 2 && isEnd(columns[end - 1])) --end;
         const char* const first = columns[1].data();
-        rule.select = std::string(first, columns[end - 1].data() + columns[end - 1].size());
+        constexpr std::size_t longest = 1 << 20; // of a selection
+        const std::size_t length =
+            std::size_t(columns[end - 1].data() + columns[end - 1].size() - first);
+        if (length <= longest) rule.select = std::string(first, length);
         if (end > 2 && !hasWords(rule.select)) { // then blanks part it from a wrong colour
             rule.select = columns[1];
             end = 2;

@@ -628,8 +628,11 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     const std::vector<GroupRule> groups = withCopies(structure, options, balls);
     placeBalls(structure, options, std::move(balls), out);
     if (out.balls.empty()) {
+        const bool anyWater = std::any_of(out.drops.begin(), out.drops.end(),
+                                          [](auto& drop) { return drop.reason == "water"; });
         failInput(structure, "nothing is left of " + std::to_string(model.end - model.begin) +
-                                 " atoms: dropped " + describeDrops(out.drops));
+                                 " atoms: dropped " + describeDrops(out.drops) +
+                                 (anyWater ? " [hint: `waters` keeps it]" : ""));
     }
     dropDuplicates(structure, filter, out);
     checkExtent(structure, out.balls);

@@ -122,14 +122,14 @@ struct Structure {
     BeadKind beads = BeadKind::None;
     std::vector<std::int32_t> serials; ///< of the atoms, as the file numbers them; empty: from 1 in
                                        ///< each model
-    std::vector<float> charges;      ///< of the atoms of a PQR or .mol2 file [e]; else empty
-    std::vector<std::string> labels; ///< of the atoms of an xyzrn file: the last column as it
-                                     ///< stands there; else empty
+    std::vector<float> charges;        ///< of the atoms of a PQR or .mol2 file [e]; else empty
+    std::vector<std::string> labels;   ///< of the atoms of an xyzrn file: the last column as it
+                                       ///< stands there; else empty
     /// The atoms of selections that ask for places, as they were when settleSelections() asked.
     std::map<std::string, std::vector<char>> settled;
-    bool hasRadii = false;           ///< true if every atom has the file's own radius
-    bool placed = true;              ///< false if the atoms have no places yet, which then are
-                                     ///< all 0
+    bool hasRadii = false;   ///< true if every atom has the file's own radius
+    bool placed = true;      ///< false if the atoms have no places yet, which then are
+                             ///< all 0
     bool plddt = false;      ///< whether the file says that B factors are the pLDDT of a prediction
     std::size_t guessed = 0; ///< atoms of the first model whose elements come from names or masses
     std::vector<std::string> warnings; ///< one line each: parts of the file that were ignored

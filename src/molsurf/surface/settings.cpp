@@ -351,8 +351,8 @@ Setting matchSetting()
         const std::string word = lowered(values.back());
         if (word != "none" && word != "ses") wrongValue("match", "none or ses", values.back());
         if (word == "none") return;
-        // measured: issue on simulation: APBS energies of fas2, lysozyme, 451c, 1ubq, 1crn and
-        // 1bna for offsets of 0.05 to 0.1 Å; docs/electrostatics.md has the errors.
+        // measured: vdb_molsurf x.pqr --match ses --for apbs -o run/ beside --surface ses: fas2,
+        // lysozyme, 451c, 1ubq, 1crn and 1bna; docs/electrostatics.md has the errors.
         s.options.epsilon = 0.1;
         s.options.evolution.lambda = 0.003;
         s.options.inset = 0.073;

@@ -78,7 +78,7 @@ TEST_F(ViewFile, RefusesShapesThatNoPictureHas)
         EXPECT_THROW(read(oblique, origin, size), Error) << size;
 }
 
-// Up is y, or z for who looks along y.
+// Up is y, or z for who looks along x or y.
 TEST_F(ViewFile, WhoLooksFromSomewhereHasAnUp)
 {
     for (const Vec3d& from : {Vec3d(1, 2, 3), Vec3d(0, -5, 0), Vec3d(0, 5, 0.1), Vec3d(0, 0, 1)}) {
@@ -87,6 +87,10 @@ TEST_F(ViewFile, WhoLooksFromSomewhereHasAnUp)
         EXPECT_GT(options.up.cross(from.unit()).length(), 0.1) << from;
     }
     EXPECT_EQ(options.up, Vec3d(0, 1, 0));
+    for (const Vec3d& from : {Vec3d(3, 0, 0), Vec3d(-3, 0.1, 0), Vec3d(0, -3, 0)}) {
+        lookFrom(from, options);
+        EXPECT_EQ(options.up, Vec3d(0, 0, 1)) << from;
+    }
 }
 
 } // namespace

@@ -63,8 +63,7 @@ TEST_F(MatchAtoms, JoinsAlternatives)
 
 TEST_F(MatchAtoms, RefusesWhatMatchesNothingAndShowsTheSyntax)
 {
-    const std::string message =
-        errorOf(ErrorKind::Input, [&] { matchAtoms(structure_, "Q"); });
+    const std::string message = errorOf(ErrorKind::Input, [&] { matchAtoms(structure_, "Q"); });
     EXPECT_HAS(message, "4at1.ent.gz: selection \"Q\" matches no atom");
     EXPECT_HAS(message, "the chains are A, B, C, D");
     EXPECT_HAS(message, "A/53-132");

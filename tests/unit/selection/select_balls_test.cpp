@@ -115,7 +115,8 @@ TEST(SelectBalls, SaysWhyNothingIsLeft)
     options.select = "*;solvent";
     const Structure s = readStructure(dataFile("1ubq.pdb"));
     EXPECT_HAS(errorOf(ErrorKind::Input, [&] { selectBalls(s, options); }),
-               "nothing is left of 660 atoms: dropped 602 not selected, 58 water");
+               "nothing is left of 660 atoms: dropped 602 not selected, 58 water [hint: `waters` "
+               "keeps it]");
 }
 
 TEST(SelectBalls, DropsDummiesAndZeroRadii)
