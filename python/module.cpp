@@ -295,8 +295,8 @@ nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::strin
 {
     const BallSet& atoms = *surface.atoms;
     MolecularSurface& result = surface.result;
-    if (name == "atoms") return dictOf(atomTable(atoms, result));
     const double probe = probeOf(surface.options);
+    if (name == "atoms") return dictOf(atomTable(atoms, probe, result));
     if (name == "residues") return dictOf(residueTable(atoms, probe, result));
     if (name == "interfaces") return dictOf(interfaceTable(atoms, result.report));
     if (result.contacts.empty())

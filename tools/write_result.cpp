@@ -187,13 +187,13 @@ DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, 
 Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
                 const MolecularSurface& result)
 {
-    Table table;
-    if (name == "atoms") table = atomTable(atoms, result);
-    if (name == "residues") table = residueTable(atoms, call.options.probe, result);
-    if (name == "contacts") table = contactTable(atoms, call.contacts, result);
-    if (name == "interfaces") table = interfaceTable(atoms, result.report);
     SurfaceOptions shown = call.options;
     shown.kind = shown.areasOf.value_or(shown.kind);
+    Table table;
+    if (name == "atoms") table = atomTable(atoms, probeOf(shown), result);
+    if (name == "residues") table = residueTable(atoms, probeOf(shown), result);
+    if (name == "contacts") table = contactTable(atoms, call.contacts, result);
+    if (name == "interfaces") table = interfaceTable(atoms, result.report);
     addOrigin(atoms, result.report.areasOf, probeOf(shown), table);
     return table;
 }

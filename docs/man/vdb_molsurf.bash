@@ -15,7 +15,7 @@ _vdb_molsurf()
         "build":--coarse) words="atom residue" ;;
         "build":--group-by) words="chain entity class copy" ;;
         "build":--split) words="group" ;;
-        "build":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
+        "build":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
         "build":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "build":--value-of) words="atom residue" ;;
         "build":--areas) words="atoms residues contacts interfaces" ;;
@@ -35,7 +35,7 @@ _vdb_molsurf()
         "batch":--coarse) words="atom residue" ;;
         "batch":--group-by) words="chain entity class copy" ;;
         "batch":--split) words="group" ;;
-        "batch":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
+        "batch":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
         "batch":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "batch":--value-of) words="atom residue" ;;
         "batch":--areas) words="atoms residues contacts interfaces" ;;
@@ -69,7 +69,7 @@ _vdb_molsurf()
         "bricks plan":--match) words="none ses" ;;
         "bricks plan":--coarse) words="atom residue" ;;
         "bricks plan":--group-by) words="chain entity class copy" ;;
-        "bricks plan":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
+        "bricks plan":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
         "bricks plan":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "bricks plan":--value-of) words="atom residue" ;;
         "bricks plan":--regularizer) words="gradient area" ;;

@@ -58,8 +58,8 @@ def residue_depth(entity, probe_radius=1.4, radii="bondi", voxel=0.5):
     """How deep residues lie below the solvent-excluded surface [Å], as Bio.PDB.ResidueDepth tells, without MSMS.
 
     Returns a dict: (chain, residue.id) -> (mean over the atoms, that of CA; None without one). Atoms that have no
-    radius are left out. Depths are to the surface itself, and not to the nearest of its vertices, and negative where an
-    atom's centre lies outside. Of a structure the first model is taken.
+    radius are left out. Depths are to the outer surface itself, and not to the nearest of its vertices, and negative
+    where an atom's centre lies outside. Of a structure the first model is taken.
 
     radii: as of compute(). voxel: of the surface [Å].
     """
@@ -75,7 +75,7 @@ def residue_depth(entity, probe_radius=1.4, radii="bondi", voxel=0.5):
     if not len(kept):
         raise ValueError("entity: expected at least one atom with a radius, got none")
     positions = np.array([atoms[i].get_coord() for i in kept], dtype=np.float64)
-    made = surface(positions, known[kept], kind="ses", probe=probe_radius, voxel=voxel)
+    made = surface(positions, known[kept], kind="ses", probe=probe_radius, voxel=voxel, fill_cavities=True)
     depths = {}
     for i, depth in zip(kept, -made.distance(positions).distance):
         depths.setdefault(atoms[i].get_parent(), {})[atoms[i].get_name()] = float(depth)

@@ -72,6 +72,7 @@ struct ValueBy {
         Hydrophobicity, ///< of the amino acid
         Rainbow,        ///< the place of the residue in its chain
         Radius,         ///< the distance from the centre
+        Depth,          ///< below the solvent-excluded surface
         Table,          ///< of a file: chain, residue number, perhaps the atom, value
         Potential       ///< of a map in the format OpenDX
     };

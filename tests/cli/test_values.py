@@ -223,6 +223,21 @@ class Values(ToolTest):
         for place, value, _ in self.vertices("a.ply", "radius"):
             self.assertAlmostEqual(value, math.dist(place, (20.0, 0.0, 0.0)), 3)
 
+    def test_depth_is_that_of_the_table(self):
+        self.check(0, CRAMBIN, *FAST, "--surface", "ses", "--color", "depth", "--flat-values", "-o", "a.ply",
+                   "-o", "a.atoms.csv", "-o", "a.residues.csv")
+        rows = self.table("a.atoms.csv")
+        depths = [float(row["depth_A"]) for row in rows]
+        self.assertGreater(min(depths), 1.3)
+        self.assertTrue(4.0 < max(depths) < 7.0)
+        known = {round(d, 3) for d in depths}
+        for _, value, _ in self.vertices("a.ply", "depth")[::50]:
+            self.assertTrue(any(abs(value - d) < 2e-3 for d in known), value)
+        first = self.table("a.residues.csv")[0]
+        own = [row for row in rows if row["number"] == first["number"]]
+        self.assertAlmostEqual(float(first["depth_A"]), sum(float(r["depth_A"]) for r in own) / len(own), 9)
+        self.assertEqual(first["ca_depth_A"], *(r["depth_A"] for r in own if r["atom"] == "CA"))
+
     def test_charges(self):
         self.write("a.pqr", "ATOM 1 N LYS 1 0.0 0.0 0.0 0.8 1.8\n"
                             "ATOM 2 O GLU 2 10.0 0.0 0.0 -0.8 1.6\n")

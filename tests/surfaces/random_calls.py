@@ -139,7 +139,7 @@ def surface_options(rng):
         lambda: ["--max-steps", rng.choice(("0", "1", "5"))],
         lambda: ["--group-by", rng.choice(("chain", "entity", "class", "copy", "residues:1", "residues:7", "residues:0"))],
         lambda: ["--color", rng.choice(("chain", "group", "element", "residue", "nucleotide", "bfactor", "charge",
-                                        "rainbow", "radius", "plain=red", "mean-curvature", "hydrophobicity", "copy"))],
+                                        "rainbow", "radius", "depth", "plain=red", "mean-curvature", "hydrophobicity", "copy"))],
         lambda: ["--fields", rng.choice(("all", "sas,spline", "density", "Cd", "atom_id", "shape_index"))],
         lambda: [rng.choice(("--fill-cavities", "--curvature-totals", "--interfaces", "--center", "--crisp", "--vdb-half",
                              "--waters", "--ions", "--hetero", "--no-hetero", "--no-hydrogens", "--by-symmetry",

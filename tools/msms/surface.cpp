@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 namespace molsurf::msms
 {
@@ -123,29 +122,6 @@ std::vector<BoundaryPoint> placeVertices(const Exact& exact, Mesh& mesh, const P
     return points;
 }
 
-/// The piece of the solvent-accessible surface that each corner lies on, or -1.
-std::vector<std::int32_t> cornerPieces(const Exact& exact)
-{
-    const BallBoundary& boundary = exact.boundary;
-    std::map<CornerName, std::int32_t> pieceOf;
-    for (std::size_t a = 0; a < boundary.arcs.size(); ++a) {
-        for (int end = 0; end < 2 && boundary.arcs[a].ends[end] >= 0; ++end)
-            pieceOf[cornerAt(boundary.arcs[a], end)] = exact.measure.arcPieces[a];
-    }
-    std::vector<std::int32_t> out;
-    for (const Corner& corner : boundary.corners) {
-        const auto centre = [&](int k) {
-            return boundary.balls[std::size_t(corner.balls[k])].centre();
-        };
-        const Vec3d normal = (centre(1) - centre(0)).cross(centre(2) - centre(0));
-        const CornerName name{{corner.balls[0], corner.balls[1], corner.balls[2]},
-                              normal.dot(corner.position - centre(0)) > 0.0};
-        const auto found = pieceOf.find(name);
-        out.push_back(found == pieceOf.end() ? -1 : found->second);
-    }
-    return out;
-}
-
 /// How the vertices of the mesh and the pieces of the solvent-accessible surface are shared out
 /// among components. Two pieces whose probes overlap have one component: they wash one void.
 struct Shares {
@@ -166,7 +142,7 @@ Shares sharesOf(const Mesh& mesh, const std::vector<BoundaryPoint>& points, cons
     }
     std::size_t meshPieces = 0;
     const std::vector<std::uint32_t> meshPiece = connectedPieces(mesh, meshPieces, progress);
-    const std::vector<std::int32_t> ofCorner = cornerPieces(exact);
+    const std::vector<std::int32_t> ofCorner = cornerPieces(exact.boundary, exact.measure);
     const std::size_t size = meshPieces + measure.pieces.size();
     DisjointSets sets(size);
     std::vector<char> known(size, 0);

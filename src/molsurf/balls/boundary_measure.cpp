@@ -368,4 +368,16 @@ std::vector<double> areasOfBalls(const BallBoundary& boundary, const BoundaryMea
     return areas;
 }
 
+std::vector<std::int32_t> cornerPieces(const BallBoundary& boundary, const BoundaryMeasure& measure)
+{
+    // An arc with a later ball at an end has put the corner there into the list.
+    std::vector<std::int32_t> out;
+    for (std::size_t a = 0; a < boundary.arcs.size(); ++a) {
+        const Arc& arc = boundary.arcs[a];
+        for (int e = 0; e < 2 && arc.ends[e] >= 0; ++e)
+            if (arc.ends[e] > arc.balls[1]) out.push_back(measure.arcPieces[a]);
+    }
+    return out;
+}
+
 } // namespace molsurf

@@ -59,6 +59,10 @@ struct BoundaryMeasure {
 /// @throws Error(ErrorKind::Check) if the parts of the boundary do not fit together
 BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& progress);
 
+/// The piece that each corner lies on, or -1.
+std::vector<std::int32_t> cornerPieces(const BallBoundary& boundary,
+                                       const BoundaryMeasure& measure);
+
 /// The area of every ball's patches [Å^2], in the order of the caller's balls.
 /// @param[in] count  of those balls
 std::vector<double> areasOfBalls(const BallBoundary& boundary, const BoundaryMeasure& measure,

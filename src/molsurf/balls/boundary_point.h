@@ -5,11 +5,13 @@
 /// The point of the boundary of a union of balls that is nearest to a given point, exactly.
 
 #include "molsurf/balls/ball_boundary.h"
+#include "molsurf/balls/boundary_measure.h"
 #include "molsurf/balls/box_tree.h"
 
 #include <openvdb/Types.h>
 
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 namespace molsurf
@@ -36,6 +38,12 @@ public:
     /// @param[in] boundary  with at least one patch; has to outlive this object
     explicit BoundaryPoints(const BallBoundary& boundary);
 
+    /// Leaves out some pieces.
+    /// @param[in] measure  of the boundary
+    /// @param[in] kept     one a piece
+    BoundaryPoints(const BallBoundary& boundary, const BoundaryMeasure& measure,
+                   const std::vector<char>& kept);
+
     /// The point nearest to x; of equally near ones corners come before arcs and these before
     /// patches, and the lower index first.
     /// @param[in] x      [Å]
@@ -43,11 +51,21 @@ public:
     BoundaryPoint nearest(const openvdb::Vec3d& x, double guess) const;
 
 private:
+    /// An arc of a patch with some faces that are left out and some that are not.
+    struct Side {
+        std::uint32_t arc;
+        bool kept; ///< the face there
+    };
+
+    bool isKept(std::size_t patch, const openvdb::Vec3d& point) const;
     void search(const openvdb::Vec3d& x, BoundaryPoint& best) const;
 
     const BallBoundary& boundary_;
     BoxTree patches_, arcs_, corners_;
     std::vector<double> cosines_; // of half the angle of each arc; below -1: a whole circle
+    // What is left out; empty: nothing.
+    std::vector<char> patchKept_, arcKept_, cornerKept_;
+    std::unordered_map<std::size_t, std::vector<Side>> mixed_; // of patches kept in part
 };
 
 } // namespace molsurf

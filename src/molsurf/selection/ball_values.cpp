@@ -219,7 +219,7 @@ const std::vector<std::string>& valueWords()
 {
     static const std::vector<std::string> words = {"bfactor",        "occupancy", "charge",
                                                    "hydrophobicity", "rainbow",   "radius",
-                                                   "table",          "potential"};
+                                                   "depth",          "table",     "potential"};
     return words;
 }
 
@@ -345,7 +345,7 @@ void judge(const SelectOptions::Coloring& coloring, bool spreads, bool signedRan
 } // namespace
 
 BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls, const ValueBy& by,
-                      const SelectOptions::Coloring& coloring, const Vec3d& centre,
+                      const SelectOptions::Coloring& coloring, const BallPlaces& places,
                       std::size_t maxBytes, std::vector<std::string>& warnings)
 {
     const auto filled = [&](BallValues out, const auto& value) {
@@ -389,9 +389,13 @@ BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls
                      [&](const Ball& ball) { return places[std::size_t(atomOf(ball).residue)]; });
         spreads = false;
     } else if (by.kind == Kind::Radius) {
+        const Vec3d& centre = places.centre;
         out = filled({word, "Radius", "Å", "viridis", 0.0, 1.0, centre}, [&](const Ball& ball) {
             return float((Vec3d(ball.center) - centre).length());
         });
+    } else if (by.kind == Kind::Depth) {
+        out = {word, "Depth", "Å", "viridis", 0.0, 1.0, {}};
+        out.valueOf.assign(places.depths.begin(), places.depths.end());
     } else if (by.kind == Kind::Table) {
         out = {"value", "Value", "", "viridis", 0.0, 1.0, {}};
         fillFromTable(structure, balls, by.file, maxBytes, out, warnings);

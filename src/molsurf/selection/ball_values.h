@@ -19,7 +19,7 @@ namespace molsurf
 const std::vector<std::string>& valueWords();
 
 /// How many of them, the first ones, are without a file.
-constexpr std::size_t valuesWithoutFile = 6;
+constexpr std::size_t valuesWithoutFile = 7;
 
 /// The values of a word, with a file "table=FILE"; none: it is no such word.
 /// @throws Error(ErrorKind::Usage) if the file is missing
@@ -27,6 +27,12 @@ std::optional<ValueBy> parseValueBy(const std::string& text);
 
 /// The text that parseValueBy() reads.
 std::string textOf(const ValueBy& by);
+
+/// Where balls lie in the whole.
+struct BallPlaces {
+    openvdb::Vec3d centre;      ///< that radii are taken from [Å]
+    std::vector<double> depths; ///< of the balls, for values that are depths [Å]
+};
 
 /// Gives every ball a value.
 ///
@@ -38,6 +44,7 @@ std::string textOf(const ValueBy& by);
 /// - hydrophobicity: of the amino acid (Kyte and Doolittle, J. Mol. Biol. 157:105-132, 1982).
 /// - rainbow: the place of the residue in its chain, 0 at its first, 1 at its last.
 /// - radius: the distance from the centre [Å].
+/// - depth: of the centre below the solvent-excluded surface of the whole [Å].
 /// - table: lines of chain, residue number, perhaps the atom's name, and the value, parted by
 ///   commas or white space; what starts with # and a first line without a number are skipped.
 /// - potential: of a map in the format OpenDX, as APBS writes it [kT/e].
@@ -47,14 +54,14 @@ std::string textOf(const ValueBy& by);
 /// of a table that are all the same show nothing, if no range is given.
 ///
 /// @param[in]     coloring  range: B factors are then no pLDDT
-/// @param[in]     centre    that radii are taken from [Å]
+/// @param[in]     places    of the balls in the whole
 /// @param[in]     maxBytes  that a file may have; see loadText()
 /// @param[in,out] warnings  of residues in the table that the structure does not have, of balls
 ///                          without a value, of values that are all the same
 /// @throws Error(ErrorKind::Input) if the file has no such values, or the table cannot be read or
 ///         fits no atom
 BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls, const ValueBy& by,
-                      const SelectOptions::Coloring& coloring, const openvdb::Vec3d& centre,
+                      const SelectOptions::Coloring& coloring, const BallPlaces& places,
                       std::size_t maxBytes, std::vector<std::string>& warnings);
 
 } // namespace molsurf

@@ -469,13 +469,17 @@ void applyResolutions(const Structure& structure, const SelectOptions& options, 
 }
 
 /// Adds the values that a surface is coloured by.
-void addValues(const Structure& structure, const SelectOptions& options, BallSet& out)
+/// @param[in] probe  of the surface that depths are below [Å]
+void addValues(const Structure& structure, const SelectOptions& options, double probe,
+               const Progress& progress, BallSet& out)
 {
-    openvdb::Vec3d centre(0.0);
+    BallPlaces places{openvdb::Vec3d(0.0), {}};
     for (const Ball& ball : out.balls)
-        centre += openvdb::Vec3d(ball.center) / double(out.balls.size());
-    if (out.placement.unit) centre = out.placement.unit->centre;
-    BallValues values = ballValues(structure, out.balls, *options.valueBy, options.coloring, centre,
+        places.centre += openvdb::Vec3d(ball.center) / double(out.balls.size());
+    if (out.placement.unit) places.centre = out.placement.unit->centre;
+    if (options.valueBy->kind == ValueBy::Kind::Depth)
+        places.depths = ballDepths(out, probe, progress);
+    BallValues values = ballValues(structure, out.balls, *options.valueBy, options.coloring, places,
                                    options.maxInput, out.warnings);
     const std::size_t none = std::size_t(std::count_if(values.valueOf.begin(), values.valueOf.end(),
                                                        [](float v) { return !std::isfinite(v); }));
@@ -652,7 +656,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     }
     stopIfCancelled(progress);
     out.coloring = options.coloring;
-    if (options.valueBy) addValues(structure, options, out);
+    if (options.valueBy) addValues(structure, options, probe, progress, out);
     if (options.plainColor) out.colors.assign(out.balls.size(), *options.plainColor);
     if (options.names) out.names = ballNames(structure, out);
     return out;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/subset.h"
 
+#include "molsurf/balls/depth.h"
+
 #include "molsurf/balls/placed_ball.h"
 
 namespace molsurf
@@ -71,6 +73,25 @@ WholeBalls ballsOfWhole(const BallSet& atoms)
     for (const Instance& copy : atoms.placement.instances) {
         const auto [begin, end] = atoms.prototype(copy.part);
         for (std::size_t i = begin; i < end; ++i) add(i, copy.placed(atoms.balls[i].center));
+    }
+    return out;
+}
+
+std::vector<double> ballDepths(const BallSet& atoms, double probe, const Progress& progress)
+{
+    const auto depthsIn = [&](const std::vector<Ball>& whole, const std::vector<Ball>& some) {
+        std::vector<openvdb::Vec3d> centres;
+        for (const Ball& ball : some) centres.push_back(ball.center);
+        return depthsOf(whole, probe, centres, progress);
+    };
+    if (atoms.placement.unit) return depthsIn(ballsOfWhole(atoms).balls, atoms.balls);
+    std::vector<double> out;
+    for (std::size_t p = 0; p < atoms.placement.prototypes(); ++p) {
+        const auto [begin, end] = atoms.prototype(p);
+        const std::vector<Ball> balls(atoms.balls.begin() + std::ptrdiff_t(begin),
+                                      atoms.balls.begin() + std::ptrdiff_t(end));
+        const std::vector<double> depths = depthsIn(balls, balls);
+        out.insert(out.end(), depths.begin(), depths.end());
     }
     return out;
 }

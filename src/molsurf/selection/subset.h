@@ -5,6 +5,7 @@
 /// Some of the balls, with all that is known of them.
 
 #include "molsurf/atoms.h"
+#include "molsurf/progress.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -46,5 +47,10 @@ struct WholeBalls {
 /// Finds the balls of the whole that a set stands for: these, or its own ones as motions repeat
 /// them.
 WholeBalls ballsOfWhole(const BallSet& atoms);
+
+/// How deep the centre of each ball lies below the outer solvent-excluded surface of the whole, or
+/// of its prototype [Å].
+/// @param[in] probe  0: below the van der Waals surface [Å]
+std::vector<double> ballDepths(const BallSet& atoms, double probe, const Progress& progress);
 
 } // namespace molsurf

@@ -3,6 +3,7 @@
 
 #include "molsurf/error.h"
 #include "molsurf/selection/ball_names.h"
+#include "molsurf/selection/subset.h"
 #include "molsurf/structure/element.h"
 
 #include <algorithm>
@@ -111,9 +112,32 @@ Numbers meansOfResidues(const BallNames& names, const Counts& balls, const Molec
     return out;
 }
 
+/// Adds the depths of residues, and of their CA.
+/// @param[in] balls  numbers of each residue's; those with none are left out
+void addDepths(const BallSet& atoms, const Numbers& depths, const Counts& balls, Table& table)
+{
+    constexpr std::uint8_t carbon = 6;
+    const BallNames& names = *atoms.names;
+    Numbers sums(balls.size(), 0.0), ofCa(balls.size(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < atoms.own(); ++i) {
+        const auto residue = std::size_t(names.residueOf[i]);
+        sums[residue] += depths[i];
+        if (names.atoms[i].name == "CA" && names.atoms[i].element == carbon)
+            ofCa[residue] = depths[i];
+    }
+    Numbers mean, ca;
+    for (std::size_t r = 0; r < balls.size(); ++r) {
+        if (balls[r] == 0) continue;
+        mean.push_back(sums[r] / double(balls[r]));
+        ca.push_back(ofCa[r]);
+    }
+    table.columns.push_back({"depth_A", std::move(mean)});
+    table.columns.push_back({"ca_depth_A", std::move(ca)});
+}
+
 } // namespace
 
-Table atomTable(const BallSet& atoms, const MolecularSurface& result)
+Table atomTable(const BallSet& atoms, double probe, const MolecularSurface& result)
 {
     checkAreas(atoms, result);
     const BallNames& names = namesOf(atoms);
@@ -138,6 +162,9 @@ Table atomTable(const BallSet& atoms, const MolecularSurface& result)
     table.columns.push_back({"atom_id", std::move(id)});
     table.columns.push_back({"radius_A", std::move(radius)});
     table.columns.push_back({"area", result.ballAreas});
+    Numbers depth = ballDepths(atoms, probe, Progress());
+    depth.resize(result.ballAreas.size());
+    table.columns.push_back({"depth_A", std::move(depth)});
     return table;
 }
 
@@ -167,6 +194,7 @@ Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& r
     constexpr double ofMaxima = 1.4; // probe [Å]
     if (result.report.areasOf == nameOf(SurfaceKind::SolventAccessible) && probe == ofMaxima)
         table.columns.push_back({"relative_accessibility", std::move(relative)});
+    addDepths(atoms, ballDepths(atoms, probe, Progress()), balls, table);
     if (!result.ballValues.empty())
         table.columns.push_back(
             {"mean_" + atoms.labels->values->name, meansOfResidues(names, balls, result)});

@@ -39,7 +39,8 @@ BallValues valuesOf(const Structure& s, const std::string& by,
     std::vector<Ball> balls;
     for (std::size_t i = 0; i < s.atoms.size(); ++i)
         balls.push_back({s.atoms[i].position, 1.7, std::int32_t(i)});
-    return ballValues(s, balls, *parseValueBy(by), coloring, openvdb::Vec3d(0.0), 0, warnings);
+    return ballValues(s, balls, *parseValueBy(by), coloring, {openvdb::Vec3d(0.0), {}}, 0,
+                      warnings);
 }
 
 BallValues valuesOf(const Structure& s, const std::string& by)

@@ -58,7 +58,8 @@ TEST(Tables, OfAtomsAndResiduesAddUpToTheArea)
 {
     const BallSet atoms = named("1crn.pdb");
     const MolecularSurface result = makeSurface(atoms, exact());
-    const Table byAtom = atomTable(atoms, result), byResidue = residueTable(atoms, 1.4, result);
+    const Table byAtom = atomTable(atoms, 1.4, result),
+                byResidue = residueTable(atoms, 1.4, result);
     EXPECT_EQ(column<std::string>(byAtom, "atom").front(), "N");
     EXPECT_EQ(column<double>(byAtom, "area").size(), 327u);
     EXPECT_EQ(column<std::string>(byResidue, "residue").front(), "THR");
@@ -98,7 +99,7 @@ TEST(Tables, SayWhatTheyLack)
               "table: expected a surface with `ballAreas` of 327 atoms, got 0");
     atoms.names.reset();
     const std::string noNames = "table: expected `names` of the atoms, got none";
-    EXPECT_EQ(usageOf([&] { atomTable(atoms, result); }), noNames);
+    EXPECT_EQ(usageOf([&] { atomTable(atoms, 1.4, result); }), noNames);
     EXPECT_EQ(usageOf([&] { residueTable(atoms, 1.4, result); }), noNames);
     EXPECT_EQ(usageOf([&] { contactTable(atoms, ContactLevel::Chain, result); }), noNames);
     EXPECT_EQ(usageOf([&] { interfaceTable(atoms, result.report); }), noNames);

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/balls/depth.h"
+
+#include "molsurf/balls/ball_boundary.h"
+#include "molsurf/balls/ball_index.h"
+#include "molsurf/balls/boundary_measure.h"
+#include "molsurf/balls/boundary_point.h"
+#include "molsurf/core/disjoint_sets.h"
+#include "molsurf/core/parallel.h"
+
+#include <algorithm>
+
+namespace molsurf
+{
+
+namespace
+{
+
+/// Whether probes reach each piece from outside: a cavity's probes that overlap those of a piece
+/// outside wash one void with them. Nearest places of two pieces are corners, since patches and
+/// arcs bulge into voids.
+std::vector<char> reachedFromOutside(const BallBoundary& boundary, const BoundaryMeasure& measure,
+                                     double probe)
+{
+    const std::vector<std::int32_t> pieceOf = cornerPieces(boundary, measure);
+    std::vector<Ball> places(pieceOf.size());
+    for (std::size_t c = 0; c < places.size(); ++c)
+        places[c] = {boundary.corners[c].position, 0.0, pieceOf[c]};
+    const BallIndex index(places, {0.0, 0.0, 2.0});
+    DisjointSets sets(measure.pieces.size());
+    for (const Ball& place : places) {
+        if (place.atom < 0 || measure.pieces[std::size_t(place.atom)].outer) continue;
+        index.forEachNear(place.center, place.center, 2.0 * probe, [&](const Ball& o, auto) {
+            if (o.atom >= 0 && (o.center - place.center).length() < 2.0 * probe)
+                sets.join(std::uint32_t(place.atom), std::uint32_t(o.atom));
+        });
+    }
+    std::vector<char> roots(measure.pieces.size(), 0), out;
+    for (std::uint32_t p = 0; p < roots.size(); ++p)
+        if (measure.pieces[p].outer) roots[sets.find(p)] = 1;
+    for (std::uint32_t p = 0; p < roots.size(); ++p) out.push_back(roots[sets.find(p)]);
+    return out;
+}
+
+} // namespace
+
+std::vector<double> depthsOf(const std::vector<Ball>& balls, double probe,
+                             const std::vector<openvdb::Vec3d>& points, const Progress& progress)
+{
+    constexpr double typical = 2.0; // depth of an atom at the surface [Å]
+    const BallBoundary boundary = ballBoundary(balls, probe, progress);
+    const BoundaryMeasure measure = measureBoundary(boundary, progress);
+    const BoundaryPoints nearest(boundary, measure, reachedFromOutside(boundary, measure, probe));
+    std::vector<double> out(points.size());
+    parallelFor(points.size(), progress, [&](std::size_t i) {
+        out[i] = std::max(nearest.nearest(points[i], probe + typical).distance - probe, 0.0);
+    });
+    return out;
+}
+
+} // namespace molsurf
