@@ -62,9 +62,9 @@ say "8 bricks computed and merged; jobs: $(job_states)"
 # How much computing brick 4 is, in ticks of the clock that /proc counts in.
 number=4
 mkdir "$work/alone"
-cp "$work/whole/bricks/plan.json" "$work/alone"
+cp "$work/whole/bricks"/plan.{json,atoms} "$work/alone"
 TIMEFORMAT=%U
-seconds=$({ time "$tool" bricks run "$work/alone/plan.json" $number -j 1 -q >/dev/null 2>&1; } 2>&1)
+seconds=$({ time "$tool" bricks run "$work/alone/plan.json" $number -j 1 -q >/dev/null 2>&1; } 2>&1) || fail "brick $number alone"
 half=$(awk "BEGIN { print int($seconds / 2 * $(getconf CLK_TCK)) }")
 [[ $half -gt 10 ]] || fail "a brick of $seconds s is too short to be killed in the middle"
 

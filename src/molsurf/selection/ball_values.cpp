@@ -384,9 +384,9 @@ BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls
             [&](const Ball& ball) { return hydrophobicityOf(residueOf(structure, ball).name); });
         spreads = false;
     } else if (by.kind == Kind::Rainbow) {
-        const std::vector<float> places = placesInChains(structure);
+        const std::vector<float> inChains = placesInChains(structure);
         out = filled({word, "N to C", "", "turbo", 0.0, 1.0, {}},
-                     [&](const Ball& ball) { return places[std::size_t(atomOf(ball).residue)]; });
+                     [&](const Ball& ball) { return inChains[std::size_t(atomOf(ball).residue)]; });
         spreads = false;
     } else if (by.kind == Kind::Radius) {
         const Vec3d& centre = places.centre;
