@@ -319,6 +319,7 @@ void writePage(const Writing& w, OutputFile& file)
 {
     const DrawOptions view = pictureOf(w.call, w.atoms, w.mesh, true, w.progress);
     HtmlPage page{displayName(inputStem(w.call.input)),
+                  aboutPage(w.result.report.surface.kind, w.call.options.voxel),
                   offeredLegends(w.call.options.color, w.atoms, w.mesh, w.progress),
                   w.call.picture.plain,
                   viewAxes(w.mesh, view),

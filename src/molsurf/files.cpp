@@ -130,6 +130,7 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
     if (name.extension() == ".html") {
         HtmlPage page;
         page.title = name.stem().string();
+        page.about = aboutPage(surface.report.surface.kind, options.voxel);
         page.legends = offeredLegends(color, atoms, mesh, nobody);
         page.axes = viewAxes(mesh, how);
         if (atoms.names) {

@@ -163,6 +163,56 @@ class Page(ToolTest):
             self.assertEqual(browser.console, [])
 
     @needs("chromium")
+    def test_a_label_is_that_of_its_pixel(self):
+        """After keys the label under a mouse that rests is gone, or names what is there now."""
+        self.page(CRAMBIN, "--voxel", "0.7")
+        text = "document.getElementById('tip').hidden ? '' : document.getElementById('tip').textContent"
+        with self.opened((1000, 700)) as browser:
+            self.ready(browser)
+            move = lambda x, y: browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
+            move(612, 350)
+            browser.wait("!document.getElementById('tip').hidden")
+            before = browser.evaluate(text)
+            for _ in range(6):
+                browser.evaluate("document.getElementById('view').dispatchEvent(new KeyboardEvent('keydown', "
+                                 "{key: 'ArrowLeft', bubbles: true})); 0")
+            browser.wait("document.body.dataset.rests === 'true' && !document.getElementById('tip').hidden")
+            found = browser.evaluate(text)
+            move(2, 2)
+            browser.wait("document.getElementById('tip').hidden")
+            move(612, 350)
+            browser.wait("!document.getElementById('tip').hidden")
+            self.assertEqual(found, browser.evaluate(text))
+            self.assertNotEqual(found, before)
+
+    @needs("chromium")
+    def test_residues_are_found(self):
+        self.page(DATA / "4at1.ent.gz", "--voxel", "2", "--surface", "ses")
+        with self.opened((1000, 700)) as browser:
+            self.ready(browser)
+            self.assertIn("Surface ses, voxels of 2", browser.evaluate("document.getElementById('about').textContent"))
+            search = lambda text: browser.evaluate(
+                f"(() => {{ const e = document.getElementById('search'); e.value = '{text}'; "
+                "e.dispatchEvent(new Event('input')); return [...document.getElementById('residues').options]"
+                ".map((o) => o.text.split(' ').slice(0, 3).join(' ')); })()")
+            for text, expected in (("A HIS 41", ["A HIS 41"]), ("his 41 a", ["A HIS 41"]), ("c/his/41", ["C HIS 41"]),
+                                   ("HIS 41", ["A HIS 41", "C HIS 41"]), ("A 41 GLY", [])):
+                self.assertEqual(search(text), expected, text)
+            self.assertGreater(len(search("ARG")), 20)
+            self.assertGreater(len(search("")), 400)
+            search("A HIS 41")
+            browser.evaluate("document.getElementById('search').dispatchEvent(new KeyboardEvent('keydown', {key: 'Enter'})); 0")
+            self.assertTrue(browser.evaluate("document.getElementById('chosen').textContent").startswith("A HIS 41,"))
+            # A key lists the keys.
+            shown = "getComputedStyle(document.getElementById('keys')).display"
+            self.assertEqual(browser.evaluate(shown), "none")
+            browser.evaluate("document.getElementById('view').dispatchEvent(new KeyboardEvent('keydown', "
+                             "{key: '?', bubbles: true})); 0")
+            self.assertEqual(browser.evaluate(shown), "grid")
+            self.assertIn("reset view", browser.evaluate("document.getElementById('keys').textContent"))
+            self.assertEqual(browser.console, [])
+
+    @needs("chromium")
     def test_the_panel_covers_nothing(self):
         self.page(*DIMER, *FAST, "--color", "chain")
         for size in ((1000, 700), (420, 750)):

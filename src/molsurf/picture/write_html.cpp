@@ -4,6 +4,7 @@
 #include "molsurf/balls/nearest_ball.h"
 #include "molsurf/color/palette.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/part_ranges.h"
 #include "molsurf/picture/viewer_text.h"
@@ -258,6 +259,7 @@ Json headerOf(const Mesh& mesh, const HtmlPage& page, Arrays& arrays)
         axes.push_back(Json::array({axis[0], axis[1], axis[2]}));
     Json names = page.names && !page.ballOf.empty() ? namesOf(page, arrays) : Json();
     return {{"title", page.title},
+            {"about", page.about},
             {"levels", levels},
             {"copies", copiesOf(page.instances, origin)},
             {"axes", axes},
@@ -282,6 +284,11 @@ std::string escaped(const std::string& text, const char* less, const char* amper
 }
 
 } // namespace
+
+std::string aboutPage(const std::string& kind, double voxel)
+{
+    return "Surface " + kind + formatted(", voxels of %g Å. Areas are of its mesh.", voxel);
+}
 
 void needViewer()
 {

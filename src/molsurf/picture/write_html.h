@@ -20,7 +20,8 @@ namespace molsurf
 /// The content of the page besides the mesh.
 struct HtmlPage {
     std::string title;
-    std::vector<Legend> legends;   ///< the colours to choose from, the first one first
+    std::string about{}; ///< what the surface is
+    std::vector<Legend> legends{};   ///< the colours to choose from, the first one first
     Color plain = {140, 181, 222}; ///< of the mesh without them
     std::array<openvdb::Vec3d, 3> axes =
         { ///< directions to the right, up and toward the eye at first
@@ -35,6 +36,9 @@ struct HtmlPage {
     const BallNames* names = nullptr;
     std::vector<std::int32_t> ballOf{};
 };
+
+/// What a page shows: "Surface variational, voxels of 0.5 Å. Areas are of its mesh."
+std::string aboutPage(const std::string& kind, double voxel);
 
 /// Finds out before any work is done whether writeHtml() has its viewer.
 /// @throws Error(ErrorKind::Output) if it was built without

@@ -476,6 +476,9 @@ const longest = 200; // that a finer drawing may take when nothing moves [ms]
 const manyCopies = 300; // too many to be drawn one by one without a graphics card
 const mostSorted = 1e6; // triangles, for a drawing at rest
 
+const keyNames = [['arrows', 'turn'], ['+ \u2212', 'zoom'], ['r', 'reset view'], ['Esc', 'choose nothing'],
+  ['?', 'show or hide this'], ['drag', 'turn'], ['wheel', 'zoom'], ['right drag', 'move'], ['click', 'choose a residue']];
+
 function start(header, arrays) {
   const several = header.copies.length > 1;
   const finest = several ? 1 : 0.01; // edges, in pixels
@@ -547,6 +550,7 @@ function start(header, arrays) {
     controls.update();
     const pause = now - movedAt;
     if (moved) {
+      forget();
       const late = pause > 1.1 * frameTime, early = pause < 0.7 * frameTime;
       if ((slow || several) && pause < 500) { // turning since the last frame
         if (late && (crowded || material.transparent)) sharp = Math.max(0.5, 0.9 * sharp);
@@ -562,6 +566,7 @@ function start(header, arrays) {
       if (last || time > longest) size = 0;
       sharp = Math.min(1, 1.1 * sharp);
     }
+    if (!moved && pause > restAfter) remember();
     document.body.dataset.rests = !moved && (size === 0 || !(several || slow));
   };
   controls.addEventListener('change', () => { // which goes on after a move for steps nobody sees
@@ -628,21 +633,35 @@ function start(header, arrays) {
     const value = valueText(mode, vertex, arrays);
     return `${owners.nameOf(residue)} ${name}${value ? `, ${value}` : ''}, ${number(area, 1)} of ${number(residue.area, 1)} Å²`;
   };
+  let forget = () => {}, remember = () => {}; // the label, while the surface turns
   const choose = (residue) => {
+    if (!owners) return;
     chosen = residue;
+    if (residue && !list.querySelector(`option[value="${owners.residues.indexOf(residue)}"]`)) search('');
     list.value = residue ? owners.residues.indexOf(residue) : '';
     byId('chosen').textContent = residue ? `${owners.nameOf(residue)}, ${number(residue.area, 1)} Å²` : '';
     repaint();
   };
   if (owners) {
     byId('atoms').hidden = false;
-    owners.residues.forEach((residue, i) => {
-      if (residue.area > 0) list.append(new Option(`${owners.nameOf(residue)}  ${number(residue.area, 1)}`, i));
-    });
     list.addEventListener('change', () => choose(owners.residues[list.value]));
-    let waits = false, last = null, pressed = null;
+    byId('search').addEventListener('input', () => search(byId('search').value));
+    byId('search').addEventListener('keydown', (event) => {
+      if (event.key === 'Enter' && list.options.length > 0) choose(owners.residues[list.options[0].value]);
+    });
+    search('');
+    let waits = false, last = null, pressed = null, stale = false;
+    forget = () => {
+      stale ||= !tip.hidden;
+      tip.hidden = true;
+    };
+    remember = () => {
+      if (stale) look();
+      stale = false;
+    };
     const look = () => {
       waits = false;
+      if (!last) return;
       const vertex = last.buttons === 0 ? vertexAt(last) : -1;
       tip.hidden = vertex < 0;
       if (vertex < 0) return;
@@ -657,13 +676,33 @@ function start(header, arrays) {
       if (!waits) requestAnimationFrame(look);
       waits = true;
     });
-    canvas.addEventListener('pointerleave', () => { tip.hidden = true; });
+    canvas.addEventListener('pointerleave', () => {
+      tip.hidden = true;
+      last = null;
+    });
     canvas.addEventListener('pointerdown', (event) => { pressed = event; });
     canvas.addEventListener('pointerup', (event) => {
       if (!pressed || Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) > 4) return;
       const vertex = vertexAt(event);
       choose(vertex < 0 ? null : owners.atoms[owners.of[vertex]].residue);
     });
+  }
+
+  // Lists the residues that have each word: as chain, as number, or as the begin of the name.
+  function search(text) {
+    const words = text.toUpperCase().split(/[\s/]+/).filter(Boolean);
+    list.replaceChildren();
+    owners.residues.forEach((residue, i) => {
+      const parts = [residue.chain, residue.name, residue.place].map((part) => part.toUpperCase());
+      const has = (word) => {
+        const at = parts.findIndex((part, k) => (k === 1 ? part?.startsWith(word) : part === word));
+        if (at >= 0) parts[at] = null;
+        return at >= 0;
+      };
+      const fits = words.every((word) => has(word));
+      if (residue.area > 0 && fits) list.append(new Option(`${owners.nameOf(residue)}  ${number(residue.area, 1)}`, i));
+    });
+    byId('found').textContent = words.length === 0 ? '' : `${list.options.length} found`;
   }
 
   // A cut toward the eye, and light that goes through.
@@ -733,10 +772,23 @@ function start(header, arrays) {
     camera.position.sub(controls.target).multiplyScalar(factor).add(controls.target);
     moved = true;
   };
+  const showKeys = () => {
+    const shown = byId('keys').hidden;
+    byId('keys').hidden = !shown;
+    byId('help').setAttribute('aria-expanded', shown);
+  };
+  for (const [key, does] of keyNames) {
+    for (const [tag, text] of [['dt', key], ['dd', does]]) {
+      const line = document.createElement(tag);
+      line.textContent = text;
+      byId('keys').append(line);
+    }
+  }
+  byId('help').addEventListener('click', showKeys);
   const keys = {
     ArrowLeft: () => rotate(new Vector3(0, 1, 0), -0.1), ArrowRight: () => rotate(new Vector3(0, 1, 0), 0.1),
     ArrowUp: () => rotate(new Vector3(1, 0, 0), -0.1), ArrowDown: () => rotate(new Vector3(1, 0, 0), 0.1),
-    '+': () => zoom(0.9), '-': () => zoom(1 / 0.9), r: reset, Escape: () => choose(null),
+    '+': () => zoom(0.9), '-': () => zoom(1 / 0.9), r: reset, Escape: () => choose(null), '?': showKeys,
   };
   canvas.addEventListener('keydown', (event) => {
     if (!keys[event.key] || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -745,6 +797,7 @@ function start(header, arrays) {
   });
 
   byId('title').textContent = header.title;
+  byId('about').textContent = header.about;
   setBackground(window.matchMedia('(prefers-color-scheme: dark)').matches);
   setSize();
   reset();
