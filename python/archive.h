@@ -201,7 +201,7 @@ MOLSURF_MEMBERS(BallNames::Residue, v.chain, v.labelChain, v.name, v.number, v.i
 MOLSURF_MEMBERS(BallNames::Atom, v.name, v.altloc, v.element, v.occupancy)
 MOLSURF_MEMBERS(BallNames, v.residues, v.residueOf, v.atoms)
 MOLSURF_MEMBERS(BallSet, v.balls, v.decays, v.resolutions, v.resolutionOf, v.drops, v.placement,
-                v.beads, v.beadAtoms, v.labels, v.names, v.colors, v.coloring, v.radii, v.model,
+                v.beads, v.beadAtoms, v.labels, v.names, v.colors, v.coloring, v.radii, v.model, v.membrane,
                 v.warnings)
 MOLSURF_MEMBERS(Attribute<float>, v.name, v.values)
 MOLSURF_MEMBERS(Attribute<std::int32_t>, v.name, v.values)

@@ -169,6 +169,8 @@ DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, 
 {
     DrawOptions options = call.picture;
     options.instances = instancesOf(call, atoms, mesh, coloredCopies, progress);
+    const bool chosen = options.upright.lengthSqr() > 0.0 || options.toEye.lengthSqr() > 0.0;
+    if (atoms.membrane && !chosen) options.upright = *atoms.membrane;
     if (atoms.placement.isWhole()) {
         for (const Ball& ball : atoms.balls) options.about.emplace_back(ball.center);
         return options;

@@ -350,7 +350,9 @@ struct BallSet {
     std::string radii; ///< the name of the set, or of the file, that the radii are from; empty: the
                        ///< structure's own
     int model = 0;     ///< number of the model that was used
-    std::vector<std::string> warnings; ///< one line each, as of unknown elements
+    std::optional<openvdb::Vec3d> membrane; ///< its normal in the file, a unit vector, which is up
+                                            ///< in pictures
+    std::vector<std::string> warnings;      ///< one line each, as of unknown elements
 
     /// Returns the number of balls that the surface is of, which are the first ones: without those
     /// around a unit.

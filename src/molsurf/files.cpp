@@ -123,6 +123,7 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
     checkArrays(mesh);
     const ColorBy color = options.color;
     DrawOptions how = drawn(width);
+    how.upright = atoms.membrane.value_or(openvdb::Vec3d(0.0));
     const WholeBalls whole = ballsOfWhole(atoms);
     for (const Ball& ball : whole.balls) how.about.push_back(ball.center);
     const std::filesystem::path name = path;

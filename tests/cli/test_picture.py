@@ -206,6 +206,20 @@ class Pictures(ToolTest):
             self.check(2, "bar.xyzr", "--up", wrong, "-o", "b.png", says="--up")
         self.check(2, "bar.xyzr", "--view", "0,0,1", "--up", "0,0,-2", "-o", "b.png", says="across that of --view")
 
+    def test_membranes_are_upright(self):
+        """The dummies of OPM: from the plane of N to that of O is up, unless a view is asked for."""
+        line = "HETATM{:5}  {:<3} {:>3} A{:4}    {:8.3f}{:8.3f}{:8.3f}  1.00  0.00           {}\n"
+        rows = [("CA", "ALA", x, 0.0, 30.0 * x) for x in range(4)]
+        rows += [("O" if side > 0 else "N", "DUM", 15 * side * 0.6 + 4 * i * 0.8, 4.0 * j, 15 * side * 0.8 - 4 * i * 0.6)
+                 for side in (-1, 1) for i in range(-2, 3) for j in range(-2, 3)]
+        (self.folder / "m.pdb").write_text("".join(line.format(n, name, residue, n, x, y, z, name[0])
+                                                   for n, (name, residue, x, y, z) in enumerate(rows, 1)))
+        for words, up in (([], (0.6, 0, 0.8)), (["--view", "0,0,1"], (0, 1, 0)), (["--up", "0,0,1"], (0, 0, 1))):
+            self.check(0, "m.pdb", *FAST, *words, "-o", "a.view", "--force")
+            found = json.loads((self.folder / "a.view").read_text())["up"]
+            for x, y in zip(found, up):
+                self.assertAlmostEqual(x, y, 3, msg=words)
+
     def test_view_of_atoms_and_from_a_file(self):
         words = [CRAMBIN, *FAST, "--size", "160"]
         self.check(0, *words, "--view", "A/46", "-o", "a.view", "-o", "b.png", "--turn", "30")

@@ -571,7 +571,8 @@ Option uprightOption(unsigned verbs)
                    0,
                    "X,Y,Z",
                    "what is upright, such as 0,0,1 of a membrane's normal;\n"
-                   "without it y, or z for a view along x or y",
+                   "without it y, or z for a view along x or y, or of itself\n"
+                   "the normal of a membrane, where no view is asked for",
                    "",
                    verbs};
     upright.set = setUpright;

@@ -258,14 +258,10 @@ Json headerOf(const Mesh& mesh, const HtmlPage& page, Arrays& arrays)
     for (const openvdb::Vec3d& axis : page.axes)
         axes.push_back(Json::array({axis[0], axis[1], axis[2]}));
     Json names = page.names && !page.ballOf.empty() ? namesOf(page, arrays) : Json();
-    return {{"title", page.title},
-            {"about", page.about},
-            {"levels", levels},
-            {"copies", copiesOf(page.instances, origin)},
-            {"axes", axes},
-            {"modes", modes},
-            {"names", names},
-            {"arrays", arrays.table()}};
+    return {{"title", page.title}, {"about", page.about},
+            {"levels", levels},    {"copies", copiesOf(page.instances, origin)},
+            {"axes", axes},        {"modes", modes},
+            {"names", names},      {"arrays", arrays.table()}};
 }
 
 /// Text that may stand anywhere in HTML; in JSON the escape means the same letter.

@@ -13,6 +13,7 @@
 #include "molsurf/selection/expand_assembly.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/selection/match_atoms.h"
+#include "molsurf/selection/membrane.h"
 #include "molsurf/selection/molecule.h"
 #include "molsurf/selection/point_charges.h"
 #include "molsurf/selection/radii.h"
@@ -610,6 +611,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     if (!model.problem.empty()) failInput(structure, model.problem);
     BallSet out;
     out.model = model.number;
+    out.membrane = membraneNormal(structure, model);
     out.warnings = structure.warnings;
     out.warnings.insert(out.warnings.end(), match.warnings.begin(), match.warnings.end());
     Filter filter(model, out);

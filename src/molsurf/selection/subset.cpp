@@ -34,6 +34,7 @@ BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which, Coun
     out.colors = gather(atoms.colors, which);
     out.coloring = atoms.coloring;
     out.model = atoms.model;
+    out.membrane = atoms.membrane;
     if (counted == Counted::Subset) countBalls(out, out.resolutionOf, out.resolutions);
     if (!atoms.labels) return out;
     const BallLabels& all = *atoms.labels;
