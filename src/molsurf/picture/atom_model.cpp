@@ -7,10 +7,12 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/element.h"
+#include "molsurf/structure/residue_bonds.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace molsurf
 {
@@ -82,12 +84,39 @@ void addStick(const Vec3d& from, const Vec3d& to, double radius, const Color& co
     model.instances.push_back(stick);
 }
 
-/// Pairs of atoms as near as their covalent radii (Cordero et al., Dalton Transactions 2008, as
-/// gemmi has them) and a tolerance of 0.45 Å say.
+/// The bonds of the residues of atoms.
+class BondTable
+{
+public:
+    explicit BondTable(const BallNames& names) : names_(names)
+    {
+        for (const BallNames::Residue& residue : names.residues)
+            rows_.push_back(ResidueBonds::find(residue.name));
+    }
+
+    /// Whether two atoms are bonded; nothing: they are of two residues, or the table has no such
+    /// atoms.
+    std::optional<bool> bonded(std::size_t i, std::size_t j) const
+    {
+        const std::int32_t residue = names_.residueOf[i];
+        const ResidueBonds* row = rows_[std::size_t(residue)];
+        const std::string &a = names_.atoms[i].name, &b = names_.atoms[j].name;
+        if (names_.residueOf[j] != residue || !row || !row->has(a) || !row->has(b)) return {};
+        return row->bonded(a, b);
+    }
+
+private:
+    const BallNames& names_;
+    std::vector<const ResidueBonds*> rows_; ///< of residues; null: it has none
+};
+
+/// Pairs of atoms that the table of residues joins, and of others those as near as their covalent
+/// radii (Cordero et al., Dalton Transactions 2008, as gemmi has them) and a tolerance of 0.45 Å.
 std::vector<std::array<std::size_t, 2>> bondsOf(const BallSet& atoms)
 {
     constexpr double tolerance = 0.45, least = 0.4, reach = 3.0; // [Å]
     const BallIndex index(atoms.balls, {1.0, 1.0, 2.0});
+    const BondTable table(*atoms.names);
     const std::vector<std::uint8_t>& element = atoms.labels->elementOf;
     std::vector<std::array<std::size_t, 2>> bonds;
     for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
@@ -97,7 +126,8 @@ std::vector<std::array<std::size_t, 2>> bondsOf(const BallSet& atoms)
             if (j <= i || (element[i] == 1 && element[j] == 1)) return;
             const double far = covalentRadius(element[i]) + covalentRadius(element[j]) + tolerance;
             const double d2 = (other.center - x).lengthSqr();
-            if (d2 > least * least && d2 < far * far) bonds.push_back({i, j});
+            const bool near = d2 > least * least && d2 < far * far;
+            if (table.bonded(i, j).value_or(near)) bonds.push_back({i, j});
         });
     }
     return bonds;

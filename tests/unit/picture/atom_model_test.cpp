@@ -57,6 +57,7 @@ TEST(AtomModel, BondsByDistance)
 {
     BallSet atoms = atomsOf("/1/A/1/N,CA");
     ASSERT_EQ(atoms.balls.size(), 2u);
+    atoms.names->residues[0].name = "XXX"; // of which no table knows
     const auto sticksAt = [&](double distance, std::uint8_t a, std::uint8_t b) {
         atoms.balls[1].center = atoms.balls[0].center + Vec3d(0.0, distance, 0.0);
         atoms.labels->elementOf = {a, b};
@@ -67,6 +68,25 @@ TEST(AtomModel, BondsByDistance)
     EXPECT_EQ(sticksAt(0.75, 1, 1), 0);
     EXPECT_EQ(sticksAt(1.0, 1, 7), 2);
     EXPECT_EQ(sticksAt(2.1, 26, 7), 2); // iron
+}
+
+// The table of residues joins what lies too far apart, and parts what lies too near: of ATP in
+// 4AT1, with names of 1990, the ribose's O2* and O3* lie 2.0 Å apart.
+TEST(AtomModel, BondsByTheTable)
+{
+    BallSet atoms = atomsOf("/1/A/1/N,CA"); // of a threonine
+    atoms.balls[1].center = atoms.balls[0].center + Vec3d(0.0, 2.4, 0.0);
+    EXPECT_EQ(partsOf(modelOf(atoms, "sticks"))[1], 2);
+    atoms.names->atoms[1].name = "O";
+    atoms.balls[1].center = atoms.balls[0].center + Vec3d(0.0, 1.4, 0.0);
+    EXPECT_EQ(partsOf(modelOf(atoms, "sticks"))[1], 0);
+
+    SelectOptions options;
+    options.select = "resn ATP and chain B";
+    options.hetero = Hetero::All;
+    const BallSet ligand = readAtoms(MOLSURF_TEST_DATA "/4at1.ent.gz", options);
+    ASSERT_EQ(ligand.balls.size(), 31u);
+    EXPECT_EQ(partsOf(modelOf(ligand, "sticks"))[1], 2 * (31 - 1 + 3)); // three rings
 }
 
 // A stick reaches from its atom to the middle of the bond, and has its radius.
