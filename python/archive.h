@@ -207,12 +207,14 @@ MOLSURF_MEMBERS(Attribute<float>, v.name, v.values)
 MOLSURF_MEMBERS(Attribute<std::int32_t>, v.name, v.values)
 MOLSURF_MEMBERS(MeshPart, v.name, v.firstTriangle)
 MOLSURF_MEMBERS(Mesh, v.positions, v.normals, v.triangles, v.scalars, v.labels, v.colors, v.parts)
+MOLSURF_MEMBERS(MeshShape, v.leastAngle, v.below20, v.below28, v.shortestEdge, v.longestEdge,
+                v.keptPieces, v.eulerNumbers)
 MOLSURF_MEMBERS(SurfaceReport, v.kind, v.area, v.volume, v.eulerCharacteristic,
                 v.meshEulerCharacteristic, v.meshArea, v.meshVolume, v.meshComponents,
                 v.triangleArea, v.piecesKnown, v.components, v.cavities, v.outerArea, v.outerVolume,
                 v.vertices, v.triangles, v.closed, v.manifold, v.degenerateTriangles, v.maxResidual,
                 v.gradientShare, v.kinkShare, v.cuspLength, v.meanCurvature, v.gaussianCurvature,
-                v.integrals)
+                v.integrals, v.shape)
 MOLSURF_MEMBERS(EvolutionReport::Gaps, v.found, v.closed, v.nearest, v.closedByField,
                 v.widestClosed, v.opensBelow)
 MOLSURF_MEMBERS(EvolutionReport, v.steps, v.converged, v.energy, v.area, v.volume,

@@ -86,13 +86,14 @@ def test_every_keyword_is_taken(crambin):
                 "flow": "newton", "surface_of": ["A=vdw"], "split": "group", "color": "element", "group_by": "chain",
                 "range": (0, 50), "resolution": 8, "coarse": "residue", "select": "A", "model": 1, "assembly": "none",
                 "altloc": "all", "radii": "protor", "max_input": "1G", "copies": None, "lambda_": 0.02, "tolerance": 0.02,
-                "voxel": 1.0, "probe": 1.2, "blobbiness": 2.0, "epsilon": 0.4, "match": "ses",
+                "voxel": 1.0, "probe": 1.2, "blobbiness": 2.0, "epsilon": 0.4, "match": "ses", "remesh": 0.7, "density": 1.5, "adapt": 0.05,
                 "palette": "cividis", "value_of": "residue", "outward": 2}
     for name, row in _options.KEYWORDS.items():
         value = True if row["type"] == "switch" else examples[name]
         if name in ("hetero", "no_hetero", "interfaces", "instances", "by_symmetry"):
             continue  # with others below
-        made = ms.read(DATA / "1crn.pdb", **{"voxel": 0.5 if name == "match" else 1, "group_by": "chain", name: value}).surface()
+        made = ms.read(DATA / "1crn.pdb", **{"voxel": 0.5 if name == "match" else 1, "group_by": "chain", name: value,
+                                                   **({"remesh": 0.7} if name == "adapt" else {})}).surface()
         assert made.area > 0, name
     assert ms.read(DATA / "1crn.pdb", no_hetero=True, group_by="residues:23", interfaces=True, voxel=1).surface().area > 0
     assert ms.read(DATA / "1crn.pdb", hetero=True, voxel=1).surface().area > 0

@@ -255,3 +255,24 @@ def test_options_change_the_surface(crambin):
 def test_repr_is_one_line(ses):
     assert repr(ses) == (f"<Surface ses: 327 atoms, {len(ses.vertices)} vertices, {len(ses.faces)} faces, "
                          f"area {ses.area:.1f} Å², volume {ses.volume:.1f} Å³>")
+
+
+def test_triangles_of_an_even_size(crambin):
+    plain, made = crambin.surface(kind="ses"), crambin.surface(kind="ses", remesh=0.7)
+    assert (plain.area, plain.volume) == (made.area, made.volume) and len(made.faces) < 0.6 * len(plain.faces)
+    assert np.array_equal(plain.atom_areas, made.atom_areas)
+    assert plain.report["surface"]["mesh_shape"] is None
+    shape = made.report["surface"]["mesh_shape"]
+    corners = made.vertices.astype(float)[made.faces]
+    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+    assert shape["least_angle"] > 28 and shape["euler_characteristics"] == [2, 2]
+    assert (shape["shortest_edge"], shape["longest_edge"]) == pytest.approx((edges.min(), edges.max()), rel=1e-6)
+    assert len(made.curvature) == len(made.atom) == len(made.vertices)
+    dense = crambin.surface(kind="ses", density=1.5)
+    assert len(dense.vertices) / dense.area == pytest.approx(1.5, abs=0.3)  # more at creases
+    bent = crambin.surface(kind="ses", remesh=1.5, adapt=0.05)
+    assert len(bent.vertices) > 1.5 * len(crambin.surface(kind="ses", remesh=1.5).vertices)
+    with pytest.raises(ms.OptionError, match="remesh"):
+        crambin.surface(adapt=0.05)
+    with pytest.raises(ms.OptionError, match="0.05 to 10"):
+        crambin.surface(remesh=0)

@@ -103,6 +103,9 @@ struct Wanted {
     /// Names of further grids to make, of the list in docs/options.md: "density", "Cd", or a
     /// curvature as "mean_curvature", which the mesh then has as well.
     std::vector<std::string> fields;
+    double meshEdge = 0.0;  ///< length of the mesh's edges [Å], in [0.05, 10]; 0: by the voxels
+    double meshError = 0.0; ///< how far its triangles may lie from the surface [Å], in [0.001, 1],
+                            ///< by shorter edges; 0: it does not matter
     bool halfFloats = false; ///< whether the grids' values are saved as 16-bit floats
     bool meshLabels = true;  ///< whether the mesh has the atom, chain and group of its vertices
     bool energy = true;      ///< whether the report has the energy at rest, 5 to 9 % of the time

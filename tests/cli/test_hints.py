@@ -144,6 +144,8 @@ CASES = {
          f"vdb_molsurf 1crn.pdb --color residue {FAST} -o a.ply")],
     "surface/check_mesh.cpp": [
         ("--voxel 0.3", "vdb_molsurf 1ubq.pdb --surface vdw -o a.ply", "vdb_molsurf 1ubq.pdb --surface vdw --voxel 0.38 -o b.ply")],
+    "surface/remesh_run.cpp": [
+        ("--remesh 0.36", "vdb_molsurf one.xyzr --surface vdw --remesh 1 -o a.ply", "vdb_molsurf one.xyzr --surface vdw --remesh 0.36 -o b.ply")],
     "surface/pose_error.cpp": [
         ("--lambda 0.04", "vdb_molsurf 1crn.pdb --lambda 0.1 --voxel 1 -o a.ply", "vdb_molsurf 1crn.pdb --lambda 0.04 --voxel 1 -o b.ply")],
     "surface/settings.cpp": [

@@ -405,7 +405,9 @@ OptionGroup surfaceOptions()
     return {"Surface",
             {setting("surface", structures), setting("voxel", structures), shownIn(Levels, levels),
              setting("blobbiness", structures), setting("fill-cavities", wholes | Compare),
-             setting("fields", surfaces), attributes, shownIn(Grids, setting("vdb-half", surfaces)),
+             setting("remesh", wholes | Convert), setting("density", wholes | Convert),
+             setting("adapt", wholes | Convert), setting("fields", surfaces), attributes,
+             shownIn(Grids, setting("vdb-half", surfaces)),
              shownIn(Numbers, setting("curvature-totals", wholes))}};
 }
 

@@ -102,6 +102,25 @@ std::vector<Pair> areaPairs()
             {"contacts", IsFor, {{Areas, "contacts"}, "areas=contacts"}, ".contacts.csv"}};
 }
 
+/// What triangles of an even size need, and what would spoil them.
+std::vector<Pair> meshPairs()
+{
+    const auto nothing = [](const Call& call) { return call.outputs.empty(); };
+    const auto ofMesh = [=](const char* option) {
+        return Pair{option,
+                    Needs,
+                    {{Holds(Triangles | Copies | Views | Pixels), "", "-o FILE.ply"}},
+                    ": it makes a mesh",
+                    nothing};
+    };
+    return {ofMesh("remesh"),
+            ofMesh("density"),
+            {"remesh", Excludes, {"density"}, ": both say how large the triangles are"},
+            {"adapt", Needs, {"remesh", "density"}},
+            {"crisp", Excludes, {"remesh", "density"}, ": it cuts triangles where colours meet"},
+            {"lod", Excludes, {"remesh", "density"}, ": its triangles are as large as its voxels"}};
+}
+
 std::vector<Pair> surfacePairs()
 {
     const auto unlessAll = [](const Call& call) {
@@ -266,7 +285,7 @@ const std::vector<Pair>& pairTable()
 {
     static const std::vector<Pair> all = [] {
         std::vector<Pair> rows;
-        for (auto* more : {runPairs, assemblyPairs, areaPairs, surfacePairs})
+        for (auto* more : {runPairs, assemblyPairs, areaPairs, meshPairs, surfacePairs})
             for (Pair& row : more()) rows.push_back(std::move(row));
         return rows;
     }();

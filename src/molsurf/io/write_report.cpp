@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace molsurf
 {
 
@@ -21,6 +23,18 @@ Json statisticsJson(const Statistics& statistics)
             {"min", statistics.min},
             {"max", statistics.max},
             {"percentiles", std::move(percentiles)}};
+}
+
+Json shapeJson(const MeshShape& shape, std::size_t triangles)
+{
+    const double all = std::max(1.0, double(triangles));
+    return {{"least_angle", shape.leastAngle},
+            {"share_below_20", double(shape.below20) / all},
+            {"share_below_28", double(shape.below28) / all},
+            {"shortest_edge", shape.shortestEdge},
+            {"longest_edge", shape.longestEdge},
+            {"kept_pieces", shape.keptPieces},
+            {"euler_characteristics", shape.eulerNumbers}};
 }
 
 Json surfaceJson(const SurfaceReport& surface)
@@ -56,6 +70,7 @@ Json surfaceJson(const SurfaceReport& surface)
             {"triangle_area", surface.triangleArea ? Json(*surface.triangleArea) : Json()},
             {"mesh_components", surface.meshComponents},
             {"mesh_volume", surface.meshVolume ? Json(*surface.meshVolume) : Json()},
+            {"mesh_shape", surface.shape ? shapeJson(*surface.shape, surface.triangles) : Json()},
             {"cusp_length", surface.cuspLength ? Json(*surface.cuspLength) : Json()},
             {"mean_curvature", statisticsJson(surface.meanCurvature)},
             {"gaussian_curvature", statisticsJson(surface.gaussianCurvature)},
@@ -191,8 +206,8 @@ void dropMesh(Json& surface)
 {
     for (const char* name :
          {"mesh_euler_characteristic", "mesh_components", "triangle_area", "closed", "manifold",
-          "degenerate_triangles", "max_residual", "gradient_share", "kink_share", "mean_curvature",
-          "gaussian_curvature"})
+          "degenerate_triangles", "max_residual", "gradient_share", "kink_share", "mesh_shape",
+          "mean_curvature", "gaussian_curvature"})
         surface[name] = nullptr;
 }
 

@@ -43,6 +43,17 @@ std::vector<double> groupSums(const BallLabels& labels, const std::vector<double
     return out;
 }
 
+/// The areas of the balls by the triangles at the vertices that they own.
+std::vector<double> areasBy(const Labels& nearest, const BallSet& atoms, const Mesh& mesh,
+                            double whole)
+{
+    Labels self(atoms.balls.size());
+    std::iota(self.begin(), self.end(), 0);
+    std::vector<double> areas = memberAreas(atoms.balls, self, self.size(), nearest, mesh);
+    areas.pop_back(); // of no ball
+    return scaled(std::move(areas), whole);
+}
+
 /// The mean of a scalar over the vertices of each ball, by their shares of the area.
 std::vector<double> meansOf(const std::vector<float>& values, const Labels& nearest,
                             const Mesh& mesh, std::size_t balls)
@@ -126,13 +137,7 @@ Owned label(const BallSet& atoms, const SurfaceOptions& options, std::vector<dou
     if (options.meshLabels || grouped || colored || areas)
         nearest = nearestBalls(atoms.balls, mesh.positions, reach, progress);
     if (options.meshLabels) labelVertices(atoms, nearest, mesh);
-    if (areas) {
-        Labels self(atoms.balls.size());
-        std::iota(self.begin(), self.end(), 0);
-        owned.areas = memberAreas(atoms.balls, self, self.size(), nearest, mesh);
-        owned.areas.pop_back(); // of no ball
-        owned.areas = scaled(std::move(owned.areas), result.report.surface.area);
-    }
+    if (areas) owned.areas = areasBy(nearest, atoms, mesh, result.report.surface.area);
     std::vector<Color> ballColor;
     if (colored)
         ballColor =
@@ -162,6 +167,12 @@ Owned label(const BallSet& atoms, const SurfaceOptions& options, std::vector<dou
 }
 
 } // namespace
+
+std::vector<double> areasOnMesh(const BallSet& atoms, const Mesh& mesh, double area, double reach,
+                                const Progress& progress)
+{
+    return areasBy(nearestBalls(atoms.balls, mesh.positions, reach, progress), atoms, mesh, area);
+}
 
 std::vector<double> labelSurface(const BallSet& atoms, const SurfaceOptions& options,
                                  std::vector<double> known, double reach, Progress& progress,

@@ -27,6 +27,13 @@ std::vector<double> labelSurface(const BallSet& atoms, const SurfaceOptions& opt
                                  std::vector<double> known, double reach, Progress& progress,
                                  MolecularSurface& result);
 
+/// The areas of the balls by the triangles of a mesh of all of it, scaled to the area of the smooth
+/// surface [Å^2].
+/// @param[in] area   of the smooth surface [Å^2]
+/// @param[in] reach  as above
+std::vector<double> areasOnMesh(const BallSet& atoms, const Mesh& mesh, double area, double reach,
+                                const Progress& progress);
+
 /// Does the same for a part of a surface; the report gets the areas of all groups on the mesh, as
 /// they are, and at last that of no group.
 void labelPart(const BallSet& atoms, const SurfaceOptions& options, double reach,

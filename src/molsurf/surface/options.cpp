@@ -53,6 +53,12 @@ void checkOptions(const SurfaceOptions& options)
           options.voxel);
     check(options.evolution.tolerance > 0.0 && finite(options.evolution.tolerance), "`tolerance`",
           "a positive number", options.evolution.tolerance);
+    check(options.meshEdge == 0.0 || (options.meshEdge >= 0.05 && options.meshEdge <= 10.0),
+          "`remesh`", "0.05 to 10 Å", options.meshEdge);
+    check(options.meshError == 0.0 || (options.meshError >= 0.001 && options.meshError <= 1.0),
+          "`adapt`", "0.001 to 1 Å", options.meshError);
+    if (options.meshError > 0.0 && options.meshEdge == 0.0)
+        throw Error(ErrorKind::Usage, "`adapt`: expected `remesh` too, the longest edge");
     for (const std::string& field : options.fields) {
         const FieldRow* row = findField(field);
         if (!row) throw Error(ErrorKind::Usage, "`fields`: there is no field '" + field + "'");

@@ -5,6 +5,7 @@
 #include "molsurf/color/palette.h"
 #include "molsurf/core/quiet_progress.h"
 #include "molsurf/error.h"
+#include "molsurf/mesh/mesh_shape.h"
 #include "molsurf/mesh/statistics.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/surface/check_balls.h"
@@ -159,6 +160,11 @@ void add(SurfaceReport& sum, const SurfaceReport& part)
     sum.manifold = sum.manifold && part.manifold;
     sum.degenerateTriangles += part.degenerateTriangles;
     sum.maxResidual = std::max(sum.maxResidual, part.maxResidual);
+    if (part.shape && sum.shape) {
+        add(*part.shape, *sum.shape);
+    } else if (part.shape) {
+        sum.shape = part.shape;
+    }
     if (part.integrals && sum.integrals) {
         *sum.integrals += *part.integrals;
     } else if (part.integrals) {

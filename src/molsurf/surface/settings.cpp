@@ -12,6 +12,7 @@
 #include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace molsurf
@@ -337,6 +338,52 @@ std::vector<Setting> surfaceSettings()
              MOLSURF_OF(options.curvatureTotals))};
 }
 
+/// A number that is 0 unless it is given, with its range.
+/// @param[in] range  in words: "0.05 to 10 Å"
+template<typename Of>
+Setting optionalNumber(const char* name, const char* value, std::string text, const char* range,
+                       std::pair<double, double> limits, const Of& of)
+{
+    const auto [low, high] = limits;
+    Setting row = within(low, high, number(name, value, std::move(text), of));
+    row.preset = "";
+    row.set = [=](Settings& s, const Values& v) {
+        const double given = parsedValue<double>(name, range, v.back());
+        if (!(given >= low && given <= high)) wrongValue(name, range, v.back());
+        of(s) = given;
+    };
+    row.get = [=](const Settings& s) -> SettingValue {
+        if (of(s) > 0.0) return of(s);
+        return std::string("none");
+    };
+    return row;
+}
+
+/// Triangles of an even size.
+std::vector<Setting> meshSettings()
+{
+    Setting density = optionalNumber("density", "N", "the same with N vertices per Å^2 of surface",
+                                     "0.012 to 400 vertices per Å^2", {0.012, 400.0},
+                                     MOLSURF_OF(options.meshEdge));
+    const auto set = density.set;
+    density.set = [=](Settings& s, const Values& values) {
+        set(s, values);
+        // Equal triangles of edge L, two a vertex, have an area of sqrt(3)/4 L^2 each.
+        // measured: a ball with edges of 0.3, 0.5 and 1 Å gets 1.11, 1.25 and 1.12 times as many,
+        // 1CRN and 4AT1 with 0.8 and 0.5 Å 1.18 and 1.28 times.
+        constexpr double more = 1.18;
+        s.options.meshEdge = std::sqrt(2.0 * more / (std::sqrt(3.0) * s.options.meshEdge));
+    };
+    density.get = nullptr; // files tell of `remesh`
+    return {optionalNumber("remesh", "L", "triangles of even shape, with edges near L [Å]",
+                           "0.05 to 10 Å", {0.05, 10.0}, MOLSURF_OF(options.meshEdge)),
+            density,
+            optionalNumber("adapt", "D",
+                           "with `remesh` or `density`: shorter edges where it bends,\n"
+                           "so that triangles lie within D [Å] of the surface",
+                           "0.001 to 1 Å", {0.001, 1.0}, MOLSURF_OF(options.meshError))};
+}
+
 /// Parameters of the variational surface that make it agree with another kind.
 Setting matchSetting()
 {
@@ -645,8 +692,8 @@ const std::vector<Setting>& settingTable()
     static const std::vector<Setting> all = [] {
         std::vector<Setting> rows = atomSettings();
         for (Setting& row : rows) row.ofAtoms = true;
-        for (auto* more :
-             {surfaceSettings, resolutionSettings, groupSettings, coloringSettings, flowSettings})
+        for (auto* more : {surfaceSettings, meshSettings, resolutionSettings, groupSettings,
+                           coloringSettings, flowSettings})
             for (Setting& row : more()) rows.push_back(std::move(row));
         return rows;
     }();

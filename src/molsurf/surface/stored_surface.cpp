@@ -324,20 +324,23 @@ StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::Met
         stored.warnings.push_back("no grid spline: it is fitted to the level set, close to the "
                                   "one that was [hint: `fields` spline when it is built]");
     for (const std::string& warning : operand.warnings) stored.warnings.push_back(warning);
-    const Source from{grids, metadata, voxelsOf(operand.surface.mesh, operand.voxel), coloring};
-
-    SurfaceRun run(stored.names, options, Scope(), progress);
+    SurfaceOptions own = options;
+    own.voxel = operand.voxel;
+    SurfaceRun run(stored.names, own, Scope(), progress);
     const Pose pose = operand.surface.pose;
     run.resume(std::move(operand.surface.mesh), std::move(*operand.surface.spline),
                operand.levelSet);
     MolecularSurface& result = run.result();
-    run.curvatures();
     run.measure();
     run.describeCurvature();
+    run.remesh();
+    run.curvatures();
     run.integrateCurvature();
+    const Source from{grids, metadata, voxelsOf(result.mesh, operand.voxel), coloring};
     place(pose, result.mesh);
 
     Report& report = result.report;
+    for (std::string& warning : report.warnings) stored.warnings.push_back(std::move(warning));
     const std::string kind = textOf(metadata, "option.surface");
     report.surface.kind = kind.empty() ? "level set" : kind;
     report.surface.maxResidual = report.surface.gradientShare = report.surface.kinkShare =

@@ -25,6 +25,7 @@
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/fill_cavities.h"
 #include "molsurf/surface/label_surface.h"
+#include "molsurf/surface/remesh_run.h"
 
 #include <tbb/parallel_invoke.h>
 
@@ -459,6 +460,19 @@ void SurfaceRun::takeClosedForm()
     warnOfMesh(s, options_.voxel, result_.report.warnings);
 }
 
+void SurfaceRun::remesh()
+{
+    if (options_.meshEdge == 0.0) return;
+    progress_.update("mesh", 0.8);
+    Mesh& mesh = result_.mesh;
+    const bool grouped = atoms_.labels && !atoms_.labels->groups.empty();
+    if (!atoms_.balls.empty() && (options_.ballAreas || grouped) &&
+        !(exact_ && !exact_->ballAreas.empty()))
+        areas_ =
+            areasOnMesh(atoms_, mesh, result_.report.surface.area, influence_.ofLabel(), progress_);
+    remeshSurface(options_, spline_, progress_, mesh, result_.report);
+}
+
 openvdb::FloatGrid::Ptr SurfaceRun::sasGrid()
 {
     const double width = surfaceWidthVox * options_.voxel;
@@ -505,6 +519,7 @@ void SurfaceRun::labels(std::vector<double> known)
     const double reach = influence_.ofLabel();
     if (scope_.region.whole()) {
         if (exact_) known = std::move(exact_->ballAreas);
+        if (known.empty()) known = std::move(areas_);
         areas_ = labelSurface(atoms_, options_, std::move(known), reach, progress_, result_);
     } else {
         labelPart(atoms_, options_, reach, progress_, result_);

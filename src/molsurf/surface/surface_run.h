@@ -131,6 +131,10 @@ public:
     /// @throws Error(ErrorKind::Check) if they are too far from those of the mesh
     void takeClosedForm();
 
+    /// Makes the triangles anew, if the options ask for their size. Measures of the surface stay,
+    /// and areas of balls are those of the mesh before. Optional.
+    void remesh();
+
     /// Makes the grids that the options ask for, except those of labels and colours. Optional.
     void grids();
 

@@ -32,6 +32,7 @@ const Row rows[] = {
      [](auto& o) { return !o.grid && !isBoundary(o); }},
     {"`curvatureTotals`", InBricks | BySymmetry | InClosedForm,
      [](auto& o) { return o.curvatureTotals; }},
+    {"`remesh`", InBricks | BySymmetry | InClosedForm, [](auto& o) { return o.meshEdge > 0.0; }},
     {"`splineLevel`", InBricks, [](auto& o) { return o.splineLevel > 0; }},
     {"`flow` paper", InBricks,
      [](auto& o) { return hasFlow(o.kind) && o.evolution.flow == Flow::Paper; }},

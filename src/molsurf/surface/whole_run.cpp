@@ -23,10 +23,11 @@ WholeSurface runAsTheyAre(const BallSet& atoms, const SurfaceOptions& options, P
     SurfaceRun run(atoms, options, Scope(), progress);
     run.toMesh();
     run.measure();
-    run.curvatures();
     run.describeCurvature();
-    run.integrateCurvature();
     run.takeClosedForm();
+    run.remesh();
+    run.curvatures();
+    run.integrateCurvature();
     run.grids();
     run.freeFields();
     run.labels();
