@@ -155,6 +155,8 @@ public:
           moves_(hasField(call_.options.fields, "v")), tableName_(tableOf(call_))
     {
         for (const ShowRule& rule : call_.shows) shown_.push_back(pictured(rule.select));
+        for (const NoteRule& rule : call_.notes)
+            for (const std::string& select : rule.selects) noted_.push_back(pictured(select));
         if (!call_.viewed.empty())
             lookAt(call_, pictured(call_.viewed)->balls(0), source_.balls(0), call_.picture);
         if (call_.center) call_.scene.center = centerOf(source_.balls(0).balls);
@@ -255,6 +257,13 @@ private:
         std::vector<BallSet> shown;
         for (const auto& source : shown_) shown.push_back(source->balls(i));
         showAtoms(call_, std::move(shown), balls, terminal_, calls_[i].picture);
+        std::size_t next = 0;
+        for (const NoteRule& rule : call_.notes) {
+            std::vector<BallSet> ends;
+            for (std::size_t n = 0; n < rule.selects.size(); ++n)
+                ends.push_back(noted_[next++]->balls(i));
+            addNote(rule, ends, calls_[i].picture);
+        }
         Report read;
         read.warnings = call_.warnings;
         read.seconds = {{"read", secondsSince(start)}};
@@ -283,6 +292,7 @@ private:
     Terminal& terminal_;
     FrameSource source_;
     std::vector<std::unique_ptr<FrameSource>> shown_; // of each --show
+    std::vector<std::unique_ptr<FrameSource>> noted_; // of each selection of --label and --ruler
     bool moves_;
     std::string tableName_, options_;
     FrameTable table_;

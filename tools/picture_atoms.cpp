@@ -79,6 +79,22 @@ void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surf
     picture.model = std::make_shared<AtomModel>(atomModel(shown, progress));
 }
 
+void addNote(const NoteRule& rule, const std::vector<BallSet>& ends, DrawOptions& picture)
+{
+    PictureNote note{middleOf(ends[0]), {}, rule.text};
+    if (ends.size() > 1) {
+        note.to = middleOf(ends[1]);
+        if (*note.to == note.from)
+            throw Error(ErrorKind::Input, "--ruler " + rule.selects[0] + ".." + rule.selects[1] +
+                                              ": expected two places, got one");
+    } else if (note.text.empty()) {
+        const BallNames::Residue& residue = ends[0].names->residues[0];
+        note.text = residue.chain + " " + residue.name + " " + std::to_string(residue.number);
+        if (residue.insertionCode != ' ') note.text += residue.insertionCode;
+    }
+    picture.notes.push_back(std::move(note));
+}
+
 void lookAt(const Call& call, const BallSet& atoms, const BallSet& surface, DrawOptions& picture)
 {
     constexpr double least = 0.1; // [Å]

@@ -26,6 +26,11 @@ SelectOptions picturedAtoms(const Call& call, const std::string& select);
 void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surface,
                const Progress& progress, DrawOptions& picture);
 
+/// Adds a label or a ruler.
+/// @param[in] ends  the atoms of each selection of the rule
+/// @throws Error(ErrorKind::Input) if a ruler has no length
+void addNote(const NoteRule& rule, const std::vector<BallSet>& ends, DrawOptions& picture);
+
 /// Looks at the side of the surface where the atoms of --view lie.
 /// @throws Error(ErrorKind::Input) if they lie on no side
 void lookAt(const Call& call, const BallSet& atoms, const BallSet& surface, DrawOptions& picture);

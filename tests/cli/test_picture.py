@@ -206,6 +206,47 @@ class Pictures(ToolTest):
             self.check(2, "bar.xyzr", "--up", wrong, "-o", "b.png", says="--up")
         self.check(2, "bar.xyzr", "--view", "0,0,1", "--up", "0,0,-2", "-o", "b.png", says="across that of --view")
 
+    def test_labels_and_rulers(self):
+        """Two atoms 20 A apart along x: the line joins them, with a text above its middle and one above an end."""
+        line = "HETATM{:5}  C   XXX A{:4}    {:8.3f}   0.000   0.000  1.00  0.00           C\n"
+        (self.folder / "two.pdb").write_text(line.format(1, 1, -10.0) + line.format(2, 2, 10.0))
+        words = ["two.pdb", *FAST, "--view", "0,0,1", "--size", "400", "--legend", "off", "--style", "flat"]
+        _, plain = self.picture(*words)
+        _, rows = self.picture(*words, "--ruler", "A/1..resid 2", "--label", "A/1 = end")
+        dark = lambda pixel: max(pixel) < 40
+        height, ink = len(rows), [[dark(p) and not dark(q) for p, q in zip(row, old)] for row, old in zip(rows, plain)]
+        # 23.4 A and a border are 400 pixels, so that 20 A are some 325.
+        line = max(ink, key=sum)
+        self.assertAlmostEqual(sum(line), 328, delta=12)
+        self.assertAlmostEqual(ink.index(line), height / 2, delta=3)
+        above = [[row[x] for row in ink[:height // 2 - 4]] for x in range(400)]
+        drawn = [x for x, column in enumerate(above) if any(column)]
+        self.assertTrue(any(abs(x - 200) < 12 for x in drawn), "the length")
+        self.assertTrue(any(abs(x - 36) < 12 for x in drawn), "the label")
+        self.assertFalse(any(300 < x for x in drawn))
+        _, named = self.picture(*words, "--label", "A/2")
+        self.assertNotEqual(named, plain)
+        for option, value, status, says in (("--label", "=x", 2, "expected SELECTION"), ("--label", "A/1=", 2, "SELECTION=TEXT"),
+                                            ("--ruler", "A/1", 2, "SELECTION..SELECTION"), ("--ruler", "A/1..", 2, 'got "A/1.."'),
+                                            ("--ruler", "A/1..A/1", 1, "expected two places, got one"),
+                                            ("--label", "A/9", 1, "matches no atom")):
+            self.check(status, *words, option, value, "-o", "b.png", says=says)
+        self.check(0, *words, "--label", "A/1", "-o", "b.ply", says="--label is for .png")
+        self.assertFalse((self.folder / "b.png").exists())
+
+    def test_labels_of_frames(self):
+        """The ruler of each frame has its own length."""
+        text = "MODEL {0}\nHETATM    1  C   XXX A   1       0.000   0.000   0.000  1.00  0.00           C\n" \
+               "HETATM    2  C   XXX A   2    {1:8.3f}   0.000   0.000  1.00  0.00           C\nENDMDL\n"
+        (self.folder / "m.pdb").write_text(text.format(1, 6.0) + text.format(2, 9.0))
+        words = ["m.pdb", *FAST, "--frames", "all", "--size", "300", "--view", "0,0,1", "-o", "a.png", "--force"]
+        pictures = []
+        for more in ([], ["--ruler", "A/1..A/2"]):
+            self.check(0, *words, *more)
+            pictures.append([(self.folder / f"a.000{n}.png").read_bytes() for n in (1, 2)])
+        for n in (0, 1):
+            self.assertNotEqual(pictures[0][n], pictures[1][n])
+
     def test_membranes_are_upright(self):
         """The dummies of OPM: from the plane of N to that of O is up, unless a view is asked for."""
         line = "HETATM{:5}  {:<3} {:>3} A{:4}    {:8.3f}{:8.3f}{:8.3f}  1.00  0.00           {}\n"

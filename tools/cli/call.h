@@ -4,6 +4,7 @@
 /// @file
 /// What the user asked for, as values.
 
+#include "cli/note_rule.h"
 #include "require.h"
 
 #include "molsurf/io/frame_files.h"
@@ -152,6 +153,7 @@ struct Call : Settings {
     DrawOptions picture;
     std::string viewed;          ///< atoms that face the eye, a selection; empty: none
     std::vector<ShowRule> shows; ///< atoms that pictures show beside the surface
+    std::vector<NoteRule> notes; ///< labels and rulers of pictures
     LegendChoice legend = LegendChoice::Auto;
     bool scaleBar = false;    ///< a bar of lengths below pictures
     int turntable = 0;        ///< number of pictures; 0: one

@@ -567,6 +567,38 @@ Option showOption()
     return show;
 }
 
+Option labelOption()
+{
+    Option label{"label",
+                 0,
+                 "SEL=TEXT",
+                 "a text at the middle of atoms, such as \"A/57=active site\";\n"
+                 "without one chain, name and number of the residue; repeats",
+                 "",
+                 Build | Batch};
+    label.repeats = true;
+    label.set = [](Call& call, const Values& values) {
+        for (const std::string& value : values) call.notes.push_back(parseLabel(value));
+    };
+    return shownIn(Pixels, label);
+}
+
+Option rulerOption()
+{
+    Option ruler{"ruler",
+                 0,
+                 "SEL..SEL",
+                 "a line between the middles of atoms with its length, such\n"
+                 "as \"A/57/NE2..A/195/OG\"; repeats",
+                 "",
+                 Build | Batch};
+    ruler.repeats = true;
+    ruler.set = [](Call& call, const Values& values) {
+        for (const std::string& value : values) call.notes.push_back(parseRuler(value));
+    };
+    return shownIn(Pixels, ruler);
+}
+
 Option uprightOption(unsigned verbs)
 {
     Option upright{"up",
@@ -622,7 +654,7 @@ OptionGroup pictureOptions()
          shownIn(Pixels, count("size", "N", "width in pixels; the height follows the shape", "1200",
                                draw, 16, 16384, MOLSURF_OF(picture.width))),
          shownIn(Pixels, background), shownIn(PlainColor, plain), shownIn(Pixels, style),
-         shownIn(Pixels, showOption()),
+         shownIn(Pixels, showOption()), labelOption(), rulerOption(),
          shownIn(Pixels, number("opacity", "O", "of the surface, seen from the front", "1", draw,
                                 0.01, 1.0, "a number from 0.01 to 1", MOLSURF_OF(picture.opacity))),
          shownIn(Pixels, flag("all-walls", "--opacity shows what is behind the nearest wall, too",

@@ -299,6 +299,7 @@ Picture drawExplained(const Mesh& mesh, DrawOptions options, const std::vector<L
 {
     const int width = options.width;
     if (!legends.empty()) options.width = std::max(width - legendWidth(legends, width), width / 2);
+    options.whole = width;
     Picture picture = drawMesh(mesh, options, progress);
     if (scaleBar && picture.pixel > 0.0) picture = withScaleBar(picture, width, options.background);
     if (!legends.empty()) picture = withLegends(picture, legends, width, options.background);

@@ -2,6 +2,7 @@
 #include "molsurf/picture/draw_mesh.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/picture/draw_notes.h"
 #include "molsurf/picture/layer.h"
 #include "molsurf/picture/outline.h"
 #include "molsurf/picture/style.h"
@@ -275,6 +276,7 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
             for (std::size_t c = 0; c < 3; ++c) picture.rgb[3 * n + c] = byteOf(color[int(c)]);
         }
     });
+    drawNotes(options.notes, view, options.whole > 0 ? options.whole : options.width, picture);
     return picture;
 }
 

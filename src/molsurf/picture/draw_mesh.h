@@ -38,6 +38,13 @@ struct PictureFrame {
     double width, height;  ///< [Å]
 };
 
+/// A label of a place, or a ruler between two.
+struct PictureNote {
+    openvdb::Vec3d from;              ///< [Å]
+    std::optional<openvdb::Vec3d> to; ///< the other end of a ruler [Å]
+    std::string text;                 ///< of a label
+};
+
 /// From where, and how large.
 struct DrawOptions {
     int width = 1200; ///< of the picture [pixel], > 0; the height follows the shape
@@ -70,6 +77,9 @@ struct DrawOptions {
     std::vector<MeshInstance> instances{};
     /// Atoms that are seen beside the surface, opaque and whole; null: none.
     std::shared_ptr<const AtomModel> model{};
+    std::vector<PictureNote> notes{}; ///< on top of all
+    int whole = 0;                    ///< width of the picture with what is beside the mesh, which
+                                      ///< decides the size of letters [pixel]; 0: `width`
 };
 
 /// The directions to the right, up and toward the eye of a picture, as right-handed unit vectors.

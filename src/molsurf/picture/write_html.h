@@ -20,8 +20,8 @@ namespace molsurf
 /// The content of the page besides the mesh.
 struct HtmlPage {
     std::string title;
-    std::string about{}; ///< what the surface is
-    std::vector<Legend> legends{};   ///< the colours to choose from, the first one first
+    std::string about{};           ///< what the surface is
+    std::vector<Legend> legends{}; ///< the colours to choose from, the first one first
     Color plain = {140, 181, 222}; ///< of the mesh without them
     std::array<openvdb::Vec3d, 3> axes =
         { ///< directions to the right, up and toward the eye at first
