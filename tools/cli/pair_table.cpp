@@ -53,10 +53,10 @@ std::vector<Pair> assemblyPairs()
             {"instances",
              Excludes,
              {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center",
-              "color=radius", "color=potential"}},
+              "color=radius", "color=potential", "pockets"}},
             {"by-symmetry",
              Excludes,
-             {"frames", "trajectory", "memory", "dry-run", "center", "color=potential"}},
+             {"pockets", "frames", "trajectory", "memory", "dry-run", "center", "color=potential"}},
             {Holds(Grids | Volume),
              Excludes,
              {"by-symmetry"},
@@ -100,6 +100,17 @@ std::vector<Pair> areaPairs()
             areasWithout("dry-run", " [hint: --dry-run -o FILE.vdb]"),
             unit,
             {"contacts", IsFor, {{Areas, "contacts"}, "areas=contacts"}, ".contacts.csv"}};
+}
+
+std::vector<Pair> pocketPairs()
+{
+    std::vector<Pair> pairs;
+    for (const char* option : {"pocket-at", "probe-in", "probe-out", "pocket-cut", "pocket-neck"})
+        pairs.push_back({option,
+                         IsFor,
+                         {"pockets", {Areas, "pockets"}, "areas=pockets"},
+                         "--pockets and .pockets.csv"});
+    return pairs;
 }
 
 std::vector<Pair> surfacePairs()
@@ -264,7 +275,7 @@ const std::vector<Pair>& pairTable()
 {
     static const std::vector<Pair> all = [] {
         std::vector<Pair> rows;
-        for (auto* more : {runPairs, assemblyPairs, areaPairs, surfacePairs})
+        for (auto* more : {runPairs, assemblyPairs, areaPairs, pocketPairs, surfacePairs})
             for (Pair& row : more()) rows.push_back(std::move(row));
         return rows;
     }();
