@@ -299,6 +299,7 @@ nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::strin
     if (name == "atoms") return dictOf(atomTable(atoms, probe, result));
     if (name == "residues") return dictOf(residueTable(atoms, probe, result));
     if (name == "interfaces") return dictOf(interfaceTable(atoms, result.report));
+    if (name == "pockets") return dictOf(pocketTable(atoms, result.report));
     if (result.contacts.empty())
         result.contacts =
             run(How(), [&](Progress& p) { return contactAreas(atoms.balls, probe, p); });

@@ -79,7 +79,8 @@ class Surface:
 ARRAYS = {"vertices": "float32", "normals": "float32", "faces": "int32", "curvature": "float32",
           "gaussian_curvature": "float32", "shape_index": "float64", "principal_curvatures": "float64",
           "colors": "uint8", "atom": "int32", "atom_areas": "float64", "cavities": "float64"}
-PLAIN = {"vertex_data": "dict[str, NDArray[Any]]", "contacts": "Contacts", "area": "float", "volume": "float",
+PLAIN = {"vertex_data": "dict[str, NDArray[Any]]", "contacts": "Contacts",
+         "pockets": "dict[str, NDArray[Any]]", "area": "float", "volume": "float",
          "closed": "bool", "kind": "str", "report": "dict[str, Any]"}
 OF_ATOMS = {"positions": "float64", "radii": "float64", "name": "str_", "element": "int32", "residue": "str_",
             "residue_number": "int32", "insertion_code": "str_", "residue_index": "int32", "chain": "str_",
@@ -87,7 +88,7 @@ OF_ATOMS = {"positions": "float64", "radii": "float64", "name": "str_", "element
 OF_MOLECULES = {"copies": "int", "groups": "list[str]", "warnings": "list[str]"}
 
 METHODS = '''\
-    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces"],
+    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces", "pockets"],
               level: Literal["atom", "residue", "chain"] = "residue") -> dict[str, NDArray[Any]]: ...
     def sample(self, n: int, seed: int | None = None) -> Samples: ...
     def distance(self, points: ArrayLike, *, progress: Callable[[str, float], object] | bool | None = None,

@@ -12,10 +12,10 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
 # The folders of src/molsurf in their order: each may include those before it, if it is not named here.
-FOLDERS = ["core", "grid", "balls", "structure", "selection", "spline", "levelset", "flow", "mesh", "color", "io",
-           "picture", "surface", "bricks", "tools"]
+FOLDERS = ["core", "grid", "balls", "structure", "selection", "spline", "levelset", "pockets", "flow", "mesh", "color",
+           "io", "picture", "surface", "bricks", "tools"]
 # The headers of the face, src/molsurf/*.h, include each other alone; each is for its folder and those behind it.
-FACE = {"error.h": "core", "progress.h": "core", "ball.h": "balls", "atoms.h": "selection", "options.h": "flow",
+FACE = {"error.h": "core", "progress.h": "core", "ball.h": "balls", "atoms.h": "selection", "options.h": "pockets",
         "report.h": "levelset", "mesh.h": "mesh", "surface.h": "surface", "files.h": "tools", "compare.h": "mesh",
         "bricks.h": "bricks", "distance.h": "surface", "settings.h": "surface", "tables.h": "surface", "molsurf.h": "tools"}
 # Folders that know less than their place allows.
@@ -24,6 +24,7 @@ ONLY = {
     "structure": {"core"},
     "selection": {"core", "balls", "structure"},
     "spline": {"core", "grid"},
+    "pockets": {"core", "grid", "balls", "levelset"},
     "mesh": {"core", "grid", "levelset", "spline"},
 }
 

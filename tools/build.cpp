@@ -229,6 +229,12 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
         balls.names->residues.size() == 1)
         result.report.warnings.push_back("contacts: all atoms are of one residue [hint: --contacts "
                                          "atom]");
+    const auto& pockets = result.report.pockets;
+    if (pockets && pockets->list.empty() && !balls.pocketAt.empty() && call.frames.empty())
+        throw Error(ErrorKind::Input,
+                    "--pocket-at " + call.atoms.pocketAt +
+                        ": no pocket is within 4 Å of these atoms [hint: --pocket-cut 0 finds "
+                        "shallow ones, too]");
     checkRequired(call.required, result.mesh, result.report.surface);
     warnOfPaint(call, result.mesh, result.report);
     terminal.erase();
@@ -249,6 +255,20 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     return result.report;
 }
 
+namespace
+{
+
+/// A line on what was found.
+std::string pocketsLine(const PocketsReport& pockets)
+{
+    std::string line = "pockets: " + std::to_string(pockets.list.size());
+    if (!pockets.list.empty())
+        line += formatted(", the largest of %.0f Å^3", pockets.list.front().volume);
+    return line + formatted("; below a cut of %g Å", pockets.cut);
+}
+
+} // namespace
+
 Report buildSurface(const Call& call, const BallSet& balls, const Report& read, Terminal& terminal,
                     Clock::time_point start)
 {
@@ -256,6 +276,7 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
     if (call.verbose) sayTimes(report);
     if (call.quiet) return report;
     say(summary(report));
+    if (report.pockets) say(pocketsLine(*report.pockets));
     for (const std::string& line : leftOutOf(call)) say(line);
     const std::string closed = closedByField(report, call.options);
     if (!closed.empty()) say(closed);

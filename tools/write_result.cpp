@@ -196,6 +196,7 @@ Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
     if (name == "residues") table = residueTable(atoms, probeOf(shown), result);
     if (name == "contacts") table = contactTable(atoms, call.contacts, result);
     if (name == "interfaces") table = interfaceTable(atoms, result.report);
+    if (name == "pockets") return pocketTable(atoms, result.report);
     addOrigin(atoms, result.report.areasOf, probeOf(shown), table);
     return table;
 }
@@ -451,6 +452,7 @@ const std::vector<Format>& formatTable()
         {"residues.csv", built, Areas | AllFrames, ofAreas, "residues", writeAreaTable},
         {"contacts.csv", built, Areas | AllFrames, ofAreas, "contacts", writeAreaTable},
         {"interfaces.csv", built, Areas | AllFrames, ofAreas, "interfaces", writeAreaTable},
+        {"pockets.csv", built, Areas | AllFrames, ofAreas, "pockets", writeAreaTable},
         {"pdb", built, Areas, withAreas, "atoms", writeAtoms<writePdb>},
         {"cif", built, Areas, withAreas, "atoms", writeAtoms<writeMmcif>},
         {"residues.pdb", built, Areas, withAreas, "residues", writeAtoms<writePdb>},

@@ -7,9 +7,9 @@ case $words[2] in
     help|build|batch|compare|convert|bricks|info) verb=$words[2] ;;
 esac
 case "$verb:$words[CURRENT-1]" in
-    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
+    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
-    "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
+    "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'v'; return ;;
     "build:--match") compadd -- 'none' 'ses'; return ;;
     "build:--coarse") compadd -- 'atom' 'residue'; return ;;
     "build:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
@@ -17,7 +17,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "build:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "build:--value-of") compadd -- 'atom' 'residue'; return ;;
-    "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces'; return ;;
+    "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets'; return ;;
     "build:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
     "build:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd'; return ;;
     "build:--view") compadd -- 'auto'; return ;;
@@ -29,7 +29,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
     "build:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "batch:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
-    "batch:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
+    "batch:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'v'; return ;;
     "batch:--match") compadd -- 'none' 'ses'; return ;;
     "batch:--coarse") compadd -- 'atom' 'residue'; return ;;
     "batch:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
@@ -37,7 +37,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "batch:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "batch:--value-of") compadd -- 'atom' 'residue'; return ;;
-    "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces'; return ;;
+    "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets'; return ;;
     "batch:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
     "batch:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd'; return ;;
     "batch:--view") compadd -- 'auto'; return ;;
@@ -56,7 +56,7 @@ case "$verb:$words[CURRENT-1]" in
     "compare:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "compare:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
     "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'view'; return ;;
-    "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
+    "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'v'; return ;;
     "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "convert:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature'; return ;;
     "convert:--view") compadd -- 'auto'; return ;;
@@ -64,7 +64,7 @@ case "$verb:$words[CURRENT-1]" in
     "convert:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
     "convert:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "bricks plan:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
-    "bricks plan:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'v'; return ;;
+    "bricks plan:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'v'; return ;;
     "bricks plan:--match") compadd -- 'none' 'ses'; return ;;
     "bricks plan:--coarse") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
@@ -137,6 +137,12 @@ if [[ $words[CURRENT] == -* ]]; then
       '--crisp:mesh files\: triangles are cut where colours meet'
       '--areas:tables for the report, by commas\: atoms, residues,'
       '--contacts:contact areas between atoms, residues or chains\: atom,'
+      '--pockets:pockets of the surface, for the report and .pockets.csv'
+      '--pocket-at:only the pocket at these atoms of the file, used or not\:'
+      '--probe-in:radius of the probe that gets into pockets [Å]'
+      '--probe-out:radius of the probe that stays out of them [Å], the larger'
+      '--pocket-cut:pockets begin so far below the surface of that probe [Å]'
+      '--pocket-neck:two pockets, where the ball that passes between them has'
       '--for:blender, blender4 (up to 4.5), houdini or usd\: a .vdb with'
       '--fog-density:optical depth of an Å of fog at density 1 in the program,'
       '--center:the middle of the surface comes to the origin'
@@ -235,6 +241,12 @@ if [[ $words[CURRENT] == -* ]]; then
       '--outward:potentials are taken A outside of the surface [Å]'
       '--areas:tables for the report, by commas\: atoms, residues,'
       '--contacts:contact areas between atoms, residues or chains\: atom,'
+      '--pockets:pockets of the surface, for the report and .pockets.csv'
+      '--pocket-at:only the pocket at these atoms of the file, used or not\:'
+      '--probe-in:radius of the probe that gets into pockets [Å]'
+      '--probe-out:radius of the probe that stays out of them [Å], the larger'
+      '--pocket-cut:pockets begin so far below the surface of that probe [Å]'
+      '--pocket-neck:two pockets, where the ball that passes between them has'
       '--for:blender, blender4 (up to 4.5), houdini or usd\: a .vdb with'
       '--fog-density:optical depth of an Å of fog at density 1 in the program,'
       '--center:the middle of the surface comes to the origin'

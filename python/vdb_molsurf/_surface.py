@@ -217,6 +217,11 @@ class Surface:
         return Contacts(*self._core.contacts())
 
     @property
+    def pockets(self):
+        """Table of the pockets, the largest first, of a surface that was made with pockets=True."""
+        return self.table("pockets")
+
+    @property
     def closed(self):
         """Whether every edge of the mesh has two triangles."""
         return self._core.closed
@@ -232,11 +237,11 @@ class Surface:
         return json.loads(self._core.report_text())
 
     def table(self, name, level="residue"):
-        """A table as a dict of arrays: "atoms", "residues", "contacts" or "interfaces".
+        """A table as a dict of arrays: "atoms", "residues", "contacts", "interfaces" or "pockets".
 
         level: of contacts: "atom", "residue" or "chain".
         """
-        names, levels = ("atoms", "residues", "contacts", "interfaces"), ("atom", "residue", "chain")
+        names, levels = ("atoms", "residues", "contacts", "interfaces", "pockets"), ("atom", "residue", "chain")
         if name not in names:
             raise ValueError(f"table: expected {', '.join(names)}, got '{str(name)[:40]}'")
         if level not in levels:

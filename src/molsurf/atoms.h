@@ -231,6 +231,8 @@ struct SelectOptions {
     std::optional<GroupBy> groupBy;          ///< makes the groups instead of `groups`
     std::optional<ValueBy> valueBy;          ///< the values that ColorBy::Value shows
     Coloring coloring;                       ///< how values and curvatures are shown
+    std::string pocketAt; ///< atoms of the file, used or not, whose pocket is the
+                          ///< only one that is wanted; empty: all are
     std::optional<std::array<std::uint8_t, 3>>
         plainColor;         ///< red, green, blue (sRGB) that all balls get, if it is given
     bool instances = false; ///< whether the balls are those of each prototype of the assembly once,
@@ -346,6 +348,7 @@ struct BallSet {
     std::shared_ptr<const PointCharges> charges; ///< of the atoms of the file; null: not asked for
     std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue (sRGB), one a ball; empty
                                                      ///< if the caller chose none
+    std::vector<openvdb::Vec3d> pocketAt;            ///< places of SelectOptions::pocketAt [Å]
     SelectOptions::Coloring coloring;                ///< as SelectOptions::coloring
     std::string radii; ///< the name of the set, or of the file, that the radii are from; empty: the
                        ///< structure's own

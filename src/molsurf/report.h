@@ -204,6 +204,37 @@ struct InterfaceReport {
     std::vector<Buried> buried{};
 };
 
+/// A pocket: space that a small probe reaches and a large one does not. docs/pockets.md.
+struct PocketReport {
+    /// Where a pocket ends because the large probe comes near.
+    struct Mouth {
+        double area = 0.0;   ///< [Å^2]
+        double radius = 0.0; ///< of the largest ball that gets out of the widest place there [Å]
+    };
+    /// A ball that has a part of the pocket's wall.
+    struct Lining {
+        std::size_t ball; ///< its index in the caller's BallSet
+        double area;      ///< of its part [Å^2]
+    };
+
+    double volume = 0.0;                   ///< [Å^3]
+    double area = 0.0;                     ///< of the wall [Å^2]
+    double depth = 0.0;                    ///< of its deepest point [Å]
+    double radius = 0.0;                   ///< of the largest ball in it [Å]
+    std::array<double, 3> centre = {};     ///< of its volume [Å]
+    bool open = false;                     ///< whether a way leads out, perhaps by neighbours
+    std::vector<Mouth> mouths{};           ///< the largest first
+    std::vector<std::size_t> neighbours{}; ///< pockets beyond necks, by their places in the list
+    std::vector<Lining> lining{};          ///< in ascending order of the balls
+};
+
+/// The pockets, and what was asked for.
+struct PocketsReport {
+    double probeIn = 0.0, probeOut = 0.0, cut = 0.0, neck = 0.0; ///< as PocketOptions has them
+    double voxel = 0.0;                                          ///< that they are found on [Å]
+    std::vector<PocketReport> list;                              ///< the largest first
+};
+
 /// Rows of named values.
 struct Table {
     /// A column of a table.
@@ -214,8 +245,9 @@ struct Table {
             values;
     };
 
-    std::string name; ///< "atoms", "residues", "contacts" or "interfaces"
+    std::string name; ///< "atoms", "residues", "contacts", "interfaces" or "pockets"
     std::vector<Column> columns;
+    std::string note{}; ///< what all rows have in common; "": nothing
 };
 
 /// The atoms that have one resolution.
@@ -287,6 +319,7 @@ struct Report {
     std::size_t peakMemoryBytes = 0;                     ///< of the process
     int threads = 0;                                     ///< number of threads that the run used
     std::vector<std::string> warnings;                   ///< one line each
+    std::optional<PocketsReport> pockets;                ///< if they were asked for
     std::string areasOf; ///< kind of surface that interfaces and tables are of; empty if there are
                          ///< none
     std::vector<Table> tables; ///< areas by atom, by residue and so on, if its caller adds them

@@ -19,6 +19,7 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 NODE = shutil.which("node")
 BPY_PYTHON = os.environ.get("BPY_PYTHON", sys.executable)  # a Python that has the module bpy
 MDANALYSIS_PYTHON = os.environ.get("MDANALYSIS_PYTHON", sys.executable)  # the same of MDAnalysis and prody
+KVFINDER_PYTHON = os.environ.get("KVFINDER_PYTHON", sys.executable)  # the same of pyKVFinder
 USD_PYTHON = os.environ.get("USD_PYTHON", sys.executable)  # the same of OpenUSD, pxr
 # Where scripts/install_deps.sh puts packages of npm, and where npm does with --global.
 NODE_ENVIRONMENT = {**os.environ, "NODE_PATH": os.pathsep.join(filter(None, [
@@ -82,6 +83,8 @@ NEEDS = {
         "npm install --prefix build-tools gltf-validator"),
     "gmsh": (program("gmsh"), "scripts/install_deps.sh gmsh"),
     "groff": (program("groff", "preconv"), "scripts/install_deps.sh groff"),
+    "kvfinder": (lambda: runs(KVFINDER_PYTHON, "-c", "import pyKVFinder"),
+                 "pip install pyKVFinder==0.9.6, and KVFINDER_PYTHON=<that Python>"),
     "maps": (lambda: all(map(importlib.util.find_spec, ("mrcfile", "gridData", "skimage"))),
              "scripts/install_deps.sh python3-mrcfile python3-griddataformats python3-skimage"),
     "mdanalysis": (lambda: runs(MDANALYSIS_PYTHON, "-c", "import MDAnalysis, prody"),

@@ -352,7 +352,11 @@ CASES = {
         ("make a new one", f"{PLAN}; cp plan.atoms kept; {PLAN} --force --radii alvarez; cp kept plan.atoms; "
          "vdb_molsurf bricks run plan.json 1",
          f"{PLAN} --force; vdb_molsurf bricks run plan.json 1")],
+    "surface/pockets.cpp": [
+        ("--voxel 0.7", "vdb_molsurf 1crn.pdb --voxel 1 -o a.pockets.csv", "vdb_molsurf 1crn.pdb --voxel 0.7 -o b.pockets.csv")],
     "tools/build.cpp": [
+        ("--pocket-cut 0 finds", "vdb_molsurf 1ubq.pdb --pocket-at 'resid 10' -o a.pockets.csv",
+         "vdb_molsurf 1ubq.pdb --pocket-at 'resid 10' --pocket-cut 0 -o a.pockets.csv"),
         (" opens the widest", "vdb_molsurf tube.xyzr -o a.ply", "vdb_molsurf tube.xyzr --epsilon 0.25 -o a.ply --force",
          "vdb_molsurf tube.xyzr --surface ses -o a.ply --force"),
         (" --voxel ", "vdb_molsurf cage.xyzr -o a.ply", "vdb_molsurf cage.xyzr --epsilon 0.1 --voxel 0.2 -o a.ply --force"),

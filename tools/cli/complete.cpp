@@ -347,7 +347,8 @@ void completeAreas(Call& call)
     if (tables.empty()) return;
     SurfaceOptions& options = call.options;
     options.contacts = tables.count("contacts") > 0;
-    options.ballAreas = tables.size() > std::size_t(options.contacts);
+    options.pockets |= tables.count("pockets") > 0;
+    options.ballAreas = tables.size() > tables.count("contacts") + tables.count("pockets");
     if (tables.count("interfaces") == 0) return;
     options.interfaces = true;
     if (call.groupsFile.empty() && !call.atoms.groupBy && !call.colorGroups)

@@ -23,7 +23,8 @@ namespace molsurf::tool
 
 const std::vector<std::string>& areaTables()
 {
-    static const std::vector<std::string> all = {"atoms", "residues", "contacts", "interfaces"};
+    static const std::vector<std::string> all = {"atoms", "residues", "contacts", "interfaces",
+                                                 "pockets"};
     return all;
 }
 
@@ -456,9 +457,12 @@ OptionGroup groupOptions()
 OptionGroup areaOptions()
 {
     Option areas{
-        "areas",     0,
-        "LIST",      "tables for the report, by commas: atoms, residues,\ncontacts, interfaces",
-        "",          wholes,
+        "areas",
+        0,
+        "LIST",
+        "tables for the report, by commas: atoms, residues,\ncontacts, interfaces, pockets",
+        "",
+        wholes,
         areaTables()};
     areas.set = [](Call& call, const Values& values) {
         call.areas = splitWords(lowered(values.back()));
@@ -473,6 +477,14 @@ OptionGroup areaOptions()
                   "contact areas between atoms, residues or chains: atom,\nresidue, chain", wholes,
                   MOLSURF_OF(contacts),
                   std::vector{ContactLevel::Atom, ContactLevel::Residue, ContactLevel::Chain})}};
+}
+
+OptionGroup pocketOptions()
+{
+    return {"Pockets",
+            {setting("pockets", wholes), setting("pocket-at", wholes), setting("probe-in", wholes),
+             setting("probe-out", wholes), setting("pocket-cut", wholes),
+             setting("pocket-neck", wholes)}};
 }
 
 OptionGroup sceneOptions()
@@ -778,9 +790,9 @@ bool Call::drawsLegend() const
 const std::vector<OptionGroup>& optionTable()
 {
     static const std::vector<OptionGroup> all = {
-        outputOptions(),     atomOptions(),    frameOptions(), surfaceOptions(),
-        resolutionOptions(), groupOptions(),   areaOptions(),  sceneOptions(),
-        solverOptions(),     pictureOptions(), flowOptions(),  runOptions()};
+        outputOptions(),  atomOptions(), frameOptions(),  surfaceOptions(), resolutionOptions(),
+        groupOptions(),   areaOptions(), pocketOptions(), sceneOptions(),   solverOptions(),
+        pictureOptions(), flowOptions(), runOptions()};
     return all;
 }
 

@@ -53,10 +53,10 @@ std::vector<Pair> assemblyPairs()
             {"instances",
              Excludes,
              {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center",
-              "color=radius", "color=potential"}},
+              "color=radius", "color=potential", "pockets"}},
             {"by-symmetry",
              Excludes,
-             {"frames", "trajectory", "memory", "dry-run", "center", "color=potential"}},
+             {"pockets", "frames", "trajectory", "memory", "dry-run", "center", "color=potential"}},
             {Holds(Grids | Volume),
              Excludes,
              {"by-symmetry"},
@@ -119,6 +119,17 @@ std::vector<Pair> meshPairs()
             {"adapt", Needs, {"remesh", "density"}},
             {"crisp", Excludes, {"remesh", "density"}, ": it cuts triangles where colours meet"},
             {"lod", Excludes, {"remesh", "density"}, ": its triangles are as large as its voxels"}};
+}
+
+std::vector<Pair> pocketPairs()
+{
+    std::vector<Pair> pairs;
+    for (const char* option : {"pocket-at", "probe-in", "probe-out", "pocket-cut", "pocket-neck"})
+        pairs.push_back({option,
+                         IsFor,
+                         {"pockets", {Areas, "pockets"}, "areas=pockets"},
+                         "--pockets and .pockets.csv"});
+    return pairs;
 }
 
 std::vector<Pair> surfacePairs()
@@ -285,7 +296,8 @@ const std::vector<Pair>& pairTable()
 {
     static const std::vector<Pair> all = [] {
         std::vector<Pair> rows;
-        for (auto* more : {runPairs, assemblyPairs, areaPairs, meshPairs, surfacePairs})
+        for (auto* more :
+             {runPairs, assemblyPairs, areaPairs, meshPairs, pocketPairs, surfacePairs})
             for (Pair& row : more()) rows.push_back(std::move(row));
         return rows;
     }();

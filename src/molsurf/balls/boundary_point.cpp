@@ -125,7 +125,9 @@ bool BoundaryPoints::isKept(std::size_t patch, const Vec3d& point) const
 void BoundaryPoints::search(const Vec3d& x, BoundaryPoint& best) const
 {
     const auto offer = [&](BoundaryPart part, std::size_t i, const Vec3d& point) {
-        const double distance = (point - x).length();
+        const double square = (point - x).lengthSqr();
+        if (square >= best.distance * best.distance) return;
+        const double distance = std::sqrt(square);
         if (distance < best.distance) best = {part, std::uint32_t(i), point, distance};
     };
     const auto isLeftOut = [](const std::vector<char>& kept, std::size_t i) {
@@ -138,6 +140,8 @@ void BoundaryPoints::search(const Vec3d& x, BoundaryPoint& best) const
     forEachNear(arcs_, boundary_.arcs.size(), x, best.distance, [&](std::size_t i) {
         if (isLeftOut(arcKept_, i)) return;
         const Arc& arc = boundary_.arcs[i];
+        const double farthest = best.distance + arc.radius;
+        if ((x - arc.centre).lengthSqr() > farthest * farthest) return;
         const Vec3d across = onCircle(arc, x);
         if (across.dot(arc.middle) < cosines_[i]) return;
         offer(BoundaryPart::Arc, i, arc.centre + arc.radius * across);
@@ -145,6 +149,8 @@ void BoundaryPoints::search(const Vec3d& x, BoundaryPoint& best) const
     forEachNear(patches_, boundary_.patches.size(), x, best.distance, [&](std::size_t i) {
         const Patch& patch = boundary_.patches[i];
         const Vec3d offset = x - patch.centre;
+        const double farthest = best.distance + patch.radius;
+        if (offset.lengthSqr() >= farthest * farthest) return;
         const double length = offset.length();
         if (isLeftOut(patchKept_, i) || std::abs(length - patch.radius) >= best.distance) return;
         // Of a whole sphere all points are equally far from its centre; else the arcs are as near.

@@ -44,16 +44,32 @@ std::vector<char> reachedFromOutside(const BallBoundary& boundary, const Boundar
 
 } // namespace
 
+OuterDepth::OuterDepth(const std::vector<Ball>& balls, double probe, const Progress& progress)
+    : boundary_(ballBoundary(balls, probe, progress)),
+      measure_(measureBoundary(boundary_, progress)), probe_(probe)
+{
+    std::vector<char> kept = reachedFromOutside(boundary_, measure_, probe);
+    open_ = std::make_unique<BoundaryPoints>(boundary_, measure_, kept);
+    if (std::all_of(kept.begin(), kept.end(), [](char k) { return k != 0; })) return;
+    for (char& k : kept) k = k ? 0 : 1;
+    closed_ = std::make_unique<BoundaryPoints>(boundary_, measure_, kept);
+}
+
+OuterDepth::Depth OuterDepth::at(const openvdb::Vec3d& x, bool hasRoom, double guess) const
+{
+    const auto [part, index, centre, distance] = open_->nearest(x, guess);
+    const bool outside = hasRoom && !(closed_ && closed_->nearest(x, guess).distance < distance);
+    return {(outside ? -distance : distance) - probe_, centre};
+}
+
 std::vector<double> depthsOf(const std::vector<Ball>& balls, double probe,
                              const std::vector<openvdb::Vec3d>& points, const Progress& progress)
 {
     constexpr double typical = 2.0; // depth of an atom at the surface [Å]
-    const BallBoundary boundary = ballBoundary(balls, probe, progress);
-    const BoundaryMeasure measure = measureBoundary(boundary, progress);
-    const BoundaryPoints nearest(boundary, measure, reachedFromOutside(boundary, measure, probe));
+    const OuterDepth depth(balls, probe, progress);
     std::vector<double> out(points.size());
     parallelFor(points.size(), progress, [&](std::size_t i) {
-        out[i] = std::max(nearest.nearest(points[i], probe + typical).distance - probe, 0.0);
+        out[i] = std::max(depth.at(points[i], false, probe + typical).value, 0.0);
     });
     return out;
 }

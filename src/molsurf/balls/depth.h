@@ -5,14 +5,46 @@
 /// How deep atoms lie below a solvent-excluded surface.
 
 #include "molsurf/ball.h"
+#include "molsurf/balls/boundary_point.h"
 #include "molsurf/progress.h"
 
 #include <openvdb/Types.h>
 
+#include <memory>
 #include <vector>
 
 namespace molsurf
 {
+
+/// How deep points lie below what a probe reaches from outside. Immutable once made; safe to use
+/// from all threads.
+class OuterDepth
+{
+public:
+    /// @param[in] balls  at least one, every one finite
+    /// @param[in] probe  [Å]
+    OuterDepth(const std::vector<Ball>& balls, double probe, const Progress& progress);
+
+    /// A depth.
+    struct Depth {
+        double value;          ///< the distance from `centre` less the probe's radius [Å];
+                               ///< negative where the probe gets from outside
+        openvdb::Vec3d centre; ///< the nearest centre of a probe at the edge of its space [Å]
+    };
+
+    /// @param[in] hasRoom  whether the probe fits about the point
+    /// @param[in] guess    the distance from the centre of a probe, for speed [Å], > 0
+    Depth at(const openvdb::Vec3d& x, bool hasRoom, double guess) const;
+
+    /// Whether the probe fits into places that it does not reach from outside.
+    bool hasVoids() const { return closed_ != nullptr; }
+
+private:
+    BallBoundary boundary_;
+    BoundaryMeasure measure_;
+    std::unique_ptr<const BoundaryPoints> open_, closed_; ///< the pieces reached, and the others
+    double probe_;
+};
 
 /// The distance of points from the nearest place that a probe reaches from outside: how far away
 /// the centre of the nearest such probe is, less its radius. In the balls that is the distance to

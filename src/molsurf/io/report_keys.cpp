@@ -173,6 +173,25 @@ constexpr ReportKey keyTable[] = {
     {"interfaces[].median_distance", "Å", "Median distance of these surfaces, without the rim"},
     {"interfaces[].gap_volume", "Å³", "Volume between them that such a probe does not reach"},
     {"interfaces[].gap_index", "Å", "Gap volume by the area that each buries"},
+    {"pockets", "", "Pockets, if they were asked for, else null"},
+    {"pockets.probe_in", "Å", "Radius of the probe that gets into pockets"},
+    {"pockets.probe_out", "Å", "Radius of the probe that stays out of them"},
+    {"pockets.cut", "Å", "Depth below the surface of that probe at which pockets begin"},
+    {"pockets.neck", "",
+     "Share of the smaller pocket's radius below which a neck between two parts them"},
+    {"pockets.voxel", "Å", "Edge of the voxels that they are found on"},
+    {"pockets.list", "", "The pockets, the largest first"},
+    {"pockets.list[].volume", "Å³", "Volume"},
+    {"pockets.list[].area", "Å²", "Area of the wall"},
+    {"pockets.list[].depth", "Å",
+     "Depth of the deepest point below the surface of the large probe"},
+    {"pockets.list[].radius", "Å", "Radius of the largest ball in it"},
+    {"pockets.list[].center", "Å", "Middle of its volume"},
+    {"pockets.list[].open", "", "Whether a way leads out, perhaps by neighbors"},
+    {"pockets.list[].mouths", "", "Mouths, the largest first"},
+    {"pockets.list[].mouths[].area", "Å²", "Area of the mouth at the cut"},
+    {"pockets.list[].mouths[].radius", "Å", "Radius of the largest ball that gets out there"},
+    {"pockets.list[].neighbors", "", "Numbers, from 1, of pockets beyond necks"},
     {"parts", "", "Groups with surfaces of their own"},
     {"parts[].name", "", "Name of the group"},
     {"parts[].atoms", "", "Number of its atoms"},
@@ -191,7 +210,7 @@ constexpr ReportKey keyTable[] = {
     {"symmetry.open_vertices", "",
      "Edges of a unit's border without a partner: triangles fill holes there"},
     {"warnings", "", "One text each"},
-    {"areas", "", "Requested tables of areas by their names; each row has the keys of the .csv"}};
+    {"areas", "", "Requested tables by their names; each row has the keys of the .csv"}};
 
 } // namespace
 

@@ -142,6 +142,34 @@ Json interfacesJson(const std::vector<InterfaceReport>& interfaces)
     return out;
 }
 
+/// Places in a list as numbers from 1.
+Json numbersJson(const std::vector<std::size_t>& places)
+{
+    Json out = Json::array();
+    for (const std::size_t place : places) out.push_back(place + 1);
+    return out;
+}
+
+Json pocketJson(const PocketReport& pocket)
+{
+    Json mouths = Json::array();
+    for (const PocketReport::Mouth& mouth : pocket.mouths)
+        mouths.push_back(Json{{"area", mouth.area}, {"radius", mouth.radius}});
+    return {{"volume", pocket.volume},     {"area", pocket.area},
+            {"depth", pocket.depth},       {"radius", pocket.radius},
+            {"center", pocket.centre},     {"open", pocket.open},
+            {"mouths", std::move(mouths)}, {"neighbors", numbersJson(pocket.neighbours)}};
+}
+
+Json pocketsJson(const PocketsReport& pockets)
+{
+    Json list = Json::array();
+    for (const PocketReport& pocket : pockets.list) list.push_back(pocketJson(pocket));
+    return {{"probe_in", pockets.probeIn}, {"probe_out", pockets.probeOut},
+            {"cut", pockets.cut},          {"neck", pockets.neck},
+            {"voxel", pockets.voxel},      {"list", std::move(list)}};
+}
+
 Json partsJson(const std::vector<PartReport>& parts)
 {
     Json out = Json::array();
@@ -251,6 +279,7 @@ std::string reportText(const Report& report)
         {"groups", groupsJson(report.groups)},
         {"areas_of", orNull(report.areasOf)},
         {"interfaces", interfacesJson(report.interfaces)},
+        {"pockets", report.pockets ? pocketsJson(*report.pockets) : Json()},
         {"parts", partsJson(report.parts)},
         {"instances", instancesJson(report.instances)},
         {"symmetry", report.symmetry ? symmetryJson(*report.symmetry) : Json()},

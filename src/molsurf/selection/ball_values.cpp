@@ -98,17 +98,6 @@ BallValues bFactors(const Structure& structure, float scale, std::vector<std::st
     return {"plddt", "pLDDT", "", "plddt", 0.0, 100.0, {}};
 }
 
-float hydrophobicityOf(const std::string& residue)
-{
-    static const std::map<std::string, float> scale = {
-        {"ILE", 4.5f},  {"VAL", 4.2f},  {"LEU", 3.8f},  {"PHE", 2.8f},  {"CYS", 2.5f},
-        {"MET", 1.9f},  {"ALA", 1.8f},  {"GLY", -0.4f}, {"THR", -0.7f}, {"SER", -0.8f},
-        {"TRP", -0.9f}, {"TYR", -1.3f}, {"PRO", -1.6f}, {"HIS", -3.2f}, {"GLU", -3.5f},
-        {"GLN", -3.5f}, {"ASP", -3.5f}, {"ASN", -3.5f}, {"LYS", -3.9f}, {"ARG", -4.5f}};
-    const auto found = scale.find(parentResidue(residue));
-    return found == scale.end() ? missing : found->second;
-}
-
 /// The place of every residue in its chain, ligands and waters left out.
 std::vector<float> placesInChains(const Structure& structure)
 {
@@ -214,6 +203,17 @@ void fillFromTable(const Structure& structure, const std::vector<Ball>& balls,
 }
 
 } // namespace
+
+float hydrophobicityOf(const std::string& residue)
+{
+    static const std::map<std::string, float> scale = {
+        {"ILE", 4.5f},  {"VAL", 4.2f},  {"LEU", 3.8f},  {"PHE", 2.8f},  {"CYS", 2.5f},
+        {"MET", 1.9f},  {"ALA", 1.8f},  {"GLY", -0.4f}, {"THR", -0.7f}, {"SER", -0.8f},
+        {"TRP", -0.9f}, {"TYR", -1.3f}, {"PRO", -1.6f}, {"HIS", -3.2f}, {"GLU", -3.5f},
+        {"GLN", -3.5f}, {"ASP", -3.5f}, {"ASN", -3.5f}, {"LYS", -3.9f}, {"ARG", -4.5f}};
+    const auto found = scale.find(parentResidue(residue));
+    return found == scale.end() ? missing : found->second;
+}
 
 const std::vector<std::string>& valueWords()
 {
@@ -384,9 +384,10 @@ BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls
             [&](const Ball& ball) { return hydrophobicityOf(residueOf(structure, ball).name); });
         spreads = false;
     } else if (by.kind == Kind::Rainbow) {
-        const std::vector<float> inChains = placesInChains(structure);
-        out = filled({word, "N to C", "", "turbo", 0.0, 1.0, {}},
-                     [&](const Ball& ball) { return inChains[std::size_t(atomOf(ball).residue)]; });
+        const std::vector<float> alongChains = placesInChains(structure);
+        out = filled({word, "N to C", "", "turbo", 0.0, 1.0, {}}, [&](const Ball& ball) {
+            return alongChains[std::size_t(atomOf(ball).residue)];
+        });
         spreads = false;
     } else if (by.kind == Kind::Radius) {
         const Vec3d& centre = places.centre;

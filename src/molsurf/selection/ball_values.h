@@ -28,6 +28,10 @@ std::optional<ValueBy> parseValueBy(const std::string& text);
 /// The text that parseValueBy() reads.
 std::string textOf(const ValueBy& by);
 
+/// The hydrophobicity of an amino acid (Kyte and Doolittle, J. Mol. Biol. 157:105-132, 1982); not a
+/// number of others.
+float hydrophobicityOf(const std::string& residue);
+
 /// Where balls lie in the whole.
 struct BallPlaces {
     openvdb::Vec3d centre;      ///< that radii are taken from [Å]

@@ -184,7 +184,7 @@ AtomMatch matchAtoms(const Structure& structure, const std::string& expression)
 
 void settleSelections(const SelectOptions& options, const Model& model, Structure& structure)
 {
-    std::vector<std::string> expressions{options.select};
+    std::vector<std::string> expressions{options.select, options.pocketAt};
     for (const GroupRule& rule : options.groups) expressions.push_back(rule.select);
     for (const ResolutionRule& rule : options.resolutions) expressions.push_back(rule.select);
     for (const CoarseRule& rule : options.coarse) expressions.push_back(rule.select);

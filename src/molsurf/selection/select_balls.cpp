@@ -594,6 +594,32 @@ BallSet readAtoms(FileContent file, const SelectOptions& options, double probe,
                        options, probe, progress);
 }
 
+namespace
+{
+
+/// The places of the atoms that a pocket is at.
+/// @throws Error(ErrorKind::Usage) if there are none
+std::vector<openvdb::Vec3d> pocketPlaces(const Structure& structure, const SelectOptions& options,
+                                         const Model& model)
+{
+    std::vector<openvdb::Vec3d> out;
+    if (options.pocketAt.empty()) return out;
+    try {
+        const AtomMatch match = matchAtoms(structure, options.pocketAt);
+        for (std::size_t i = model.begin; i < model.end; ++i)
+            if (match.atoms[i]) out.push_back(structure.atoms[i].position);
+    } catch (const Error& error) {
+        throw Error(ErrorKind::Usage, std::string("`pocketAt`: ") + error.what());
+    }
+    if (out.empty())
+        throw Error(ErrorKind::Usage, "`pocketAt`: selection " + inQuotes(options.pocketAt) +
+                                          " matches no atom of model " +
+                                          std::to_string(model.number));
+    return out;
+}
+
+} // namespace
+
 BallSet selectBalls(const Structure& structure, const SelectOptions& options, double probe,
                     const Progress& progress)
 {
@@ -658,6 +684,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     }
     stopIfCancelled(progress);
     out.coloring = options.coloring;
+    out.pocketAt = pocketPlaces(structure, options, model);
     if (options.valueBy) addValues(structure, options, probe, progress, out);
     if (options.plainColor) out.colors.assign(out.balls.size(), *options.plainColor);
     if (options.names) out.names = ballNames(structure, out);

@@ -184,6 +184,11 @@ const std::vector<FieldRow>& fieldTable()
         }
         for (auto* more : {densityField, atomField, chainField, groupField, colorField, valueField})
             rows.push_back(more());
+        for (const char* name : {"pocket_id", "pocket_depth"}) { // by addPockets()
+            rows.push_back({name, 1, BySymmetry | InClosedForm | InBricks});
+            rows.back().needs = "`pockets`, too";
+            rows.back().given = [](const SurfaceOptions& o) { return o.pockets; };
+        }
         rows.push_back({"v", 3, BySymmetry | InClosedForm}); // by velocityGrid()
         rows.back().atVertices = true;
         return rows;

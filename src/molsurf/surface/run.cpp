@@ -14,6 +14,7 @@
 #include "molsurf/surface/label_surface.h"
 #include "molsurf/surface/match_volume.h"
 #include "molsurf/surface/parts.h"
+#include "molsurf/surface/pockets.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/unit_mesh.h"
 #include "molsurf/surface/unit_run.h"
@@ -61,6 +62,8 @@ void checkWanted(const BallSet& atoms, const SurfaceOptions& options)
     if ((options.ofParts() || options.interfaces || ofPrototypes(atoms)) &&
         (!atoms.labels || atoms.labels->groups.empty()))
         throw Error(ErrorKind::Input, "there are no groups to surface alone");
+    if (options.pockets && ofPrototypes(atoms))
+        throw Error(ErrorKind::Usage, "`pockets`: expected one surface, and not `instances`");
     if (!options.ballAreas) return;
     checkWay(ByAtom, options);
     if (ofPrototypes(atoms))
@@ -129,6 +132,7 @@ MolecularSurface make(const BallSet& atoms, const SurfaceOptions& options, Progr
                                : areasApart(atoms, shown, progress);
     if (options.interfaces)
         measureInterfaces(atoms, shown, options.ballAreas, progress, result.report);
+    if (options.pockets) addPockets(atoms, options, progress, result);
     if (options.contacts) result.contacts = contactAreas(atoms.balls, probeOf(shown), progress);
     if (options.halfFloats) saveAsHalf(result.grids());
     return std::move(result);

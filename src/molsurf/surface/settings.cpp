@@ -643,6 +643,42 @@ std::vector<Setting> groupSettings()
             colorSetting()};
 }
 
+std::vector<Setting> pocketSettings()
+{
+    const auto of = [](auto member) {
+        return [=](auto& s) -> auto&
+        {
+            return s.options.pocket.*member;
+        };
+    };
+    Setting at = text("pocket-at", "SEL",
+                      "only the pocket at these atoms of the file, used or not:\n"
+                      "a ligand, or residues that line it; volume 0 in frames\n"
+                      "where it is closed",
+                      "none", MOLSURF_OF(atoms.pocketAt));
+    at.ofAtoms = true;
+    return {
+        at,
+        flag("pockets", "pockets of the surface, for the report and .pockets.csv",
+             MOLSURF_OF(options.pockets)),
+        within(0.5, 10.0,
+               number("probe-in", "R", "radius of the probe that gets into pockets [Å]",
+                      of(&PocketOptions::probeIn))),
+        within(0.5, 50.0,
+               number("probe-out", "R",
+                      "radius of the probe that stays out of them [Å], the larger\n"
+                      "the shallower are those found",
+                      of(&PocketOptions::probeOut))),
+        within(0.0, 50.0,
+               number("pocket-cut", "D", "pockets begin so far below the surface of that probe [Å]",
+                      of(&PocketOptions::cut))),
+        within(0.0, 1.0,
+               number("pocket-neck", "S",
+                      "two pockets, where the ball that passes between them has\n"
+                      "less than this share of the smaller one's radius; 0: one",
+                      of(&PocketOptions::neck)))};
+}
+
 std::vector<Setting> flowSettings()
 {
     const auto of = [](auto member) {
@@ -693,7 +729,7 @@ const std::vector<Setting>& settingTable()
         std::vector<Setting> rows = atomSettings();
         for (Setting& row : rows) row.ofAtoms = true;
         for (auto* more : {surfaceSettings, meshSettings, resolutionSettings, groupSettings,
-                           coloringSettings, flowSettings})
+                           coloringSettings, pocketSettings, flowSettings})
             for (Setting& row : more()) rows.push_back(std::move(row));
         return rows;
     }();

@@ -24,6 +24,7 @@ const Row rows[] = {
     {"`surfaceOf`", InBricks | BySymmetry | InClosedForm | ByAtom,
      [](auto& o) { return !o.surfaceOf.empty(); }},
     {"`interfaces`", InBricks, [](auto& o) { return o.interfaces; }},
+    {"`pockets`", InBricks | BySymmetry, [](auto& o) { return o.pockets; }},
     {"`matchVolume`", InBricks | BySymmetry, [](auto& o) { return o.matchVolume; }},
     {"`fillCavities`", InBricks | BySymmetry | InClosedForm,
      [](auto& o) { return o.fillCavities; }},

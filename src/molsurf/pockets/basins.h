@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Parts of a space, split at its necks.
+
+#include "molsurf/pockets/void_field.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace molsurf
+{
+
+/// A voxel as a number: 512 times its leaf and its place there.
+using VoxelPlace = std::uint32_t;
+
+/// Voxels that edges of the tetrahedra of cells join: seven of them beyond it in each leaf's order,
+/// as many before it. A cell is six tetrahedra about its long diagonal (Kuhn's triangulation).
+constexpr int edgeWays[7][3] = {{0, 0, 1}, {0, 1, 0}, {0, 1, 1}, {1, 0, 0},
+                                {1, 0, 1}, {1, 1, 0}, {1, 1, 1}};
+
+/// Where two basins touch.
+struct Neck {
+    std::int32_t basins[2]; ///< ascending
+    float clearance;        ///< of its widest voxel [Å]
+};
+
+/// Parts of the active voxels of a VoidField.
+struct Basins {
+    LeafArray<std::int32_t> of; ///< of each voxel its basin, or -1
+    std::vector<float> peaks;   ///< of each basin the largest clearance [Å]
+    std::vector<Neck> necks;    ///< in ascending order of the basins
+
+    std::size_t count() const { return peaks.size(); }
+};
+
+/// Splits a space where it is narrow, by the persistence of the maxima of its clearance: voxels
+/// join, those of large clearance first, and two parts that meet stay apart if the clearance there
+/// is below a share of the smaller of their maxima.
+/// @param[in] share        1: every maximum is a basin; 0: what hangs together is one
+/// @param[in] leastVoxels  a basin of fewer joins the neighbour with the widest neck
+Basins splitAtNecks(const VoidField& space, double share, double leastVoxels);
+
+} // namespace molsurf

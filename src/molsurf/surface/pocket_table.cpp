@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/core/words.h"
+#include "molsurf/error.h"
+#include "molsurf/selection/ball_names.h"
+#include "molsurf/selection/ball_values.h"
+#include "molsurf/tables.h"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace molsurf
+{
+
+namespace
+{
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// What the atoms that line a pocket are.
+struct Lining {
+    std::string residues, atoms;     ///< names and numbers, with spaces between
+    double hydrophobicity = unknown; ///< mean over the wall
+    double charge = unknown;         ///< of side chains [e]
+};
+
+std::string nameOf(const BallNames::Residue& residue)
+{
+    std::string name = residue.chain.empty() ? "_" : residue.chain;
+    name += "/" + residue.name + std::to_string(residue.number);
+    if (residue.insertionCode != ' ') name += residue.insertionCode;
+    return name;
+}
+
+double chargeOf(const std::string& residue)
+{
+    const std::string name = parentResidue(residue);
+    if (name == "LYS" || name == "ARG") return 1.0;
+    return name == "ASP" || name == "GLU" ? -1.0 : 0.0;
+}
+
+/// A number without the digits that voxels do not tell.
+double digitsThatHold(double number)
+{
+    return std::strtod(formatted("%.7g", number).c_str(), nullptr);
+}
+
+void append(const std::string& word, std::string& list)
+{
+    list += (list.empty() ? "" : " ") + word;
+}
+
+Lining liningOf(const BallSet& atoms, const PocketReport& pocket)
+{
+    Lining out;
+    std::set<std::int32_t> residues;
+    double sum = 0.0, area = 0.0, charge = unknown;
+    for (const PocketReport::Lining& part : pocket.lining) {
+        append(std::to_string(atoms.balls[part.ball].atom), out.atoms);
+        if (!atoms.names) continue;
+        const std::int32_t residue = atoms.names->residueOf[part.ball];
+        residues.insert(residue);
+        const double value = hydrophobicityOf(atoms.names->residues[std::size_t(residue)].name);
+        if (!std::isfinite(value)) continue;
+        sum += part.area * value;
+        area += part.area;
+    }
+    if (area > 0.0) out.hydrophobicity = sum / area;
+    if (area > 0.0) charge = 0.0; // there are amino acids
+    for (const std::int32_t residue : residues) {
+        const BallNames::Residue& one = atoms.names->residues[std::size_t(residue)];
+        if (one.name.empty()) continue; // as in a list of balls
+        append(nameOf(one), out.residues);
+        charge += chargeOf(one.name);
+    }
+    out.charge = charge;
+    return out;
+}
+
+/// The columns of a table of pockets, filled row by row.
+class PocketColumns
+{
+public:
+    void add(const BallSet& atoms, const PocketReport& pocket)
+    {
+        double mouthArea = 0.0, mouthRadius = pocket.mouths.empty() ? unknown : 0.0;
+        for (const PocketReport::Mouth& mouth : pocket.mouths) {
+            mouthArea += mouth.area;
+            mouthRadius = std::max(mouthRadius, mouth.radius);
+        }
+        const Lining lining = liningOf(atoms, pocket);
+        const std::array<double, 11> row = {
+            pocket.volume,    pocket.area,           pocket.depth,     pocket.radius,
+            pocket.centre[0], pocket.centre[1],      pocket.centre[2], mouthArea,
+            mouthRadius,      lining.hydrophobicity, lining.charge};
+        for (std::size_t k = 0; k < row.size(); ++k) numbers_[k].push_back(digitsThatHold(row[k]));
+        number_.push_back(std::int64_t(number_.size()) + 1);
+        open_.push_back(pocket.open);
+        mouths_.push_back(std::int64_t(pocket.mouths.size()));
+        atoms_.push_back(std::int64_t(pocket.lining.size()));
+        std::string near;
+        for (const std::size_t other : pocket.neighbours) append(std::to_string(other + 1), near);
+        neighbours_.push_back(near);
+        residues_.push_back(lining.residues);
+        ids_.push_back(lining.atoms);
+    }
+
+    void moveTo(Table& table)
+    {
+        const auto numbers = [&](const char* name, std::size_t k) {
+            table.columns.push_back({name, std::move(numbers_[k])});
+        };
+        table.columns.push_back({"pocket", std::move(number_)});
+        constexpr std::array<const char*, 7> first = {"volume", "area", "depth_A", "radius_A",
+                                                      "x_A",    "y_A",  "z_A"};
+        for (std::size_t k = 0; k < first.size(); ++k) numbers(first[k], k);
+        table.columns.push_back({"open", std::move(open_)});
+        table.columns.push_back({"mouths", std::move(mouths_)});
+        numbers("mouth_area", 7);
+        numbers("mouth_radius_A", 8);
+        table.columns.push_back({"neighbours", std::move(neighbours_)});
+        numbers("hydrophobicity", 9);
+        numbers("charge", 10);
+        table.columns.push_back({"atoms", std::move(atoms_)});
+        table.columns.push_back({"residues", std::move(residues_)});
+        table.columns.push_back({"atom_ids", std::move(ids_)});
+    }
+
+private:
+    std::vector<std::int64_t> number_, open_, mouths_, atoms_;
+    std::array<std::vector<double>, 11> numbers_;
+    std::vector<std::string> neighbours_, residues_, ids_;
+};
+
+} // namespace
+
+Table pocketTable(const BallSet& atoms, const Report& report)
+{
+    if (!report.pockets)
+        throw Error(ErrorKind::Usage, "table: expected a surface with `pockets`, got none");
+    const PocketsReport& pockets = *report.pockets;
+    PocketColumns columns;
+    for (const PocketReport& pocket : pockets.list) columns.add(atoms, pocket);
+    if (!atoms.pocketAt.empty() && pockets.list.empty()) columns.add(atoms, {}); // it is closed
+    Table table{"pockets", {}};
+    table.note =
+        formatted("pockets: probe in %g, probe out %g, cut %g, voxel %g A; neck %g",
+                  pockets.probeIn, pockets.probeOut, pockets.cut, pockets.voxel, pockets.neck);
+    columns.moveTo(table);
+    return table;
+}
+
+} // namespace molsurf

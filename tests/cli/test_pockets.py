@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Pockets: their table, report and grids."""
+
+import csv
+import json
+import subprocess
+import unittest
+
+from needs import KVFINDER_PYTHON, needs
+from tool import CRAMBIN, DATA, ToolTest
+
+DIMER = DATA / "1a8o.pdb.gz"
+DETECT = """
+import sys, numpy as np, pyKVFinder as k
+balls = [line.split() for line in open(sys.argv[1])]
+atoms = np.array([[str(i), "A", "ALA", "C", *ball] for i, ball in enumerate(balls)])
+_, found = k.detect(atoms, k.get_vertices(atoms, 4.0, 0.6), 0.6, 1.4, 4.0, 2.4, 5.0, nthreads=1)
+_, volumes, _ = k.spatial(found, 0.6, nthreads=1)
+print(max(volumes.values(), default=0.0))
+"""
+
+
+class Pockets(ToolTest):
+    def table(self, name):
+        """The note, and the rows."""
+        note, *lines = (self.folder / name).read_text().splitlines()
+        return note, list(csv.DictReader(lines))
+
+    def box(self, name, hole=lambda x: max(map(abs, x)) < 4):
+        """Balls of 1.5 Å, an Å apart, with a hole."""
+        places = range(-7, 8)
+        balls = [(x, y, z) for x in places for y in places for z in places if not hole((x, y, z))]
+        (self.folder / name).write_text("".join(f"{x} {y} {z} 1.5\n" for x, y, z in balls))
+
+    def test_a_closed_cavity_has_the_volume_of_the_report(self):
+        self.box("box.xyzr")
+        self.check(0, "box.xyzr", "--surface", "ses", "-o", "box.pockets.csv", "-o", "box.json")
+        note, rows = self.table("box.pockets.csv")
+        self.assertEqual(note, "# pockets: probe in 1.4, probe out 4, cut 2.4, voxel 0.5 A; neck 0.55")
+        report = json.loads((self.folder / "box.json").read_text())
+        self.assertEqual(len(rows), 1)
+        self.assertEqual((rows[0]["open"], rows[0]["mouths"], rows[0]["residues"]), ("0", "0", ""))
+        self.assertAlmostEqual(float(rows[0]["volume"]), report["surface"]["cavity_list"][0]["volume"], places=3)
+        self.assertAlmostEqual(report["pockets"]["list"][0]["volume"], float(rows[0]["volume"]), places=3)
+        self.assertEqual(report["pockets"]["probe_out"], 4)
+
+    def test_a_table_without_pockets_is_empty(self):
+        self.check(0, CRAMBIN, "--probe-in", 3, "--voxel", 1, "-o", "none.pockets.csv", says=["pockets: 0"])
+        self.assertEqual(self.table("none.pockets.csv")[1], [])
+
+    def test_lining_is_named(self):
+        self.check(0, DATA / "4at1.ent.gz", "--select", "chain A", "--voxel", "0.7", "--pocket-cut", "0",
+                      "-o", "a.pockets.csv")
+        rows = self.table("a.pockets.csv")[1]
+        volumes = [float(row["volume"]) for row in rows]
+        self.assertEqual(volumes, sorted(volumes, reverse=True))
+        first = rows[0]
+        self.assertEqual(len(first["atom_ids"].split()), int(first["atoms"]))
+        self.assertRegex(first["residues"], r"^A/[A-Z]{3}\d+( A/[A-Z]{3}\d+)+$")
+        names = first["residues"]
+        charge = sum(names.count(f"/{name}") for name in ("LYS", "ARG")) - \
+            sum(names.count(f"/{name}") for name in ("ASP", "GLU"))
+        self.assertEqual(int(float(first["charge"])), charge)
+        self.assertTrue(-4.5 <= float(first["hydrophobicity"]) <= 4.5)
+
+    def test_threads_do_not_matter(self):
+        for threads in (1, 2):
+            self.check(0, DIMER, "-j", threads, "--pocket-cut", 0, "-o", f"{threads}.pockets.csv")
+        self.assertEqual((self.folder / "1.pockets.csv").read_bytes(), (self.folder / "2.pockets.csv").read_bytes())
+
+    def test_places(self):
+        self.check(0, DIMER, "--pocket-cut", 0, "-o", "all.pockets.csv")
+        row = self.table("all.pockets.csv")[1][1]
+        residue = row["residues"].split()[0].split("/")[1][3:]
+        self.check(0, DIMER, "--pocket-cut", 0, "--pocket-at", f"resid {residue}", "-o", "one.pockets.csv")
+        rows = self.table("one.pockets.csv")[1]
+        self.assertEqual(len(rows), 1)
+        self.assertIn(float(rows[0]["volume"]), [float(r["volume"]) for r in self.table("all.pockets.csv")[1]])
+        for places, status, text in (("resn XYZ", 2, "--pocket-at"), ("resid 5", 1, "no pocket is within 4 Å")):
+            self.check(status, CRAMBIN, "--probe-in", 3, "--pocket-at", places, "-o", "bad.pockets.csv", says=[text])
+            self.assertFalse((self.folder / "bad.pockets.csv").exists())
+
+    def test_frames_have_a_row_where_it_is_closed(self):
+        text = ""
+        for model, wide in enumerate((True, False), 1):
+            text += f"MODEL     {model:4}\n"
+            places = range(-6, 7)
+            balls = [(x, y, z) for x in places for y in places for z in places]
+            for i, (x, y, z) in enumerate(balls):
+                push = 40.0 if wide and max(abs(x), abs(y), abs(z)) < 4 else 0.0
+                text += (f"ATOM  {i:5}  C   ALA A{i:4}    {x + push:8.3f}{y:8.3f}{z:8.3f}"
+                         "  1.00  0.00           C  \n")
+            text += "ENDMDL\n"
+        (self.folder / "two.pdb").write_text(text + "END\n")
+        self.check(0, "two.pdb", "--frames", "all", "--voxel", "0.7", "--pocket-at", f"resid {13 * 13 * 2 + 13 * 6 + 6}",
+                      "-o", "two.pockets.csv")
+        lines = (self.folder / "two.pockets.csv").read_text().splitlines()
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        self.assertEqual([row["frame"] for row in rows], ["1", "2"])
+        self.assertGreater(float(rows[0]["volume"]), 50.0)
+        self.assertEqual(float(rows[1]["volume"]), 0.0)
+
+    def test_bad_values(self):
+        for words, text in ((("--probe-out", 1), "--probe-out: expected more than --probe-in"),
+                            (("--pocket-neck", 2), "--pocket-neck: expected 0 to 1")):
+            self.check(2, CRAMBIN, *words, "-o", "x.pockets.csv", says=[text])
+        self.check(0, CRAMBIN, "--voxel", 1, "-o", "x.pockets.csv", says=["narrow are lost"])
+        self.check(2, CRAMBIN, "--fields", "pocket_id", "-o", "x.vdb", says=["--pockets"])
+
+    @needs("kvfinder")
+    def test_a_void_is_nearer_to_the_closed_form_than_by_kvfinder(self):
+        self.box("closed.xyzr")
+        self.check(0, "closed.xyzr", "--surface", "ses", "-o", "closed.json")
+        self.check(0, "closed.xyzr", "--voxel", "0.6", "-o", "own.pockets.csv")
+        done = subprocess.run([KVFINDER_PYTHON, "-c", DETECT, str(self.folder / "closed.xyzr")], check=True,
+                              capture_output=True, text=True)
+        exact = json.loads((self.folder / "closed.json").read_text())["surface"]["cavity_list"][0]["volume"]
+        own = sum(float(row["volume"]) for row in self.table("own.pockets.csv")[1])
+        self.assertLess(abs(own - exact), abs(float(done.stdout.split()[-1]) - exact))
+
+
+if __name__ == "__main__":
+    unittest.main()
