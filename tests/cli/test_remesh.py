@@ -89,7 +89,7 @@ class Remesh(ToolTest):
         for words, says in ((["--remesh", 0.01, "-o", "a.ply"], "0.05 to 10"),
                             (["--remesh", "nan", "-o", "a.ply"], "0.05 to 10"),
                             (["--remesh", 0, "-o", "a.ply"], "0.05 to 10"),
-                            (["--density", 0, "-o", "a.ply"], "0.012 to 400"),
+                            (["--density", 0, "-o", "a.ply"], "0.014 to 400"),
                             (["--adapt", 0.03, "-o", "a.ply"], "--remesh or --density"),
                             (["--remesh", 1, "--adapt", 2, "-o", "a.ply"], "0.001 to 1"),
                             (["--remesh", 1, "--density", 1, "-o", "a.ply"], "together"),

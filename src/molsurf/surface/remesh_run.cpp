@@ -50,10 +50,10 @@ std::vector<char> keptVertices(const SurfaceOptions& options, const Mesh& mesh,
     const double fitting = std::floor(100.0 * least / edgesAcross) / 100.0; // [Å], below
     if (shape.keptPieces > 0)
         warnings.push_back(formatted(
-            "`remesh` %.3g Å: %s of %zu left as before, less than five edges across, the "
+            "`remesh` %.3g Å: %s of %d left as before, less than five edges across, the "
             "smallest %.2f Å [hint: `remesh` %.2f]",
             options.meshEdge, counted(shape.keptPieces, "closed piece", "closed pieces").c_str(),
-            extents.size(), least, std::max(fitting, 0.05)));
+            int(extents.size()), least, std::max(fitting, 0.05)));
     std::vector<char> kept(mesh.positions.size());
     for (std::size_t v = 0; v < kept.size(); ++v)
         kept[v] = extents[pieces.of[v]] < edgesAcross * options.meshEdge;

@@ -363,7 +363,7 @@ Setting optionalNumber(const char* name, const char* value, std::string text, co
 std::vector<Setting> meshSettings()
 {
     Setting density = optionalNumber("density", "N", "the same with N vertices per Å^2 of surface",
-                                     "0.012 to 400 vertices per Å^2", {0.012, 400.0},
+                                     "0.014 to 400 vertices per Å^2", {0.014, 400.0},
                                      MOLSURF_OF(options.meshEdge));
     const auto set = density.set;
     density.set = [=](Settings& s, const Values& values) {
@@ -664,7 +664,7 @@ std::vector<Setting> pocketSettings()
         within(0.5, 10.0,
                number("probe-in", "R", "radius of the probe that gets into pockets [Å]",
                       of(&PocketOptions::probeIn))),
-        within(0.5, 50.0,
+        within(0.6, 50.0,
                number("probe-out", "R",
                       "radius of the probe that stays out of them [Å], the larger\n"
                       "the shallower are those found",

@@ -46,8 +46,8 @@ TEST(WriteReport, HasTheKeysOfTheContractInItsOrder)
                                  "coarse",     "resolution",     "evolution",
                                  "grid",       "seconds",        "peak_memory_bytes",
                                  "threads",    "groups",         "areas_of",
-                                 "interfaces", "parts",          "instances",
-                                 "symmetry",   "warnings"}));
+                                 "interfaces", "pockets",        "parts",
+                                 "instances",  "symmetry",       "warnings"}));
     Names surface = keys(json["surface"]);
     surface.resize(14); // later keys are additions
     EXPECT_EQ(surface,
@@ -93,6 +93,10 @@ TEST(WriteReport, HasTheKeysOfTheTableAndNoOthers)
     report.instances.resize(1);
     report.symmetry = SymmetryReport();
     report.tables = {{"atoms", {}}};
+    report.surface.shape = MeshShape();
+    report.pockets = PocketsReport();
+    report.pockets->list.resize(1);
+    report.pockets->list[0].mouths.resize(1);
     Names written, listed;
     addPaths(Json::parse(reportText(report)), "", written);
     for (const ReportKey& key : reportKeys()) listed.push_back(key.path);
