@@ -199,7 +199,8 @@ std::string headerText(const BallSet& atoms, const GaussianExtent& extent)
                        {"outward", coloring.outward ? Json(*coloring.outward) : Json()}};
     if (atoms.labels) {
         const BallLabels& labels = *atoms.labels;
-        for (const Group& g : labels.groups) groups.push_back({g.name, g.balls, json(g.color), g.place});
+        for (const Group& g : labels.groups)
+            groups.push_back({g.name, g.balls, json(g.color), g.place});
         out["chains"] = labels.chains;
         out["chain_places"] = labels.chainPlaces;
         out["groups"] = std::move(groups);
