@@ -89,6 +89,8 @@ class Surface:
     @property
     def contacts(self) -> Contacts: ...
     @property
+    def pockets(self) -> dict[str, NDArray[Any]]: ...
+    @property
     def area(self) -> float: ...
     @property
     def volume(self) -> float: ...
@@ -98,7 +100,7 @@ class Surface:
     def kind(self) -> str: ...
     @property
     def report(self) -> dict[str, Any]: ...
-    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces"],
+    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces", "pockets"],
               level: Literal["atom", "residue", "chain"] = "residue") -> dict[str, NDArray[Any]]: ...
     def sample(self, n: int, seed: int | None = None) -> Samples: ...
     def distance(self, points: ArrayLike, *, progress: Callable[[str, float], object] | bool | None = None,
@@ -158,6 +160,11 @@ class Molecule:
         surface_of: str | float | Sequence[str | float] = ...,
         interfaces: bool = False,
         color: str = ...,
+        pockets: bool = False,
+        probe_in: float = 1.4,
+        probe_out: float = 4.0,
+        pocket_cut: float = 2.4,
+        pocket_neck: float = 0.55,
         lambda_: float = 0.01,
         regularizer: Literal["gradient", "area"] = "gradient",
         flow: Literal["rest", "newton", "paper"] = "rest",
@@ -191,6 +198,11 @@ def surface(positions: ArrayLike, radii: ArrayLike, *,
     surface_of: str | float | Sequence[str | float] = ...,
     interfaces: bool = False,
     color: str = ...,
+    pockets: bool = False,
+    probe_in: float = 1.4,
+    probe_out: float = 4.0,
+    pocket_cut: float = 2.4,
+    pocket_neck: float = 0.55,
     lambda_: float = 0.01,
     regularizer: Literal["gradient", "area"] = "gradient",
     flow: Literal["rest", "newton", "paper"] = "rest",
@@ -246,6 +258,12 @@ def read(source: Path | bytes | bytearray | memoryview | TextIO | BinaryIO, *,
     value_of: Literal["atom", "residue"] = "atom",
     flat_values: bool = False,
     outward: float = ...,
+    pocket_at: str = ...,
+    pockets: bool = False,
+    probe_in: float = 1.4,
+    probe_out: float = 4.0,
+    pocket_cut: float = 2.4,
+    pocket_neck: float = 0.55,
     lambda_: float = 0.01,
     regularizer: Literal["gradient", "area"] = "gradient",
     flow: Literal["rest", "newton", "paper"] = "rest",
