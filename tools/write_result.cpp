@@ -194,6 +194,7 @@ Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
     if (name == "residues") table = residueTable(atoms, probeOf(shown), result);
     if (name == "contacts") table = contactTable(atoms, call.contacts, result);
     if (name == "interfaces") table = interfaceTable(atoms, result.report);
+    if (name == "forces") table = forceTable(atoms, shown);
     addOrigin(atoms, result.report.areasOf, probeOf(shown), table);
     return table;
 }
@@ -448,6 +449,8 @@ const std::vector<Format>& formatTable()
         {"residues.csv", built, Areas | AllFrames, ofAreas, "residues", writeAreaTable},
         {"contacts.csv", built, Areas | AllFrames, ofAreas, "contacts", writeAreaTable},
         {"interfaces.csv", built, Areas | AllFrames, ofAreas, "interfaces", writeAreaTable},
+        {"forces.csv", built, Areas | AllFrames, "derivatives of area and volume", "forces",
+         writeAreaTable},
         {"pdb", built, Areas, withAreas, "atoms", writeAtoms<writePdb>},
         {"cif", built, Areas, withAreas, "atoms", writeAtoms<writeMmcif>},
         {"residues.pdb", built, Areas, withAreas, "residues", writeAtoms<writePdb>},

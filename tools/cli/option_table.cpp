@@ -23,7 +23,8 @@ namespace molsurf::tool
 
 const std::vector<std::string>& areaTables()
 {
-    static const std::vector<std::string> all = {"atoms", "residues", "contacts", "interfaces"};
+    static const std::vector<std::string> all = {"atoms", "residues", "contacts", "interfaces",
+                                                 "forces"};
     return all;
 }
 
@@ -455,11 +456,13 @@ OptionGroup groupOptions()
 
 OptionGroup areaOptions()
 {
-    Option areas{
-        "areas",     0,
-        "LIST",      "tables for the report, by commas: atoms, residues,\ncontacts, interfaces",
-        "",          wholes,
-        areaTables()};
+    Option areas{"areas",
+                 0,
+                 "LIST",
+                 "tables for the report, by commas: atoms, residues,\ncontacts, interfaces, forces",
+                 "",
+                 wholes,
+                 areaTables()};
     areas.set = [](Call& call, const Values& values) {
         call.areas = splitWords(lowered(values.back()));
         for (const std::string& table : call.areas)
