@@ -207,8 +207,8 @@ MOLSURF_MEMBERS(Attribute<float>, v.name, v.values)
 MOLSURF_MEMBERS(Attribute<std::int32_t>, v.name, v.values)
 MOLSURF_MEMBERS(MeshPart, v.name, v.firstTriangle)
 MOLSURF_MEMBERS(Mesh, v.positions, v.normals, v.triangles, v.scalars, v.labels, v.colors, v.parts)
-MOLSURF_MEMBERS(MeshShape, v.leastAngle, v.below20, v.below28, v.shortestEdge, v.longestEdge,
-                v.keptPieces, v.eulerNumbers)
+MOLSURF_MEMBERS(SurfaceReport::Shape, v.leastAngle, v.below20, v.below28, v.shortestEdge,
+                v.longestEdge, v.keptPieces, v.eulerNumbers)
 MOLSURF_MEMBERS(SurfaceReport, v.kind, v.area, v.volume, v.eulerCharacteristic,
                 v.meshEulerCharacteristic, v.meshArea, v.meshVolume, v.meshComponents,
                 v.triangleArea, v.piecesKnown, v.components, v.cavities, v.outerArea, v.outerVolume,

@@ -291,6 +291,17 @@ nb::tuple distancesOf(MadeSurface& surface, const Positions& positions, const Ho
                           owned<double>(std::move(normal)), owned<std::int32_t>(std::move(atom)));
 }
 
+/// Derivatives of volume and area by the atoms' places.
+nb::tuple gradientsOf(MadeSurface& surface, const How& how)
+{
+    checkWhole(surface, "forces");
+    MolecularSurface::Gradients found = run(how, [&](Progress& progress) {
+        return surfaceGradients(surface.atoms->balls, surface.options, progress);
+    });
+    return nb::make_tuple(owned<double>(std::move(found.volume)),
+                          owned<double>(std::move(found.area)));
+}
+
 nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::string& level)
 {
     const BallSet& atoms = *surface.atoms;
@@ -576,6 +587,10 @@ void addSurface(nb::module_& m)
                                        nb::make_tuple(all.origin[0], all.origin[1], all.origin[2]));
              })
         .def("table", tableOf)
+        .def("gradients",
+             [](MadeSurface& s, Listener progress, int threads) {
+                 return gradientsOf(s, {progress, threads});
+             })
         .def("save", save)
         .def("state", packSurface);
 }

@@ -197,6 +197,7 @@ Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
     if (name == "contacts") table = contactTable(atoms, call.contacts, result);
     if (name == "interfaces") table = interfaceTable(atoms, result.report);
     if (name == "pockets") return pocketTable(atoms, result.report);
+    if (name == "forces") table = forceTable(atoms, shown);
     addOrigin(atoms, result.report.areasOf, probeOf(shown), table);
     return table;
 }
@@ -453,6 +454,8 @@ const std::vector<Format>& formatTable()
         {"contacts.csv", built, Areas | AllFrames, ofAreas, "contacts", writeAreaTable},
         {"interfaces.csv", built, Areas | AllFrames, ofAreas, "interfaces", writeAreaTable},
         {"pockets.csv", built, Areas | AllFrames, ofAreas, "pockets", writeAreaTable},
+        {"forces.csv", built, Areas | AllFrames, "derivatives of area and volume", "forces",
+         writeAreaTable},
         {"pdb", built, Areas, withAreas, "atoms", writeAtoms<writePdb>},
         {"cif", built, Areas, withAreas, "atoms", writeAtoms<writeMmcif>},
         {"residues.pdb", built, Areas, withAreas, "residues", writeAtoms<writePdb>},

@@ -8,7 +8,7 @@ _vdb_molsurf()
         help|build|batch|compare|convert|bricks|info) verb=${COMP_WORDS[1]} ;;
     esac
     case $verb:$before in
-        "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx dielx.dx diely.dx dielz.dx kappa.dx charges.pqr apbs.in cxc pml html json png view atoms.csv residues.csv contacts.csv interfaces.csv pockets.csv pdb cif residues.pdb residues.cif" ;;
+        "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx dielx.dx diely.dx dielz.dx kappa.dx charges.pqr apbs.in cxc pml html json png view atoms.csv residues.csv contacts.csv interfaces.csv pockets.csv forces.csv pdb cif residues.pdb residues.cif" ;;
         "build":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "build":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth v" ;;
         "build":--match) words="none ses" ;;
@@ -18,7 +18,7 @@ _vdb_molsurf()
         "build":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
         "build":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "build":--value-of) words="atom residue" ;;
-        "build":--areas) words="atoms residues contacts interfaces pockets" ;;
+        "build":--areas) words="atoms residues contacts interfaces pockets forces" ;;
         "build":--contacts) words="atom residue chain" ;;
         "build":--for) words="apbs blender blender4 houdini usd" ;;
         "build":--view) words="auto" ;;
@@ -38,7 +38,7 @@ _vdb_molsurf()
         "batch":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
         "batch":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "batch":--value-of) words="atom residue" ;;
-        "batch":--areas) words="atoms residues contacts interfaces pockets" ;;
+        "batch":--areas) words="atoms residues contacts interfaces pockets forces" ;;
         "batch":--contacts) words="atom residue chain" ;;
         "batch":--for) words="apbs blender blender4 houdini usd" ;;
         "batch":--view) words="auto" ;;

@@ -276,3 +276,29 @@ def test_triangles_of_an_even_size(crambin):
         crambin.surface(adapt=0.05)
     with pytest.raises(ms.OptionError, match="0.05 to 10"):
         crambin.surface(remesh=0)
+
+
+@pytest.mark.parametrize("kind", ["vdw", "sas", "ses"])
+def test_forces_are_derivatives(kind):
+    random = np.random.default_rng(4)
+    places, radii = random.uniform(-3, 3, (12, 3)), random.uniform(1.3, 1.9, 12)
+    made = lambda x: ms.surface(x, radii, kind=kind, grid=False)
+    tension, pressure = made(places).forces(gamma=1), made(places).forces(pressure=1)
+    assert tension.shape == (12, 3) and tension.dtype == np.float64
+    assert np.allclose(tension.sum(axis=0), 0, atol=1e-9) and np.allclose(pressure.sum(axis=0), 0, atol=1e-9)
+    assert np.allclose(made(places).forces(0.3, -2), 0.3 * tension - 2 * pressure)
+    for atom, axis in (0, 0), (5, 1), (9, 2):
+        sides = []
+        for step in (1e-3, -1e-3):
+            moved = places.copy()
+            moved[atom, axis] += step
+            sides.append(made(moved))
+        assert -tension[atom, axis] == pytest.approx((sides[0].area - sides[1].area) / 2e-3, abs=5e-3)
+        assert -pressure[atom, axis] == pytest.approx((sides[0].volume - sides[1].volume) / 2e-3, abs=5e-3)
+
+
+def test_forces_of_other_kinds_are_refused(crambin):
+    with pytest.raises(ms.OptionError, match="ses, sas or vdw"):
+        crambin.surface(voxel=1).forces(1)
+    with pytest.raises(ValueError, match="gamma"):
+        crambin.surface(kind="sas", grid=False).forces(float("nan"))

@@ -248,6 +248,17 @@ class Surface:
             raise ValueError(f"level: expected {', '.join(levels)}, got '{str(level)[:40]}'")
         return _arrays.texts(self._core.table(name, level))
 
+    def forces(self, gamma=0.0, pressure=0.0, *, progress=None, threads=0):
+        """The force on each atom, -(gamma dA/dx + pressure dV/dx), of kinds ses, sas and vdw, in closed form.
+
+        gamma is energy per Å², pressure energy per Å³; the result, of shape (atoms, 3), is energy per Å.
+        """
+        for name, value in (("gamma", gamma), ("pressure", pressure)):
+            if not np.isfinite(float(value)):
+                raise ValueError(f"{name}: expected a finite number")
+        volume, area = _called(self._core.gradients, progress=progress, threads=threads)
+        return -(float(gamma) * area + float(pressure) * volume)
+
     def sample(self, n, seed=None):
         """n points spread over the surface evenly by area, at random; a seed makes them the same again."""
         if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 0:

@@ -59,18 +59,19 @@ struct SurfaceIntegrals {
     }
 };
 
-/// How well the triangles of a mesh are made.
-struct MeshShape {
-    double leastAngle = 180.0;            ///< of all triangles [degree]
-    std::size_t below20 = 0, below28 = 0; ///< triangles with an angle below 20, 28 degrees
-    double shortestEdge = std::numeric_limits<double>::infinity(); ///< [Å]
-    double longestEdge = 0.0;                                      ///< [Å]
-    std::size_t keptPieces = 0;    ///< closed pieces that are too small for the edges asked for
-    std::vector<int> eulerNumbers; ///< of the closed pieces, in the order of their first vertices
-};
-
 /// Area, volume and topology of a closed surface.
 struct SurfaceReport {
+    /// How well the triangles of a mesh are made.
+    struct Shape {
+        double leastAngle = 180.0;            ///< of all triangles [degree]
+        std::size_t below20 = 0, below28 = 0; ///< triangles with an angle below 20, 28 degrees
+        double shortestEdge = std::numeric_limits<double>::infinity(); ///< [Å]
+        double longestEdge = 0.0;                                      ///< [Å]
+        std::size_t keptPieces = 0; ///< closed pieces that are too small for the edges asked for
+        std::vector<int>
+            eulerNumbers; ///< of the closed pieces, in the order of their first vertices
+    };
+
     std::string kind = "variational";           ///< a word of nameOf(SurfaceKind)
     double area = 0.0;                          ///< area of all walls [Å^2]
     double volume = 0.0;                        ///< enclosed volume without cavities [Å^3]
@@ -110,7 +111,7 @@ struct SurfaceReport {
     Statistics meanCurvature;     ///< mean curvature at the vertices [1/Å], positive where convex
     Statistics gaussianCurvature; ///< Gaussian curvature at the vertices [1/Å^2]
     std::optional<SurfaceIntegrals> integrals; ///< of the curvature, if they were asked for
-    std::optional<MeshShape> shape;            ///< of the mesh, if its edges were asked for
+    std::optional<Shape> shape;                ///< of the mesh, if its edges were asked for
 };
 
 /// The history of the flow. Its interface is that of the evolving level set, near the
@@ -245,7 +246,7 @@ struct Table {
             values;
     };
 
-    std::string name; ///< "atoms", "residues", "contacts", "interfaces" or "pockets"
+    std::string name; ///< "atoms", "residues", "contacts", "interfaces", "pockets" or "forces"
     std::vector<Column> columns;
     std::string note{}; ///< what all rows have in common; "": nothing
 };

@@ -38,6 +38,12 @@ struct ContactArea {
 
 /// The surface of a molecule, as a level set and as a mesh.
 struct MolecularSurface {
+    /// How a surface changes when a ball moves, in the order of the balls.
+    struct Gradients {
+        std::vector<openvdb::Vec3d> volume; ///< derivatives of the volume by the centre [Å^2]
+        std::vector<openvdb::Vec3d> area;   ///< those of the area [Å]
+    };
+
     /// Signed distance from the molecular surface [Å], negative inside, on voxels of edge
     /// SurfaceOptions::voxel near it. It is null if parts have surfaces of their own, whose level
     /// sets are then among `fields`, and for a unit of a whole.
@@ -130,5 +136,18 @@ std::vector<double> exposedAreas(const std::vector<Ball>& balls, double probe,
 /// @throws Cancelled if the progress object says so
 std::vector<ContactArea> contactAreas(const std::vector<Ball>& balls, double probe,
                                       const Progress& progress = Progress());
+
+/// The derivatives of volume and area by the centres of the balls, in closed form. They are those
+/// of all walls, cavities included; of equal balls the first has them. A force of surface tension
+/// gamma and pressure p on ball i is -(gamma area[i] + p volume[i]).
+///
+/// @param[in] balls  as for exposedAreas()
+/// @param[in] spec   SolventExcluded, SolventAccessible or VanDerWaals, with its cavities
+/// @return exact but for rounding, where no arc or corner is about to come or go
+/// @throws Error(ErrorKind::Usage) for another surface
+/// @throws Error as exposedAreas()
+MolecularSurface::Gradients surfaceGradients(const std::vector<Ball>& balls,
+                                             const SurfaceSpec& spec,
+                                             const Progress& progress = Progress());
 
 } // namespace molsurf

@@ -23,8 +23,8 @@ namespace molsurf::tool
 
 const std::vector<std::string>& areaTables()
 {
-    static const std::vector<std::string> all = {"atoms", "residues", "contacts", "interfaces",
-                                                 "pockets"};
+    static const std::vector<std::string> all = {"atoms",      "residues", "contacts",
+                                                 "interfaces", "pockets",  "forces"};
     return all;
 }
 
@@ -456,14 +456,14 @@ OptionGroup groupOptions()
 
 OptionGroup areaOptions()
 {
-    Option areas{
-        "areas",
-        0,
-        "LIST",
-        "tables for the report, by commas: atoms, residues,\ncontacts, interfaces, pockets",
-        "",
-        wholes,
-        areaTables()};
+    Option areas{"areas",
+                 0,
+                 "LIST",
+                 "tables for the report, by commas: atoms, residues,\ncontacts, interfaces, "
+                 "pockets,\nforces",
+                 "",
+                 wholes,
+                 areaTables()};
     areas.set = [](Call& call, const Values& values) {
         call.areas = splitWords(lowered(values.back()));
         for (const std::string& table : call.areas)

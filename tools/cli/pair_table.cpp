@@ -19,6 +19,7 @@ namespace
 /// Tables of areas, in files or in the report.
 constexpr const char* ofAtoms = "areas by atom";
 constexpr const char* ofResidues = "contacts or interfaces of residues";
+constexpr const char* ofForces = "forces";
 
 Pair areasWithout(const char* option, const char* why)
 {
@@ -72,7 +73,9 @@ std::vector<Pair> assemblyPairs()
              {{Areas, "contacts", ofResidues},
               {Areas, "interfaces", ofResidues},
               {"areas=contacts", ofResidues},
-              {"areas=interfaces", ofResidues}},
+              {"areas=interfaces", ofResidues},
+              {Areas, "forces", ofForces},
+              {"areas=forces", ofForces}},
              " [hint: without --by-symmetry]"},
             {"color=copy", Needs, {"assembly"}},
             {"groups", Excludes, {"group-by"}},
@@ -92,6 +95,13 @@ std::vector<Pair> areaPairs()
     Pair unit =
         areasWithout("by-symmetry", ": expected a closed form [hint: --surface sas or vdw]");
     unit.unless = hasAreasInClosedForm;
+    const char* const kinds[] = {"surface=variational", "surface=gaussian", "surface=smooth-sas"};
+    const auto forces = [](const char* kind) {
+        return Pair{kind,
+                    Excludes,
+                    {{Areas, "forces", ofForces}, {"areas=forces", ofForces}},
+                    ": expected a closed form [hint: --surface ses, sas or vdw]"};
+    };
     return {areasWithout("coarse", " [hint: a run without --coarse]"),
             areasWithout("split", " [hint: --interfaces has the areas of groups alone]"),
             areasWithout("surface-of", " [hint: a run without --surface-of]"),
@@ -99,6 +109,10 @@ std::vector<Pair> areaPairs()
             memory,
             areasWithout("dry-run", " [hint: --dry-run -o FILE.vdb]"),
             unit,
+            forces(kinds[0]),
+            forces(kinds[1]),
+            forces(kinds[2]),
+            {"fill-cavities", Excludes, {{Areas, "forces", ofForces}, {"areas=forces", ofForces}}},
             {"contacts", IsFor, {{Areas, "contacts"}, "areas=contacts"}, ".contacts.csv"}};
 }
 

@@ -49,6 +49,7 @@ struct ConcavePart {
     /// second one. -1: there is none.
     int sideFaces[3][2] = {{-1, -1}, {-1, -1}, {-1, -1}};
     double creaseLength = 0.0; // [Å]
+    Vec3d edge = Vec3d(0.0);   // ConcavePull::edge
     bool fits = true;
 };
 
@@ -242,6 +243,10 @@ void describeEdges(const std::vector<RimArc>& arcs, const CornerScratch& s, doub
                                     arc.after < 0, std::uint32_t(face)});
             const double h = s.caps[std::size_t(arc.cap)].cosine;
             part.creaseLength += probe * arc.angle * std::sqrt((1.0 - h) * (1.0 + h));
+            // n = -(h axis + sqrt(1 - h^2) e), and tan(phi/2) = h/sqrt(1 - h^2).
+            const Vec3d& axis = s.caps[std::size_t(arc.cap)].axis;
+            const Vec3d across = 2.0 * std::sin(0.5 * arc.angle) * (arc.middle - h * axis);
+            part.edge -= probe * h * (arc.angle * h * axis + across);
             if (arc.after < 0) continue; // a whole circle has neither begin nor end
             own.euler -= 0.5;
             if (arc.after >= 3) own.euler += 1.0 / 3.0; // a point of three probes
@@ -384,10 +389,14 @@ void addConcave(const BallBoundary& boundary, const ProbeCorners& corners, doubl
         all.fits = all.fits && part.fits;
         out.creaseLength += 0.5 * part.creaseLength; // seen from both sides
         double area = 0.0, shared = 0.0;
+        ConcavePull pull{{}, corners[c].position, Vec3d(0.0), part.edge};
+        std::copy_n(corners[c].name.balls, 3, pull.balls);
         for (const Part& face : part.faces) {
             all.parts.push_back(face);
             area += face.area;
+            pull.normal += face.normal;
         }
+        out.pulls.push_back(pull);
         for (const auto& [ball, share] : part.shares) {
             out.areas[std::size_t(ball)] += share;
             shared += share;

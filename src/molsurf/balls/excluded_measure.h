@@ -20,6 +20,15 @@ struct ExcludedAreas {
     double sum() const { return contact + toric + concave; }
 };
 
+/// What a probe that rests on three balls makes, for excludedGradients().
+struct ConcavePull {
+    std::int32_t balls[3];   ///< places in BallBoundary::balls
+    openvdb::Vec3d position; ///< of the probe [Å]
+    openvdb::Vec3d normal;   ///< integrated over its faces, outward [Å^2]
+    openvdb::Vec3d edge;     ///< tan(phi/2) n integrated along their creases, phi being the angle
+                             ///< between the two normals there [Å]
+};
+
 /// The measures of a solvent-excluded surface. It bounds what no probe reaches whose centre is
 /// outside of the union of grown balls. Where it pinches off in a cusp two pieces end.
 struct ExcludedMeasure {
@@ -31,6 +40,7 @@ struct ExcludedMeasure {
     std::vector<ExcludedAreas> areasByCentre;
     double creaseLength = 0.0; ///< of the edges where concave faces meet [Å]
     std::vector<double> areas; ///< the share of each of BallBoundary::balls [Å^2], if asked for
+    std::vector<ConcavePull> pulls; ///< of each corner
     /// Whether all faces, edges and vertices fit together. They may not where four and more probes
     /// touch each other in one point to within rounding, as in molecules with many symmetries. Area
     /// and volume are right all the same, but the Euler number of a piece may be wrong by 2.

@@ -25,7 +25,7 @@ Json statisticsJson(const Statistics& statistics)
             {"percentiles", std::move(percentiles)}};
 }
 
-Json shapeJson(const MeshShape& shape, std::size_t triangles)
+Json shapeJson(const SurfaceReport::Shape& shape, std::size_t triangles)
 {
     const double all = std::max(1.0, double(triangles));
     return {{"least_angle", shape.leastAngle},

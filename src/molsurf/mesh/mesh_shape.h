@@ -13,6 +13,8 @@
 namespace molsurf
 {
 
+using MeshShape = SurfaceReport::Shape;
+
 /// Measures the angles and the edges of all triangles, and the Euler numbers of the closed pieces.
 MeshShape shapeOf(const Mesh& mesh, const Progress& progress);
 

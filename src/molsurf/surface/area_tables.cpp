@@ -137,15 +137,18 @@ void addDepths(const BallSet& atoms, const Numbers& depths, const Counts& balls,
 
 } // namespace
 
-Table atomTable(const BallSet& atoms, double probe, const MolecularSurface& result)
+namespace
 {
-    checkAreas(atoms, result);
+
+/// The names of the first balls, and their radii.
+void addAtoms(const BallSet& atoms, std::size_t count, Table& table)
+{
     const BallNames& names = namesOf(atoms);
     ResidueColumns residues;
     Texts name, altloc, element;
     Counts id;
     Numbers radius;
-    for (std::size_t i = 0; i < result.ballAreas.size(); ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const BallNames::Atom& atom = names.atoms[i];
         residues.add(names.residues[std::size_t(names.residueOf[i])]);
         name.push_back(atom.name);
@@ -154,13 +157,41 @@ Table atomTable(const BallSet& atoms, double probe, const MolecularSurface& resu
         id.push_back(atoms.balls[i].atom);
         radius.push_back(atoms.balls[i].radius);
     }
-    Table table{"atoms", {}};
     residues.moveTo(table);
     table.columns.push_back({"atom", std::move(name)});
     table.columns.push_back({"altloc", std::move(altloc)});
     table.columns.push_back({"element", std::move(element)});
     table.columns.push_back({"atom_id", std::move(id)});
     table.columns.push_back({"radius_A", std::move(radius)});
+}
+
+} // namespace
+
+Table forceTable(const BallSet& atoms, const SurfaceSpec& spec)
+{
+    if (!atoms.placement.isWhole())
+        throw Error(ErrorKind::Usage,
+                    "forces: expected all atoms, without `bySymmetry` and `instances`");
+    Table table{"forces", {}};
+    addAtoms(atoms, atoms.balls.size(), table);
+    const MolecularSurface::Gradients found = surfaceGradients(atoms.balls, spec, Progress());
+    const auto add = [&](const std::vector<openvdb::Vec3d>& gradients, const auto& names) {
+        for (int axis = 0; axis < 3; ++axis) {
+            Numbers values;
+            for (const openvdb::Vec3d& g : gradients) values.push_back(digitsThatHold(g[axis]));
+            table.columns.push_back({names[axis], std::move(values)});
+        }
+    };
+    add(found.volume, std::array{"dV_dx_A2", "dV_dy_A2", "dV_dz_A2"});
+    add(found.area, std::array{"dA_dx_A", "dA_dy_A", "dA_dz_A"});
+    return table;
+}
+
+Table atomTable(const BallSet& atoms, double probe, const MolecularSurface& result)
+{
+    checkAreas(atoms, result);
+    Table table{"atoms", {}};
+    addAtoms(atoms, result.ballAreas.size(), table);
     table.columns.push_back({"area", result.ballAreas});
     Numbers depth = ballDepths(atoms, probe, Progress());
     depth.resize(result.ballAreas.size());

@@ -20,4 +20,11 @@ void addOrigin(const BallSet& atoms, const std::string& kind, double probe, Tabl
 /// The area of each ball's residue [Å^2].
 std::vector<double> residueAreasOfBalls(const BallSet& atoms, const std::vector<double>& ballAreas);
 
+/// A row for every ball: its names as in atomTable() up to radius_A, and the derivatives of volume
+/// and area by the coordinates of its centre: dV_dx_A2, dV_dy_A2, dV_dz_A2, dA_dx_A, dA_dy_A and
+/// dA_dz_A.
+/// @throws Error(ErrorKind::Usage) if the atoms have no names, or are a unit or copies
+/// @throws Error as surfaceGradients()
+Table forceTable(const BallSet& atoms, const SurfaceSpec& spec);
+
 } // namespace molsurf

@@ -135,8 +135,8 @@ TEST(RemeshedSurface, OfPartsHasTheWorstOfAll)
     const Report report = makeSurface(atoms, options).report;
     ASSERT_EQ(report.parts.size(), 2u);
     ASSERT_TRUE(report.surface.shape);
-    const MeshShape &all = *report.surface.shape, &a = *report.parts[0].surface.shape,
-                    &b = *report.parts[1].surface.shape;
+    const SurfaceReport::Shape &all = *report.surface.shape, &a = *report.parts[0].surface.shape,
+                               &b = *report.parts[1].surface.shape;
     EXPECT_EQ(all.leastAngle, std::min(a.leastAngle, b.leastAngle));
     EXPECT_EQ(all.shortestEdge, std::min(a.shortestEdge, b.shortestEdge));
     EXPECT_EQ(all.longestEdge, std::max(a.longestEdge, b.longestEdge));
