@@ -223,8 +223,8 @@ MOLSURF_MEMBERS(EvolutionReport, v.steps, v.converged, v.energy, v.area, v.volum
                 v.frontSteps, v.restlessFronts, v.gaps, v.walls)
 MOLSURF_MEMBERS(GroupReport, v.name, v.atoms, v.area, v.volume, v.color, v.aloneArea)
 MOLSURF_MEMBERS(InterfaceReport, v.first, v.second, v.area, v.count, v.fit, v.buried)
-MOLSURF_MEMBERS(PocketReport, v.volume, v.area, v.depth, v.radius, v.centre, v.open, v.mouths,
-                v.neighbours, v.lining)
+MOLSURF_MEMBERS(PocketsReport::Pocket, v.volume, v.area, v.depth, v.radius, v.centre, v.open,
+                v.mouths, v.neighbours, v.lining)
 MOLSURF_MEMBERS(PocketsReport, v.probeIn, v.probeOut, v.cut, v.neck, v.voxel, v.list)
 MOLSURF_MEMBERS(ResolutionReport, v.select, v.resolution, v.atoms, v.level)
 MOLSURF_MEMBERS(PartReport, v.name, v.atoms, v.surface)

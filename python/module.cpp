@@ -310,7 +310,11 @@ nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::strin
     if (name == "atoms") return dictOf(atomTable(atoms, probe, result));
     if (name == "residues") return dictOf(residueTable(atoms, probe, result));
     if (name == "interfaces") return dictOf(interfaceTable(atoms, result.report));
-    if (name == "pockets") return dictOf(pocketTable(atoms, result.report));
+    if (name == "pockets") {
+        if (!result.report.pockets)
+            throw Error(ErrorKind::Usage, "table: expected a surface with `pockets`, got none");
+        return dictOf(result.report.pockets->table(atoms));
+    }
     if (result.contacts.empty())
         result.contacts =
             run(How(), [&](Progress& p) { return contactAreas(atoms.balls, probe, p); });

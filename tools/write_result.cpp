@@ -196,7 +196,7 @@ Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
     if (name == "residues") table = residueTable(atoms, probeOf(shown), result);
     if (name == "contacts") table = contactTable(atoms, call.contacts, result);
     if (name == "interfaces") table = interfaceTable(atoms, result.report);
-    if (name == "pockets") return pocketTable(atoms, result.report);
+    if (name == "pockets") return result.report.pockets->table(atoms);
     if (name == "forces") table = forceTable(atoms, shown);
     addOrigin(atoms, result.report.areasOf, probeOf(shown), table);
     return table;

@@ -5,6 +5,7 @@ import gc
 import html
 import json
 import math
+import pickle
 import re
 import subprocess
 
@@ -106,6 +107,17 @@ def brute_distance(points, x, r):
     """Signed distance outside of a union of balls; nan inside."""
     gaps = (np.linalg.norm(points[:, None] - x, axis=2) - r).min(axis=1)
     return np.where(gaps >= 0, gaps, np.nan)
+
+
+def test_pockets_are_a_table(crambin, ses):
+    surface = crambin.surface(kind="ses", voxel=0.7, pockets=True, pocket_cut=0)
+    table = surface.pockets
+    assert list(table["pocket"]) == list(range(1, len(table["volume"]) + 1))
+    assert (np.diff(table["volume"]) <= 0).all() and table["volume"][0] > 5
+    assert surface.report["pockets"]["cut"] == 0
+    assert set(pickle.loads(pickle.dumps(surface)).pockets) == set(table)
+    with pytest.raises(ValueError, match="pockets"):
+        ses.pockets
 
 
 @pytest.mark.parametrize("kind, probe", [("sas", 1.4), ("vdw", 0.0)])

@@ -92,21 +92,22 @@ struct SurfaceSpec {
     bool matchVolume = false;
 };
 
-/// What counts as a pocket: the space that a small probe reaches and a large one, from outside,
-/// does not. Lengths in Å.
-struct PocketOptions {
-    double probeIn = 1.4;  ///< radius of the small probe, in [0.5, 10]
-    double probeOut = 4.0; ///< of the large one, above `probeIn`, at most 50
-    double cut = 2.4;      ///< how far below the surface of the large probe pockets begin, >= 0
-    /// Parts are two where the largest ball that passes between them has less than this share of
-    /// the radius of the smaller of the largest balls in them, in [0, 1].
-    // measured: the haems of 4hhb, each a pocket from 0.4 to 0.68, with Bondi's radii and
-    // pyKVFinder's; the site of chain A of 4at1 whole up to 0.6, lysozyme's up to 0.55 in 5 poses
-    double neck = 0.55;
-};
-
 /// What is made of a surface: its grids, its mesh, and the measures of its report.
 struct Wanted {
+    /// What counts as a pocket: the space that a small probe reaches and a large one, from outside,
+    /// does not. Lengths in Å.
+    struct PocketRule {
+        double probeIn = 1.4;  ///< radius of the small probe, in [0.5, 10]
+        double probeOut = 4.0; ///< of the large one, above `probeIn`, at most 50
+        double cut = 2.4;      ///< how far below the surface of the large probe pockets begin, >= 0
+        /// Parts are two where the largest ball that passes between them has less than this share
+        /// of the radius of the smaller of the largest balls in them, in [0, 1].
+        // measured: the haems of 4hhb, each a pocket from 0.4 to 0.68, with Bondi's radii and
+        // pyKVFinder's; the site of chain A of 4at1 whole up to 0.6, lysozyme's up to 0.55 in 5
+        // poses
+        double neck = 0.55;
+    };
+
     ColorBy color =
         ColorBy::Nothing; ///< property that colours the mesh's vertices and the grid `Cd`
     bool split = false;   ///< whether every group of atoms gets a surface of its own
@@ -128,7 +129,7 @@ struct Wanted {
     bool ballAreas = false;       ///< whether MolecularSurface::ballAreas is made
     bool contacts = false;        ///< whether MolecularSurface::contacts is made
     bool pockets = false;         ///< whether the report has pockets
-    PocketOptions pocket;         ///< which
+    PocketRule pocket;            ///< which
     /// The kind of surface that ballAreas, contacts and interfaces are of; none: that of `kind`.
     std::optional<SurfaceKind> areasOf;
     /// Whether there is a grid and a mesh of it. Without them the result has what is known in

@@ -16,6 +16,8 @@
 namespace molsurf
 {
 
+struct BallSet;
+
 /// A cavity: a closed inner wall of the surface.
 struct Cavity {
     double area;   ///< area of the wall [Å^2]
@@ -205,37 +207,6 @@ struct InterfaceReport {
     std::vector<Buried> buried{};
 };
 
-/// A pocket: space that a small probe reaches and a large one does not. docs/pockets.md.
-struct PocketReport {
-    /// Where a pocket ends because the large probe comes near.
-    struct Mouth {
-        double area = 0.0;   ///< [Å^2]
-        double radius = 0.0; ///< of the largest ball that gets out of the widest place there [Å]
-    };
-    /// A ball that has a part of the pocket's wall.
-    struct Lining {
-        std::size_t ball; ///< its index in the caller's BallSet
-        double area;      ///< of its part [Å^2]
-    };
-
-    double volume = 0.0;                   ///< [Å^3]
-    double area = 0.0;                     ///< of the wall [Å^2]
-    double depth = 0.0;                    ///< of its deepest point [Å]
-    double radius = 0.0;                   ///< of the largest ball in it [Å]
-    std::array<double, 3> centre = {};     ///< of its volume [Å]
-    bool open = false;                     ///< whether a way leads out, perhaps by neighbours
-    std::vector<Mouth> mouths{};           ///< the largest first
-    std::vector<std::size_t> neighbours{}; ///< pockets beyond necks, by their places in the list
-    std::vector<Lining> lining{};          ///< in ascending order of the balls
-};
-
-/// The pockets, and what was asked for.
-struct PocketsReport {
-    double probeIn = 0.0, probeOut = 0.0, cut = 0.0, neck = 0.0; ///< as PocketOptions has them
-    double voxel = 0.0;                                          ///< that they are found on [Å]
-    std::vector<PocketReport> list;                              ///< the largest first
-};
-
 /// Rows of named values.
 struct Table {
     /// A column of a table.
@@ -249,6 +220,49 @@ struct Table {
     std::string name; ///< "atoms", "residues", "contacts", "interfaces", "pockets" or "forces"
     std::vector<Column> columns;
     std::string note{}; ///< what all rows have in common; "": nothing
+};
+
+/// The pockets, and what was asked for.
+struct PocketsReport {
+    /// A pocket: space that a small probe reaches and a large one does not. docs/pockets.md.
+    struct Pocket {
+        /// Where a pocket ends because the large probe comes near.
+        struct Mouth {
+            double area = 0.0; ///< [Å^2]
+            double radius =
+                0.0; ///< of the largest ball that gets out of the widest place there [Å]
+        };
+        /// A ball that has a part of the pocket's wall.
+        struct Lining {
+            std::size_t ball; ///< its index in the caller's BallSet
+            double area;      ///< of its part [Å^2]
+        };
+
+        double volume = 0.0;               ///< [Å^3]
+        double area = 0.0;                 ///< of the wall [Å^2]
+        double depth = 0.0;                ///< of its deepest point [Å]
+        double radius = 0.0;               ///< of the largest ball in it [Å]
+        std::array<double, 3> centre = {}; ///< of its volume [Å]
+        bool open = false;                 ///< whether a way leads out, perhaps by neighbours
+        std::vector<Mouth> mouths{};       ///< the largest first
+        std::vector<std::size_t>
+            neighbours{};             ///< pockets beyond necks, by their places in the list
+        std::vector<Lining> lining{}; ///< in ascending order of the balls
+    };
+
+    double probeIn = 0.0, probeOut = 0.0, cut = 0.0, neck = 0.0; ///< as PocketRule has them
+    double voxel = 0.0;                                          ///< that they are found on [Å]
+    std::vector<Pocket> list;                                    ///< the largest first
+
+    /// A row for every pocket that was found, the largest first: pocket (its number from 1),
+    /// volume, area, depth_A, radius_A (of the largest ball in it), x_A, y_A, z_A (its middle),
+    /// open (1: a way leads out), mouths, mouth_area (of all), mouth_radius_A (of the largest ball
+    /// that gets out), neighbours (numbers of pockets beyond necks), hydrophobicity (mean over the
+    /// wall, of Kyte and Doolittle), charge (of side chains, +1 of Lys and Arg, -1 of Asp and Glu),
+    /// atoms (how many line it), residues and atom_ids (which). Without names of the atoms what
+    /// needs these is empty.
+    /// @param[in] atoms  that they are of
+    Table table(const BallSet& atoms) const;
 };
 
 /// The atoms that have one resolution.

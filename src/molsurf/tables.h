@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Areas by atom and by residue, contacts, interfaces and pockets, as tables. Lengths are in Å,
+/// Areas by atom and by residue, contacts and interfaces, as tables. Lengths are in Å,
 /// areas in Å^2.
 
 #include "molsurf/surface.h"
@@ -55,14 +55,5 @@ Table contactTable(const BallSet& atoms, ContactLevel level, const MolecularSurf
 /// @throws Error(ErrorKind::Usage) if the atoms have no names, or the report no interfaces with
 ///         the balls that they bury
 Table interfaceTable(const BallSet& atoms, const Report& report);
-
-/// A row for every pocket of a report, the largest first: pocket (its number from 1), volume, area,
-/// depth_A, radius_A (of the largest ball in it), x_A, y_A, z_A (its middle), open (1: a way leads
-/// out), mouths, mouth_area (of all), mouth_radius_A (of the largest ball that gets out),
-/// neighbours (numbers of pockets beyond necks), hydrophobicity (mean over the wall, of Kyte and
-/// Doolittle), charge (of side chains, +1 of Lys and Arg, -1 of Asp and Glu), atoms (how many line
-/// it), residues and atom_ids (which). Without names of the atoms what needs these is empty.
-/// @throws Error(ErrorKind::Usage) if the report has no pockets
-Table pocketTable(const BallSet& atoms, const Report& report);
 
 } // namespace molsurf

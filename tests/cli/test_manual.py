@@ -63,8 +63,8 @@ class Manual(ToolTest):
         for word in self.complete("a.pdb", "--surface", ""):
             self.check(2, "a.pdb", "--surface", word, says="-o FILE")
         for word in self.complete("a.pdb", "--fields", ""):
-            self.check(1, "none.pdb", "-o", "a.vdb", "--fields", word, "--frames", "1", "--color", "bfactor",
-                       says="none.pdb")
+            self.check(1, "none.pdb", "-o", "a.vdb", "--fields", word, "--frames", "1", "--pockets", "--color",
+                       "bfactor", says="none.pdb")
 
     def test_completions_are_those_of_the_program(self):
         for shell in ("zsh", "fish"):

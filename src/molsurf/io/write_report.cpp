@@ -150,10 +150,10 @@ Json numbersJson(const std::vector<std::size_t>& places)
     return out;
 }
 
-Json pocketJson(const PocketReport& pocket)
+Json pocketJson(const PocketsReport::Pocket& pocket)
 {
     Json mouths = Json::array();
-    for (const PocketReport::Mouth& mouth : pocket.mouths)
+    for (const PocketsReport::Pocket::Mouth& mouth : pocket.mouths)
         mouths.push_back(Json{{"area", mouth.area}, {"radius", mouth.radius}});
     return {{"volume", pocket.volume},     {"area", pocket.area},
             {"depth", pocket.depth},       {"radius", pocket.radius},
@@ -164,7 +164,7 @@ Json pocketJson(const PocketReport& pocket)
 Json pocketsJson(const PocketsReport& pockets)
 {
     Json list = Json::array();
-    for (const PocketReport& pocket : pockets.list) list.push_back(pocketJson(pocket));
+    for (const PocketsReport::Pocket& pocket : pockets.list) list.push_back(pocketJson(pocket));
     return {{"probe_in", pockets.probeIn}, {"probe_out", pockets.probeOut},
             {"cut", pockets.cut},          {"neck", pockets.neck},
             {"voxel", pockets.voxel},      {"list", std::move(list)}};

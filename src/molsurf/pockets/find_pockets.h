@@ -5,8 +5,7 @@
 /// Finds the pockets of balls.
 
 #include "molsurf/ball.h"
-#include "molsurf/options.h"
-#include "molsurf/progress.h"
+#include "molsurf/pockets/void_field.h"
 #include "molsurf/report.h"
 
 #include <openvdb/openvdb.h>
@@ -15,6 +14,8 @@
 
 namespace molsurf
 {
+
+using PocketReport = PocketsReport::Pocket;
 
 /// Pockets with less volume are left out [Å^3], as pyKVFinder does.
 constexpr double leastPocket = 5.0;

@@ -17,6 +17,8 @@
 namespace molsurf
 {
 
+using PocketOptions = Wanted::PocketRule;
+
 /// Two distances on voxels. Where one of the corners of a cell has room, all of them are known.
 struct VoidField {
     LeafTable table;     ///< active: voxels with room

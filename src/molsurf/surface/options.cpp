@@ -22,7 +22,7 @@ void check(bool good, const std::string& option, const std::string& expected, do
     throw Error(ErrorKind::Usage, message.str());
 }
 
-void checkPockets(const PocketOptions& pocket)
+void checkPockets(const Wanted::PocketRule& pocket)
 {
     check(pocket.probeIn >= 0.5 && pocket.probeIn <= 10.0, "`probeIn`", "0.5 to 10 Å",
           pocket.probeIn);

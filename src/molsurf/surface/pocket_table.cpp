@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/core/words.h"
-#include "molsurf/error.h"
+#include "molsurf/report.h"
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/ball_values.h"
-#include "molsurf/tables.h"
 
 #include <array>
 #include <cmath>
@@ -53,12 +52,12 @@ void append(const std::string& word, std::string& list)
     list += (list.empty() ? "" : " ") + word;
 }
 
-Lining liningOf(const BallSet& atoms, const PocketReport& pocket)
+Lining liningOf(const BallSet& atoms, const PocketsReport::Pocket& pocket)
 {
     Lining out;
     std::set<std::int32_t> residues;
     double sum = 0.0, area = 0.0, charge = unknown;
-    for (const PocketReport::Lining& part : pocket.lining) {
+    for (const PocketsReport::Pocket::Lining& part : pocket.lining) {
         append(std::to_string(atoms.balls[part.ball].atom), out.atoms);
         if (!atoms.names) continue;
         const std::int32_t residue = atoms.names->residueOf[part.ball];
@@ -84,10 +83,10 @@ Lining liningOf(const BallSet& atoms, const PocketReport& pocket)
 class PocketColumns
 {
 public:
-    void add(const BallSet& atoms, const PocketReport& pocket)
+    void add(const BallSet& atoms, const PocketsReport::Pocket& pocket)
     {
         double mouthArea = 0.0, mouthRadius = pocket.mouths.empty() ? unknown : 0.0;
-        for (const PocketReport::Mouth& mouth : pocket.mouths) {
+        for (const PocketsReport::Pocket::Mouth& mouth : pocket.mouths) {
             mouthArea += mouth.area;
             mouthRadius = std::max(mouthRadius, mouth.radius);
         }
@@ -137,18 +136,14 @@ private:
 
 } // namespace
 
-Table pocketTable(const BallSet& atoms, const Report& report)
+Table PocketsReport::table(const BallSet& atoms) const
 {
-    if (!report.pockets)
-        throw Error(ErrorKind::Usage, "table: expected a surface with `pockets`, got none");
-    const PocketsReport& pockets = *report.pockets;
     PocketColumns columns;
-    for (const PocketReport& pocket : pockets.list) columns.add(atoms, pocket);
-    if (!atoms.pocketAt.empty() && pockets.list.empty()) columns.add(atoms, {}); // it is closed
+    for (const Pocket& pocket : list) columns.add(atoms, pocket);
+    if (!atoms.pocketAt.empty() && list.empty()) columns.add(atoms, {}); // it is closed
     Table table{"pockets", {}};
-    table.note =
-        formatted("pockets: probe in %g, probe out %g, cut %g, voxel %g A; neck %g",
-                  pockets.probeIn, pockets.probeOut, pockets.cut, pockets.voxel, pockets.neck);
+    table.note = formatted("pockets: probe in %g, probe out %g, cut %g, voxel %g A; neck %g",
+                           probeIn, probeOut, cut, voxel, neck);
     columns.moveTo(table);
     return table;
 }

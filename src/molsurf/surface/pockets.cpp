@@ -14,7 +14,7 @@ void addPockets(const BallSet& atoms, const SurfaceOptions& options, Progress& p
 {
     Stopwatch watch(result.report);
     progress.update("pockets", 0.0);
-    const PocketOptions& asked = options.pocket;
+    const Wanted::PocketRule& asked = options.pocket;
     if (options.voxel > 0.5 * asked.probeIn)
         result.report.warnings.push_back(
             formatted("`voxel` %g: pockets that are narrow are lost on voxels above half of "

@@ -661,22 +661,20 @@ std::vector<Setting> pocketSettings()
         at,
         flag("pockets", "pockets of the surface, for the report and .pockets.csv",
              MOLSURF_OF(options.pockets)),
-        within(0.5, 10.0,
-               number("probe-in", "R", "radius of the probe that gets into pockets [Å]",
-                      of(&PocketOptions::probeIn))),
-        within(0.6, 50.0,
-               number("probe-out", "R",
-                      "radius of the probe that stays out of them [Å], the larger\n"
-                      "the shallower are those found",
-                      of(&PocketOptions::probeOut))),
+        number("probe-in", "R", "radius of the probe that gets into pockets [Å], 0.5 to 10",
+               of(&Wanted::PocketRule::probeIn)),
+        number("probe-out", "R",
+               "radius of the probe that stays out of them [Å], above\n"
+               "`probeIn`; larger: shallow ones are found, too",
+               of(&Wanted::PocketRule::probeOut)),
         within(0.0, 50.0,
                number("pocket-cut", "D", "pockets begin so far below the surface of that probe [Å]",
-                      of(&PocketOptions::cut))),
+                      of(&Wanted::PocketRule::cut))),
         within(0.0, 1.0,
                number("pocket-neck", "S",
                       "two pockets, where the ball that passes between them has\n"
                       "less than this share of the smaller one's radius; 0: one",
-                      of(&PocketOptions::neck)))};
+                      of(&Wanted::PocketRule::neck)))};
 }
 
 std::vector<Setting> flowSettings()

@@ -89,14 +89,13 @@ TEST(WriteReport, HasTheKeysOfTheTableAndNoOthers)
     report.resolutions.resize(1);
     report.groups = {{"A", 1, 1.0, 1.0, "#ff0000", 2.0}};
     report.interfaces.resize(1);
+    report.pockets.emplace().list.resize(1);
+    report.pockets->list[0].mouths.resize(1);
     report.parts.resize(1);
     report.instances.resize(1);
     report.symmetry = SymmetryReport();
     report.tables = {{"atoms", {}}};
-    report.surface.shape = MeshShape();
-    report.pockets = PocketsReport();
-    report.pockets->list.resize(1);
-    report.pockets->list[0].mouths.resize(1);
+    report.surface.shape = SurfaceReport::Shape();
     Names written, listed;
     addPaths(Json::parse(reportText(report)), "", written);
     for (const ReportKey& key : reportKeys()) listed.push_back(key.path);

@@ -48,6 +48,7 @@ SurfaceOptions coloredBy(ColorBy by, std::vector<std::string> fields)
 TEST(FieldTable, EachRowHasItsGridInTheOrderOfTheTable)
 {
     SurfaceOptions options = coloredBy(ColorBy::Value, {});
+    options.pockets = true;
     for (const FieldRow& row : fieldTable())
         options.fields.insert(options.fields.begin(), row.name);
     const MolecularSurface result = makeSurface(valued({1.0f, 2.0f}), options);
