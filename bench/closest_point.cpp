@@ -50,7 +50,7 @@ void distances(benchmark::State& state)
     const Surface a = torus(side, 0.0), b = torus(side, 1.3);
     const DistanceTo to(b);
     for (auto _ : state) {
-        const OneWay way = distancesFrom(a, to, Progress());
+        const Comparison::OneWay way = distancesFrom(a, to, Progress());
         if (!(way.max > 0.5 && way.max < 2.0)) state.SkipWithError("wrong distance");
     }
     state.SetItemsProcessed(std::int64_t(state.iterations() * a.mesh.positions.size()));

@@ -438,7 +438,7 @@ Mesh meshOf(const Floats3& vertices, const Whole3& faces)
     return mesh;
 }
 
-nb::dict dictOf(OneWay&& way)
+nb::dict dictOf(Comparison::OneWay&& way)
 {
     nb::dict out;
     out["distance"] = owned<float>(std::move(way.distance));

@@ -156,7 +156,7 @@ openvdb::MetaMap metadata(const Call& call, const ComparisonReport& report)
     if (call.inputs[0] != "-") text("a_sha256", sha256OfFile(call.inputs[0]));
     if (call.inputs[1] != "-") text("b_sha256", sha256OfFile(call.inputs[1]));
     for (const bool there : {true, false}) {
-        const OneWay& way = there ? report.distances.aToB : report.distances.bToA;
+        const Comparison::OneWay& way = there ? report.distances.aToB : report.distances.bToA;
         const std::string name = there ? "a_to_b." : "b_to_a.";
         number(name + "mean", way.mean);
         number(name + "rms", way.rms);

@@ -42,7 +42,7 @@ Json operandJson(const ComparedFile& operand)
             {"closed", operand.closed}};
 }
 
-Json oneWayJson(const OneWay& way)
+Json oneWayJson(const Comparison::OneWay& way)
 {
     return {{"mean", way.mean},
             {"rms", way.rms},
@@ -121,7 +121,7 @@ void writeComparison(const ComparisonReport& report, OutputFile& file)
 
 std::string comparisonTable(const ComparisonReport& report)
 {
-    const OneWay &there = report.distances.aToB, &back = report.distances.bToA;
+    const Comparison::OneWay &there = report.distances.aToB, &back = report.distances.bToA;
     std::string table;
     row(table, "distance [Å]", {"A to B", "B to A"});
     const auto distances = [&](const char* name, std::optional<double> a, std::optional<double> b) {
@@ -188,7 +188,7 @@ void chooseColors(bool bySign, double range, ComparisonReport& report)
 
 void writeComparisonMesh(const Mesh& a, const ComparisonReport& report, OutputFile& file)
 {
-    const OneWay& there = report.distances.aToB;
+    const Comparison::OneWay& there = report.distances.aToB;
     const bool bySign = report.shown == "signed_distance";
     Mesh mesh = a;
     for (const float value : bySign ? there.signedDistance : there.distance)

@@ -127,7 +127,8 @@ void addParts(const Corners& t, int n, DistanceTo::Query& query, Sums& sums)
 
 } // namespace
 
-OneWay distancesFrom(const Surface& from, const DistanceTo& to, const Progress& progress)
+Comparison::OneWay distancesFrom(const Surface& from, const DistanceTo& to,
+                                 const Progress& progress)
 {
     const Mesh& mesh = from.mesh;
     const std::size_t vertices = mesh.positions.size(), triangles = mesh.triangles.size();
@@ -162,7 +163,7 @@ OneWay distancesFrom(const Surface& from, const DistanceTo& to, const Progress& 
         return part;
     });
 
-    OneWay result;
+    Comparison::OneWay result;
     result.samples = sums.samples;
     result.max = sums.max;
     result.maxAt = sums.maxAt;

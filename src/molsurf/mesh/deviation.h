@@ -34,7 +34,8 @@ constexpr double sampleSpacing = 1.0;
 /// with n edges along each side; the maximum is then over their corners, too.
 ///
 /// @param[in] from  with at least one triangle
-OneWay distancesFrom(const Surface& from, const DistanceTo& to, const Progress& progress);
+Comparison::OneWay distancesFrom(const Surface& from, const DistanceTo& to,
+                                 const Progress& progress);
 
 /// The distance from a surface at every active voxel of a grid.
 /// @param[in] on  a level set; the results have its active voxels and its transform

@@ -17,7 +17,7 @@ ComparisonReport sampleComparison()
     report.command = "vdb_molsurf compare a.vdb b.ply";
     report.a = {"a.vdb", "level set", 0, 0.25, 200.0, 90.0, 100, 196, true};
     report.b = {"b.ply", "mesh", 0, 0.0, 100.0, std::nullopt, 50, 90, false};
-    OneWay &there = report.distances.aToB, &back = report.distances.bToA;
+    Comparison::OneWay &there = report.distances.aToB, &back = report.distances.bToA;
     there.mean = 0.5;
     there.rms = 0.75;
     there.max = 2.0;

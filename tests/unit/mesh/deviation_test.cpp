@@ -38,7 +38,7 @@ Surface meshSurface(Mesh mesh)
     return surface;
 }
 
-OneWay from(const Surface& a, const Surface& b)
+Comparison::OneWay from(const Surface& a, const Surface& b)
 {
     const DistanceTo to(b);
     return distancesFrom(a, to, Progress());
@@ -53,7 +53,7 @@ TEST(Compare, ASmallBallInsideALargeOne)
     const Vec3d shift(0.4, -0.3, 0.5);
     const double e = shift.length(), R = 4.0, r = 1.5, h = 0.25;
     const Surface large = ballOf(R, first, h), small = ballOf(r, first + shift, h);
-    const OneWay inward = from(large, small), outward = from(small, large);
+    const Comparison::OneWay inward = from(large, small), outward = from(small, large);
 
     const double meanIn = R + e * e / (3.0 * R) - r, meanOut = R - r - e * e / (3.0 * r);
     EXPECT_NEAR(inward.mean, meanIn, 1e-3);
@@ -82,7 +82,7 @@ TEST(Compare, AShiftedBall)
 {
     const Vec3d shift(0.7, -0.2, 0.3);
     const Surface a = ballOf(4.0, first, 0.25), b = ballOf(4.0, first + shift, 0.25);
-    const OneWay there = from(a, b), back = from(b, a);
+    const Comparison::OneWay there = from(a, b), back = from(b, a);
     const double e = shift.length();
     EXPECT_NEAR(there.max, e, 2e-3);
     EXPECT_NEAR(there.mean, back.mean, 1e-3);
@@ -120,7 +120,7 @@ TEST(Compare, OpenPlates)
 {
     const Surface flat = meshSurface(plate(8.0f, 0.0f, 0.0f));
     const Surface high = meshSurface(plate(8.0f, 1.0f, 0.5f));
-    const OneWay down = from(high, flat);
+    const Comparison::OneWay down = from(high, flat);
     EXPECT_NEAR(down.mean, 3.0, 1e-9); // linear, so exact
     EXPECT_NEAR(down.max, 5.0, 1e-9);
     EXPECT_TRUE(down.signedDistance.empty());
@@ -142,7 +142,8 @@ TEST(Compare, LargeTrianglesAreSampledInside)
         corners.positions.push_back(p - Vec3f(1e-3f, 0, 1e-3f));
         corners.triangles.push_back({v, n, n + 1});
     }
-    const OneWay way = from(meshSurface(plate(8.0f, 0.0f, 0.0f)), meshSurface(std::move(corners)));
+    const Comparison::OneWay way =
+        from(meshSurface(plate(8.0f, 0.0f, 0.0f)), meshSurface(std::move(corners)));
     EXPECT_EQ(way.distance, std::vector<float>(4, 0.0f));
     EXPECT_NEAR(way.max, std::sqrt(32.0), 1e-2); // the middle of the plate
     // Mean distance from a corner of a square of side a: a (sqrt 2 + ln(1 + sqrt 2))/3.
@@ -158,7 +159,7 @@ TEST(Compare, HugeTriangles)
             mesh.triangles.push_back(
                 {mesh.triangles[t][0], mesh.triangles[t][1], mesh.triangles[t][2]});
     const Surface one = meshSurface(test::box({0, 0, 0}, {1, 1, 1}));
-    const OneWay way = from(meshSurface(std::move(mesh)), one);
+    const Comparison::OneWay way = from(meshSurface(std::move(mesh)), one);
     EXPECT_LT(way.samples, 4000000u);
     EXPECT_NEAR(way.max, 3e4 * std::sqrt(3.0), 3.0);
 }
@@ -170,7 +171,7 @@ TEST(Compare, TheSameBitsForAnyNumberOfThreads)
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         return from(a, b);
     };
-    const OneWay one = run(1), four = run(4);
+    const Comparison::OneWay one = run(1), four = run(4);
     EXPECT_EQ(one.distance, four.distance);
     EXPECT_EQ(one.signedDistance, four.signedDistance);
     EXPECT_EQ(one.mean, four.mean);
