@@ -384,7 +384,7 @@ CASES = {
         ("vdb_molsurf two.xyzr -o FILE makes a surface", "vdb_molsurf convert two.xyzr -o a.ply",
          f"vdb_molsurf two.xyzr {FAST} -o a.ply"),
         ("a surface of a larger --voxel, or a larger --max-hours",
-         "vdb_molsurf 1crn.pdb --voxel 0.2 --surface sas -o a.vdb; "
+         "vdb_molsurf 1crn.pdb --voxel 0.12 --surface sas -o a.vdb; "
          "vdb_molsurf convert a.vdb -j 64 -o a.ply --max-hours 1e-5",
          "vdb_molsurf convert a.vdb -j 64 -o a.ply --max-hours 1",
          "vdb_molsurf 1crn.pdb --voxel 2 --surface sas -o b.vdb; "
