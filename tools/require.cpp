@@ -4,6 +4,7 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/mesh/measure.h"
+#include "molsurf/mesh/mesh_shape.h"
 
 #include <algorithm>
 #include <charconv>
@@ -14,21 +15,6 @@ namespace molsurf::tool
 
 namespace
 {
-
-/// The least angle of all triangles [degree]; 0 if one has no area.
-double leastAngle(const Mesh& mesh)
-{
-    double largest = -1.0; // cosine
-    for (const auto& t : mesh.triangles)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const openvdb::Vec3d x(mesh.positions[t[k]]);
-            const openvdb::Vec3d a = openvdb::Vec3d(mesh.positions[t[(k + 1) % 3]]) - x;
-            const openvdb::Vec3d b = openvdb::Vec3d(mesh.positions[t[(k + 2) % 3]]) - x;
-            const double lengths = a.length() * b.length();
-            largest = std::max(largest, lengths > 0.0 ? a.dot(b) / lengths : 1.0);
-        }
-    return std::acos(std::min(largest, 1.0)) * 180.0 / M_PI;
-}
 
 /// The number of closed pieces of a mesh that are walls of cavities, or that are not.
 double piecesWith(const Mesh& mesh, bool cavities)
@@ -62,7 +48,7 @@ const Row rows[] = {
          return double(s.meshComponents) - 0.5 * double(s.meshEulerCharacteristic);
      }},
     {"min-angle", true, "degrees as the least angle", true,
-     [](const Mesh& mesh, const SurfaceReport&) { return leastAngle(mesh); }}};
+     [](const Mesh& mesh, const SurfaceReport&) { return shapeOf(mesh, Progress()).leastAngle; }}};
 
 const Row* findRow(const std::string& word)
 {
