@@ -193,17 +193,16 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
     std::vector<std::vector<PocketReport::Lining>> linings =
         liningsOf(balls, measures, 2.0 * options.probeIn + voxelSize, progress);
     const BallIndex index(balls, {1.0, options.probeIn, 1.0});
+    std::vector<char> hasNeck(basins.count(), 0);
+    for (const Neck& neck : basins.necks)
+        for (const std::int32_t basin : neck.basins) hasNeck[std::size_t(basin)] = 1;
     std::vector<FoundPocket> found;
     for (std::size_t b = 0; b < basins.count(); ++b) {
         PocketReport pocket =
             pocketOf(measures[b], double(basins.peaks[b]), leastMouth, *space.outer);
         pocket.open = isOpen[b];
         pocket.lining = std::move(linings[b]);
-        const auto touches = [&](const Neck& neck) {
-            return neck.basins[0] == std::int32_t(b) || neck.basins[1] == std::int32_t(b);
-        };
-        if (measures[b].mouths.empty() &&
-            std::none_of(basins.necks.begin(), basins.necks.end(), touches))
+        if (measures[b].mouths.empty() && !hasNeck[b])
             takeExact(index, options.probeIn, measures[b], progress, pocket);
         if (pocket.volume >= leastPocket) found.emplace_back(std::move(pocket), b);
     }

@@ -281,19 +281,15 @@ std::vector<BasinMeasure> measureBasins(const VoidField& space, const Basins& ba
                 basin.walls.push_back({Vec3f(share.wallMoment / share.wall), share.wall});
         }
     }
-    std::vector<float> peaks(basins.count(), -1.0f), depths(peaks);
+    std::vector<float> depths(basins.count(), -1.0f);
     for (std::size_t n = 0; n < leaves.size(); ++n) {
         space.table.active(n).forEach([&](int v) {
             const auto b = std::size_t(basins.of.leaf(n)[v]);
-            const Vec3d x = space.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
-                            space.voxelSize;
-            const auto take = [&](float value, float& most, Vec3d& place) {
-                if (value <= most) return;
-                most = value;
-                place = x;
-            };
-            take(space.clearance.leaf(n)[v], peaks[b], out[b].widest);
-            take(space.below.leaf(n)[v], depths[b], out[b].deepest);
+            const float below = space.below.leaf(n)[v];
+            if (below <= depths[b]) return;
+            depths[b] = below;
+            out[b].deepest = space.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
+                             space.voxelSize;
         });
     }
     const Mouths mouths(leaves);

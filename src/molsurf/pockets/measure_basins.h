@@ -32,7 +32,6 @@ struct BasinMeasure {
     double area = 0.0;           ///< of the wall [Å^2]
     openvdb::Vec3d deepest{0.0}; ///< its deepest voxel [Å]
     openvdb::Vec3d moment{0.0};  ///< integral of the place over the volume [Å^4]
-    openvdb::Vec3d widest{0.0};  ///< where the clearance is largest [Å]
     std::vector<Mouth> mouths;   ///< in the order of the voxels
     std::vector<Wall> walls;     ///< one a cell
 };
