@@ -23,12 +23,24 @@ struct ArcSide {
     double radius; ///< of the ball [Å]
 };
 
+/// Both sides of an arc, and the cosine of the angle between the normals of its balls.
+struct ArcSides {
+    ArcSide of[2];
+    double cosine;
+};
+
 ArcSide sideOf(const BallBoundary& boundary, const Arc& arc, int which)
 {
     const PlacedBall& ball = boundary.balls[std::size_t(arc.balls[which])];
     const PlacedBall& other = boundary.balls[std::size_t(arc.balls[1 - which])];
     const double d = offset(ball, other).length(), r = ball.radius, R = other.radius;
     return {which == 0 ? arc.axis : -arc.axis, (d * d + (r - R) * (r + R)) / (2.0 * d), r};
+}
+
+ArcSides sidesOf(const BallBoundary& boundary, const Arc& arc)
+{
+    const ArcSide a = sideOf(boundary, arc, 0), b = sideOf(boundary, arc, 1);
+    return {{a, b}, (arc.radius * arc.radius - a.height * b.height) / (a.radius * b.radius)};
 }
 
 /// The integral of the directions u along an arc [rad].
@@ -86,9 +98,7 @@ BallGradients unionGradients(const BallBoundary& boundary, const BoundaryMeasure
         if (measure.arcPieces[a] < 0) continue;
         const Arc& arc = boundary.arcs[a];
         const double rho = arc.radius;
-        const ArcSide sides[2] = {sideOf(boundary, arc, 0), sideOf(boundary, arc, 1)};
-        const double cosine =
-            (rho * rho - sides[0].height * sides[1].height) / (sides[0].radius * sides[1].radius);
+        const auto [sides, cosine] = sidesOf(boundary, arc);
         const double t = std::sqrt(std::max(1.0 - cosine, 0.0) / (1.0 + cosine)); // tan(phi/2)
         for (int k = 0; k < 2; ++k) {
             const ArcSide& s = sides[k];
@@ -118,9 +128,7 @@ BallGradients excludedGradients(const BallBoundary& boundary, const BoundaryMeas
         if (measure.arcPieces[a] < 0) continue;
         const Arc& arc = boundary.arcs[a];
         const double rho = arc.radius;
-        const ArcSide sides[2] = {sideOf(boundary, arc, 0), sideOf(boundary, arc, 1)};
-        const double cosine =
-            (rho * rho - sides[0].height * sides[1].height) / (sides[0].radius * sides[1].radius);
+        const auto [sides, cosine] = sidesOf(boundary, arc);
         const double cot = cosine / std::sqrt((1.0 - cosine) * (1.0 + cosine));
         const Tube tube = tubeOf(boundary, arc, probe);
         // The element of area is p (rho - p cos f), and twice the mean curvature times that is
