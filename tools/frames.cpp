@@ -258,12 +258,9 @@ private:
         for (const auto& source : shown_) shown.push_back(source->balls(i));
         showAtoms(call_, std::move(shown), balls, terminal_, calls_[i].picture);
         std::size_t next = 0;
-        for (const NoteRule& rule : call_.notes) {
-            std::vector<BallSet> ends;
-            for (std::size_t n = 0; n < rule.selects.size(); ++n)
-                ends.push_back(noted_[next++]->balls(i));
-            addNote(rule, ends, calls_[i].picture);
-        }
+        addNotes(
+            call_.notes, [&](const std::string&) { return noted_[next++]->balls(i); },
+            calls_[i].picture);
         Report read;
         read.warnings = call_.warnings;
         read.seconds = {{"read", secondsSince(start)}};

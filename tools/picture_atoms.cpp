@@ -5,6 +5,7 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/picture/view_file.h"
+#include "molsurf/selection/ball_names.h"
 #include "molsurf/surface/check_balls.h"
 
 #include <cstdint>
@@ -79,20 +80,25 @@ void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surf
     picture.model = std::make_shared<AtomModel>(atomModel(shown, progress));
 }
 
-void addNote(const NoteRule& rule, const std::vector<BallSet>& ends, DrawOptions& picture)
+void addNotes(const std::vector<NoteRule>& rules,
+              const std::function<BallSet(const std::string& select)>& atomsOf,
+              DrawOptions& picture)
 {
-    PictureNote note{middleOf(ends[0]), {}, rule.text};
-    if (ends.size() > 1) {
-        note.to = middleOf(ends[1]);
-        if (*note.to == note.from)
-            throw Error(ErrorKind::Input, "--ruler " + rule.selects[0] + ".." + rule.selects[1] +
-                                              ": expected two places, got one");
-    } else if (note.text.empty()) {
-        const BallNames::Residue& residue = ends[0].names->residues[0];
-        note.text = residue.chain + " " + residue.name + " " + std::to_string(residue.number);
-        if (residue.insertionCode != ' ') note.text += residue.insertionCode;
+    for (const NoteRule& rule : rules) {
+        const BallSet atoms = atomsOf(rule.selects[0]);
+        PictureNote note{middleOf(atoms), {}, rule.text};
+        if (rule.selects.size() > 1) {
+            note.to = middleOf(atomsOf(rule.selects[1]));
+            if (*note.to == note.from)
+                throw Error(ErrorKind::Input, "--ruler " + rule.selects[0] + ".." +
+                                                  rule.selects[1] +
+                                                  ": expected two places, got one");
+        } else if (note.text.empty()) {
+            const BallNames::Residue& residue = atoms.names->residues[0];
+            note.text = residue.chain + " " + residue.name + " " + numberText(residue);
+        }
+        picture.notes.push_back(std::move(note));
     }
-    picture.notes.push_back(std::move(note));
 }
 
 void lookAt(const Call& call, const BallSet& atoms, const BallSet& surface, DrawOptions& picture)

@@ -9,6 +9,7 @@
 #include "molsurf/atoms.h"
 #include "molsurf/progress.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,10 +27,12 @@ SelectOptions picturedAtoms(const Call& call, const std::string& select);
 void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surface,
                const Progress& progress, DrawOptions& picture);
 
-/// Adds a label or a ruler.
-/// @param[in] ends  the atoms of each selection of the rule
+/// Adds labels and rulers.
+/// @param[in] atomsOf  gives the atoms of a selection; it is asked in the order of the rules
 /// @throws Error(ErrorKind::Input) if a ruler has no length
-void addNote(const NoteRule& rule, const std::vector<BallSet>& ends, DrawOptions& picture);
+void addNotes(const std::vector<NoteRule>& rules,
+              const std::function<BallSet(const std::string& select)>& atomsOf,
+              DrawOptions& picture);
 
 /// Looks at the side of the surface where the atoms of --view lie.
 /// @throws Error(ErrorKind::Input) if they lie on no side

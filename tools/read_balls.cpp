@@ -41,11 +41,7 @@ DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& te
         std::vector<BallSet> shown;
         for (const ShowRule& rule : call.shows) shown.push_back(chosen(rule.select));
         showAtoms(call, std::move(shown), balls, terminal, *picture);
-        for (const NoteRule& rule : call.notes) {
-            std::vector<BallSet> ends;
-            for (const std::string& select : rule.selects) ends.push_back(chosen(select));
-            addNote(rule, ends, *picture);
-        }
+        addNotes(call.notes, chosen, *picture);
         if (!call.viewed.empty()) lookAt(call, chosen(call.viewed), balls, *picture);
     }
     return {std::move(balls), std::move(description)};

@@ -579,36 +579,32 @@ Option showOption()
     return show;
 }
 
+/// An option that adds to the notes of pictures.
+Option noteOption(const char* name, const char* argument, const char* help,
+                  NoteRule (*parse)(const std::string& text))
+{
+    Option note{name, 0, argument, help, "", Build | Batch};
+    note.repeats = true;
+    note.set = [=](Call& call, const Values& values) {
+        for (const std::string& value : values) call.notes.push_back(parse(value));
+    };
+    return shownIn(Pixels, note);
+}
+
 Option labelOption()
 {
-    Option label{"label",
-                 0,
-                 "SEL=TEXT",
-                 "a text at the middle of atoms, such as \"A/57=active site\";\n"
-                 "without one chain, name and number of the residue; repeats",
-                 "",
-                 Build | Batch};
-    label.repeats = true;
-    label.set = [](Call& call, const Values& values) {
-        for (const std::string& value : values) call.notes.push_back(parseLabel(value));
-    };
-    return shownIn(Pixels, label);
+    return noteOption("label", "SEL=TEXT",
+                      "a text at the middle of atoms, such as \"A/57=active site\";\n"
+                      "without one chain, name and number of the residue; repeats",
+                      parseLabel);
 }
 
 Option rulerOption()
 {
-    Option ruler{"ruler",
-                 0,
-                 "SEL..SEL",
-                 "a line between the middles of atoms with its length, such\n"
-                 "as \"A/57/NE2..A/195/OG\"; repeats",
-                 "",
-                 Build | Batch};
-    ruler.repeats = true;
-    ruler.set = [](Call& call, const Values& values) {
-        for (const std::string& value : values) call.notes.push_back(parseRuler(value));
-    };
-    return shownIn(Pixels, ruler);
+    return noteOption("ruler", "SEL..SEL",
+                      "a line between the middles of atoms with its length, such\n"
+                      "as \"A/57/NE2..A/195/OG\"; repeats",
+                      parseRuler);
 }
 
 Option uprightOption(unsigned verbs)

@@ -9,6 +9,13 @@
 namespace molsurf
 {
 
+void addEntry(const LegendEntry& entry, std::vector<LegendEntry>& entries)
+{
+    for (const LegendEntry& known : entries)
+        if (known.name == entry.name && known.color == entry.color) return;
+    entries.push_back(entry);
+}
+
 std::optional<Legend> legendOf(ColorBy by, const BallSet& atoms, const Mesh& mesh,
                                const Progress& progress)
 {

@@ -35,6 +35,9 @@ struct Legend {
     std::vector<LegendEntry> entries;
 };
 
+/// Adds an entry, unless there is one with its name and colour.
+void addEntry(const LegendEntry& entry, std::vector<LegendEntry>& entries);
+
 /// The legend of one kind of colours, or nothing: the mesh cannot have them. Chains and groups have
 /// an entry each, in their order, and if some vertices have none of them one more, "other";
 /// elements and kinds of residues have one for each that occurs.

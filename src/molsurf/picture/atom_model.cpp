@@ -28,14 +28,6 @@ constexpr int circle = 24; // corners
 constexpr Color white = {255, 255, 255};
 constexpr Color carbonColor = {242, 184, 60};
 
-/// Adds what a legend does not have yet.
-void addEntry(const std::string& name, const Color& color, std::vector<LegendEntry>& entries)
-{
-    for (const LegendEntry& entry : entries)
-        if (entry.name == name && entry.color == color) return;
-    entries.push_back({name, color});
-}
-
 /// A point of a circle of `circle` corners.
 Vec3d onCircle(int k, const Vec3d& u, const Vec3d& v)
 {
@@ -140,7 +132,7 @@ std::vector<Color> atomColors(const BallSet& atoms, const Progress& progress, At
     for (std::size_t i = 0; i < colors.size(); ++i)
         if (atoms.labels->elementOf[i] == carbonElement) colors[i] = carbonColor;
     for (std::size_t i = 0; i < colors.size(); ++i)
-        addEntry(elementSymbol(atoms.labels->elementOf[i]), colors[i], model.elements);
+        addEntry({elementSymbol(atoms.labels->elementOf[i]), colors[i]}, model.elements);
     return colors;
 }
 
@@ -235,7 +227,7 @@ void addTubes(const BallSet& atoms, const Progress& progress, AtomModel& model)
         if (points.size() > 1) {
             const Color& color = colors[std::size_t(chain)];
             addTube(points, color, model);
-            addEntry(atoms.labels->chains[std::size_t(chain)], color, model.chains);
+            addEntry({atoms.labels->chains[std::size_t(chain)], color}, model.chains);
         }
         points.clear();
     };

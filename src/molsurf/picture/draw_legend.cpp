@@ -21,7 +21,7 @@ constexpr const char* chainsAndElements = "Chain, element";
 struct Sizes {
     int letters, gap, patch, bar;
     explicit Sizes(int width)
-        : letters(std::clamp(width / 52, 11, 160)), gap(letters / 2), patch(letters), bar(letters)
+        : letters(letterHeight(width)), gap(letters / 2), patch(letters), bar(letters)
     {
     }
 };
@@ -208,11 +208,7 @@ std::vector<Legend> legendsOf(const std::optional<Legend>& surface, const AtomMo
                            (surface->title == title || surface->title == chainsAndElements);
         if (!joins) legends.push_back({title, "", "", "", {}, {}});
         std::vector<LegendEntry>& to = (joins ? legends.front() : legends.back()).entries;
-        for (const LegendEntry& entry : entries)
-            if (std::none_of(to.begin(), to.end(), [&](const LegendEntry& known) {
-                    return known.name == entry.name && known.color == entry.color;
-                }))
-                to.push_back(entry);
+        for (const LegendEntry& entry : entries) addEntry(entry, to);
     };
     add("Chain", model->chains);
     add("Element", model->elements);

@@ -23,7 +23,7 @@ class Pen
 {
 public:
     Pen(const View& view, int width, Picture& picture)
-        : view_(view), letters_(std::clamp(width / 52, 11, 160)), font_(letters_), picture_(picture)
+        : view_(view), letters_(letterHeight(width)), font_(letters_), picture_(picture)
     {
     }
 

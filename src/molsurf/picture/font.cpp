@@ -3,6 +3,7 @@
 
 #include "molsurf/error.h"
 
+#include <algorithm>
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
@@ -70,6 +71,11 @@ struct Font::Face {
         return FT_Load_Char(face, code, FT_LOAD_RENDER | FT_LOAD_NO_HINTING) == 0;
     }
 };
+
+int letterHeight(int width)
+{
+    return std::clamp(width / 52, 11, 160);
+}
 
 Font::Font(int height) : face_(std::make_unique<Face>())
 {

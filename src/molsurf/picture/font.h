@@ -12,6 +12,10 @@
 namespace molsurf
 {
 
+/// How high the letters of a picture are, with what is beside the mesh [pixel].
+/// @param[in] width  of it [pixel]
+int letterHeight(int width);
+
 /// The font at one size. The same text has the same pixels on every machine.
 class Font
 {

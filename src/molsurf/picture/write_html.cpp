@@ -8,6 +8,7 @@
 #include "molsurf/error.h"
 #include "molsurf/io/part_ranges.h"
 #include "molsurf/picture/viewer_text.h"
+#include "molsurf/selection/ball_names.h"
 
 #include <nlohmann/json.hpp>
 #include <zlib.h>
@@ -217,9 +218,7 @@ Json namesOf(const HtmlPage& page, Arrays& arrays)
         if (residueAt[r] < 0) continue;
         residueAt[r] = std::int32_t(residues.size());
         const BallNames::Residue& residue = names.residues[r];
-        std::string number = std::to_string(residue.number);
-        if (residue.insertionCode != ' ') number += residue.insertionCode;
-        residues.push_back(Json::array({residue.chain, residue.name, number}));
+        residues.push_back(Json::array({residue.chain, residue.name, numberText(residue)}));
     }
     for (std::size_t i = 0; i < placeOf.size(); ++i) {
         if (placeOf[i] < 0) continue;

@@ -6,6 +6,13 @@
 namespace molsurf
 {
 
+std::string numberText(const BallNames::Residue& residue)
+{
+    std::string text = std::to_string(residue.number);
+    if (residue.insertionCode != ' ') text += residue.insertionCode;
+    return text;
+}
+
 BallNames ballNames(const Structure& structure, const BallSet& atoms)
 {
     BallNames out;

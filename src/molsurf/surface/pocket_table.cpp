@@ -29,9 +29,7 @@ struct Lining {
 std::string nameOf(const BallNames::Residue& residue)
 {
     std::string name = residue.chain.empty() ? "_" : residue.chain;
-    name += "/" + residue.name + std::to_string(residue.number);
-    if (residue.insertionCode != ' ') name += residue.insertionCode;
-    return name;
+    return name + "/" + residue.name + numberText(residue);
 }
 
 double chargeOf(const std::string& residue)
