@@ -344,7 +344,7 @@ template<typename Of>
 Setting optionalNumber(const char* name, const char* value, std::string text, const char* range,
                        std::pair<double, double> limits, const Of& of)
 {
-    const auto [low, high] = limits;
+    const double low = limits.first, high = limits.second; // clang 14 captures no bindings
     Setting row = within(low, high, number(name, value, std::move(text), of));
     row.preset = "";
     row.set = [=](Settings& s, const Values& v) {
