@@ -296,7 +296,7 @@ nb::tuple gradientsOf(MadeSurface& surface, const How& how)
 {
     checkWhole(surface, "forces");
     MolecularSurface::Gradients found = run(how, [&](Progress& progress) {
-        return surfaceGradients(surface.atoms->balls, surface.options, progress);
+        return surfaceGradients(*surface.atoms, surface.options, surface.result.mesh, progress);
     });
     return nb::make_tuple(owned<double>(std::move(found.volume)),
                           owned<double>(std::move(found.area)));

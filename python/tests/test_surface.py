@@ -309,8 +309,30 @@ def test_forces_are_derivatives(kind):
         assert -pressure[atom, axis] == pytest.approx((sides[0].volume - sides[1].volume) / 2e-3, abs=5e-3)
 
 
-def test_forces_of_other_kinds_are_refused(crambin):
-    with pytest.raises(ms.OptionError, match="ses, sas or vdw"):
-        crambin.surface(voxel=1).forces(1)
+@pytest.mark.parametrize("kind", ["variational", "smooth-sas"])
+def test_forces_of_smooth_surfaces_are_derivatives(kind):
+    random = np.random.default_rng(4)
+    places, radii = random.uniform(-3, 3, (12, 3)), random.uniform(1.3, 1.9, 12)
+    made = lambda x: ms.surface(x, radii, kind=kind, voxel=0.25)
+    forces = made(places).forces(gamma=1, pressure=1)
+    rms = np.sqrt((forces**2).mean())
+    assert np.allclose(forces.sum(axis=0), 0, atol=1e-9)
+    for atom, axis in (0, 0), (5, 1), (9, 2):
+        sides = []
+        for step in (0.03, -0.03):
+            moved = places.copy()
+            moved[atom, axis] += step
+            sides.append(made(moved))
+        difference = (sides[0].area + sides[0].volume - sides[1].area - sides[1].volume) / 0.06
+        assert -forces[atom, axis] == pytest.approx(difference, abs=0.03 * rms)
+
+
+def test_forces_where_fronts_move_are_refused(crambin):
+    with pytest.raises(ms.OptionError, match="rests in closed form"):
+        crambin.surface(voxel=1, lambda_=0.1).forces(1)
+    with pytest.raises(ms.OptionError, match="min_wall"):
+        crambin.surface(voxel=1, min_wall=2).forces(1)
+    with pytest.raises(ms.OptionError, match="smooth-sas"):
+        crambin.surface(voxel=1, kind="gaussian").forces(1)
     with pytest.raises(ValueError, match="gamma"):
         crambin.surface(kind="sas", grid=False).forces(float("nan"))

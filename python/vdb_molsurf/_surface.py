@@ -249,7 +249,9 @@ class Surface:
         return _arrays.texts(self._core.table(name, level))
 
     def forces(self, gamma=0.0, pressure=0.0, *, progress=None, threads=0):
-        """The force on each atom, -(gamma dA/dx + pressure dV/dx), of kinds ses, sas and vdw, in closed form.
+        """The force on each atom, -(gamma dA/dx + pressure dV/dx), in closed form of kinds ses, sas and vdw.
+
+        Of variational and smooth-sas it is that of the mesh, by the shape derivative; gaussian has none.
 
         gamma is energy per Å², pressure energy per Å³; the result, of shape (atoms, 3), is energy per Å.
         """

@@ -137,17 +137,20 @@ std::vector<double> exposedAreas(const std::vector<Ball>& balls, double probe,
 std::vector<ContactArea> contactAreas(const std::vector<Ball>& balls, double probe,
                                       const Progress& progress = Progress());
 
-/// The derivatives of volume and area by the centres of the balls, in closed form. They are those
-/// of all walls, cavities included; of equal balls the first has them. A force of surface tension
-/// gamma and pressure p on ball i is -(gamma area[i] + p volume[i]).
+/// The derivatives of volume and area by the centres of the balls: of ses, sas and vdw in closed
+/// form, of the others by the motion of a mesh (docs/math.md, section 10). They are those of all
+/// walls, cavities included; of equal balls the first has them. A force of surface tension gamma
+/// and pressure p on ball i is -(gamma area[i] + p volume[i]).
 ///
-/// @param[in] balls  as for exposedAreas()
-/// @param[in] spec   SolventExcluded, SolventAccessible or VanDerWaals, with its cavities
-/// @return exact but for rounding, where no arc or corner is about to come or go
+/// @param[in] atoms  as for exposedAreas(); without units and copies
+/// @param[in] spec   not Gaussian, whose creases voxels do not resolve, and without minWall and
+///                   fillCavities; with a flow at rest in closed form
+/// @param[in] mesh   of that surface, with normals; not used for ses, sas and vdw
+/// @return in closed form exact but for rounding, where no arc or corner is about to come or go
 /// @throws Error(ErrorKind::Usage) for another surface
 /// @throws Error as exposedAreas()
-MolecularSurface::Gradients surfaceGradients(const std::vector<Ball>& balls,
-                                             const SurfaceSpec& spec,
+MolecularSurface::Gradients surfaceGradients(const BallSet& atoms, const SurfaceSpec& spec,
+                                             const Mesh& mesh,
                                              const Progress& progress = Progress());
 
 } // namespace molsurf

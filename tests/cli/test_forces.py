@@ -39,8 +39,23 @@ class Forces(ToolTest):
                         self.assertAlmostEqual(float(rows[ball][column % "xyz"[axis]]), difference, delta=2e-3)
                     self.assertEqual((rows[ball]["surface"], rows[ball]["atom_id"]), (kind, str(ball)))
 
+    def test_those_of_smooth_surfaces_are_differences(self):
+        (self.folder / "a.xyzr").write_text(text(BALLS))
+        words = ["--surface", "variational", "--voxel", 0.25]
+        self.check(0, "a.xyzr", *words, "-o", "a.forces.csv", "-o", "a.ply")
+        rows = self.table("a.forces.csv")
+        for ball, axis in ((0, 0), (2, 1), (4, 2)):
+            sides = []
+            for step in (0.05, -0.05):
+                moved = [list(b) for b in BALLS]
+                moved[ball][axis] += step
+                sides.append(self.measure([tuple(b) for b in moved], *words))
+            for k, column in enumerate(("dA_d%s_A", "dV_d%s_A2")):
+                difference = (sides[0][k] - sides[1][k]) / 0.1
+                self.assertAlmostEqual(float(rows[ball][column % "xyz"[axis]]), difference, delta=0.03)
+
     def test_they_add_up_to_nothing(self):
-        for name, words in ("sas", []), ("ses", ["--surface", "ses"]):
+        for name, words in ("sas", []), ("ses", ["--surface", "ses"]), ("variational", ["--surface", "variational", "--voxel", 1]):
             self.check(0, CRAMBIN, *words, "-o", "a.forces.csv", "-o", "a.json", "--areas", "forces", "--force")
             rows = self.table("a.forces.csv")
             self.assertEqual((len(rows), rows[0]["surface"], rows[0]["atom"], rows[0]["residue"]), (327, name, "N", "THR"))
@@ -53,7 +68,8 @@ class Forces(ToolTest):
             self.assertEqual([float(row["dA_dx_A"]) for row in rows], [row["dA_dx_A"] for row in table])
 
     def test_wrong_calls(self):
-        for words in (["--surface", "variational"], ["--surface", "gaussian"], ["--surface", "smooth-sas"], ["--fill-cavities"],
+        for words in (["--surface", "gaussian"], ["--surface", "variational", "--lambda", 0.1], ["--surface", "variational", "--flow", "paper"],
+                      ["--surface", "variational", "--steps", 3], ["--min-wall", 2, "--print-scale", 0.5], ["--fill-cavities"],
                       ["--by-symmetry", "--assembly", 1, "--surface", "sas"], ["--split", "group", "--group-by", "chain"],
                       ["--coarse", "residue"]):
             with self.subTest(words):

@@ -439,8 +439,11 @@ CASES = {
         ("vdb_molsurf bricks merge plan.json -o surface.vdb", f"{PLAN}; {RUN}; vdb_molsurf bricks merge",
          "vdb_molsurf bricks merge plan.json -o surface.vdb")],
     "tools/cli/pair_table.cpp": [
-        ("--surface ses, sas or vdw", "vdb_molsurf 1crn.pdb --surface variational -o a.forces.csv",
-         "vdb_molsurf 1crn.pdb --surface ses -o a.forces.csv"),
+        ("--surface smooth-sas", "vdb_molsurf 1crn.pdb --surface gaussian -o a.forces.csv",
+         "vdb_molsurf 1crn.pdb --surface smooth-sas -o a.forces.csv"),
+        ("--lambda 0.02, without --flow and --steps",
+         "vdb_molsurf 1crn.pdb --surface variational --lambda 0.1 -o a.forces.csv",
+         "vdb_molsurf 1crn.pdb --surface variational --lambda 0.02 -o a.forces.csv"),
         ("--fields surface,Cd in its place", f"vdb_molsurf 1crn.pdb {FAST} --memory 1G --for blender -o a.vdb",
          f"vdb_molsurf 1crn.pdb {FAST} --memory 1G --fields surface,Cd -o a.vdb"),
         ("--format ply", f"vdb_molsurf one.xyzr {FAST} -o - > a.ply",

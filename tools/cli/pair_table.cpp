@@ -95,13 +95,8 @@ std::vector<Pair> areaPairs()
     Pair unit =
         areasWithout("by-symmetry", ": expected a closed form [hint: --surface sas or vdw]");
     unit.unless = hasAreasInClosedForm;
-    const char* const kinds[] = {"surface=variational", "surface=gaussian", "surface=smooth-sas"};
-    const auto forces = [](const char* kind) {
-        return Pair{kind,
-                    Excludes,
-                    {{Areas, "forces", ofForces}, {"areas=forces", ofForces}},
-                    ": expected a closed form [hint: --surface ses, sas or vdw]"};
-    };
+    const std::vector<Thing> forces = {{Areas, "forces", ofForces}, {"areas=forces", ofForces}};
+    const auto rests = [](const Call& call) { return restsInClosedForm(call.options); };
     return {areasWithout("coarse", " [hint: a run without --coarse]"),
             areasWithout("split", " [hint: --interfaces has the areas of groups alone]"),
             areasWithout("surface-of", " [hint: a run without --surface-of]"),
@@ -109,10 +104,13 @@ std::vector<Pair> areaPairs()
             memory,
             areasWithout("dry-run", " [hint: --dry-run -o FILE.vdb]"),
             unit,
-            forces(kinds[0]),
-            forces(kinds[1]),
-            forces(kinds[2]),
-            {"fill-cavities", Excludes, {{Areas, "forces", ofForces}, {"areas=forces", ofForces}}},
+            {"surface=gaussian", Excludes, forces, " [hint: --surface smooth-sas]"},
+            {"surface=variational", Excludes, forces,
+             ": expected a surface at rest in closed form [hint: --lambda 0.02, without --flow and "
+             "--steps]",
+             rests},
+            {"fill-cavities", Excludes, forces},
+            {"min-wall", Excludes, forces},
             {"contacts", IsFor, {{Areas, "contacts"}, "areas=contacts"}, ".contacts.csv"}};
 }
 

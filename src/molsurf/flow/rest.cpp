@@ -187,6 +187,39 @@ LeafField levelsAtRest(const SparseField& psi, const SlopeField& slope, const We
     return means;
 }
 
+RestLevel levelAtRest(const PsiJet& psi, double least, const Weights& weights)
+{
+    constexpr double lowest = 0.3, most = 2.0; // e^v, as times that of a flat interface
+    constexpr double sharpest = 3.0;           // [1/Å]
+    const openvdb::Mat3d& H = psi.hessian;
+    const double length = std::max(psi.gradient.length(), 1e-6);
+    const openvdb::Vec3d up = psi.gradient / length;
+    const double lambda = weights.gradient, area = weights.area;
+    const double a = std::max(length, least), m = up.dot(H * up);
+    const double curvature = (m - H(0, 0) - H(1, 1) - H(2, 2)) / length;
+    const double kappa = std::clamp(curvature, -sharpest, sharpest);
+    const double q = lambda * a * a, more = std::max(q + lambda * m, 0.0);
+    const double alpha = 2.0 * a * (1.0 + more) - kappa * (1.0 + q), beta = a - kappa;
+    const double gamma = kappa * (1.0 + area);
+    const double root = std::sqrt(std::max(beta * beta + alpha * gamma, 0.0));
+    const double found = (beta + root) / std::max(alpha, 0.5);
+    const double e = std::clamp(found, lowest / (1.0 + q), most / (1.0 + q));
+    RestLevel out{std::log(e), curvature};
+    // alpha e^2 - 2 beta e - gamma = 0, whose derivative by e is 2 root.
+    const double steep = 2.0 * root * e;
+    if (root < 1e-3 || e != found) return out;
+    const double isMore = more > 0.0 ? 1.0 : 0.0;
+    if (length > least) {
+        const double alphaBySlope =
+            2.0 * (1.0 + more) + 4.0 * lambda * a * a * isMore - 2.0 * kappa * lambda * a;
+        out.bySlope = -(alphaBySlope * e * e - 2.0 * e) / steep;
+    }
+    out.bySecond = -2.0 * a * lambda * isMore * e * e / steep;
+    if (std::abs(curvature) < sharpest)
+        out.byKappa = -(-(1.0 + q) * e * e + 2.0 * e - (1.0 + area)) / steep;
+    return out;
+}
+
 Displacements waysToRest(const SparseField& psi, const RestingLevels& rest, const GaussianSum& sum,
                          const Weights& weights, const Region& region, const Progress& progress)
 {

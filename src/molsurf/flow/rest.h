@@ -30,6 +30,18 @@ int restBandVox(double voxel);
 LeafField levelsAtRest(const SparseField& psi, const SlopeField& slope, const Weights& weights,
                        const Progress& progress);
 
+/// The level at a point of the interface itself, and its derivatives by what it is made of.
+struct RestLevel {
+    double v = 0.0;
+    double kappa = 0.0;                                  ///< of psi's level set [1/Å]
+    double bySlope = 0.0, bySecond = 0.0, byKappa = 0.0; ///< by a, m and kappa
+};
+
+/// The same root in double precision at one point of the interface, without a mean about it.
+/// @param[in] psi    there
+/// @param[in] least  a counts as at least this [1/Å]
+RestLevel levelAtRest(const PsiJet& psi, double least, const Weights& weights);
+
 /// An interface psi = v.
 struct RestingLevels {
     const LeafField& levels; ///< v, on the leaves of psi

@@ -131,6 +131,24 @@ public:
     /// less time: each thread keeps the balls that count in a cell of 1 Å.
     PsiJet jet(const openvdb::Vec3d& x) const;
 
+    /// Calls f(ball, exponent, rate [1/Å^2], x - x_i [Å]) with the terms that may count at a point.
+    template<typename F>
+    void forEachTerm(const openvdb::Vec3d& x, const F& f) const
+    {
+        const double perVoxel = 1.0 / (options_.voxelSize * options_.voxelSize);
+        index_.forEachRun(x, x, extent_.cutoff(0.0) - extent_.maxRadius,
+                          [&](std::int32_t begin, std::int32_t end) {
+                              for (std::int32_t k = begin; k < end; ++k) {
+                                  const std::size_t i = std::size_t(k);
+                                  const openvdb::Vec3d way =
+                                      x - openvdb::Vec3d(lists_.x[i], lists_.y[i], lists_.z[i]);
+                                  const double rate = perVoxel * double(lists_.decay[i]);
+                                  f(index_.indexOf(i), lists_.level[i] - rate * way.lengthSqr(),
+                                    rate, way);
+                              }
+                          });
+    }
+
     /// The same with bumps.
     PsiJet jetWithBumps(const openvdb::Vec3d& x) const
     {

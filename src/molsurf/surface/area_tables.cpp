@@ -167,14 +167,11 @@ void addAtoms(const BallSet& atoms, std::size_t count, Table& table)
 
 } // namespace
 
-Table forceTable(const BallSet& atoms, const SurfaceSpec& spec)
+Table forceTable(const BallSet& atoms, const SurfaceSpec& spec, const Mesh& mesh)
 {
-    if (!atoms.placement.isWhole())
-        throw Error(ErrorKind::Usage,
-                    "forces: expected all atoms, without `bySymmetry` and `instances`");
     Table table{"forces", {}};
     addAtoms(atoms, atoms.balls.size(), table);
-    const MolecularSurface::Gradients found = surfaceGradients(atoms.balls, spec, Progress());
+    const MolecularSurface::Gradients found = surfaceGradients(atoms, spec, mesh, Progress());
     const auto add = [&](const std::vector<openvdb::Vec3d>& gradients, const auto& names) {
         for (int axis = 0; axis < 3; ++axis) {
             Numbers values;

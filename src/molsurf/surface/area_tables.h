@@ -23,8 +23,9 @@ std::vector<double> residueAreasOfBalls(const BallSet& atoms, const std::vector<
 /// A row for every ball: its names as in atomTable() up to radius_A, and the derivatives of volume
 /// and area by the coordinates of its centre: dV_dx_A2, dV_dy_A2, dV_dz_A2, dA_dx_A, dA_dy_A and
 /// dA_dz_A.
+/// @param[in] mesh  of the surface, where it has no closed form
 /// @throws Error(ErrorKind::Usage) if the atoms have no names, or are a unit or copies
 /// @throws Error as surfaceGradients()
-Table forceTable(const BallSet& atoms, const SurfaceSpec& spec);
+Table forceTable(const BallSet& atoms, const SurfaceSpec& spec, const Mesh& mesh);
 
 } // namespace molsurf

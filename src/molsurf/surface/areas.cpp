@@ -6,6 +6,7 @@
 #include "molsurf/balls/power_cells.h"
 #include "molsurf/error.h"
 #include "molsurf/surface/check_balls.h"
+#include "molsurf/surface/smooth_gradients.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <string>
@@ -47,26 +48,48 @@ std::vector<ContactArea> contactAreas(const std::vector<Ball>& balls, double pro
     return out;
 }
 
-MolecularSurface::Gradients surfaceGradients(const std::vector<Ball>& balls,
-                                             const SurfaceSpec& spec, const Progress& progress)
+namespace
 {
-    if (!isClosedForm(spec))
-        throw Error(ErrorKind::Usage, std::string("forces: expected `surface` ses, sas or vdw") +
-                                          (spec.minWall > 0.0 ? " without `minWall`" : ", got ") +
-                                          (spec.minWall > 0.0 ? "" : nameOf(spec.kind)));
-    if (spec.fillCavities)
-        throw Error(ErrorKind::Usage, "forces: expected a surface without `fillCavities`");
-    if (balls.empty()) return {};
-    checkFinite(balls);
+
+BallGradients closedGradients(const std::vector<Ball>& balls, const SurfaceSpec& spec,
+                              const Progress& progress)
+{
     const BallBoundary boundary = ballBoundary(balls, probeOf(spec), progress);
     const BoundaryMeasure measure = checkedMeasure(boundary, progress);
     const double probe = offsetOf(spec);
-    BallGradients found =
-        probe == 0.0
-            ? unionGradients(boundary, measure, balls.size())
-            : excludedGradients(boundary, measure,
-                                measureExcluded(boundary, measure, probe, false, progress).pulls,
-                                probe, balls.size());
+    if (probe == 0.0) return unionGradients(boundary, measure, balls.size());
+    const ExcludedMeasure excluded = measureExcluded(boundary, measure, probe, false, progress);
+    return excludedGradients(boundary, measure, excluded.pulls, probe, balls.size());
+}
+
+/// Refuses surfaces that do not follow the atoms smoothly.
+void checkGradients(const BallSet& atoms, const SurfaceSpec& spec)
+{
+    const char* wrong = spec.fillCavities    ? "without `fillCavities`"
+                        : spec.minWall > 0.0 ? "without `minWall`"
+                                             : nullptr;
+    if (wrong) throw Error(ErrorKind::Usage, std::string("forces: expected a surface ") + wrong);
+    if (isGaussian(rowOf(spec.kind)))
+        throw Error(ErrorKind::Usage, "forces: expected `surface` variational, ses, sas, vdw or "
+                                      "smooth-sas, got gaussian");
+    if (hasFlow(spec.kind) && !restsInClosedForm(spec))
+        throw Error(ErrorKind::Usage, "forces: expected a surface that rests in closed form: "
+                                      "`lambda` at most 0.024, without `flow` and `steps`");
+    if (!atoms.placement.isWhole())
+        throw Error(ErrorKind::Usage,
+                    "forces: expected all atoms, without `bySymmetry` and `instances`");
+}
+
+} // namespace
+
+MolecularSurface::Gradients surfaceGradients(const BallSet& atoms, const SurfaceSpec& spec,
+                                             const Mesh& mesh, const Progress& progress)
+{
+    checkGradients(atoms, spec);
+    if (atoms.balls.empty()) return {};
+    checkFinite(atoms.balls);
+    BallGradients found = isUnion(spec.kind) ? closedGradients(atoms.balls, spec, progress)
+                                             : smoothGradients(atoms, spec, mesh, progress);
     return {std::move(found.volume), std::move(found.area)};
 }
 

@@ -12,10 +12,6 @@
 namespace molsurf
 {
 
-namespace
-{
-
-/// |grad psi| on the surface of each ball alone [1/Å].
 std::vector<double> slopesOf(const std::vector<Ball>& balls, const GaussianOptions& options,
                              const std::vector<Decay>& decays)
 {
@@ -28,8 +24,6 @@ std::vector<double> slopesOf(const std::vector<Ball>& balls, const GaussianOptio
     }
     return slopes;
 }
-
-} // namespace
 
 // The slopes of the balls, at each voxel weighted by their terms of the sum: psi of the sum with
 // the slopes as factors, less psi.

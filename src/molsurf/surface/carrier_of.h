@@ -11,9 +11,15 @@
 #include "molsurf/options.h"
 
 #include <optional>
+#include <vector>
 
 namespace molsurf
 {
+
+/// |grad psi| on the surface of each ball alone [1/Å].
+/// @param[in] decays  one a ball, or none
+std::vector<double> slopesOf(const std::vector<Ball>& balls, const GaussianOptions& options,
+                             const std::vector<Decay>& decays);
 
 /// psi on the leaves of a table.
 struct PsiOnLeaves {

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/smooth_gradients.h"
+
+#include "molsurf/core/parallel.h"
+#include "molsurf/flow/evolve.h"
+#include "molsurf/flow/rest.h"
+#include "molsurf/levelset/gaussian_sum.h"
+#include "molsurf/mesh/patch_gradients.h"
+#include "molsurf/surface/carrier_of.h"
+#include "molsurf/surface/surface_kind.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace molsurf
+{
+
+using openvdb::Mat3d;
+using openvdb::Vec3d;
+
+namespace
+{
+
+/// A term of the sum at a point: its share p of it, and u = 2 C (x - x_i).
+struct Share {
+    std::int32_t ball;
+    double p, rate; ///< rate: C [1/Å^2]
+    Vec3d u;        ///< [1/Å]
+};
+
+/// The terms at a point, and what is made of them.
+struct PointTerms {
+    std::vector<Share> shares;
+    Vec3d mean{0.0};              ///< of u
+    Mat3d square = Mat3d::zero(); ///< of u u - 2 C
+
+    void find(const GaussianSum& sum, const Vec3d& x)
+    {
+        shares.clear();
+        double top = -1e30, total = 0.0;
+        sum.forEachTerm(x, [&](std::int32_t ball, double exponent, double rate, const Vec3d& way) {
+            shares.push_back({ball, exponent, rate, 2.0 * rate * way});
+            top = std::max(top, exponent);
+        });
+        const auto isSmall = [&](const Share& s) { return s.p < top - double(negligible); };
+        shares.erase(std::remove_if(shares.begin(), shares.end(), isSmall), shares.end());
+        for (Share& s : shares) total += s.p = std::exp(s.p - top);
+        mean = Vec3d(0.0);
+        square = Mat3d::zero();
+        for (Share& s : shares) {
+            s.p /= total;
+            mean += s.p * s.u;
+            for (int a = 0; a < 3; ++a) {
+                for (int b = 0; b < 3; ++b) square(a, b) += s.p * s.u[a] * s.u[b];
+                square(a, a) -= s.p * 2.0 * s.rate;
+            }
+        }
+    }
+};
+
+/// The derivatives of psi - v at a fixed point by the places of the balls that have terms there.
+class LevelResponse
+{
+public:
+    /// @param[in] jet    of psi, with bumps
+    /// @param[in] level  at rest, with its derivatives
+    LevelResponse(const PointTerms& terms, const PsiJet& jet, const RestLevel& level)
+        : terms_(terms), level_(level), slope_(jet.gradient.length()), up_(jet.gradient / slope_),
+          along_(jet.hessian * up_)
+    {
+    }
+
+    /// d(psi - v)/dx_i of a term [1/Å].
+    Vec3d of(const Share& s) const
+    {
+        const Vec3d& N = up_;
+        const auto ofGradient = [&](const Vec3d& w) { // d(w . grad psi)
+            return -s.p * (w.dot(s.u - terms_.mean) * s.u - 2.0 * s.rate * w);
+        };
+        const double NMN = N.dot(terms_.square * N), Nu = N.dot(s.u), C = s.rate;
+        const double trace = terms_.square(0, 0) + terms_.square(1, 1) + terms_.square(2, 2);
+        const Vec3d dSlope = ofGradient(N);
+        const Vec3d dSecond = s.p * ((Nu * Nu - 2.0 * C - NMN) * s.u - 4.0 * C * Nu * N) +
+                              2.0 * N.dot(terms_.mean) * dSlope +
+                              2.0 / slope_ * ofGradient(along_ - N.dot(along_) * N);
+        const Vec3d dTrace =
+            s.p * (s.u.lengthSqr() - 10.0 * C - trace) * s.u + 2.0 * ofGradient(terms_.mean);
+        const Vec3d dKappa = (dSecond - dTrace - level_.kappa * dSlope) / slope_;
+        return s.p * s.u -
+               (level_.bySlope * dSlope + level_.bySecond * dSecond + level_.byKappa * dKappa);
+    }
+
+private:
+    const PointTerms& terms_;
+    const RestLevel& level_;
+    double slope_;
+    Vec3d up_, along_; // N = grad psi/|grad psi| and Hess psi N
+};
+
+/// The interface that a surface lies inside of by an offset.
+struct Interface {
+    const GaussianSum& sum;
+    double offset;     ///< [Å]
+    double leastSlope; ///< psi counts as at least so steep [1/Å]
+    Weights weights;
+
+    RestLevel levelOf(const PsiJet& jet) const { return levelAtRest(jet, leastSlope, weights); }
+    double at(const Vec3d& x) const
+    {
+        const PsiJet jet = sum.jetWithBumps(x);
+        return jet.psi - levelOf(jet).v;
+    }
+    /// The derivative of psi - v along a direction, inward: positive.
+    double slopeAlong(const Vec3d& x, const Vec3d& outward) const
+    {
+        constexpr double step = 0.01; // [Å]
+        return std::max((at(x - step * outward) - at(x + step * outward)) / (2.0 * step),
+                        leastSlope);
+    }
+};
+
+/// The point of the interface along the normal of the surface at one of its points.
+Vec3d footOf(const Interface& interface, const Vec3d& point, const Vec3d& normal)
+{
+    constexpr int steps = 2;
+    constexpr double farthest = 0.3; // from where it is expected [Å]
+    double way = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        const PsiJet jet = interface.sum.jetWithBumps(point + (interface.offset + way) * normal);
+        const double slope = std::max(-jet.gradient.dot(normal), interface.leastSlope);
+        way += (jet.psi - interface.levelOf(jet).v) / slope;
+        way = std::clamp(way, -farthest, farthest);
+    }
+    return point + (interface.offset + way) * normal;
+}
+
+/// What some nodes add to the derivatives of balls.
+using Sums = std::map<std::int32_t, std::pair<Vec3d, Vec3d>>;
+
+/// Adds the motion of a node.
+void addNode(const Interface& interface, const PatchNodes& nodes, std::size_t node,
+             PointTerms& terms, Sums& sums)
+{
+    const Vec3d &point = nodes.points[node], &normal = nodes.normals[node];
+    const Vec3d foot = footOf(interface, point, normal);
+    const PsiJet jet = interface.sum.jetWithBumps(foot);
+    if (!(jet.gradient.length() > 1e-3)) return; // a critical point: psi does not say where to
+    terms.find(interface.sum, foot);
+    const RestLevel level = interface.levelOf(jet);
+    const LevelResponse response(terms, jet, level);
+    const double slope = interface.slopeAlong(foot, normal);
+    thread_local std::vector<Vec3d> speeds; // of the node along the normal, by each x_i
+    speeds.clear();
+    Vec3d rest = normal; // what they lack: a translation of all balls is one of the node
+    for (const Share& s : terms.shares) rest -= speeds.emplace_back(response.of(s) / slope);
+    for (std::size_t i = 0; i < terms.shares.size(); ++i) {
+        const Share& s = terms.shares[i];
+        const Vec3d speed = speeds[i] + s.p * rest;
+        auto& [volume, area] = sums.try_emplace(s.ball, Vec3d(0.0), Vec3d(0.0)).first->second;
+        const auto add = [&](const Vec3d& by, Vec3d& sum) {
+            const double along = by.dot(normal);
+            sum += along * speed + s.p * (by - along * normal);
+        };
+        add(nodes.volume[node], volume);
+        add(nodes.area[node], area);
+    }
+}
+
+} // namespace
+
+BallGradients smoothGradients(const BallSet& atoms, const SurfaceSpec& spec, const Mesh& mesh,
+                              const Progress& progress)
+{
+    constexpr std::size_t chunk = 1024;
+    constexpr double leastShare = 0.2; // of the slope where a ball is alone, as in flow/rest.cpp
+    const EvolveOptions flow = flowOptions(spec);
+    const Weights weights = weightsOf(flow);
+    GaussianOptions gaussian = gaussianOptions(spec);
+    if (decidesGaps(flow)) gaussian.gaps = GapRule{weights.gradient, weights.area, false};
+    GaussianSum sum(atoms.balls, gaussian, atoms.decays);
+    if (gaussian.gaps) sum.band(0, progress); // whose gaps have bumps
+    const std::vector<double> slopes = slopesOf(atoms.balls, gaussian, atoms.decays);
+    const double leastSlope = leastShare * *std::min_element(slopes.begin(), slopes.end());
+    const Interface interface {
+        sum, offsetOf(spec), leastSlope, weights
+    };
+    const PatchNodes nodes = patchNodes(mesh);
+    std::vector<Sums> parts((nodes.points.size() + chunk - 1) / chunk);
+    parallelFor(parts.size(), progress, [&](std::size_t c) {
+        thread_local PointTerms terms;
+        for (std::size_t n = c * chunk; n < std::min(nodes.points.size(), (c + 1) * chunk); ++n)
+            addNode(interface, nodes, n, terms, parts[c]);
+    });
+    BallGradients out{std::vector<Vec3d>(atoms.balls.size(), Vec3d(0.0)),
+                      std::vector<Vec3d>(atoms.balls.size(), Vec3d(0.0))};
+    for (const Sums& part : parts) {
+        for (const auto& [ball, sums] : part) {
+            out.volume[std::size_t(ball)] += sums.first;
+            out.area[std::size_t(ball)] += sums.second;
+        }
+    }
+    return out;
+}
+
+} // namespace molsurf
