@@ -330,8 +330,6 @@ def test_forces_of_smooth_surfaces_are_derivatives(kind):
 def test_forces_where_fronts_move_are_refused(crambin):
     with pytest.raises(ms.OptionError, match="rests in closed form"):
         crambin.surface(voxel=1, lambda_=0.1).forces(1)
-    with pytest.raises(ms.OptionError, match="min_wall"):
-        crambin.surface(voxel=1, min_wall=2).forces(1)
     with pytest.raises(ms.OptionError, match="smooth-sas"):
         crambin.surface(voxel=1, kind="gaussian").forces(1)
     with pytest.raises(ValueError, match="gamma"):

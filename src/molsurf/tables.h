@@ -25,7 +25,8 @@ Table atomTable(const BallSet& atoms, double probe, const MolecularSurface& resu
 /// balls), area, and for solvent-accessible surfaces relative_accessibility, the area's share of
 /// the largest that such a residue has between two glycines, not a number where that is not known.
 /// depth_A is the mean of its balls' depths, and ca_depth_A that of its CA.
-/// If the balls have values mean_NAME: the mean of the value on the residue's part of the surface.
+/// If the balls have values mean_NAME: the mean of the value on the residue's part of the surface,
+/// and integral_NAME_A2: its integral there, in the value's unit times Å^2.
 /// @param[in] probe  as for atomTable(); accessibilities are relative at 1.4 alone
 /// @throws as atomTable()
 Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& result);

@@ -173,6 +173,7 @@ class Values(ToolTest):
             self.assertEqual(row["mean_bfactor"] == "", area == 0.0)
             if area > 0.0:
                 self.assertAlmostEqual(float(row["mean_bfactor"]), weighted / area, 4)
+            self.assertAlmostEqual(float(row["integral_bfactor_A2"]), weighted, delta=1e-5 * area + 1e-9)
 
     def test_b_factors_and_a_range(self):
         self.apart(["ALA", "ALA", "ALA"], b=[5.0, 20.0, 65.0])

@@ -359,7 +359,7 @@ void AtomsFile::readIndex(std::uint64_t size)
     index_.resize(size - cells);
     readAt(file_, path_, cells, index_.data(), index_.size());
     cells_.resize(tail.cells / sizeof(AtomCell));
-    std::memcpy(cells_.data(), index_.data(), tail.cells);
+    if (tail.cells > 0) std::memcpy(cells_.data(), index_.data(), tail.cells);
     std::uint64_t atoms = 0;
     for (const AtomCell& cell : cells_) atoms += cell.count;
     const Json j = Json::parse(index_.substr(tail.cells, tail.header));

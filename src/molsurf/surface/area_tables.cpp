@@ -94,22 +94,28 @@ Numbers sumsOf(const BallNames& names, const Numbers& values)
     return out;
 }
 
-/// The mean of a value over each residue's part of the surface.
+/// Adds the mean of a value over each residue's part of the surface, and its integral.
 /// @param[in] balls  numbers of each residue's; those with none are left out
-Numbers meansOfResidues(const BallNames& names, const Counts& balls, const MolecularSurface& result)
+void addValues(const BallSet& atoms, const Counts& balls, const MolecularSurface& result,
+               Table& table)
 {
-    Numbers sums(balls.size(), 0.0), areas(balls.size(), 0.0), out;
+    const BallNames& names = *atoms.names;
+    Numbers sums(balls.size(), 0.0), areas(balls.size(), 0.0), mean, integral;
     for (std::size_t i = 0; i < result.ballValues.size(); ++i) {
         const auto residue = std::size_t(names.residueOf[i]);
         if (!std::isfinite(result.ballValues[i])) continue;
         sums[residue] += result.ballAreas[i] * result.ballValues[i];
         areas[residue] += result.ballAreas[i];
     }
-    for (std::size_t r = 0; r < balls.size(); ++r)
-        if (balls[r] > 0)
-            out.push_back(areas[r] > 0.0 ? sums[r] / areas[r]
-                                         : std::numeric_limits<double>::quiet_NaN());
-    return out;
+    for (std::size_t r = 0; r < balls.size(); ++r) {
+        if (balls[r] == 0) continue;
+        const double none = std::numeric_limits<double>::quiet_NaN();
+        mean.push_back(areas[r] > 0.0 ? sums[r] / areas[r] : none);
+        integral.push_back(sums[r]);
+    }
+    const std::string& name = atoms.labels->values->name;
+    table.columns.push_back({"mean_" + name, std::move(mean)});
+    table.columns.push_back({"integral_" + name + "_A2", std::move(integral)});
 }
 
 /// Adds the depths of residues, and of their CA.
@@ -223,9 +229,7 @@ Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& r
     if (result.report.areasOf == nameOf(SurfaceKind::SolventAccessible) && probe == ofMaxima)
         table.columns.push_back({"relative_accessibility", std::move(relative)});
     addDepths(atoms, ballDepths(atoms, probe, Progress()), balls, table);
-    if (!result.ballValues.empty())
-        table.columns.push_back(
-            {"mean_" + atoms.labels->values->name, meansOfResidues(names, balls, result)});
+    if (!result.ballValues.empty()) addValues(atoms, balls, result, table);
     return table;
 }
 

@@ -5,6 +5,7 @@
 #include "molsurf/balls/boundary_check.h"
 #include "molsurf/balls/power_cells.h"
 #include "molsurf/error.h"
+#include "molsurf/mesh/check_arrays.h"
 #include "molsurf/surface/check_balls.h"
 #include "molsurf/surface/smooth_gradients.h"
 #include "molsurf/surface/surface_kind.h"
@@ -88,6 +89,9 @@ MolecularSurface::Gradients surfaceGradients(const BallSet& atoms, const Surface
     checkGradients(atoms, spec);
     if (atoms.balls.empty()) return {};
     checkFinite(atoms.balls);
+    checkArrays(mesh);
+    if (!isUnion(spec.kind) && mesh.normals.size() != mesh.positions.size())
+        throw Error(ErrorKind::Usage, "forces: expected a mesh with normals");
     BallGradients found = isUnion(spec.kind) ? closedGradients(atoms.balls, spec, progress)
                                              : smoothGradients(atoms, spec, mesh, progress);
     return {std::move(found.volume), std::move(found.area)};

@@ -147,7 +147,7 @@ void addNode(const Interface& interface, const PatchNodes& nodes, std::size_t no
     const Vec3d &point = nodes.points[node], &normal = nodes.normals[node];
     const Vec3d foot = footOf(interface, point, normal);
     const PsiJet jet = interface.sum.jetWithBumps(foot);
-    if (!(jet.gradient.length() > 1e-3)) return; // a critical point: psi does not say where to
+    const bool isKnown = jet.gradient.length() > 1e-3; // else psi does not say where to
     terms.find(interface.sum, foot);
     const RestLevel level = interface.levelOf(jet);
     const LevelResponse response(terms, jet, level);
@@ -155,7 +155,8 @@ void addNode(const Interface& interface, const PatchNodes& nodes, std::size_t no
     thread_local std::vector<Vec3d> speeds; // of the node along the normal, by each x_i
     speeds.clear();
     Vec3d rest = normal; // what they lack: a translation of all balls is one of the node
-    for (const Share& s : terms.shares) rest -= speeds.emplace_back(response.of(s) / slope);
+    for (const Share& s : terms.shares)
+        rest -= speeds.emplace_back(isKnown ? response.of(s) / slope : Vec3d(0.0));
     for (std::size_t i = 0; i < terms.shares.size(); ++i) {
         const Share& s = terms.shares[i];
         const Vec3d speed = speeds[i] + s.p * rest;
