@@ -13,6 +13,8 @@
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/mesh/measure.h"
+#include "molsurf/mesh/specks.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/check_balls.h"
@@ -131,6 +133,19 @@ std::vector<Mesh> coarserMeshes(const Call& call, const BallSet& balls, Report& 
     return meshes;
 }
 
+// Meshes and pictures have some of the walls; the report and the .vdb have all.
+void keepWalls(const Call& call, const Progress& progress, Mesh& mesh)
+{
+    if (call.walls == Walls::All) return;
+    const MeshPieces pieces = piecesOf(mesh, progress);
+    std::vector<char> gone;
+    for (const PieceMeasure& piece : pieces.measures)
+        gone.push_back((piece.volume < 0.0) != (call.walls == Walls::Cavities));
+    removePieces(pieces, gone, mesh);
+    if (mesh.triangles.empty())
+        throw Error(ErrorKind::Input, "--walls cavities: the surface has no cavity");
+}
+
 // The middle of the mesh's box comes to the origin, with the atoms that pictures show; grids and
 // other atoms follow when they are written.
 void centerMesh(Call& call, MolecularSurface& result)
@@ -247,6 +262,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
     for (const auto& grid : result.grids()) grid->setCreator(creator);
 
+    keepWalls(call, terminal, result.mesh);
     if (call.center) centerMesh(call, result);
     ShownMeshes shown = shownMeshes(call, balls, result.mesh, terminal);
     shown.coarser = coarserMeshes(call, balls, result.report, terminal);

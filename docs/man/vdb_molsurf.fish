@@ -53,6 +53,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l lod -r -d 'with --instances: voxels such as 1,2,4 in the place of'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l blobbiness -r -d 'decay of the Gaussians of --surface gaussian'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare"' -l fill-cavities -d 'drop the inner walls'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l walls -x -a 'all outer cavities' -d 'closed pieces that meshes and pictures have: all; outer,'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l remesh -r -d 'triangles of even shape, with edges near L [Å]'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l density -r -d 'the same with N vertices per Å^2 of surface'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l adapt -r -d 'with --remesh or --density: shorter edges where it bends,'

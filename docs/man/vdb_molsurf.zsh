@@ -9,6 +9,7 @@ esac
 case "$verb:$words[CURRENT-1]" in
     "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'forces.csv' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
+    "build:--walls") compadd -- 'all' 'outer' 'cavities'; return ;;
     "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'v'; return ;;
     "build:--match") compadd -- 'none' 'ses'; return ;;
     "build:--coarse") compadd -- 'atom' 'residue'; return ;;
@@ -112,6 +113,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--lod:with --instances\: voxels such as 1,2,4 in the place of'
       '--blobbiness:decay of the Gaussians of --surface gaussian'
       '--fill-cavities:drop the inner walls'
+      '--walls:closed pieces that meshes and pictures have\: all; outer,'
       '--remesh:triangles of even shape, with edges near L [Å]'
       '--density:the same with N vertices per Å^2 of surface'
       '--adapt:with --remesh or --density\: shorter edges where it bends,'

@@ -4,7 +4,7 @@
 import json
 import unittest
 
-from tool import DATA, ToolTest
+from tool import DATA, ToolTest, read_ply
 
 
 class Cavities(ToolTest):
@@ -29,6 +29,35 @@ class Cavities(ToolTest):
             self.assertEqual(filled["cavities"], 0, words)
             self.assertAlmostEqual(filled["volume"] / open_["outer_volume"], 1, delta=5e-4, msg=words)
             self.assertAlmostEqual(filled["area"] / open_["outer_area"], 1, delta=1e-3, msg=words)
+
+    def volume(self, name):
+        names, vertices, triangles = read_ply((self.folder / name).read_bytes())
+        at = names.index("x")
+        corners = ([vertices[v][at:at + 3] for v in t] for t in triangles)
+        return sum((a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
+                   for a, b, c in corners), len(triangles)
+
+    def test_walls_apart(self):
+        call = [DATA / "4at1.ent.gz", "--surface", "ses", "--voxel", 0.7, "--color", "chain", "-q"]
+        parts = []
+        for walls in ("all", "outer", "cavities"):
+            self.check(0, *call, "--walls", walls, "-o", walls + ".ply", "-o", walls + ".glb", "-o", walls + ".json")
+            parts.append(self.volume(walls + ".ply"))
+        (all_, triangles), (outer, some), (cavities, others) = parts
+        self.assertEqual(triangles, some + others)
+        self.assertLess(cavities, -100)
+        self.assertAlmostEqual(all_, outer + cavities, delta=0.01)
+        surfaces = [json.loads((self.folder / f"{walls}.json").read_text())["surface"] for walls in ("all", "cavities")]
+        self.assertEqual(surfaces[0], surfaces[1])
+        self.assertAlmostEqual(outer / surfaces[0]["outer_volume"], 1, delta=0.01)
+
+    def test_walls_that_are_not(self):
+        (self.folder / "one.xyzr").write_text("0 0 0 1.7\n")
+        self.check(1, "one.xyzr", "--walls", "cavities", "-o", "a.ply", says="the surface has no cavity")
+        self.check(0, "one.xyzr", "--walls", "outer", "-o", "b.ply")
+        self.check(2, "one.xyzr", "--walls", "inner", "-o", "a.ply", says="--walls: expected all or outer or cavities")
+        self.check(2, DATA / "1a8o.cif.gz", "--by-symmetry", "--assembly", 1, "--walls", "outer", "-o", "a.ply", says="--walls")
+        self.assertFalse((self.folder / "a.ply").exists())
 
 
 if __name__ == "__main__":

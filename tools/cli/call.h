@@ -118,6 +118,10 @@ using GivenOptions = std::map<std::string, std::vector<std::string>>;
 enum class LegendChoice { Auto, On, Off };
 const char* nameOf(LegendChoice choice);
 
+/// Which closed pieces of the surface meshes and pictures have.
+enum class Walls { All, Outer, Cavities };
+const char* nameOf(Walls walls);
+
 /// A command line. The settings and the first part are set by options, see optionTable(), the
 /// second part is made of them.
 struct Call : Settings {
@@ -163,6 +167,7 @@ struct Call : Settings {
     std::size_t memory = 0;   ///< bytes at most; 0: no limit
     double hours = 24.0;      ///< that a surface may take, by the estimate
     bool dryRun = false;      ///< only say what it takes
+    Walls walls = Walls::All;
     std::vector<Requirement> required; ///< of the mesh, or nothing is written
     int threads = 0;                   ///< 0: as many as there are
     bool quiet = false;

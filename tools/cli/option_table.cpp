@@ -33,6 +33,11 @@ void misuse(const std::string& message)
     throw Error(ErrorKind::Usage, message);
 }
 
+const char* nameOf(Walls walls)
+{
+    return walls == Walls::Outer ? "outer" : walls == Walls::Cavities ? "cavities" : "all";
+}
+
 const char* nameOf(LegendChoice choice)
 {
     return choice == LegendChoice::On ? "on" : choice == LegendChoice::Off ? "off" : "auto";
@@ -406,6 +411,12 @@ OptionGroup surfaceOptions()
     return {"Surface",
             {setting("surface", structures), setting("voxel", structures), shownIn(Levels, levels),
              setting("blobbiness", structures), setting("fill-cavities", wholes | Compare),
+             shownIn(Triangles | Pixels,
+                     word("walls", "WORD",
+                          "closed pieces that meshes and pictures have: all; outer,\n"
+                          "without cavities; or cavities alone",
+                          Build, MOLSURF_OF(walls),
+                          std::vector{Walls::All, Walls::Outer, Walls::Cavities})),
              setting("remesh", wholes | Convert), setting("density", wholes | Convert),
              setting("adapt", wholes | Convert), setting("fields", surfaces), attributes,
              shownIn(Grids, setting("vdb-half", surfaces)),

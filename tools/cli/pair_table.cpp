@@ -50,6 +50,7 @@ std::vector<Pair> assemblyPairs()
     return {{"weld", Needs, {"by-symmetry"}},
             {"weld", Excludes, {"crisp"}},
             {"lod", Needs, {"instances", "by-symmetry"}},
+            {"walls", Excludes, {"by-symmetry", "instances", "memory", "lod"}},
             {"lod", Excludes, {"voxel"}, ": the first of --lod is the voxel"},
             {"instances",
              Excludes,
@@ -110,6 +111,7 @@ std::vector<Pair> areaPairs()
              "--steps]",
              rests},
             {"fill-cavities", Excludes, forces},
+            {"walls", Excludes, forces},
             {"min-wall", Excludes, forces},
             {"contacts", IsFor, {{Areas, "contacts"}, "areas=contacts"}, ".contacts.csv"}};
 }

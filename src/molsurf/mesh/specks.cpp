@@ -104,6 +104,30 @@ void fill(const Mesh& mesh, const Piece& piece, openvdb::FloatGrid& surface)
 
 } // namespace
 
+void removePieces(const MeshPieces& pieces, const std::vector<char>& gone, Mesh& mesh)
+{
+    std::vector<std::uint32_t> kept, numbers(mesh.positions.size());
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        numbers[v] = std::uint32_t(kept.size());
+        if (!gone[pieces.of[v]]) kept.push_back(v);
+    }
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::size_t next = 0; // part
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (; next < mesh.parts.size() && mesh.parts[next].firstTriangle == t; ++next)
+            mesh.parts[next].firstTriangle = triangles.size();
+        const auto& [a, b, c] = mesh.triangles[t];
+        if (!gone[pieces.of[a]]) triangles.push_back({numbers[a], numbers[b], numbers[c]});
+    }
+    for (; next < mesh.parts.size(); ++next) mesh.parts[next].firstTriangle = triangles.size();
+    mesh.triangles = std::move(triangles);
+    keepVertices(kept, mesh.positions);
+    keepVertices(kept, mesh.normals);
+    keepVertices(kept, mesh.colors);
+    for (auto& a : mesh.scalars) keepVertices(kept, a.values);
+    for (auto& a : mesh.labels) keepVertices(kept, a.values);
+}
+
 std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
                                                      openvdb::FloatGrid& surface, Mesh& mesh)
 {

@@ -29,6 +29,11 @@ constexpr double leastPiece = 0.1;
 std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
                                                      openvdb::FloatGrid& surface, Mesh& mesh);
 
+/// Removes closed pieces from a mesh, with what its attributes, colours and parts say of them.
+/// @param[in]     pieces  those of the mesh
+/// @param[in]     gone    whether a piece goes
+void removePieces(const MeshPieces& pieces, const std::vector<char>& gone, Mesh& mesh);
+
 /// Makes an array over vertices one of those that stay.
 template<typename T>
 void keepVertices(const std::vector<std::uint32_t>& kept, std::vector<T>& values)
