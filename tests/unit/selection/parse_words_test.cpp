@@ -102,6 +102,25 @@ TEST(Words, QuotesNameChainsThatAreWords)
     EXPECT_HAS(match.warnings[0], "was read as the chain all [hint: (all) is the word]");
 }
 
+// B factors are floats: 20.1 of a file is not 20.1 in double.
+TEST(Words, CompareNumbersAsTheyAreHeld)
+{
+    Structure s = codes();
+    s.atoms[0].bFactor = 20.1f;
+    EXPECT_EQ(countOf(s, "b = 20.1"), 1u);
+    EXPECT_EQ(countOf(s, "b <= 20.1 and index 0"), 1u);
+    EXPECT_EQ(countOf(s, "b > 20.1 and index 0"), 0u);
+}
+
+TEST(Words, TakeAPlusAtTheEndForACharge)
+{
+    Structure s = codes();
+    s.residues[std::size_t(s.atoms[0].residue)].name = "NA+";
+    EXPECT_EQ(countOf(s, "resname NA+"), 5u);
+    EXPECT_EQ(countOf(s, "resname ZN+NA+"), 6u);
+    EXPECT_EQ(countOf(codes(), "resname NA+"), 0u);
+}
+
 TEST(Words, NameThePlaceAndTheNearestWord)
 {
     EXPECT_EQ(refusalOf("protien and chain A"),
