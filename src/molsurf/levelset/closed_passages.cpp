@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/levelset/closed_passages.h"
 
+#include "molsurf/core/disjoint_sets.h"
+
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <cstdint>
 
 namespace molsurf
 {
@@ -36,24 +38,20 @@ bool inOnePore(const Vec3d& a, const Vec3d& b, double level, const PassageField&
 std::vector<std::size_t> poresOf(const std::vector<Closed>& points, const PassageField& field)
 {
     constexpr double farthest = 8.0; // [Å]
-    std::vector<std::size_t> pore(points.size());
-    std::iota(pore.begin(), pore.end(), std::size_t(0));
-    const auto rootOf = [&](std::size_t i) {
-        while (pore[i] != i) i = pore[i] = pore[pore[i]];
-        return i;
-    };
+    DisjointSets pores(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vec3d& x = points[i].gap.place;
         for (std::size_t j = i; j-- > 0;) {
             const Vec3d& y = points[j].gap.place;
             if (x.x() - y.x() > farthest) break;
-            const std::size_t a = rootOf(i), b = rootOf(j);
+            const auto a = std::uint32_t(i), b = std::uint32_t(j);
             const double level = std::min(points[i].level, points[j].level);
-            if (a == b || (x - y).length() > farthest || !inOnePore(x, y, level, field)) continue;
-            pore[std::max(a, b)] = std::min(a, b);
+            if (pores.find(a) == pores.find(b) || (x - y).length() > farthest) continue;
+            if (inOnePore(x, y, level, field)) pores.join(a, b);
         }
     }
-    for (std::size_t i = 0; i < points.size(); ++i) pore[i] = rootOf(i);
+    std::vector<std::size_t> pore(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) pore[i] = pores.find(std::uint32_t(i));
     return pore;
 }
 

@@ -127,6 +127,7 @@ TEST(Words, NameThePlaceAndTheNearestWord)
               "selection \"protien and chain A\": expected a word such as protein, chain or "
               "within, got \"protien\" at 1 [hint: did you mean protein?]");
     EXPECT_HAS(refusalOf("protien"), "[hint: did you mean protein?]");
+    EXPECT_HAS(refusalOf("chain \"é\" and protien"), "got \"protien\" at 15"); // letters, not bytes
     EXPECT_HAS(refusalOf("within -1 of chain A"), "a distance of at least 0 Å, got \"-1\" at 8");
     EXPECT_HAS(refusalOf("(chain A or chain B"), "expected ) for the bracket at 1, got the end");
     EXPECT_HAS(refusalOf("chain A)"), "within, around or the end, got \")\" at 8");
