@@ -69,6 +69,7 @@ TEST(Words, KeepGemmisPhrasesAndStandBesideThem)
     EXPECT_EQ(count("(A or B) and name P"), 2u);
     EXPECT_EQ(count("A | protein"), count("chain A or protein"));
     EXPECT_EQ(count("[ZN] around 30"), count("all") - 1);
+    EXPECT_EQ(count("resn ZN or water around 300"), count("not (resn ZN or water)"));
     EXPECT_EQ(count("name 'N1'"), 2u);
     EXPECT_EQ(count("name \"O5'\""), count("name O5'"));
     EXPECT_EQ(count("name C*'"), 8u);
@@ -110,6 +111,7 @@ TEST(Words, CompareNumbersAsTheyAreHeld)
     EXPECT_EQ(countOf(s, "b = 20.1"), 1u);
     EXPECT_EQ(countOf(s, "b <= 20.1 and index 0"), 1u);
     EXPECT_EQ(countOf(s, "b > 20.1 and index 0"), 0u);
+    EXPECT_EQ(countOf(s, "b != 20.1"), s.atoms.size() - 1);
 }
 
 TEST(Words, TakeAPlusAtTheEndForACharge)
@@ -119,6 +121,17 @@ TEST(Words, TakeAPlusAtTheEndForACharge)
     EXPECT_EQ(countOf(s, "resname NA+"), 5u);
     EXPECT_EQ(countOf(s, "resname ZN+NA+"), 6u);
     EXPECT_EQ(countOf(codes(), "resname NA+"), 0u);
+}
+
+// The letters behind a * may begin within those that it was tried on.
+TEST(Words, FindPatternsWhoseLettersRepeat)
+{
+    Structure s = codes();
+    s.atoms[0].name = "CCA";
+    s.atoms[1].name = "H1H12";
+    EXPECT_EQ(countOf(s, "name *CA and index 0"), 1u);
+    EXPECT_EQ(countOf(s, "name *H12 and index 1"), 1u);
+    EXPECT_EQ(countOf(s, "name *H13 and index 1"), 0u);
 }
 
 TEST(Words, NameThePlaceAndTheNearestWord)
