@@ -201,6 +201,35 @@ TEST(Words, LookForNeighboursInOneModel)
     EXPECT_EQ(one.models, (std::vector<int>{2, 0}));
 }
 
+// Of a trajectory's frames the first decides, for words that ask for places, and for no others.
+TEST(Words, AreSettledByTheFirstModel)
+{
+    Structure s = readStructure(dataFile("1d3z.pdb.gz"));
+    const Model first = s.models[0], second = s.models[1];
+    s.models[2].end -= 1; // of another size
+    SelectOptions options;
+    options.select = "same x as index 5";
+    options.groups = {{"near", "chain A within 4 of resid 3"}, {"all", "name CA"}};
+    options.resolutions = {{"z < 3", 5.0}};
+    settleSelections(options, first, s);
+    EXPECT_EQ(s.settled.size(), 3u);
+    EXPECT_EQ(s.settled.count("name CA"), 0u);
+    for (const auto& [phrase, atoms] : s.settled) {
+        const auto at = [&, &all = atoms](std::size_t i) {
+            return all.begin() + std::ptrdiff_t(i);
+        };
+        EXPECT_GT(std::count(at(first.begin), at(first.end), 1), 0) << phrase;
+        EXPECT_TRUE(std::equal(at(first.begin), at(first.end), at(second.begin))) << phrase;
+        EXPECT_FALSE(std::equal(at(s.models[2].begin), at(s.models[2].end), at(first.begin)))
+            << phrase;
+    }
+    Structure other = readStructure(dataFile("1d3z.pdb.gz"));
+    const AtomMatch own = matchAtoms(other, options.select);
+    other.models[2].end -= 1; // no other has its size
+    settleSelections(options, other.models[2], other);
+    EXPECT_EQ(other.settled.at(options.select), own.atoms);
+}
+
 TEST(Words, RefuseDistancesWhereAtomsAreFarAway)
 {
     Structure s = codes();
