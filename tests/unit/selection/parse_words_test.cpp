@@ -199,6 +199,23 @@ TEST(Words, LookForNeighboursInOneModel)
     EXPECT_EQ(std::count(at(first.begin), at(first.end), 1), 0);
     EXPECT_GT(std::count(at(second.begin), at(second.end), 1), 20);
     EXPECT_EQ(one.models, (std::vector<int>{2, 0}));
+    const AtomMatch other = matchAtoms(s, "within 5 of /1/A/1");
+    const auto later = other.atoms.begin() + std::ptrdiff_t(second.begin);
+    EXPECT_EQ(std::count(later, later + std::ptrdiff_t(second.end - second.begin), 1), 0);
+}
+
+TEST(Words, CountAnAtomAtTheDistanceItself)
+{
+    EXPECT_EQ(countOf(codes(), "index 3 and within 1.2 of index 2"), 1u); // C and O, 1.2 Å apart
+    EXPECT_EQ(countOf(codes(), "index 3 and within 1.199 of index 2"), 0u);
+}
+
+TEST(Words, WarnOfAnAlternativeWithoutAtoms)
+{
+    const AtomMatch match = matchAtoms(codes(), "resn ZN or resn XYZ");
+    ASSERT_EQ(match.warnings.size(), 1u);
+    EXPECT_HAS(match.warnings[0], "\"resn XYZ\" matches no atom");
+    EXPECT_TRUE(matchAtoms(codes(), "resn ZN or resn ALA").warnings.empty());
 }
 
 // Of a trajectory's frames the first decides, for words that ask for places, and for no others.
