@@ -123,6 +123,14 @@ TEST(Words, TakeAPlusAtTheEndForACharge)
     EXPECT_EQ(countOf(codes(), "resname NA+"), 0u);
 }
 
+TEST(Words, LeaveVirtualSitesOutOfHeavyAtoms)
+{
+    Structure s = codes();
+    const std::size_t all = countOf(s, "heavy");
+    s.atoms[0].role = AtomRole::Particle;
+    EXPECT_EQ(countOf(s, "heavy"), all - 1);
+}
+
 // The letters behind a * may begin within those that it was tried on.
 TEST(Words, FindPatternsWhoseLettersRepeat)
 {
@@ -185,6 +193,8 @@ TEST(Words, WorkWhereThereAreNoResidues)
     EXPECT_EQ(countOf(s, "hydrogens"), 2u);
     EXPECT_EQ(countOf(s, "elem O around 2"), 2u);
     EXPECT_EQ(countOf(s, "x < 0.5 and index 0:1"), 1u);
+    EXPECT_EQ(countOf(s, "serial 1 and element O"), 1u);
+    EXPECT_EQ(countOf(s, "serial 2:9 and hydrogens"), 2u);
     EXPECT_HAS(errorOf(ErrorKind::Input, [&] { matchAtoms(s, "chain A"); }),
                "selection \"chain A\" matches no atom, the file has no chains and residues [hint: "
                "all, element C, name C1, index 0 to 9, within 5 of index 0]");
