@@ -348,7 +348,10 @@ void completeAreas(Call& call)
     SurfaceOptions& options = call.options;
     options.contacts = tables.count("contacts") > 0;
     options.pockets |= tables.count("pockets") > 0;
-    options.ballAreas = tables.size() > tables.count("contacts") + tables.count("pockets");
+    if (tables.count("pore") > 0 && call.atoms.pore.empty()) call.atoms.pore = "auto";
+    options.ballAreas = std::any_of(tables.begin(), tables.end(), [](const std::string& table) {
+        return table != "contacts" && table != "pockets" && table != "pore";
+    });
     if (tables.count("interfaces") == 0) return;
     options.interfaces = true;
     if (call.groupsFile.empty() && !call.atoms.groupBy && !call.colorGroups)

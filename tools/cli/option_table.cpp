@@ -23,8 +23,8 @@ namespace molsurf::tool
 
 const std::vector<std::string>& areaTables()
 {
-    static const std::vector<std::string> all = {"atoms",      "residues", "contacts",
-                                                 "interfaces", "pockets",  "forces"};
+    static const std::vector<std::string> all = {"atoms",   "residues", "contacts", "interfaces",
+                                                 "pockets", "pore",     "forces"};
     return all;
 }
 
@@ -460,7 +460,7 @@ OptionGroup areaOptions()
                  0,
                  "LIST",
                  "tables for the report, by commas: atoms, residues,\ncontacts, interfaces, "
-                 "pockets,\nforces",
+                 "pockets,\npore, forces",
                  "",
                  wholes,
                  areaTables()};
@@ -484,7 +484,7 @@ OptionGroup pocketOptions()
     return {"Pockets",
             {setting("pockets", wholes), setting("pocket-at", wholes), setting("probe-in", wholes),
              setting("probe-out", wholes), setting("pocket-cut", wholes),
-             setting("pocket-neck", wholes)}};
+             setting("pocket-neck", wholes), setting("pore", wholes)}};
 }
 
 OptionGroup sceneOptions()
