@@ -190,7 +190,7 @@ constexpr ReportKey keyTable[] = {
     {"pockets.list[].open", "", "Whether a way leads out, perhaps by neighbors"},
     {"pockets.list[].mouths", "", "Mouths, the largest first"},
     {"pockets.list[].mouths[].area", "Å²", "Area of the mouth at the cut"},
-    {"pockets.list[].mouths[].radius", "Å", "Radius of the largest ball that gets out there"},
+    {"pockets.list[].mouths[].radius", "Å", "Radius of the largest ball that gets there from the widest place"},
     {"pockets.list[].neighbors", "", "Numbers, from 1, of pockets beyond necks"},
     {"pore", "", "Pore, if it was asked for, else null"},
     {"pore.axis", "", "Unit vector from end to end"},

@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <queue>
 #include <utility>
 
 namespace molsurf
@@ -262,6 +263,65 @@ private:
     std::vector<std::int32_t> basins_;
 };
 
+openvdb::Vec3d pointOf(const VoidField& space, VoxelPlace place)
+{
+    const int v = int(place % leafSize);
+    return space.table.origin(place / leafSize).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
+           space.voxelSize;
+}
+
+/// The widest ways to voxels from the widest voxels of their basins: how narrow each is, and where.
+class Passages
+{
+public:
+    Passages(const VoidField& space, const Basins& basins)
+        : space_(space), narrowest_(space.table.size() * leafSize, none)
+    {
+        std::vector<char> begun(basins.count(), 0);
+        for (std::size_t n = 0; n < space.table.size(); ++n)
+            space.table.active(n).forEach([&](int v) {
+                const std::int32_t b = basins.of.leaf(n)[v];
+                const auto place = VoxelPlace(n * leafSize + std::size_t(v));
+                if (b < 0 || begun[std::size_t(b)] ||
+                    clearance(place) < basins.peaks[std::size_t(b)])
+                    return;
+                begun[std::size_t(b)] = 1;
+                reach(place, place);
+            });
+        while (!open_.empty()) {
+            const VoxelPlace from = open_.top().second;
+            open_.pop();
+            const std::int32_t b = basins.of.leaf(from / leafSize)[from % leafSize];
+            forEachJoined(space.table, from, [&](VoxelPlace to) {
+                if (basins.of.leaf(to / leafSize)[to % leafSize] != b || narrowest_[to] != none)
+                    return;
+                const VoxelPlace before = narrowest_[from];
+                reach(to, clearance(to) < clearance(before) ? to : before);
+            });
+        }
+    }
+
+    /// Where the way to a voxel is narrowest; `none` if there is none.
+    VoxelPlace narrowest(VoxelPlace place) const { return narrowest_[place]; }
+    float clearance(VoxelPlace place) const
+    {
+        return space_.clearance.leaf(place / leafSize)[place % leafSize];
+    }
+
+    static constexpr VoxelPlace none = ~VoxelPlace(0);
+
+private:
+    void reach(VoxelPlace place, VoxelPlace narrowest)
+    {
+        narrowest_[place] = narrowest;
+        open_.emplace(clearance(narrowest), place);
+    }
+
+    const VoidField& space_;
+    std::vector<VoxelPlace> narrowest_;
+    std::priority_queue<std::pair<float, VoxelPlace>> open_;
+};
+
 } // namespace
 
 std::vector<BasinMeasure> measureBasins(const VoidField& space, const Basins& basins,
@@ -288,17 +348,24 @@ std::vector<BasinMeasure> measureBasins(const VoidField& space, const Basins& ba
             const float below = space.below.leaf(n)[v];
             if (below <= depths[b]) return;
             depths[b] = below;
-            out[b].deepest = space.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
-                             space.voxelSize;
+            out[b].deepest = pointOf(space, VoxelPlace(n * leafSize + std::size_t(v)));
         });
     }
     const Mouths mouths(leaves);
-    std::vector<double> widest(mouths.count(), 0.0);
-    for (const auto& [place, mouth] : mouths.voxels())
-        widest[mouth] = std::max(widest[mouth],
-                                 double(space.clearance.leaf(place / leafSize)[place % leafSize]));
-    for (std::size_t m = 0; m < mouths.count(); ++m)
-        out[std::size_t(mouths.basin(m))].mouths.push_back({mouths.area(m), widest[m]});
+    const Passages passages(space, basins);
+    std::vector<BasinMeasure::Mouth> found(mouths.count());
+    for (const auto& [place, mouth] : mouths.voxels()) {
+        found[mouth].widest = std::max(found[mouth].widest, double(passages.clearance(place)));
+        const VoxelPlace narrowest = passages.narrowest(place);
+        if (narrowest == Passages::none || passages.clearance(narrowest) <= found[mouth].radius)
+            continue;
+        found[mouth].radius = passages.clearance(narrowest);
+        found[mouth].narrowest = pointOf(space, narrowest);
+    }
+    for (std::size_t m = 0; m < mouths.count(); ++m) {
+        found[m].area = mouths.area(m);
+        out[std::size_t(mouths.basin(m))].mouths.push_back(found[m]);
+    }
     return out;
 }
 
