@@ -171,6 +171,7 @@ DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, 
 {
     DrawOptions options = call.picture;
     options.instances = instancesOf(call, atoms, mesh, coloredCopies, progress);
+    if (call.options.color == ColorBy::Pocket) options.glass = neutralColor;
     const bool chosen = options.upright.lengthSqr() > 0.0 || options.toEye.lengthSqr() > 0.0;
     if (atoms.membrane && !chosen) options.upright = *atoms.membrane;
     if (atoms.placement.isWhole()) {
@@ -425,7 +426,7 @@ namespace
 std::vector<Format> areaFormats()
 {
     constexpr const char* ofAreas = "table of areas";
-    constexpr const char* ofPore = "profile and tube of a pore";
+    constexpr const char* ofPore = ""; // --pore says it
     constexpr const char* withAreas = "atoms with areas as B factors";
     constexpr unsigned built = Build | Batch;
     return {

@@ -14,7 +14,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--coarse") compadd -- 'atom' 'residue'; return ;;
     "build:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
     "build:--split") compadd -- 'group'; return ;;
-    "build:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "build:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "build:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "build:--value-of") compadd -- 'atom' 'residue'; return ;;
     "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'forces'; return ;;
@@ -34,7 +34,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--coarse") compadd -- 'atom' 'residue'; return ;;
     "batch:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
     "batch:--split") compadd -- 'group'; return ;;
-    "batch:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "batch:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "batch:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "batch:--value-of") compadd -- 'atom' 'residue'; return ;;
     "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'forces'; return ;;
@@ -58,7 +58,7 @@ case "$verb:$words[CURRENT-1]" in
     "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'view'; return ;;
     "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'v'; return ;;
     "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
-    "convert:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature'; return ;;
+    "convert:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket'; return ;;
     "convert:--view") compadd -- 'auto'; return ;;
     "convert:--background") compadd -- 'transparent'; return ;;
     "convert:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
@@ -68,7 +68,7 @@ case "$verb:$words[CURRENT-1]" in
     "bricks plan:--match") compadd -- 'none' 'ses'; return ;;
     "bricks plan:--coarse") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
-    "bricks plan:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "bricks plan:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "bricks plan:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "bricks plan:--value-of") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--regularizer") compadd -- 'gradient' 'area'; return ;;
@@ -143,7 +143,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--probe-out:radius of the probe that stays out of them [Å], above'
       '--pocket-cut:pockets begin so far below the surface of that probe [Å]'
       '--pocket-neck:two pockets, where the ball that passes between them has'
-      '--pore:the pore, for the report, .pore.csv, .svg, .png, .ply\:'
+      '--pore:the pore, for the report, .pore.csv, profiles .pore.svg,'
       '--for:blender, blender4 (up to 4.5), houdini or usd\: a .vdb with'
       '--fog-density:optical depth of an Å of fog at density 1 in the program,'
       '--center:the middle of the surface comes to the origin'
@@ -248,7 +248,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--probe-out:radius of the probe that stays out of them [Å], above'
       '--pocket-cut:pockets begin so far below the surface of that probe [Å]'
       '--pocket-neck:two pockets, where the ball that passes between them has'
-      '--pore:the pore, for the report, .pore.csv, .svg, .png, .ply\:'
+      '--pore:the pore, for the report, .pore.csv, profiles .pore.svg,'
       '--for:blender, blender4 (up to 4.5), houdini or usd\: a .vdb with'
       '--fog-density:optical depth of an Å of fog at density 1 in the program,'
       '--center:the middle of the surface comes to the origin'

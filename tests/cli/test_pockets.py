@@ -7,7 +7,7 @@ import subprocess
 import unittest
 
 from needs import KVFINDER_PYTHON, needs
-from tool import CRAMBIN, DATA, ToolTest
+from tool import CRAMBIN, DATA, ToolTest, read_ply
 
 DIMER = DATA / "1a8o.pdb.gz"
 DETECT = """
@@ -43,6 +43,24 @@ class Pockets(ToolTest):
         self.assertAlmostEqual(float(rows[0]["volume"]), report["surface"]["cavity_list"][0]["volume"], places=3)
         self.assertAlmostEqual(report["pockets"]["list"][0]["volume"], float(rows[0]["volume"]), places=3)
         self.assertEqual(report["pockets"]["probe_out"], 4)
+
+    def test_walls_of_pockets_have_colours(self):
+        self.box("two.xyzr", lambda x: max(abs(abs(x[0]) - 3.5), abs(x[1]), abs(x[2])) < 2.6)
+        self.check(0, "two.xyzr", "--surface", "ses", "--color", "pocket", "--voxel", "0.6", "-o", "two.ply", "-o", "two.png",
+                      "-o", "two.html", "-o", "two.pockets.csv", "--opacity", "0.3", "--all-walls", "--size", "200")
+        rows = self.table("two.pockets.csv")[1]
+        self.assertEqual(len(rows), 2)
+        names, vertices, _ = read_ply((self.folder / "two.ply").read_bytes())
+        at = names.index("pocket")
+        for row in rows:
+            own = [v for v in vertices if v[at] == int(row["pocket"])]
+            x = sum(v[0] for v in own) / len(own)
+            self.assertAlmostEqual(x, float(row["x_A"]), delta=0.1)
+            self.assertEqual(len({v[-3:] for v in own}), 1)
+        self.assertEqual(len({v[-3:] for v in vertices}), 3)  # and what is no pocket's
+        outside = [v for v in vertices if max(map(abs, v[:3])) > 7]
+        self.assertEqual({v[at] for v in outside}, {0})
+        self.assertIn("1: ", (self.folder / "two.html").read_text())
 
     def test_a_table_without_pockets_is_empty(self):
         self.check(0, CRAMBIN, "--probe-in", 3, "--voxel", 1, "-o", "none.pockets.csv", says=["pockets: 0"])

@@ -54,11 +54,11 @@ std::vector<Pair> assemblyPairs()
             {"instances",
              Excludes,
              {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center",
-              "color=radius", "color=potential", "pockets", "pore"}},
+              "color=radius", "color=potential", "color=pocket", "pockets", "pore"}},
             {"by-symmetry",
              Excludes,
-             {"pockets", "pore", "frames", "trajectory", "memory", "dry-run", "center",
-              "color=potential"}},
+             {"pockets", "color=pocket", "pore", "frames", "trajectory", "memory", "dry-run",
+              "center", "color=potential"}},
             {Holds(Grids | Volume),
              Excludes,
              {"by-symmetry"},
@@ -142,7 +142,7 @@ std::vector<Pair> pocketPairs()
     for (const char* option : {"pocket-at", "probe-in", "probe-out", "pocket-cut", "pocket-neck"})
         pairs.push_back({option,
                          IsFor,
-                         {"pockets", {Areas, "pockets"}, "areas=pockets"},
+                         {"pockets", "color=pocket", {Areas, "pockets"}, "areas=pockets"},
                          "--pockets and .pockets.csv"});
     return pairs;
 }

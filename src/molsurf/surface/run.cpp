@@ -66,7 +66,7 @@ void checkWanted(const BallSet& atoms, const SurfaceOptions& options)
     if (atoms.pore && !atoms.placement.isWhole())
         throw Error(ErrorKind::Usage,
                     "`pore`: expected one surface, and not `instances` or `bySymmetry`");
-    if (options.pockets && ofPrototypes(atoms))
+    if (wantsPockets(options) && ofPrototypes(atoms))
         throw Error(ErrorKind::Usage, "`pockets`: expected one surface, and not `instances`");
     if (!options.ballAreas) return;
     checkWay(ByAtom, options);
@@ -136,7 +136,7 @@ MolecularSurface make(const BallSet& atoms, const SurfaceOptions& options, Progr
                                : areasApart(atoms, shown, progress);
     if (options.interfaces)
         measureInterfaces(atoms, shown, options.ballAreas, progress, result.report);
-    if (options.pockets) addPockets(atoms, options, progress, result);
+    if (wantsPockets(options)) addPockets(atoms, options, progress, result);
     if (atoms.pore) addPore(atoms, progress, result.report);
     if (options.contacts) result.contacts = contactAreas(atoms.balls, probeOf(shown), progress);
     if (options.halfFloats) saveAsHalf(result.grids());

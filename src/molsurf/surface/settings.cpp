@@ -657,7 +657,8 @@ std::vector<Setting> pocketSettings()
                       "where it is closed",
                       "none", MOLSURF_OF(atoms.pocketAt));
     Setting pore = text("pore", "WAY",
-                        "the pore, for the report, .pore.csv, .svg, .png, .ply:\n"
+                        "the pore, for the report, .pore.csv, profiles .pore.svg,\n"
+                        ".pore.png, tubes .pore.ply, .pore.obj, .pore.glb:\n"
                         "auto, an axis as z, or its ends, points or atoms, as\n"
                         "'0,0,-9 -> 0,0,9', 'resid 14 -> resid 43'",
                         "none", MOLSURF_OF(atoms.pore));
