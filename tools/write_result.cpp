@@ -516,7 +516,8 @@ const std::vector<Format>& formatTable()
          {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "picture", "",
           writePicture},
          {"view", meshed, Copies | Views, "view of pictures, for --view", "", writeCamera},
-         {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr}});
+         {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},
+         {"pockets.vdb", Build, Shares | AllFrames, "", "", nullptr}});
     return table;
 }
 

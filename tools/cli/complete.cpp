@@ -325,7 +325,8 @@ bool asksForNumbers(const Call& call)
     const bool unit = call.atoms.bySymmetry; // a mesh of it says nothing more of the whole
     // Estimates, bricks and prototypes are of grids; completeAreas() refuses them with areas.
     const bool ofGrid = call.dryRun || call.memory > 0 || call.atoms.instances;
-    const unsigned some = Areas | FrameRows | (ofGrid && call.areas.empty() ? 0u : Numbers);
+    const unsigned some =
+        Areas | FrameRows | Shares | (ofGrid && call.areas.empty() ? 0u : Numbers);
     return (call.verb & (Build | Batch)) != 0 && hasClosedForm(call.options) &&
            call.required.empty() && !(value && value->byPoint()) &&
            !(unit && (value || !isBoundary(call.options))) && !call.center && call.writesOnly(some);
@@ -340,8 +341,9 @@ void completeAreas(Call& call)
     if (!call.has("surface") && (!tables.empty() || call.options.interfaces)) {
         // The field's words mean this surface.
         call.options.areasOf = SurfaceKind::SolventAccessible;
-        if (call.writesOnly(Areas)) call.options.kind = SurfaceKind::SolventAccessible;
+        if (call.writesOnly(Areas | Shares)) call.options.kind = SurfaceKind::SolventAccessible;
     }
+    call.options.pockets |= call.writes(Shares);
     call.options.grid = !asksForNumbers(call);
     call.atoms.names = !tables.empty() || call.writes(ColorChoices);
     if (tables.empty()) return;

@@ -360,6 +360,10 @@ OptionGroup frameOptions()
               Build, MOLSURF_OF(frames)),
          ofFile(text("trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
                      Build, MOLSURF_OF(trajectory))),
+         flag("update-selections",
+              "selections by distance, as within 5 of resn HEM, are those\n"
+              "of each frame, and not of the first",
+              Build, MOLSURF_OF(updateSelections)),
          count("first-frame", "N", "number of the first file, such as 1001: name.1001.vdb, ...",
                "1", Build, 0, 999999, MOLSURF_OF(firstFrame)),
          shownIn(Grids | VertexCurvatures | Stage,

@@ -99,8 +99,9 @@ void addPockets(const BallSet& atoms, const SurfaceOptions& options, Progress& p
     result.report.pockets = PocketsReport{asked.probeIn, asked.probeOut, asked.cut,
                                           asked.neck,    options.voxel,  std::move(found.list)};
     const openvdb::GridPtrVec grids = {found.ids, found.depths};
+    const bool alone = !options.grid; // for their callers: no file has grids then
     for (const auto& grid : grids)
-        if (hasField(options.fields, grid->getName())) result.fields.push_back(grid);
+        if (alone || hasField(options.fields, grid->getName())) result.fields.push_back(grid);
     watch.stop("pockets");
 }
 
