@@ -201,10 +201,11 @@ MOLSURF_MEMBERS(BallNames::Residue, v.chain, v.labelChain, v.name, v.number, v.i
 MOLSURF_MEMBERS(BallNames::Atom, v.name, v.altloc, v.element, v.occupancy)
 MOLSURF_MEMBERS(BallNames, v.residues, v.residueOf, v.atoms)
 MOLSURF_MEMBERS(BallSet, v.balls, v.decays, v.resolutions, v.resolutionOf, v.drops, v.placement,
-                v.beads, v.beadAtoms, v.labels, v.names, v.colors, v.pocketAt, v.coloring, v.radii,
-                v.model, v.membrane, v.warnings)
-MOLSURF_MEMBERS(Attribute<float>, v.name, v.values)
-MOLSURF_MEMBERS(Attribute<std::int32_t>, v.name, v.values)
+                v.beads, v.beadAtoms, v.labels, v.names, v.colors, v.pocketAt, v.pore, v.coloring,
+                v.radii, v.model, v.membrane, v.warnings)
+MOLSURF_MEMBERS(BallSet::PoreWay, v.ends, v.axis)
+MOLSURF_MEMBERS(Attribute<float>, v.name, v.values, v.names)
+MOLSURF_MEMBERS(Attribute<std::int32_t>, v.name, v.values, v.names)
 MOLSURF_MEMBERS(MeshPart, v.name, v.firstTriangle)
 MOLSURF_MEMBERS(Mesh, v.positions, v.normals, v.triangles, v.scalars, v.labels, v.colors, v.parts)
 MOLSURF_MEMBERS(SurfaceReport::Shape, v.leastAngle, v.below20, v.below28, v.shortestEdge,
@@ -226,14 +227,17 @@ MOLSURF_MEMBERS(InterfaceReport, v.first, v.second, v.area, v.count, v.fit, v.bu
 MOLSURF_MEMBERS(PocketsReport::Pocket, v.volume, v.area, v.depth, v.radius, v.centre, v.open,
                 v.mouths, v.neighbours, v.lining)
 MOLSURF_MEMBERS(PocketsReport, v.probeIn, v.probeOut, v.cut, v.neck, v.voxel, v.list)
+MOLSURF_MEMBERS(Report::Pore::Station, v.place, v.normal, v.distance, v.radius, v.isBottleneck,
+                v.lining)
+MOLSURF_MEMBERS(Report::Pore, v.axis, v.stations)
 MOLSURF_MEMBERS(ResolutionReport, v.select, v.resolution, v.atoms, v.level)
 MOLSURF_MEMBERS(PartReport, v.name, v.atoms, v.surface)
 MOLSURF_MEMBERS(InstanceReport, v.part, v.name, v.matrix)
 MOLSURF_MEMBERS(SymmetryReport, v.pointGroup, v.order, v.copies, v.deviation, v.gap, v.openVertices)
 MOLSURF_MEMBERS(Report, v.program, v.version, v.command, v.input, v.atoms, v.voxel, v.center,
-                v.surface, v.coarse, v.resolutions, v.groups, v.interfaces, v.pockets, v.parts,
-                v.instances, v.symmetry, v.evolution, v.activeVoxels, v.gridBytes, v.seconds,
-                v.peakMemoryBytes, v.threads, v.warnings, v.areasOf)
+                v.surface, v.coarse, v.resolutions, v.groups, v.interfaces, v.pockets, v.pore,
+                v.parts, v.instances, v.symmetry, v.evolution, v.activeVoxels, v.gridBytes,
+                v.seconds, v.peakMemoryBytes, v.threads, v.warnings, v.areasOf)
 
 #undef MOLSURF_MEMBERS
 

@@ -315,6 +315,11 @@ nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::strin
             throw Error(ErrorKind::Usage, "table: expected a surface with `pockets`, got none");
         return dictOf(result.report.pockets->table(atoms));
     }
+    if (name == "pore") {
+        if (!result.report.pore)
+            throw Error(ErrorKind::Usage, "table: expected atoms read with `pore`, got none");
+        return dictOf(result.report.pore->table(atoms));
+    }
     if (result.contacts.empty())
         result.contacts =
             run(How(), [&](Progress& p) { return contactAreas(atoms.balls, probe, p); });

@@ -283,6 +283,18 @@ std::string pocketsLine(const PocketsReport& pockets)
     return line + formatted("; below a cut of %g Å", pockets.cut);
 }
 
+/// A line on the pore.
+std::string poreLine(const Report::Pore& pore)
+{
+    const auto narrower = [](const auto& a, const auto& b) { return a.radius < b.radius; };
+    const auto& least = *std::min_element(pore.stations.begin(), pore.stations.end(), narrower);
+    std::string line = formatted("pore: %s %.3f Å at (%.2f, %.2f, %.2f), length %.1f Å",
+                                 least.radius < 0.0 ? "closed, radius" : "narrowest", least.radius,
+                                 least.place[0], least.place[1], least.place[2], pore.length());
+    if (least.radius > 0.0) line += formatted(", conductance %.3g pS", pore.conductance());
+    return line;
+}
+
 } // namespace
 
 Report buildSurface(const Call& call, const BallSet& balls, const Report& read, Terminal& terminal,
@@ -293,6 +305,7 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
     if (call.quiet) return report;
     say(summary(report));
     if (report.pockets) say(pocketsLine(*report.pockets));
+    if (report.pore) say(poreLine(*report.pore));
     for (const std::string& line : leftOutOf(call)) say(line);
     const std::string closed = closedByField(report, call.options);
     if (!closed.empty()) say(closed);

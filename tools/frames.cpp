@@ -15,6 +15,7 @@
 #include "molsurf/io/temporary_file.h"
 #include "molsurf/io/usda_text.h"
 #include "molsurf/io/write_table.h"
+#include "molsurf/io/write_vdb.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/frame_source.h"
 #include "molsurf/surface/velocity.h"
@@ -145,6 +146,55 @@ void addVelocities(const Call& call, const BallSet& selection,
         addVelocity(selection, displacement, perTime, call.options, progress, result.mesh);
 }
 
+/// The share of frames in which a point is in a pocket, for a .pockets.vdb.
+class OpenShare
+{
+public:
+    explicit OpenShare(const Call& call)
+    {
+        for (const Output& output : call.outputs) {
+            if (!output.holds(Shares)) continue;
+            checkOutput(call, output);
+            file_ = std::make_unique<OutputFile>(output.path, call.force);
+            path_ = output.path;
+        }
+    }
+
+    bool isAsked() const { return file_ != nullptr; }
+    std::string temporary() const { return temporaryName(path_); }
+
+    void add(const MolecularSurface& result)
+    {
+        ++frames_;
+        for (const auto& grid : result.fields) {
+            const auto ids = openvdb::gridPtrCast<openvdb::Int32Grid>(grid);
+            if (!ids || ids->getName() != "pocket_id") continue;
+            if (!counts_) counts_ = openvdb::FloatGrid::create();
+            counts_->setTransform(ids->transform().copy());
+            auto counts = counts_->getAccessor();
+            for (auto voxel = ids->cbeginValueOn(); voxel; ++voxel)
+                counts.setValue(voxel.getCoord(), counts.getValue(voxel.getCoord()) + 1.0f);
+        }
+    }
+
+    std::unique_ptr<OutputFile> written(const openvdb::MetaMap& metadata)
+    {
+        if (!counts_) counts_ = openvdb::FloatGrid::create();
+        counts_->setName("pocket_open");
+        counts_->setGridClass(openvdb::GRID_FOG_VOLUME);
+        for (auto voxel = counts_->beginValueOn(); voxel; ++voxel)
+            voxel.setValue(*voxel / float(frames_));
+        writeVdb({counts_}, metadata, *file_);
+        return std::move(file_);
+    }
+
+private:
+    std::unique_ptr<OutputFile> file_;
+    std::string path_;
+    openvdb::FloatGrid::Ptr counts_;
+    int frames_ = 0;
+};
+
 /// All frames of a call, one after the other.
 class FrameRun
 {
@@ -152,8 +202,11 @@ public:
     FrameRun(const Call& asked, Terminal& terminal)
         : call_(asked), terminal_(terminal), source_(call_.input, call_.trajectory, call_.frames,
                                                      call_.atoms, probeOf(call_.options), terminal),
-          moves_(hasField(call_.options.fields, "v")), tableName_(tableOf(call_))
+          moves_(hasField(call_.options.fields, "v")), tableName_(tableOf(call_)), share_(call_)
     {
+        if (call_.updateSelections) source_.update();
+        if (share_.isAsked() && call_.options.grid && !hasField(call_.options.fields, "pocket_id"))
+            call_.options.fields.push_back("pocket_id");
         for (const ShowRule& rule : call_.shows) shown_.push_back(pictured(rule.select));
         for (const NoteRule& rule : call_.notes)
             for (const std::string& select : rule.selects) noted_.push_back(pictured(select));
@@ -173,7 +226,7 @@ public:
         }
         for (std::size_t i = 0; i < source_.size(); ++i) {
             calls_.push_back(callOf(call_, fileOf(i), source_.number(i)));
-            done_.push_back(!call_.force && areas_.empty() &&
+            done_.push_back(!call_.force && areas_.empty() && !share_.isAsked() &&
                             isDone(calls_[i], options_, table_, tableName_, fileOf(i)));
             if (done_[i]) continue;
             for (const Output& output : calls_[i].outputs) checkOutput(call_, output);
@@ -216,6 +269,11 @@ public:
     {
         OutputFiles tables;
         for (auto& [output, file] : areas_) tables.push_back(std::move(file));
+        if (share_.isAsked()) {
+            openvdb::MetaMap metadata = vdbMetadata(call_, lastReport_);
+            for (const char* ofFrame : {"area", "volume"}) metadata.removeMeta(ofFrame);
+            tables.push_back(share_.written(metadata));
+        }
         if (!tables.empty()) commitUndisturbed(tables);
         if (!call_.quiet) {
             if (!changes_.empty())
@@ -237,8 +295,10 @@ private:
     {
         if (call_.input == "-")
             misuse("--frames reads INPUT again for the atoms of pictures, expected a file, got -");
-        return std::make_unique<FrameSource>(call_.input, call_.trajectory, call_.frames,
-                                             picturedAtoms(call_, select), 0.0, terminal_);
+        auto source = std::make_unique<FrameSource>(call_.input, call_.trajectory, call_.frames,
+                                                    picturedAtoms(call_, select), 0.0, terminal_);
+        if (call_.updateSelections) source->update();
+        return source;
     }
 
     void make(std::size_t i)
@@ -248,6 +308,7 @@ private:
         if (!tableName_.empty()) table.temporaries.push_back(temporaryName(tableName_));
         for (const auto& [output, file] : areas_)
             table.temporaries.push_back(temporaryName(output.path));
+        if (share_.isAsked()) table.temporaries.push_back(share_.temporary());
         prepareOutputs(calls_[i], table.temporaries);
         terminal_.begin(i, size(),
                         "frame " + std::to_string(i + 1) + "/" + std::to_string(size()) + ": ");
@@ -266,6 +327,7 @@ private:
         read.seconds = {{"read", secondsSince(start)}};
         const auto extend = [&](MolecularSurface& result) {
             if (moves_) addVelocities(call_, balls, displacement, terminal_, result);
+            if (share_.isAsked()) share_.add(result);
             for (auto& [output, file] : areas_)
                 appendCsv(areaTable(output.format->table, call_, balls, result), source_.number(i),
                           i == 0, *file);
@@ -278,6 +340,7 @@ private:
             writeFrameTable(table_, *files.back());
         };
         const Report report = surfaceOf(calls_[i], balls, read, terminal_, start, extend, table);
+        lastReport_ = report;
         creeping_ += !row.rests;
         if (euler_ && *euler_ != row.euler)
             changes_ += (changes_.empty() ? "" : ", ") + std::to_string(row.frame);
@@ -293,6 +356,8 @@ private:
     bool moves_;
     std::string tableName_, options_;
     FrameTable table_;
+    OpenShare share_;
+    Report lastReport_;
     struct AreaFile {
         Output output;
         std::unique_ptr<OutputFile> file;

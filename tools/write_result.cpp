@@ -24,12 +24,14 @@
 #include "molsurf/io/write_view_script.h"
 #include "molsurf/io/write_volume.h"
 #include "molsurf/picture/draw_legend.h"
+#include "molsurf/picture/draw_profile.h"
 #include "molsurf/picture/view_file.h"
 #include "molsurf/picture/write_html.h"
 #include "molsurf/picture/write_png.h"
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/structure/text_fields.h"
 #include "molsurf/surface/compare.h"
+#include "molsurf/surface/pore.h"
 #include "molsurf/surface/stored_surface.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/unit_mesh.h"
@@ -169,6 +171,7 @@ DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, 
 {
     DrawOptions options = call.picture;
     options.instances = instancesOf(call, atoms, mesh, coloredCopies, progress);
+    if (call.options.color == ColorBy::Pocket) options.glass = neutralColor;
     const bool chosen = options.upright.lengthSqr() > 0.0 || options.toEye.lengthSqr() > 0.0;
     if (atoms.membrane && !chosen) options.upright = *atoms.membrane;
     if (atoms.placement.isWhole()) {
@@ -197,6 +200,7 @@ Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
     if (name == "contacts") table = contactTable(atoms, call.contacts, result);
     if (name == "interfaces") table = interfaceTable(atoms, result.report);
     if (name == "pockets") return result.report.pockets->table(atoms);
+    if (name == "pore") return result.report.pore->table(atoms);
     if (name == "forces") table = forceTable(atoms, shown, result.mesh);
     addOrigin(atoms, result.report.areasOf, probeOf(shown), table);
     return table;
@@ -364,6 +368,22 @@ void writeAreaTable(const Writing& w, OutputFile& file)
     writeCsv(areaTable(w.output.format->table, w.call, w.atoms, w.result), file);
 }
 
+/// The pore where the mesh lies.
+Mesh tubeOf(const Writing& w)
+{
+    Mesh tube = poreTube(*w.result.report.pore);
+    for (openvdb::Vec3f& x : tube.positions)
+        x = openvdb::Vec3f(openvdb::Vec3d(x) - originOf(w.call));
+    return tube;
+}
+
+void writeTube(const Writing& w, OutputFile& file)
+{
+    for (const MeshFormat& format : meshFormats())
+        if ("pore." + std::string(format.word) == w.output.format->word)
+            format.write(tubeOf(w), {stemOf(w.output.path), printUnit(w.call)}, file);
+}
+
 template<int axis>
 void writeDielectric(const Writing& w, OutputFile& file)
 {
@@ -399,67 +419,105 @@ void writeAtoms(const Writing& w, OutputFile& file)
 
 } // namespace
 
-const std::vector<Format>& formatTable()
+namespace
+{
+
+/// Tables of areas and the like, and what else is made of them.
+std::vector<Format> areaFormats()
 {
     constexpr const char* ofAreas = "table of areas";
+    constexpr const char* ofPore = ""; // --pore says it
     constexpr const char* withAreas = "atoms with areas as B factors";
-    constexpr unsigned all = Build | Batch | Convert | Compare | BricksMerge;
-    constexpr unsigned built = Build | Batch, meshed = built | Convert;
-    constexpr unsigned printed = Triangles | Colors | CutBorders | Millimetres;
-    static const std::vector<Format> table = {
-        {"vdb", all, Grids | Colors | SceneUnits, "level set and fields", "", writeGrids},
-        {"ply", all, Triangles | Colors | CutBorders | VertexCurvatures, "mesh", "", writeMesh},
-        {"obj", meshed, printed, "mesh", "", writeMesh},
-        {"stl", meshed, Triangles | Millimetres, "mesh", "", writeMesh},
-        {"off", meshed, Triangles | Colors | CutBorders, "mesh", "", writeMesh},
-        {"wrl", meshed, printed, "mesh", "", writeMesh},
-        {"vtk", meshed, Triangles | Colors | CutBorders | VertexCurvatures, "mesh", "", writeMesh},
-        {"glb", meshed,
-         Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels, "mesh",
-         "", writeGlb},
-        {"usda", Build,
-         Stage | Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels,
-         "mesh", "", writeStage},
-        {"3mf", meshed, printed | Paint, "mesh", "", writeMesh},
-        {"vert", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
-        {"face", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
-        {"poly", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
-        {"msh", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
-        {"msh2", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
-        {"mrc", meshed, Volume, "level set in a box", "", writeVolume<writeMrc>},
-        {"dx", meshed, Volume, "level set in a box", "", writeVolume<writeDx>},
-        {"dielx.dx", Build, Solver, "", "", writeDielectric<0>},
-        {"diely.dx", Build, Solver, "", "", writeDielectric<1>},
-        {"dielz.dx", Build, Solver, "", "", writeDielectric<2>},
-        {"kappa.dx", Build, Solver, "", "",
-         [](const Writing& w, OutputFile& file) {
-             writeIonMap(w.atoms.balls, *w.call.apbsGrid, w.call.dielectric.ionRadius, file);
-         }},
-        {"charges.pqr", Build, Solver, "", "",
-         [](const Writing& w, OutputFile& file) { writePqr(*w.atoms.charges, file); }},
-        {"apbs.in", Build, Solver, "", "", writeSolverInput},
-        {"cxc", meshed, Script | Colors | Copies, "scripts that open .glb and .ply", "",
-         writeScript<writeChimeraXScript>, "glb"},
-        {"pml", meshed, Script | Colors, "scripts that open .glb and .ply", "",
-         writeScript<writePymolScript>, "ply"},
-        {"html", meshed, Colors | ColorChoices | PlainColor | Copies | Levels | Views,
-         "page that shows it", "", writePage},
-        {"json", all, Numbers | Copies, "report", "",
-         [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
-        {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "picture", "", writePicture},
-        {"view", meshed, Copies | Views, "view of pictures, for --view", "", writeCamera},
-        {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},
+    constexpr unsigned built = Build | Batch;
+    return {
         {"atoms.csv", built, Areas | AllFrames, ofAreas, "atoms", writeAreaTable},
         {"residues.csv", built, Areas | AllFrames, ofAreas, "residues", writeAreaTable},
         {"contacts.csv", built, Areas | AllFrames, ofAreas, "contacts", writeAreaTable},
         {"interfaces.csv", built, Areas | AllFrames, ofAreas, "interfaces", writeAreaTable},
         {"pockets.csv", built, Areas | AllFrames, ofAreas, "pockets", writeAreaTable},
+        {"pore.csv", built, Areas | AllFrames, ofAreas, "pore", writeAreaTable},
         {"forces.csv", built, Areas | AllFrames, "derivatives of area and volume", "forces",
          writeAreaTable},
+        {"pore.svg", built, Areas, ofPore, "pore",
+         [](const Writing& w, OutputFile& file) { writeProfileSvg(*w.result.report.pore, file); }},
+        {"pore.png", built, Areas, ofPore, "pore",
+         [](const Writing& w, OutputFile& file) {
+             writePng(drawProfile(*w.result.report.pore, w.call.picture.width), file);
+         }},
+        {"pore.ply", built, Areas, ofPore, "pore", writeTube},
+        {"pore.obj", built, Areas, ofPore, "pore", writeTube},
+        {"pore.glb", built, Areas, ofPore, "pore",
+         [](const Writing& w, OutputFile& file) {
+             GlbOptions options;
+             options.name = stemOf(w.output.path);
+             options.scale = w.call.scene.scale;
+             writeGlb(tubeOf(w), options, file);
+         }},
         {"pdb", built, Areas, withAreas, "atoms", writeAtoms<writePdb>},
         {"cif", built, Areas, withAreas, "atoms", writeAtoms<writeMmcif>},
         {"residues.pdb", built, Areas, withAreas, "residues", writeAtoms<writePdb>},
         {"residues.cif", built, Areas, withAreas, "residues", writeAtoms<writeMmcif>}};
+}
+
+std::vector<Format> joined(std::vector<Format> first)
+{
+    for (const Format& format : areaFormats()) first.push_back(format);
+    return first;
+}
+
+} // namespace
+
+const std::vector<Format>& formatTable()
+{
+    constexpr unsigned all = Build | Batch | Convert | Compare | BricksMerge;
+    constexpr unsigned built = Build | Batch, meshed = built | Convert;
+    constexpr unsigned printed = Triangles | Colors | CutBorders | Millimetres;
+    static const std::vector<Format> table = joined(
+        {{"vdb", all, Grids | Colors | SceneUnits, "level set and fields", "", writeGrids},
+         {"ply", all, Triangles | Colors | CutBorders | VertexCurvatures, "mesh", "", writeMesh},
+         {"obj", meshed, printed, "mesh", "", writeMesh},
+         {"stl", meshed, Triangles | Millimetres, "mesh", "", writeMesh},
+         {"off", meshed, Triangles | Colors | CutBorders, "mesh", "", writeMesh},
+         {"wrl", meshed, printed, "mesh", "", writeMesh},
+         {"vtk", meshed, Triangles | Colors | CutBorders | VertexCurvatures, "mesh", "", writeMesh},
+         {"glb", meshed,
+          Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels,
+          "mesh", "", writeGlb},
+         {"usda", Build,
+          Stage | Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies |
+              Levels,
+          "mesh", "", writeStage},
+         {"3mf", meshed, printed | Paint, "mesh", "", writeMesh},
+         {"vert", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
+         {"face", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
+         {"poly", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
+         {"msh", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
+         {"msh2", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
+         {"mrc", meshed, Volume, "level set in a box", "", writeVolume<writeMrc>},
+         {"dx", meshed, Volume, "level set in a box", "", writeVolume<writeDx>},
+         {"dielx.dx", Build, Solver, "", "", writeDielectric<0>},
+         {"diely.dx", Build, Solver, "", "", writeDielectric<1>},
+         {"dielz.dx", Build, Solver, "", "", writeDielectric<2>},
+         {"kappa.dx", Build, Solver, "", "",
+          [](const Writing& w, OutputFile& file) {
+              writeIonMap(w.atoms.balls, *w.call.apbsGrid, w.call.dielectric.ionRadius, file);
+          }},
+         {"charges.pqr", Build, Solver, "", "",
+          [](const Writing& w, OutputFile& file) { writePqr(*w.atoms.charges, file); }},
+         {"apbs.in", Build, Solver, "", "", writeSolverInput},
+         {"cxc", meshed, Script | Colors | Copies, "scripts that open .glb and .ply", "",
+          writeScript<writeChimeraXScript>, "glb"},
+         {"pml", meshed, Script | Colors, "scripts that open .glb and .ply", "",
+          writeScript<writePymolScript>, "ply"},
+         {"html", meshed, Colors | ColorChoices | PlainColor | Copies | Levels | Views,
+          "page that shows it", "", writePage},
+         {"json", all, Numbers | Copies, "report", "",
+          [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
+         {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "picture", "",
+          writePicture},
+         {"view", meshed, Copies | Views, "view of pictures, for --view", "", writeCamera},
+         {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},
+         {"pockets.vdb", Build, Shares | AllFrames, "", "", nullptr}});
     return table;
 }
 

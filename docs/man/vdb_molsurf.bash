@@ -8,7 +8,7 @@ _vdb_molsurf()
         help|build|batch|compare|convert|bricks|info) verb=${COMP_WORDS[1]} ;;
     esac
     case $verb:$before in
-        "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx dielx.dx diely.dx dielz.dx kappa.dx charges.pqr apbs.in cxc pml html json png view atoms.csv residues.csv contacts.csv interfaces.csv pockets.csv forces.csv pdb cif residues.pdb residues.cif" ;;
+        "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx dielx.dx diely.dx dielz.dx kappa.dx charges.pqr apbs.in cxc pml html json png view pockets.vdb atoms.csv residues.csv contacts.csv interfaces.csv pockets.csv pore.csv forces.csv pore.svg pore.png pore.ply pore.obj pore.glb pdb cif residues.pdb residues.cif" ;;
         "build":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "build":--walls) words="all outer cavities" ;;
         "build":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth v" ;;
@@ -16,10 +16,10 @@ _vdb_molsurf()
         "build":--coarse) words="atom residue" ;;
         "build":--group-by) words="chain entity class copy" ;;
         "build":--split) words="group" ;;
-        "build":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
+        "build":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature pocket copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
         "build":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "build":--value-of) words="atom residue" ;;
-        "build":--areas) words="atoms residues contacts interfaces pockets forces" ;;
+        "build":--areas) words="atoms residues contacts interfaces pockets pore forces" ;;
         "build":--contacts) words="atom residue chain" ;;
         "build":--for) words="apbs blender blender4 houdini usd" ;;
         "build":--view) words="auto" ;;
@@ -36,10 +36,10 @@ _vdb_molsurf()
         "batch":--coarse) words="atom residue" ;;
         "batch":--group-by) words="chain entity class copy" ;;
         "batch":--split) words="group" ;;
-        "batch":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
+        "batch":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature pocket copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
         "batch":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "batch":--value-of) words="atom residue" ;;
-        "batch":--areas) words="atoms residues contacts interfaces pockets forces" ;;
+        "batch":--areas) words="atoms residues contacts interfaces pockets pore forces" ;;
         "batch":--contacts) words="atom residue chain" ;;
         "batch":--for) words="apbs blender blender4 houdini usd" ;;
         "batch":--view) words="auto" ;;
@@ -60,7 +60,7 @@ _vdb_molsurf()
         "convert":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx cxc pml html json png view" ;;
         "convert":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth v" ;;
         "convert":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
-        "convert":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature" ;;
+        "convert":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature pocket" ;;
         "convert":--view) words="auto" ;;
         "convert":--background) words="transparent" ;;
         "convert":--style) words="soft glossy outline flat" ;;
@@ -70,7 +70,7 @@ _vdb_molsurf()
         "bricks plan":--match) words="none ses" ;;
         "bricks plan":--coarse) words="atom residue" ;;
         "bricks plan":--group-by) words="chain entity class copy" ;;
-        "bricks plan":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
+        "bricks plan":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature pocket copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
         "bricks plan":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "bricks plan":--value-of) words="atom residue" ;;
         "bricks plan":--regularizer) words="gradient area" ;;

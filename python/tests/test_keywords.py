@@ -12,7 +12,7 @@ from conftest import ROOT
 from vdb_molsurf import _options
 
 # Options of `build` that set no member of the library's options: files, frames, pictures, the run.
-COMMAND_LINE = {"output", "format", "force", "weld", "frames", "first-frame", "fps", "fog-density", "trajectory", "lod", "groups", "crisp", "walls", "areas",
+COMMAND_LINE = {"output", "format", "force", "weld", "frames", "first-frame", "fps", "fog-density", "trajectory", "update-selections", "lod", "groups", "crisp", "walls", "areas",
                 "contacts", "for", "apbs-grid", "pdie", "sdie", "ion-conc", "center", "print-scale", "min-wall", "view", "up", "turn", "size", "background", "plain-color",
                 "depth-cue", "legend", "turntable", "scale-bar", "dpi", "style", "opacity", "all-walls", "clip", "show", "label", "ruler", "memory", "max-hours",
                 "dry-run", "require", "skip-existing", "threads", "quiet", "verbose", "no-progress", "config", "help", "help-all", "version", "list-radii"}
@@ -88,7 +88,8 @@ def test_every_keyword_is_taken(crambin):
                 "altloc": "all", "radii": "protor", "max_input": "1G", "copies": None, "lambda_": 0.02, "tolerance": 0.02,
                 "voxel": 1.0, "probe": 1.2, "blobbiness": 2.0, "epsilon": 0.4, "match": "ses", "remesh": 0.7, "density": 1.5, "adapt": 0.05,
                 "palette": "cividis", "value_of": "residue", "outward": 2,
-                "pocket_at": "resid 5", "probe_in": 1.2, "probe_out": 5, "pocket_cut": 1, "pocket_neck": 0.4}
+                "pocket_at": "resid 5", "probe_in": 1.2, "probe_out": 5, "pocket_cut": 1, "pocket_neck": 0.4,
+                "pore": "resid 2 -> resid 30"}
     for name, row in _options.KEYWORDS.items():
         value = True if row["type"] == "switch" else examples[name]
         if name in ("hetero", "no_hetero", "interfaces", "instances", "by_symmetry"):

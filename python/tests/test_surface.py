@@ -109,6 +109,15 @@ def brute_distance(points, x, r):
     return np.where(gaps >= 0, gaps, np.nan)
 
 
+def test_a_pore_is_a_table(crambin, ses):
+    from conftest import DATA
+    surface = ms.read(DATA / "1grm.pdb.gz", pore="0,-12.5,3 -> 0,12.5,3").surface(kind="ses", voxel=1)
+    assert min(surface.pore["radius_A"]) == surface.report["pore"]["radius"]
+    assert set(pickle.loads(pickle.dumps(surface)).pore) == set(surface.table("pore"))
+    with pytest.raises(ValueError, match="pore"):
+        ses.pore
+
+
 def test_pockets_are_a_table(crambin, ses):
     surface = crambin.surface(kind="ses", voxel=0.7, pockets=True, pocket_cut=0)
     table = surface.pockets

@@ -222,6 +222,11 @@ class Surface:
         return self.table("pockets")
 
     @property
+    def pore(self):
+        """Table of the pore, a row for each section, of atoms that were read with pore="auto" or its ends."""
+        return self.table("pore")
+
+    @property
     def closed(self):
         """Whether every edge of the mesh has two triangles."""
         return self._core.closed
@@ -237,11 +242,12 @@ class Surface:
         return json.loads(self._core.report_text())
 
     def table(self, name, level="residue"):
-        """A table as a dict of arrays: "atoms", "residues", "contacts", "interfaces" or "pockets".
+        """A table as a dict of arrays: "atoms", "residues", "contacts", "interfaces", "pockets" or "pore".
 
         level: of contacts: "atom", "residue" or "chain".
         """
-        names, levels = ("atoms", "residues", "contacts", "interfaces", "pockets"), ("atom", "residue", "chain")
+        names = ("atoms", "residues", "contacts", "interfaces", "pockets", "pore")
+        levels = ("atom", "residue", "chain")
         if name not in names:
             raise ValueError(f"table: expected {', '.join(names)}, got '{str(name)[:40]}'")
         if level not in levels:

@@ -233,6 +233,9 @@ struct SelectOptions {
     Coloring coloring;                       ///< how values and curvatures are shown
     std::string pocketAt; ///< atoms of the file, used or not, whose pocket is the
                           ///< only one that is wanted; empty: all are
+    /// The pore that is wanted: "auto", an axis as "z" or "0,0,1", or its ends with " -> " between,
+    /// each a point as "1,2,3" or atoms of the file. docs/pores.md. Empty: none.
+    std::string pore;
     std::optional<std::array<std::uint8_t, 3>>
         plainColor;         ///< red, green, blue (sRGB) that all balls get, if it is given
     bool instances = false; ///< whether the balls are those of each prototype of the assembly once,
@@ -334,6 +337,17 @@ struct Placement {
 
 /// Balls with their labels, and a record of how they were chosen.
 struct BallSet {
+    /// Where a pore is searched for.
+    struct PoreWay {
+        /// An end.
+        struct End {
+            openvdb::Vec3d place; ///< [Å]
+            bool isPoint;         ///< whether it is that point; else somewhere near it
+        };
+        std::vector<End> ends{};  ///< two, or none: it leads through the molecule
+        openvdb::Vec3d axis{0.0}; ///< along which it leads then, a unit vector; 0: to be found
+    };
+
     std::vector<Ball> balls;
     std::vector<Decay> decays; ///< one a ball; empty if there are no resolution rules
     std::vector<ResolutionGroup> resolutions; ///< one for each rule, in their order
@@ -349,6 +363,7 @@ struct BallSet {
     std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue (sRGB), one a ball; empty
                                                      ///< if the caller chose none
     std::vector<openvdb::Vec3d> pocketAt;            ///< places of SelectOptions::pocketAt [Å]
+    std::optional<PoreWay> pore;                     ///< as SelectOptions::pore says
     SelectOptions::Coloring coloring;                ///< as SelectOptions::coloring
     std::string radii; ///< the name of the set, or of the file, that the radii are from; empty: the
                        ///< structure's own

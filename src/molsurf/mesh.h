@@ -17,8 +17,9 @@ namespace molsurf
 /// A quantity that has a value at every vertex.
 template<typename T>
 struct Attribute {
-    std::string name;      ///< name in mesh files, for example "mean_curvature"
-    std::vector<T> values; ///< one for each vertex of the mesh
+    std::string name;                    ///< name in mesh files, for example "mean_curvature"
+    std::vector<T> values;               ///< one for each vertex of the mesh
+    std::vector<std::string> names = {}; ///< of what labels number, if the mesh alone knows them
 };
 
 /// A named part of a mesh: the triangles from its first one to that of the next part.

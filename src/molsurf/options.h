@@ -37,7 +37,8 @@ enum class ColorBy {
     GaussianCurvature,
     Value,        ///< values of the balls
     Illustrative, ///< the chain, lighter at carbon
-    Hetero        ///< the chain at carbon, else the element
+    Hetero,       ///< the chain at carbon, else the element
+    Pocket        ///< the pocket whose wall a point is
 };
 
 /// The term h that lambda weighs in the energy density w = g^2 + lambda h; section 2 of the paper

@@ -217,7 +217,8 @@ struct Table {
             values;
     };
 
-    std::string name; ///< "atoms", "residues", "contacts", "interfaces", "pockets" or "forces"
+    std::string name; ///< "atoms", "residues", "contacts", "interfaces", "pockets",
+                      ///< "pore" or "forces"
     std::vector<Column> columns;
     std::string note{}; ///< what all rows have in common; "": nothing
 };
@@ -306,6 +307,37 @@ struct SymmetryReport {
 
 /// The whole report.
 struct Report {
+    /// A way through the molecule. docs/pores.md.
+    struct Pore {
+        /// The largest ball of a section.
+        struct Station {
+            std::array<double, 3> place = {};  ///< its centre [Å]
+            std::array<double, 3> normal = {}; ///< of the section, a unit vector
+            double distance = 0.0;             ///< from the first section, along the normals [Å]
+            double radius = 0.0;               ///< negative within atoms [Å]
+            bool isBottleneck = false;         ///< whether it is the narrowest place nearby
+            std::vector<std::size_t> lining{}; ///< indices of balls within 1 Å of it in the
+                                               ///< caller's BallSet, the nearest first
+        };
+
+        std::array<double, 3> axis = {}; ///< from end to end, a unit vector
+        std::vector<Station> stations{}; ///< from end to end
+
+        double length() const { return stations.back().distance; }
+        double narrowest() const; ///< the least radius [Å]
+        /// Of a bath of bulkResistivity by Ohm's rule, without what leads to the ends; 0 where it
+        /// is closed [pS].
+        double conductance() const;
+        /// A row for every section: distance_A, height_A (along the axis), x_A, y_A, z_A, radius_A,
+        /// bottleneck (1 or 0), residues and atom_ids (within 1 Å, the nearest first).
+        /// @param[in] atoms  that it is of
+        Table table(const BallSet& atoms) const;
+
+        /// Of 1 M KCl at 25 °C, the demal solution of Jones and Bradshaw, J. Am. Chem. Soc.
+        /// 55:1780-1800, 1933: 0.11134 S/cm [Ω m].
+        static constexpr double bulkResistivity = 0.0898;
+    };
+
     std::string program = "vdb_molsurf";
     std::string version;                         ///< of the program
     std::string commit;                          ///< that it was built of; empty if not from git
@@ -335,6 +367,7 @@ struct Report {
     int threads = 0;                                     ///< number of threads that the run used
     std::vector<std::string> warnings;                   ///< one line each
     std::optional<PocketsReport> pockets;                ///< if they were asked for
+    std::optional<Pore> pore;                            ///< if it was asked for
     std::string areasOf; ///< kind of surface that interfaces and tables are of; empty if there are
                          ///< none
     std::vector<Table> tables; ///< areas by atom, by residue and so on, if its caller adds them

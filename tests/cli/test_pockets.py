@@ -7,7 +7,7 @@ import subprocess
 import unittest
 
 from needs import KVFINDER_PYTHON, needs
-from tool import CRAMBIN, DATA, ToolTest
+from tool import CRAMBIN, DATA, ToolTest, read_ply
 
 DIMER = DATA / "1a8o.pdb.gz"
 DETECT = """
@@ -43,6 +43,49 @@ class Pockets(ToolTest):
         self.assertAlmostEqual(float(rows[0]["volume"]), report["surface"]["cavity_list"][0]["volume"], places=3)
         self.assertAlmostEqual(report["pockets"]["list"][0]["volume"], float(rows[0]["volume"]), places=3)
         self.assertEqual(report["pockets"]["probe_out"], 4)
+
+    @needs("openvdb")
+    def test_the_share_of_frames_in_which_it_is_open(self):
+        import pyopenvdb as openvdb
+        places = range(-6, 7)
+        lines = []
+        for model, hole in ((1, 4.5), (2, 3.5), (3, 0.5)):
+            lines.append(f"MODEL     {model:4d}")
+            for n, (x, y, z) in enumerate((x, y, z) for x in places for y in places for z in places):
+                far = 40 if max(abs(x), abs(y), abs(z)) < hole else 0
+                lines.append(f"HETATM{n % 99999 + 1:5d}  C   UNK A{n % 9999 + 1:4d}    {x + far:8.3f}{y + far:8.3f}{z + far:8.3f}  1.00  0.00           C")
+            lines.append("ENDMDL")
+        (self.folder / "three.pdb").write_text("\n".join(lines) + "\nEND\n")
+        for more in ((), ("-o", "three.vdb", "--surface", "ses", "--fields", "pocket_depth")):
+            self.check(0, "three.pdb", "--hetero", "--frames", "all", "--voxel", "0.7", "--pockets", *more, "--force",
+                          "-o", "three.pockets.csv", "-o", "three.pockets.vdb")
+            grid = openvdb.readAllGridMetadata(str(self.folder / "three.pockets.vdb"))[0]
+            self.assertEqual(grid.name, "pocket_open")
+            grid = openvdb.read(str(self.folder / "three.pockets.vdb"), "pocket_open")
+            shares = {}
+            for item in grid.citerOnValues():
+                shares[round(item.value, 4)] = shares.get(round(item.value, 4), 0) + item.count
+            self.assertEqual(set(shares), {0.3333, 0.6667})
+            self.assertAlmostEqual(grid.getConstAccessor().getValue((0, 0, 0)), 2 / 3, places=5)
+        self.check(2, "three.pdb", "--hetero", "-o", "one.pockets.vdb", says=["--frames"])
+
+    def test_walls_of_pockets_have_colours(self):
+        self.box("two.xyzr", lambda x: max(abs(abs(x[0]) - 3.5), abs(x[1]), abs(x[2])) < 2.6)
+        self.check(0, "two.xyzr", "--surface", "ses", "--color", "pocket", "--voxel", "0.6", "-o", "two.ply", "-o", "two.png",
+                      "-o", "two.html", "-o", "two.pockets.csv", "--opacity", "0.3", "--all-walls", "--size", "200")
+        rows = self.table("two.pockets.csv")[1]
+        self.assertEqual(len(rows), 2)
+        names, vertices, _ = read_ply((self.folder / "two.ply").read_bytes())
+        at = names.index("pocket")
+        for row in rows:
+            own = [v for v in vertices if v[at] == int(row["pocket"])]
+            x = sum(v[0] for v in own) / len(own)
+            self.assertAlmostEqual(x, float(row["x_A"]), delta=0.1)
+            self.assertEqual(len({v[-3:] for v in own}), 1)
+        self.assertEqual(len({v[-3:] for v in vertices}), 3)  # and what is no pocket's
+        outside = [v for v in vertices if max(map(abs, v[:3])) > 7]
+        self.assertEqual({v[at] for v in outside}, {0})
+        self.assertIn("1: ", (self.folder / "two.html").read_text())
 
     def test_a_table_without_pockets_is_empty(self):
         self.check(0, CRAMBIN, "--probe-in", 3, "--voxel", 1, "-o", "none.pockets.csv", says=["pockets: 0"])

@@ -57,7 +57,8 @@ enum Holds : unsigned {
     Volume = 1 << 18,           ///< the level set on all points of a box
     Paint = 1 << 20,            ///< colours of triangles for slicers, of which there are few
     Script = 1 << 19,           ///< what opens another file of the run
-    Solver = 1 << 21            ///< what APBS reads
+    Solver = 1 << 21,           ///< what APBS reads
+    Shares = 1 << 22            ///< shares of frames, on voxels
 };
 
 /// What a file is written of, and how.
@@ -135,11 +136,12 @@ struct Call : Settings {
     std::string folder;                   ///< Batch: where the files go
     std::string formats = "vdb,ply,json"; ///< Batch: of every structure
     bool force = false;
-    bool skipExisting = false; ///< Build: nothing is done where it was done before
-    std::string frames;        ///< of --frames; empty: none
-    std::string trajectory;    ///< a .dcd or .xtc with the frames; empty: models are
-    double fps = 0.0;          ///< frames per second; 0: times are in frames
-    int firstFrame = 1;        ///< number of the first file of frames
+    bool skipExisting = false;     ///< Build: nothing is done where it was done before
+    std::string frames;            ///< of --frames; empty: none
+    bool updateSelections = false; ///< whether selections by distance are those of each frame
+    std::string trajectory;        ///< a .dcd or .xtc with the frames; empty: models are
+    double fps = 0.0;              ///< frames per second; 0: times are in frames
+    int firstFrame = 1;            ///< number of the first file of frames
     std::string groupsFile;
     std::vector<double> lod; ///< voxels of levels of detail [Å], the finest first; empty: one
     Scene scene;             ///< of the .vdb and the node of the .glb

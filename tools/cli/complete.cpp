@@ -325,7 +325,8 @@ bool asksForNumbers(const Call& call)
     const bool unit = call.atoms.bySymmetry; // a mesh of it says nothing more of the whole
     // Estimates, bricks and prototypes are of grids; completeAreas() refuses them with areas.
     const bool ofGrid = call.dryRun || call.memory > 0 || call.atoms.instances;
-    const unsigned some = Areas | FrameRows | (ofGrid && call.areas.empty() ? 0u : Numbers);
+    const unsigned some =
+        Areas | FrameRows | Shares | (ofGrid && call.areas.empty() ? 0u : Numbers);
     return (call.verb & (Build | Batch)) != 0 && hasClosedForm(call.options) &&
            call.required.empty() && !(value && value->byPoint()) &&
            !(unit && (value || !isBoundary(call.options))) && !call.center && call.writesOnly(some);
@@ -340,15 +341,19 @@ void completeAreas(Call& call)
     if (!call.has("surface") && (!tables.empty() || call.options.interfaces)) {
         // The field's words mean this surface.
         call.options.areasOf = SurfaceKind::SolventAccessible;
-        if (call.writesOnly(Areas)) call.options.kind = SurfaceKind::SolventAccessible;
+        if (call.writesOnly(Areas | Shares)) call.options.kind = SurfaceKind::SolventAccessible;
     }
+    call.options.pockets |= call.writes(Shares);
     call.options.grid = !asksForNumbers(call);
     call.atoms.names = !tables.empty() || call.writes(ColorChoices);
     if (tables.empty()) return;
     SurfaceOptions& options = call.options;
     options.contacts = tables.count("contacts") > 0;
     options.pockets |= tables.count("pockets") > 0;
-    options.ballAreas = tables.size() > tables.count("contacts") + tables.count("pockets");
+    if (tables.count("pore") > 0 && call.atoms.pore.empty()) call.atoms.pore = "auto";
+    options.ballAreas = std::any_of(tables.begin(), tables.end(), [](const std::string& table) {
+        return table != "contacts" && table != "pockets" && table != "pore";
+    });
     if (tables.count("interfaces") == 0) return;
     options.interfaces = true;
     if (call.groupsFile.empty() && !call.atoms.groupBy && !call.colorGroups)

@@ -23,8 +23,8 @@ namespace molsurf::tool
 
 const std::vector<std::string>& areaTables()
 {
-    static const std::vector<std::string> all = {"atoms",      "residues", "contacts",
-                                                 "interfaces", "pockets",  "forces"};
+    static const std::vector<std::string> all = {"atoms",   "residues", "contacts", "interfaces",
+                                                 "pockets", "pore",     "forces"};
     return all;
 }
 
@@ -365,6 +365,10 @@ OptionGroup frameOptions()
               Build, MOLSURF_OF(frames)),
          ofFile(text("trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
                      Build, MOLSURF_OF(trajectory))),
+         flag("update-selections",
+              "selections by distance, as within 5 of resn HEM, are those\n"
+              "of each frame, and not of the first",
+              Build, MOLSURF_OF(updateSelections)),
          count("first-frame", "N", "number of the first file, such as 1001: name.1001.vdb, ...",
                "1", Build, 0, 999999, MOLSURF_OF(firstFrame)),
          shownIn(Grids | VertexCurvatures | Stage,
@@ -471,7 +475,7 @@ OptionGroup areaOptions()
                  0,
                  "LIST",
                  "tables for the report, by commas: atoms, residues,\ncontacts, interfaces, "
-                 "pockets,\nforces",
+                 "pockets,\npore, forces",
                  "",
                  wholes,
                  areaTables()};
@@ -495,7 +499,7 @@ OptionGroup pocketOptions()
     return {"Pockets",
             {setting("pockets", wholes), setting("pocket-at", wholes), setting("probe-in", wholes),
              setting("probe-out", wholes), setting("pocket-cut", wholes),
-             setting("pocket-neck", wholes)}};
+             setting("pocket-neck", wholes), setting("pore", wholes)}};
 }
 
 OptionGroup sceneOptions()

@@ -55,10 +55,11 @@ std::vector<Pair> assemblyPairs()
             {"instances",
              Excludes,
              {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center",
-              "color=radius", "color=potential", "pockets"}},
+              "color=radius", "color=potential", "color=pocket", "pockets", "pore"}},
             {"by-symmetry",
              Excludes,
-             {"pockets", "frames", "trajectory", "memory", "dry-run", "center", "color=potential"}},
+             {"pockets", "color=pocket", "pore", "frames", "trajectory", "memory", "dry-run",
+              "center", "color=potential"}},
             {Holds(Grids | Volume),
              Excludes,
              {"by-symmetry"},
@@ -141,7 +142,7 @@ std::vector<Pair> pocketPairs()
     for (const char* option : {"pocket-at", "probe-in", "probe-out", "pocket-cut", "pocket-neck"})
         pairs.push_back({option,
                          IsFor,
-                         {"pockets", {Areas, "pockets"}, "areas=pockets"},
+                         {"pockets", "color=pocket", {Areas, "pockets"}, "areas=pockets"},
                          "--pockets and .pockets.csv"});
     return pairs;
 }
@@ -216,6 +217,9 @@ std::vector<Pair> runPairs()
         {"model", Excludes, {"frames"}, ": frames are models [hint: --trajectory]", fromModels},
         {"fps", Needs, {"frames", "trajectory"}},
         {"first-frame", Needs, {"frames", "trajectory"}},
+        {"update-selections", Needs, {"frames", "trajectory"}},
+        {"update-selections", Excludes, {"fields=v"}, ": its atoms have to be those of all frames"},
+        {{Shares}, Needs, {"frames", "trajectory"}, " [hint: -o FILE.vdb has the grid pocket_id]"},
         {"start", IsFor, {"frames", "trajectory"}, "--frames"},
         {"fields=v", Needs, {"frames", "trajectory"}, ": it is the way between frames", ofStored},
         {{FrameRows}, Needs, {"frames", "trajectory"}, " [hint: -o FILE.residues.csv for areas]"},

@@ -292,6 +292,22 @@ ColorKind byCurvature(ColorBy by, const char* word, const char* title, const cha
     return kind;
 }
 
+/// The pockets that vertices are the walls of, which addPockets() tells.
+ColorKind byPocket()
+{
+    ColorKind kind{ColorBy::Pocket, "pocket", "Pocket", "pocket"};
+    kind.describe = [](const BallSet&, const Mesh& mesh, const Progress&, Legend& legend) {
+        for (const auto& label : mesh.labels) {
+            if (label.name != legend.attribute || mesh.colors.empty()) continue;
+            for (const std::string& name : label.names)
+                legend.entries.push_back({name, neutralColor});
+            for (std::size_t v = 0; v < label.values.size(); ++v)
+                legend.entries[std::size_t(label.values[v])].color = mesh.colors[v];
+        }
+    };
+    return kind;
+}
+
 /// The values name themselves in the legend.
 ColorKind byValue()
 {
@@ -342,6 +358,7 @@ const std::vector<ColorKind>& colorTable()
                     "1/Å"),
         byCurvature(ColorBy::GaussianCurvature, "gaussian-curvature", "Gaussian curvature",
                     "gaussian_curvature", "1/Å²"),
+        byPocket(),
         plain(),
         byValue()};
     return all;

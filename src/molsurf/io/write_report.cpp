@@ -170,6 +170,29 @@ Json pocketsJson(const PocketsReport& pockets)
             {"voxel", pockets.voxel},      {"list", std::move(list)}};
 }
 
+Json poreJson(const Report::Pore& pore)
+{
+    Json necks = Json::array(), distances = necks, radii = necks, centers = necks;
+    for (const Report::Pore::Station& s : pore.stations) {
+        distances.push_back(s.distance);
+        radii.push_back(s.radius);
+        centers.push_back(s.place);
+        if (s.isBottleneck)
+            necks.push_back(
+                Json{{"center", s.place}, {"distance", s.distance}, {"radius", s.radius}});
+    }
+    return {{"axis", pore.axis},
+            {"length", pore.length()},
+            {"radius", pore.narrowest()},
+            {"conductance", pore.conductance()},
+            {"resistivity", Report::Pore::bulkResistivity},
+            {"bottlenecks", std::move(necks)},
+            {"profile",
+             {{"distance", std::move(distances)},
+              {"radius", std::move(radii)},
+              {"center", std::move(centers)}}}};
+}
+
 Json partsJson(const std::vector<PartReport>& parts)
 {
     Json out = Json::array();
@@ -280,6 +303,7 @@ std::string reportText(const Report& report)
         {"areas_of", orNull(report.areasOf)},
         {"interfaces", interfacesJson(report.interfaces)},
         {"pockets", report.pockets ? pocketsJson(*report.pockets) : Json()},
+        {"pore", report.pore ? poreJson(*report.pore) : Json()},
         {"parts", partsJson(report.parts)},
         {"instances", instancesJson(report.instances)},
         {"symmetry", report.symmetry ? symmetryJson(*report.symmetry) : Json()},

@@ -110,7 +110,8 @@ private:
     /// More light is held back by what is seen from the side, as of a thin skin.
     float opacityOf(const Seen& seen) const
     {
-        if (options_.opacity >= 1.0 || seen.opaque()) return 1.0f;
+        const bool solid = options_.glass && seen.color != *options_.glass;
+        if (options_.opacity >= 1.0 || seen.opaque() || solid) return 1.0f;
         const float facing = std::max(seen.normal()[2], 0.05f);
         return 1.0f - std::pow(1.0f - float(options_.opacity), 1.0f / facing);
     }

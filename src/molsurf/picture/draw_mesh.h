@@ -64,6 +64,8 @@ struct DrawOptions {
     double dpi = 0.0;                    ///< Picture::dpi
     Color plain = {140, 181, 222};       ///< of a mesh without colours
     const PictureStyle* style = nullptr; ///< null: the first of styleTable()
+    std::optional<Color> glass{}; ///< if there is one: with `opacity` only what has this colour is
+                                  ///< seen through
     double opacity = 1.0;  ///< of a surface seen from the front, in (0, 1]; what is seen aslant is
                            ///< more opaque
     bool allWalls = false; ///< whether walls behind the nearest one are seen through it, too

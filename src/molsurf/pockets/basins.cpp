@@ -30,27 +30,6 @@ std::vector<VoxelPlace> fallingVoxels(const VoidField& space)
     return out;
 }
 
-/// Calls f(place) for the voxels that edges join to one, as far as there are leaves for them.
-template<typename F>
-void forEachJoined(const LeafTable& table, VoxelPlace place, const F& f)
-{
-    const std::size_t n = place / leafSize;
-    const int v = int(place % leafSize), at[3] = {v >> 6, v >> 3 & 7, v & 7};
-    for (const int sign : {1, -1}) {
-        for (const auto& way : edgeWays) {
-            int leaf = centreNeighbour, voxel = 0;
-            constexpr int weights[3] = {9, 3, 1};
-            for (int k = 0; k < 3; ++k) {
-                const int to = at[k] + sign * way[k];
-                leaf += weights[k] * (to < 0 ? -1 : to >= leafDim ? 1 : 0);
-                voxel = 8 * voxel + (to & 7);
-            }
-            const std::int32_t m = table.neighbours(n)[std::size_t(leaf)];
-            if (m != noLeaf) f(VoxelPlace(std::size_t(m) * leafSize + std::size_t(voxel)));
-        }
-    }
-}
-
 /// Parts that grow and join.
 class Parts
 {

@@ -5,10 +5,12 @@
 #include "molsurf/balls/excluded_measure.h"
 #include "molsurf/balls/nearest_ball.h"
 #include "molsurf/core/disjoint_sets.h"
+#include "molsurf/pockets/clearance.h"
 #include "molsurf/pockets/measure_basins.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -44,8 +46,19 @@ std::vector<std::vector<PocketReport::Lining>> liningsOf(const std::vector<Ball>
 }
 
 /// What is reported of a basin itself.
+/// The radius of the largest ball that gets to a mouth: exactly, where it is a neck between balls
+/// that it just passes, and not the mouth itself.
+double passingRadius(const BasinMeasure::Mouth& mouth, const Clearance& clearance, double voxelSize)
+{
+    const double most = 0.87 * voxelSize; // half of the diagonal, which the clearance is off by
+    const auto neck = clearance.neckNear(mouth.narrowest, most, mouth.radius + most);
+    const bool between = neck && neck->radius > mouth.radius - 0.25 * voxelSize; // two voxels
+    return between ? neck->radius : mouth.radius;
+}
+
 PocketReport pocketOf(const BasinMeasure& basin, double peak, double leastMouth,
-                      const OuterDepth& outer)
+                      const OuterDepth& outer,
+                      const std::function<double(const BasinMeasure::Mouth&)>& passing)
 {
     constexpr double guess = 10.0; // of a pocket's depth and the probe [Å]
     PocketReport out;
@@ -55,7 +68,7 @@ PocketReport pocketOf(const BasinMeasure& basin, double peak, double leastMouth,
     out.radius = peak;
     for (int k = 0; k < 3; ++k) out.centre[std::size_t(k)] = basin.moment[k] / basin.volume;
     for (const BasinMeasure::Mouth& mouth : basin.mouths)
-        if (mouth.radius >= leastMouth) out.mouths.push_back({mouth.area, mouth.radius});
+        if (mouth.widest >= leastMouth) out.mouths.push_back({mouth.area, passing(mouth)});
     std::stable_sort(out.mouths.begin(), out.mouths.end(),
                      [](const auto& a, const auto& b) { return a.area > b.area; });
     return out;
@@ -94,7 +107,7 @@ std::vector<char> opened(const Basins& basins, const std::vector<BasinMeasure>& 
     std::vector<char> roots(basins.count(), 0), out;
     for (std::uint32_t b = 0; b < measures.size(); ++b)
         for (const BasinMeasure::Mouth& mouth : measures[b].mouths)
-            if (mouth.radius >= leastMouth) roots[sets.find(b)] = 1;
+            if (mouth.widest >= leastMouth) roots[sets.find(b)] = 1;
     for (std::uint32_t b = 0; b < measures.size(); ++b) out.push_back(roots[sets.find(b)]);
     return out;
 }
@@ -193,13 +206,17 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
     std::vector<std::vector<PocketReport::Lining>> linings =
         liningsOf(balls, measures, 2.0 * options.probeIn + voxelSize, progress);
     const BallIndex index(balls, {1.0, options.probeIn, 1.0});
+    const Clearance clearance(balls);
+    const auto passing = [&](const BasinMeasure::Mouth& mouth) {
+        return passingRadius(mouth, clearance, voxelSize);
+    };
     std::vector<char> hasNeck(basins.count(), 0);
     for (const Neck& neck : basins.necks)
         for (const std::int32_t basin : neck.basins) hasNeck[std::size_t(basin)] = 1;
     std::vector<FoundPocket> found;
     for (std::size_t b = 0; b < basins.count(); ++b) {
         PocketReport pocket =
-            pocketOf(measures[b], double(basins.peaks[b]), leastMouth, *space.outer);
+            pocketOf(measures[b], double(basins.peaks[b]), leastMouth, *space.outer, passing);
         pocket.open = isOpen[b];
         pocket.lining = std::move(linings[b]);
         if (measures[b].mouths.empty() && !hasNeck[b])

@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <queue>
 #include <utility>
 
 namespace molsurf
@@ -262,6 +263,80 @@ private:
     std::vector<std::int32_t> basins_;
 };
 
+openvdb::Vec3d pointOf(const VoidField& space, VoxelPlace place)
+{
+    const int v = int(place % leafSize);
+    return space.table.origin(place / leafSize).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
+           space.voxelSize;
+}
+
+/// The widest ways from the widest voxels of basins to their mouths: where each is narrowest.
+class Passages
+{
+public:
+    Passages(const VoidField& space, const Basins& basins, const Mouths& mouths)
+        : space_(space), narrowest_(space.table.size() * leafSize, none),
+          ofMouth_(mouths.count(), none)
+    {
+        std::vector<std::int32_t> mouthOf(narrowest_.size(), -1);
+        for (const auto& [place, mouth] : mouths.voxels()) mouthOf[place] = std::int32_t(mouth);
+        begin(basins, mouths);
+        // Wide ways come first, so that the first voxel of a mouth has the widest.
+        for (std::size_t left = mouths.count(); left > 0 && !open_.empty();) {
+            const VoxelPlace from = open_.top().second;
+            open_.pop();
+            const std::int32_t mouth = mouthOf[from];
+            if (mouth >= 0 && ofMouth_[std::size_t(mouth)] == none) {
+                ofMouth_[std::size_t(mouth)] = narrowest_[from];
+                --left;
+            }
+            const std::int32_t b = basins.of.leaf(from / leafSize)[from % leafSize];
+            forEachJoined(space.table, from, [&](VoxelPlace to) {
+                if (basins.of.leaf(to / leafSize)[to % leafSize] != b || narrowest_[to] != none)
+                    return;
+                const VoxelPlace before = narrowest_[from];
+                reach(to, clearance(to) < clearance(before) ? to : before);
+            });
+        }
+    }
+
+    /// Where the way to a mouth is narrowest; `none` if there is none.
+    VoxelPlace narrowest(std::size_t mouth) const { return ofMouth_[mouth]; }
+    float clearance(VoxelPlace place) const
+    {
+        return space_.clearance.leaf(place / leafSize)[place % leafSize];
+    }
+
+    static constexpr VoxelPlace none = ~VoxelPlace(0);
+
+private:
+    /// Begins at the first of the widest voxels of each basin that has a mouth.
+    void begin(const Basins& basins, const Mouths& mouths)
+    {
+        std::vector<char> begins(basins.count(), 0);
+        for (std::size_t m = 0; m < mouths.count(); ++m) begins[std::size_t(mouths.basin(m))] = 1;
+        for (std::size_t n = 0; n < space_.table.size(); ++n) {
+            space_.table.active(n).forEach([&](int v) {
+                const auto b = std::size_t(basins.of.leaf(n)[v]);
+                const auto place = VoxelPlace(n * leafSize + std::size_t(v));
+                if (!begins[b] || clearance(place) < basins.peaks[b]) return;
+                begins[b] = 0;
+                reach(place, place);
+            });
+        }
+    }
+
+    void reach(VoxelPlace place, VoxelPlace narrowest)
+    {
+        narrowest_[place] = narrowest;
+        open_.emplace(clearance(narrowest), place);
+    }
+
+    const VoidField& space_;
+    std::vector<VoxelPlace> narrowest_, ofMouth_;
+    std::priority_queue<std::pair<float, VoxelPlace>> open_;
+};
+
 } // namespace
 
 std::vector<BasinMeasure> measureBasins(const VoidField& space, const Basins& basins,
@@ -288,17 +363,23 @@ std::vector<BasinMeasure> measureBasins(const VoidField& space, const Basins& ba
             const float below = space.below.leaf(n)[v];
             if (below <= depths[b]) return;
             depths[b] = below;
-            out[b].deepest = space.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
-                             space.voxelSize;
+            out[b].deepest = pointOf(space, VoxelPlace(n * leafSize + std::size_t(v)));
         });
     }
     const Mouths mouths(leaves);
+    const Passages passages(space, basins, mouths);
     std::vector<double> widest(mouths.count(), 0.0);
     for (const auto& [place, mouth] : mouths.voxels())
-        widest[mouth] = std::max(widest[mouth],
-                                 double(space.clearance.leaf(place / leafSize)[place % leafSize]));
-    for (std::size_t m = 0; m < mouths.count(); ++m)
-        out[std::size_t(mouths.basin(m))].mouths.push_back({mouths.area(m), widest[m]});
+        widest[mouth] = std::max(widest[mouth], double(passages.clearance(place)));
+    for (std::size_t m = 0; m < mouths.count(); ++m) {
+        const VoxelPlace narrowest = passages.narrowest(m);
+        BasinMeasure::Mouth mouth{mouths.area(m), widest[m]};
+        if (narrowest != Passages::none) {
+            mouth.radius = passages.clearance(narrowest);
+            mouth.narrowest = pointOf(space, narrowest);
+        }
+        out[std::size_t(mouths.basin(m))].mouths.push_back(mouth);
+    }
     return out;
 }
 

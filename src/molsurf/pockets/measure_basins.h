@@ -20,7 +20,10 @@ struct BasinMeasure {
     /// Where it ends by the cut.
     struct Mouth {
         double area = 0.0;   ///< [Å^2]
-        double radius = 0.0; ///< of the largest ball that gets there from the widest place [Å]
+        double widest = 0.0; ///< the largest clearance of its voxels [Å]
+        double radius = 0.0; ///< of the largest ball that gets there from the widest place, by
+                             ///< voxels: a little too small [Å]
+        openvdb::Vec3d narrowest{0.0}; ///< the voxel where it just passes [Å]
     };
     /// A piece of its wall.
     struct Wall {

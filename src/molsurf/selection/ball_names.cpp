@@ -6,6 +6,11 @@
 namespace molsurf
 {
 
+std::string titleOf(const BallNames::Residue& residue)
+{
+    return (residue.chain.empty() ? "_" : residue.chain) + "/" + residue.name + numberText(residue);
+}
+
 std::string numberText(const BallNames::Residue& residue)
 {
     std::string text = std::to_string(residue.number);

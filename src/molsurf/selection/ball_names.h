@@ -30,6 +30,9 @@ BallNames ballNames(const Structure& structure, const BallSet& atoms);
 /// The number of a residue with its insertion code, if it has one: "52A".
 std::string numberText(const BallNames::Residue& residue);
 
+/// A residue as tables name it: "A/ALA52", "_/ALA52" without a chain.
+std::string titleOf(const BallNames::Residue& residue);
+
 /// The name of the amino acid that a residue is a form of: HIS for the protonation states of force
 /// fields HID, HIE, HIP, HSD, HSE and HSP; CYS for CYX and CYM; ASP for ASH, GLU for GLH, LYS for
 /// LYN, MET for the selenomethionine MSE; others keep their names.

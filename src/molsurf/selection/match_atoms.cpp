@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/match_atoms.h"
+#include "molsurf/selection/pore_way.h"
 
 #include "molsurf/error.h"
 #include "molsurf/selection/parse_words.h"
@@ -185,6 +186,7 @@ AtomMatch matchAtoms(const Structure& structure, const std::string& expression)
 void settleSelections(const SelectOptions& options, const Model& model, Structure& structure)
 {
     std::vector<std::string> expressions{options.select, options.pocketAt};
+    for (const std::string& end : poreSelections(options.pore)) expressions.push_back(end);
     for (const GroupRule& rule : options.groups) expressions.push_back(rule.select);
     for (const ResolutionRule& rule : options.resolutions) expressions.push_back(rule.select);
     for (const CoarseRule& rule : options.coarse) expressions.push_back(rule.select);

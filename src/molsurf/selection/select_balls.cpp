@@ -16,6 +16,7 @@
 #include "molsurf/selection/membrane.h"
 #include "molsurf/selection/molecule.h"
 #include "molsurf/selection/point_charges.h"
+#include "molsurf/selection/pore_way.h"
 #include "molsurf/selection/radii.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/selection/symmetric_unit.h"
@@ -560,6 +561,7 @@ void placeBalls(const Structure& structure, const SelectOptions& options, std::v
 void checkOptions(const SelectOptions& options)
 {
     checkCopies(options.copies);
+    checkPore(options.pore);
     if (options.groupBy && options.groupBy->kind == GroupBy::Kind::Residues &&
         options.groupBy->residues < 1)
         throw Error(ErrorKind::Usage, "`groupBy`: expected at least one residue, got " +
@@ -616,6 +618,14 @@ std::vector<openvdb::Vec3d> pocketPlaces(const Structure& structure, const Selec
                                           " matches no atom of model " +
                                           std::to_string(model.number));
     return out;
+}
+
+/// Adds where a pocket and a pore are searched for.
+void addPlaces(const Structure& structure, const SelectOptions& options, const Model& model,
+               BallSet& out)
+{
+    out.pocketAt = pocketPlaces(structure, options, model);
+    out.pore = poreWay(options.pore, structure, model);
 }
 
 } // namespace
@@ -683,8 +693,8 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
                             out.labels->warnings.end());
     }
     stopIfCancelled(progress);
+    addPlaces(structure, options, model, out);
     out.coloring = options.coloring;
-    out.pocketAt = pocketPlaces(structure, options, model);
     if (options.valueBy) addValues(structure, options, probe, progress, out);
     if (options.plainColor) out.colors.assign(out.balls.size(), *options.plainColor);
     if (options.names) out.names = ballNames(structure, out);

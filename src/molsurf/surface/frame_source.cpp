@@ -133,6 +133,12 @@ void FrameSource::settle()
     settleSelections(atoms_, trajectory_ ? models[model_] : *first, structure_);
 }
 
+void FrameSource::update()
+{
+    updates_ = true;
+    structure_.settled.clear();
+}
+
 BallSet FrameSource::load(std::size_t i)
 {
     SelectOptions options = atoms_;
@@ -153,7 +159,9 @@ void FrameSource::keepColors(BallSet& selection)
 {
     if (!selection.labels || !first_.labels) return;
     selection.labels->chainColors = first_.labels->chainColors;
-    for (std::size_t g = 0; g < selection.labels->groups.size(); ++g)
+    const std::size_t known =
+        std::min(selection.labels->groups.size(), first_.labels->groups.size());
+    for (std::size_t g = 0; g < known; ++g)
         selection.labels->groups[g].color = first_.labels->groups[g].color;
 }
 
@@ -163,7 +171,7 @@ const BallSet& FrameSource::balls(std::size_t i)
     const auto known = loaded_.find(i);
     if (known != loaded_.end()) return known->second;
     BallSet selection = load(i);
-    if (selection.balls.size() != first_.balls.size())
+    if (!updates_ && selection.balls.size() != first_.balls.size())
         throw Error(ErrorKind::Input, "frame " + std::to_string(number(i)) + ": expected " +
                                           std::to_string(first_.balls.size()) +
                                           " atoms as in frame " + std::to_string(number(0)) +

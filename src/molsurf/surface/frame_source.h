@@ -41,13 +41,18 @@ public:
     FrameSource(const std::string& input, const std::string& trajectory, const std::string& frames,
                 const SelectOptions& atoms, double probe, const Progress& progress);
 
+    /// From the second frame on selections by distance are those of their own frame, and frames may
+    /// have other balls than the first. To be called before balls().
+    void update();
+
     std::size_t size() const { return numbers_.size(); }
 
     /// The number of frame i in the file.
     int number(std::size_t i) const { return numbers_[i]; }
 
     /// The balls of frame i, with the colours of chains and groups that frame 0 has.
-    /// @throws Error(ErrorKind::Input) if it cannot be read, or has other balls than frame 0
+    /// @throws Error(ErrorKind::Input) if it cannot be read, or has another number of balls than
+    ///         frame 0 without update()
     const BallSet& balls(std::size_t i);
 
     /// Displacement of each ball from frame i to the next, of the last one from the one before [Å].
@@ -70,6 +75,7 @@ private:
     const Progress& progress_;
     Structure structure_;
     std::unique_ptr<Trajectory> trajectory_;
+    bool updates_ = false;
     std::size_t model_ = 0; ///< of the structure, for a trajectory
     std::vector<int> numbers_;
     std::map<std::size_t, BallSet> loaded_;

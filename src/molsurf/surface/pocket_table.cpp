@@ -26,12 +26,6 @@ struct Lining {
     double charge = unknown;         ///< of side chains [e]
 };
 
-std::string nameOf(const BallNames::Residue& residue)
-{
-    std::string name = residue.chain.empty() ? "_" : residue.chain;
-    return name + "/" + residue.name + numberText(residue);
-}
-
 double chargeOf(const std::string& residue)
 {
     const std::string name = parentResidue(residue);
@@ -70,7 +64,7 @@ Lining liningOf(const BallSet& atoms, const PocketsReport::Pocket& pocket)
     for (const std::int32_t residue : residues) {
         const BallNames::Residue& one = atoms.names->residues[std::size_t(residue)];
         if (one.name.empty()) continue; // as in a list of balls
-        append(nameOf(one), out.residues);
+        append(titleOf(one), out.residues);
         charge += chargeOf(one.name);
     }
     out.charge = charge;

@@ -9,9 +9,13 @@
 namespace molsurf
 {
 
-/// Puts the pockets of the balls in a report, and the grids of them that are asked for in its
-/// fields.
-/// @param[in] options  with SurfaceOptions::pockets
+/// Whether pockets are asked for, or colours by them.
+bool wantsPockets(const SurfaceOptions& options);
+
+/// Puts the pockets of the balls in a report, the grids of them that are asked for in its fields
+/// (both, where it has no other grid),
+/// and, if colours are by pocket, the label `pocket` and colours at the vertices of the mesh.
+/// @param[in] options  that want them
 void addPockets(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
                 MolecularSurface& result);
 

@@ -15,6 +15,7 @@
 #include "molsurf/surface/match_volume.h"
 #include "molsurf/surface/parts.h"
 #include "molsurf/surface/pockets.h"
+#include "molsurf/surface/pore.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/unit_mesh.h"
 #include "molsurf/surface/unit_run.h"
@@ -62,7 +63,10 @@ void checkWanted(const BallSet& atoms, const SurfaceOptions& options)
     if ((options.ofParts() || options.interfaces || ofPrototypes(atoms)) &&
         (!atoms.labels || atoms.labels->groups.empty()))
         throw Error(ErrorKind::Input, "there are no groups to surface alone");
-    if (options.pockets && ofPrototypes(atoms))
+    if (atoms.pore && !atoms.placement.isWhole())
+        throw Error(ErrorKind::Usage,
+                    "`pore`: expected one surface, and not `instances` or `bySymmetry`");
+    if (wantsPockets(options) && ofPrototypes(atoms))
         throw Error(ErrorKind::Usage, "`pockets`: expected one surface, and not `instances`");
     if (!options.ballAreas) return;
     checkWay(ByAtom, options);
@@ -132,7 +136,8 @@ MolecularSurface make(const BallSet& atoms, const SurfaceOptions& options, Progr
                                : areasApart(atoms, shown, progress);
     if (options.interfaces)
         measureInterfaces(atoms, shown, options.ballAreas, progress, result.report);
-    if (options.pockets) addPockets(atoms, options, progress, result);
+    if (wantsPockets(options)) addPockets(atoms, options, progress, result);
+    if (atoms.pore) addPore(atoms, progress, result.report);
     if (options.contacts) result.contacts = contactAreas(atoms.balls, probeOf(shown), progress);
     if (options.halfFloats) saveAsHalf(result.grids());
     return std::move(result);

@@ -656,9 +656,16 @@ std::vector<Setting> pocketSettings()
                       "a ligand, or residues that line it; volume 0 in frames\n"
                       "where it is closed",
                       "none", MOLSURF_OF(atoms.pocketAt));
-    at.ofAtoms = true;
+    Setting pore = text("pore", "WAY",
+                        "the pore, for the report, .pore.csv, profiles .pore.svg,\n"
+                        ".pore.png, tubes .pore.ply, .pore.obj, .pore.glb:\n"
+                        "auto, an axis as z, or its ends, points or atoms, as\n"
+                        "'0,0,-9 -> 0,0,9', 'resid 14 -> resid 43'",
+                        "none", MOLSURF_OF(atoms.pore));
+    at.ofAtoms = pore.ofAtoms = true;
     return {
         at,
+        pore,
         flag("pockets", "pockets of the surface, for the report and .pockets.csv",
              MOLSURF_OF(options.pockets)),
         number("probe-in", "R", "radius of the probe that gets into pockets [Å], 0.5 to 10",

@@ -252,6 +252,9 @@ ColorBy storedColors(const Source& from)
     const std::string word = nameOf(by);
     std::string held, hint;
     for (const auto& grid : grids) held += (held.empty() ? "" : ",") + grid->getName();
+    if (by == ColorBy::Pocket)
+        throw Error(ErrorKind::Input,
+                    "`color` pocket: pockets are found when a surface is built, not in a file");
     if (by == ColorBy::Chain || by == ColorBy::Group)
         hint = "`fields` spline," + word + "_id";
     else

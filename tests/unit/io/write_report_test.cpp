@@ -46,8 +46,9 @@ TEST(WriteReport, HasTheKeysOfTheContractInItsOrder)
                                  "coarse",     "resolution",     "evolution",
                                  "grid",       "seconds",        "peak_memory_bytes",
                                  "threads",    "groups",         "areas_of",
-                                 "interfaces", "pockets",        "parts",
-                                 "instances",  "symmetry",       "warnings"}));
+                                 "interfaces", "pockets",        "pore",
+                                 "parts",      "instances",      "symmetry",
+                                 "warnings"}));
     Names surface = keys(json["surface"]);
     surface.resize(14); // later keys are additions
     EXPECT_EQ(surface,
@@ -91,6 +92,8 @@ TEST(WriteReport, HasTheKeysOfTheTableAndNoOthers)
     report.interfaces.resize(1);
     report.pockets.emplace().list.resize(1);
     report.pockets->list[0].mouths.resize(1);
+    report.pore.emplace().stations.resize(1);
+    report.pore->stations[0].isBottleneck = true;
     report.parts.resize(1);
     report.instances.resize(1);
     report.symmetry = SymmetryReport();

@@ -131,6 +131,25 @@ TEST(FindPockets, MouthsAreCounted)
     }
 }
 
+// The way to a mouth is as wide as its narrowest place: a ring of balls in a tunnel that is wider
+// on both sides of it.
+TEST(FindPockets, AMouthIsAsWideAsTheWayToIt)
+{
+    auto balls = boxWith(Vec3d(11.0, 9.0, 9.0),
+                         [](const Vec3d& x) { return largest(x) < 4.5 || inTunnel(x, 4.3, 0.0); });
+    for (int k = 0; k < 12; ++k) {
+        const double angle = M_PI * k / 6.0;
+        balls.push_back({Vec3d(6.13, 3.6 * std::cos(angle), 3.6 * std::sin(angle)), 1.5,
+                         std::int32_t(balls.size())});
+    }
+    PocketOptions whole;
+    whole.neck = 0.0;
+    const auto pockets = pocketsOf(balls, 0.6, whole);
+    ASSERT_EQ(pockets.size(), 1u);
+    ASSERT_EQ(pockets[0].mouths.size(), 1u);
+    EXPECT_NEAR(pockets[0].mouths[0].radius, 3.6 - 1.5, 1e-6);
+}
+
 // What lies in front of the cut is no pocket; without a cut it is one.
 TEST(FindPockets, TheCutLeavesShallowPlacesOut)
 {

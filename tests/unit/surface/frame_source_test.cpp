@@ -43,5 +43,27 @@ TEST(FrameSource, KeepsTheAtomsThatADistanceSelectsInTheFirstFrame)
     }
 }
 
+// With update() a frame has the atoms that its own places select, as that model alone has.
+TEST(FrameSource, TakesTheAtomsThatADistanceSelectsInEachFrame)
+{
+    SelectOptions options;
+    options.hetero = Hetero::All;
+    options.select = "within 9 of resid 1";
+    const Progress progress;
+    FrameSource source(MOLSURF_TEST_DATA "/1d3z.pdb.gz", "", "1-3", options, 1.4, progress);
+    source.update();
+    std::vector<std::size_t> counts;
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        SelectOptions alone = options;
+        alone.model = int(i) + 1;
+        const BallSet model = readAtoms(MOLSURF_TEST_DATA "/1d3z.pdb.gz", alone, 1.4);
+        ASSERT_EQ(source.balls(i).balls.size(), model.balls.size()) << i;
+        for (std::size_t b = 0; b < model.balls.size(); ++b)
+            EXPECT_EQ(source.balls(i).balls[b].center, model.balls[b].center);
+        counts.push_back(model.balls.size());
+    }
+    EXPECT_NE(counts[0], counts[1]);
+}
+
 } // namespace
 } // namespace molsurf

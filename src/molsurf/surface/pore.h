@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The pore of a molecule as a product of a run.
+
+#include "molsurf/mesh.h"
+#include "molsurf/surface.h"
+
+namespace molsurf
+{
+
+/// Puts the pore that atoms were read with in a report.
+/// @param[in] atoms  with BallSet::pore
+void addPore(const BallSet& atoms, Progress& progress, Report& report);
+
+/// The pore as a closed tube, coloured by poreColor() of its radius, which the scalar "radius" has.
+Mesh poreTube(const Report::Pore& pore);
+
+} // namespace molsurf

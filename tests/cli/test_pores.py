@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Pores: their table, profile, tube and report."""
+
+import csv
+import json
+import math
+import unittest
+import xml.dom.minidom
+
+from tool import DATA, ToolTest
+
+GRAMICIDIN = DATA / "1grm.pdb.gz"
+ENDS = "0,-12.5,3 -> 0.06,12.5,3"
+
+
+class Pores(ToolTest):
+    def setUp(self):
+        super().setUp()
+        # HOLE's simple radii.
+        (self.folder / "hole.radii").write_text("C 1.85\nN 1.75\nO 1.65\nS 2.0\nH 1.0\n")
+
+    def table(self, name):
+        note, *lines = (self.folder / name).read_text().splitlines()
+        return note, list(csv.DictReader(lines))
+
+    def test_gramicidin_is_as_wide_as_hole_says(self):
+        self.check(0, GRAMICIDIN, "--radii", "hole.radii", "--pore", ENDS, "-o", "a.pore.csv", "-o", "a.json",
+                      "-o", "a.pore.svg", "-o", "a.pore.png", "-o", "a.pore.ply", "-o", "a.pore.glb", "--surface", "ses",
+                      says=["pore: narrowest 1.200 Å"])
+        note, rows = self.table("a.pore.csv")
+        self.assertTrue(note.startswith("# pore: narrowest 1.19"), note)
+        radii = [float(row["radius_A"]) for row in rows]
+        self.assertAlmostEqual(min(radii), 1.1996, delta=0.0005)
+        narrowest = rows[radii.index(min(radii))]
+        self.assertEqual(narrowest["bottleneck"], "1")
+        self.assertIn("A/TRP13", narrowest["residues"].split())
+        report = json.loads((self.folder / "a.json").read_text())["pore"]
+        self.assertEqual(report["radius"], min(radii))
+        self.assertEqual(report["profile"]["radius"], radii)
+        # Ohm's rule, by the trapezoids of the table
+        places = [float(row["distance_A"]) for row in rows]
+        each = [1 / (math.pi * r * r) for r in radii]
+        sum_ = sum((b - a) * (f + g) / 2 for a, b, f, g in zip(places, places[1:], each, each[1:]))
+        self.assertAlmostEqual(report["conductance"], 1e12 / (0.0898 * sum_ * 1e10), places=6)
+        self.assertIn(b"property float radius", (self.folder / "a.pore.ply").read_bytes())
+        xml.dom.minidom.parse(str(self.folder / "a.pore.svg"))
+
+    def test_it_is_found_by_itself_and_along_an_axis(self):
+        for way in ((), ("--pore", "auto"), ("--pore", "y")):
+            self.check(0, GRAMICIDIN, "--radii", "hole.radii", *way, "-o", "b.pore.csv", "--force")
+            self.assertAlmostEqual(min(float(row["radius_A"]) for row in self.table("b.pore.csv")[1]), 1.1996, delta=0.0005)
+
+    def test_threads_do_not_matter(self):
+        for threads in (1, 2):
+            self.check(0, GRAMICIDIN, "-j", threads, "-o", f"{threads}.pore.csv")
+        self.assertEqual((self.folder / "1.pore.csv").read_bytes(), (self.folder / "2.pore.csv").read_bytes())
+
+    def test_beads_and_frames(self):
+        rings = [(4.3 * math.cos(k * math.pi / 6), 4.3 * math.sin(k * math.pi / 6), z) for z in range(-6, 7, 2) for k in range(12)]
+        for name, plug in (("open", ()), ("closed", ((0, 0, 0),))):
+            (self.folder / f"{name}.xyzr").write_text("".join(f"{x} {y} {z} 2.35\n" for x, y, z in [*rings, *plug]))
+            self.check(0, f"{name}.xyzr", "--pore", "0,0,-7 -> 0,0,7", "-o", f"{name}.pore.csv")
+        self.assertAlmostEqual(min(float(row["radius_A"]) for row in self.table("open.pore.csv")[1]), 1.95, places=6)
+        narrowest = min(self.table("closed.pore.csv")[1], key=lambda row: float(row["radius_A"]))
+        self.assertLess(float(narrowest["radius_A"]), 0)
+        self.assertAlmostEqual(float(narrowest["z_A"]), 0, delta=0.3)
+        self.assertIn("conductance 0 pS", self.table("closed.pore.csv")[0])
+        self.check(0, DATA / "1d3z.pdb.gz", "--frames", "1-2", "--pore", "resid 30 -> resid 50", "-o", "f.pore.csv")
+        lines = (self.folder / "f.pore.csv").read_text().splitlines()
+        self.assertEqual({line.split(",")[0] for line in lines if not line.startswith("#")}, {"frame", "1", "2"})
+
+    def test_what_is_wrong_is_said_in_a_line(self):
+        for status, way, text in ((2, "0,0,0", "longer than 0"), (2, "q", "expected auto"), (2, "1,2,3 ->", "both sides of ->"),
+                                  (2, "0.5,-9,3 -> 0.5,-9,3", "1 Å apart"), (1, "0,0,0 -> 0,12,3", "inside of atom_id"),
+                                  (2, "resid 999 -> 0,12,3", "resid 999"), (1, "40,-12,3 -> 40,12,3", "leaves it at"),
+                                  (1, "x", "found none")):
+            self.check(status, GRAMICIDIN, "--pore", way, "-o", "bad.pore.csv", says=["--pore", text])
+            self.assertFalse((self.folder / "bad.pore.csv").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

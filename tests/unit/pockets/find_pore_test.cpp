@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/pockets/find_pore.h"
+
+#include "molsurf/error.h"
+#include "molsurf/pockets/clearance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3d;
+
+constexpr double turn = 6.283185307179586;
+
+/// Rings of balls about an axis, turned and moved: the radius of each by its height.
+struct Tube {
+    std::function<double(double)> ring;
+    int sides = 16;
+    double ball = 1.7, half = 9.0;
+    Vec3d axis = Vec3d(0.36, -0.48, 0.8), middle = Vec3d(3.1, -2.7, 11.9);
+
+    Vec3d at(double a, double b, double h) const
+    {
+        const Plane plane(middle, axis);
+        return plane.at(a, b) + axis * h;
+    }
+    std::vector<Ball> balls() const
+    {
+        std::vector<Ball> out;
+        for (double h = -half; h <= half + 1e-9; h += 1.0)
+            for (int k = 0; k < sides; ++k) {
+                const double angle = turn * (k + 0.5 * (std::lround(h) % 2)) / sides;
+                out.push_back({at(ring(h) * std::cos(angle), ring(h) * std::sin(angle), h), ball,
+                               std::int32_t(out.size())});
+            }
+        return out;
+    }
+    BallSet::PoreWay ends(double reach) const
+    {
+        return {{{at(0.0, 0.0, -reach), true}, {at(0.0, 0.0, reach), true}}, Vec3d(0.0)};
+    }
+};
+
+const Report::Pore::Station& narrowestOf(const Report::Pore& pore)
+{
+    return *std::min_element(pore.stations.begin(), pore.stations.end(),
+                             [](auto& a, auto& b) { return a.radius < b.radius; });
+}
+
+Vec3d placeOf(const Report::Pore::Station& s)
+{
+    return {s.place[0], s.place[1], s.place[2]};
+}
+
+const Progress nobody;
+
+// A ball in the middle of a ring of radius R touches all of it: R - r.
+TEST(FindPore, ARingOfBallsHasTheRadiusOfItsClosedForm)
+{
+    for (const int sides : {7, 12}) {
+        Tube tube{[](double) { return 4.0; }, sides};
+        tube.half = 0.0;
+        const Report::Pore pore = findPore(tube.balls(), tube.ends(3.0), nobody);
+        EXPECT_NEAR(pore.narrowest(), 4.0 - 1.7, 1e-9) << sides;
+        EXPECT_NEAR((placeOf(narrowestOf(pore)) - tube.middle).length(), 0.0, 1e-6) << sides;
+    }
+}
+
+// Of a tube of rings that is narrowest at one of them the bottleneck is that one.
+TEST(FindPore, TheBottleneckOfAnHourglassIsExact)
+{
+    const Tube tube{[](double h) { return 3.5 + 0.02 * (h - 2.0) * (h - 2.0); }};
+    const Report::Pore pore = findPore(tube.balls(), tube.ends(8.5), nobody);
+    EXPECT_NEAR(pore.narrowest(), 1.8, 1e-9);
+    EXPECT_NEAR((placeOf(narrowestOf(pore)) - tube.at(0.0, 0.0, 2.0)).length(), 0.0, 1e-6);
+    EXPECT_TRUE(narrowestOf(pore).isBottleneck);
+    EXPECT_NEAR(pore.length(), 17.0, 0.2);
+    // Found by itself it is the same.
+    const Report::Pore found = findPore(tube.balls(), {}, nobody);
+    EXPECT_NEAR(found.narrowest(), 1.8, 1e-9);
+}
+
+// By Ohm's rule a straight tube of radius r and length l has pi r^2 / (rho l).
+TEST(FindPore, AStraightTubeConductsByOhmsRule)
+{
+    Report::Pore pore;
+    for (int i = 0; i <= 40; ++i) {
+        pore.stations.emplace_back();
+        pore.stations.back().radius = 3.0;
+        pore.stations.back().distance = 0.5 * i;
+    }
+    EXPECT_NEAR(pore.conductance(), 1e12 * 0.5 * turn * 9e-20 / (0.0898 * 20e-10), 1e-6);
+    pore.stations[7].radius = -0.1;
+    EXPECT_EQ(pore.conductance(), 0.0);
+}
+
+// A ball of radius p in the middle of a ring of n leaves a ball beside it that touches it and two
+// of the ring: at the height 0, halfway between them, |x| - p = |x - c| - r.
+TEST(FindPore, ABlockedTubeHasANegativeRadiusAndItsPlace)
+{
+    constexpr double plug = 1.9, ring = 3.4;
+    const Tube tube{[](double) { return ring; }, 16};
+    std::vector<Ball> balls = tube.balls();
+    balls.push_back({tube.middle, plug, 999});
+    const Report::Pore pore = findPore(balls, tube.ends(8.0), nobody);
+    double low = 0.0, high = ring;
+    const double angle = 0.5 * turn / 16;
+    while (high - low > 1e-12) {
+        const double x = 0.5 * (low + high);
+        const double away = std::hypot(x * std::cos(angle) - ring, x * std::sin(angle));
+        (x - plug < away - 1.7 ? low : high) = x;
+    }
+    EXPECT_LT(low - plug, 0.0);
+    EXPECT_NEAR(pore.narrowest(), low - plug, 1e-6);
+    EXPECT_NEAR((placeOf(narrowestOf(pore)) - tube.middle).length(), low, 1e-4);
+    EXPECT_EQ(pore.conductance(), 0.0);
+}
+
+// A bent channel through a block: the sections turn with it.
+TEST(FindPore, ABentWayIsFollowed)
+{
+    std::vector<Ball> balls;
+    const auto isEmpty = [](double x, double y, double z) {
+        const bool first = std::hypot(y, z) < 3.2 && x < 3.2;
+        const bool second = std::hypot(x, z) < 3.2 && y > -3.2;
+        return first || second;
+    };
+    for (double x = -12.0; x <= 12.0; x += 1.0)
+        for (double y = -12.0; y <= 12.0; y += 1.0)
+            for (double z = -9.0; z <= 9.0; z += 1.0)
+                if (!isEmpty(x, y, z))
+                    balls.push_back({Vec3d(x, y, z), 1.5, std::int32_t(balls.size())});
+    const Report::Pore pore = findPore(
+        balls, {{{Vec3d(-11.0, 0.0, 0.0), true}, {Vec3d(0.0, 11.0, 0.0), true}}, Vec3d(0.0)},
+        nobody);
+    // The nearest balls of either channel are 2 and 3 Å from its middle.
+    EXPECT_NEAR(pore.narrowest(), std::sqrt(13.0) - 1.5, 1e-6);
+    EXPECT_NEAR(pore.length(), 18.0, 4.0); // it cuts the corner
+    for (const Report::Pore::Station& s : pore.stations) {
+        const Vec3d x = placeOf(s);
+        EXPECT_LT(std::min(std::hypot(x[1], x[2]), std::hypot(x[0], x[2])), 2.0) << x;
+    }
+}
+
+void expectError(const std::vector<Ball>& balls, const BallSet::PoreWay& way, ErrorKind kind,
+                 const char* text)
+{
+    try {
+        findPore(balls, way, nobody);
+        FAIL() << "expected an Error about " << text;
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), kind);
+        EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+    }
+}
+
+TEST(FindPore, RefusesWhatHasNoWay)
+{
+    const Tube tube{[](double) { return 4.0; }};
+    const std::vector<Ball> balls = tube.balls();
+    const Vec3d inside = balls[40].center, middle = tube.middle;
+    expectError(balls, {{{inside, true}, {middle, true}}, Vec3d(0.0)}, ErrorKind::Input, "inside");
+    // Beside the tube there is only the outside.
+    expectError(balls,
+                {{{tube.at(25.0, 0.0, -9.0), true}, {tube.at(25.0, 0.0, 9.0), true}}, Vec3d(0.0)},
+                ErrorKind::Input, "leaves it");
+    const Vec3d across = Plane(Vec3d(0.0), tube.axis).along[0];
+    expectError(balls, {{}, across}, ErrorKind::Input, "found none");
+    expectError({balls[0]}, {}, ErrorKind::Input, "found none");
+    // An end that only has to be near is moved out of its ball.
+    EXPECT_NEAR(
+        findPore(balls, {{{tube.at(2.9, 0.0, -6.0), false}, {middle, true}}, Vec3d(0.0)}, nobody)
+            .narrowest(),
+        2.3, 0.05);
+}
+
+// The largest ball of a plane among random balls is that of a search with many starts.
+TEST(Clearance, TheWidestPlaceOfASectionIsExact)
+{
+    const Tube tube{[](double h) { return 4.0 + 0.5 * std::sin(2.1 * h); }, 9};
+    const Clearance clearance(tube.balls());
+    const Plane plane(tube.at(0.0, 0.0, 0.37), tube.axis);
+    const auto found = clearance.widestIn(plane, plane.origin, 1.0);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(clearance.at(found->place), found->radius, 1e-9);
+    double best = 0.0;
+    for (int i = -500; i <= 500; ++i)
+        for (int k = -500; k <= 500; ++k)
+            best = std::max(best, clearance.at(plane.at(0.002 * i, 0.002 * k)));
+    EXPECT_LE(best, found->radius + 1e-9);
+    EXPECT_NEAR(best, found->radius, 0.002);
+}
+
+} // namespace
+} // namespace molsurf
