@@ -21,12 +21,12 @@ FOLDER = ROOT / "docs" / "pictures" / "gallery"
 
 
 def commands(page):
-    """The words of the command of each picture, by the picture's name."""
+    """The words of the command of each picture, by the name of its file."""
     found = {}
-    for name, command in re.findall(r"\(pictures/gallery/(\w+)\.png\)\s*```sh\n(?:mkdir [^\n]*\n)?(.*?)\n```", page, re.DOTALL):
+    for name, command in re.findall(r"\(pictures/gallery/(\w+\.\w+)\)\s*```sh\n(?:mkdir [^\n]*\n)?(.*?)\n```", page, re.DOTALL):
         words = shlex.split(command)
-        if words[0] != "vdb_molsurf" or words[-2:] != ["-o", f"gallery/{name}.png"]:
-            sys.exit(f"gallery.py: expected vdb_molsurf ... -o gallery/{name}.png, got {command}")
+        if words[0] != "vdb_molsurf" or words[-2:] != ["-o", f"gallery/{name}"]:
+            sys.exit(f"gallery.py: expected vdb_molsurf ... -o gallery/{name}, got {command}")
         found[name] = words[1:-1]
     return found
 
@@ -44,17 +44,19 @@ def faults(program):
     os.environ["VDB_MOLSURF"] = str(program)
     from tool import read_png
     for name, words in commands(page.read_text()).items():
+        if not name.endswith(".png"):  # films depend on the version of ffmpeg
+            continue
         with tempfile.TemporaryDirectory() as folder:
             new = pathlib.Path(folder) / "new.png"
             draw(program, words, new)
-            (width, rows), (old_width, old_rows) = (read_png(p.read_bytes()) for p in (new, FOLDER / f"{name}.png"))
+            (width, rows), (old_width, old_rows) = (read_png(p.read_bytes()) for p in (new, FOLDER / name))
         if (width, len(rows)) != (old_width, len(old_rows)):
-            lines.append(f"docs/pictures/gallery/{name}.png: {old_width} x {len(old_rows)} pixels, new ones {width} x {len(rows)}")
+            lines.append(f"docs/pictures/gallery/{name}: {old_width} x {len(old_rows)} pixels, new ones {width} x {len(rows)}")
             continue
         far = sum(any(abs(row[x + i] - old[x + i]) > 2 for i in range(3))
                   for row, old in zip(rows, old_rows) for x in range(0, 3 * width, 3))
         if far > 0.01 * width * len(rows):
-            lines.append(f"docs/pictures/gallery/{name}.png: {100 * far / width / len(rows):.1f} % of the pixels are not as drawn now")
+            lines.append(f"docs/pictures/gallery/{name}: {100 * far / width / len(rows):.1f} % of the pixels are not as drawn now")
     return lines
 
 
@@ -68,7 +70,7 @@ def main():
         sys.exit("gallery.py: expected some of " + ", ".join(known))
     FOLDER.mkdir(parents=True, exist_ok=True)
     for name in names:
-        draw(program, known[name], FOLDER / f"{name}.png")
+        draw(program, known[name], FOLDER / name)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 #include "write_result.h"
 
 #include "cli/option_table.h"
+#include "film.h"
 #include "identity.h"
 #include "outputs.h"
 #include "sha256.h"
@@ -89,6 +90,12 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     return map;
 }
 
+void setUpright(const BallSet& atoms, DrawOptions& picture)
+{
+    const bool chosen = picture.upright.lengthSqr() > 0.0 || picture.toEye.lengthSqr() > 0.0;
+    if (atoms.membrane && !chosen) picture.upright = *atoms.membrane;
+}
+
 namespace
 {
 
@@ -169,8 +176,7 @@ DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, 
 {
     DrawOptions options = call.picture;
     options.instances = instancesOf(call, atoms, mesh, coloredCopies, progress);
-    const bool chosen = options.upright.lengthSqr() > 0.0 || options.toEye.lengthSqr() > 0.0;
-    if (atoms.membrane && !chosen) options.upright = *atoms.membrane;
+    setUpright(atoms, options);
     if (atoms.placement.isWhole()) {
         for (const Ball& ball : atoms.balls) options.about.emplace_back(ball.center);
         return options;
@@ -259,18 +265,34 @@ std::vector<MeshInstance> instancesOf(const Writing& w)
     return instancesOf(w.call, w.atoms, w.mesh, w.call.colorsCopies(), w.progress);
 }
 
-void writePicture(const Writing& w, OutputFile& file)
+/// @param[in] turn  beside that of the call [degree]
+Picture drawnPicture(const Writing& w, double turn, bool quick)
 {
     const Call& call = w.call;
     DrawOptions options = pictureOf(call, w.atoms, w.mesh, call.colorsCopies(), w.progress);
-    options.turn += w.output.turn;
+    options.turn += turn;
+    options.quick = quick;
     options.borders = w.borders;
     if (options.clip) options.inside = insideOf(call, w.atoms, w.borders);
     std::vector<Legend> legends;
     if (call.drawsLegend())
         legends = legendsOf(legendOf(call.options.color, w.atoms, w.mesh, w.progress),
                             options.model.get());
-    writePng(drawExplained(w.mesh, std::move(options), legends, call.scaleBar, w.progress), file);
+    return drawExplained(w.mesh, std::move(options), legends, call.scaleBar, w.progress);
+}
+
+void writePicture(const Writing& w, OutputFile& file)
+{
+    writePng(drawnPicture(w, w.output.turn, false), file);
+}
+
+void writeFilm(const Writing& w, OutputFile& file)
+{
+    if (w.output.film) return w.output.film->add(drawnPicture(w, 0.0, true));
+    Film film(file, w.call.fps > 0.0 ? w.call.fps : filmRate);
+    const int count = w.call.turntable;
+    for (int n = 0; n < count; ++n) film.add(drawnPicture(w, 360.0 * n / count, true));
+    film.finish();
 }
 
 void writeCamera(const Writing& w, OutputFile& file)
@@ -406,6 +428,7 @@ const std::vector<Format>& formatTable()
     constexpr unsigned all = Build | Batch | Convert | Compare | BricksMerge;
     constexpr unsigned built = Build | Batch, meshed = built | Convert;
     constexpr unsigned printed = Triangles | Colors | CutBorders | Millimetres;
+    constexpr unsigned film = Colors | PlainColor | Copies | Views | Pixels | Moving;
     static const std::vector<Format> table = {
         {"vdb", all, Grids | Colors | SceneUnits, "level set and fields", "", writeGrids},
         {"ply", all, Triangles | Colors | CutBorders | VertexCurvatures, "mesh", "", writeMesh},
@@ -438,16 +461,19 @@ const std::vector<Format>& formatTable()
         {"charges.pqr", Build, Solver, "", "",
          [](const Writing& w, OutputFile& file) { writePqr(*w.atoms.charges, file); }},
         {"apbs.in", Build, Solver, "", "", writeSolverInput},
-        {"cxc", meshed, Script | Colors | Copies, "scripts that open .glb and .ply", "",
+        {"cxc", meshed, Script | Colors | Copies, "scripts for .glb and .ply", "",
          writeScript<writeChimeraXScript>, "glb"},
-        {"pml", meshed, Script | Colors, "scripts that open .glb and .ply", "",
+        {"pml", meshed, Script | Colors, "scripts for .glb and .ply", "",
          writeScript<writePymolScript>, "ply"},
-        {"html", meshed, Colors | ColorChoices | PlainColor | Copies | Levels | Views,
-         "page that shows it", "", writePage},
+        {"html", meshed, Colors | ColorChoices | PlainColor | Copies | Levels | Views, "page", "",
+         writePage},
         {"json", all, Numbers | Copies, "report", "",
          [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
         {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "picture", "", writePicture},
-        {"view", meshed, Copies | Views, "view of pictures, for --view", "", writeCamera},
+        {"mp4", meshed, film, "film", "", writeFilm},
+        {"webm", meshed, film, "film", "", writeFilm},
+        {"gif", meshed, film, "film", "", writeFilm},
+        {"view", meshed, Copies | Views, "view for --view", "", writeCamera},
         {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},
         {"atoms.csv", built, Areas | AllFrames, ofAreas, "atoms", writeAreaTable},
         {"residues.csv", built, Areas | AllFrames, ofAreas, "residues", writeAreaTable},

@@ -38,6 +38,9 @@ struct ShownMeshes {
 ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh,
                         const Progress& progress);
 
+/// Sets what is up of a membrane, where the call says nothing of it.
+void setUpright(const BallSet& atoms, DrawOptions& picture);
+
 /// Writes one output. The report must be complete but for what is timed by writing.
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,

@@ -112,7 +112,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l dep
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l legend -x -a 'auto on off' -d 'on or off; auto: beside colours, if 600 pixels wide'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l scale-bar -d 'a bar below the picture that shows a length'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l dpi -r -d 'pixels an inch when it is printed; --size stays'
-complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l turntable -r -d 'N pictures round the upright: name.0001.png, ...'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l turntable -r -d 'N pictures round the upright: name.0001.png, ..., or in'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l lambda -r -d 'weight of the regulariser [Å^2 for gradient, 1 for area]'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l regularizer -x -a 'gradient area' -d 'gradient or area'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l flow -x -a 'rest newton paper' -d 'rest: in closed form, where no front moves, else newton;'

@@ -231,7 +231,7 @@ class Information(ToolTest):
         self.check(2, "help", "bricks", "plam", says="did you mean plan?")
 
     def test_options_that_change_nothing_say_so(self):
-        for option, output, are in ((["--plain-color", "red"], "a.ply", ".glb, .usda, .html and .png"),
+        for option, output, are in ((["--plain-color", "red"], "a.ply", ".glb, .usda, .html, .png, .mp4, .webm and .gif"),
                                     (["--depth-cue"], "a.html", ".png"), (["--vdb-half"], "a.ply", ".vdb"),
                                     (["--curvature-totals"], "a.ply", ".json"),
                                     (["--crisp", "--color", "chain"], "a.vdb", ".ply, .obj, .off, "),

@@ -30,6 +30,11 @@ class OutputFile;
 
 namespace molsurf::tool
 {
+class Film;
+}
+
+namespace molsurf::tool
+{
 
 // The formats of output files, a row each: the words of the command line, its help, what a verb
 // writes, what a file cannot show, and the writers come from it.
@@ -57,7 +62,8 @@ enum Holds : unsigned {
     Volume = 1 << 18,           ///< the level set on all points of a box
     Paint = 1 << 20,            ///< colours of triangles for slicers, of which there are few
     Script = 1 << 19,           ///< what opens another file of the run
-    Solver = 1 << 21            ///< what APBS reads
+    Solver = 1 << 21,           ///< what APBS reads
+    Moving = 1 << 22            ///< the pictures of a turntable or of frames in one film
 };
 
 /// What a file is written of, and how.
@@ -103,8 +109,9 @@ enum Verb : unsigned {
 struct Output {
     std::string path; ///< "-" is standard output
     const Format* format;
-    std::string beside{}; ///< of a Stage: the .vdb that it shows, or the .usda of a frame
-    double turn = 0.0;    ///< of a picture of a turntable, beside that of all [degree]
+    std::string beside{};         ///< of a Stage: the .vdb that it shows, or the .usda of a frame
+    double turn = 0.0;            ///< of a picture of a turntable, beside that of all [degree]
+    std::shared_ptr<Film> film{}; ///< of all frames, which gets a picture of each; null: none
 
     /// Whether it holds one of these.
     bool holds(unsigned some) const { return (format->holds & some) != 0; }

@@ -252,7 +252,7 @@ Values formatsOf(unsigned verb)
 {
     Values words;
     for (const Format& format : formatTable())
-        if ((format.verbs & verb) && (format.holds & (Stage | FrameRows)) == 0)
+        if ((format.verbs & verb) && (format.holds & (Stage | FrameRows | Moving)) == 0)
             words.push_back(format.word);
     return words;
 }
@@ -684,7 +684,9 @@ OptionGroup pictureOptions()
          shownIn(Pixels,
                  number("dpi", "N", "pixels an inch when it is printed; --size stays", "", draw,
                         1.0, 10000.0, "a number from 1 to 10000", MOLSURF_OF(picture.dpi))),
-         shownIn(Pixels, count("turntable", "N", "N pictures round the upright: name.0001.png, ...",
+         shownIn(Pixels, count("turntable", "N",
+                               "N pictures round the upright: name.0001.png, ..., or in\na film, "
+                               "such as name.mp4",
                                "", draw, 2, 9999, MOLSURF_OF(turntable)))}};
 }
 
