@@ -3,6 +3,7 @@
 
 #include "bricks.h"
 #include "cli/option_table.h"
+#include "draw_result.h"
 #include "identity.h"
 #include "outputs.h"
 #include "sidecar.h"
@@ -248,6 +249,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     for (const auto& grid : result.grids()) grid->setCreator(creator);
 
     if (call.center) centerMesh(call, result);
+    if (!call.panels.empty()) call.panelSurfaces = makePanels(call, balls, result.mesh, terminal);
     ShownMeshes shown = shownMeshes(call, balls, result.mesh, terminal);
     shown.coarser = coarserMeshes(call, balls, result.report, terminal);
     writeAll(call, balls, result, shown, terminal, start, companions);

@@ -2,6 +2,7 @@
 #include "verbs.h"
 
 #include "cli/option_table.h"
+#include "draw_result.h"
 #include "film.h"
 #include "input_files.h"
 #include "outputs.h"
@@ -9,7 +10,6 @@
 #include "sidecar.h"
 #include "write_result.h"
 
-#include "molsurf/color/legend.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/frame_table.h"
@@ -282,24 +282,9 @@ private:
     }
 
     /// All frames have the colours of values, and so the legend, of the first one.
-    void keepOneScale(const BallSet& balls, const MolecularSurface& result)
+    void keepOneRange(const BallSet& balls, const MolecularSurface& result)
     {
-        if (scale_ || !call_.writes(Views)) return;
-        const auto legend = legendOf(call_.options.color, balls, result.mesh, terminal_);
-        if (legend && legend->scale) scale_ = {legend->scale->low, legend->scale->high};
-    }
-
-    /// The atoms of a frame, coloured as those of the first one.
-    BallSet colored(const BallSet& balls) const
-    {
-        BallSet out = balls;
-        if (!scale_) return out;
-        out.coloring.range = scale_;
-        if (out.labels && out.labels->values) {
-            out.labels->values->low = (*scale_)[0];
-            out.labels->values->high = (*scale_)[1];
-        }
-        return out;
+        if (!range_ && call_.writes(Views)) range_ = rangeOf(call_, balls, result.mesh, terminal_);
     }
 
     void make(std::size_t i)
@@ -314,10 +299,11 @@ private:
                         "frame " + std::to_string(i + 1) + "/" + std::to_string(size()) + ": ");
         std::vector<openvdb::Vec3f> displacement;
         if (moves_) displacement = source_.displacement(i);
-        const BallSet balls = colored(source_.balls(i));
+        BallSet balls = source_.balls(i);
+        takeRange(range_, balls);
         std::vector<BallSet> shown;
         for (const auto& source : shown_) shown.push_back(source->balls(i));
-        showAtoms(call_, std::move(shown), balls, terminal_, calls_[i].picture);
+        showAtoms(call_.shows, std::move(shown), balls, terminal_, calls_[i].picture);
         std::size_t next = 0;
         addNotes(
             call_.notes, [&](const std::string&) { return noted_[next++]->balls(i); },
@@ -326,7 +312,7 @@ private:
         read.warnings = call_.warnings;
         read.seconds = {{"read", secondsSince(start)}};
         const auto extend = [&](MolecularSurface& result) {
-            keepOneScale(balls, result);
+            keepOneRange(balls, result);
             if (moves_) addVelocities(call_, balls, displacement, terminal_, result);
             for (auto& [output, file] : areas_)
                 appendCsv(areaTable(output.format->table, call_, balls, result), source_.number(i),
@@ -361,7 +347,7 @@ private:
     };
     std::vector<AreaFile> areas_; // of all frames
     std::vector<std::shared_ptr<Film>> films_;
-    std::optional<std::array<double, 2>> scale_; // of values, as the first frame has it
+    std::optional<std::array<double, 2>> range_; // of values, as the first frame has it
     std::vector<Call> calls_;
     std::vector<bool> done_;
     std::size_t creeping_ = 0;

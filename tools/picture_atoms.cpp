@@ -58,8 +58,8 @@ SelectOptions picturedAtoms(const Call& call, const std::string& select)
     return options;
 }
 
-void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surface,
-               const Progress& progress, DrawOptions& picture)
+void showAtoms(const std::vector<ShowRule>& rules, std::vector<BallSet> atoms,
+               const BallSet& surface, const Progress& progress, DrawOptions& picture)
 {
     if (atoms.empty()) return;
     std::map<std::string, Color> ofSurface;
@@ -68,7 +68,7 @@ void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surf
     std::vector<ShownAtoms> shown;
     for (std::size_t k = 0; k < atoms.size(); ++k) {
         atoms[k].labels->chainColors = colorsOfChains(atoms[k], ofSurface, progress);
-        shown.push_back({std::move(atoms[k]), call.shows[k]});
+        shown.push_back({std::move(atoms[k]), rules[k]});
     }
     const double bytes = bytesOfModel(shown), available = double(availableMemory());
     if (bytes > available)

@@ -2,6 +2,7 @@
 #include "write_result.h"
 
 #include "cli/option_table.h"
+#include "draw_result.h"
 #include "film.h"
 #include "identity.h"
 #include "outputs.h"
@@ -90,28 +91,8 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
     return map;
 }
 
-void setUpright(const BallSet& atoms, DrawOptions& picture)
-{
-    const bool chosen = picture.upright.lengthSqr() > 0.0 || picture.toEye.lengthSqr() > 0.0;
-    if (atoms.membrane && !chosen) picture.upright = *atoms.membrane;
-}
-
 namespace
 {
-
-/// The point that is 0 in meshes.
-openvdb::Vec3d originOf(const Call& call)
-{
-    return call.center ? call.scene.center : openvdb::Vec3d(0.0);
-}
-
-/// The balls where they lie to the mesh.
-std::vector<Ball> placedBalls(const Call& call, const BallSet& atoms)
-{
-    std::vector<Ball> balls = atoms.balls;
-    for (Ball& ball : balls) ball.center -= originOf(call);
-    return balls;
-}
 
 openvdb::GridCPtrVec gridsOf(const Call& call, const MolecularSurface& result)
 {
@@ -129,65 +110,6 @@ LengthUnit printUnit(const Call& call)
 std::string stemOf(const std::string& path)
 {
     return path == "-" ? "surface" : std::filesystem::path(path).stem().string();
-}
-
-/// The copies of an assembly as nodes.
-/// @param[in] colored  copies that are near have different colours
-std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
-                                      bool colored, const Progress& progress)
-{
-    const Color plain = mesh.colors.empty() ? call.picture.plain : Color{255, 255, 255};
-    const std::vector<Color> colors =
-        colored ? instanceColors(atoms, progress) : std::vector<Color>();
-    std::vector<MeshInstance> out;
-    for (std::size_t i = 0; i < atoms.placement.instances.size(); ++i) {
-        const Instance& copy = atoms.placement.instances[i];
-        out.push_back({copy.part, "copy " + (copy.name.empty() ? std::to_string(i + 1) : copy.name),
-                       copy.rotation, copy.translation, colors.empty() ? plain : colors[i]});
-    }
-    return out;
-}
-
-/// The colours of points inside.
-std::function<Color(const openvdb::Vec3d&)>
-insideOf(const Call& call, const BallSet& atoms, const std::shared_ptr<const ColorOwners>& borders)
-{
-    constexpr double farthest = 30.0; // from a ball [Å]
-    if (borders)
-        return [borders](const openvdb::Vec3d& x) {
-            std::vector<OwnersPower> near;
-            borders->owners.at(x, 0.0, near);
-            return near.empty() ? neutralColor : borders->colors[std::size_t(near[0].owner)];
-        };
-    if (call.options.color == ColorBy::Nothing) return nullptr;
-    if (call.options.color != ColorBy::Value || atoms.balls.empty())
-        return [](const openvdb::Vec3d&) { return neutralColor; };
-    const auto values =
-        std::make_shared<PointValues>(atoms, outwardOf(atoms.coloring, call.options));
-    return [values, origin = originOf(call)](const openvdb::Vec3d& x) {
-        return values->colorOf(values->at(x + origin, openvdb::Vec3d(0.0), farthest));
-    };
-}
-
-/// The options of a picture of a surface, whose automatic view comes from the atoms: it is the same
-/// for every voxel.
-DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, bool coloredCopies,
-                      const Progress& progress)
-{
-    DrawOptions options = call.picture;
-    options.instances = instancesOf(call, atoms, mesh, coloredCopies, progress);
-    setUpright(atoms, options);
-    if (atoms.placement.isWhole()) {
-        for (const Ball& ball : atoms.balls) options.about.emplace_back(ball.center);
-        return options;
-    }
-    constexpr std::size_t enough = 300; // balls of a prototype
-    for (const MeshInstance& copy : options.instances) {
-        const auto [begin, end] = atoms.prototype(copy.part);
-        for (std::size_t i = begin; i < end; i += 1 + (end - begin) / enough)
-            options.about.push_back(copy.placed(openvdb::Vec3d(atoms.balls[i].center)));
-    }
-    return options;
 }
 
 } // namespace
@@ -235,8 +157,7 @@ ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh
     };
     const bool cut = shows([&](const Output& output) { return isCrisp(call, output); });
     if (cut || shows([](const Output& output) { return output.holds(Pixels); }))
-        shown.borders = bordersOf(call.options.color, atoms,
-                                  asMeshed(placedBalls(call, atoms), call.options), mesh, progress);
+        shown.borders = bordersOf(call, atoms, mesh, progress);
     if (!cut || !shown.borders) return shown;
     const KindRow& kind = rowOf(call.options.kind);
     shown.crisp = withCrispBorders(
@@ -254,7 +175,7 @@ struct Writing {
     const Mesh& mesh;                 ///< with the borders that the format shows
     const Mesh& whole;                ///< by symmetry the mesh of the whole, else the same
     std::vector<const Mesh*> coarser; ///< further levels of detail
-    const std::shared_ptr<const ColorOwners>& borders;
+    const ShownMeshes& shown;
 };
 
 namespace
@@ -265,33 +186,22 @@ std::vector<MeshInstance> instancesOf(const Writing& w)
     return instancesOf(w.call, w.atoms, w.mesh, w.call.colorsCopies(), w.progress);
 }
 
-/// @param[in] turn  beside that of the call [degree]
-Picture drawnPicture(const Writing& w, double turn, bool quick)
+Drawn drawnOf(const Writing& w)
 {
-    const Call& call = w.call;
-    DrawOptions options = pictureOf(call, w.atoms, w.mesh, call.colorsCopies(), w.progress);
-    options.turn += turn;
-    options.quick = quick;
-    options.borders = w.borders;
-    if (options.clip) options.inside = insideOf(call, w.atoms, w.borders);
-    std::vector<Legend> legends;
-    if (call.drawsLegend())
-        legends = legendsOf(legendOf(call.options.color, w.atoms, w.mesh, w.progress),
-                            options.model.get());
-    return drawExplained(w.mesh, std::move(options), legends, call.scaleBar, w.progress);
+    return {w.call, w.atoms, w.mesh, w.shown.borders, w.shown.legend, w.progress};
 }
 
 void writePicture(const Writing& w, OutputFile& file)
 {
-    writePng(drawnPicture(w, w.output.turn, false), file);
+    writePng(drawResult(drawnOf(w), w.output.turn, false), file);
 }
 
 void writeFilm(const Writing& w, OutputFile& file)
 {
-    if (w.output.film) return w.output.film->add(drawnPicture(w, 0.0, true));
+    if (w.output.film) return w.output.film->add(drawResult(drawnOf(w), 0.0, true));
     Film film(file, w.call.fps > 0.0 ? w.call.fps : filmRate);
     const int count = w.call.turntable;
-    for (int n = 0; n < count; ++n) film.add(drawnPicture(w, 360.0 * n / count, true));
+    for (int n = 0; n < count; ++n) film.add(drawResult(drawnOf(w), 360.0 * n / count, true));
     film.finish();
 }
 
@@ -531,9 +441,8 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
             call.colorsCopies() ? instanceColors(atoms, progress) : std::vector<Color>(), progress);
     std::vector<const Mesh*> coarser;
     for (const Mesh& level : shown.coarser) coarser.push_back(&level);
-    output.format->write({call, atoms, result, output, progress, mesh, whole ? *whole : mesh,
-                          coarser, shown.borders},
-                         file);
+    output.format->write(
+        {call, atoms, result, output, progress, mesh, whole ? *whole : mesh, coarser, shown}, file);
 }
 
 } // namespace molsurf::tool

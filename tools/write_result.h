@@ -6,6 +6,7 @@
 
 #include "cli/call.h"
 
+#include "molsurf/color/legend.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/surface.h"
 
@@ -31,15 +32,13 @@ struct ShownMeshes {
     std::shared_ptr<const ColorOwners> borders{}; ///< between its colours; null: they have none
     std::optional<Mesh> crisp{};                  ///< the mesh, with these borders cut
     std::vector<Mesh> coarser{};                  ///< the further levels of detail of --lod
+    std::optional<Legend> legend{}; ///< of colours that no option names; none: by the options
 };
 
 /// What the files of the call show, but for `coarser`: borders are found once for all of them.
 /// @param[in] mesh  of the surface, where the atoms are
 ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh,
                         const Progress& progress);
-
-/// Sets what is up of a membrane, where the call says nothing of it.
-void setUpright(const BallSet& atoms, DrawOptions& picture);
 
 /// Writes one output. The report must be complete but for what is timed by writing.
 /// @throws Error(ErrorKind::Output) if the file cannot be written

@@ -105,6 +105,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l sty
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l show -x -a 'sticks balls spheres tube' -d 'atoms beside the surface, whole and opaque, such as'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l label -r -d 'a text at the middle of atoms, such as "A/57=active site";'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l ruler -r -d 'a line between the middles of atoms with its length, such'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l panel -r -d 'a further picture beside the first, with its camera, scale'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l opacity -r -d 'of the surface, seen from the front'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l all-walls -d '--opacity shows what is behind the nearest wall, too'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l clip -r -d 'cuts away what is nearer to the eye than the middle'

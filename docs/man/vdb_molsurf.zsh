@@ -162,6 +162,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--show:atoms beside the surface, whole and opaque, such as'
       '--label:a text at the middle of atoms, such as "A/57=active site";'
       '--ruler:a line between the middles of atoms with its length, such'
+      '--panel:a further picture beside the first, with its camera, scale'
       '--opacity:of the surface, seen from the front'
       '--all-walls:--opacity shows what is behind the nearest wall, too'
       '--clip:cuts away what is nearer to the eye than the middle'

@@ -31,7 +31,8 @@ class OutputFile;
 namespace molsurf::tool
 {
 class Film;
-}
+struct PanelSurface;
+} // namespace molsurf::tool
 
 namespace molsurf::tool
 {
@@ -117,6 +118,12 @@ struct Output {
     bool holds(unsigned some) const { return (format->holds & some) != 0; }
 };
 
+/// A further picture beside the first one.
+struct Panel {
+    std::string file;          ///< of another structure; empty: the same from somewhere else
+    openvdb::Vec3d toEye{0.0}; ///< the direction of that
+};
+
 /// The values of the options that were given, by name; in the order of the command line if one was
 /// given more than once.
 using GivenOptions = std::map<std::string, std::vector<std::string>>;
@@ -161,6 +168,7 @@ struct Call : Settings {
     std::string viewed;          ///< atoms that face the eye, a selection; empty: none
     std::vector<ShowRule> shows; ///< atoms that pictures show beside the surface
     std::vector<NoteRule> notes; ///< labels and rulers of pictures
+    std::vector<Panel> panels;   ///< of pictures, beside the first one
     LegendChoice legend = LegendChoice::Auto;
     bool scaleBar = false;    ///< a bar of lengths below pictures
     int turntable = 0;        ///< number of pictures; 0: one
@@ -181,6 +189,8 @@ struct Call : Settings {
     std::string inputSha256, identity; ///< as tools/identity.h has them; empty: not known yet
     std::size_t brick = 0;             ///< BricksRun: its number, from 1
     std::vector<Output> outputs;       ///< Batch: extensions in the place of paths
+    /// Of `panels` with a file; null: they are not made yet.
+    std::shared_ptr<const std::vector<PanelSurface>> panelSurfaces;
     int frame = 0;                     ///< the number of the one that is built; 0: none is
     std::vector<std::string> warnings; ///< one line each
     /// Of the files in the folders of frames.

@@ -224,6 +224,7 @@ std::vector<Pair> runPairs()
         {"fields=v", Needs, {"frames", "trajectory"}, ": it is the way between frames", ofStored},
         {{FrameRows}, Needs, {"frames", "trajectory"}, " [hint: -o FILE.residues.csv for areas]"},
         {"turntable", Excludes, {"output=-"}},
+        {"panel", Excludes, {"frames", "trajectory", "memory", "dry-run", "center"}},
         {{Moving},
          Needs,
          {"turntable", "frames", "trajectory"},
