@@ -25,7 +25,7 @@
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/io/write_view_script.h"
 #include "molsurf/io/write_volume.h"
-#include "molsurf/picture/draw_legend.h"
+#include "molsurf/picture/legend_svg.h"
 #include "molsurf/picture/view_file.h"
 #include "molsurf/picture/write_html.h"
 #include "molsurf/picture/write_png.h"
@@ -205,6 +205,11 @@ void writeFilm(const Writing& w, OutputFile& file)
     film.finish();
 }
 
+void writeLegend(const Writing& w, OutputFile& file)
+{
+    writeLegendSvg(legendsOf(drawnOf(w)), w.call.picture.background, file);
+}
+
 void writeCamera(const Writing& w, OutputFile& file)
 {
     writeView(w.mesh, pictureOf(w.call, w.atoms, w.mesh, false, w.progress), file);
@@ -254,14 +259,17 @@ void writeGlb(const Writing& w, OutputFile& file)
 void writePage(const Writing& w, OutputFile& file)
 {
     const DrawOptions view = pictureOf(w.call, w.atoms, w.mesh, true, w.progress);
-    HtmlPage page{displayName(inputStem(w.call.input)),
-                  aboutPage(w.result.report.surface.kind, w.call.options.voxel),
-                  offeredLegends(w.call.options.color, w.atoms, w.mesh, w.progress),
-                  w.call.picture.plain,
-                  viewAxes(w.mesh, view),
-                  view.instances,
-                  w.call.colorsCopies(),
-                  w.coarser};
+    HtmlPage page{
+        displayName(inputStem(w.call.input)),
+        w.shown.about.empty() ? aboutPage(w.result.report.surface.kind, w.call.options.voxel)
+                              : w.shown.about,
+        w.shown.legend ? std::vector{*w.shown.legend}
+                       : offeredLegends(w.call.options.color, w.atoms, w.mesh, w.progress),
+        w.call.picture.plain,
+        viewAxes(w.mesh, view),
+        view.instances,
+        w.call.colorsCopies(),
+        w.coarser};
     if (w.atoms.names)
         nameAtoms(*w.atoms.names, placedBalls(w.call, w.atoms), w.mesh, w.progress, page);
     writeHtml(w.mesh, page, file);
@@ -336,7 +344,7 @@ const std::vector<Format>& formatTable()
     constexpr const char* ofAreas = "table of areas";
     constexpr const char* withAreas = "atoms with areas as B factors";
     constexpr unsigned all = Build | Batch | Convert | Compare | BricksMerge;
-    constexpr unsigned built = Build | Batch, meshed = built | Convert;
+    constexpr unsigned built = Build | Batch, meshed = built | Convert, seen = meshed | Compare;
     constexpr unsigned printed = Triangles | Colors | CutBorders | Millimetres;
     constexpr unsigned film = Colors | PlainColor | Copies | Views | Pixels | Moving;
     static const std::vector<Format> table = {
@@ -375,23 +383,23 @@ const std::vector<Format>& formatTable()
          writeScript<writeChimeraXScript>, "glb"},
         {"pml", meshed, Script | Colors, "scripts for .glb and .ply", "",
          writeScript<writePymolScript>, "ply"},
-        {"html", meshed, Colors | ColorChoices | PlainColor | Copies | Levels | Views, "page", "",
+        {"html", seen, Colors | ColorChoices | PlainColor | Copies | Levels | Views, "page", "",
          writePage},
         {"json", all, Numbers | Copies, "report", "",
          [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
-        {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "picture", "", writePicture},
-        {"mp4", meshed, film, "film", "", writeFilm},
-        {"webm", meshed, film, "film", "", writeFilm},
-        {"gif", meshed, film, "film", "", writeFilm},
-        {"view", meshed, Copies | Views, "view for --view", "", writeCamera},
+        {"png", seen, Colors | PlainColor | Copies | Views | Pixels, "picture", "", writePicture},
+        {"mp4", seen, film, "film", "", writeFilm},
+        {"webm", seen, film, "film", "", writeFilm},
+        {"gif", seen, film, "film", "", writeFilm},
+        {"legend.svg", seen, Colors | Copies, "legend", "", writeLegend},
+        {"view", seen, Copies | Views, "view for --view", "", writeCamera},
         {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},
         {"atoms.csv", built, Areas | AllFrames, ofAreas, "atoms", writeAreaTable},
         {"residues.csv", built, Areas | AllFrames, ofAreas, "residues", writeAreaTable},
         {"contacts.csv", built, Areas | AllFrames, ofAreas, "contacts", writeAreaTable},
         {"interfaces.csv", built, Areas | AllFrames, ofAreas, "interfaces", writeAreaTable},
         {"pockets.csv", built, Areas | AllFrames, ofAreas, "pockets", writeAreaTable},
-        {"forces.csv", built, Areas | AllFrames, "derivatives of area and volume", "forces",
-         writeAreaTable},
+        {"forces.csv", built, Areas | AllFrames, "forces of atoms", "forces", writeAreaTable},
         {"pdb", built, Areas, withAreas, "atoms", writeAtoms<writePdb>},
         {"cif", built, Areas, withAreas, "atoms", writeAtoms<writeMmcif>},
         {"residues.pdb", built, Areas, withAreas, "residues", writeAtoms<writePdb>},

@@ -33,6 +33,7 @@ struct ShownMeshes {
     std::optional<Mesh> crisp{};                  ///< the mesh, with these borders cut
     std::vector<Mesh> coarser{};                  ///< the further levels of detail of --lod
     std::optional<Legend> legend{}; ///< of colours that no option names; none: by the options
+    std::string about{};            ///< what a page shows; empty: kind and voxels of the surface
 };
 
 /// What the files of the call show, but for `coarser`: borders are found once for all of them.

@@ -442,6 +442,8 @@ CASES = {
          "vdb_molsurf bricks run plan.json 1"),
         ("vdb_molsurf bricks merge plan.json -o surface.vdb", f"{PLAN}; {RUN}; vdb_molsurf bricks merge",
          "vdb_molsurf bricks merge plan.json -o surface.vdb")],
+    "picture/legend_svg.cpp": [
+        ("--color chain", f"vdb_molsurf 1crn.pdb {FAST} -o a.legend.svg", f"vdb_molsurf 1crn.pdb {FAST} --color chain -o a.legend.svg")],
     "tools/film.cpp": [
         ("-o NAME.png writes the pictures one by one", f"PATH=/none $(command -v vdb_molsurf) one.xyzr {FAST} -o x.mp4 --turntable 2",
          f"vdb_molsurf one.xyzr {FAST} -o x.png --turntable 2"),

@@ -121,11 +121,11 @@ class WrongCalls(ToolTest):
         self.refuse("bricks", says="plan, run, merge")
 
     def test_options_of_other_verbs(self):
-        self.refuse("compare", CRAMBIN, CRAMBIN, "--turn", "5", says="--turn is for build, batch, convert")
+        self.refuse("compare", CRAMBIN, CRAMBIN, "--show", "sticks", says="--show is for build, batch")
         self.refuse("bricks", "plan", CRAMBIN, "-o", "p.json", "--bricks", 2, "--split", "group",
                     says="--split is for build, batch, not for bricks plan")
         self.refuse("info", "-q", CRAMBIN, says="-q")
-        for verb, option in (("compare", "--turn"), ("convert", "--probe"), ("batch", "--frames")):
+        for verb, option in (("compare", "--show"), ("convert", "--probe"), ("batch", "--frames")):
             self.assertNotIn(option.encode(), self.check(0, verb, "--help").stdout)
 
     def test_a_surface_is_no_structure(self):

@@ -468,8 +468,11 @@ void completeCompare(Call& call)
         if (file.empty()) misuse("compare: expected the name of a file, got an empty word");
     if (call.inputs[0] == "-" && call.inputs[1] == "-")
         misuse("compare: - - : standard input can be only one of the two");
+    call.input = call.inputs[0];
     call.outputs = outputsOf(call);
     completeSurface(call);
+    if (call.turntable > 0) addTurntable(call);
+    warnOfLosses(call);
 }
 
 void completeConvert(Call& call)

@@ -648,7 +648,7 @@ Option uprightOption(unsigned verbs)
 
 OptionGroup pictureOptions()
 {
-    constexpr unsigned draw = wholes | Convert;
+    constexpr unsigned draw = wholes | Convert | Compare;
     Option view{"view",
                 0,
                 "FROM",
@@ -667,7 +667,8 @@ OptionGroup pictureOptions()
                       "#ffffff",      draw,
                       {"transparent"}};
     background.set = setBackground;
-    Option plain{"plain-color", 0, "COLOR", "of a surface without --color", "#8cb5de", draw};
+    Option plain{"plain-color",   0, "COLOR", "of a surface without --color", "#8cb5de",
+                 wholes | Convert};
     plain.set = [](Call& call, const Values& values) {
         call.picture.plain = colorValue("plain-color", "", values.back());
     };

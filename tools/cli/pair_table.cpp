@@ -156,7 +156,8 @@ std::vector<Pair> surfacePairs()
     const auto ofValues = [](const char* option) {
         return Pair{option, IsFor, {}, "--color by a value or a curvature", [](const Call& call) {
                         const ColorBy by = call.options.color;
-                        return call.atoms.valueBy || kindOf(by).ofCurvature ||
+                        return call.verb == Compare || call.atoms.valueBy ||
+                               kindOf(by).ofCurvature ||
                                (call.verb == Convert && by == ColorBy::Nothing);
                     }};
     };
@@ -178,7 +179,11 @@ std::vector<Pair> surfacePairs()
          ": a resolution for all atoms says how smooth it is, too",
          unlessAll},
         {"match-volume", IsFor, {"resolution"}},
-        {"legend", IsFor, {"color"}, "", [](const Call& call) { return call.verb == Convert; }},
+        {"legend",
+         IsFor,
+         {"color"},
+         "",
+         [](const Call& call) { return (call.verb & (Convert | Compare)) != 0; }},
         {"all-walls", IsFor, {"opacity"}},
         ofValues("range"),
         ofValues("palette"),

@@ -49,17 +49,6 @@ std::string shortened(const std::string& name, const Font& font, int width)
     return "";
 }
 
-std::vector<std::string> tickTexts(const ColorScale& scale)
-{
-    return {numberText(scale.high), numberText(0.5 * (scale.low + scale.high)),
-            numberText(scale.low)};
-}
-
-std::string unitText(const Legend& legend)
-{
-    return "[" + legend.unit + "]";
-}
-
 /// The line for entries without room: as short as that, since it must not be cut off.
 std::string restText(std::size_t count)
 {
@@ -282,6 +271,17 @@ Picture withScaleBar(const Picture& picture, int width, const Color& background)
                                                        : formatted("%g nm", length / nanometre);
     font.draw(text, left + pixels + sizes.gap, baseline, ink, out);
     return out;
+}
+
+std::vector<std::string> tickTexts(const ColorScale& scale)
+{
+    return {numberText(scale.high), numberText(0.5 * (scale.low + scale.high)),
+            numberText(scale.low)};
+}
+
+std::string unitText(const Legend& legend)
+{
+    return "[" + legend.unit + "]";
 }
 
 Color inkOn(const Color& background)

@@ -44,6 +44,12 @@ int widthBeside(const std::vector<Legend>& legends, int width);
 Picture explained(Picture picture, const std::vector<Legend>& legends, bool scaleBar, int width,
                   const Color& background);
 
+/// The numbers of a scale, the highest first, with two digits that matter.
+std::vector<std::string> tickTexts(const ColorScale& scale);
+
+/// The unit of a scale as it is written: "[1/Å]".
+std::string unitText(const Legend& legend);
+
 /// The colour of letters on a background.
 Color inkOn(const Color& background);
 
