@@ -303,7 +303,8 @@ private:
         takeRange(range_, balls);
         std::vector<BallSet> shown;
         for (const auto& source : shown_) shown.push_back(source->balls(i));
-        showAtoms(call_.shows, std::move(shown), balls, terminal_, calls_[i].picture);
+        showAtoms(call_.shows, std::move(shown), shown_.empty() ? nullptr : shown_[0]->bonds(),
+                  balls, terminal_, calls_[i].picture);
         std::size_t next = 0;
         addNotes(
             call_.notes, [&](const std::string&) { return noted_[next++]->balls(i); },

@@ -59,7 +59,8 @@ SelectOptions picturedAtoms(const Call& call, const std::string& select)
 }
 
 void showAtoms(const std::vector<ShowRule>& rules, std::vector<BallSet> atoms,
-               const BallSet& surface, const Progress& progress, DrawOptions& picture)
+               const std::shared_ptr<const FileBonds>& bonds, const BallSet& surface,
+               const Progress& progress, DrawOptions& picture)
 {
     if (atoms.empty()) return;
     std::map<std::string, Color> ofSurface;
@@ -68,7 +69,7 @@ void showAtoms(const std::vector<ShowRule>& rules, std::vector<BallSet> atoms,
     std::vector<ShownAtoms> shown;
     for (std::size_t k = 0; k < atoms.size(); ++k) {
         atoms[k].labels->chainColors = colorsOfChains(atoms[k], ofSurface, progress);
-        shown.push_back({std::move(atoms[k]), rules[k]});
+        shown.push_back({std::move(atoms[k]), rules[k], bonds});
     }
     const double bytes = bytesOfModel(shown), available = double(availableMemory());
     if (bytes > available)

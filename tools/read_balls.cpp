@@ -63,7 +63,7 @@ DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& te
         const bool there = isThere(partly, [&] { shown.push_back(chosen(rule.select)); });
         if (there) rules.push_back(rule);
     }
-    showAtoms(rules, std::move(shown), balls, terminal, *picture);
+    showAtoms(rules, std::move(shown), structure.bonds, balls, terminal, *picture);
     for (const NoteRule& rule : call.notes)
         isThere(partly, [&] { addNotes({rule}, chosen, *picture); });
     if (!call.viewed.empty()) lookAt(call, chosen(call.viewed), balls, *picture);

@@ -24,7 +24,7 @@ _vdb_molsurf()
         "build":--view) words="auto" ;;
         "build":--background) words="transparent" ;;
         "build":--style) words="soft glossy outline flat" ;;
-        "build":--show) words="sticks balls spheres tube" ;;
+        "build":--show) words="sticks balls orders spheres tube" ;;
         "build":--legend) words="auto on off" ;;
         "build":--regularizer) words="gradient area" ;;
         "build":--flow) words="rest newton paper" ;;
@@ -44,7 +44,7 @@ _vdb_molsurf()
         "batch":--view) words="auto" ;;
         "batch":--background) words="transparent" ;;
         "batch":--style) words="soft glossy outline flat" ;;
-        "batch":--show) words="sticks balls spheres tube" ;;
+        "batch":--show) words="sticks balls orders spheres tube" ;;
         "batch":--legend) words="auto on off" ;;
         "batch":--regularizer) words="gradient area" ;;
         "batch":--flow) words="rest newton paper" ;;

@@ -102,7 +102,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "conver
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert"' -l background -x -a 'transparent' -d 'as #rrggbb or #rgb, a name such as black, or transparent'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l plain-color -r -d 'of a surface without --color'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert"' -l style -x -a 'soft glossy outline flat' -d 'soft; glossy: with highlights; outline: as drawn with a'
-complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l show -x -a 'sticks balls spheres tube' -d 'atoms beside the surface, whole and opaque, such as'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l show -x -a 'sticks balls orders spheres tube' -d 'atoms beside the surface, whole and opaque, such as'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l label -r -d 'a text at the middle of atoms, such as "A/57=active site";'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l ruler -r -d 'a line between the middles of atoms with its length, such'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l panel -r -d 'a further picture beside the first, with its camera, scale'

@@ -23,7 +23,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--view") compadd -- 'auto'; return ;;
     "build:--background") compadd -- 'transparent'; return ;;
     "build:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
-    "build:--show") compadd -- 'sticks' 'balls' 'spheres' 'tube'; return ;;
+    "build:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube'; return ;;
     "build:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "build:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "build:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
@@ -43,7 +43,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--view") compadd -- 'auto'; return ;;
     "batch:--background") compadd -- 'transparent'; return ;;
     "batch:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
-    "batch:--show") compadd -- 'sticks' 'balls' 'spheres' 'tube'; return ;;
+    "batch:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube'; return ;;
     "batch:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "batch:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "batch:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
