@@ -20,6 +20,7 @@
 #include "molsurf/surface/run.h"
 #include "molsurf/surface/surface_kind.h"
 
+#include <malloc.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -130,6 +131,14 @@ std::vector<Mesh> coarserMeshes(const Call& call, const BallSet& balls, Report& 
         report.addSeconds("lod", secondsSince(start));
     }
     return meshes;
+}
+
+// Gives back what pictures need more than files without grids.
+void dropGrids(MolecularSurface& result)
+{
+    result.surface.reset();
+    result.fields.clear();
+    malloc_trim(0); // fields leave pieces of memory
 }
 
 // The middle of the mesh's box comes to the origin, with the atoms that pictures show; grids and
@@ -252,6 +261,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     if (!call.panels.empty()) call.panelSurfaces = makePanels(call, balls, result.mesh, terminal);
     ShownMeshes shown = shownMeshes(call, balls, result.mesh, terminal);
     shown.coarser = coarserMeshes(call, balls, result.report, terminal);
+    if (!call.writes(Grids | Stage | Volume | Solver)) dropGrids(result);
     writeAll(call, balls, result, shown, terminal, start, companions);
     terminal.erase();
     return result.report;
