@@ -272,6 +272,7 @@ void writePage(const Writing& w, OutputFile& file)
         w.coarser};
     if (w.atoms.names)
         nameAtoms(*w.atoms.names, placedBalls(w.call, w.atoms), w.mesh, w.progress, page);
+    colorCut(w.atoms, placedBalls(w.call, w.atoms), w.progress, page);
     writeHtml(w.mesh, page, file);
 }
 
