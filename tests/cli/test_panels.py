@@ -62,9 +62,9 @@ class Panels(ToolTest):
         self.assertEqual(rows[middle][left[1] - 12], rows[middle][right[1] - 12])  # 20 and more have the last colour
         self.rod("c.pdb", 8, chain="B")
         rows = self.picture("a.pdb", "--panel", "c.pdb", "--panel", "b.pdb", "--view", "0,0,1", "--size", 700, "--color", "chain")
-        column = self.runs(rows)[-1][0]
-        patches = [rows[y][x] for y in range(len(rows)) for x in range(560, 700)]
-        self.assertTrue((86, 180, 233) in patches, column)
+        blue = [[row[x] == (86, 180, 233) for row in rows] for x in range(645, 700)]
+        column = max(blue, key=sum)  # through the patches of A and B, each the first chain of its file
+        self.assertEqual(sum(here and not before for here, before in zip(column, [False, *column])), 2)
 
     def test_chains_of_all(self):
         rows = self.picture(DATA / "4at1.ent.gz", "--select", "A|B", "--panel", DATA / "1crn.pdb", "--size", 600, "--color", "chain")
