@@ -5,6 +5,7 @@
 #include "cli/option_table.h"
 #include "draw_result.h"
 #include "identity.h"
+#include "input_files.h"
 #include "outputs.h"
 #include "sidecar.h"
 #include "stop.h"
@@ -348,6 +349,8 @@ Report buildSurface(Call call, Clock::time_point start)
 {
     const SolverFolders folders(call);
     prepareOutputs(call, folders.made());
+    for (const Panel& panel : call.panels)
+        if (!panel.file.empty()) failIfNoFile(panel.file);
     Terminal terminal(call.progress);
     Report read;
     const BallSet balls = readBalls(call, terminal, read);

@@ -89,6 +89,9 @@ class Panels(ToolTest):
                                    (["--panel", "a.pdb", "--center"], 2, "together"),
                                    (["--panel", "a.pdb", "--frames", "all"], 2, "together")):
             self.check(status, *words, *more, says=says)
+        # A file that is not there is found before any work: nothing was read.
+        said = self.check(1, *words, "--panel", "none.pdb").stderr.decode()
+        self.assertNotIn("used 6 atoms", said)
         (self.folder / "far.pdb").write_text("HETATM    1  C   XXX A   1     nowhere\n")
         self.check(1, *words, "--panel", "far.pdb", says="far.pdb")
         self.rod("b.png", 4)
